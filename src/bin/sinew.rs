@@ -1,0 +1,3 @@
+//! The `sinew` command: parses arguments and calls the library.
+
+fn main() {}

@@ -1,0 +1,81 @@
+//! The numbers of a body that the kernels read, for one figure or for eight in lanes.
+
+use super::model::Body;
+use super::topology::{DOF_COUNT, SEGMENT_COUNT, SegmentId};
+use crate::sim::math::{Lane, Sym3, Vec3};
+
+/// Joint offsets and mass properties of every segment, loads included.
+///
+/// Mass properties are about the *segment origin* (the joint), so that a load carried by the segment simply adds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Links<L = f64> {
+    /// Joint position in the parent's frame, m.
+    pub offset: [Vec3<L>; SEGMENT_COUNT],
+    /// Mass, kg.
+    pub mass: [L; SEGMENT_COUNT],
+    /// First moment of mass `m·c`, segment frame, kg·m.
+    pub moment: [Vec3<L>; SEGMENT_COUNT],
+    /// Inertia about the segment origin, segment axes, kg·m².
+    pub inertia: [Sym3<L>; SEGMENT_COUNT],
+    /// Reflected inertia per joint DOF, kg·m².
+    pub armature: [L; DOF_COUNT],
+}
+
+impl Links<f64> {
+    /// Links of an unloaded body.
+    pub fn new(body: &Body) -> Self {
+        let seg = |i: usize| &body.segments[i];
+        Self {
+            offset: body.joint_offset,
+            mass: std::array::from_fn(|i| seg(i).mass),
+            moment: std::array::from_fn(|i| seg(i).com * seg(i).mass),
+            inertia: std::array::from_fn(|i| {
+                seg(i).inertia + Sym3::point_mass(seg(i).mass, seg(i).com)
+            }),
+            armature: body.armature,
+        }
+    }
+
+    /// Welds a point mass (kg) to `segment` at `point` (segment frame, m): ALGORITHM §10, load as inertia.
+    pub fn add_load(&mut self, segment: SegmentId, point: Vec3, mass: f64) {
+        let i = segment.index();
+        self.mass[i] += mass;
+        self.moment[i] += point * mass;
+        self.inertia[i] += Sym3::point_mass(mass, point);
+    }
+
+    /// Total mass, kg, loads included.
+    pub fn total_mass(&self) -> f64 {
+        self.mass.iter().sum()
+    }
+}
+
+impl<L: Lane> Links<L> {
+    /// The same links in every lane.
+    pub fn splat(one: &Links<f64>) -> Self {
+        let mut out = Self {
+            offset: [Vec3::zero(); SEGMENT_COUNT],
+            mass: [L::zero(); SEGMENT_COUNT],
+            moment: [Vec3::zero(); SEGMENT_COUNT],
+            inertia: [Sym3::zero(); SEGMENT_COUNT],
+            armature: [L::zero(); DOF_COUNT],
+        };
+        for k in 0..L::LANES {
+            out.set_lane(k, one);
+        }
+        out
+    }
+
+    /// Replaces the links of lane `k`.
+    pub fn set_lane(&mut self, k: usize, one: &Links<f64>) {
+        for i in 0..SEGMENT_COUNT {
+            self.offset[i].set_lane(k, one.offset[i]);
+            self.mass[i].set_lane(k, one.mass[i]);
+            self.moment[i].set_lane(k, one.moment[i]);
+            self.inertia[i].set_lane(k, one.inertia[i]);
+        }
+        for d in 0..DOF_COUNT {
+            self.armature[d].set_lane(k, one.armature[d]);
+        }
+    }
+}

@@ -1,0 +1,12 @@
+//! The articulated body: tree, segments, limits, mass and shape, and the positions and velocities of one figure.
+
+pub mod angles;
+pub mod links;
+pub mod model;
+pub mod state;
+pub mod topology;
+
+pub use links::Links;
+pub use model::{Body, Mesh, Profile, Segment, Sex};
+pub use state::{Posture, State};
+pub use topology::{DOF_COUNT, NV, SEGMENT_COUNT, SegmentId};

@@ -1,0 +1,138 @@
+//! What one tick of one figure did: enough to check it from outside.
+
+use crate::sim::body::{DOF_COUNT, NV, SEGMENT_COUNT, SegmentId, State};
+use crate::sim::math::Vec3;
+
+/// Most contact points one figure can have at once: 8 per segment.
+pub const MAX_CONTACTS: usize = 8 * SEGMENT_COUNT;
+
+/// One touching point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactPoint {
+    /// Segment that touches.
+    pub segment: SegmentId,
+    /// Index of the point in [`Segment::contact_points`](crate::sim::body::Segment::contact_points).
+    pub vertex: usize,
+    /// World position at the start of the tick (mean values) or substep (audit), m.
+    pub position: Vec3,
+    /// Force on the figure, world axes, N.
+    pub force: Vec3,
+}
+
+/// Which safeguards acted and what state the figure is in; a set of flags.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Flags(pub u32);
+
+#[allow(missing_docs)]
+impl Flags {
+    /// No support: ballistic flight.
+    pub const FLIGHT: Self = Self(1);
+    /// The zero-moment point is outside the support polygon.
+    pub const TIPPING: Self = Self(1 << 1);
+    /// The overload rule replaced the active set (ALGORITHM §8).
+    pub const OVERLOAD: Self = Self(1 << 2);
+    /// A pseudo-inverse was damped because its rows were nearly dependent.
+    pub const DAMPED: Self = Self(1 << 3);
+    /// The controller's iteration bound was hit.
+    pub const CONTROL_BOUND: Self = Self(1 << 4);
+    /// A substep's iteration bound was hit.
+    pub const STEP_BOUND: Self = Self(1 << 5);
+    /// The figure has fallen: its centre of mass is below 45 % of its standing height on something other than its feet.
+    pub const FALLEN: Self = Self(1 << 6);
+    /// Non-finite or runaway state: frozen at its last good state.
+    pub const QUARANTINED: Self = Self(1 << 7);
+    /// Balance is lost: the controller handed over to motors alone.
+    pub const BALANCE_LOST: Self = Self(1 << 8);
+    /// Joint speed was capped (kinematic stepping only).
+    pub const SPEED_CAP: Self = Self(1 << 9);
+    /// Names of the flags, by bit.
+    pub const NAMES: [&'static str; 10] = [
+        "FLIGHT",
+        "TIPPING",
+        "OVERLOAD",
+        "DAMPED",
+        "CONTROL_BOUND",
+        "STEP_BOUND",
+        "FALLEN",
+        "QUARANTINED",
+        "BALANCE_LOST",
+        "SPEED_CAP",
+    ];
+    /// True if every flag of `f` is set.
+    pub const fn has(self, f: Self) -> bool {
+        self.0 & f.0 == f.0
+    }
+    /// Sets the flags of `f`.
+    pub const fn set(&mut self, f: Self) {
+        self.0 |= f.0;
+    }
+}
+
+/// The last substep as it was solved. It satisfies the equations of motion to rounding:
+/// `M v̇ + h = Sᵀτ + Σ Jᵀ f`, with `h` from Coriolis forces and gravity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Audit {
+    /// State at the start of the substep.
+    pub state: State,
+    /// Acceleration over the substep `(v⁺ − v)/h`, layout of `State::velocity`.
+    pub acceleration: [f64; NV],
+    /// Joint torques of muscles, N·m.
+    pub torque: [f64; DOF_COUNT],
+    /// Joint torques of ligaments (joint limits), N·m.
+    pub ligament_torque: [f64; DOF_COUNT],
+    /// Ground and object contacts, at the start of the substep.
+    pub contacts: Vec<ContactPoint>,
+    /// Forces of perturbations: segment, world point, world force (N).
+    pub applied: Vec<(SegmentId, Vec3, Vec3)>,
+}
+
+/// What one tick of one figure did. Torques and forces are means over the tick.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TickReport {
+    /// Muscle torque, N·m.
+    pub torque: [f64; DOF_COUNT],
+    /// Ligament torque (joint limits), N·m.
+    pub ligament_torque: [f64; DOF_COUNT],
+    /// Least available torque at the start of the tick, N·m (negative).
+    pub torque_lower: [f64; DOF_COUNT],
+    /// Largest available torque at the start of the tick, N·m.
+    pub torque_upper: [f64; DOF_COUNT],
+    /// Largest violation of the strength of any substep relative to that limit (0 when none).
+    pub over_limit: f64,
+    /// Acceleration over the tick, layout of `State::velocity`.
+    pub acceleration: [f64; NV],
+    /// DOFs in the saturated set K of the primary constraint (bit = DOF); for other controllers: DOFs at their limit.
+    pub saturated: u64,
+    /// DOFs in the saturated set L of the secondary constraints.
+    pub saturated_secondary: u64,
+    /// Touching points with their mean force.
+    pub contacts: Vec<ContactPoint>,
+    /// Main supporting segment, if any.
+    pub main_support: Option<SegmentId>,
+    /// Support ratio (2) per segment (0 where it does not support).
+    pub support_ratio: [f64; SEGMENT_COUNT],
+    /// Convex hull of the supports on the ground, counter-clockwise, world x, y, m. At most 64 corners.
+    pub support_polygon: Vec<[f64; 2]>,
+    /// Zero-moment point (3), world, m; `None` in flight.
+    pub zmp: Option<Vec3>,
+    /// Signed distance of the ZMP inside the support polygon, m; `None` in flight.
+    pub margin: Option<f64>,
+    /// Centre of mass (loads included), world, m.
+    pub com: Vec3,
+    /// Velocity of the centre of mass, m/s.
+    pub com_velocity: Vec3,
+    /// Desired centre of mass, world, m.
+    pub com_desired: Vec3,
+    /// Joint error `desired ⊖ actual` at the start of the tick, rad.
+    pub joint_error: [f64; DOF_COUNT],
+    /// Largest depth of any contact point below the surface at the end of the tick, m.
+    pub penetration: f64,
+    /// Iterations of the controller.
+    pub control_iterations: u32,
+    /// Iterations of all substeps.
+    pub step_iterations: u32,
+    /// Safeguards and state.
+    pub flags: Flags,
+    /// The last substep, for checks from outside.
+    pub audit: Audit,
+}

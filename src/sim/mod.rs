@@ -1,0 +1,8 @@
+//! Physics and control: pure, synchronous, without I/O, clock or logging.
+//!
+//! `world` ─► `figure` ─► `control`, `contact` ─► `support`, `strength`, `motion` ─► `dynamics` ─► `body` ─► `math`.
+
+pub mod body;
+pub mod figure;
+pub mod math;
+pub mod motion;

@@ -1,0 +1,40 @@
+//! What a figure is asked to do at one instant.
+
+use crate::sim::body::{NV, Posture};
+
+/// Desired positions, velocities and accelerations at one instant.
+///
+/// Velocities and accelerations have the layout and axes of [`State::velocity`](crate::sim::body::State::velocity): pelvis angular
+/// and linear part in world axes, then joint rates along the signed child axes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Target {
+    /// Desired posture.
+    pub posture: Posture,
+    /// Desired velocity.
+    pub velocity: [f64; NV],
+    /// Desired acceleration.
+    pub acceleration: [f64; NV],
+    /// Which feet the motion keeps on the floor: left, right.
+    pub planted: [bool; 2],
+}
+
+impl Target {
+    /// Standing still in `posture`.
+    pub fn still(posture: Posture) -> Self {
+        Self {
+            posture,
+            velocity: [0.0; NV],
+            acceleration: [0.0; NV],
+            planted: [true; 2],
+        }
+    }
+}
+
+/// The desired motion over one tick: at its start and at its end.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TargetPair {
+    /// At the start of the tick.
+    pub now: Target,
+    /// At the end of the tick.
+    pub next: Target,
+}
