@@ -2,8 +2,10 @@
 
 pub mod angles;
 pub mod geometry;
+pub mod humanoid;
 pub mod links;
 pub mod model;
+mod shape;
 pub mod state;
 pub mod topology;
 
