@@ -8,3 +8,4 @@ pub mod dynamics;
 pub mod figure;
 pub mod math;
 pub mod motion;
+pub mod strength;
