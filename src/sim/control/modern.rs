@@ -9,7 +9,9 @@ use super::{Command, ControlInput, Controller, PointTarget};
 use crate::sim::body::topology::{DOF_COUNT, L_FOOT, L_TOES, NV, R_FOOT, R_TOES, SEGMENT_COUNT};
 use crate::sim::contact::dense::{Dense, cholesky, solve_lower, solve_upper};
 use crate::sim::contact::rows::{CHAIN_WIDTH, PointRow, add_point_stiffness};
-use crate::sim::contact::{ContactRows, DenseSystem, LimitRows, Motors, NewtonWorkspace, Outcome, minimise};
+use crate::sim::contact::{
+    ContactRows, DenseSystem, LimitRows, Motors, NewtonWorkspace, Outcome, minimise,
+};
 use crate::sim::dynamics::Terms;
 use crate::sim::dynamics::terms::WIDTH;
 use crate::sim::figure::Flags;
@@ -84,7 +86,9 @@ struct TaskRow {
 
 impl std::fmt::Debug for Modern {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Modern").field("command", &self.command).finish_non_exhaustive()
+        f.debug_struct("Modern")
+            .field("command", &self.command)
+            .finish_non_exhaustive()
     }
 }
 
@@ -117,14 +121,27 @@ impl Modern {
         if input.params.track_com {
             let c = input.com;
             let ff = (c.next_velocity - c.now_velocity) * (1.0 / input.dt);
-            let a = ff + (c.now - t.com) * COM_GAIN.0 + (c.now_velocity - t.com_velocity) * COM_GAIN.1 - t.com_bias;
+            let a =
+                ff + (c.now - t.com) * COM_GAIN.0 + (c.now_velocity - t.com_velocity) * COM_GAIN.1
+                    - t.com_bias;
             for (k, value) in [a.x, a.y, a.z].into_iter().enumerate() {
-                self.rows.push(TaskRow { row: t.jc[k], weight: weight::COM[k], value });
+                self.rows.push(TaskRow {
+                    row: t.jc[k],
+                    weight: weight::COM[k],
+                    value,
+                });
             }
         }
         if input.params.track_hands {
             for e in input.effectors {
-                self.point_task(t, law, e.segment.index(), e.point, &e.position, weight::HAND);
+                self.point_task(
+                    t,
+                    law,
+                    e.segment.index(),
+                    e.point,
+                    &e.position,
+                    weight::HAND,
+                );
             }
         }
         let next = &input.target.next;
@@ -143,12 +160,24 @@ impl Modern {
             let mut j = [[0.0; WIDTH]; 6];
             t.segment_jacobian(foot, &mut j);
             for (k, value) in [a.x, a.y, a.z].into_iter().enumerate() {
-                self.rows.push(TaskRow { row: j[k], weight: weight::SWING_ROTATION, value });
+                self.rows.push(TaskRow {
+                    row: j[k],
+                    weight: weight::SWING_ROTATION,
+                    value,
+                });
             }
         }
     }
 
-    fn point_task(&mut self, t: &Terms, law: &Law, s: usize, point: Vec3, target: &PointTarget, weight: f64) {
+    fn point_task(
+        &mut self,
+        t: &Terms,
+        law: &Law,
+        s: usize,
+        point: Vec3,
+        target: &PointTarget,
+        weight: f64,
+    ) {
         let (x, v) = (t.point_world(s, point), t.point_velocity(s, point));
         let ff = (target.next_velocity - target.now_velocity) * (1.0 / law.step());
         let feedback = law_feedback(law, target.now - x, target.now_velocity - v);
@@ -167,12 +196,20 @@ impl Modern {
         let t = input.terms;
         let planted = input.target.next.planted;
         for s in 0..SEGMENT_COUNT {
-            let foot = s == L_FOOT.index() || s == L_TOES.index() || s == R_FOOT.index() || s == R_TOES.index();
+            let foot = s == L_FOOT.index()
+                || s == L_TOES.index()
+                || s == R_FOOT.index()
+                || s == R_TOES.index();
             if foot && !planted[usize::from(s >= R_FOOT.index())] {
                 self.last_force[s * POINTS..(s + 1) * POINTS].fill(Vec3::zero());
                 continue;
             }
-            for (vertex, p) in input.body.segments[s].contact_points.iter().enumerate().take(POINTS) {
+            for (vertex, p) in input.body.segments[s]
+                .contact_points
+                .iter()
+                .enumerate()
+                .take(POINTS)
+            {
                 let r = t.kin.rotation[s] * *p;
                 let z = t.segment_position(s).z + r.z;
                 let u = ((FADE.1 - z) / (FADE.1 - FADE.0)).clamp(0.0, 1.0);
@@ -186,11 +223,23 @@ impl Modern {
                 }
                 let v = t.kin.velocity[s] + t.kin.omega[s].cross(r);
                 let rise = (-0.2 * z / input.dt).clamp(-HOLD_SPEED, HOLD_SPEED);
-                let a = (Vec3 { x: -v.x, y: -v.y, z: rise - v.z }) * (1.0 / HOLD_TIME) - t.point_bias(s, *p);
+                let a = (Vec3 {
+                    x: -v.x,
+                    y: -v.y,
+                    z: rise - v.z,
+                }) * (1.0 / HOLD_TIME)
+                    - t.point_bias(s, *p);
                 let inverse_r = fade.max(OTHER_SEGMENT) / weight::FORCE;
                 let c = self.last_force[s * POINTS + vertex] * (-FORCE_MEMORY / inverse_r);
                 let slot = self.contacts.slot(&t.kin, s);
-                self.contacts.points.push(PointRow { slot, r, c, inverse_r, segment: s, vertex });
+                self.contacts.points.push(PointRow {
+                    slot,
+                    r,
+                    c,
+                    inverse_r,
+                    segment: s,
+                    vertex,
+                });
                 self.hold.push((weight::HOLD * fade, a));
             }
         }
@@ -215,10 +264,19 @@ fn rotation_error(t: &Terms, s: usize, desired: Quat) -> Vec3 {
 }
 
 fn pelvis_demand(t: &Terms, target: &TargetPair, law: &Law, dt: f64) -> Vec3 {
-    let w = |v: &[f64; NV]| Vec3 { x: v[0], y: v[1], z: v[2] };
+    let w = |v: &[f64; NV]| Vec3 {
+        x: v[0],
+        y: v[1],
+        z: v[2],
+    };
     let (now, next) = (w(&target.now.velocity), w(&target.next.velocity));
-    let error = (target.now.posture.root_rotation * t.state.posture.root_rotation.conjugate()).log();
-    (next - now) * (1.0 / dt) + soft(law_feedback(law, error, now - w(&t.state.velocity)), ROTATION_FEEDBACK)
+    let error =
+        (target.now.posture.root_rotation * t.state.posture.root_rotation.conjugate()).log();
+    (next - now) * (1.0 / dt)
+        + soft(
+            law_feedback(law, error, now - w(&t.state.velocity)),
+            ROTATION_FEEDBACK,
+        )
 }
 
 impl Controller for Modern {
@@ -245,7 +303,8 @@ impl Controller for Modern {
             self.motors.gain[j] = rho * rho / weight::TORQUE;
             self.motors.lower[j] = input.lower[j];
             self.motors.upper[j] = input.upper[j];
-            self.motors.rest[j] = self.last_torque[j].clamp(input.lower[j], input.upper[j]) / self.motors.gain[j];
+            self.motors.rest[j] =
+                self.last_torque[j].clamp(input.lower[j], input.upper[j]) / self.motors.gain[j];
         }
         let outcome = kernel(self, t, &diagonal, &mut linear);
         if !self.price.iter().all(|x| x.is_finite()) {
@@ -275,7 +334,11 @@ impl Controller for Modern {
             force += f;
             moment += (t.segment_position(p.segment) + p.r).cross(f);
         }
-        c.zmp = (force.z > 1.0).then(|| Vec3 { x: -moment.y / force.z, y: moment.x / force.z, z: 0.0 });
+        c.zmp = (force.z > 1.0).then(|| Vec3 {
+            x: -moment.y / force.z,
+            y: moment.x / force.z,
+            z: 0.0,
+        });
         c.margin = c.zmp.and_then(|z| input.support.margin(z));
         c.pivot = None;
         if input.support.main().is_none() {

@@ -35,7 +35,11 @@ impl ClipPlayback {
     /// Desired motion at world time `t`, s. No allocation.
     pub fn sample(&self, t: f64) -> Target {
         let s = (t - self.start) * self.speed;
-        let mut target = if self.looped { self.clip.sample_looped(s) } else { self.clip.sample(s) };
+        let mut target = if self.looped {
+            self.clip.sample_looped(s)
+        } else {
+            self.clip.sample(s)
+        };
         for v in &mut target.velocity {
             *v *= self.speed;
         }
@@ -52,9 +56,15 @@ impl Drive {
         match self {
             Self::Hold(posture) => {
                 let still = Target::still(*posture);
-                TargetPair { now: still.clone(), next: still }
+                TargetPair {
+                    now: still.clone(),
+                    next: still,
+                }
             }
-            Self::Clip(play) => TargetPair { now: play.sample(t), next: play.sample(t + dt) },
+            Self::Clip(play) => TargetPair {
+                now: play.sample(t),
+                next: play.sample(t + dt),
+            },
             Self::External(pair) => (**pair).clone(),
         }
     }

@@ -126,17 +126,29 @@ impl Watcher {
             if self.streak[dof] >= SATURATION_TICKS {
                 self.saturated[dof] = at_limit;
                 self.streak[dof] = 0;
-                self.push(if at_limit { FigureEvent::Saturated { dof } } else { FigureEvent::Relieved { dof } });
+                self.push(if at_limit {
+                    FigureEvent::Saturated { dof }
+                } else {
+                    FigureEvent::Relieved { dof }
+                });
             }
         }
         let balanced = !report.flags.has(Flags::TIPPING);
         if balanced != self.balanced {
             self.balanced = balanced;
-            self.push(if balanced { FigureEvent::Recovered } else { FigureEvent::BalanceLost });
+            self.push(if balanced {
+                FigureEvent::Recovered
+            } else {
+                FigureEvent::BalanceLost
+            });
         }
         if fallen != self.fallen {
             self.fallen = fallen;
-            self.push(if fallen { FigureEvent::Fell } else { FigureEvent::GotUp });
+            self.push(if fallen {
+                FigureEvent::Fell
+            } else {
+                FigureEvent::GotUp
+            });
         }
     }
 }

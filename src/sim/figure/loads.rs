@@ -42,7 +42,10 @@ impl Disturbances {
     pub fn add(&mut self, what: Perturbation) -> bool {
         let room = self.scheduled.len() < MAX_PERTURBATIONS;
         if room {
-            self.scheduled.push(Scheduled { what, carried: false });
+            self.scheduled.push(Scheduled {
+                what,
+                carried: false,
+            });
         }
         room
     }
@@ -51,7 +54,9 @@ impl Disturbances {
     pub fn clear(&mut self) {
         for s in &mut self.scheduled {
             match &mut s.what {
-                Perturbation::Load { to, .. } | Perturbation::Force { to, .. } => *to = f64::NEG_INFINITY,
+                Perturbation::Load { to, .. } | Perturbation::Force { to, .. } => {
+                    *to = f64::NEG_INFINITY
+                }
             }
         }
     }
@@ -84,7 +89,13 @@ impl Disturbances {
         let (mut changed, started) = (false, self.started);
         for s in &mut self.scheduled {
             match s.what {
-                Perturbation::Load { segment, mass, from, to, .. } => {
+                Perturbation::Load {
+                    segment,
+                    mass,
+                    from,
+                    to,
+                    ..
+                } => {
                     let carried = from <= soon && soon < to;
                     if carried != s.carried {
                         s.carried = carried;
@@ -96,10 +107,17 @@ impl Disturbances {
                         });
                     }
                 }
-                Perturbation::Force { segment, point, force, from, to } => {
+                Perturbation::Force {
+                    segment,
+                    point,
+                    force,
+                    from,
+                    to,
+                } => {
                     let overlap = to.min(time + dt) - from.max(time);
                     if overlap > 0.0 {
-                        self.applied.push((segment, point, force * (overlap / dt).min(1.0)));
+                        self.applied
+                            .push((segment, point, force * (overlap / dt).min(1.0)));
                     }
                 }
             }
@@ -108,9 +126,18 @@ impl Disturbances {
             let before = links.mass;
             *links = Links::new(body);
             for s in self.scheduled.iter().filter(|s| s.carried) {
-                if let Perturbation::Load { segment, point, mass, from, .. } = s.what {
+                if let Perturbation::Load {
+                    segment,
+                    point,
+                    mass,
+                    from,
+                    ..
+                } = s.what
+                {
                     links.add_load(segment, point, mass);
-                    let taken_now = started && from > time - dt && before[segment.index()] < links.mass[segment.index()];
+                    let taken_now = started
+                        && from > time - dt
+                        && before[segment.index()] < links.mass[segment.index()];
                     if taken_now {
                         take_up(links, state, segment.index(), point, mass);
                     }
@@ -126,14 +153,20 @@ impl Disturbances {
 
 /// Velocity after a resting point mass has been welded on; `links` carry it already.
 fn take_up(links: &Links, state: &mut State, segment: usize, point: Vec3, mass: f64) {
-    let (mut kin, mut ci, mut m) = (Kinematics::default(), CompositeInertia::default(), MassMatrix::default());
+    let (mut kin, mut ci, mut m) = (
+        Kinematics::default(),
+        CompositeInertia::default(),
+        MassMatrix::default(),
+    );
     kin.set_state(links, state);
     crba(links, &kin, &mut ci, &mut m);
     factor(&mut m);
     let r = kin.rotation[segment] * point;
     let p = (kin.velocity[segment] + kin.omega[segment].cross(r)) * mass; // momentum the load must be given
     let mut x = [0.0; NV];
-    for_each_column(&kin, segment, kin.position[segment] + r, |i, _, v| x[i] = v.dot(p));
+    for_each_column(&kin, segment, kin.position[segment] + r, |i, _, v| {
+        x[i] = v.dot(p)
+    });
     solve(&m, &mut x);
     for i in 0..NV {
         state.velocity[i] -= x[i];

@@ -12,5 +12,8 @@ pub mod torque_step;
 pub use drive::{ClipPlayback, Drive};
 pub use events::FigureEvent;
 pub use report::{Audit, ContactPoint, Flags, TickReport};
-pub use setup::{ControlParams, ControllerKind, Metric, Perturbation, Priority, Share, StepperKind, StrengthScale};
+pub use setup::{
+    ControlParams, ControllerKind, Metric, Perturbation, Priority, Share, StepperKind,
+    StrengthScale,
+};
 pub use step::{Figure, FigureSetup, TickContext};

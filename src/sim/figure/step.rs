@@ -6,7 +6,9 @@ use super::loads::Disturbances;
 use super::report::{Audit, Flags, MAX_CONTACTS, TickReport};
 use super::setup::{ControlParams, ControllerKind, Perturbation, StepperKind, StrengthScale};
 use super::tasks::{TaskPoints, TaskWorkspace};
-use super::torque_step::{FEED_FORWARD_SPEED, MOTORS_ALONE_SPEED, MotorCommand, StepInput, Stepper, TorqueStepper};
+use super::torque_step::{
+    FEED_FORWARD_SPEED, MOTORS_ALONE_SPEED, MotorCommand, StepInput, Stepper, TorqueStepper,
+};
 use crate::sim::body::angles::anatomical_angles;
 use crate::sim::body::topology::{DOF_COUNT, L_FOOT, L_TOES, NV, R_FOOT, R_TOES, SEGMENT_COUNT};
 use crate::sim::body::{Body, Links, Posture, State};
@@ -98,7 +100,10 @@ impl Figure {
             links: Links::new(&setup.body),
             disturbances: Disturbances::default(),
             drive: Drive::Hold(setup.state.posture),
-            target: TargetPair { now: still.clone(), next: still },
+            target: TargetPair {
+                now: still.clone(),
+                next: still,
+            },
             terms: Terms::default(),
             support: Support::default(),
             tasks: TaskWorkspace::default(),
@@ -124,19 +129,33 @@ impl Figure {
         // 1. Commands: desired motion, loads, pushes.
         self.target = self.drive.targets(time, dt);
         let body = Arc::clone(&self.setup.body);
-        self.disturbances.apply(time, dt, &body, &mut self.links, &mut self.state, &mut self.watcher);
+        self.disturbances.apply(
+            time,
+            dt,
+            &body,
+            &mut self.links,
+            &mut self.state,
+            &mut self.watcher,
+        );
         if self.frozen {
             self.report.flags = Flags::QUARANTINED;
             return;
         }
         // 2. Dynamics of the state, 3. supports, 4. strength.
-        self.terms.compute(&self.links, &self.state, self.disturbances.applied(), world.gravity);
-        self.support.update(&self.terms, &body, self.com_acceleration, world.gravity);
+        self.terms.compute(
+            &self.links,
+            &self.state,
+            self.disturbances.applied(),
+            world.gravity,
+        );
+        self.support
+            .update(&self.terms, &body, self.com_acceleration, world.gravity);
         let angles = anatomical_angles(&self.state.posture);
         let rates: [f64; DOF_COUNT] = std::array::from_fn(|j| self.state.velocity[6 + j]);
         let scale = self.available_strength();
         let (mut lower, mut upper) = ([0.0; DOF_COUNT], [0.0; DOF_COUNT]);
-        self.strength.range(&angles, &rates, &scale, &mut lower, &mut upper);
+        self.strength
+            .range(&angles, &rates, &scale, &mut lower, &mut upper);
         // 5. Control: accelerations and torques within strength.
         let tasks = self.tasks.points(&body, &self.links, &self.target);
         let motors = self.control(world, &tasks, &lower, &upper);
@@ -163,11 +182,18 @@ impl Figure {
         let frozen = self.contain();
         self.fill_report(world, &before, &tasks, (&lower, &upper), frozen);
         self.judge_fall();
-        self.watcher.observe(&self.report, &self.support, self.fallen);
+        self.watcher
+            .observe(&self.report, &self.support, self.fallen);
     }
 
     /// Runs the controller in charge and turns its command into work for the motors.
-    fn control(&mut self, world: &TickContext, tasks: &TaskPoints, lower: &[f64; DOF_COUNT], upper: &[f64; DOF_COUNT]) -> MotorCommand {
+    fn control(
+        &mut self,
+        world: &TickContext,
+        tasks: &TaskPoints,
+        lower: &[f64; DOF_COUNT],
+        upper: &[f64; DOF_COUNT],
+    ) -> MotorCommand {
         let input = ControlInput {
             terms: &self.terms,
             body: &self.setup.body,
@@ -187,15 +213,33 @@ impl Figure {
             ControllerKind::Paper => (self.paper.control(&input), FEED_FORWARD_SPEED),
             ControllerKind::Modern => (self.modern.control(&input), FEED_FORWARD_SPEED),
             ControllerKind::Motors => {
-                let horizon = if self.fallen { Some(FALLEN_HORIZON) } else { self.setup.params.horizon };
-                let params = ControlParams { horizon, ..self.setup.params.clone() };
+                let horizon = if self.fallen {
+                    Some(FALLEN_HORIZON)
+                } else {
+                    self.setup.params.horizon
+                };
+                let params = ControlParams {
+                    horizon,
+                    ..self.setup.params.clone()
+                };
                 let law = Law::new(&params, world.dt);
-                let demand = tracking::initial_acceleration(&self.setup.body, &self.state, &self.target, &law);
-                self.motors.joint_acceleration.copy_from_slice(&demand[..DOF_COUNT]);
+                let demand = tracking::initial_acceleration(
+                    &self.setup.body,
+                    &self.state,
+                    &self.target,
+                    &law,
+                );
+                self.motors
+                    .joint_acceleration
+                    .copy_from_slice(&demand[..DOF_COUNT]);
                 (&self.motors, MOTORS_ALONE_SPEED)
             }
         };
-        let out = MotorCommand { acceleration: command.joint_acceleration, torque: command.torque, saturation_speed };
+        let out = MotorCommand {
+            acceleration: command.joint_acceleration,
+            torque: command.torque,
+            saturation_speed,
+        };
         self.report.saturated = command.saturated;
         self.report.saturated_secondary = command.saturated_secondary;
         self.report.control_iterations = command.iterations;
@@ -205,7 +249,11 @@ impl Figure {
 
     /// The chosen controller, or motors alone once the figure lies on the ground.
     fn active_controller(&self) -> ControllerKind {
-        if self.fallen { ControllerKind::Motors } else { self.setup.controller }
+        if self.fallen {
+            ControllerKind::Motors
+        } else {
+            self.setup.controller
+        }
     }
 
     /// A fallen figure relaxes.
@@ -252,7 +300,8 @@ impl Figure {
         r.main_support = self.support.main();
         r.support_ratio = *self.support.ratio();
         r.support_polygon.clear();
-        r.support_polygon.extend_from_slice(self.support.polygon().corners());
+        r.support_polygon
+            .extend_from_slice(self.support.polygon().corners());
         // Zero-moment point of the forces that acted, (3): z = (−N_y, N_x)/F_z about the world origin.
         let (mut force, mut moment) = (0.0, (0.0, 0.0));
         for c in &r.contacts {
@@ -260,7 +309,11 @@ impl Figure {
             force += c.force.z;
             moment = (moment.0 + n.x, moment.1 + n.y);
         }
-        r.zmp = (force > 1e-3 * self.terms.mass).then(|| Vec3 { x: -moment.1 / force, y: moment.0 / force, z: 0.0 });
+        r.zmp = (force > 1e-3 * self.terms.mass).then(|| Vec3 {
+            x: -moment.1 / force,
+            y: moment.0 / force,
+            z: 0.0,
+        });
         r.margin = r.zmp.and_then(|z| self.support.margin(z));
         r.com = self.terms.com;
         r.com_velocity = self.terms.com_velocity;
@@ -293,7 +346,11 @@ impl Figure {
     fn judge_fall(&mut self) {
         let height = self.terms.com.z / self.standing_com_height;
         let feet = [L_FOOT, L_TOES, R_FOOT, R_TOES];
-        let on_other = self.report.contacts.iter().any(|c| !feet.contains(&c.segment));
+        let on_other = self
+            .report
+            .contacts
+            .iter()
+            .any(|c| !feet.contains(&c.segment));
         if !self.fallen && height < FALLEN_HEIGHT && on_other {
             self.fallen = true;
         } else if self.fallen && height > RISEN_HEIGHT {

@@ -32,10 +32,16 @@ impl Pose<'_> {
     fn point(&self, s: SegmentId, local: Vec3) -> (Vec3, Vec3) {
         let i = s.index();
         let r = self.kin.rotation[i] * local;
-        (self.root + self.kin.position[i] + r, self.kin.velocity[i] + self.kin.omega[i].cross(r))
+        (
+            self.root + self.kin.position[i] + r,
+            self.kin.velocity[i] + self.kin.omega[i].cross(r),
+        )
     }
     fn rotation(&self, s: SegmentId) -> (Quat, Vec3) {
-        (Quat::from_mat3(&self.kin.rotation[s.index()]), self.kin.omega[s.index()])
+        (
+            Quat::from_mat3(&self.kin.rotation[s.index()]),
+            self.kin.omega[s.index()],
+        )
     }
 }
 
@@ -58,23 +64,54 @@ impl TaskWorkspace {
         set(&mut self.next, &target.next);
         let com = |kin: &Kinematics<f64>, t: &Target| {
             let (c, m) = center_of_mass(links, kin);
-            (t.posture.root_position + c, momentum(links, kin).linear * (1.0 / m))
+            (
+                t.posture.root_position + c,
+                momentum(links, kin).linear * (1.0 / m),
+            )
         };
         let (c0, c1) = (com(&self.now, &target.now), com(&self.next, &target.next));
-        let now = Pose { kin: &self.now, root: target.now.posture.root_position };
-        let next = Pose { kin: &self.next, root: target.next.posture.root_position };
-        let pair = |a: (Vec3, Vec3), b: (Vec3, Vec3)| PointTarget { now: a.0, now_velocity: a.1, next: b.0, next_velocity: b.1 };
+        let now = Pose {
+            kin: &self.now,
+            root: target.now.posture.root_position,
+        };
+        let next = Pose {
+            kin: &self.next,
+            root: target.next.posture.root_position,
+        };
+        let pair = |a: (Vec3, Vec3), b: (Vec3, Vec3)| PointTarget {
+            now: a.0,
+            now_velocity: a.1,
+            next: b.0,
+            next_velocity: b.1,
+        };
         let hand = |segment: SegmentId| {
             let point = grip(body, segment);
-            Effector { segment, point, position: pair(now.point(segment, point), next.point(segment, point)), rotation: None }
+            Effector {
+                segment,
+                point,
+                position: pair(now.point(segment, point), next.point(segment, point)),
+                rotation: None,
+            }
         };
         let foot = |segment: SegmentId| {
             let (a, b) = (now.rotation(segment), next.rotation(segment));
             (
-                pair(now.point(segment, Vec3::zero()), next.point(segment, Vec3::zero())),
-                RotationTarget { now: a.0, now_velocity: a.1, next: b.0, next_velocity: b.1 },
+                pair(
+                    now.point(segment, Vec3::zero()),
+                    next.point(segment, Vec3::zero()),
+                ),
+                RotationTarget {
+                    now: a.0,
+                    now_velocity: a.1,
+                    next: b.0,
+                    next_velocity: b.1,
+                },
             )
         };
-        TaskPoints { com: pair(c0, c1), hands: [hand(L_HAND), hand(R_HAND)], feet: [foot(L_FOOT), foot(R_FOOT)] }
+        TaskPoints {
+            com: pair(c0, c1),
+            hands: [hand(L_HAND), hand(R_HAND)],
+            feet: [foot(L_FOOT), foot(R_FOOT)],
+        }
     }
 }

@@ -9,7 +9,10 @@ use super::report::{Audit, ContactPoint, Flags, MAX_CONTACTS};
 use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT, SegmentId};
 use crate::sim::body::{Body, Links, State};
 use crate::sim::contact::rows::PointRow;
-use crate::sim::contact::{ContactRows, LimitRows, Motors, NewtonWorkspace, Outcome, SparseSystem, collect_limits, minimise};
+use crate::sim::contact::{
+    ContactRows, LimitRows, Motors, NewtonWorkspace, Outcome, SparseSystem, collect_limits,
+    minimise,
+};
 use crate::sim::dynamics::terms::AppliedForce;
 use crate::sim::dynamics::{MassMatrix, Terms, factor, solve};
 use crate::sim::figure::setup::StrengthScale;
@@ -24,7 +27,7 @@ const SPECULATIVE_HEIGHT: f64 = 0.02;
 /// Share of a penetration beyond the slop that is taken back per substep.
 const PENETRATION_RETURN: f64 = 0.2;
 /// Penetration that is left alone, m: resting feet neither hover nor chatter.
-const PENETRATION_SLOP: f64 = 1e-3;
+const PENETRATION_SLOP: f64 = 1e-4;
 /// Fastest push-out of a penetrating point, m/s.
 const PENETRATION_SPEED: f64 = 1.0;
 /// Most Newton iterations of one substep.
@@ -162,7 +165,18 @@ impl TorqueStepper {
 impl Stepper for TorqueStepper {
     /// Advances `state` by one tick of `dt` seconds in `substeps` substeps. Fills [`Self::forces`]. No allocation.
     fn step(&mut self, input: &StepInput<'_>, state: &mut State) {
-        let StepInput { body, links, strength, scale, command, applied, gravity, dt, substeps, .. } = *input;
+        let StepInput {
+            body,
+            links,
+            strength,
+            scale,
+            command,
+            applied,
+            gravity,
+            dt,
+            substeps,
+            ..
+        } = *input;
         let h = dt / f64::from(substeps);
         let start: [f64; DOF_COUNT] = std::array::from_fn(|j| state.velocity[6 + j]);
         let f = &mut self.forces;
@@ -200,11 +214,20 @@ impl Stepper for TorqueStepper {
             state.posture.integrate(&v, h);
         }
         for s in 0..SEGMENT_COUNT {
-            for vertex in 0..body.segments[s].contact_points.len().min(POINTS_PER_SEGMENT) {
+            for vertex in 0..body.segments[s]
+                .contact_points
+                .len()
+                .min(POINTS_PER_SEGMENT)
+            {
                 let (p, position) = self.impulse[s * POINTS_PER_SEGMENT + vertex];
                 if p.z > 0.0 {
                     let segment = SegmentId::new(s).expect("s < SEGMENT_COUNT");
-                    self.forces.contact.push(ContactPoint { segment, vertex, position, force: p * (1.0 / dt) });
+                    self.forces.contact.push(ContactPoint {
+                        segment,
+                        vertex,
+                        position,
+                        force: p * (1.0 / dt),
+                    });
                 }
             }
         }
@@ -218,7 +241,12 @@ impl TorqueStepper {
         let (t, root) = (&self.terms, self.terms.state.posture.root_position);
         for s in 0..SEGMENT_COUNT {
             let origin = root.z + t.kin.position[s].z;
-            for (vertex, p) in body.segments[s].contact_points.iter().enumerate().take(POINTS_PER_SEGMENT) {
+            for (vertex, p) in body.segments[s]
+                .contact_points
+                .iter()
+                .enumerate()
+                .take(POINTS_PER_SEGMENT)
+            {
                 let r = t.kin.rotation[s] * *p;
                 let z = origin + r.z;
                 self.penetration = self.penetration.max(-z);
@@ -227,12 +255,24 @@ impl TorqueStepper {
                     let c = if z > 0.0 {
                         z / h
                     } else {
-                        -(PENETRATION_RETURN * (-z - PENETRATION_SLOP).max(0.0) / h).min(PENETRATION_SPEED)
+                        -(PENETRATION_RETURN * (-z - PENETRATION_SLOP).max(0.0) / h)
+                            .min(PENETRATION_SPEED)
                     };
                     let slot = self.contacts.slot(&self.terms.kin, s);
-                    let c = Vec3 { x: 0.0, y: 0.0, z: c };
+                    let c = Vec3 {
+                        x: 0.0,
+                        y: 0.0,
+                        z: c,
+                    };
                     let inverse_r = 1.0 / CONTACT_COMPLIANCE;
-                    self.contacts.points.push(PointRow { slot, r, c, inverse_r, segment: s, vertex });
+                    self.contacts.points.push(PointRow {
+                        slot,
+                        r,
+                        c,
+                        inverse_r,
+                        segment: s,
+                        vertex,
+                    });
                 }
             }
         }
@@ -261,7 +301,8 @@ impl TorqueStepper {
         for j in 0..DOF_COUNT {
             x[6 + j] += self.newton.motor[j] + self.newton.limit[j];
         }
-        self.contacts.add_transposed(&self.newton.force, 1.0, &mut x);
+        self.contacts
+            .add_transposed(&self.newton.force, 1.0, &mut x);
         close_kernel(&t.mass_matrix, &mut self.hessian, &mut x);
         self.forces.audit.state = *state;
         for i in 0..NV {
@@ -291,7 +332,10 @@ impl TorqueStepper {
             let tau = self.newton.motor[j] / h;
             f.torque[j] += self.newton.motor[j] / dt;
             f.ligament_torque[j] += self.newton.limit[j] / dt;
-            f.over_limit = f.over_limit.max(tau / upper[j] - 1.0).max(tau / lower[j] - 1.0);
+            f.over_limit = f
+                .over_limit
+                .max(tau / upper[j] - 1.0)
+                .max(tau / lower[j] - 1.0);
             f.audit.torque[j] = tau;
             f.audit.ligament_torque[j] = self.newton.limit[j] / h;
         }
@@ -301,7 +345,9 @@ impl TorqueStepper {
             f.audit.contacts.clear();
             f.audit.applied.clear();
             for (s, p, force) in applied {
-                f.audit.applied.push((*s, self.terms.point_world(s.index(), *p), *force));
+                f.audit
+                    .applied
+                    .push((*s, self.terms.point_world(s.index(), *p), *force));
             }
         }
         for (k, p) in self.contacts.points.iter().enumerate() {
@@ -317,7 +363,12 @@ impl TorqueStepper {
             slot.0 += impulse;
             if last {
                 let segment = SegmentId::new(p.segment).expect("rows hold valid segments");
-                f.audit.contacts.push(ContactPoint { segment, vertex: p.vertex, position, force: impulse * (1.0 / h) });
+                f.audit.contacts.push(ContactPoint {
+                    segment,
+                    vertex: p.vertex,
+                    position,
+                    force: impulse * (1.0 / h),
+                });
             }
         }
     }
@@ -335,7 +386,18 @@ fn substep_kernel(
     v: &mut [f64; NV],
     ws: &mut NewtonWorkspace,
 ) -> Outcome {
-    minimise(&SparseSystem(m), hessian, momentum, motors, limits, contacts, MAX_ITERATIONS, TOLERANCE, v, ws)
+    minimise(
+        &SparseSystem(m),
+        hessian,
+        momentum,
+        motors,
+        limits,
+        contacts,
+        MAX_ITERATIONS,
+        TOLERANCE,
+        v,
+        ws,
+    )
 }
 
 /// `x ← M⁻¹ x`.

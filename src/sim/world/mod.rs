@@ -26,7 +26,13 @@ pub struct WorldParams {
 
 impl Default for WorldParams {
     fn default() -> Self {
-        Self { rate_hz: 60.0, substeps: 2, gravity: 9.81, friction: 0.9, threads: 1 }
+        Self {
+            rate_hz: 60.0,
+            substeps: 2,
+            gravity: 9.81,
+            friction: 0.9,
+            threads: 1,
+        }
     }
 }
 
@@ -83,7 +89,12 @@ impl World {
     /// [`WorldError::Range`] naming the parameter.
     pub fn new(params: WorldParams) -> Result<Self, WorldError> {
         validate::params(&params)?;
-        Ok(Self { params, tick: 0, figures: Vec::new(), next_key: 1 })
+        Ok(Self {
+            params,
+            tick: 0,
+            figures: Vec::new(),
+            next_key: 1,
+        })
     }
 
     /// Advances every figure by one tick; afterwards reports and events are those of this tick.
@@ -107,7 +118,11 @@ impl World {
             let share = self.figures.len().div_ceil(threads);
             std::thread::scope(|scope| {
                 for chunk in self.figures.chunks_mut(share) {
-                    scope.spawn(move || chunk.iter_mut().for_each(|(_, figure)| figure.step(&context)));
+                    scope.spawn(move || {
+                        chunk
+                            .iter_mut()
+                            .for_each(|(_, figure)| figure.step(&context))
+                    });
                 }
             });
         }
@@ -139,7 +154,8 @@ impl World {
         validate::setup(&setup)?;
         let key = FigureKey(self.next_key);
         self.next_key += 1;
-        self.figures.push((key, Figure::new(setup, self.params.friction)));
+        self.figures
+            .push((key, Figure::new(setup, self.params.friction)));
         Ok(key)
     }
 
@@ -156,7 +172,10 @@ impl World {
     }
     /// A figure by key, to change its drive.
     pub fn figure_mut(&mut self, key: FigureKey) -> Option<&mut Figure> {
-        self.figures.iter_mut().find(|(k, _)| *k == key).map(|(_, f)| f)
+        self.figures
+            .iter_mut()
+            .find(|(k, _)| *k == key)
+            .map(|(_, f)| f)
     }
     /// All figures in the order they were added.
     pub fn figures(&self) -> impl Iterator<Item = (FigureKey, &Figure)> {
@@ -170,7 +189,11 @@ impl World {
     pub fn perturb(&mut self, key: FigureKey, what: Perturbation) -> Result<(), WorldError> {
         validate::perturbation(&what)?;
         let figure = self.figure_mut(key).ok_or(WorldError::UnknownFigure(key))?;
-        if figure.schedule(what) { Ok(()) } else { Err(WorldError::TooManyPerturbations) }
+        if figure.schedule(what) {
+            Ok(())
+        } else {
+            Err(WorldError::TooManyPerturbations)
+        }
     }
 
     /// Puts a figure into a state and forgets its past.
@@ -179,7 +202,9 @@ impl World {
     /// Unknown figure or a state that is not finite.
     pub fn reset_figure(&mut self, key: FigureKey, state: State) -> Result<(), WorldError> {
         validate::state(&state)?;
-        self.figure_mut(key).ok_or(WorldError::UnknownFigure(key))?.reset(state);
+        self.figure_mut(key)
+            .ok_or(WorldError::UnknownFigure(key))?
+            .reset(state);
         Ok(())
     }
 

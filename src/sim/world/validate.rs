@@ -9,7 +9,16 @@ use crate::sim::math::Vec3;
 const FAR: f64 = 1e5;
 
 fn range(field: &'static str, value: f64, lower: f64, upper: f64) -> Result<(), WorldError> {
-    if value >= lower && value <= upper { Ok(()) } else { Err(WorldError::Range { field, value, lower, upper }) }
+    if value >= lower && value <= upper {
+        Ok(())
+    } else {
+        Err(WorldError::Range {
+            field,
+            value,
+            lower,
+            upper,
+        })
+    }
 }
 
 fn vector(field: &'static str, v: Vec3, most: f64) -> Result<(), WorldError> {
@@ -66,12 +75,24 @@ pub(super) fn setup(s: &FigureSetup) -> Result<(), WorldError> {
 
 pub(super) fn perturbation(p: &Perturbation) -> Result<(), WorldError> {
     let (from, to) = match p {
-        Perturbation::Load { point, mass, from, to, .. } => {
+        Perturbation::Load {
+            point,
+            mass,
+            from,
+            to,
+            ..
+        } => {
             range("load.mass_kg", *mass, 0.0, 500.0)?;
             vector("load.point_m", *point, 10.0)?;
             (*from, *to)
         }
-        Perturbation::Force { point, force, from, to, .. } => {
+        Perturbation::Force {
+            point,
+            force,
+            from,
+            to,
+            ..
+        } => {
             vector("force.force_newtons", *force, 1e6)?;
             vector("force.point_m", *point, 10.0)?;
             (*from, *to)
@@ -79,7 +100,11 @@ pub(super) fn perturbation(p: &Perturbation) -> Result<(), WorldError> {
     };
     range("perturbation.from_s", from, f64::NEG_INFINITY, 1e12)?;
     if to.is_nan() || to < from {
-        return Err(WorldError::Interval { field: "perturbation", from, to });
+        return Err(WorldError::Interval {
+            field: "perturbation",
+            from,
+            to,
+        });
     }
     Ok(())
 }
