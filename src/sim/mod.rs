@@ -3,7 +3,9 @@
 //! `world` ─► `figure` ─► `control`, `contact` ─► `support`, `strength`, `motion` ─► `dynamics` ─► `body` ─► `math`.
 
 pub mod body;
+pub mod control;
 pub mod dynamics;
 pub mod figure;
 pub mod math;
 pub mod motion;
+pub mod support;
