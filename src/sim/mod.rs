@@ -4,7 +4,10 @@
 
 pub mod body;
 pub mod contact;
+pub mod control;
 pub mod dynamics;
 pub mod figure;
 pub mod math;
 pub mod motion;
+pub mod support;
+pub mod world;
