@@ -355,9 +355,9 @@ mod tests {
         let targets = [true, false].map(|l| forward(&body, &posture)[leg_segments(l)[2].index()]);
         let mut last: Option<Posture> = None;
         for i in 0..=400 {
-            let depth = 0.02 + 0.5 * f64::from(i) / 400.0;
+            let depth = 0.02 + 0.2 * f64::from(i) / 400.0;
             posture.root_position = Vec3 {
-                x: -0.1 * depth,
+                x: -0.5 * depth,
                 y: 0.0,
                 z: -depth,
             };
