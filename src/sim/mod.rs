@@ -9,5 +9,6 @@ pub mod dynamics;
 pub mod figure;
 pub mod math;
 pub mod motion;
+pub mod strength;
 pub mod support;
 pub mod world;
