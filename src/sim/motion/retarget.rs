@@ -12,7 +12,7 @@ use super::contacts::{ContactPhase, label_feet, phases};
 use super::filter::{
     align_signs, low_pass, low_pass_points, low_pass_rotations, percentile, renormalised, resample_points, resample_rotations, speeds,
 };
-use super::foot_lock::{Sole, turn, yaw_pitch};
+use super::foot_lock::{Sole, turn};
 use super::prepare::{Draft, PrepareOptions, ZmpOutside, prepare};
 use super::skeleton_map::{MapError, SideMap, SkeletonMap, map_skeleton};
 use crate::sim::body::topology::{
@@ -32,8 +32,8 @@ const LIKELY_STATURE: (f64, f64) = (1.3, 2.0);
 const POSSIBLE_STATURE: (f64, f64) = (0.7, 2.6);
 /// Units that files use, m: metre, decimetre, centimetre, millimetre, inch, CMU (inch / 0.45), foot.
 const UNITS: [f64; 7] = [1.0, 0.1, 0.01, 0.001, 0.0254, 0.0254 / 0.45, 0.3048];
-/// Leg (hip to ankle) over stature, both sexes; de Leva 1996: 0.4954 for men, 0.4904 for women.
-const LEG_OF_STATURE: f64 = 0.493;
+/// Leg (hip to ankle) over stature, both sexes; about 0.495 for men and 0.465 for women after de Leva 1996.
+const LEG_OF_STATURE: f64 = 0.485;
 /// Bend below which the plane of a limb is noise, and from which it is trusted, rad.
 const PLANE_TRUST: (f64, f64) = (0.26, 0.70);
 /// Bend from which a frame tells something about the hinge axis, rad.
@@ -284,8 +284,6 @@ pub enum RetargetError {
     Clip(#[from] ClipError),
 }
 
-const SIDE_NAMES: [&str; 2] = ["left", "right"];
-
 /// Retargets a recording onto `body`.
 ///
 /// Offline: time and memory are linear in frames × joints, about 0.2 s for 10 s at 120 Hz.
@@ -348,15 +346,16 @@ pub fn retarget(bvh: &Bvh, body: &Body, options: &RetargetOptions) -> Result<Ret
     let count = ((((take.len() - 1) as f64) * rate / source_rate + 1e-6).floor() as usize + 1).min(MAX_FRAMES * 4);
     let mut smoothing = (0.0, 0usize);
     let same = (rate - source_rate).abs() < 1e-9;
-    let mut raw_feet: Vec<Vec<Vec3>> = Vec::new();
+    let mut feet: [Vec<Vec<Vec3>>; 2] = Default::default();
     for (k, path) in places.iter_mut().enumerate() {
         if !same {
             *path = resample_points(path, source_rate, rate, count);
         }
-        if take.is_foot_point(k, &map) {
-            raw_feet.push(path.clone());
-        } else {
-            raw_feet.push(Vec::new());
+        for (points, side) in feet.iter_mut().zip(&map.sides) {
+            let tip = take.tip(side.toes.unwrap_or(side.foot));
+            if [Some(side.foot), side.toes, tip].contains(&Some(take.joints[k])) {
+                points.push(path.clone());
+            }
         }
         let before = path.clone();
         low_pass_points(path, options.cutoff_hz, rate);
@@ -383,22 +382,18 @@ pub fn retarget(bvh: &Bvh, body: &Body, options: &RetargetOptions) -> Result<Ret
     };
     let sides_swapped = scene.settle_sides(&mut map);
     if sides_swapped {
+        feet.swap(0, 1);
         warnings.push("left and right were exchanged: the file names them the other way round than its feet and knees point".into());
     }
 
     // Scale, floor, heading.
     let soles = [Sole::new(body, 0), Sole::new(body, 1)];
-    let leg_of = |s: usize| {
-        let (thigh, shank) = (body.joint_offset[L_SHANK.index()], body.joint_offset[L_FOOT.index()]);
-        let _ = s;
-        thigh.norm() + shank.norm()
-    };
-    let scale = options.scale.unwrap_or(leg_of(0) / (measured.leg * unit_m));
+    let leg = body.joint_offset[L_SHANK.index()].norm() + body.joint_offset[L_FOOT.index()].norm();
+    let scale = options.scale.unwrap_or(leg / (measured.leg * unit_m));
     let calibration = scene.calibrate(&map);
     let mut ankle = [0, 1].map(|s| scene.place(map.sides[s].foot).to_vec());
     let feet_flat = [0, 1].map(|s| scene.flat_samples(&map, s));
     let mut foot = [0, 1].map(|s| scene.foot_frames(&map, s, &feet_flat[s], &calibration));
-    let mut points: [Vec<Vec<Vec3>>; 2] = [0, 1].map(|s| scene.foot_points(bvh, &map, s, &raw_feet));
     let ground = if options.floor {
         fit_floor(&ankle, &feet_flat)
     } else {
@@ -438,17 +433,10 @@ pub fn retarget(bvh: &Bvh, body: &Body, options: &RetargetOptions) -> Result<Ret
         }
     };
     let ankle_height = soles[0].ankle_height;
-    let label = {
-        for (s, feet) in points.iter_mut().enumerate() {
-            for path in feet.iter_mut() {
-                for v in path.iter_mut() {
-                    *v = turn_to.rotate(*v);
-                }
-            }
-            let _ = s;
-        }
-        label_feet([&points[0], &points[1]], rate)
-    };
+    for v in feet.iter_mut().flatten().flatten() {
+        *v = turn_to.rotate(*v);
+    }
+    let label = label_feet([&feet[0], &feet[1]], rate);
     for s in 0..2 {
         for v in &mut ankle[s] {
             *v = move_point(*v, ground.height[s]);
@@ -612,11 +600,16 @@ fn angle_of(q: Quat) -> f64 {
 }
 
 /// The bones that matter, with every ancestor, as local motions.
+///
+/// A bone's end without a joint of its own (finger tip, toe tip, an ankle's end site) is kept as a *tip*: point number
+/// `joint count + joint`, which turns with its joint.
 struct Recording {
-    /// File joint of each kept bone, parents first.
+    /// Point of each kept bone or tip, parents first.
     joints: Vec<usize>,
-    /// Index into `joints`, by file joint.
+    /// Index into `joints`, by point.
     index: Vec<Option<usize>>,
+    /// Joints in the file.
+    joint_count: usize,
     parent: Vec<Option<usize>>,
     /// `[bone][frame]`: rotation and translation relative to the parent bone.
     turn: Vec<Vec<Quat>>,
@@ -638,17 +631,36 @@ impl Recording {
                 at = bvh.joints[i].parent;
             }
         }
-        let joints: Vec<usize> = (0..n).filter(|i| keep[*i]).collect();
-        let mut index = vec![None; n];
+        let mut joints: Vec<usize> = (0..n).filter(|i| keep[*i]).collect();
+        let mut index = vec![None; 2 * n];
         for (k, j) in joints.iter().enumerate() {
             index[*j] = Some(k);
         }
-        let parent: Vec<Option<usize>> = joints.iter().map(|j| bvh.joints[*j].parent.and_then(|p| index[p])).collect();
+        let mut parent: Vec<Option<usize>> = joints.iter().map(|j| bvh.joints[*j].parent.and_then(|p| index[p])).collect();
+        let bones = joints.len();
+        // Tips: where a bone ends that has no mapped joint below it.
+        let mut tips: Vec<Vec3> = Vec::new();
+        for s in &map.sides {
+            let tip_of = [s.toes.or(Some(s.foot)), if s.hand.is_none() { Some(s.forearm) } else { None }];
+            for j in tip_of.into_iter().flatten() {
+                let child = (j + 1..n).find(|c| bvh.joints[*c].parent == Some(j)).map(|c| bvh.joints[c].offset);
+                let Some(end) = bvh.joints[j].end_site.or(child).map(Vec3::from_array) else {
+                    continue;
+                };
+                if end.is_finite() && end.norm() > 1e-9 {
+                    index[n + j] = Some(joints.len());
+                    parent.push(index[j]);
+                    joints.push(n + j);
+                    tips.push(end);
+                }
+            }
+        }
         let mut turn = vec![Vec::with_capacity(bvh.frame_count); joints.len()];
         let mut step = vec![Vec::with_capacity(bvh.frame_count); joints.len()];
+        let mut world = Vec::new();
         for frame in 0..bvh.frame_count {
-            let world = bvh.world(frame);
-            for (k, &j) in joints.iter().enumerate() {
+            bvh.world_into(frame, &mut world);
+            for (k, &j) in joints[..bones].iter().enumerate() {
                 let (p, q) = (world[j].position, world[j].rotation);
                 if !(p.is_finite() && q.is_finite() && p.norm() < 1e9) {
                     return Err(RetargetError::NotFinite {
@@ -667,6 +679,10 @@ impl Recording {
                 turn[k].push(renormalised(local));
                 step[k].push(offset);
             }
+            for (k, tip) in tips.iter().enumerate() {
+                turn[bones + k].push(Quat::identity());
+                step[bones + k].push(*tip);
+            }
         }
         for t in &mut turn {
             align_signs(t);
@@ -674,10 +690,27 @@ impl Recording {
         Ok(Self {
             joints,
             index,
+            joint_count: n,
             parent,
             turn,
             step,
         })
+    }
+
+    /// Point of the end of `joint`, if it is kept as a tip.
+    fn tip(&self, joint: usize) -> Option<usize> {
+        let point = self.joint_count + joint;
+        self.index[point].map(|_| point)
+    }
+
+    /// Point at the wrist of a side, if the file has one.
+    fn wrist(&self, side: &SideMap) -> Option<usize> {
+        side.hand.or_else(|| self.tip(side.forearm))
+    }
+
+    /// Point at the ball or the tip of a foot, if the file has one.
+    fn toe(&self, side: &SideMap) -> Option<usize> {
+        side.toes.or_else(|| self.tip(side.foot))
     }
 
     fn len(&self) -> usize {
@@ -779,14 +812,11 @@ impl Recording {
     fn rest(&self, bvh: &Bvh) -> Vec<Vec3> {
         let mut out: Vec<Vec3> = Vec::with_capacity(self.joints.len());
         for (k, j) in self.joints.iter().enumerate() {
-            let offset = Vec3::from_array(bvh.joints[*j].offset);
+            // A tip's step is the same in every frame.
+            let offset = bvh.joints.get(*j).map_or(self.step[k][0], |b| Vec3::from_array(b.offset));
             out.push(self.parent[k].map_or(Vec3::zero(), |p| out[p]) + offset);
         }
         out
-    }
-
-    fn is_foot_point(&self, k: usize, map: &SkeletonMap) -> bool {
-        map.sides.iter().any(|s| self.joints[k] == s.foot || Some(self.joints[k]) == s.toes)
     }
 }
 
@@ -815,9 +845,7 @@ fn measure(bvh: &Bvh, places: &[Vec<Vec3>], take: &Recording, map: &SkeletonMap)
                 leg += 0.5 * l;
             }
         }
-        if let Some(h) = s.hand
-            && median_length(s.forearm, h) <= 0.0
-        {
+        if !take.wrist(s).is_some_and(|w| median_length(s.forearm, w) > 0.0) {
             return Err(RetargetError::Degenerate {
                 bone: bvh.joints[s.forearm].name.clone(),
             });
@@ -945,7 +973,8 @@ impl Scene<'_> {
 
     /// Direction in which the feet of a sample point, made level in the figure; zero if the file has no toes.
     fn toe_direction(&self, map: &SkeletonMap, s: usize, i: usize) -> Vec3 {
-        map.sides[s].toes.map_or(Vec3::zero(), |t| self.place(t)[i] - self.place(map.sides[s].foot)[i])
+        let side = &map.sides[s];
+        self.take.toe(side).map_or(Vec3::zero(), |t| self.place(t)[i] - self.place(side.foot)[i])
     }
 
     /// Exchanges sides that the file names the wrong way round, told by where feet point and knees bend.
@@ -1142,29 +1171,14 @@ impl Scene<'_> {
         let mut hand: [Vec<Quat>; 2] = Default::default();
         for s in 0..2 {
             let m = &map.sides[s];
+            let wrist = self.take.wrist(m).expect("measured before: every forearm has an end");
             let (shoulder, elbow) = (self.place(m.upper_arm), self.place(m.forearm));
-            forearm[s] = match m.hand {
-                Some(h) => (0..self.count).map(|i| (self.place(h)[i] - elbow[i]).normalized_or(-Vec3::Z)).collect(),
-                // The wrist is not a joint of the file: the forearm bone's own end tells the direction.
-                None => self.end_direction(m.forearm),
-            };
-            let axis = match m.hand {
-                Some(h) => self.hinge_axis((m.upper_arm, m.forearm, h), -1.0, calibration).0,
-                None => {
-                    let wrist: Vec<Vec3> = (0..self.count).map(|i| elbow[i] + forearm[s][i]).collect();
-                    self.hinge_axis_to((m.upper_arm, m.forearm), &wrist, -1.0, calibration)
-                }
-            };
+            let hand_place = self.place(wrist);
+            forearm[s] = (0..self.count).map(|i| (hand_place[i] - elbow[i]).normalized_or(-Vec3::Z)).collect();
+            let axis = self.hinge_axis((m.upper_arm, m.forearm, wrist), -1.0, calibration).0;
             upper_arm[s] = (0..self.count).map(|i| frame_of(shoulder[i] - elbow[i], axis[i])).collect();
             let bone = m.hand.unwrap_or(m.forearm);
-            let direction = match m.hand {
-                Some(h) => self.calibrated_direction(m.forearm, h, calibration),
-                None => {
-                    let q = if calibration.from_rest { self.basis } else { self.turn(m.forearm)[calibration.sample] };
-                    let own = self.turn(m.forearm)[0].conjugate().rotate(forearm[s][0]);
-                    calibration.figure.conjugate().rotate(q.rotate(own)).normalized_or(-Vec3::Z)
-                }
-            };
+            let direction = self.calibrated_direction(m.forearm, wrist, calibration);
             hand[s] = self.follow(bone, calibration, shortest(-Vec3::Z, direction));
         }
         Frames {
@@ -1178,4 +1192,267 @@ impl Scene<'_> {
             knee_off_axis,
         }
     }
+}
+
+/// Where the recorded floor is: rotation that levels it, ankle height over it for each foot (after levelling), slope.
+struct Ground {
+    level: Quat,
+    height: [f64; 2],
+    slope: f64,
+}
+
+impl Scene<'_> {
+    /// Samples in which a foot stands flat: slow, ankle low among the slow ones.
+    fn flat_samples(&self, map: &SkeletonMap, s: usize) -> Vec<usize> {
+        let ankle = self.place(map.sides[s].foot);
+        let speed = speeds(ankle, self.rate);
+        let slow: Vec<usize> = (0..self.count).filter(|i| speed[*i] < 0.25).collect();
+        let heights: Vec<f64> = slow.iter().map(|i| ankle[*i].z).collect();
+        let low = percentile(&heights, 0.15);
+        slow.into_iter().filter(|i| (ankle[*i].z - low).abs() < 0.012).collect()
+    }
+
+    /// `world_from_foot` per sample: x from ankle to toes made level while the foot stands flat, z up then.
+    fn foot_frames(&self, map: &SkeletonMap, s: usize, flat: &[usize], calibration: &Calibration) -> Vec<Quat> {
+        let side = &map.sides[s];
+        let turns = self.turn(side.foot);
+        let toe = self.take.toe(side);
+        let from_rest = || {
+            let ahead = toe.map_or(Vec3::X, |t| self.calibrated_direction(side.foot, t, calibration));
+            let yaw = if ahead.x.hypot(ahead.y) > 0.2 { ahead.y.atan2(ahead.x) } else { 0.0 };
+            self.follow(side.foot, calibration, Quat::exp(Vec3::Z * yaw))
+        };
+        let Some(toe) = toe.filter(|_| flat.len() >= 5) else {
+            return from_rest();
+        };
+        let toe = self.place(toe);
+        let ankle = self.place(side.foot);
+        let mut sum = [0.0; 4];
+        let mut first: Option<Quat> = None;
+        for &i in flat {
+            let d = toe[i] - ankle[i];
+            // Standing means the sole is down; a foot that lies on its side or hangs tells nothing.
+            if d.x.hypot(d.y) < 0.5 * d.norm() {
+                continue;
+            }
+            let q = turns[i].conjugate() * Quat::exp(Vec3::Z * d.y.atan2(d.x));
+            let like = *first.get_or_insert(q);
+            let sign = if like.to_xyzw().iter().zip(q.to_xyzw()).map(|(a, b)| a * b).sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
+            for (s, c) in sum.iter_mut().zip(q.to_xyzw()) {
+                *s += sign * c;
+            }
+        }
+        let length = sum.iter().map(|c| c * c).sum::<f64>().sqrt();
+        // Scattered answers (norm well below the count) are no calibration.
+        if length < 0.9 * flat.len() as f64 {
+            return from_rest();
+        }
+        let bone_from_foot = renormalised(Quat::from_xyzw(sum.map(|c| c / length)));
+        turns.iter().map(|q| (*q * bone_from_foot).normalized()).collect()
+    }
+}
+
+/// Fits the floor to ankles of flat feet: height, and slope where the feet visit enough ground to tell.
+fn fit_floor(ankle: &[Vec<Vec3>; 2], flat: &[Vec<usize>; 2]) -> Ground {
+    let mut points = Vec::new();
+    for s in 0..2 {
+        let own = flat[s].iter().map(|i| ankle[s][*i]);
+        // The feet may be at different heights over their joints: compare slopes, not levels.
+        let mean = percentile(&own.clone().map(|p| p.z).collect::<Vec<_>>(), 0.5);
+        points.extend(own.map(|p| Vec3 { z: p.z - mean, ..p }));
+    }
+    let n = points.len().max(1) as f64;
+    let centre = points.iter().fold(Vec3::zero(), |s, p| s + *p) * (1.0 / n);
+    // Regularised least squares: a spread of 0.2 m halves what the data says, so a spot of floor is taken as level.
+    let (mut xx, mut xy, mut yy, mut xz, mut yz) = (0.05 * n, 0.0, 0.05 * n, 0.0, 0.0);
+    for p in &points {
+        let d = *p - centre;
+        xx += d.x * d.x;
+        xy += d.x * d.y;
+        yy += d.y * d.y;
+        xz += d.x * d.z;
+        yz += d.y * d.z;
+    }
+    let det = xx * yy - xy * xy;
+    let (sx, sy) = if det > 1e-9 {
+        ((xz * yy - yz * xy) / det, (yz * xx - xz * xy) / det)
+    } else {
+        (0.0, 0.0)
+    };
+    // Steeper than 5 % is no floor but a motion that the fit misread.
+    let slope = sx.hypot(sy);
+    let (sx, sy) = if slope < 0.05 { (sx, sy) } else { (0.0, 0.0) };
+    let normal = Vec3 { x: -sx, y: -sy, z: 1.0 }.normalized_or(Vec3::Z);
+    let level = shortest(normal, Vec3::Z);
+    let heights = [0, 1].map(|s| {
+        let of_flat: Vec<f64> = flat[s].iter().map(|i| level.rotate(ankle[s][*i]).z).collect();
+        if of_flat.len() >= 5 {
+            Some(percentile(&of_flat, 0.5))
+        } else {
+            None
+        }
+    });
+    let lowest = || {
+        let all: Vec<f64> = ankle.iter().flatten().map(|p| level.rotate(*p).z).collect();
+        percentile(&all, 0.02)
+    };
+    let height = match heights {
+        // Both feet stand on one floor: more than 4 cm apart, the lower one is right.
+        [Some(a), Some(b)] if (a - b).abs() < 0.04 => [a, b],
+        [Some(a), Some(b)] => [a.min(b); 2],
+        [Some(a), None] | [None, Some(a)] => [a; 2],
+        [None, None] => [lowest(); 2],
+    };
+    Ground {
+        level,
+        height,
+        slope: sx.hypot(sy),
+    }
+}
+
+/// World frames of the upper body per sample, ready to be split into joints.
+struct Joints {
+    pelvis: Vec<Quat>,
+    abdomen: Vec<Quat>,
+    chest: Vec<Quat>,
+    head: Option<Vec<Quat>>,
+    upper_arm: [Vec<Quat>; 2],
+    /// Direction from elbow to wrist.
+    forearm_axis: [Vec<Vec3>; 2],
+    hand: [Vec<Quat>; 2],
+    has_hand: [bool; 2],
+}
+
+const UPPER_ARM: [SegmentId; 2] = [L_UPPER_ARM, R_UPPER_ARM];
+const FOREARM: [SegmentId; 2] = [L_FOREARM, R_FOREARM];
+const HAND: [SegmentId; 2] = [L_HAND, R_HAND];
+
+fn ball(s: SegmentId) -> usize {
+    match JOINT[s.index()] {
+        Joint::Ball(b) => b,
+        _ => unreachable!("{} is a ball joint", SEGMENT_NAMES[s.index()]),
+    }
+}
+
+fn hinge(s: SegmentId) -> usize {
+    match JOINT[s.index()] {
+        Joint::Hinge1(h) | Joint::Hinge2(h) => h,
+        _ => unreachable!("{} is a hinge", SEGMENT_NAMES[s.index()]),
+    }
+}
+
+impl Joints {
+    /// Joint positions; legs are left at zero. Also the 95th percentile of the angle between forearm and elbow plane, per side.
+    fn postures(&self, pelvis_path: &[Vec3]) -> (Vec<Posture>, [f64; 2]) {
+        use crate::sim::body::topology::{ABDOMEN, CHEST, HEAD};
+        let n = pelvis_path.len();
+        let mut out = vec![Posture::default(); n];
+        let mut off_axis: [Vec<f64>; 2] = Default::default();
+        for (i, p) in out.iter_mut().enumerate() {
+            p.root_position = pelvis_path[i];
+            p.root_rotation = self.pelvis[i];
+            p.ball[ball(ABDOMEN)] = self.pelvis[i].conjugate() * self.abdomen[i];
+            p.ball[ball(CHEST)] = self.abdomen[i].conjugate() * self.chest[i];
+            if let Some(head) = &self.head {
+                p.ball[ball(HEAD)] = self.chest[i].conjugate() * head[i];
+            }
+        }
+        for s in 0..2 {
+            // Sign of the axes about z (pronation) and x (wrist flexion): left −, right +.
+            let m = if s == 0 { -1.0 } else { 1.0 };
+            let (elbow, wrist) = (hinge(FOREARM[s]), hinge(HAND[s]));
+            let mut before = 0.0f64;
+            for (i, p) in out.iter_mut().enumerate() {
+                let upper = self.upper_arm[s][i];
+                p.ball[ball(UPPER_ARM[s])] = self.chest[i].conjugate() * upper;
+                let d = upper.conjugate().rotate(self.forearm_axis[s][i]);
+                let flexion = d.x.atan2(-d.z);
+                off_axis[s].push(d.y.abs().clamp(0.0, 1.0).asin());
+                p.hinge[elbow] = flexion;
+                // Forearm twist, then wrist: M = Rz(α) Rx(β) Ry(γ).
+                let bent = upper * Quat::exp(Vec3::Y * -flexion);
+                let w = (bent.conjugate() * self.hand[s][i]).to_mat3();
+                let (sin_b, level) = (w.y.z, w.y.x.hypot(w.y.y));
+                let beta = sin_b.atan2(level);
+                // A hand bent by 90° leaves the twist undefined: hold it.
+                let twist = if level > 0.2 { (-w.y.x).atan2(w.y.y) } else { before };
+                let twist = before + turn(before, twist);
+                before = twist;
+                p.hinge[elbow + 1] = m * twist;
+                if self.has_hand[s] {
+                    p.hinge[wrist] = m * beta;
+                    p.hinge[wrist + 1] = -(-w.x.z).atan2(w.z.z);
+                }
+            }
+        }
+        (out, [percentile(&off_axis[0], 0.95), percentile(&off_axis[1], 0.95)])
+    }
+}
+
+/// Low-pass of all joint positions of a motion, in place; the pelvis is left alone.
+pub(super) fn smooth_joints(postures: &mut [Posture], cutoff_hz: f64, rate_hz: f64) {
+    for b in 0..BALL_COUNT {
+        let mut q: Vec<Quat> = postures.iter().map(|p| p.ball[b]).collect();
+        low_pass_rotations(&mut q, cutoff_hz, rate_hz);
+        for (p, q) in postures.iter_mut().zip(q) {
+            p.ball[b] = q;
+        }
+    }
+    for h in 0..HINGE_COUNT {
+        let mut a: Vec<f64> = postures.iter().map(|p| p.hinge[h]).collect();
+        low_pass(&mut a, cutoff_hz, rate_hz);
+        for (p, a) in postures.iter_mut().zip(a) {
+            p.hinge[h] = a;
+        }
+    }
+}
+
+fn mapped_bones(bvh: &Bvh, map: &SkeletonMap) -> Vec<MappedBone> {
+    let names = |bones: &[usize]| bones.iter().map(|b| bvh.joints[*b].name.clone()).collect::<Vec<_>>();
+    let split = (map.abdomen + 1).min(map.trunk.len());
+    let (waist, thorax) = map.trunk.split_at(if map.trunk.len() >= 2 { split } else { 0 });
+    let mut out = Vec::new();
+    let mut add = |s: usize, bones: Vec<String>| {
+        if !bones.is_empty() {
+            out.push(MappedBone {
+                segment: SEGMENT_NAMES[s],
+                bones,
+            });
+        }
+    };
+    add(0, names(&[map.pelvis]));
+    add(1, names(waist));
+    add(2, names(thorax));
+    add(3, names(map.head.as_slice()));
+    for (s, side) in map.sides.iter().enumerate() {
+        let (arm, leg) = ([4, 7][s], [10, 14][s]);
+        add(arm, names(&[side.upper_arm]));
+        add(arm + 1, names(&[side.forearm]));
+        add(arm + 2, names(side.hand.as_slice()));
+        add(leg, names(&[side.thigh]));
+        add(leg + 1, names(&[side.shank]));
+        add(leg + 2, names(&[side.foot]));
+        add(leg + 3, names(side.toes.as_slice()));
+    }
+    out.sort_by_key(|m| SEGMENT_NAMES.iter().position(|n| *n == m.segment).unwrap_or(SEGMENT_COUNT));
+    out
+}
+
+fn missing_segments(map: &SkeletonMap) -> Vec<&'static str> {
+    let mut out = Vec::new();
+    if map.trunk.is_empty() {
+        out.push(SEGMENT_NAMES[2]);
+    }
+    if map.head.is_none() {
+        out.push(SEGMENT_NAMES[3]);
+    }
+    for (s, side) in map.sides.iter().enumerate() {
+        if side.hand.is_none() {
+            out.push(SEGMENT_NAMES[[6, 9][s]]);
+        }
+        if side.toes.is_none() {
+            out.push(SEGMENT_NAMES[[13, 17][s]]);
+        }
+    }
+    out
 }
