@@ -5,33 +5,15 @@
 //! `Δ − Δ̈/ω² = p − z`, `ω² = (g + c̈_z)/c_z`, a tridiagonal system over the clip (cart-table model of Kajita et al. 2003).
 
 use super::filter::low_pass;
-use crate::sim::body::topology::{DOF_AXIS, DOF_LEN, DOF_START, JOINT, Joint, PARENT, SEGMENT_COUNT};
+use super::leg_ik::forward;
+use crate::sim::body::topology::SEGMENT_COUNT;
 use crate::sim::body::{Body, Posture};
-use crate::sim::math::{Quat, Vec3};
+use crate::sim::math::Vec3;
 
 /// Standard gravity, m/s².
 const GRAVITY: f64 = 9.81;
-
-/// World pose (origin, `world_from_segment`) of every segment.
-pub fn segment_poses(body: &Body, posture: &Posture) -> [(Vec3, Quat); SEGMENT_COUNT] {
-    let mut out = [(posture.root_position, posture.root_rotation); SEGMENT_COUNT];
-    for s in 1..SEGMENT_COUNT {
-        let (origin, parent) = out[PARENT[s]];
-        let mut rotation = parent;
-        match JOINT[s] {
-            Joint::Free => {}
-            Joint::Ball(b) => rotation = rotation * posture.ball[b],
-            Joint::Hinge2(h) | Joint::Hinge1(h) => {
-                for k in 0..DOF_LEN[s] {
-                    let axis = Vec3::from_array(DOF_AXIS[DOF_START[s] + k].vector());
-                    rotation = rotation * Quat::exp(axis * posture.hinge[h + k]);
-                }
-            }
-        }
-        out[s] = (origin + parent.rotate(body.joint_offset[s]), rotation);
-    }
-    out
-}
+/// Ground force over weight below which the zero-moment point is meaningless.
+pub const LIGHT: f64 = 0.25;
 
 /// Centre of mass and zero-moment point of every sample of a motion.
 #[derive(Clone, Debug)]
@@ -55,7 +37,7 @@ pub fn mass_track(body: &Body, postures: &[Posture], rate_hz: f64) -> MassTrack 
     let n = postures.len();
     let h = 1.0 / rate_hz;
     let mass: f64 = body.segments.iter().map(|s| s.mass).sum();
-    let poses: Vec<_> = postures.iter().map(|p| segment_poses(body, p)).collect();
+    let poses: Vec<_> = postures.iter().map(|p| forward(body, p)).collect();
     let centre = |i: usize, s: usize| poses[i][s].0 + poses[i][s].1.rotate(body.segments[s].com);
     let com: Vec<Vec3> = (0..n)
         .map(|i| {
@@ -91,8 +73,8 @@ pub fn mass_track(body: &Body, postures: &[Posture], rate_hz: f64) -> MassTrack 
         let force = mass * (GRAVITY + acc.z);
         out.load[i] = force / (mass * GRAVITY);
         out.omega2[i] = ((GRAVITY + acc.z) / c.z.max(0.2)).clamp(3.0, 40.0);
-        // In flight there is no zero-moment point; the centre of mass stands in.
-        if out.load[i] > 0.1 {
+        // Near flight there is no zero-moment point to speak of; the centre of mass stands in.
+        if out.load[i] > LIGHT {
             let m_x = rate.x + mass * GRAVITY * c.y;
             let m_y = rate.y - mass * GRAVITY * c.x;
             out.zmp[i] = [-m_y / force, m_x / force];

@@ -40,10 +40,19 @@ pub struct Stance {
     pub start: usize,
     /// One past the last sample.
     pub end: usize,
-    /// Place of the flat ankle's foot point on the floor, m (z = 0).
-    pub anchor: Vec3,
+    /// True if the foot turns on its ball while it stands; otherwise place and heading are constant.
+    pub pivots: bool,
+}
+
+/// Where a planted foot stands in one sample.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Anchor {
+    /// Point of the floor under the flat ankle, m (z = 0).
+    pub place: Vec3,
     /// Heading of the foot, rad.
     pub yaw: f64,
+    /// Pitch, rad, toe-up positive.
+    pub pitch: f64,
 }
 
 /// A foot that stands as the body's sole allows, and how much was changed for that.
@@ -53,8 +62,8 @@ pub struct LockedFoot {
     pub poses: Vec<FootPose>,
     /// True where the foot is locked to the floor.
     pub planted: Vec<bool>,
-    /// Pitch of the locked foot, rad, toe-up positive; 0 elsewhere.
-    pub pitch: Vec<f64>,
+    /// Where it stands, per sample; zero elsewhere.
+    pub anchors: Vec<Anchor>,
     /// Stances in order.
     pub stances: Vec<Stance>,
     /// How far the recorded foot point strayed in stance, m: largest distance between any sample and the anchor.
@@ -63,8 +72,8 @@ pub struct LockedFoot {
 
 /// Pitch below which a walking foot counts as flat, rad (4°).
 const DEAD_BAND: f64 = 0.07;
-/// The same for a foot that stands for long, rad (12°): a standing person's soles are flat unless clearly raised.
-const DEAD_BAND_LONG: f64 = 0.21;
+/// The same for a foot that stands for long, rad (9°): a standing person's soles are flat unless clearly raised.
+const DEAD_BAND_LONG: f64 = 0.16;
 /// Stances longer than this are standing, not walking, s.
 const LONG_STANCE: f64 = 1.5;
 /// A recorded foot that strays further than this from its anchor has stepped or pivoted, m and rad.
@@ -75,7 +84,7 @@ const STEEPEST: (f64, f64, f64) = (-1.05, 0.6, 0.6);
 const CLEARANCE: f64 = 0.045;
 /// How fast a sole rises after lift-off and sinks before touch-down at least, m/s.
 const RISE: (f64, f64) = (0.45, 0.4);
-/// Shortest and longest time over which a swing departs from a lock, s.
+/// Longest time over which a swing departs from a lock, s.
 const FADE: f64 = 0.4;
 /// Largest toe extension of a swinging foot, rad.
 const SWING_TOE: f64 = 0.6;
@@ -142,8 +151,9 @@ impl Sole {
         }
     }
 
-    /// Floor polygon corners (z = 0) that carry a foot standing at `anchor`: heel while not heel-up, toes while not toe-up.
-    pub fn footprint(&self, anchor: Vec3, yaw: f64, pitch: f64, out: &mut Vec<[f64; 2]>) {
+    /// Adds the floor polygon corners (x, y) that carry a foot standing at `at`: heel while not heel-up, toes while not toe-up.
+    pub fn footprint(&self, at: &Anchor, out: &mut Vec<[f64; 2]>) {
+        let Anchor { place: anchor, yaw, pitch } = *at;
         let heading = Quat::exp(Vec3::Z * yaw);
         let ball = self.toe_joint.x;
         let mut push = |p: Vec3| {
@@ -280,11 +290,19 @@ fn offset(locked: &FootPose, ankle: Vec3, rotation: Quat, toe: f64) -> Channels 
 ///
 /// * `ankles`, `rotations`: recorded ankle (m) and `world_from_foot` per sample, floor at z = 0, body scale.
 /// * `label`: where the foot is on the floor (from [`super::contacts`]).
+/// * `heel_up`: by how much more the heel is raised in stance than recorded, rad per sample (0 or more).
 /// * `rate_hz`: samples per second.
 ///
 /// The result is continuous in position, velocity and acceleration up to the recording's own smoothness; a planted foot's pivot
 /// (heel edge or toe joint) does not move, and no point of the sole is below the floor in stance. O(n log n) per stance.
-pub fn lock_foot(sole: &Sole, ankles: &[Vec3], rotations: &[Quat], label: &[bool], rate_hz: f64) -> LockedFoot {
+pub fn lock_foot(
+    sole: &Sole,
+    ankles: &[Vec3],
+    rotations: &[Quat],
+    label: &[bool],
+    heel_up: &[f64],
+    rate_hz: f64,
+) -> LockedFoot {
     let n = ankles.len();
     let track = Track::new(sole, ankles, rotations);
     let toes: Vec<f64> = track.pitch.iter().map(|p| (-p).clamp(0.0, SWING_TOE)).collect();
@@ -297,7 +315,7 @@ pub fn lock_foot(sole: &Sole, ankles: &[Vec3], rotations: &[Quat], label: &[bool
             })
             .collect(),
         planted: vec![false; n],
-        pitch: vec![0.0; n],
+        anchors: vec![Anchor::default(); n],
         stances: Vec::new(),
         slide_before: 0.0,
     };
@@ -310,21 +328,35 @@ pub fn lock_foot(sole: &Sole, ankles: &[Vec3], rotations: &[Quat], label: &[bool
         }
     }
     for &(i, j) in &pieces {
-        let (anchor, yaw) = track.anchor(i, j);
-        let slid = (i..j).map(|k| (track.point[k] - anchor).norm()).fold(0.0, f64::max);
-        out.slide_before = out.slide_before.max(slid);
-        let pitch = stance_pitch(&track.pitch[i..j], i > 0, j < n, rate_hz);
-        for k in i..j {
-            out.planted[k] = true;
-            out.pitch[k] = pitch[k - i];
-            out.poses[k] = sole.stand(anchor, yaw, pitch[k - i]);
+        let (place, yaw) = track.anchor(i, j);
+        let pitch = stance_pitch(&track.pitch[i..j], rate_hz);
+        let pivots = (i..j).any(|k| (track.yaw[k] - yaw).abs() > STRAY.1);
+        let mut yaws = vec![yaw; j - i];
+        if pivots {
+            yaws.copy_from_slice(&track.yaw[i..j]);
+            low_pass(&mut yaws, 4.0, rate_hz);
         }
-        out.stances.push(Stance {
-            start: i,
-            end: j,
-            anchor,
-            yaw,
-        });
+        let ball = Vec3 { z: 0.0, ..sole.toe_joint };
+        let arm = |yaw: f64| Quat::exp(Vec3::Z * yaw).rotate(ball);
+        // A foot that turns does so on its ball: the ball's place is what stays.
+        let stays = if pivots {
+            let of = |f: &dyn Fn(Vec3) -> f64| median((i..j).map(|k| f(track.point[k] + arm(track.yaw[k]))).collect());
+            Vec3 { x: of(&|p| p.x), y: of(&|p| p.y), z: 0.0 }
+        } else {
+            place + arm(yaw)
+        };
+        for k in i..j {
+            let at = Anchor {
+                place: stays - arm(yaws[k - i]),
+                yaw: yaws[k - i],
+                pitch: (pitch[k - i] - heel_up[k]).max(STEEPEST.0),
+            };
+            out.slide_before = out.slide_before.max((track.point[k] - at.place).norm());
+            out.planted[k] = true;
+            out.anchors[k] = at;
+            out.poses[k] = sole.stand(at.place, at.yaw, at.pitch);
+        }
+        out.stances.push(Stance { start: i, end: j, pivots });
     }
     for (i, j, on) in runs(&out.planted.clone()) {
         if !on {
@@ -336,7 +368,7 @@ pub fn lock_foot(sole: &Sole, ankles: &[Vec3], rotations: &[Quat], label: &[bool
 
 /// Pitch profile of a stance: a dead band makes the foot flat; a walking foot rolls toe-up only before its flat middle and heel-up
 /// only after it.
-fn stance_pitch(raw: &[f64], begins: bool, ends: bool, rate_hz: f64) -> Vec<f64> {
+fn stance_pitch(raw: &[f64], rate_hz: f64) -> Vec<f64> {
     let n = raw.len();
     let long = n as f64 > LONG_STANCE * rate_hz;
     let band = if long { DEAD_BAND_LONG } else { DEAD_BAND };
@@ -350,7 +382,6 @@ fn stance_pitch(raw: &[f64], begins: bool, ends: bool, rate_hz: f64) -> Vec<f64>
             for (k, p) in p.iter_mut().enumerate() {
                 *p = if k < mid { p.max(0.0) } else { p.min(0.0) };
             }
-            let _ = (begins, ends);
         } else if median(raw.to_vec()) < 0.0 {
             p.iter_mut().for_each(|p| *p = p.min(0.0));
         } else {
@@ -504,7 +535,7 @@ mod tests {
             .collect();
         let rotations = vec![Quat::identity(); n as usize];
         let label: Vec<bool> = (0..n).map(|i| !(122..178).contains(&i)).collect();
-        let f = lock_foot(&s, &ankles, &rotations, &label, 120.0);
+        let f = lock_foot(&s, &ankles, &rotations, &label, &vec![0.0; n as usize], 120.0);
         assert_eq!(f.stances.len(), 2);
         for k in 1..n as usize {
             let step = (f.poses[k].ankle - f.poses[k - 1].ankle).norm();

@@ -6,10 +6,13 @@ pub mod clip;
 pub mod contacts;
 pub mod filter;
 pub mod foot_lock;
+pub mod leg_ik;
 pub mod prepare;
 pub mod retarget;
 pub mod skeleton_map;
 pub mod target;
+#[cfg(test)]
+mod test_body;
 
 pub use bvh::{Bvh, BvhError};
 pub use clip::{Clip, ClipError};

@@ -1,19 +1,20 @@
 //! From a recorded motion in body scale to a reference that a body can follow: feet locked, legs reaching, balance kept.
 
-use super::balance::{Carrier, MassTrack, com_shift, hull, margin, mass_track, segment_poses};
+use super::balance::{Carrier, LIGHT, MassTrack, com_shift, hull, margin, mass_track};
 use super::filter::{low_pass_points, percentile, smooth_minimum};
-use super::foot_lock::{FootPose, LockedFoot, Sole, lock_foot};
-use crate::sim::body::angles::clamp_to_limits;
+use super::foot_lock::{LockedFoot, Sole, lock_foot};
+use super::leg_ik::{forward, solve_leg_in_plane};
+use crate::sim::body::angles::{anatomical_angles, clamp_to_limits};
 use crate::sim::body::topology::{
     DOF_COUNT, DOF_START, JOINT, Joint, L_FOOT, L_SHANK, L_THIGH, L_TOES, R_FOOT, R_SHANK, R_THIGH, R_TOES, SegmentId,
 };
 use crate::sim::body::{Body, Posture};
-use crate::sim::math::{Mat3, Quat, Vec3};
+use crate::sim::math::{Quat, Vec3};
 
 /// A planted leg reaches at most this fraction of its length: a straight knee makes inverse kinematics jump.
 const REACH: f64 = 0.98;
 /// Rounds of shifting the trunk and solving the legs again.
-const BALANCE_ROUNDS: usize = 6;
+const ROUNDS: usize = 8;
 /// The zero-moment point is kept this far inside the support polygon, m.
 const INSET: f64 = 0.03;
 /// A zero-moment point outside by more than this for long means that something other than the feet carries the body, m.
@@ -22,6 +23,14 @@ const CARRIED: f64 = 0.15;
 const MOST_SHIFT: f64 = 0.12;
 /// Angles are kept this far from their limits, rad.
 const LIMIT_MARGIN: f64 = 0.01;
+/// Ankles of planted feet are kept this far from their limits, rad.
+const RELIEF_MARGIN: f64 = 0.03;
+/// A leg is turned at most this far for its ankle's sake, rad.
+const MOST_TURN: f64 = 0.6;
+/// Below this fraction of standing height the pelvis lies or sits on the floor: feet are not what stands.
+const LYING: f64 = 0.22;
+/// A planted foot that its leg cannot hold to this accuracy is declared free, m.
+const HELD: f64 = 5e-4;
 
 /// A recorded motion in body scale, floor at z = 0: what the preparation starts from.
 #[derive(Clone, Debug)]
@@ -83,86 +92,67 @@ pub struct Prepared {
     pub drop_max: f64,
     /// Fraction of the samples in which something other than the feet carries the body.
     pub carried: f64,
+    /// Fraction of foot samples that were declared free because the leg's limits do not let it hold the foot in place.
+    pub freed: f64,
 }
 
-/// One leg of a body: lengths and the angle between them at zero flexion.
-struct Leg {
-    side: usize,
-    hip: Vec3,
-    knee: Vec3,
-    ankle: Vec3,
-    /// Lengths of thigh and shank, m.
-    a: f64,
-    b: f64,
-    /// Knee angle at which the leg is longest, rad.
-    straight: f64,
-}
-
-const THIGH: [SegmentId; 2] = [L_THIGH, R_THIGH];
-const SHANK: [SegmentId; 2] = [L_SHANK, R_SHANK];
 const FOOT: [SegmentId; 2] = [L_FOOT, R_FOOT];
 const TOES: [SegmentId; 2] = [L_TOES, R_TOES];
 
-impl Leg {
-    fn new(body: &Body, side: usize) -> Self {
-        let knee = body.joint_offset[SHANK[side].index()];
-        let ankle = body.joint_offset[FOOT[side].index()];
-        // Directions of both bones in the x–z plane of the knee hinge (axis +y).
-        let angle = |v: Vec3| v.x.atan2(-v.z);
+/// Hip joint of each side in the pelvis frame, m, and length of the leg from hip to ankle, m.
+fn leg_geometry(body: &Body) -> [(Vec3, f64); 2] {
+    [L_THIGH, R_THIGH].map(|thigh| {
+        let t = thigh.index();
+        (
+            body.joint_offset[t],
+            body.joint_offset[t + 1].norm() + body.joint_offset[t + 2].norm(),
+        )
+    })
+}
+
+/// What is bent so that planted legs stay within their limits, per sample.
+struct Relief {
+    /// Heel raised further than recorded, rad.
+    heel_up: [Vec<f64>; 2],
+    /// Leg turned inwards about the line from hip to ankle, rad.
+    turn_in: [Vec<f64>; 2],
+}
+
+impl Relief {
+    fn new(n: usize) -> Self {
         Self {
-            side,
-            hip: body.joint_offset[THIGH[side].index()],
-            knee,
-            ankle,
-            a: knee.x.hypot(knee.z),
-            b: ankle.x.hypot(ankle.z),
-            straight: angle(ankle) - angle(knee),
+            heel_up: [vec![0.0; n], vec![0.0; n]],
+            turn_in: [vec![0.0; n], vec![0.0; n]],
         }
     }
 
-    fn length(&self) -> f64 {
-        self.a + self.b
-    }
-
-    /// Sets hip, knee, ankle and toe of `posture` so that the foot takes `foot`; the knee axis comes as near `axis` (world) as it can.
-    ///
-    /// Returns the distance by which the leg is too short, m; then the ankle lies on the line to its goal.
-    fn solve(&self, body: &Body, posture: &mut Posture, foot: &FootPose, axis: Vec3) -> f64 {
-        let hip = posture.root_position + posture.root_rotation.rotate(self.hip);
-        let line = foot.ankle - hip;
-        let side_gap = self.knee.y + self.ankle.y; // out of the hinge plane; constant
-        let wanted = (line.dot(line) - side_gap * side_gap).max(0.0).sqrt();
-        let knee_dof = DOF_START[SHANK[self.side].index()];
-        // Law of cosines: 0 at the longest leg, growing with flexion.
-        let cos = ((wanted * wanted - self.a * self.a - self.b * self.b) / (2.0 * self.a * self.b)).clamp(-1.0, 1.0);
-        let flexion = (cos.acos() + self.straight).clamp(body.lower[knee_dof] + LIMIT_MARGIN, body.upper[knee_dof] - LIMIT_MARGIN);
-        let leg = self.knee + Quat::exp(Vec3::Y * flexion).rotate(self.ankle);
-        let frame = |direction: Vec3, side: Vec3| {
-            let d = direction.normalized_or(-Vec3::Z);
-            let y = (side - d * side.dot(d)).normalized_or(Vec3::Y);
-            Mat3 {
-                x: d,
-                y,
-                z: d.cross(y),
+    /// Adds what the ankles of planted feet lack: too much dorsiflexion raises the heel, too much rotation turns the leg along.
+    fn add(&mut self, body: &Body, postures: &[Posture], planted: &[[bool; 2]], rate_hz: f64) {
+        let n = postures.len();
+        let half = (0.1 * rate_hz) as usize;
+        for s in 0..2 {
+            let d = DOF_START[FOOT[s].index()];
+            let over = |dof: usize, up: bool| -> Vec<f64> {
+                let raw: Vec<f64> = (0..n)
+                    .map(|i| {
+                        if !planted[i][s] {
+                            return 0.0;
+                        }
+                        let a = anatomical_angles(&postures[i])[dof];
+                        let e = if up { a - body.upper[dof] } else { body.lower[dof] - a };
+                        -(e + RELIEF_MARGIN).max(0.0)
+                    })
+                    .collect();
+                smooth_minimum(&raw, half).into_iter().map(|x| -x).collect()
+            };
+            for (sum, e) in self.heel_up[s].iter_mut().zip(over(d, true)) {
+                *sum += e;
             }
-        };
-        let world = frame(line, axis) * frame(leg, Vec3::Y).transpose();
-        let thigh = Quat::from_mat3(&world);
-        let shank = thigh * Quat::exp(Vec3::Y * flexion);
-        let set = |posture: &mut Posture, s: SegmentId, q: Quat| {
-            if let Joint::Ball(b) = JOINT[s.index()] {
-                posture.ball[b] = q.normalized();
+            let (inward, outward) = (over(d + 2, true), over(d + 2, false));
+            for (i, sum) in self.turn_in[s].iter_mut().enumerate() {
+                *sum = (*sum + inward[i] - outward[i]).clamp(-MOST_TURN, MOST_TURN);
             }
-        };
-        set(posture, THIGH[self.side], posture.root_rotation.conjugate() * thigh);
-        set(posture, FOOT[self.side], shank.conjugate() * foot.rotation);
-        if let Joint::Hinge1(h) = JOINT[SHANK[self.side].index()] {
-            posture.hinge[h] = flexion;
         }
-        if let Joint::Hinge1(h) = JOINT[TOES[self.side].index()] {
-            posture.hinge[h] = foot.toe;
-        }
-        (line.norm() - leg.norm()).max(0.0)
     }
 }
 
@@ -172,17 +162,21 @@ impl Leg {
 pub fn prepare(body: &Body, draft: &Draft, options: PrepareOptions) -> Prepared {
     let n = draft.postures.len();
     let rate = draft.rate_hz;
-    let legs = [Leg::new(body, 0), Leg::new(body, 1)];
     let soles = [Sole::new(body, 0), Sole::new(body, 1)];
+    let standing = body.standing_root_height();
     let mut upper = draft.postures.clone();
     let mut clamped = [(0.0f64, 0.0f64); DOF_COUNT];
     clamp_upper(body, &mut upper, rate, &mut clamped);
 
-    let locked: [LockedFoot; 2] = std::array::from_fn(|s| {
-        let label: Vec<bool> = draft.label.iter().map(|l| l[s] && options.lock_feet).collect();
-        lock_foot(&soles[s], &draft.ankle[s], &draft.foot[s], &label, rate)
+    let label: [Vec<bool>; 2] = std::array::from_fn(|s| {
+        (0..n).map(|i| draft.label[i][s] && options.lock_feet && upper[i].root_position.z > LYING * standing).collect()
     });
-    let planted: Vec<[bool; 2]> = (0..n).map(|i| [locked[0].planted[i], locked[1].planted[i]]).collect();
+    let lock = |relief: &Relief| -> [LockedFoot; 2] {
+        std::array::from_fn(|s| lock_foot(&soles[s], &draft.ankle[s], &draft.foot[s], &label[s], &relief.heel_up[s], rate))
+    };
+    let mut relief = Relief::new(n);
+    let mut locked = lock(&relief);
+    let mut planted: Vec<[bool; 2]> = (0..n).map(|i| [locked[0].planted[i], locked[1].planted[i]]).collect();
     let mut penetration_before: f64 = 0.0;
     for s in 0..2 {
         for i in (0..n).filter(|i| draft.label[*i][s]) {
@@ -191,15 +185,96 @@ pub fn prepare(body: &Body, draft: &Draft, options: PrepareOptions) -> Prepared 
         }
     }
 
-    // Legs: one pass as recorded, then rounds of shifting the trunk over the feet.
+    // Legs as recorded first; then rounds in which ankles are relieved and the trunk is shifted over the feet.
+    let mut shift = vec![[0.0f64; 2]; n];
+    let (mut postures, mut drop_max) = assemble(body, &upper, &locked, draft, &relief, &shift);
+    let mut carriers = carriers_of(body, &soles, &upper, &locked, draft);
+    let mut track = mass_track(body, &postures, rate);
+    let before = zmp_outside(&track, &carriers);
+    for round in 0..if options.lock_feet && n >= 8 { ROUNDS } else { 0 } {
+        if round + 2 < ROUNDS {
+            relief.add(body, &postures, &planted, rate);
+            locked = lock(&relief);
+            carriers = carriers_of(body, &soles, &upper, &locked, draft);
+        }
+        if options.balance && round > 0 {
+            let delta = com_shift(&track, &carriers, INSET, CARRIED, rate);
+            for (s, d) in shift.iter_mut().zip(&delta) {
+                // The feet stay behind, so the centre of mass follows the pelvis by some 85 %.
+                let (x, y) = (s[0] + 1.15 * d[0], s[1] + 1.15 * d[1]);
+                let far = x.hypot(y);
+                let k = if far > MOST_SHIFT { MOST_SHIFT / far } else { 1.0 };
+                *s = [x * k, y * k];
+            }
+        }
+        (postures, drop_max) = assemble(body, &upper, &locked, draft, &relief, &shift);
+        track = mass_track(body, &postures, rate);
+    }
+
+    // Legs into their limits last, and what is left of the lock.
+    let mut slide_after: f64 = 0.0;
+    let mut penetration_after: f64 = 0.0;
+    let mut freed = 0usize;
+    for i in 0..n {
+        let off = clamp_to_limits(body, &mut postures[i], LIMIT_MARGIN * 0.5);
+        note_clamped(&mut clamped, &off, n);
+        let poses = forward(body, &postures[i]);
+        for s in 0..2 {
+            if !planted[i][s] {
+                continue;
+            }
+            let (at, q) = poses[FOOT[s].index()];
+            let goal = &locked[s].poses[i];
+            let low = at.z + soles[s].lowest(q, postures[i].hinge[toe_hinge(s)]);
+            let stray = (at - goal.ankle).norm();
+            if stray > HELD || low < -HELD {
+                planted[i][s] = false;
+                freed += 1;
+                continue;
+            }
+            slide_after = slide_after.max(stray);
+            penetration_after = penetration_after.max(-low);
+        }
+    }
+    track = mass_track(body, &postures, rate);
+    let after = zmp_outside(&track, &carriers);
+    let far = (0..n)
+        .filter(|i| match &carriers[*i] {
+            Carrier::Feet(p) => margin(p, track.zmp[*i]) < -CARRIED,
+            Carrier::Other => true,
+            Carrier::Air => false,
+        })
+        .count();
+    Prepared {
+        postures,
+        planted,
+        clamped,
+        slide: (locked[0].slide_before.max(locked[1].slide_before), slide_after),
+        penetration: (penetration_before, penetration_after),
+        zmp: (before, after),
+        shift_max: shift.iter().map(|s| s[0].hypot(s[1])).fold(0.0, f64::max),
+        drop_max,
+        carried: far as f64 / n.max(1) as f64,
+        freed: freed as f64 / (2 * n).max(1) as f64,
+    }
+}
+
+fn toe_hinge(side: usize) -> usize {
+    match JOINT[TOES[side].index()] {
+        Joint::Hinge1(h) => h,
+        _ => unreachable!("the toes are on a hinge"),
+    }
+}
+
+/// What carries the body in each sample.
+fn carriers_of(body: &Body, soles: &[Sole; 2], upper: &[Posture], locked: &[LockedFoot; 2], draft: &Draft) -> Vec<Carrier> {
     let standing = body.standing_root_height();
-    let carriers: Vec<Carrier> = (0..n)
+    let mut corners = Vec::new();
+    (0..upper.len())
         .map(|i| {
-            let mut corners = Vec::new();
-            for s in 0..2 {
-                if let Some(st) = locked[s].stances.iter().find(|st| (st.start..st.end).contains(&i)) {
-                    soles[s].footprint(st.anchor, st.yaw, locked[s].pitch[i], &mut corners);
-                }
+            corners.clear();
+            for (sole, foot) in soles.iter().zip(locked).filter(|(_, f)| f.planted[i]) {
+                sole.footprint(&foot.anchors[i], &mut corners);
             }
             if upper[i].root_position.z < 0.45 * standing {
                 Carrier::Other
@@ -211,67 +286,7 @@ pub fn prepare(body: &Body, draft: &Draft, options: PrepareOptions) -> Prepared 
                 Carrier::Other
             }
         })
-        .collect();
-    let mut shift = vec![[0.0f64; 2]; n];
-    let (mut postures, mut drop_max) = assemble(body, &legs, &upper, &locked, draft, &shift);
-    let track = mass_track(body, &postures, rate);
-    let before = zmp_outside(&track, &carriers);
-    let mut after = before;
-    let mut carried = 0.0;
-    if options.balance && options.lock_feet && n >= 8 {
-        let mut track = track;
-        for _ in 0..BALANCE_ROUNDS {
-            let delta = com_shift(&track, &carriers, INSET, CARRIED, rate);
-            for (s, d) in shift.iter_mut().zip(&delta) {
-                // The feet stay behind, so the centre of mass follows the pelvis by some 85 %.
-                let (x, y) = (s[0] + 1.15 * d[0], s[1] + 1.15 * d[1]);
-                let far = x.hypot(y);
-                let k = if far > MOST_SHIFT { MOST_SHIFT / far } else { 1.0 };
-                *s = [x * k, y * k];
-            }
-            (postures, drop_max) = assemble(body, &legs, &upper, &locked, draft, &shift);
-            track = mass_track(body, &postures, rate);
-        }
-        after = zmp_outside(&track, &carriers);
-        let far = (0..n)
-            .filter(|i| match &carriers[*i] {
-                Carrier::Feet(p) => margin(p, track.zmp[*i]) < -CARRIED,
-                Carrier::Other => true,
-                Carrier::Air => false,
-            })
-            .count();
-        carried = far as f64 / n.max(1) as f64;
-    }
-
-    // Legs into their limits last, and what is left of the lock.
-    let mut slide_after: f64 = 0.0;
-    let mut penetration_after: f64 = 0.0;
-    for i in 0..n {
-        let off = clamp_to_limits(body, &mut postures[i], LIMIT_MARGIN * 0.5);
-        note_clamped(&mut clamped, &off, n);
-        let poses = segment_poses(body, &postures[i]);
-        for s in (0..2).filter(|s| planted[i][*s]) {
-            let (at, q) = poses[FOOT[s].index()];
-            let goal = &locked[s].poses[i];
-            slide_after = slide_after.max((at - goal.ankle).norm());
-            let toe = match JOINT[TOES[s].index()] {
-                Joint::Hinge1(h) => postures[i].hinge[h],
-                _ => goal.toe,
-            };
-            penetration_after = penetration_after.max(-(at.z + soles[s].lowest(q, toe)));
-        }
-    }
-    Prepared {
-        postures,
-        planted,
-        clamped,
-        slide: (locked[0].slide_before.max(locked[1].slide_before), slide_after),
-        penetration: (penetration_before, penetration_after),
-        zmp: (before, after),
-        shift_max: shift.iter().map(|s| s[0].hypot(s[1])).fold(0.0, f64::max),
-        drop_max,
-        carried,
-    }
+        .collect()
 }
 
 fn note_clamped(clamped: &mut [(f64, f64); DOF_COUNT], off: &[f64; DOF_COUNT], n: usize) {
@@ -317,22 +332,22 @@ fn clamp_upper(body: &Body, postures: &mut [Posture], rate_hz: f64, clamped: &mu
 /// Postures from upper body, feet and trunk shift: pelvis lowered until planted legs reach, legs solved.
 fn assemble(
     body: &Body,
-    legs: &[Leg; 2],
     upper: &[Posture],
     locked: &[LockedFoot; 2],
     draft: &Draft,
+    relief: &Relief,
     shift: &[[f64; 2]],
 ) -> (Vec<Posture>, f64) {
     let n = upper.len();
+    let legs = leg_geometry(body);
     let mut out = upper.to_vec();
     let mut drop = vec![0.0f64; n];
     for i in 0..n {
         out[i].root_position.x += shift[i][0];
         out[i].root_position.y += shift[i][1];
-        for (leg, foot) in legs.iter().zip(locked).filter(|(_, f)| f.planted[i]) {
-            let hip = out[i].root_position + out[i].root_rotation.rotate(leg.hip);
-            let d = hip - foot.poses[i].ankle;
-            let most = REACH * leg.length();
+        for ((hip, length), foot) in legs.iter().zip(locked).filter(|(_, f)| f.planted[i]) {
+            let d = out[i].root_position + out[i].root_rotation.rotate(*hip) - foot.poses[i].ankle;
+            let most = REACH * length;
             let level = d.x.hypot(d.y);
             let height = (most * most - level * level).max(0.04 * most * most).sqrt();
             drop[i] = drop[i].min(height - d.z);
@@ -351,16 +366,19 @@ fn assemble(
     let lowest = drop.iter().copied().fold(0.0, f64::min);
     for i in 0..n {
         out[i].root_position = path[i];
-        for (s, leg) in legs.iter().enumerate() {
+        for (s, (hip, length)) in legs.iter().enumerate() {
             let mut foot = locked[s].poses[i];
-            let hip = path[i] + out[i].root_rotation.rotate(leg.hip);
+            let hip = path[i] + out[i].root_rotation.rotate(*hip);
             let line = foot.ankle - hip;
             let far = line.norm();
-            let most = 0.995 * leg.length();
+            let most = 0.995 * length;
             if !locked[s].planted[i] && far > most {
                 foot.ankle = hip + line * (most / far);
             }
-            leg.solve(body, &mut out[i], &foot, draft.knee_axis[s][i]);
+            // Inwards is clockwise seen from above for the left leg: about the line pointing down, positive.
+            let inward = if s == 0 { relief.turn_in[s][i] } else { -relief.turn_in[s][i] };
+            let axis = Quat::exp(line.normalized_or(-Vec3::Z) * inward).rotate(draft.knee_axis[s][i]);
+            solve_leg_in_plane(body, &mut out[i], s == 0, (foot.ankle, foot.rotation), foot.toe, axis);
         }
     }
     (out, -lowest)
@@ -371,8 +389,9 @@ fn zmp_outside(track: &MassTrack, carriers: &[Carrier]) -> ZmpOutside {
         .zmp
         .iter()
         .zip(carriers)
-        .filter_map(|(z, c)| match c {
-            Carrier::Feet(p) => Some((-margin(p, *z)).max(0.0)),
+        .zip(&track.load)
+        .filter_map(|((z, c), load)| match c {
+            Carrier::Feet(p) if *load > LIGHT => Some((-margin(p, *z)).max(0.0)),
             _ => None,
         })
         .collect();

@@ -140,6 +140,9 @@ pub struct Bridged {
     pub count: usize,
 }
 
+/// Largest median wrist deviation and flexion that are believed, rad: hand markers are few, so a hand's rest pose is often off.
+const WRIST_BIAS: (f64, f64) = (0.15, 0.6);
+
 /// Where the recorded floor and heading went: maps clip to file (metres, z up).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Origin {
@@ -190,6 +193,10 @@ pub struct RetargetReport {
     pub knee_off_axis: [f64; 2],
     /// The same for forearm and elbow, rad.
     pub elbow_off_axis: [f64; 2],
+    /// Constant angle taken out of the left and right wrist, rad: the recording's hands do not continue its forearms.
+    pub wrist_bias: [f64; 2],
+    /// Fraction of foot samples in stance that were declared free because the leg's limits do not let it hold the foot in place.
+    pub freed: f64,
     /// Largest distance of a planted foot from its place, m: as recorded, and prepared.
     pub foot_slide: (f64, f64),
     /// Largest depth of a sole under the floor in stance, m: as recorded, and prepared.
@@ -392,7 +399,7 @@ pub fn retarget(bvh: &Bvh, body: &Body, options: &RetargetOptions) -> Result<Ret
     let scale = options.scale.unwrap_or(leg / (measured.leg * unit_m));
     let calibration = scene.calibrate(&map);
     let mut ankle = [0, 1].map(|s| scene.place(map.sides[s].foot).to_vec());
-    let feet_flat = [0, 1].map(|s| scene.flat_samples(&map, s));
+    let feet_flat = [0, 1].map(|s| scene.flat_samples(&map, s, measured.leg * unit_m));
     let mut foot = [0, 1].map(|s| scene.foot_frames(&map, s, &feet_flat[s], &calibration));
     let ground = if options.floor {
         fit_floor(&ankle, &feet_flat)
@@ -477,7 +484,7 @@ pub fn retarget(bvh: &Bvh, body: &Body, options: &RetargetOptions) -> Result<Ret
         hand: frames.hand.map(turned),
         has_hand: [0, 1].map(|s| map.sides[s].hand.is_some()),
     };
-    let (postures, elbow_off_axis) = joints.postures(&pelvis);
+    let (postures, elbow_off_axis, wrist_bias) = joints.postures(&pelvis);
     let mut draft = Draft { postures, ..draft };
     for p in &mut draft.postures {
         p.root_rotation = renormalised(p.root_rotation);
@@ -518,6 +525,8 @@ pub fn retarget(bvh: &Bvh, body: &Body, options: &RetargetOptions) -> Result<Ret
             .collect(),
         knee_off_axis: frames.knee_off_axis,
         elbow_off_axis,
+        wrist_bias,
+        freed: prepared.freed,
         foot_slide: prepared.slide,
         penetration: prepared.penetration,
         phases,
@@ -556,6 +565,12 @@ impl RetargetReport {
                 c.dof,
                 c.max.to_degrees(),
                 100.0 * c.fraction
+            ));
+        }
+        if self.freed > 0.01 {
+            w.push(format!(
+                "planted feet were let go in {:.0} % of the samples: the legs' limits do not let them stand as recorded",
+                100.0 * self.freed
             ));
         }
         if self.carried > 0.02 {
@@ -1203,10 +1218,12 @@ struct Ground {
 
 impl Scene<'_> {
     /// Samples in which a foot stands flat: slow, ankle low among the slow ones.
-    fn flat_samples(&self, map: &SkeletonMap, s: usize) -> Vec<usize> {
+    fn flat_samples(&self, map: &SkeletonMap, s: usize, leg: f64) -> Vec<usize> {
         let ankle = self.place(map.sides[s].foot);
+        let hip = self.place(map.sides[s].thigh);
         let speed = speeds(ankle, self.rate);
-        let slow: Vec<usize> = (0..self.count).filter(|i| speed[*i] < 0.25).collect();
+        // Under a standing or squatting body only: feet of someone who lies are slow and low, and not flat.
+        let slow: Vec<usize> = (0..self.count).filter(|i| speed[*i] < 0.25 && hip[*i].z - ankle[*i].z > 0.4 * leg).collect();
         let heights: Vec<f64> = slow.iter().map(|i| ankle[*i].z).collect();
         let low = percentile(&heights, 0.15);
         slow.into_iter().filter(|i| (ankle[*i].z - low).abs() < 0.012).collect()
@@ -1342,12 +1359,14 @@ fn hinge(s: SegmentId) -> usize {
 }
 
 impl Joints {
-    /// Joint positions; legs are left at zero. Also the 95th percentile of the angle between forearm and elbow plane, per side.
-    fn postures(&self, pelvis_path: &[Vec3]) -> (Vec<Posture>, [f64; 2]) {
+    /// Joint positions; legs are left at zero. Also, per side, the 95th percentile of the angle between forearm and elbow plane and
+    /// the bias that was taken out of the wrist.
+    fn postures(&self, pelvis_path: &[Vec3]) -> (Vec<Posture>, [f64; 2], [f64; 2]) {
         use crate::sim::body::topology::{ABDOMEN, CHEST, HEAD};
         let n = pelvis_path.len();
         let mut out = vec![Posture::default(); n];
         let mut off_axis: [Vec<f64>; 2] = Default::default();
+        let mut wrist_bias = [0.0f64; 2];
         for (i, p) in out.iter_mut().enumerate() {
             p.root_position = pelvis_path[i];
             p.root_rotation = self.pelvis[i];
@@ -1384,8 +1403,15 @@ impl Joints {
                     p.hinge[wrist + 1] = -(-w.x.z).atan2(w.z.z);
                 }
             }
+            for (h, most) in [(wrist, WRIST_BIAS.1), (wrist + 1, WRIST_BIAS.0)] {
+                let angles: Vec<f64> = out.iter().map(|p| p.hinge[h]).collect();
+                let median = percentile(&angles, 0.5);
+                let bias = median - median.clamp(-most, most);
+                out.iter_mut().for_each(|p| p.hinge[h] -= bias);
+                wrist_bias[s] = wrist_bias[s].max(bias.abs());
+            }
         }
-        (out, [percentile(&off_axis[0], 0.95), percentile(&off_axis[1], 0.95)])
+        (out, [percentile(&off_axis[0], 0.95), percentile(&off_axis[1], 0.95)], wrist_bias)
     }
 }
 
