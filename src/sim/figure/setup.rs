@@ -2,6 +2,7 @@
 
 use crate::sim::body::SegmentId;
 use crate::sim::math::Vec3;
+
 pub use crate::sim::strength::StrengthScale;
 
 /// Who computes accelerations and torques.
@@ -18,8 +19,6 @@ pub enum ControllerKind {
 /// Who moves the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StepperKind {
-    /// Accelerations are applied as they are; the support is held or rotated (paper).
-    Kinematic,
     /// Torques drive full rigid-body dynamics with contact, ALGORITHM §14.3.
     Torque,
 }
