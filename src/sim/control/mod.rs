@@ -74,6 +74,8 @@ pub struct ControlInput<'a> {
     pub com: &'a PointTarget,
     /// End-effectors to control, at most two count.
     pub effectors: &'a [Effector],
+    /// Desired motion of the left and the right foot: ankle and rotation.
+    pub feet: &'a [(PointTarget, RotationTarget); 2],
     /// Least available torques, N·m (negative).
     pub lower: &'a [f64; DOF_COUNT],
     /// Largest available torques, N·m.
