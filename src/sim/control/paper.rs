@@ -418,7 +418,7 @@ impl Paper {
             for k in 0..3 {
                 (0..NV).for_each(|i| jacobian[k][i] -= terms.jc[k][i]);
             }
-            bias = bias - terms.com_bias;
+            bias -= terms.com_bias;
             (at, velocity) = (at - terms.com, velocity - terms.com_velocity);
             let c = input.com;
             (t.now, t.now_velocity) = (t.now - c.now, t.now_velocity - c.now_velocity);
