@@ -3,9 +3,12 @@
 //! `world` ─► `figure` ─► `control`, `contact` ─► `support`, `strength`, `motion` ─► `dynamics` ─► `body` ─► `math`.
 
 pub mod body;
+pub mod contact;
 pub mod control;
 pub mod dynamics;
 pub mod figure;
 pub mod math;
 pub mod motion;
+pub mod strength;
 pub mod support;
+pub mod world;

@@ -3,6 +3,7 @@
 //! [`Paper`] is Oshita & Makinouchi 2000, Eqs. (4)–(17), with the repairs of ALGORITHM §4–9.
 
 pub mod feasible_com;
+pub mod modern;
 pub mod paper;
 pub mod reroot;
 pub mod rows;
@@ -10,6 +11,7 @@ pub mod spatial_targets;
 pub mod torque_limits;
 pub mod tracking;
 
+pub use modern::Modern;
 pub use paper::Paper;
 pub use tracking::Law;
 
@@ -74,7 +76,7 @@ pub struct ControlInput<'a> {
     pub com: &'a PointTarget,
     /// End-effectors to control, at most two count.
     pub effectors: &'a [Effector],
-    /// Desired motion of the left and the right foot: ankle and rotation.
+    /// Left and right foot: ankle and rotation of the foot, for feet that the motion swings.
     pub feet: &'a [(PointTarget, RotationTarget); 2],
     /// Least available torques, N·m (negative).
     pub lower: &'a [f64; DOF_COUNT],

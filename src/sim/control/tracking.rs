@@ -37,6 +37,16 @@ impl Law {
         }
     }
 
+    /// Length of the step, s.
+    pub fn step(&self) -> f64 {
+        self.dt
+    }
+
+    /// The horizon, or the step for the law without one, s.
+    pub fn horizon_or_step(&self) -> f64 {
+        self.horizon.unwrap_or(self.dt)
+    }
+
     /// True if errors are taken at the start of the step (with horizon), false if against the desired state at its end (4).
     pub fn uses_errors_now(&self) -> bool {
         self.horizon.is_some()
