@@ -1,10 +1,13 @@
 //! Desired motion: reading, retargeting, preparing, sampling (paper §3.2).
 
 pub mod bvh;
+mod chart;
+pub mod clip;
 pub mod leg_ik;
 pub mod target;
 #[cfg(test)]
 mod test_body;
 
 pub use bvh::{Bvh, BvhError};
+pub use clip::{Clip, ClipError, PlanarTransform};
 pub use target::{Target, TargetPair};
