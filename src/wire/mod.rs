@@ -18,6 +18,7 @@ pub mod pb {
 
 pub mod convert;
 pub mod frame;
+pub mod posture;
 pub mod status;
 pub mod types;
 pub mod watched;
