@@ -1,8 +1,7 @@
 //! Regenerates the protobuf code and the descriptor set under `src/wire/gen` and fails if they differ from what is checked in.
 //!
 //! Building needs no protobuf compiler because the generated files are part of the source. After a change of `proto/`:
-//! `SINEW_REWRITE=1 cargo test --test proto_bootstrap`.
-#![cfg(feature = "net")]
+//! `SINEW_REWRITE=1 cargo test --no-default-features --test proto_bootstrap`.
 
 use prost::Message as _;
 use std::path::Path;
@@ -65,7 +64,7 @@ fn generated_code_matches_the_protos() {
         let checked_in = std::fs::read(dir.join(name)).unwrap_or_default();
         assert!(
             checked_in == *bytes,
-            "src/wire/gen/{name} is out of date: run `SINEW_REWRITE=1 cargo test --test proto_bootstrap`"
+            "src/wire/gen/{name} is out of date: run `SINEW_REWRITE=1 cargo test --no-default-features --test proto_bootstrap`"
         );
     }
 }

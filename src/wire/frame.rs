@@ -2,7 +2,7 @@
 
 use super::pb;
 use super::posture::{joint_rotation, positions, segment_poses};
-use super::types::{FigureSnapshot, Fields, NumberFormat, RosterEntry, Snapshot, ViewSpec};
+use super::types::{Fields, FigureSnapshot, NumberFormat, RosterEntry, Snapshot, ViewSpec};
 use super::watched::WatchWorldResponse;
 use crate::sim::body::angles::anatomical_angles;
 use crate::sim::body::{DOF_COUNT, Posture, SEGMENT_COUNT, SegmentId};

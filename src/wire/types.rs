@@ -543,22 +543,28 @@ pub struct ClipInfo {
 /// How a file was understood, in the words of the API.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReadingReport {
-    /// Bone and the joint of the file that drives it.
-    pub mapped: Vec<(String, String)>,
+    /// Bone and the joints of the file that drive it.
+    pub mapped: Vec<(String, Vec<String>)>,
     /// Bones without a counterpart.
     pub missing: Vec<String>,
-    /// Joints that nothing uses.
-    pub unused: Vec<String>,
+    /// Bones were found by shape.
+    pub by_structure: bool,
+    /// Left and right were swapped.
+    pub sides_swapped: bool,
     /// Length of a file unit, m.
     pub unit_m: f64,
     /// File axis that points up.
     pub up_axis: String,
     /// Stature of the captured person, m.
     pub stature_m: f64,
+    /// Scale of the pelvis motion.
+    pub scale: f64,
+    /// Frames per second of the file.
+    pub source_rate_hz: f64,
     /// Height taken off, m.
     pub floor_offset_m: f64,
-    /// DOF, frames clamped, largest excess (rad).
-    pub clamped: Vec<(String, usize, f64)>,
+    /// DOF, fraction of frames clamped, largest excess (rad).
+    pub clamped: Vec<(String, f64, f64)>,
     /// Mean speed of planted feet before and after locking, m/s.
     pub foot_slide_mps: [f64; 2],
     /// Frames bridged.
@@ -569,4 +575,52 @@ pub struct ReadingReport {
     pub phases: Vec<(bool, f64, f64)>,
     /// Anything else.
     pub warnings: Vec<String>,
+}
+
+/// What an offline simulation is asked for.
+#[derive(Clone, Debug)]
+pub struct SimulationSettings {
+    /// The figure.
+    pub figure: FigureSettings,
+    /// Ticks per second.
+    pub rate_hz: f64,
+    /// Substeps per tick.
+    pub substeps: u32,
+    /// How long, s; `None`: the length of the clip.
+    pub duration: Option<f64>,
+    /// Repeat the clip.
+    pub looped: bool,
+    /// Disturbances by time, s.
+    pub disturbances: Vec<(f64, Disturbance)>,
+    /// Frames wanted.
+    pub view: Option<ViewSpec>,
+}
+
+/// Figures of merit of a simulation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SimulationSummary {
+    /// Ticks.
+    pub ticks: u64,
+    /// Ticks per second.
+    pub rate_hz: f64,
+    /// When the figure fell, s.
+    pub fell_at: Option<f64>,
+    /// Root mean square of the joint errors, rad.
+    pub joint_rms: f64,
+    /// Largest joint error, rad.
+    pub joint_max: f64,
+    /// Largest torque relative to the torque available.
+    pub utilisation: f64,
+    /// Largest violation of the strength.
+    pub over_limit: f64,
+    /// Time at the limit per DOF, s.
+    pub saturated: Vec<f64>,
+    /// Least margin, m.
+    pub margin: Option<f64>,
+    /// Largest penetration, m.
+    pub penetration: f64,
+    /// State hash at the end.
+    pub hash: u64,
+    /// Median and p99 of the time of a tick, µs.
+    pub tick_us: [f64; 2],
 }

@@ -28,7 +28,7 @@ pub const NAMED: [(&str, Profile); 2] = [
             sex: Sex::Female,
             age: 30.0,
             height: 1.63,
-            mass: 61.0,
+            mass: 62.0,
         },
     ),
 ];
@@ -172,7 +172,13 @@ pub fn describe(id: &str, body: &Body, geometry: bool) -> pb::Body {
         };
         if geometry {
             out.mesh_vertices_m = flat(&s.mesh.vertices);
-            out.mesh_triangles = s.mesh.triangles.iter().flatten().map(|v| *v as i32).collect();
+            out.mesh_triangles = s
+                .mesh
+                .triangles
+                .iter()
+                .flatten()
+                .map(|v| *v as i32)
+                .collect();
         }
         out
     };

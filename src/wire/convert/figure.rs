@@ -13,7 +13,10 @@ pub fn controller(field: &str, value: i32) -> Result<ControllerKind, Fault> {
         Ok(pb::Controller::Unspecified | pb::Controller::Paper) => Ok(ControllerKind::Paper),
         Ok(pb::Controller::Motors) => Ok(ControllerKind::Motors),
         Ok(pb::Controller::Modern) => Ok(ControllerKind::Modern),
-        Err(_) => Err(Fault::invalid(field, format!("{value} is not a controller"))),
+        Err(_) => Err(Fault::invalid(
+            field,
+            format!("{value} is not a controller"),
+        )),
     }
 }
 
@@ -33,18 +36,15 @@ pub fn strength(field: &str, s: Option<&pb::StrengthScale>) -> Result<StrengthSc
     out.all = or_default(&format!("{field}.all"), s.all, 1.0, 0.01, 100.0)?;
     for (i, d) in s.dofs.iter().enumerate() {
         let at = |part: &str| format!("{field}.dofs[{i}].{part}");
-        let dof = DOF_NAMES
-            .iter()
-            .position(|n| *n == d.dof)
-            .ok_or_else(|| {
-                Fault::invalid(
-                    at("dof"),
-                    format!(
-                        "must be a DOF name as GetBody lists it, got {:?}",
-                        clip_text(&d.dof)
-                    ),
-                )
-            })?;
+        let dof = DOF_NAMES.iter().position(|n| *n == d.dof).ok_or_else(|| {
+            Fault::invalid(
+                at("dof"),
+                format!(
+                    "must be a DOF name as GetBody lists it, got {:?}",
+                    clip_text(&d.dof)
+                ),
+            )
+        })?;
         out.dof[dof] = within(&at("factor"), d.factor, 0.01, 100.0)?;
     }
     Ok(out)
@@ -70,11 +70,17 @@ pub fn settings(field: &str, f: Option<&pb::Figure>) -> Result<FigureSettings, F
 }
 
 /// Changes of a figure.
-pub fn update(f: &pb::Figure, mask: Option<&prost_types::FieldMask>) -> Result<FigureUpdate, Fault> {
+pub fn update(
+    f: &pb::Figure,
+    mask: Option<&prost_types::FieldMask>,
+) -> Result<FigureUpdate, Fault> {
     let mut out = FigureUpdate::default();
     let paths = mask.map(|m| m.paths.as_slice()).unwrap_or_default();
     if paths.is_empty() {
-        return Err(Fault::invalid("update_mask", "must name at least one field"));
+        return Err(Fault::invalid(
+            "update_mask",
+            "must name at least one field",
+        ));
     }
     for (i, path) in paths.iter().enumerate() {
         match path.as_str() {

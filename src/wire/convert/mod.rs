@@ -4,6 +4,8 @@ pub mod body;
 pub mod figure;
 pub mod motion;
 pub mod perturbation;
+pub mod server;
+pub mod simulation;
 pub mod state;
 pub mod world;
 
@@ -173,7 +175,12 @@ pub(crate) fn clip_text(text: &str) -> &str {
     }
 }
 
-fn last_part<'a>(field: &str, name: &'a str, pattern: &str, prefix: &str) -> Result<&'a str, Fault> {
+fn last_part<'a>(
+    field: &str,
+    name: &'a str,
+    pattern: &str,
+    prefix: &str,
+) -> Result<&'a str, Fault> {
     match name.strip_prefix(prefix) {
         Some(rest) if !rest.is_empty() && !rest.contains('/') => Ok(rest),
         _ => Err(Fault::invalid(

@@ -7,7 +7,9 @@ use super::super::types::{
     BvhReading, ClipInfo, Delay, DriveOpen, DriveSettings, Feedback, FigureSample, MotionSample,
     MotionSource, Playback, ReadingReport, Supply,
 };
-use super::{WORLD_EXTENT, clip_text, client_id, or_default, place, rotation, timestamp, vector, within};
+use super::{
+    WORLD_EXTENT, client_id, clip_text, or_default, place, rotation, timestamp, vector, within,
+};
 use crate::sim::body::angles::set_anatomical_angles;
 use crate::sim::body::topology::PARENT;
 use crate::sim::body::{DOF_COUNT, NV, Posture, SEGMENT_COUNT};
@@ -20,12 +22,7 @@ pub const MAX_DRIVEN_FIGURES: usize = 64;
 /// Most frames of a clip given as frames: 20 minutes at 120 Hz.
 pub const MAX_CLIP_FRAMES: usize = 144_000;
 
-fn optional(
-    field: &str,
-    value: Option<f64>,
-    least: f64,
-    most: f64,
-) -> Result<Option<f64>, Fault> {
+fn optional(field: &str, value: Option<f64>, least: f64, most: f64) -> Result<Option<f64>, Fault> {
     value.map(|v| within(field, v, least, most)).transpose()
 }
 
@@ -195,7 +192,11 @@ pub fn drive_open(field: &str, h: &pb::DriveHeader) -> Result<DriveOpen, Fault> 
 }
 
 /// Desired motion of one figure.
-pub fn figure_sample(field: &str, slot: usize, m: &pb::FigureMotion) -> Result<FigureSample, Fault> {
+pub fn figure_sample(
+    field: &str,
+    slot: usize,
+    m: &pb::FigureMotion,
+) -> Result<FigureSample, Fault> {
     let at = |part: &str| format!("{field}.{part}");
     let mut posture = Posture::default();
     if let Some(root) = &m.root {
@@ -287,7 +288,10 @@ fn bone_rotations(field: &str, m: &pb::FigureMotion, posture: &mut Posture) -> R
             )
         })?;
         if given[s].is_some() {
-            return Err(Fault::invalid(at("bone"), format!("{} is given twice", b.bone)));
+            return Err(Fault::invalid(
+                at("bone"),
+                format!("{} is given twice", b.bone),
+            ));
         }
         let q = b
             .rotation
@@ -436,13 +440,16 @@ pub fn report_out(r: &ReadingReport) -> pb::RetargetReport {
         mapped: r
             .mapped
             .iter()
-            .map(|(bone, joint)| pb::BoneMapping {
+            .map(|(bone, joints)| pb::BoneMapping {
                 bone: bone.clone(),
-                joint: joint.clone(),
+                joints: joints.clone(),
             })
             .collect(),
         missing_bones: r.missing.clone(),
-        unused_joints: r.unused.clone(),
+        by_structure: r.by_structure,
+        sides_swapped: r.sides_swapped,
+        scale: r.scale,
+        source_rate_hz: r.source_rate_hz,
         unit_m: r.unit_m,
         up_axis: r.up_axis.clone(),
         stature_m: r.stature_m,
@@ -450,9 +457,9 @@ pub fn report_out(r: &ReadingReport) -> pb::RetargetReport {
         clamped: r
             .clamped
             .iter()
-            .map(|(dof, n, most)| pb::ClampedAngle {
+            .map(|(dof, fraction, most)| pb::ClampedAngle {
                 dof: dof.clone(),
-                frame_count: *n as i32,
+                fraction: *fraction,
                 max_excess_rad: *most,
             })
             .collect(),
@@ -569,7 +576,11 @@ mod tests {
             let mut world = [Quat::identity(); SEGMENT_COUNT];
             for s in 0..SEGMENT_COUNT {
                 let local = super::super::super::posture::joint_rotation(&by_angle.posture, s);
-                world[s] = if s == 0 { local } else { world[PARENT[s]] * local };
+                world[s] = if s == 0 {
+                    local
+                } else {
+                    world[PARENT[s]] * local
+                };
                 let q = if space == pb::RotationSpace::World {
                     world[s]
                 } else {

@@ -106,9 +106,10 @@ pub fn timed(list: &[pb::TimedPerturbation]) -> Result<Vec<(f64, Disturbance)>, 
         .map(|(i, t)| {
             let at = format!("perturbations[{i}]");
             let start = within(&format!("{at}.start_s"), t.start_s, 0.0, DAY)?;
-            let p = t.perturbation.as_ref().ok_or_else(|| {
-                Fault::invalid(format!("{at}.perturbation"), "must be given")
-            })?;
+            let p = t
+                .perturbation
+                .as_ref()
+                .ok_or_else(|| Fault::invalid(format!("{at}.perturbation"), "must be given"))?;
             Ok((start, disturbance(&format!("{at}.perturbation"), p)?))
         })
         .collect()

@@ -56,14 +56,14 @@ pub fn settings(w: Option<pb::World>) -> Result<WorldSettings, Fault> {
 }
 
 /// Changes of a world.
-pub fn update(
-    w: &pb::World,
-    mask: Option<&prost_types::FieldMask>,
-) -> Result<WorldUpdate, Fault> {
+pub fn update(w: &pb::World, mask: Option<&prost_types::FieldMask>) -> Result<WorldUpdate, Fault> {
     let mut out = WorldUpdate::default();
     let paths = mask.map(|m| m.paths.as_slice()).unwrap_or_default();
     if paths.is_empty() {
-        return Err(Fault::invalid("update_mask", "must name at least one field"));
+        return Err(Fault::invalid(
+            "update_mask",
+            "must name at least one field",
+        ));
     }
     for (i, path) in paths.iter().enumerate() {
         match path.as_str() {
@@ -75,13 +75,8 @@ pub fn update(
                 out.overrun = Some(overrun("world.overrun_policy", w.overrun_policy, 5)?)
             }
             "catch_up_limit" => {
-                out.catch_up_limit = Some(count(
-                    "world.catch_up_limit",
-                    w.catch_up_limit,
-                    5,
-                    1,
-                    100,
-                )?);
+                out.catch_up_limit =
+                    Some(count("world.catch_up_limit", w.catch_up_limit, 5, 1, 100)?);
             }
             other => {
                 return Err(Fault::invalid(

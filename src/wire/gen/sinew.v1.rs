@@ -68,7 +68,7 @@ pub struct Numbers {
     #[prost(float, tag = "4")]
     pub scale: f32,
 }
-/// Where a clip or stream came from does not matter to the simulation; how its bones and scale were understood does.
+/// How a motion capture file was understood.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct RetargetReport {
     /// One row per segment of the body that has a counterpart in the file.
@@ -77,13 +77,13 @@ pub struct RetargetReport {
     /// Canonical bone names (VRM) of segments without a counterpart; they hold their neutral angle.
     #[prost(string, repeated, tag = "2")]
     pub missing_bones: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
-    /// Names of joints in the file that nothing uses.
-    #[prost(string, repeated, tag = "3")]
-    pub unused_joints: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
+    /// True if bones were found by the shape of the skeleton because their names said too little.
+    #[prost(bool, tag = "3")]
+    pub by_structure: bool,
     /// Length of one file unit, m.
     #[prost(double, tag = "4")]
     pub unit_m: f64,
-    /// File axis that points up, for example `+y`.
+    /// File axis that points up, for example `y`.
     #[prost(string, tag = "5")]
     pub up_axis: ::prost::alloc::string::String,
     /// Stature of the captured person at that unit, m.
@@ -113,19 +113,25 @@ pub struct RetargetReport {
     /// Frames that were dropped at the start because they hold a calibration pose.
     #[prost(int32, tag = "14")]
     pub dropped_frame_count: i32,
-    /// The whole report as JSON text, with figures that have no field of their own here.
-    #[prost(string, tag = "15")]
-    pub json: ::prost::alloc::string::String,
+    /// Factor by which the motion of the pelvis was scaled to the body.
+    #[prost(double, tag = "15")]
+    pub scale: f64,
+    /// Frames per second of the file.
+    #[prost(double, tag = "16")]
+    pub source_rate_hz: f64,
+    /// True if left and right were found to be swapped by name.
+    #[prost(bool, tag = "17")]
+    pub sides_swapped: bool,
 }
-/// One joint of the file that drives one segment.
+/// The joints of the file that drive one segment.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct BoneMapping {
     /// Canonical bone name (VRM), for example `leftUpperArm`.
     #[prost(string, tag = "1")]
     pub bone: ::prost::alloc::string::String,
-    /// Joint of the file.
-    #[prost(string, tag = "2")]
-    pub joint: ::prost::alloc::string::String,
+    /// Joints of the file, from parent to child; their rotations are composed.
+    #[prost(string, repeated, tag = "2")]
+    pub joints: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
 }
 /// How much of one angle was beyond the body's limit.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -133,9 +139,9 @@ pub struct ClampedAngle {
     /// DOF name as `GetBody` lists it, for example `l_knee_flexion`.
     #[prost(string, tag = "1")]
     pub dof: ::prost::alloc::string::String,
-    /// Number of frames that were clamped.
-    #[prost(int32, tag = "2")]
-    pub frame_count: i32,
+    /// Fraction of the frames that were clamped, 0…1.
+    #[prost(double, tag = "2")]
+    pub fraction: f64,
     /// Largest excess, rad.
     #[prost(double, tag = "3")]
     pub max_excess_rad: f64,
@@ -4462,7 +4468,7 @@ pub struct View {
     /// How numbers are written.
     #[prost(enumeration = "Encoding", tag = "3")]
     pub encoding: i32,
-    /// Sends every n-th tick (those whose tick is a multiple of n), 1…1000. 0 or absent: 1. Streams only.
+    /// Sends one frame for every n ticks, 1…1000. 0 or absent: 1. Ignored by `GetWorldFrame`.
     #[prost(int32, tag = "4")]
     pub rate_divisor: i32,
 }

@@ -199,7 +199,7 @@ impl World {
                     segment: topology::L_FOOT,
                     vertex: 0,
                     position: Vec3::zero(),
-                    force: vec3(0.0, 0.0, 700.0),
+                    force: crate::sim::math::vec3::vec3(0.0, 0.0, 700.0),
                 }],
                 main_support: None,
                 support_ratio: [0.0; SEGMENT_COUNT],
@@ -275,6 +275,9 @@ impl Clip {
     pub fn planted(&self, _i: usize) -> [bool; 2] {
         [true; 2]
     }
+    pub fn sample_looped(&self, t: f64) -> Target {
+        self.sample(t % self.duration())
+    }
     pub fn sample(&self, t: f64) -> Target {
         let i = (t.max(0.0) * self.rate).min((self.len() - 1) as f64) as usize;
         Target::still(self.postures[i])
@@ -295,21 +298,7 @@ pub fn builtin(body: &Body, name: &str) -> Option<Clip> {
         .collect();
     Clip::from_postures(name, 60.0, postures, vec![]).ok()
 }
-pub struct Bvh {
-    frames: usize,
-}
-#[derive(Debug, thiserror::Error)]
-#[error("line 1: expected HIERARCHY")]
-pub struct BvhError;
-impl Bvh {
-    pub fn parse(bytes: &[u8]) -> Result<Bvh, BvhError> {
-        if bytes.starts_with(b"HIERARCHY") {
-            Ok(Bvh { frames: 240 })
-        } else {
-            Err(BvhError)
-        }
-    }
-}
+pub struct RetargetReport;
 #[derive(Default)]
 pub struct RetargetOptions {
     pub unit_m: Option<f64>,
@@ -320,10 +309,10 @@ pub struct RetargetOptions {
 }
 pub struct Retargeted {
     pub clip: Clip,
-    pub report: String,
+    pub report: RetargetReport,
 }
 pub fn retarget(bvh: &Bvh, body: &Body, _o: &RetargetOptions) -> Result<Retargeted, ClipError> {
-    let postures = (0..bvh.frames)
+    let postures = (0..bvh.frame_count)
         .map(|i| {
             let mut p = Posture::default();
             p.root_position.z = body.standing_root_height();
@@ -333,40 +322,7 @@ pub fn retarget(bvh: &Bvh, body: &Body, _o: &RetargetOptions) -> Result<Retarget
         .collect();
     Ok(Retargeted {
         clip: Clip::from_postures("bvh", 120.0, postures, vec![])?,
-        report: String::new(),
-    })
-}
-pub fn humanoid(profile: Profile) -> Result<Body, model::BodyError> {
-    if !(1.4..=2.1).contains(&profile.height) {
-        return Err(model::BodyError::Profile {
-            field: "height_m",
-            value: profile.height,
-            lower: 1.4,
-            upper: 2.1,
-        });
-    }
-    let seg = |_| Segment {
-        mass: profile.mass / 18.0,
-        com: Vec3::zero(),
-        inertia: Sym3 {
-            xx: 0.1,
-            yy: 0.1,
-            zz: 0.1,
-            xy: 0.0,
-            xz: 0.0,
-            yz: 0.0,
-        },
-        mesh: Mesh::default(),
-        contact_points: vec![vec3(0.0, 0.0, -0.05)],
-        tip: vec3(0.0, 0.0, -0.2),
-    };
-    Ok(Body {
-        profile,
-        segments: (0..SEGMENT_COUNT).map(seg).collect(),
-        joint_offset: std::array::from_fn(|_| vec3(0.0, 0.0, -0.3)),
-        lower: [-3.0; DOF_COUNT],
-        upper: [3.0; DOF_COUNT],
-        armature: [0.0; DOF_COUNT],
+        report: RetargetReport,
     })
 }
 pub fn mjcf(_b: &Body) -> String {
