@@ -1,6 +1,8 @@
 //! Goal: the BVH reader places every joint of all 18 real clips where an independent reader put it.
 //! Method: `expected.json` beside the clips holds joint positions of four frames each, rounded to five decimals.
 
+#![allow(clippy::unwrap_used)]
+
 use sinew::sim::motion::bvh::Bvh;
 use std::path::PathBuf;
 
