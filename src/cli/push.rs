@@ -121,6 +121,7 @@ async fn push(args: &Args) -> anyhow::Result<()> {
         clip.duration()
     );
 
+    let placing = engine::placing(start, place);
     let began = Instant::now();
     let mut sequence = 0i64;
     let mut told = Instant::now();
@@ -135,7 +136,7 @@ async fn push(args: &Args) -> anyhow::Result<()> {
         } else {
             clip.sample(t)
         };
-        let target = engine::moved(target, start, place);
+        let target = placing.apply(&target);
         let due = began + Duration::from_secs_f64(t);
         tokio::time::sleep_until(due.into()).await;
         let frame = pb::MotionFrame {

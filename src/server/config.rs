@@ -172,8 +172,6 @@ settings! {
     max_clip_total_bytes: int = 536_870_912, 1024, 1_099_511_627_776;
     /// Bodies that are kept ready.
     max_bodies: int = 128, 2, 10_000;
-    /// Perturbations that one figure holds or waits for.
-    max_perturbations_per_figure: int = 256, 1, 100_000;
     /// Requests that wait for the next tick of one world.
     command_queue: int = 1024, 16, 1_000_000;
     /// Ticks of one world that are held for late readers.

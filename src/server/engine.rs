@@ -3,10 +3,13 @@
 //! Everything else of the server goes through the types and functions that are named here, so that the seam between clock and physics
 //! is one file.
 
-use crate::sim::body::{Body, DOF_COUNT, Posture, SegmentId, State, topology};
-use crate::sim::figure::{ControlParams, ControllerKind, Perturbation, StepperKind};
+use crate::sim::body::topology::{self, BONE_NAMES, SEGMENT_NAMES};
+use crate::sim::body::{Body, DOF_COUNT, Posture, SegmentId, State};
+use crate::sim::figure::loads::MAX_PERTURBATIONS;
+use crate::sim::figure::{ControlParams, ControllerKind, Perturbation, StrengthScale};
 use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::{Bvh, Target};
+use crate::sim::motion::{Bvh, PlanarTransform, RetargetOptions, Target, UpAxis};
+use crate::sim::world::{FigureSetup, WorldError, WorldParams};
 use crate::wire::status::Fault;
 use crate::wire::types::{
     BvhReading, Disturbance, EventKind, FigureSettings, FigureSnapshot, MotionSource, Place,
@@ -14,10 +17,9 @@ use crate::wire::types::{
 };
 use std::sync::Arc;
 
-pub use crate::server::fake::{
-    BUILTIN_NAMES, Clip, ClipPlayback, Drive, Figure, FigureEvent, FigureKey, World,
-};
-use crate::server::fake::{FigureSetup, PlanarTransform, RetargetOptions, WorldParams};
+pub use super::fake::BUILTIN_NAMES;
+pub use crate::sim::motion::Clip;
+pub use crate::sim::world::{ClipPlayback, Drive, Figure, FigureEvent, FigureKey, World};
 
 /// Builds a body; the fault names the field of the profile that its tables do not cover.
 pub fn build_body(profile: crate::sim::body::Profile) -> Result<Body, Fault> {
@@ -86,23 +88,73 @@ pub fn prepare(
     }
 }
 
-/// Retargets a file to a body.
+/// Retargets a file to a body. The clip keeps the place and heading of the recording.
 ///
 /// # Errors
 /// A sentence that names bone, frame or figure of what cannot be used.
 pub fn retarget(
-    _name: &str,
+    name: &str,
     bvh: &Bvh,
     reading: &BvhReading,
     body: &Body,
 ) -> Result<(Clip, ReadingReport), String> {
+    let defaults = RetargetOptions::default();
     let options = RetargetOptions {
+        name: name.to_owned(),
         unit_m: reading.unit_m,
+        up: reading.z_up.map(|z| if z { UpAxis::Z } else { UpAxis::Y }),
         rate_hz: reading.rate_hz,
-        ..Default::default()
+        floor: reading.floor.unwrap_or(defaults.floor),
+        lock_feet: reading.lock_feet.unwrap_or(defaults.lock_feet),
+        cutoff_hz: reading.cutoff_hz.unwrap_or(defaults.cutoff_hz),
+        ..defaults
     };
-    let out = crate::server::fake::retarget(bvh, body, &options).map_err(|e| e.to_string())?;
-    Ok((out.clip, ReadingReport::default()))
+    let out = crate::sim::motion::retarget(bvh, body, &options).map_err(|e| e.to_string())?;
+    let r = out.report;
+    let bone = |segment: &str| {
+        let i = SEGMENT_NAMES.iter().position(|s| *s == segment);
+        i.map_or(segment, |i| BONE_NAMES[i]).to_owned()
+    };
+    let report = ReadingReport {
+        mapped: r
+            .mapped
+            .iter()
+            .map(|m| (bone(m.segment), m.bones.clone()))
+            .collect(),
+        missing: r.missing.iter().map(|s| bone(s)).collect(),
+        by_structure: r.by_structure,
+        sides_swapped: r.sides_swapped,
+        unit_m: r.unit_m,
+        up_axis: match r.up {
+            UpAxis::Y => "y",
+            UpAxis::Z => "z",
+        }
+        .to_owned(),
+        stature_m: r.stature,
+        scale: r.scale,
+        source_rate_hz: r.source_rate_hz,
+        floor_offset_m: r.floor_offset,
+        clamped: r
+            .clamped
+            .iter()
+            .map(|c| (c.dof.to_owned(), c.fraction, c.max))
+            .collect(),
+        foot_slide_m: [r.foot_slide.0, r.foot_slide.1],
+        bridged: r.bridged.iter().map(|b| b.count).sum(),
+        dropped: r.skipped_frames,
+        phases: r
+            .phases
+            .iter()
+            .flat_map(|p| {
+                [(true, p.planted[0]), (false, p.planted[1])]
+                    .into_iter()
+                    .filter(|(_, down)| *down)
+                    .map(|(left, _)| (left, p.start, p.end))
+            })
+            .collect(),
+        warnings: r.warnings,
+    };
+    Ok((out.clip, report))
 }
 
 /// Lowest point of each foot (left, right) in a posture, with its world position.
@@ -181,6 +233,22 @@ pub fn place_of(posture: &Posture) -> Place {
     }
 }
 
+/// A refusal of the physics, with the place of its input in the request.
+fn refused(prefix: &str, e: &WorldError) -> Fault {
+    match e {
+        WorldError::Range { field, .. } | WorldError::Interval { field, .. } => {
+            Fault::invalid(format!("{prefix}.{field}"), e.to_string())
+        }
+        WorldError::TooManyPerturbations => Fault::Exhausted {
+            limit: "max_perturbations_per_figure",
+            value: MAX_PERTURBATIONS as u64,
+            message: e.to_string(),
+            retry: None,
+        },
+        WorldError::UnknownFigure(_) => Fault::Internal(e.to_string()),
+    }
+}
+
 /// A world with these settings.
 pub fn new_world(s: &WorldSettings) -> Result<World, Fault> {
     World::new(WorldParams {
@@ -190,22 +258,51 @@ pub fn new_world(s: &WorldSettings) -> Result<World, Fault> {
         friction: s.friction,
         threads: 1,
     })
-    .map_err(|e| Fault::invalid("world", e.to_string()))
+    .map_err(|e| refused("world", &e))
 }
 
-/// Faults of a controller or stepper that this build does not have.
-pub fn check_available(controller: ControllerKind, stepper: StepperKind) -> Result<(), Fault> {
-    if controller == ControllerKind::Modern {
-        return Err(Fault::Unimplemented("CONTROLLER_MODERN".into()));
+/// Schedules a perturbation.
+pub fn perturb(world: &mut World, key: FigureKey, p: Perturbation) -> Result<(), Fault> {
+    world
+        .perturb(key, p)
+        .map_err(|e| refused("perturbations", &e))
+}
+
+/// Room for perturbations that a figure has left.
+pub fn perturbation_room(figure: &Figure) -> usize {
+    MAX_PERTURBATIONS.saturating_sub(figure.perturbations().count())
+}
+
+/// Puts a figure into a state. Speeds that no body reaches are cut.
+pub fn reset(world: &mut World, key: FigureKey, mut state: State) -> Result<(), Fault> {
+    const FASTEST: f64 = 200.0;
+    for v in &mut state.velocity {
+        *v = v.clamp(-FASTEST, FASTEST);
     }
-    if stepper == StepperKind::Kinematic {
-        return Err(Fault::Unimplemented("STEPPER_KINEMATIC".into()));
-    }
-    Ok(())
+    world
+        .reset_figure(key, state)
+        .map_err(|e| refused("figure", &e))
+}
+
+/// Changes strength and controller.
+pub fn retune(
+    world: &mut World,
+    key: FigureKey,
+    strength: StrengthScale,
+    controller: ControllerKind,
+) -> Result<(), Fault> {
+    world
+        .retune_figure(key, strength, controller, ControlParams::default())
+        .map_err(|e| refused("figure", &e))
 }
 
 /// Names of the controllers and steppers that work in this build.
-pub const CAPABILITIES: [&str; 3] = ["CONTROLLER_PAPER", "CONTROLLER_MOTORS", "STEPPER_TORQUE"];
+pub const CAPABILITIES: [&str; 4] = [
+    "CONTROLLER_PAPER",
+    "CONTROLLER_MODERN",
+    "CONTROLLER_MOTORS",
+    "STEPPER_TORQUE",
+];
 
 /// Adds a figure, standing still at its place.
 pub fn add_figure(
@@ -228,59 +325,43 @@ pub fn add_figure(
             state,
             name: id.to_owned(),
         })
-        .map_err(|e| Fault::invalid("figure", e.to_string()))
+        .map_err(|e| refused("figure", &e))
 }
 
 /// Where a clip has to be moved so that it begins at a place.
 pub fn playback(clip: Arc<Clip>, start: f64, speed: f64, looped: bool, at: Place) -> ClipPlayback {
-    let first = place_of(clip.posture(0));
-    // The clip's own start goes to the place: p ↦ R(yaw) p + t.
-    let yaw = at.yaw - first.yaw;
-    let (s, c) = yaw.sin_cos();
+    let origin = placing(place_of(clip.posture(0)), at);
     ClipPlayback {
         clip,
         start,
         speed,
         looped,
-        origin: PlanarTransform {
-            x: at.x - (c * first.x - s * first.y),
-            y: at.y - (s * first.x + c * first.y),
-            yaw,
-        },
+        origin,
     }
 }
 
-/// A target of a motion that begins at `from`, moved so that it begins at `to`.
-pub fn moved(mut target: Target, from: Place, to: Place) -> Target {
-    let turn = Quat::from_axis_angle(Vec3::Z, to.yaw - from.yaw);
-    let p = &mut target.posture;
-    let offset = turn.rotate(Vec3 {
-        x: p.root_position.x - from.x,
-        y: p.root_position.y - from.y,
-        z: p.root_position.z,
-    });
-    p.root_position = Vec3 {
-        x: to.x + offset.x,
-        y: to.y + offset.y,
-        z: offset.z,
+/// What moves a motion that begins at `from` so that it begins at `to`.
+pub fn placing(from: Place, to: Place) -> PlanarTransform {
+    let turn = PlanarTransform {
+        x: 0.0,
+        y: 0.0,
+        yaw: to.yaw - from.yaw,
     };
-    p.root_rotation = (turn * p.root_rotation).normalized();
-    for rates in [&mut target.velocity, &mut target.acceleration] {
-        for part in [0, 3] {
-            let v = Vec3 {
-                x: rates[part],
-                y: rates[part + 1],
-                z: rates[part + 2],
-            };
-            rates[part..part + 3].copy_from_slice(&turn.rotate(v).to_array());
-        }
+    let turned = turn.point(Vec3 {
+        x: from.x,
+        y: from.y,
+        z: 0.0,
+    });
+    PlanarTransform {
+        x: to.x - turned.x,
+        y: to.y - turned.y,
+        yaw: turn.yaw,
     }
-    target
 }
 
 /// First state of a clip that begins at a place.
 pub fn first_state(clip: &Clip, at: Place) -> State {
-    let target = moved(clip.sample(0.0), place_of(clip.posture(0)), at);
+    let target: Target = placing(place_of(clip.posture(0)), at).apply(&clip.sample(0.0));
     State {
         posture: target.posture,
         velocity: target.velocity,
@@ -337,19 +418,16 @@ pub fn event_kind(e: &FigureEvent) -> EventKind {
         FigureEvent::BalanceLost => EventKind::BalanceLost,
         FigureEvent::Recovered => EventKind::Recovered,
         FigureEvent::Fell => EventKind::Fell,
+        FigureEvent::GotUp => EventKind::GotUp,
         FigureEvent::LoadTaken { segment, mass } => EventKind::LoadTaken(segment, mass),
         FigureEvent::LoadDropped { segment, mass } => EventKind::LoadDropped(segment, mass),
         FigureEvent::Quarantined => EventKind::Quarantined,
     }
 }
 
-/// What a figure looks like now; the loads are those of `carried` that act at world time `time`.
-pub fn snapshot(
-    figure: &Figure,
-    carried: &[Perturbation],
-    time: f64,
-    applied: (i64, i64),
-) -> FigureSnapshot {
+/// What a figure looks like after the tick that began at world time `start`; its loads are those of that tick.
+pub fn snapshot(figure: &Figure, start: f64, dt: f64, applied: (i64, i64)) -> FigureSnapshot {
+    let soon = start + 1e-9 * dt; // as the physics has it: times on a tick boundary belong to that tick
     FigureSnapshot {
         body: figure.body().clone(),
         state: *figure.state(),
@@ -357,8 +435,8 @@ pub fn snapshot(
         desired: figure.target().next.clone(),
         applied_sequence: applied.0,
         applied_source_ns: applied.1,
-        loads: carried
-            .iter()
+        loads: figure
+            .perturbations()
             .filter_map(|p| match *p {
                 Perturbation::Load {
                     segment,
@@ -366,7 +444,7 @@ pub fn snapshot(
                     mass,
                     from,
                     to,
-                } if mass > 0.0 && from <= time && time < to => Some((segment, point, mass)),
+                } if from <= soon && soon < to => Some((segment, point, mass)),
                 _ => None,
             })
             .collect(),

@@ -4,7 +4,7 @@ use super::engine::{self, Clip, Drive};
 use super::tick::stage_times::percentiles;
 use super::workers::Cancelled;
 use crate::sim::body::{Body, DOF_COUNT};
-use crate::sim::figure::{Flags, Perturbation, TickReport};
+use crate::sim::figure::{Flags, TickReport};
 use crate::wire::frame::world_frame;
 use crate::wire::pb;
 use crate::wire::status::Fault;
@@ -99,7 +99,6 @@ pub fn run(
             retry: None,
         });
     }
-    engine::check_available(s.figure.controller, s.figure.stepper)?;
     let mut world = engine::new_world(&WorldSettings {
         rate_hz: s.rate_hz,
         substeps: s.substeps,
@@ -113,22 +112,17 @@ pub fn run(
         },
     })?;
     let key = engine::add_figure(&mut world, "figure", &s.figure, body.clone())?;
-    let perturbations: Vec<Perturbation> = s
-        .disturbances
-        .iter()
-        .map(|(from, what)| engine::perturbation(body, what, *from))
-        .collect();
     let place = engine::place_of(clip.posture(0));
     let figure = world.figure_mut(key).expect("it was just added");
-    figure.reset(engine::first_state(&clip, place));
-    for (i, p) in perturbations.iter().enumerate() {
-        figure
-            .add_perturbation(*p)
-            .map_err(|e| Fault::invalid(format!("perturbations[{i}]"), e.to_string()))?;
-    }
+    let state = engine::first_state(&clip, place);
     figure.set_drive(Drive::Clip(engine::playback(
         clip, 0.0, 1.0, s.looped, place,
     )));
+    engine::reset(&mut world, key, state)?;
+    for (from, what) in &s.disturbances {
+        let p = engine::perturbation(body, what, *from);
+        engine::perturb(&mut world, key, p)?;
+    }
 
     let ticks = ((duration * s.rate_hz).round() as u64).max(1);
     let roster: Arc<[RosterEntry]> = Arc::new([RosterEntry {
@@ -181,7 +175,7 @@ pub fn run(
                 server_ns: 0,
                 roster_version: 1,
                 roster: roster.clone(),
-                figures: vec![engine::snapshot(figure, &perturbations, before, (-1, 0))],
+                figures: vec![engine::snapshot(figure, before, world.dt(), (-1, 0))],
             };
             let frame = world_frame(&snapshot, view);
             bytes += frame.encoded_len() as u64;

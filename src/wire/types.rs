@@ -440,6 +440,8 @@ pub enum EventKind {
     Recovered,
     /// The figure fell.
     Fell,
+    /// The figure stands again after a fall.
+    GotUp,
     /// A load was taken: segment, kg.
     LoadTaken(SegmentId, f64),
     /// A load was dropped: segment, kg.
@@ -565,8 +567,8 @@ pub struct ReadingReport {
     pub floor_offset_m: f64,
     /// DOF, fraction of frames clamped, largest excess (rad).
     pub clamped: Vec<(String, f64, f64)>,
-    /// Mean speed of planted feet before and after locking, m/s.
-    pub foot_slide_mps: [f64; 2],
+    /// Largest distance of a planted foot from its place, as recorded and as prepared, m.
+    pub foot_slide_m: [f64; 2],
     /// Frames bridged.
     pub bridged: usize,
     /// Calibration frames dropped at the start.

@@ -5,7 +5,7 @@ use super::clock::Clock;
 use super::drives::{Drive, Slot};
 use crate::server::engine::{self, Clip, Drive as Motion, FigureKey, World};
 use crate::sim::body::{Body, State};
-use crate::sim::figure::Perturbation;
+use crate::sim::figure::loads::MAX_PERTURBATIONS;
 use crate::wire::status::Fault;
 use crate::wire::types::{
     DriveOpen, EventKind, Feedback, FigureDisturbance, FigureInfo, FigureSettings, FigureUpdate,
@@ -21,8 +21,6 @@ use std::time::{Instant, SystemTime};
 pub struct Limits {
     /// Figures.
     pub figures: u64,
-    /// Perturbations per figure.
-    pub perturbations: u64,
     /// Ticks that are held.
     pub history: usize,
 }
@@ -33,7 +31,6 @@ struct Member {
     index: i32,
     settings: FigureSettings,
     clip: Option<String>,
-    perturbations: Vec<Perturbation>,
 }
 
 /// Steps that a client waits for.
@@ -68,12 +65,6 @@ pub struct Shard {
     /// What viewers see changed without a tick.
     pub(super) changed: bool,
     pub(super) closing: bool,
-}
-
-fn until(p: &Perturbation) -> f64 {
-    match *p {
-        Perturbation::Load { to, .. } | Perturbation::Force { to, .. } => to,
-    }
 }
 
 impl Shard {
@@ -322,7 +313,6 @@ impl Shard {
                 .find(|id| self.member(id).is_err())
                 .expect("there is a free number"),
         };
-        engine::check_available(settings.controller, settings.stepper)?;
         let key = engine::add_figure(&mut self.world, &id, &settings, body)?;
         self.members.push(Member {
             id: id.clone(),
@@ -330,7 +320,6 @@ impl Shard {
             index: self.next_index,
             settings,
             clip: None,
-            perturbations: Vec::new(),
         });
         self.next_index += 1;
         self.roster_changed();
@@ -343,19 +332,11 @@ impl Shard {
         self.working()?;
         let i = self.member(figure)?;
         let m = &mut self.members[i];
-        if let Some(controller) = u.controller {
-            engine::check_available(controller, m.settings.stepper)?;
-        }
-        let f = self
-            .world
-            .figure_mut(m.key)
-            .expect("members are in the world");
-        if let Some(controller) = u.controller {
-            f.set_controller(controller);
+        if u.controller.is_some() || u.strength.is_some() {
+            let controller = u.controller.unwrap_or(m.settings.controller);
+            let strength = u.strength.unwrap_or_else(|| m.settings.strength.clone());
+            engine::retune(&mut self.world, m.key, strength.clone(), controller)?;
             m.settings.controller = controller;
-        }
-        if let Some(strength) = u.strength {
-            f.set_strength(strength.clone());
             m.settings.strength = strength;
         }
         if let Some(name) = u.display_name {
@@ -399,12 +380,12 @@ impl Shard {
             .expect("members are in the world");
         let posture = engine::standing(f.body(), place.unwrap_or(m.settings.place));
         f.clear_perturbations();
-        f.reset(State {
+        f.set_drive(Motion::Hold(posture));
+        let state = State {
             posture,
             ..State::default()
-        });
-        f.set_drive(Motion::Hold(posture));
-        m.perturbations.clear();
+        };
+        engine::reset(&mut self.world, m.key, state)?;
         m.clip = None;
         self.changed = true;
         self.figure(figure)
@@ -438,36 +419,23 @@ impl Shard {
                 }
                 Some(at) => at as f64 * dt,
             };
-            let waiting = self.members[i]
-                .perturbations
-                .iter()
-                .filter(|p| until(p) > now)
-                .count()
-                + plan.iter().filter(|(j, _)| *j == i).count();
-            if waiting as u64 >= self.limits.perturbations {
+            let f = self
+                .world
+                .figure(self.members[i].key)
+                .expect("members are in the world");
+            let planned = plan.iter().filter(|(j, _)| *j == i).count();
+            if planned >= engine::perturbation_room(f) {
                 return Err(Fault::Exhausted {
                     limit: "max_perturbations_per_figure",
-                    value: self.limits.perturbations,
+                    value: MAX_PERTURBATIONS as u64,
                     message: format!("one more perturbation of figure {:?}", d.figure),
                     retry: None,
                 });
             }
-            let body = self
-                .world
-                .figure(self.members[i].key)
-                .expect("members are in the world")
-                .body();
-            plan.push((i, engine::perturbation(body, &d.what, from)));
+            plan.push((i, engine::perturbation(f.body(), &d.what, from)));
         }
         for (i, p) in plan {
-            let m = &mut self.members[i];
-            self.world
-                .figure_mut(m.key)
-                .expect("members are in the world")
-                .add_perturbation(p)
-                .map_err(|e| Fault::invalid("perturbations", e.to_string()))?;
-            m.perturbations.retain(|p| until(p) > now);
-            m.perturbations.push(p);
+            engine::perturb(&mut self.world, self.members[i].key, p)?;
         }
         Ok(tick)
     }
@@ -476,10 +444,8 @@ impl Shard {
     pub fn clear_perturbations(&mut self, figure: &str) -> Result<u64, Fault> {
         self.working()?;
         let i = self.member(figure)?;
-        let m = &mut self.members[i];
-        m.perturbations.clear();
         self.world
-            .figure_mut(m.key)
+            .figure_mut(self.members[i].key)
             .expect("members are in the world")
             .clear_perturbations();
         Ok(self.world.tick())
@@ -515,13 +481,14 @@ impl Shard {
         let place = p
             .place
             .unwrap_or_else(|| engine::place_of(&f.state().posture));
-        if p.reset {
-            f.reset(engine::first_state(&clip, place));
-            self.changed = true;
-        }
+        let state = engine::first_state(&clip, place);
         f.set_drive(Motion::Clip(engine::playback(
             clip, start, p.speed, p.looped, place,
         )));
+        if p.reset {
+            engine::reset(&mut self.world, m.key, state)?;
+            self.changed = true;
+        }
         m.clip = Some(clip_id.to_owned());
         Ok(start)
     }
@@ -699,16 +666,19 @@ impl Shard {
         let time = self.world.time();
         for drive in &mut self.drives {
             for slot in &mut drive.slots {
-                let Some(f) = slot.key.and_then(|key| self.world.figure_mut(key)) else {
+                let Some(key) = slot.key else { continue };
+                let Some((pair, reset)) = slot.sample(time) else {
                     continue;
                 };
-                if let Some((pair, reset)) = slot.sample(time) {
-                    if reset {
-                        f.reset(State {
-                            posture: pair.now.posture,
-                            velocity: pair.now.velocity,
-                        });
-                    }
+                if reset {
+                    let state = State {
+                        posture: pair.now.posture,
+                        velocity: pair.now.velocity,
+                    };
+                    // What came over the wire was checked there, so there is nothing left to refuse.
+                    let _ = engine::reset(&mut self.world, key, state);
+                }
+                if let Some(f) = self.world.figure_mut(key) {
                     f.set_drive(Motion::External(Box::new(pair)));
                 }
             }
@@ -752,8 +722,8 @@ impl Shard {
 
     /// What the world looks like now; held for late readers.
     pub fn snapshot(&mut self) -> Arc<Snapshot> {
-        // Loads of the last tick, which is what its report is about: those that acted at its start.
-        let time = self.world.tick().saturating_sub(1) as f64 * self.world.dt();
+        // When the last tick began, which is what its report is about.
+        let start = self.world.tick().saturating_sub(1) as f64 * self.world.dt();
         let applied = |key: FigureKey| {
             self.drives
                 .iter()
@@ -767,7 +737,7 @@ impl Shard {
             .iter()
             .map(|m| {
                 let f = self.world.figure(m.key).expect("members are in the world");
-                engine::snapshot(f, &m.perturbations, time, applied(m.key))
+                engine::snapshot(f, start, self.world.dt(), applied(m.key))
             })
             .collect();
         let since = SystemTime::now()

@@ -201,7 +201,6 @@ impl Registry {
         let name: Arc<str> = id.as_str().into();
         let limits = Limits {
             figures: self.config.max_figures_per_world,
-            perturbations: self.config.max_perturbations_per_figure,
             history: self.config.history_ticks as usize,
         };
         let mut shard = Shard::new(name.clone(), settings, paused, limits)?;

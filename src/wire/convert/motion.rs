@@ -463,8 +463,8 @@ pub fn report_out(r: &ReadingReport) -> pb::RetargetReport {
                 max_excess_rad: *most,
             })
             .collect(),
-        foot_slide_before_mps: r.foot_slide_mps[0],
-        foot_slide_after_mps: r.foot_slide_mps[1],
+        foot_slide_before_m: r.foot_slide_m[0],
+        foot_slide_after_m: r.foot_slide_m[1],
         bridged_frame_count: r.bridged as i32,
         contact_phases: r
             .phases

@@ -103,6 +103,7 @@ fn event_type(kind: &EventKind) -> pb::EventType {
         EventKind::BalanceLost => pb::EventType::BalanceLost,
         EventKind::Recovered => pb::EventType::Recovered,
         EventKind::Fell => pb::EventType::Fell,
+        EventKind::GotUp => pb::EventType::GotUp,
         EventKind::LoadTaken(..) => pb::EventType::LoadTaken,
         EventKind::LoadDropped(..) => pb::EventType::LoadDropped,
         EventKind::Quarantined => pb::EventType::Quarantined,

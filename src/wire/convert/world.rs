@@ -43,9 +43,9 @@ pub fn settings(w: Option<pb::World>) -> Result<WorldSettings, Fault> {
             "world.gravity_mps2",
             w.gravity_mps2.unwrap_or(9.81),
             0.0,
-            100.0,
+            30.0,
         )?,
-        friction: within("world.friction", w.friction.unwrap_or(0.9), 0.0, 2.0)?,
+        friction: within("world.friction", w.friction.unwrap_or(0.9), 0.05, 2.0)?,
         pace: Pace {
             display_name: display_name("world.display_name", &w.display_name)?,
             overrun: overrun("world.overrun_policy", w.overrun_policy, catch_up_limit)?,

@@ -95,12 +95,12 @@ pub struct RetargetReport {
     /// DOFs that had to be clamped to the body's limits.
     #[prost(message, repeated, tag = "8")]
     pub clamped: ::prost::alloc::vec::Vec<ClampedAngle>,
-    /// Mean speed of planted feet before feet were locked, m/s.
+    /// Largest distance of a planted foot from its place as recorded, m.
     #[prost(double, tag = "9")]
-    pub foot_slide_before_mps: f64,
-    /// The same afterwards, m/s.
+    pub foot_slide_before_m: f64,
+    /// The same as prepared, m.
     #[prost(double, tag = "10")]
-    pub foot_slide_after_mps: f64,
+    pub foot_slide_after_m: f64,
     /// Frames that were bridged because a joint jumped.
     #[prost(int32, tag = "11")]
     pub bridged_frame_count: i32,
@@ -1107,7 +1107,7 @@ pub enum Controller {
     Unspecified = 0,
     /// The tracking controller of Oshita and Makinouchi 2000, with safeguards.
     Paper = 1,
-    /// Whole-body optimisation within strength and friction. UNIMPLEMENTED where the server lacks it.
+    /// Whole-body optimisation within strength and friction.
     Modern = 2,
     /// Strength-limited motors alone; they do not balance.
     Motors = 3,
@@ -4629,6 +4629,8 @@ pub enum EventType {
     WorldResumed = 16,
     /// The world failed.
     WorldFailed = 17,
+    /// The figure stands again after a fall.
+    GotUp = 18,
 }
 impl EventType {
     /// String value of the enum field names used in the ProtoBuf definition.
@@ -4655,6 +4657,7 @@ impl EventType {
             Self::WorldPaused => "EVENT_TYPE_WORLD_PAUSED",
             Self::WorldResumed => "EVENT_TYPE_WORLD_RESUMED",
             Self::WorldFailed => "EVENT_TYPE_WORLD_FAILED",
+            Self::GotUp => "EVENT_TYPE_GOT_UP",
         }
     }
     /// Creates an enum from field names used in the ProtoBuf definition.
@@ -4678,6 +4681,7 @@ impl EventType {
             "EVENT_TYPE_WORLD_PAUSED" => Some(Self::WorldPaused),
             "EVENT_TYPE_WORLD_RESUMED" => Some(Self::WorldResumed),
             "EVENT_TYPE_WORLD_FAILED" => Some(Self::WorldFailed),
+            "EVENT_TYPE_GOT_UP" => Some(Self::GotUp),
             _ => None,
         }
     }
@@ -5588,10 +5592,10 @@ pub struct World {
     /// Substeps of the dynamics in one tick, 1…16. 0 or absent: 2. Fixed at creation.
     #[prost(int32, tag = "4")]
     pub substeps: i32,
-    /// Downward acceleration of gravity, m/s², 0…100. Absent: 9.81. Fixed at creation.
+    /// Downward acceleration of gravity, m/s², 0…30. Absent: 9.81. Fixed at creation.
     #[prost(double, optional, tag = "5")]
     pub gravity_mps2: ::core::option::Option<f64>,
-    /// Coefficient of friction of the ground, 0…2. Absent: 0.9. Fixed at creation.
+    /// Coefficient of friction of the ground, 0.05…2. Absent: 0.9. Fixed at creation.
     #[prost(double, optional, tag = "6")]
     pub friction: ::core::option::Option<f64>,
     /// What happens when ticks take too long.
