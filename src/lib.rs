@@ -6,4 +6,5 @@
     doc = "* `wire`: protobuf to domain types and back. * `server`: everything that touches the network or the clock; the rate keeper is `server::tick::run`. * `client`: a thin Rust client."
 )]
 
+pub mod evaluate;
 pub mod sim;
