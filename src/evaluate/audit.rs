@@ -220,3 +220,190 @@ fn joint_axis(s: usize, k: usize, poses: &[SegmentPose; SEGMENT_COUNT]) -> Vec3 
     };
     poses[frame].rotation.rotate(axis)
 }
+
+#[cfg(test)]
+mod tests {
+    //! The rebuilt equations agree with the kernels of `sim::dynamics`, to which they owe nothing, and wrong physics is far off.
+
+    use super::*;
+    use crate::sim::body::SegmentId;
+    use crate::sim::dynamics::tests::{random_links, random_state};
+    use crate::sim::dynamics::{External, Kinematics, RneaWorkspace, rnea};
+    use crate::sim::figure::ContactPoint;
+    use rand::{Rng, SeedableRng};
+    use rand_pcg::Pcg64Mcg;
+
+    fn random_vector<const N: usize>(rng: &mut Pcg64Mcg, most: f64) -> [f64; N] {
+        std::array::from_fn(|_| rng.random_range(-most..most))
+    }
+
+    /// A sample that `rnea` calls consistent: its root wrench is supplied by a contact couple, its joints by the torques.
+    fn consistent_sample(rng: &mut Pcg64Mcg, links: &Links) -> Audit {
+        let state = random_state(rng);
+        let acceleration: [f64; NV] = random_vector(rng, 20.0);
+        let mut kin = Kinematics::default();
+        kin.set_state(links, &state);
+        let origin = state.posture.root_position;
+        let none = External {
+            moment: Vec3::zero(),
+            force: Vec3::zero(),
+        };
+        let mut external = [none; SEGMENT_COUNT];
+        let mut contacts = Vec::new();
+        let mut applied = Vec::new();
+        let mut touch = |s: usize, point: Vec3, force: Vec3, contact: bool| {
+            external[s].force += force;
+            external[s].moment += (point - origin - kin.position[s]).cross(force);
+            let segment = SegmentId::new(s).expect("a segment");
+            if contact {
+                contacts.push(ContactPoint {
+                    segment,
+                    vertex: 0,
+                    position: point,
+                    force,
+                });
+            } else {
+                applied.push((segment, point, force));
+            }
+        };
+        for s in [2, 6, 12, 17] {
+            let point = Vec3::from_array(random_vector(rng, 1.0));
+            touch(
+                s,
+                point,
+                Vec3::from_array(random_vector(rng, 300.0)),
+                s > 10,
+            );
+        }
+        let mut tau = [0.0; NV];
+        let mut solve = |external: &[External]| {
+            rnea(
+                links,
+                &kin,
+                &state.velocity,
+                &acceleration,
+                9.81,
+                external,
+                &mut RneaWorkspace::default(),
+                &mut tau,
+            );
+            tau
+        };
+        let missing = solve(&external);
+        // A force at the pelvis origin, and the moment as three couples of forces one metre apart.
+        let moment = Vec3::from_array([missing[0], missing[1], missing[2]]);
+        let force = Vec3::from_array([missing[3], missing[4], missing[5]]);
+        let mut add = |point: Vec3, force: Vec3| {
+            external[0].force += force;
+            external[0].moment += (point - origin).cross(force);
+            contacts.push(ContactPoint {
+                segment: crate::sim::body::topology::PELVIS,
+                vertex: 0,
+                position: point,
+                force,
+            });
+        };
+        add(origin, force);
+        for (arm, push) in [
+            (Vec3::Y, Vec3::Z * moment.x),
+            (Vec3::Z, Vec3::X * moment.y),
+            (Vec3::X, Vec3::Y * moment.z),
+        ] {
+            add(origin + arm, push);
+            add(origin, -push);
+        }
+        let tau = solve(&external);
+        let ligament: [f64; DOF_COUNT] = random_vector(rng, 5.0);
+        Audit {
+            state,
+            acceleration,
+            torque: std::array::from_fn(|d| tau[6 + d] - ligament[d]),
+            ligament_torque: ligament,
+            contacts,
+            applied,
+        }
+    }
+
+    #[test]
+    fn inertial_forces_agree_with_recursive_newton_euler() {
+        let mut rng = Pcg64Mcg::seed_from_u64(11);
+        for _ in 0..200 {
+            let (links, state) = (random_links(&mut rng), random_state(&mut rng));
+            let a: [f64; NV] = random_vector(&mut rng, 20.0);
+            let (mut kin, mut tau) = (Kinematics::default(), [0.0; NV]);
+            kin.set_state(&links, &state);
+            rnea(
+                &links,
+                &kin,
+                &state.velocity,
+                &a,
+                9.81,
+                &[],
+                &mut RneaWorkspace::default(),
+                &mut tau,
+            );
+            let ours = inertial_forces(&links, &state, &a, 9.81);
+            let scale = tau.iter().fold(1.0f64, |m, x| m.max(x.abs()));
+            for i in 0..NV {
+                assert!(
+                    (ours[i] - tau[i]).abs() < 1e-12 * scale,
+                    "row {i}: {} against {}",
+                    ours[i],
+                    tau[i]
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn consistent_sample_leaves_no_residual_and_wrong_ones_leave_much() {
+        let mut rng = Pcg64Mcg::seed_from_u64(12);
+        for _ in 0..50 {
+            let links = random_links(&mut rng);
+            let sample = consistent_sample(&mut rng, &links);
+            let found = audit(&links, &sample, 9.81);
+            assert!(found.relative < 1e-12, "{found:?}");
+            assert!(
+                found.root_force < 1e-9 && found.root_moment < 1e-9,
+                "{found:?}"
+            );
+
+            let weight = links.total_mass() * 9.81;
+            let weightless = audit(&links, &sample, 0.0);
+            assert!(
+                (weightless.root_force - weight).abs() < 1e-6 * weight,
+                "gravity is on the books"
+            );
+            let mut slow = sample.clone();
+            slow.state.velocity = [0.0; NV];
+            assert!(
+                audit(&links, &slow, 9.81).relative > 1e-4,
+                "Coriolis forces are on the books"
+            );
+            let mut pulled = sample.clone();
+            pulled.contacts[0].force += Vec3::X * 10.0;
+            assert!((audit(&links, &pulled, 9.81).root_force - 10.0).abs() < 1e-6);
+            let mut loaded = links.clone();
+            loaded.add_load(SegmentId::new(9).expect("a hand"), Vec3::zero(), 5.0);
+            assert!(
+                audit(&loaded, &sample, 9.81).relative > 1e-3,
+                "a load is on the books"
+            );
+        }
+    }
+
+    #[test]
+    fn weightless_rest_is_exact() {
+        let mut rng = Pcg64Mcg::seed_from_u64(13);
+        let links = random_links(&mut rng);
+        let sample = Audit {
+            state: State::default(),
+            acceleration: [0.0; NV],
+            torque: [0.0; DOF_COUNT],
+            ligament_torque: [0.0; DOF_COUNT],
+            contacts: Vec::new(),
+            applied: Vec::new(),
+        };
+        assert_eq!(audit(&links, &sample, 0.0).relative, 0.0);
+    }
+}
