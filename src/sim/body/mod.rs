@@ -1,8 +1,11 @@
 //! The articulated body: tree, segments, limits, mass and shape, and the positions and velocities of one figure.
 
 pub mod angles;
+pub mod geometry;
+pub mod humanoid;
 pub mod links;
 pub mod model;
+mod shape;
 pub mod state;
 pub mod topology;
 
