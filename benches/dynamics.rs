@@ -6,7 +6,8 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use sinew::sim::body::{Body, Links, NV, State};
 use sinew::sim::dynamics::lanes::{aba_x8, crba_x8, factor_solve_x8, rnea_x8};
 use sinew::sim::dynamics::{
-    AbaWorkspace, CompositeInertia, Kinematics, MassMatrix, RneaWorkspace, Terms, aba, crba, factor, rnea, solve,
+    AbaWorkspace, CompositeInertia, Kinematics, MassMatrix, RneaWorkspace, Terms, aba, crba,
+    factor, rnea, solve,
 };
 use sinew::sim::math::{F64x8, Lane};
 use std::hint::black_box;
@@ -20,7 +21,10 @@ struct Noise(u64);
 
 impl Noise {
     fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
     fn vector(&mut self, most: f64) -> [f64; NV] {
@@ -46,7 +50,11 @@ impl Samples {
             })
             .collect();
         let accelerations = (0..STATES).map(|_| noise.vector(10.0)).collect();
-        Self { links: Links::new(&Body::adult_man()), states, accelerations }
+        Self {
+            links: Links::new(&Body::adult_man()),
+            states,
+            accelerations,
+        }
     }
 }
 
@@ -69,15 +77,27 @@ impl LaneSamples {
             })
             .collect();
         let accelerations = (0..groups)
-            .map(|g| std::array::from_fn(|i| F64x8(std::array::from_fn(|k| one.accelerations[g * 8 + k][i]))))
+            .map(|g| {
+                std::array::from_fn(|i| {
+                    F64x8(std::array::from_fn(|k| one.accelerations[g * 8 + k][i]))
+                })
+            })
             .collect();
-        Self { links: Links::splat(&one.links), states, accelerations }
+        Self {
+            links: Links::splat(&one.links),
+            states,
+            accelerations,
+        }
     }
 }
 
 fn one_figure(c: &mut Criterion) {
     let samples = Samples::new();
-    let Samples { links, states, accelerations } = &samples;
+    let Samples {
+        links,
+        states,
+        accelerations,
+    } = &samples;
     let mut group = c.benchmark_group("one");
     group.throughput(Throughput::Elements(1));
     let (mut kin, mut ws, mut tau) = (Kinematics::default(), RneaWorkspace::default(), [0.0; NV]);
@@ -94,7 +114,16 @@ fn one_figure(c: &mut Criterion) {
         b.iter(|| {
             let n = next();
             kin.set_state(black_box(links), &states[n]);
-            rnea(links, &kin, &states[n].velocity, &accelerations[n], GRAVITY, &[], &mut ws, &mut tau);
+            rnea(
+                links,
+                &kin,
+                &states[n].velocity,
+                &accelerations[n],
+                GRAVITY,
+                &[],
+                &mut ws,
+                &mut tau,
+            );
             black_box(&tau);
         });
     });
@@ -125,7 +154,16 @@ fn one_figure(c: &mut Criterion) {
         b.iter(|| {
             let n = next();
             kin.set_state(black_box(links), &states[n]);
-            aba(links, &kin, &states[n].velocity, &accelerations[n], GRAVITY, &[], &mut aba_ws, &mut out);
+            aba(
+                links,
+                &kin,
+                &states[n].velocity,
+                &accelerations[n],
+                GRAVITY,
+                &[],
+                &mut aba_ws,
+                &mut out,
+            );
             black_box(&out);
         });
     });
@@ -137,7 +175,11 @@ fn one_figure(c: &mut Criterion) {
 }
 
 fn eight_figures(c: &mut Criterion) {
-    let LaneSamples { links, states, accelerations } = LaneSamples::new(&Samples::new());
+    let LaneSamples {
+        links,
+        states,
+        accelerations,
+    } = LaneSamples::new(&Samples::new());
     let gravity = F64x8::splat(GRAVITY);
     let mut group = c.benchmark_group("eight");
     group.throughput(Throughput::Elements(8));
@@ -151,7 +193,16 @@ fn eight_figures(c: &mut Criterion) {
     group.bench_function("rnea_x8", |b| {
         b.iter(|| {
             let n = next();
-            rnea_x8(black_box(&links), &states[n], &accelerations[n], gravity, &[], &mut kin, &mut ws, &mut tau);
+            rnea_x8(
+                black_box(&links),
+                &states[n],
+                &accelerations[n],
+                gravity,
+                &[],
+                &mut kin,
+                &mut ws,
+                &mut tau,
+            );
             black_box(&tau);
         });
     });

@@ -14,7 +14,7 @@ const SHADOW: Rgba = Rgba::hex(0xd6_d4cd);
 const GHOST: Rgba = Rgba::hex(0xbf_cddd);
 const LEFT: Rgba = Rgba::hex(0x4f_93dd);
 const RIGHT: Rgba = Rgba::hex(0xf0_9345);
-const TRUNK: Rgba = Rgba::hex(0xb4_b9c2);
+const TRUNK: Rgba = Rgba::hex(0xbd_c2cb);
 const LOAD: Rgba = Rgba::hex(0x8a_6a4f);
 const FORCE: Rgba = Rgba::hex(0x1f_8f55);
 const COM: Rgba = Rgba::hex(0x22_262c);
@@ -29,7 +29,7 @@ const NEAR: f64 = 0.8;
 /// A force of the body's weight is drawn this long, m.
 const WEIGHT_LENGTH: f64 = 0.45;
 /// Half depth of a ground tile, m.
-const TILE_DEPTH: f64 = 0.4;
+const TILE_DEPTH: f64 = 0.5;
 /// A ghost farther off than this is not drawn: after a fall the desired motion walks on alone, m.
 const GHOST_RANGE: f64 = 1.5;
 /// Surface of a limb without a mesh, m.
@@ -427,7 +427,7 @@ fn solid(skin: &Skin, pose: &SegmentPose, colour: Rgba, place: &Place) -> Item {
             let n = pose.rotation.rotate(*n);
             // Ambient, sky from above, key light, and a darker rim that sets limbs off from each other.
             let rim = n.dot(near).clamp(0.0, 1.0).sqrt();
-            (0.42 + 0.1 * n.z + 0.5 * n.dot(to_light).max(0.0)) * (0.62 + 0.38 * rim)
+            (0.56 + 0.1 * n.z + 0.5 * n.dot(to_light).max(0.0)) * (0.66 + 0.34 * rim)
         })
         .collect();
     Item::Solid {
