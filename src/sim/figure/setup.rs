@@ -17,8 +17,6 @@ pub enum ControllerKind {
 /// Who moves the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StepperKind {
-    /// Accelerations are applied as they are; the support is held or rotated (paper).
-    Kinematic,
     /// Torques drive full rigid-body dynamics with contact, ALGORITHM §14.3.
     Torque,
 }
