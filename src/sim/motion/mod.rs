@@ -1,10 +1,20 @@
 //! Desired motion: reading, retargeting, preparing, sampling (paper §3.2).
 
+pub mod balance;
 pub mod bvh;
+pub mod clip;
+pub mod contacts;
+pub mod filter;
+pub mod foot_lock;
 pub mod leg_ik;
+pub mod prepare;
+pub mod retarget;
+pub mod skeleton_map;
 pub mod target;
 #[cfg(test)]
 mod test_body;
 
 pub use bvh::{Bvh, BvhError};
+pub use clip::{Clip, ClipError};
+pub use retarget::{RetargetError, RetargetOptions, RetargetReport, Retargeted, UpAxis, retarget};
 pub use target::{Target, TargetPair};
