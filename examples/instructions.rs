@@ -22,7 +22,8 @@ fn sample() -> (State, [f64; NV]) {
 
 fn main() {
     let mut args = std::env::args().skip(1);
-    let (Some(work), Some(count)) = (args.next(), args.next().and_then(|n| n.parse::<u64>().ok())) else {
+    let (Some(work), Some(count)) = (args.next(), args.next().and_then(|n| n.parse::<u64>().ok()))
+    else {
         eprintln!("usage: instructions kinematics|rnea|rnea_x8|crba_factor_solve|terms N");
         std::process::exit(2);
     };
@@ -40,7 +41,16 @@ fn main() {
             let (mut ws, mut tau) = (RneaWorkspace::default(), [0.0; NV]);
             for _ in 0..count {
                 kin.set_state(black_box(&links), black_box(&state));
-                rnea(&links, &kin, &state.velocity, &acceleration, GRAVITY, &[], &mut ws, &mut tau);
+                rnea(
+                    &links,
+                    &kin,
+                    &state.velocity,
+                    &acceleration,
+                    GRAVITY,
+                    &[],
+                    &mut ws,
+                    &mut tau,
+                );
                 black_box(&tau);
             }
         }
@@ -55,7 +65,16 @@ fn main() {
             let (mut ws, mut tau) = (RneaWorkspace::default(), [F64x8::zero(); NV]);
             for _ in 0..count {
                 let gravity = F64x8::splat(GRAVITY);
-                rnea_x8(black_box(&links), black_box(&states), &acceleration, gravity, &[], &mut kin, &mut ws, &mut tau);
+                rnea_x8(
+                    black_box(&links),
+                    black_box(&states),
+                    &acceleration,
+                    gravity,
+                    &[],
+                    &mut kin,
+                    &mut ws,
+                    &mut tau,
+                );
                 black_box(&tau);
             }
         }

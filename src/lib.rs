@@ -6,5 +6,7 @@
     doc = "* `wire`: protobuf to domain types and back. * `server`: everything that touches the network or the clock; the rate keeper is `server::tick::run`. * `client`: a thin Rust client."
 )]
 
+#[cfg(feature = "net")]
+pub mod cli;
 pub mod evaluate;
 pub mod sim;

@@ -97,15 +97,12 @@ pub enum StepperArg {
     /// Torques drive rigid-body dynamics with ground contact.
     #[default]
     Torque,
-    /// Accelerations are applied as they are.
-    Kinematic,
 }
 
 impl From<StepperArg> for StepperKind {
     fn from(arg: StepperArg) -> Self {
         match arg {
             StepperArg::Torque => Self::Torque,
-            StepperArg::Kinematic => Self::Kinematic,
         }
     }
 }

@@ -3,7 +3,8 @@
 use super::args::{BodyArgs, sex_name};
 use crate::sim::body::topology::{DOF_NAMES, SEGMENT_NAMES};
 use crate::sim::body::{Body, DOF_COUNT};
-use crate::sim::strength::{Strength, StrengthScale};
+use crate::sim::figure::StrengthScale;
+use crate::sim::strength::Strength;
 use anyhow::{Context, Result};
 use serde_json::json;
 

@@ -11,9 +11,9 @@ use crate::sim::body::{Body, Posture, State};
 use crate::sim::figure::{ControlParams, StrengthScale};
 use crate::sim::math::Vec3;
 use crate::sim::motion::retarget::RetargetOptions;
-use crate::sim::motion::{Clip, bvh_write};
+use crate::sim::motion::{Clip, PlanarTransform, bvh_write};
 use crate::sim::world::{
-    ClipPlayback, Drive, Figure, FigureEvent, FigureSetup, PlanarTransform, World, WorldParams,
+    ClipPlayback, Drive, Figure, FigureEvent, FigureSetup, World, WorldParams,
 };
 use anyhow::{Context, Result, ensure};
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
@@ -173,7 +173,7 @@ pub fn run(args: &RunArgs) -> Result<()> {
         args,
     };
     // Bad parameters are worth knowing before clips are read.
-    World::new(scenario.params.clone()).context("no such world")?;
+    World::new(scenario.params).context("no such world")?;
     let options = RetargetOptions::default();
     let sources =
         args.clips.iter().map(|spec| load(spec, &scenario.body, &options)).collect::<Result<Vec<_>>>()?;
@@ -305,7 +305,7 @@ fn simulate(
 ) -> Result<(RunReport, Vec<Frame>)> {
     let args = scenario.args;
     let body = &scenario.body;
-    let mut world = World::new(scenario.params.clone()).context("no such world")?;
+    let mut world = World::new(scenario.params).context("no such world")?;
     let start = clip.sample(0.0);
     let key = world
         .add_figure(FigureSetup {
@@ -318,13 +318,13 @@ fn simulate(
             name: clip.name().to_owned(),
         })
         .context("no such figure")?;
-    let figure = world.figure_mut(key).expect("the figure was just added");
     for load in &args.load {
-        figure.add_perturbation(load.perturbation(body)).context("--load")?;
+        world.perturb(key, load.perturbation(body)).context("--load")?;
     }
     for push in &args.push {
-        figure.add_perturbation(push.perturbation(body, args.push_duration)).context("--push")?;
+        world.perturb(key, push.perturbation(body, args.push_duration)).context("--push")?;
     }
+    let figure = world.figure_mut(key).expect("the figure was just added");
     figure.set_drive(Drive::Clip(ClipPlayback {
         clip: Arc::new(clip.clone()),
         start: 0.0,
@@ -377,6 +377,7 @@ fn note(metrics: &mut Metrics, event: &FigureEvent) {
         E::BalanceLost => ("balance_lost", None, None, None),
         E::Recovered => ("recovered", None, None, None),
         E::Fell => ("fell", None, None, None),
+        E::GotUp => ("got_up", None, None, None),
         E::LoadTaken { segment, mass } => ("load_taken", Some(segment), None, Some(mass)),
         E::LoadDropped { segment, mass } => ("load_dropped", Some(segment), None, Some(mass)),
         E::Quarantined => ("quarantined", None, None, None),
