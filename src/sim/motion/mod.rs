@@ -2,6 +2,7 @@
 
 pub mod balance;
 pub mod bvh;
+mod chart;
 pub mod clip;
 pub mod contacts;
 pub mod filter;
@@ -15,6 +16,6 @@ pub mod target;
 mod test_body;
 
 pub use bvh::{Bvh, BvhError};
-pub use clip::{Clip, ClipError};
+pub use clip::{Clip, ClipError, PlanarTransform};
 pub use retarget::{RetargetError, RetargetOptions, RetargetReport, Retargeted, UpAxis, retarget};
 pub use target::{Target, TargetPair};
