@@ -290,7 +290,8 @@ fn offset(locked: &FootPose, ankle: Vec3, rotation: Quat, toe: f64) -> Channels 
 ///
 /// * `ankles`, `rotations`: recorded ankle (m) and `world_from_foot` per sample, floor at z = 0, body scale.
 /// * `label`: where the foot is on the floor (from [`super::contacts`]).
-/// * `heel_up`: by how much more the heel is raised in stance than recorded, rad per sample (0 or more).
+/// * `heel_up`, `toe_out`: by how much more the heel is raised and the foot turned outwards in stance than recorded, rad per sample.
+/// * `side`: 0 left, 1 right.
 /// * `rate_hz`: samples per second.
 ///
 /// The result is continuous in position, velocity and acceleration up to the recording's own smoothness; a planted foot's pivot
@@ -300,7 +301,8 @@ pub fn lock_foot(
     ankles: &[Vec3],
     rotations: &[Quat],
     label: &[bool],
-    heel_up: &[f64],
+    (heel_up, toe_out): (&[f64], &[f64]),
+    side: usize,
     rate_hz: f64,
 ) -> LockedFoot {
     let n = ankles.len();
@@ -346,9 +348,10 @@ pub fn lock_foot(
             place + arm(yaw)
         };
         for k in i..j {
+            let yaw = yaws[k - i] + if side == 0 { toe_out[k] } else { -toe_out[k] };
             let at = Anchor {
-                place: stays - arm(yaws[k - i]),
-                yaw: yaws[k - i],
+                place: stays - arm(yaw),
+                yaw,
                 pitch: (pitch[k - i] - heel_up[k]).max(STEEPEST.0),
             };
             out.slide_before = out.slide_before.max((track.point[k] - at.place).norm());
@@ -535,7 +538,7 @@ mod tests {
             .collect();
         let rotations = vec![Quat::identity(); n as usize];
         let label: Vec<bool> = (0..n).map(|i| !(122..178).contains(&i)).collect();
-        let f = lock_foot(&s, &ankles, &rotations, &label, &vec![0.0; n as usize], 120.0);
+        let f = lock_foot(&s, &ankles, &rotations, &label, (&vec![0.0; n as usize], &vec![0.0; n as usize]), 0, 120.0);
         assert_eq!(f.stances.len(), 2);
         for k in 1..n as usize {
             let step = (f.poses[k].ankle - f.poses[k - 1].ankle).norm();

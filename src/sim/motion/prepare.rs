@@ -1,8 +1,8 @@
 //! From a recorded motion in body scale to a reference that a body can follow: feet locked, legs reaching, balance kept.
 
 use super::balance::{Carrier, LIGHT, MassTrack, com_shift, hull, margin, mass_track};
-use super::filter::{low_pass_points, percentile, smooth_minimum};
-use super::foot_lock::{LockedFoot, Sole, lock_foot};
+use super::filter::{low_pass, low_pass_points, percentile, smooth_minimum};
+use super::foot_lock::{LockedFoot, Sole, Stance, lock_foot};
 use super::leg_ik::{forward, solve_leg_in_plane};
 use crate::sim::body::angles::{anatomical_angles, clamp_to_limits};
 use crate::sim::body::topology::{
@@ -13,6 +13,8 @@ use crate::sim::math::{Quat, Vec3};
 
 /// A planted leg reaches at most this fraction of its length: a straight knee makes inverse kinematics jump.
 const REACH: f64 = 0.98;
+/// For a swinging leg the pelvis is lowered by no more than this, m.
+const SWING_DROP: f64 = 0.04;
 /// Rounds of shifting the trunk and solving the legs again.
 const ROUNDS: usize = 8;
 /// The zero-moment point is kept this far inside the support polygon, m.
@@ -116,6 +118,8 @@ struct Relief {
     heel_up: [Vec<f64>; 2],
     /// Leg turned inwards about the line from hip to ankle, rad.
     turn_in: [Vec<f64>; 2],
+    /// Foot turned outwards on the floor, rad; one value per stance.
+    toe_out: [Vec<f64>; 2],
 }
 
 impl Relief {
@@ -123,11 +127,13 @@ impl Relief {
         Self {
             heel_up: [vec![0.0; n], vec![0.0; n]],
             turn_in: [vec![0.0; n], vec![0.0; n]],
+            toe_out: [vec![0.0; n], vec![0.0; n]],
         }
     }
 
     /// Adds what the ankles of planted feet lack: too much dorsiflexion raises the heel, too much rotation turns the leg along.
-    fn add(&mut self, body: &Body, postures: &[Posture], planted: &[[bool; 2]], rate_hz: f64) {
+    /// Hips that give way in turn set the foot down with another heading.
+    fn add(&mut self, body: &Body, postures: &[Posture], planted: &[[bool; 2]], stances: [&[Stance]; 2], rate_hz: f64) {
         let n = postures.len();
         let half = (0.1 * rate_hz) as usize;
         for s in 0..2 {
@@ -145,13 +151,26 @@ impl Relief {
                     .collect();
                 smooth_minimum(&raw, half).into_iter().map(|x| -x).collect()
             };
+            let hip = DOF_START[[L_THIGH, R_THIGH][s].index()];
             for (sum, e) in self.heel_up[s].iter_mut().zip(over(d, true)) {
                 *sum += e;
             }
             let (inward, outward) = (over(d + 2, true), over(d + 2, false));
+            // A thigh adducted too far goes out with the knee, one abducted too far goes in.
+            let (abducted, adducted) = (over(hip + 1, true), over(hip + 1, false));
             for (i, sum) in self.turn_in[s].iter_mut().enumerate() {
-                *sum = (*sum + inward[i] - outward[i]).clamp(-MOST_TURN, MOST_TURN);
+                *sum = (*sum + inward[i] - outward[i] + abducted[i] - adducted[i]).clamp(-MOST_TURN, MOST_TURN);
             }
+            let (rotated_in, rotated_out) = (over(hip + 2, true), over(hip + 2, false));
+            for st in stances[s] {
+                let most = |v: &[f64]| v[st.start..st.end].iter().copied().fold(0.0, f64::max);
+                let e = 1.3 * (most(&rotated_in) - most(&rotated_out));
+                for i in st.start..st.end {
+                    self.toe_out[s][i] = (self.toe_out[s][i] + e).clamp(-MOST_TURN, MOST_TURN);
+                    self.turn_in[s][i] = (self.turn_in[s][i] - e).clamp(-MOST_TURN, MOST_TURN);
+                }
+            }
+            low_pass(&mut self.turn_in[s], 3.0, rate_hz);
         }
     }
 }
@@ -172,7 +191,7 @@ pub fn prepare(body: &Body, draft: &Draft, options: PrepareOptions) -> Prepared 
         (0..n).map(|i| draft.label[i][s] && options.lock_feet && upper[i].root_position.z > LYING * standing).collect()
     });
     let lock = |relief: &Relief| -> [LockedFoot; 2] {
-        std::array::from_fn(|s| lock_foot(&soles[s], &draft.ankle[s], &draft.foot[s], &label[s], &relief.heel_up[s], rate))
+        std::array::from_fn(|s| lock_foot(&soles[s], &draft.ankle[s], &draft.foot[s], &label[s], (&relief.heel_up[s], &relief.toe_out[s]), s, rate))
     };
     let mut relief = Relief::new(n);
     let mut locked = lock(&relief);
@@ -193,7 +212,7 @@ pub fn prepare(body: &Body, draft: &Draft, options: PrepareOptions) -> Prepared 
     let before = zmp_outside(&track, &carriers);
     for round in 0..if options.lock_feet && n >= 8 { ROUNDS } else { 0 } {
         if round + 2 < ROUNDS {
-            relief.add(body, &postures, &planted, rate);
+            relief.add(body, &postures, &planted, [&locked[0].stances, &locked[1].stances], rate);
             locked = lock(&relief);
             carriers = carriers_of(body, &soles, &upper, &locked, draft);
         }
@@ -345,12 +364,16 @@ fn assemble(
     for i in 0..n {
         out[i].root_position.x += shift[i][0];
         out[i].root_position.y += shift[i][1];
-        for ((hip, length), foot) in legs.iter().zip(locked).filter(|(_, f)| f.planted[i]) {
+        for ((hip, length), foot) in legs.iter().zip(locked) {
             let d = out[i].root_position + out[i].root_rotation.rotate(*hip) - foot.poses[i].ankle;
             let most = REACH * length;
             let level = d.x.hypot(d.y);
             let height = (most * most - level * level).max(0.04 * most * most).sqrt();
-            drop[i] = drop[i].min(height - d.z);
+            let need = (height - d.z).min(0.0);
+            // A swinging leg must not be straight when it lands either; one that kicks or lies is its own affair.
+            let weight = if foot.planted[i] { 1.0 } else { ((0.6 - level / most) / 0.15).clamp(0.0, 1.0) };
+            let need = if foot.planted[i] { need } else { need.max(-SWING_DROP) * weight };
+            drop[i] = drop[i].min(need);
         }
     }
     let drop = smooth_minimum(&drop, (0.1 * draft.rate_hz) as usize);
