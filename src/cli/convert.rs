@@ -7,7 +7,7 @@ use crate::evaluate::table::{header, row};
 use crate::sim::body::Body;
 use crate::sim::body::angles::anatomical_angles;
 use crate::sim::body::topology::DOF_NAMES;
-use crate::sim::motion::bvh_write;
+use crate::sim::motion::write_bvh;
 use crate::sim::motion::retarget::RetargetOptions;
 use anyhow::{Context, Result};
 use serde_json::json;
@@ -69,7 +69,7 @@ pub fn run(args: &ConvertArgs) -> Result<()> {
 fn as_bvh(source: &Source, body: &Body) -> String {
     let clip = &source.clip;
     let postures: Vec<_> = (0..clip.len()).map(|i| *clip.posture(i)).collect();
-    bvh_write::write(body, &postures, clip.rate_hz())
+    write_bvh(body, &postures, clip.rate_hz())
 }
 
 fn as_csv(source: &Source) -> String {

@@ -11,7 +11,7 @@ use crate::sim::body::{Body, Posture, State};
 use crate::sim::figure::{ControlParams, StrengthScale};
 use crate::sim::math::Vec3;
 use crate::sim::motion::retarget::RetargetOptions;
-use crate::sim::motion::{Clip, PlanarTransform, bvh_write};
+use crate::sim::motion::{Clip, PlanarTransform, write_bvh};
 use crate::sim::world::{
     ClipPlayback, Drive, Figure, FigureEvent, FigureSetup, World, WorldParams,
 };
@@ -290,7 +290,7 @@ fn run_one(
 
 /// The motion as BVH in metres.
 fn bvh_text(body: &Body, postures: &[Posture], rate_hz: f64) -> String {
-    bvh_write::write(body, postures, rate_hz)
+    write_bvh(body, postures, rate_hz)
 }
 
 /// Steps a world with one figure that follows `clip` for `ticks` ticks; `each` is called after every tick with the time (s).
