@@ -155,11 +155,19 @@ pub enum SpecError {
 }
 
 fn number(what: &'static str, text: &str, lower: f64, upper: f64) -> Result<f64, SpecError> {
-    let value: f64 = text.trim().parse().map_err(|_| SpecError::Number { what, got: text.to_owned() })?;
+    let value: f64 = text.trim().parse().map_err(|_| SpecError::Number {
+        what,
+        got: text.to_owned(),
+    })?;
     if (lower..=upper).contains(&value) {
         Ok(value)
     } else {
-        Err(SpecError::Range { what, value, lower, upper })
+        Err(SpecError::Range {
+            what,
+            value,
+            lower,
+            upper,
+        })
     }
 }
 
@@ -202,9 +210,14 @@ impl FromStr for LoadSpec {
     type Err = SpecError;
 
     fn from_str(text: &str) -> Result<Self, SpecError> {
-        let form = || SpecError::Form { got: text.to_owned(), form: Self::FORM };
+        let form = || SpecError::Form {
+            got: text.to_owned(),
+            form: Self::FORM,
+        };
         let mut parts = text.split('@');
-        let (Some(mass), Some(name), times, None) = (parts.next(), parts.next(), parts.next(), parts.next()) else {
+        let (Some(mass), Some(name), times, None) =
+            (parts.next(), parts.next(), parts.next(), parts.next())
+        else {
             return Err(form());
         };
         let (mut from_s, mut to_s) = (0.0, f64::INFINITY);
@@ -217,10 +230,18 @@ impl FromStr for LoadSpec {
                 to_s = number("end (s)", b, 0.0, MAX_TIME)?;
             }
             if to_s <= from_s {
-                return Err(SpecError::Interval { from: from_s, to: to_s });
+                return Err(SpecError::Interval {
+                    from: from_s,
+                    to: to_s,
+                });
             }
         }
-        Ok(Self { mass_kg: number("mass (kg)", mass, 0.0, 500.0)?, segment: segment(name)?, from_s, to_s })
+        Ok(Self {
+            mass_kg: number("mass (kg)", mass, 0.0, 500.0)?,
+            segment: segment(name)?,
+            from_s,
+            to_s,
+        })
     }
 }
 
@@ -256,7 +277,10 @@ impl FromStr for PushSpec {
     type Err = SpecError;
 
     fn from_str(text: &str) -> Result<Self, SpecError> {
-        let form = || SpecError::Form { got: text.to_owned(), form: Self::FORM };
+        let form = || SpecError::Form {
+            got: text.to_owned(),
+            form: Self::FORM,
+        };
         let (head, direction) = text.split_once(':').ok_or_else(form)?;
         let head: Vec<&str> = head.split('@').collect();
         let direction: Vec<&str> = direction.split(',').collect();
@@ -264,7 +288,11 @@ impl FromStr for PushSpec {
             return Err(form());
         };
         let component = |t: &str| number("direction", t, -1e6, 1e6);
-        let d = Vec3 { x: component(x)?, y: component(y)?, z: component(z)? };
+        let d = Vec3 {
+            x: component(x)?,
+            y: component(y)?,
+            z: component(z)?,
+        };
         if d.norm() < 1e-9 {
             return Err(SpecError::Direction);
         }
@@ -284,7 +312,10 @@ mod tests {
     #[test]
     fn loads_are_read() {
         let l: LoadSpec = "3.5@r_hand".parse().expect("a load");
-        assert_eq!((l.mass_kg, l.segment.name(), l.from_s, l.to_s), (3.5, "r_hand", 0.0, f64::INFINITY));
+        assert_eq!(
+            (l.mass_kg, l.segment.name(), l.from_s, l.to_s),
+            (3.5, "r_hand", 0.0, f64::INFINITY)
+        );
         let l: LoadSpec = "2@l_hand@1..2.5".parse().expect("a load");
         assert_eq!((l.from_s, l.to_s), (1.0, 2.5));
         let l: LoadSpec = "2@l_hand@..2".parse().expect("a load");
@@ -313,7 +344,10 @@ mod tests {
     #[test]
     fn pushes_are_read_and_normalised() {
         let p: PushSpec = "20@chest@1.5:0,-3,4".parse().expect("a push");
-        assert_eq!((p.impulse_ns, p.segment.name(), p.at_s), (20.0, "chest", 1.5));
+        assert_eq!(
+            (p.impulse_ns, p.segment.name(), p.at_s),
+            (20.0, "chest", 1.5)
+        );
         assert!((p.direction.y + 0.6).abs() < 1e-15 && (p.direction.z - 0.8).abs() < 1e-15);
     }
 

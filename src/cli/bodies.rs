@@ -42,13 +42,25 @@ pub fn run(args: &BodiesArgs) -> Result<()> {
 fn at_rest(strength: &Strength) -> ([f64; DOF_COUNT], [f64; DOF_COUNT]) {
     let zero = [0.0; DOF_COUNT];
     let (mut lower, mut upper) = (zero, zero);
-    strength.range(&zero, &zero, &StrengthScale::default(), &mut lower, &mut upper);
+    strength.range(
+        &zero,
+        &zero,
+        &StrengthScale::default(),
+        &mut lower,
+        &mut upper,
+    );
     (lower, upper)
 }
 
 fn as_text(body: &Body, strength: &Strength, sources: bool) -> String {
     let p = body.profile;
-    let mut out = format!("{}, {} years, {:.2} m, {:.1} kg\n\n", sex_name(p.sex), p.age, p.height, p.mass);
+    let mut out = format!(
+        "{}, {} years, {:.2} m, {:.1} kg\n\n",
+        sex_name(p.sex),
+        p.age,
+        p.height,
+        p.mass
+    );
     out += "segment         mass kg\n";
     for (name, s) in SEGMENT_NAMES.iter().zip(&body.segments) {
         out += &format!("{name:<15} {:>7.3}\n", s.mass);
@@ -66,8 +78,15 @@ fn as_text(body: &Body, strength: &Strength, sources: bool) -> String {
         );
         if sources {
             for s in strength.provenance(d) {
-                let note = if s.note.is_empty() { String::new() } else { format!("; {}", s.note) };
-                out += &format!("    {}: {} {:.4} {} ({}{note})\n", s.action, s.quantity, s.value, s.unit, s.source);
+                let note = if s.note.is_empty() {
+                    String::new()
+                } else {
+                    format!("; {}", s.note)
+                };
+                out += &format!(
+                    "    {}: {} {:.4} {} ({}{note})\n",
+                    s.action, s.quantity, s.value, s.unit, s.source
+                );
             }
         }
     }

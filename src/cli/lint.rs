@@ -33,8 +33,11 @@ pub struct LintArgs {
 /// Unreadable or malformed files, and skeletons that cannot be mapped.
 pub fn run(args: &LintArgs) -> Result<()> {
     let body = args.body.build()?;
-    let options =
-        RetargetOptions { unit_m: args.unit, rate_hz: args.file_rate, ..RetargetOptions::default() };
+    let options = RetargetOptions {
+        unit_m: args.unit,
+        rate_hz: args.file_rate,
+        ..RetargetOptions::default()
+    };
     let mut all = Vec::new();
     for spec in &args.clips {
         let source = load(spec, &body, &options)?;
@@ -48,7 +51,13 @@ pub fn run(args: &LintArgs) -> Result<()> {
                 "retarget": source.retarget.as_ref().map_or(Value::Null, to_json),
             }));
         } else {
-            println!("{}: {:.2} s, {} samples at {} Hz", source.name, clip.duration(), clip.len(), clip.rate_hz());
+            println!(
+                "{}: {:.2} s, {} samples at {} Hz",
+                source.name,
+                clip.duration(),
+                clip.len(),
+                clip.rate_hz()
+            );
             match &source.retarget {
                 Some(report) => print!("{}", describe(report)),
                 None => println!("  built in: made for the body, nothing to fit"),
@@ -67,9 +76,7 @@ pub fn run(args: &LintArgs) -> Result<()> {
 
 /// The report as JSON; lengths in mm where they are errors, in m otherwise; angles in degrees.
 pub fn to_json(r: &RetargetReport) -> Value {
-    let outside = |z: &crate::sim::motion::prepare::ZmpOutside| {
-        json!({ "share": z.fraction, "mean_mm": 1e3 * z.mean, "p95_mm": 1e3 * z.p95, "max_mm": 1e3 * z.max })
-    };
+    let outside = |z: &crate::sim::motion::prepare::ZmpOutside| json!({ "share": z.fraction, "mean_mm": 1e3 * z.mean, "p95_mm": 1e3 * z.p95, "max_mm": 1e3 * z.max });
     json!({
         "mapped": r.mapped.iter().map(|m| json!({ "segment": m.segment, "bones": m.bones })).collect::<Vec<_>>(),
         "missing": r.missing,
@@ -123,9 +130,23 @@ pub fn describe(r: &RetargetReport) -> String {
         let _ = writeln!(out, "  {name:<14} {text}");
     };
     let bones: usize = r.mapped.iter().map(|m| m.bones.len()).sum();
-    let how = if r.by_structure { "by structure" } else { "by name" };
-    let swapped = if r.sides_swapped { ", left and right exchanged" } else { "" };
-    line("skeleton", format!("{bones} bones on {} segments, mapped {how}{swapped}", r.mapped.len()));
+    let how = if r.by_structure {
+        "by structure"
+    } else {
+        "by name"
+    };
+    let swapped = if r.sides_swapped {
+        ", left and right exchanged"
+    } else {
+        ""
+    };
+    line(
+        "skeleton",
+        format!(
+            "{bones} bones on {} segments, mapped {how}{swapped}",
+            r.mapped.len()
+        ),
+    );
     if !r.missing.is_empty() {
         line("missing", r.missing.join(", "));
     }
@@ -140,13 +161,43 @@ pub fn describe(r: &RetargetReport) -> String {
             r.scale
         ),
     );
-    line("rate", format!("{:.2} Hz to {:.2} Hz, {} frames skipped", r.source_rate_hz, r.rate_hz, r.skipped_frames));
-    line("floor", format!("{:.1} mm high, slope {:.4}", 1e3 * r.floor_offset, r.floor_slope));
-    let phases: Vec<String> =
-        r.phases.iter().map(|p| format!("{} {:.2}-{:.2}", p.letter(), p.start, p.end)).collect();
+    line(
+        "rate",
+        format!(
+            "{:.2} Hz to {:.2} Hz, {} frames skipped",
+            r.source_rate_hz, r.rate_hz, r.skipped_frames
+        ),
+    );
+    line(
+        "floor",
+        format!(
+            "{:.1} mm high, slope {:.4}",
+            1e3 * r.floor_offset,
+            r.floor_slope
+        ),
+    );
+    let phases: Vec<String> = r
+        .phases
+        .iter()
+        .map(|p| format!("{} {:.2}-{:.2}", p.letter(), p.start, p.end))
+        .collect();
     line("feet", phases.join("; "));
-    line("foot slide", format!("{:.1} mm recorded, {:.1} mm prepared", 1e3 * r.foot_slide.0, 1e3 * r.foot_slide.1));
-    line("under floor", format!("{:.1} mm recorded, {:.1} mm prepared", 1e3 * r.penetration.0, 1e3 * r.penetration.1));
+    line(
+        "foot slide",
+        format!(
+            "{:.1} mm recorded, {:.1} mm prepared",
+            1e3 * r.foot_slide.0,
+            1e3 * r.foot_slide.1
+        ),
+    );
+    line(
+        "under floor",
+        format!(
+            "{:.1} mm recorded, {:.1} mm prepared",
+            1e3 * r.penetration.0,
+            1e3 * r.penetration.1
+        ),
+    );
     let (z0, z1) = &r.zmp_outside;
     line(
         "balance",
@@ -168,15 +219,39 @@ pub fn describe(r: &RetargetReport) -> String {
         ),
     );
     let pair = |v: [f64; 2]| format!("{:.1} and {:.1} deg", v[0].to_degrees(), v[1].to_degrees());
-    line("off axis", format!("knees {}, elbows {}", pair(r.knee_off_axis), pair(r.elbow_off_axis)));
+    line(
+        "off axis",
+        format!(
+            "knees {}, elbows {}",
+            pair(r.knee_off_axis),
+            pair(r.elbow_off_axis)
+        ),
+    );
     for c in &r.clamped {
-        line("clamped", format!("{} by at most {:.1} deg in {:.1} % of the clip", c.dof, c.max.to_degrees(), 100.0 * c.fraction));
+        line(
+            "clamped",
+            format!(
+                "{} by at most {:.1} deg in {:.1} % of the clip",
+                c.dof,
+                c.max.to_degrees(),
+                100.0 * c.fraction
+            ),
+        );
     }
     for b in &r.bridged {
-        line("bridged", format!("{}: {} frames from frame {}", b.bone, b.count, b.first));
+        line(
+            "bridged",
+            format!("{}: {} frames from frame {}", b.bone, b.count, b.first),
+        );
     }
     if r.carried > 0.0 {
-        line("carried", format!("{:.0} % of the clip rests on something else than the feet", 100.0 * r.carried));
+        line(
+            "carried",
+            format!(
+                "{:.0} % of the clip rests on something else than the feet",
+                100.0 * r.carried
+            ),
+        );
     }
     for w in &r.warnings {
         line("warning", w.clone());

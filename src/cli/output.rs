@@ -8,12 +8,22 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// When there is none of `accepted`; names them.
 pub fn extension(flag: &str, path: &Path, accepted: &[&'static str]) -> Result<&'static str> {
-    let got = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
+    let got = path
+        .extension()
+        .map(|e| e.to_string_lossy().to_lowercase())
+        .unwrap_or_default();
     match accepted.iter().find(|a| **a == got) {
         Some(found) => Ok(found),
         None => {
-            let list = accepted.iter().map(|a| format!(".{a}")).collect::<Vec<_>>().join(", ");
-            bail!("{flag} {}: the name must end in one of {list}", path.display())
+            let list = accepted
+                .iter()
+                .map(|a| format!(".{a}"))
+                .collect::<Vec<_>>()
+                .join(", ");
+            bail!(
+                "{flag} {}: the name must end in one of {list}",
+                path.display()
+            )
         }
     }
 }
@@ -23,7 +33,10 @@ pub fn for_clip(path: &Path, clip: &str, several: bool) -> PathBuf {
     if !several {
         return path.to_owned();
     }
-    let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    let stem = path
+        .file_stem()
+        .map(|s| s.to_string_lossy().into_owned())
+        .unwrap_or_default();
     let mut name = format!("{stem}-{clip}");
     if let Some(e) = path.extension() {
         name = format!("{name}.{}", e.to_string_lossy());
@@ -45,14 +58,25 @@ mod tests {
 
     #[test]
     fn several_clips_get_names_of_their_own() {
-        assert_eq!(for_clip(Path::new("a/out.csv"), "walk", true), Path::new("a/out-walk.csv"));
-        assert_eq!(for_clip(Path::new("a/out.csv"), "walk", false), Path::new("a/out.csv"));
+        assert_eq!(
+            for_clip(Path::new("a/out.csv"), "walk", true),
+            Path::new("a/out-walk.csv")
+        );
+        assert_eq!(
+            for_clip(Path::new("a/out.csv"), "walk", false),
+            Path::new("a/out.csv")
+        );
     }
 
     #[test]
     fn wrong_extension_lists_the_right_ones() {
-        let error = extension("--out", Path::new("a.txt"), &["bvh", "csv"]).expect_err("txt").to_string();
+        let error = extension("--out", Path::new("a.txt"), &["bvh", "csv"])
+            .expect_err("txt")
+            .to_string();
         assert_eq!(error, "--out a.txt: the name must end in one of .bvh, .csv");
-        assert_eq!(extension("--out", Path::new("a.CSV"), &["bvh", "csv"]).expect("csv"), "csv");
+        assert_eq!(
+            extension("--out", Path::new("a.CSV"), &["bvh", "csv"]).expect("csv"),
+            "csv"
+        );
     }
 }

@@ -169,21 +169,31 @@ pub fn run(args: &RunArgs) -> Result<()> {
     check(args)?;
     let scenario = Scenario {
         body: Arc::new(args.body.build()?),
-        params: WorldParams { rate_hz: args.rate, substeps: args.substeps, ..WorldParams::default() },
+        params: WorldParams {
+            rate_hz: args.rate,
+            substeps: args.substeps,
+            ..WorldParams::default()
+        },
         args,
     };
     // Bad parameters are worth knowing before clips are read.
     World::new(scenario.params).context("no such world")?;
     let options = RetargetOptions::default();
-    let sources =
-        args.clips.iter().map(|spec| load(spec, &scenario.body, &options)).collect::<Result<Vec<_>>>()?;
+    let sources = args
+        .clips
+        .iter()
+        .map(|spec| load(spec, &scenario.body, &options))
+        .collect::<Result<Vec<_>>>()?;
     let documents = run_all(&scenario, &sources)?;
     if let Some(path) = &args.report {
         let text = match documents.as_slice() {
             [one] => serde_json::to_string_pretty(one),
             several => serde_json::to_string_pretty(several),
         };
-        write(path, text.context("the report cannot be written as JSON")? + "\n")?;
+        write(
+            path,
+            text.context("the report cannot be written as JSON")? + "\n",
+        )?;
     }
     Ok(())
 }
@@ -201,10 +211,21 @@ fn check(args: &RunArgs) -> Result<()> {
         args.push_duration
     );
     if let Some(duration) = args.duration {
-        ensure!(duration > 0.0 && duration <= MAX_DURATION, "--duration {duration} s: outside 0…{MAX_DURATION}");
+        ensure!(
+            duration > 0.0 && duration <= MAX_DURATION,
+            "--duration {duration} s: outside 0…{MAX_DURATION}"
+        );
     }
-    ensure!((1..=64).contains(&args.strip_frames), "--strip-frames {}: outside 1…64", args.strip_frames);
-    ensure!((1..=256).contains(&args.threads), "--threads {}: outside 1…256", args.threads);
+    ensure!(
+        (1..=64).contains(&args.strip_frames),
+        "--strip-frames {}: outside 1…64",
+        args.strip_frames
+    );
+    ensure!(
+        (1..=256).contains(&args.threads),
+        "--threads {}: outside 1…256",
+        args.threads
+    );
     if let Some(path) = &args.out {
         extension("--out", path, &["bvh", "csv"])?;
     }
@@ -218,7 +239,8 @@ fn check(args: &RunArgs) -> Result<()> {
 fn run_all(scenario: &Scenario<'_>, sources: &[Source]) -> Result<Vec<serde_json::Value>> {
     let bars = MultiProgress::new();
     let next = AtomicUsize::new(0);
-    let results: Mutex<Vec<Option<Result<serde_json::Value>>>> = Mutex::new(sources.iter().map(|_| None).collect());
+    let results: Mutex<Vec<Option<Result<serde_json::Value>>>> =
+        Mutex::new(sources.iter().map(|_| None).collect());
     println!("{}", summary_header());
     std::thread::scope(|scope| {
         for _ in 0..scenario.args.threads.min(sources.len()) {
@@ -227,7 +249,9 @@ fn run_all(scenario: &Scenario<'_>, sources: &[Source]) -> Result<Vec<serde_json
                     let i = next.fetch_add(1, Ordering::Relaxed);
                     let Some(source) = sources.get(i) else { break };
                     let result = run_one(scenario, source, sources.len() > 1, &bars);
-                    let mut results = results.lock().expect("no thread panics while it holds the results");
+                    let mut results = results
+                        .lock()
+                        .expect("no thread panics while it holds the results");
                     results[i] = Some(result);
                 }
             });
@@ -261,7 +285,11 @@ fn run_one(
         }
     }
     let bar = bars.add(progress_bar(&source.name, ticks));
-    let shown = if args.strip.is_some() { evenly_spaced(ticks, args.strip_frames) } else { Vec::new() };
+    let shown = if args.strip.is_some() {
+        evenly_spaced(ticks, args.strip_frames)
+    } else {
+        Vec::new()
+    };
     let (report, frames) = simulate(scenario, &source.clip, ticks, &shown, |figure, time| {
         bar.inc(1);
         if let Some(csv) = &mut csv {
@@ -310,19 +338,29 @@ fn simulate(
     let key = world
         .add_figure(FigureSetup {
             body: Arc::clone(body),
-            strength: StrengthScale { all: args.strength, ..StrengthScale::default() },
+            strength: StrengthScale {
+                all: args.strength,
+                ..StrengthScale::default()
+            },
             controller: args.controller.into(),
             stepper: args.stepper.into(),
             params: ControlParams::default(),
-            state: State { posture: start.posture, velocity: start.velocity },
+            state: State {
+                posture: start.posture,
+                velocity: start.velocity,
+            },
             name: clip.name().to_owned(),
         })
         .context("no such figure")?;
     for load in &args.load {
-        world.perturb(key, load.perturbation(body)).context("--load")?;
+        world
+            .perturb(key, load.perturbation(body))
+            .context("--load")?;
     }
     for push in &args.push {
-        world.perturb(key, push.perturbation(body, args.push_duration)).context("--push")?;
+        world
+            .perturb(key, push.perturbation(body, args.push_duration))
+            .context("--push")?;
     }
     let figure = world.figure_mut(key).expect("the figure was just added");
     figure.set_drive(Drive::Clip(ClipPlayback {
@@ -346,6 +384,7 @@ fn simulate(
             target: figure.target(),
             report,
             state: figure.state(),
+            strength: (figure.strength(), &figure.setup().strength),
             gravity: scenario.params.gravity,
         };
         metrics.observe(tick, us);
@@ -353,7 +392,11 @@ fn simulate(
             note(&mut metrics, event);
         }
         if shown.binary_search(&n).is_ok() {
-            frames.push(Frame::of(&tick, metrics.time_s(), held_loads(scenario, metrics.time_s())));
+            frames.push(Frame::of(
+                &tick,
+                metrics.time_s(),
+                held_loads(scenario, metrics.time_s()),
+            ));
         }
         each(figure, metrics.time_s())?;
     }
@@ -363,7 +406,13 @@ fn simulate(
 /// Loads in the figure's hands at `time` (s).
 fn held_loads(scenario: &Scenario<'_>, time: f64) -> Vec<(usize, Vec3, f64)> {
     let held = |l: &&LoadSpec| l.from_s < time && time <= l.to_s && l.mass_kg > 0.0;
-    let place = |l: &LoadSpec| (l.segment.index(), scenario.body.segment(l.segment).com, l.mass_kg);
+    let place = |l: &LoadSpec| {
+        (
+            l.segment.index(),
+            scenario.body.segment(l.segment).com,
+            l.mass_kg,
+        )
+    };
     scenario.args.load.iter().filter(held).map(place).collect()
 }
 
@@ -382,7 +431,12 @@ fn note(metrics: &mut Metrics, event: &FigureEvent) {
         E::LoadDropped { segment, mass } => ("load_dropped", Some(segment), None, Some(mass)),
         E::Quarantined => ("quarantined", None, None, None),
     };
-    metrics.event(kind, segment.map(|s| s.name()), dof.map(|d| DOF_NAMES[d]), mass);
+    metrics.event(
+        kind,
+        segment.map(|s| s.name()),
+        dof.map(|d| DOF_NAMES[d]),
+        mass,
+    );
 }
 
 fn document<'a>(
@@ -429,7 +483,10 @@ fn document<'a>(
             })
             .collect(),
         measures,
-        retarget: source.retarget.as_ref().map_or(serde_json::Value::Null, super::lint::to_json),
+        retarget: source
+            .retarget
+            .as_ref()
+            .map_or(serde_json::Value::Null, super::lint::to_json),
     }
 }
 
@@ -449,12 +506,17 @@ fn write_strip(scenario: &Scenario<'_>, name: &str, frames: &[Frame], path: &Pat
     for p in &args.push {
         title += &format!(", push {} Ns at {} s", p.impulse_ns, p.at_s);
     }
-    let options = StripOptions { view: args.view.into(), title, ..StripOptions::default() };
+    let options = StripOptions {
+        view: args.view.into(),
+        title,
+        ..StripOptions::default()
+    };
     let drawing = draw(&scenario.body, frames, &options);
     if extension("--strip", path, &["svg", "png"])? == "svg" {
         write(path, svg::write(&drawing))
     } else {
-        let png = raster::png(&drawing).with_context(|| format!("cannot draw {}", path.display()))?;
+        let png =
+            raster::png(&drawing).with_context(|| format!("cannot draw {}", path.display()))?;
         write(path, png)
     }
 }
@@ -468,8 +530,13 @@ struct Csv {
 
 impl Csv {
     fn create(path: &Path) -> Result<Self> {
-        let file = File::create(path).with_context(|| format!("cannot write {}", path.display()))?;
-        let mut out = Self { path: path.to_owned(), file: BufWriter::new(file), line: header(true) };
+        let file =
+            File::create(path).with_context(|| format!("cannot write {}", path.display()))?;
+        let mut out = Self {
+            path: path.to_owned(),
+            file: BufWriter::new(file),
+            line: header(true),
+        };
         out.flush_line()?;
         Ok(out)
     }
@@ -492,21 +559,36 @@ impl Csv {
     }
 
     fn finish(mut self) -> Result<()> {
-        self.file.flush().with_context(|| format!("cannot write {}", self.path.display()))
+        self.file
+            .flush()
+            .with_context(|| format!("cannot write {}", self.path.display()))
     }
 }
 
 fn progress_bar(name: &str, ticks: u64) -> ProgressBar {
-    let style = ProgressStyle::with_template("{prefix:>14} {wide_bar:.cyan/dim} {pos}/{len} ticks, {per_sec}, {eta} left")
-        .expect("the template is a constant")
-        .progress_chars("━╸─");
-    ProgressBar::new(ticks).with_style(style).with_prefix(name.to_owned())
+    let style = ProgressStyle::with_template(
+        "{prefix:>14} {wide_bar:.cyan/dim} {pos}/{len} ticks, {per_sec}, {eta} left",
+    )
+    .expect("the template is a constant")
+    .progress_chars("━╸─");
+    ProgressBar::new(ticks)
+        .with_style(style)
+        .with_prefix(name.to_owned())
 }
 
 fn summary_header() -> String {
     format!(
         "{:<14} {:>7} {:>8} {:>8} {:>8} {:>9} {:>7} {:>9} {:>8} {:>8}  result",
-        "clip", "time s", "rms deg", "max deg", "root mm", "global mm", "use max", "margin m", "slip mm", "us/tick"
+        "clip",
+        "time s",
+        "rms deg",
+        "max deg",
+        "root mm",
+        "global mm",
+        "use max",
+        "margin m",
+        "slip mm",
+        "us/tick"
     )
 }
 
@@ -516,8 +598,12 @@ fn summary_line(name: &str, r: &RunReport) -> String {
         (None, Some(t)) => format!("fell at {t:.2} s"),
         (None, None) => "stood".to_owned(),
     };
-    let margin = r.margin_min_m.map_or_else(|| "none".to_owned(), |m| format!("{m:.3}"));
-    let longest = r.longest_saturated().map_or_else(String::new, |(d, s)| format!(", {d} at its limit for {s:.2} s"));
+    let margin = r
+        .margin_min_m
+        .map_or_else(|| "none".to_owned(), |m| format!("{m:.3}"));
+    let longest = r.longest_saturated().map_or_else(String::new, |(d, s)| {
+        format!(", {d} at its limit for {s:.2} s")
+    });
     format!(
         "{name:<14} {:>7.2} {:>8.3} {:>8.2} {:>8.1} {:>9.1} {:>7.2} {margin:>9} {:>8.1} {:>8.0}  {result}{longest}",
         r.ticks as f64 / r.rate_hz,

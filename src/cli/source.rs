@@ -27,9 +27,16 @@ const BUILTIN: &str = "builtin:";
 pub fn load(spec: &str, body: &Body, options: &RetargetOptions) -> Result<Source> {
     if let Some(name) = spec.strip_prefix(BUILTIN) {
         let Some(clip) = builtin(body, name) else {
-            bail!("no built-in motion is called {name:?}; there are {}", BUILTIN_NAMES.join(", "));
+            bail!(
+                "no built-in motion is called {name:?}; there are {}",
+                BUILTIN_NAMES.join(", ")
+            );
         };
-        return Ok(Source { name: name.to_owned(), clip, retarget: None });
+        return Ok(Source {
+            name: name.to_owned(),
+            clip,
+            retarget: None,
+        });
     }
     let path = Path::new(spec);
     let bytes = match std::fs::read(path) {
@@ -39,7 +46,14 @@ pub fn load(spec: &str, body: &Body, options: &RetargetOptions) -> Result<Source
         other => other.with_context(|| format!("cannot read {spec}"))?,
     };
     let bvh = Bvh::parse(&bytes).with_context(|| format!("{spec} is not a BVH file"))?;
-    let fitted = retarget(&bvh, body, options).with_context(|| format!("{spec} does not fit the body"))?;
-    let name = path.file_stem().map_or_else(|| spec.to_owned(), |s| s.to_string_lossy().into_owned());
-    Ok(Source { name, clip: fitted.clip, retarget: Some(fitted.report) })
+    let fitted =
+        retarget(&bvh, body, options).with_context(|| format!("{spec} does not fit the body"))?;
+    let name = path
+        .file_stem()
+        .map_or_else(|| spec.to_owned(), |s| s.to_string_lossy().into_owned());
+    Ok(Source {
+        name,
+        clip: fitted.clip,
+        retarget: Some(fitted.report),
+    })
 }

@@ -3,11 +3,13 @@
 use super::audit::audit;
 use super::pose::segment_poses;
 use super::report::{MAX_EVENTS, RunEvent, RunReport};
+use crate::sim::body::angles::anatomical_angles;
 use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::body::{Body, DOF_COUNT, Links, Posture, SEGMENT_COUNT, State};
-use crate::sim::figure::{Flags, TickReport};
+use crate::sim::figure::{Flags, StrengthScale, TickReport};
 use crate::sim::math::Vec3;
 use crate::sim::motion::TargetPair;
+use crate::sim::strength::Strength;
 
 /// A foot contact point carries weight above this force, N.
 const CARRIES_N: f64 = 5.0;
@@ -27,8 +29,29 @@ pub struct Tick<'a> {
     pub report: &'a TickReport,
     /// Its state after the tick.
     pub state: &'a State,
+    /// Its strength, and the factors on it.
+    pub strength: (&'a Strength, &'a StrengthScale),
     /// Gravity, m/s², positive downwards.
     pub gravity: f64,
+}
+
+impl Tick<'_> {
+    /// Share of the available muscle torque that each DOF uses in the audited substep, from the strength of the body at that state.
+    ///
+    /// Limits follow angles and speeds, so mean torques of a tick cannot be compared with limits of one instant.
+    pub fn utilisation(&self) -> [f64; DOF_COUNT] {
+        let sample = &self.report.audit;
+        let angles = anatomical_angles(&sample.state.posture);
+        let rates = std::array::from_fn(|d| sample.state.velocity[6 + d]);
+        let (mut lower, mut upper) = ([0.0; DOF_COUNT], [0.0; DOF_COUNT]);
+        let (strength, scale) = self.strength;
+        strength.range(&angles, &rates, scale, &mut lower, &mut upper);
+        std::array::from_fn(|d| {
+            let torque = sample.torque[d];
+            let limit = if torque < 0.0 { lower[d] } else { upper[d] };
+            if torque == 0.0 { 0.0 } else { torque / limit }
+        })
+    }
 }
 
 /// A run being measured.
@@ -111,7 +134,13 @@ impl Metrics {
             return;
         }
         let report = tick.report;
-        self.observe_torques(report);
+        if report.flags.has(Flags::QUARANTINED) {
+            // A frozen figure repeats its last report.
+            self.quarantined_at_s
+                .get_or_insert(self.ticks as f64 / self.rate_hz);
+            return;
+        }
+        self.observe_torques(&tick);
         self.penetration = self.penetration.max(report.penetration);
         let found = audit(tick.links, &report.audit, tick.gravity);
         self.residual = self.residual.max(found.relative);
@@ -122,10 +151,6 @@ impl Metrics {
         }
         if report.flags.has(Flags::FALLEN) {
             self.fell_at_s
-                .get_or_insert(self.ticks as f64 / self.rate_hz);
-        }
-        if report.flags.has(Flags::QUARANTINED) {
-            self.quarantined_at_s
                 .get_or_insert(self.ticks as f64 / self.rate_hz);
         }
         self.before = tick.state.posture;
@@ -153,21 +178,15 @@ impl Metrics {
         }
     }
 
-    fn observe_torques(&mut self, report: &TickReport) {
-        for d in 0..DOF_COUNT {
-            let torque = report.torque[d];
-            let limit = if torque < 0.0 {
-                report.torque_lower[d]
-            } else {
-                report.torque_upper[d]
-            };
-            let used = if torque == 0.0 { 0.0 } else { torque / limit };
+    fn observe_torques(&mut self, tick: &Tick<'_>) {
+        for (d, used) in tick.utilisation().into_iter().enumerate() {
             self.utilisation[d] = self.utilisation[d].max(used);
-            if used >= AT_LIMIT || report.saturated >> d & 1 == 1 {
+            // The solver's own word covers all substeps, ours one of them, independently.
+            self.over_limit = self.over_limit.max(used - 1.0).max(tick.report.over_limit);
+            if used >= AT_LIMIT || tick.report.saturated >> d & 1 == 1 {
                 self.saturated_ticks[d] += 1;
             }
         }
-        self.over_limit = self.over_limit.max(report.over_limit);
     }
 
     fn observe_tracking(&mut self, tick: &Tick<'_>) {
@@ -277,3 +296,6 @@ fn is_finite(tick: &Tick<'_>) -> bool {
             .iter()
             .all(|(_, p, f)| p.is_finite() && f.is_finite())
 }
+
+#[cfg(test)]
+mod tests;

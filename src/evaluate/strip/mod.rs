@@ -82,15 +82,7 @@ impl Frame {
             com: report.com,
             zmp: report.zmp,
             polygon: report.support_polygon.clone(),
-            utilisation: std::array::from_fn(|d| {
-                let t = report.torque[d];
-                let limit = if t < 0.0 {
-                    report.torque_lower[d]
-                } else {
-                    report.torque_upper[d]
-                };
-                if t == 0.0 { 0.0 } else { t / limit }
-            }),
+            utilisation: tick.utilisation(),
             loads,
             fallen: report.flags.has(Flags::FALLEN),
         }
@@ -133,3 +125,6 @@ pub fn evenly_spaced(ticks: u64, count: usize) -> Vec<u64> {
 pub fn draw(body: &Body, frames: &[Frame], options: &StripOptions) -> Drawing {
     panel::draw(body, frames, options)
 }
+
+#[cfg(test)]
+mod tests;
