@@ -16,8 +16,24 @@ use sinew::sim::motion::{Bvh, RetargetError, RetargetOptions, Retargeted, UpAxis
 use std::path::PathBuf;
 
 const CLIPS: [&str; 18] = [
-    "carry", "dance", "fall-rise", "get-up", "hit", "idle", "jump", "lift", "punch", "quick-stop", "run", "salsa-a", "salsa-b",
-    "sit-stand", "turn", "walk", "walk-around", "wave",
+    "carry",
+    "dance",
+    "fall-rise",
+    "get-up",
+    "hit",
+    "idle",
+    "jump",
+    "lift",
+    "punch",
+    "quick-stop",
+    "run",
+    "salsa-a",
+    "salsa-b",
+    "sit-stand",
+    "turn",
+    "walk",
+    "walk-around",
+    "wave",
 ];
 /// Clips in which the person stands on the spot: they must stay on their feet.
 const STANDING: [&str; 4] = ["idle", "lift", "punch", "wave"];
@@ -49,13 +65,21 @@ fn soles(body: &Body, posture: &Posture) -> [(Vec3, Vec3, f64); 2] {
     let poses = forward(body, posture);
     [(L_FOOT, L_TOES), (R_FOOT, R_TOES)].map(|(foot, toes)| {
         let (at, q) = poses[foot.index()];
-        let back = body.segment(foot).contact_points.iter().min_by(|a, b| a.x.total_cmp(&b.x)).unwrap();
+        let back = body
+            .segment(foot)
+            .contact_points
+            .iter()
+            .min_by(|a, b| a.x.total_cmp(&b.x))
+            .unwrap();
         let heel = at + q.rotate(Vec3 { y: 0.0, ..*back });
         let low = [foot, toes]
             .iter()
             .flat_map(|s| {
                 let (at, q) = poses[s.index()];
-                body.segment(*s).contact_points.iter().map(move |p| (at + q.rotate(*p)).z)
+                body.segment(*s)
+                    .contact_points
+                    .iter()
+                    .map(move |p| (at + q.rotate(*p)).z)
             })
             .fold(f64::INFINITY, f64::min);
         (heel, poses[toes.index()].0, low)
@@ -67,32 +91,72 @@ fn every_clip_becomes_a_motion_of_every_body() {
     let stats = stats();
     for body in [Body::adult_man(), Body::adult_woman()] {
         for name in CLIPS {
-            let r = take(&text(name), &body, &RetargetOptions { name: name.into(), ..Default::default() }).unwrap();
+            let r = take(
+                &text(name),
+                &body,
+                &RetargetOptions {
+                    name: name.into(),
+                    ..Default::default()
+                },
+            )
+            .unwrap();
             let (clip, report) = (&r.clip, &r.report);
             let known = &stats[name];
             assert_eq!(clip.name(), name);
             assert!(clip.rate_hz() >= 59.0);
             let seconds = known["seconds"].as_f64().unwrap();
-            assert!((clip.duration() - seconds).abs() < 0.06, "{name}: {} s", clip.duration());
-            assert!((report.unit_m / known["scale_m_per_unit"].as_f64().unwrap() - 1.0).abs() < 1e-3, "{name}: unit {}", report.unit_m);
+            assert!(
+                (clip.duration() - seconds).abs() < 0.06,
+                "{name}: {} s",
+                clip.duration()
+            );
+            assert!(
+                (report.unit_m / known["scale_m_per_unit"].as_f64().unwrap() - 1.0).abs() < 1e-3,
+                "{name}: unit {}",
+                report.unit_m
+            );
             assert_eq!(report.up, UpAxis::Y, "{name}");
             assert!(!report.sides_swapped && !report.by_structure, "{name}");
-            assert!((1.3..2.0).contains(&report.stature), "{name}: {}", report.stature);
-            assert!(report.mapped.len() + report.missing.len() >= 18, "{name}: {:?}", report.mapped);
-            assert!(report.knee_off_axis.iter().chain(&report.elbow_off_axis).all(|a| *a < 0.35), "{name}");
+            assert!(
+                (1.3..2.0).contains(&report.stature),
+                "{name}: {}",
+                report.stature
+            );
+            assert!(
+                report.mapped.len() + report.missing.len() >= 18,
+                "{name}: {:?}",
+                report.mapped
+            );
+            assert!(
+                report
+                    .knee_off_axis
+                    .iter()
+                    .chain(&report.elbow_off_axis)
+                    .all(|a| *a < 0.35),
+                "{name}"
+            );
 
             // Starts at the origin, facing +x; left is left.
             let first = clip.posture(0);
             let pelvis = first.root_rotation.rotate(Vec3::X);
-            assert!(pelvis.y.abs() < 0.02 && pelvis.x > 0.0 || pelvis.z.abs() > 0.9, "{name}: faces {pelvis:?}");
-            assert!(first.root_position.x.hypot(first.root_position.y) < 0.13, "{name}: {:?}", first.root_position);
+            assert!(
+                pelvis.y.abs() < 0.02 && pelvis.x > 0.0 || pelvis.z.abs() > 0.9,
+                "{name}: faces {pelvis:?}"
+            );
+            assert!(
+                first.root_position.x.hypot(first.root_position.y) < 0.13,
+                "{name}: {:?}",
+                first.root_position
+            );
             let mut left = 0.0;
             for i in 0..clip.len() {
                 let p = clip.posture(i);
                 assert!(p.is_finite(), "{name} sample {i}");
                 let poses = forward(&body, p);
                 let across = p.root_rotation.rotate(Vec3::Y);
-                left += (poses[L_FOOT.index()].0 - poses[R_FOOT.index()].0).dot(across).signum();
+                left += (poses[L_FOOT.index()].0 - poses[R_FOOT.index()].0)
+                    .dot(across)
+                    .signum();
                 assert!((poses[L_THIGH.index()].0 - poses[R_THIGH.index()].0).dot(across) > 0.0);
                 for (d, a) in anatomical_angles(p).iter().enumerate() {
                     assert!(
@@ -102,7 +166,11 @@ fn every_clip_becomes_a_motion_of_every_body() {
                     );
                 }
             }
-            assert!(left > 0.5 * clip.len() as f64, "{name}: the left foot is on the left: {left} of {}", clip.len());
+            assert!(
+                left > 0.5 * clip.len() as f64,
+                "{name}: the left foot is on the left: {left} of {}",
+                clip.len()
+            );
         }
     }
 }
@@ -124,14 +192,34 @@ fn planted_feet_neither_slide_nor_sink() {
                     }
                     let step = |a: Vec3, b: Vec3| (a.x - b.x).hypot(a.y - b.y);
                     slid[s] += step(now[s].0, before[s].0).min(step(now[s].1, before[s].1));
-                    assert!(slid[s] < 1e-3, "{name}: foot {s} slides {} m by sample {i}", slid[s]);
-                    assert!(now[s].2 > -1e-3, "{name}: foot {s} is {} m under the floor at sample {i}", -now[s].2);
-                    assert!(now[s].2 < 2e-3, "{name}: foot {s} stands {} m over the floor at sample {i}", now[s].2);
+                    assert!(
+                        slid[s] < 1e-3,
+                        "{name}: foot {s} slides {} m by sample {i}",
+                        slid[s]
+                    );
+                    assert!(
+                        now[s].2 > -1e-3,
+                        "{name}: foot {s} is {} m under the floor at sample {i}",
+                        -now[s].2
+                    );
+                    assert!(
+                        now[s].2 < 2e-3,
+                        "{name}: foot {s} stands {} m over the floor at sample {i}",
+                        now[s].2
+                    );
                 }
                 before = now;
             }
-            assert!(r.report.foot_slide.1 < 1e-3 && r.report.penetration.1 < 1e-3, "{name}: {:?}", r.report);
-            assert!(r.report.freed < 0.12, "{name}: {} of the samples let go", r.report.freed);
+            assert!(
+                r.report.foot_slide.1 < 1e-3 && r.report.penetration.1 < 1e-3,
+                "{name}: {:?}",
+                r.report
+            );
+            assert!(
+                r.report.freed < 0.12,
+                "{name}: {} of the samples let go",
+                r.report.freed
+            );
         }
     }
 }
@@ -162,7 +250,12 @@ fn contact_phases_agree_with_the_statistics() {
         let r = take(&text(name), &body, &RetargetOptions::default()).unwrap();
         let known = known_phases(&stats, name);
         // Both feet leave or land within a few frames of each other in a jump: such slivers are no phases of their own.
-        let ours: Vec<&ContactPhase> = r.report.phases.iter().filter(|p| p.end - p.start > 0.03).collect();
+        let ours: Vec<&ContactPhase> = r
+            .report
+            .phases
+            .iter()
+            .filter(|p| p.end - p.start > 0.03)
+            .collect();
         let letters = |v: Vec<char>| v.into_iter().collect::<String>();
         assert_eq!(
             letters(ours.iter().map(|p| p.letter()).collect()),
@@ -183,8 +276,17 @@ fn contact_phases_agree_with_the_statistics() {
     }
     for name in STANDING {
         let r = take(&text(name), &body, &RetargetOptions::default()).unwrap();
-        let both: f64 = r.report.phases.iter().filter(|p| p.letter() == 'D').map(|p| p.end - p.start).sum();
-        assert!(both > 0.93 * r.clip.duration(), "{name}: both feet down for {both} s");
+        let both: f64 = r
+            .report
+            .phases
+            .iter()
+            .filter(|p| p.letter() == 'D')
+            .map(|p| p.end - p.start)
+            .sum();
+        assert!(
+            both > 0.93 * r.clip.duration(),
+            "{name}: both feet down for {both} s"
+        );
     }
 }
 
@@ -194,10 +296,20 @@ fn standing_motions_keep_the_zero_moment_point_over_the_feet() {
         for name in STANDING {
             let r = take(&text(name), &body, &RetargetOptions::default()).unwrap();
             let (before, after) = r.report.zmp_outside;
-            assert!(after.p95 == 0.0 && after.mean <= before.mean, "{name}: {before:?} {after:?}");
+            assert!(
+                after.p95 == 0.0 && after.mean <= before.mean,
+                "{name}: {before:?} {after:?}"
+            );
             // Wave takes steps; the others never leave the floor.
-            let (most, fraction) = if name == "wave" { (0.05, 0.03) } else { (0.0, 0.0) };
-            assert!(after.max <= most && after.fraction <= fraction, "{name}: {after:?}");
+            let (most, fraction) = if name == "wave" {
+                (0.05, 0.03)
+            } else {
+                (0.0, 0.0)
+            };
+            assert!(
+                after.max <= most && after.fraction <= fraction,
+                "{name}: {after:?}"
+            );
         }
     }
 }
@@ -208,8 +320,15 @@ fn balancing_and_locking_make_a_walk_consistent() {
     for name in ["walk", "turn", "salsa-a"] {
         let r = take(&text(name), &body, &RetargetOptions::default()).unwrap();
         let (before, after) = r.report.zmp_outside;
-        assert!(after.mean < 0.01 && after.mean < 0.25 * before.mean, "{name}: {before:?} {after:?}");
-        assert!(r.report.foot_slide.0 > 0.02 && r.report.shift_max < 0.06, "{name}: {:?}", r.report.foot_slide);
+        assert!(
+            after.mean < 0.01 && after.mean < 0.25 * before.mean,
+            "{name}: {before:?} {after:?}"
+        );
+        assert!(
+            r.report.foot_slide.0 > 0.02 && r.report.shift_max < 0.06,
+            "{name}: {:?}",
+            r.report.foot_slide
+        );
     }
 }
 
@@ -235,7 +354,10 @@ fn swinging_feet_clear_the_floor() {
             }
         }
     }
-    assert!(runs.len() >= 4 && runs.iter().all(|t| *t > 0.03), "clearance of each swing: {runs:?}");
+    assert!(
+        runs.len() >= 4 && runs.iter().all(|t| *t > 0.03),
+        "clearance of each swing: {runs:?}"
+    );
 }
 
 #[test]
@@ -255,7 +377,11 @@ fn two_people_of_one_recording_keep_their_distance() {
     for i in [0, 150, 300, 590] {
         let [p, q] = [0, 1].map(|k: usize| files[k].world(i)[0].position * 0.01);
         let recorded = (p.x - q.x).hypot(p.z - q.z);
-        assert!((gap(i) - recorded).abs() < 0.12, "frame {i}: {} against {recorded} m", gap(i));
+        assert!(
+            (gap(i) - recorded).abs() < 0.12,
+            "frame {i}: {} against {recorded} m",
+            gap(i)
+        );
     }
     let o = a.report.origin;
     let at = a.clip.posture(0).root_position;
@@ -276,18 +402,39 @@ impl Source {
         let (header, motion) = t.split_once("MOTION").unwrap();
         let mut lines = motion.lines().filter(|l| !l.trim().is_empty());
         let _frames = lines.next().unwrap();
-        let frame_time = lines.next().unwrap().rsplit(char::is_whitespace).find(|w| !w.is_empty()).unwrap().parse().unwrap();
+        let frame_time = lines
+            .next()
+            .unwrap()
+            .rsplit(char::is_whitespace)
+            .find(|w| !w.is_empty())
+            .unwrap()
+            .parse()
+            .unwrap();
         Self {
-            header: header.lines().map(|l| l.trim().to_owned()).filter(|l| !l.is_empty()).collect(),
-            rows: lines.map(|l| l.split_whitespace().map(|w| w.parse().unwrap()).collect()).collect(),
+            header: header
+                .lines()
+                .map(|l| l.trim().to_owned())
+                .filter(|l| !l.is_empty())
+                .collect(),
+            rows: lines
+                .map(|l| l.split_whitespace().map(|w| w.parse().unwrap()).collect())
+                .collect(),
             frame_time,
         }
     }
     fn text(&self) -> String {
         let mut t = self.header.join("\n");
-        t += &format!("\nMOTION\nFrames: {}\nFrame Time: {}\n", self.rows.len(), self.frame_time);
+        t += &format!(
+            "\nMOTION\nFrames: {}\nFrame Time: {}\n",
+            self.rows.len(),
+            self.frame_time
+        );
         for r in &self.rows {
-            t += &r.iter().map(|x| format!("{x:.7}")).collect::<Vec<_>>().join(" ");
+            t += &r
+                .iter()
+                .map(|x| format!("{x:.7}"))
+                .collect::<Vec<_>>()
+                .join(" ");
             t.push('\n');
         }
         t
@@ -305,7 +452,10 @@ impl Source {
     fn offsets(mut self, f: &dyn Fn([f64; 3]) -> [f64; 3]) -> Self {
         for l in &mut self.header {
             if let Some(numbers) = l.strip_prefix("OFFSET") {
-                let v: Vec<f64> = numbers.split_whitespace().map(|w| w.parse().unwrap()).collect();
+                let v: Vec<f64> = numbers
+                    .split_whitespace()
+                    .map(|w| w.parse().unwrap())
+                    .collect();
                 let o = f([v[0], v[1], v[2]]);
                 *l = format!("OFFSET {:.7} {:.7} {:.7}", o[0], o[1], o[2]);
             }
@@ -340,7 +490,12 @@ impl Source {
     }
     fn with_dead_root(mut self) -> Self {
         self.header[1] = self.header[1].replace("ROOT", "JOINT");
-        let head = ["ROOT Reference", "{", "OFFSET 0 0 0", "CHANNELS 6 Xposition Yposition Zposition Zrotation Yrotation Xrotation"];
+        let head = [
+            "ROOT Reference",
+            "{",
+            "OFFSET 0 0 0",
+            "CHANNELS 6 Xposition Yposition Zposition Zrotation Yrotation Xrotation",
+        ];
         for (k, l) in head.into_iter().enumerate() {
             self.header.insert(1 + k, l.to_owned());
         }
@@ -377,23 +532,133 @@ fn difference(a: &Retargeted, b: &Retargeted) -> (f64, f64) {
 #[track_caller]
 fn same(a: &Retargeted, b: &Retargeted, what: &str) {
     let d = difference(a, b);
-    assert!(d.0 < 2e-3 && d.1 < 0.01, "{what}: pelvis off by {} m, joints by {} rad", d.0, d.1);
+    assert!(
+        d.0 < 2e-3 && d.1 < 0.01,
+        "{what}: pelvis off by {} m, joints by {} rad",
+        d.0,
+        d.1
+    );
 }
 
 /// Names of the CMU skeleton's limbs in other dialects. CMU's `LeftHand` only twists the forearm; its `LeftFingerBase` is the wrist.
 const DIALECTS: [(&str, [&str; 11]); 9] = [
-    ("cmu", ["Arm", "ForeArm", "Hand", "FingerBase", "UpLeg", "Leg", "Foot", "ToeBase", "Shoulder", "Hips", "Head"]),
+    (
+        "cmu",
+        [
+            "Arm",
+            "ForeArm",
+            "Hand",
+            "FingerBase",
+            "UpLeg",
+            "Leg",
+            "Foot",
+            "ToeBase",
+            "Shoulder",
+            "Hips",
+            "Head",
+        ],
+    ),
     (
         "mixamorig:{S}",
-        ["Arm", "ForeArm", "ForeArmTwist", "Hand", "UpLeg", "Leg", "Foot", "ToeBase", "Shoulder", "mixamorig:Hips", "mixamorig:Head"],
+        [
+            "Arm",
+            "ForeArm",
+            "ForeArmTwist",
+            "Hand",
+            "UpLeg",
+            "Leg",
+            "Foot",
+            "ToeBase",
+            "Shoulder",
+            "mixamorig:Hips",
+            "mixamorig:Head",
+        ],
     ),
-    ("{S}", ["UpperArm", "LowerArm", "LowerArmRoll", "Hand", "UpperLeg", "LowerLeg", "Foot", "Toes", "Shoulder", "Hips", "Head"]),
-    ("{s}", ["Shldr", "ForeArm", "ForeArmRoll", "Hand", "Thigh", "Shin", "Foot", "Toe", "Collar", "hip", "head"]),
-    ("Bip01 {S1} ", ["UpperArm", "Forearm", "ForeTwist", "Hand", "Thigh", "Calf", "Foot", "Toe0", "Clavicle", "Bip01 Pelvis", "Bip01 Head"]),
-    ("{low}_", ["shoulder", "elbow", "twist", "wrist", "hip", "knee", "ankle", "toe", "collar", "root", "head"]),
-    ("{S}", ["Shoulder", "Elbow", "Roll", "Wrist", "Hip", "Knee", "Ankle", "Toes", "Collar", "Hips", "Head"]),
-    ("Character1_{S}", ["Arm", "ForeArm", "ForeArmRoll", "Hand", "UpLeg", "Leg", "Foot", "ToeBase", "Shoulder", "Character1_Hips", "Character1_Head"]),
-    ("{S1}_", ["UpperArm", "LowerArm", "Twist", "Hand", "UpperLeg", "LowerLeg", "Foot", "Toe", "Shoulder", "Pelvis", "Head"]),
+    (
+        "{S}",
+        [
+            "UpperArm",
+            "LowerArm",
+            "LowerArmRoll",
+            "Hand",
+            "UpperLeg",
+            "LowerLeg",
+            "Foot",
+            "Toes",
+            "Shoulder",
+            "Hips",
+            "Head",
+        ],
+    ),
+    (
+        "{s}",
+        [
+            "Shldr",
+            "ForeArm",
+            "ForeArmRoll",
+            "Hand",
+            "Thigh",
+            "Shin",
+            "Foot",
+            "Toe",
+            "Collar",
+            "hip",
+            "head",
+        ],
+    ),
+    (
+        "Bip01 {S1} ",
+        [
+            "UpperArm",
+            "Forearm",
+            "ForeTwist",
+            "Hand",
+            "Thigh",
+            "Calf",
+            "Foot",
+            "Toe0",
+            "Clavicle",
+            "Bip01 Pelvis",
+            "Bip01 Head",
+        ],
+    ),
+    (
+        "{low}_",
+        [
+            "shoulder", "elbow", "twist", "wrist", "hip", "knee", "ankle", "toe", "collar", "root",
+            "head",
+        ],
+    ),
+    (
+        "{S}",
+        [
+            "Shoulder", "Elbow", "Roll", "Wrist", "Hip", "Knee", "Ankle", "Toes", "Collar", "Hips",
+            "Head",
+        ],
+    ),
+    (
+        "Character1_{S}",
+        [
+            "Arm",
+            "ForeArm",
+            "ForeArmRoll",
+            "Hand",
+            "UpLeg",
+            "Leg",
+            "Foot",
+            "ToeBase",
+            "Shoulder",
+            "Character1_Hips",
+            "Character1_Head",
+        ],
+    ),
+    (
+        "{S1}_",
+        [
+            "UpperArm", "LowerArm", "Twist", "Hand", "UpperLeg", "LowerLeg", "Foot", "Toe",
+            "Shoulder", "Pelvis", "Head",
+        ],
+    ),
 ];
 
 fn dialect(name: &str, (prefix, to): &(&str, [&str; 11])) -> String {
@@ -424,7 +689,12 @@ fn names_of_other_dialects_give_the_same_motion() {
     let source = Source::read("walk");
     let plain = take(&source.text(), &body, &RetargetOptions::default()).unwrap();
     for d in &DIALECTS[1..] {
-        let r = take(&source.clone().renamed(&|n| dialect(n, d)).text(), &body, &RetargetOptions::default()).unwrap();
+        let r = take(
+            &source.clone().renamed(&|n| dialect(n, d)).text(),
+            &body,
+            &RetargetOptions::default(),
+        )
+        .unwrap();
         assert!(!r.report.by_structure, "{}: names were enough", d.0);
         same(&plain, &r, d.0);
     }
@@ -435,16 +705,33 @@ fn generic_suffix_names_and_no_names_at_all_are_understood() {
     let body = Body::adult_man();
     let source = Source::read("walk");
     let plain = take(&source.text(), &body, &RetargetOptions::default()).unwrap();
-    let blender = ["upper_arm", "forearm", "twist", "hand", "thigh", "shin", "foot", "toe", "shoulder"];
+    let blender = [
+        "upper_arm",
+        "forearm",
+        "twist",
+        "hand",
+        "thigh",
+        "shin",
+        "foot",
+        "toe",
+        "shoulder",
+    ];
     let suffix = source.clone().renamed(&|n| {
         for (side, end) in [("Left", ".L"), ("Right", ".R")] {
-            if let Some(k) = n.strip_prefix(side).and_then(|p| DIALECTS[0].1[..9].iter().position(|c| *c == p)) {
+            if let Some(k) = n
+                .strip_prefix(side)
+                .and_then(|p| DIALECTS[0].1[..9].iter().position(|c| *c == p))
+            {
                 return format!("{}{end}", blender[k]);
             }
         }
         n.to_lowercase()
     });
-    same(&plain, &take(&suffix.text(), &body, &RetargetOptions::default()).unwrap(), "suffixes");
+    same(
+        &plain,
+        &take(&suffix.text(), &body, &RetargetOptions::default()).unwrap(),
+        "suffixes",
+    );
 
     // Without names the structure decides; CMU's split forearm then ends at the twist joint, so only legs and trunk are compared.
     let mut count = 0;
@@ -461,9 +748,18 @@ fn generic_suffix_names_and_no_names_at_all_are_understood() {
         s
     };
     let r = take(&nameless.text(), &body, &RetargetOptions::default()).unwrap();
-    assert!(r.report.by_structure && r.report.warnings.iter().any(|w| w.contains("shape of the skeleton")));
+    assert!(
+        r.report.by_structure
+            && r.report
+                .warnings
+                .iter()
+                .any(|w| w.contains("shape of the skeleton"))
+    );
     for i in 0..plain.clip.len() {
-        let (a, b) = (forward(&body, plain.clip.posture(i)), forward(&body, r.clip.posture(i)));
+        let (a, b) = (
+            forward(&body, plain.clip.posture(i)),
+            forward(&body, r.clip.posture(i)),
+        );
         for s in [L_FOOT, R_FOOT, L_TOES, R_TOES] {
             let d = (a[s.index()].0 - b[s.index()].0).norm();
             assert!(d < 0.02, "sample {i}: {} is {d} m off", s.name());
@@ -477,16 +773,48 @@ fn units_axes_and_extra_joints_change_nothing() {
     let source = Source::read("walk");
     let plain = take(&source.text(), &body, &RetargetOptions::default()).unwrap();
     let cmu = 0.0254 / 0.45;
-    for (unit, what) in [(1.0, "m"), (0.1, "dm"), (0.01, "cm"), (0.001, "mm"), (0.0254, "inch")] {
-        let r = take(&source.clone().scaled(cmu / unit).text(), &body, &RetargetOptions::default()).unwrap();
-        assert!((r.report.unit_m - unit).abs() < 1e-12, "{what}: guessed {}", r.report.unit_m);
+    for (unit, what) in [
+        (1.0, "m"),
+        (0.1, "dm"),
+        (0.01, "cm"),
+        (0.001, "mm"),
+        (0.0254, "inch"),
+    ] {
+        let r = take(
+            &source.clone().scaled(cmu / unit).text(),
+            &body,
+            &RetargetOptions::default(),
+        )
+        .unwrap();
+        assert!(
+            (r.report.unit_m - unit).abs() < 1e-12,
+            "{what}: guessed {}",
+            r.report.unit_m
+        );
         same(&plain, &r, what);
     }
-    let r = take(&source.clone().z_up().text(), &body, &RetargetOptions::default()).unwrap();
+    let r = take(
+        &source.clone().z_up().text(),
+        &body,
+        &RetargetOptions::default(),
+    )
+    .unwrap();
     assert_eq!(r.report.up, UpAxis::Z);
     same(&plain, &r, "z up");
-    same(&plain, &take(&source.clone().with_dead_root().text(), &body, &RetargetOptions::default()).unwrap(), "dead root");
-    let given = RetargetOptions { unit_m: Some(0.05), ..Default::default() };
+    same(
+        &plain,
+        &take(
+            &source.clone().with_dead_root().text(),
+            &body,
+            &RetargetOptions::default(),
+        )
+        .unwrap(),
+        "dead root",
+    );
+    let given = RetargetOptions {
+        unit_m: Some(0.05),
+        ..Default::default()
+    };
     let r = take(&source.text(), &body, &given).unwrap();
     assert!(r.report.unit_given);
     same(&plain, &r, "the unit is scaled out by leg length");
@@ -498,7 +826,12 @@ fn poses_before_the_motion_and_glitches_are_taken_out() {
     let source = Source::read("walk");
     let plain = take(&source.text(), &body, &RetargetOptions::default()).unwrap();
     for held in [1, 60] {
-        let r = take(&source.clone().with_t_pose(held).text(), &body, &RetargetOptions::default()).unwrap();
+        let r = take(
+            &source.clone().with_t_pose(held).text(),
+            &body,
+            &RetargetOptions::default(),
+        )
+        .unwrap();
         assert_eq!(r.report.skipped_frames, held);
         assert!(r.report.warnings.iter().any(|w| w.contains("hold a pose")));
         same(&plain, &r, "T-pose first");
@@ -517,7 +850,12 @@ fn poses_before_the_motion_and_glitches_are_taken_out() {
         bad.rows[f][column("RightArm") + 1] += 60.0;
     }
     let r = take(&bad.text(), &body, &RetargetOptions::default()).unwrap();
-    let found: Vec<(&str, usize, usize)> = r.report.bridged.iter().map(|b| (b.bone.as_str(), b.first, b.count)).collect();
+    let found: Vec<(&str, usize, usize)> = r
+        .report
+        .bridged
+        .iter()
+        .map(|b| (b.bone.as_str(), b.first, b.count))
+        .collect();
     assert_eq!(found, [("LeftFoot", 150, 1), ("RightArm", 200, 2)]);
     same(&plain, &r, "glitches");
 }
@@ -554,7 +892,10 @@ fn slow_recordings_become_smooth_and_wrong_frame_times_can_be_corrected() {
         let d = (plain.clip.posture(i).root_position - r.clip.posture(i).root_position).norm();
         assert!(d < 0.02, "sample {i}: {d}");
     }
-    let half = RetargetOptions { rate_hz: Some(60.0), ..Default::default() };
+    let half = RetargetOptions {
+        rate_hz: Some(60.0),
+        ..Default::default()
+    };
     let r = take(&text("walk"), &body, &half).unwrap();
     assert!((r.clip.duration() - 2.0 * plain.clip.duration()).abs() < 0.02);
 }
@@ -566,19 +907,46 @@ fn errors_name_what_is_missing() {
     let go = |s: &Source, o: &RetargetOptions| take(&s.text(), &body, o).map(|_| ()).unwrap_err();
     let auto = RetargetOptions::default();
     let e = go(&source.clone().scaled(3.3), &auto);
-    assert!(matches!(e, RetargetError::Unit { measured } if (80.0..120.0).contains(&measured)), "{e}");
-    let e = go(&source, &RetargetOptions { unit_m: Some(1.0), ..Default::default() });
-    assert!(e.to_string().contains("unit_m = 1") && e.to_string().contains("file units"), "{e}");
-    let e = go(&source, &RetargetOptions { rate_hz: Some(5000.0), ..Default::default() });
+    assert!(
+        matches!(e, RetargetError::Unit { measured } if (80.0..120.0).contains(&measured)),
+        "{e}"
+    );
+    let e = go(
+        &source,
+        &RetargetOptions {
+            unit_m: Some(1.0),
+            ..Default::default()
+        },
+    );
+    assert!(
+        e.to_string().contains("unit_m = 1") && e.to_string().contains("file units"),
+        "{e}"
+    );
+    let e = go(
+        &source,
+        &RetargetOptions {
+            rate_hz: Some(5000.0),
+            ..Default::default()
+        },
+    );
     assert!(e.to_string().contains("5000"), "{e}");
-    let e = go(&source, &RetargetOptions { cutoff_hz: f64::NAN, ..Default::default() });
+    let e = go(
+        &source,
+        &RetargetOptions {
+            cutoff_hz: f64::NAN,
+            ..Default::default()
+        },
+    );
     assert!(e.to_string().contains("cutoff_hz"), "{e}");
     let mut one = source.clone();
     one.rows.truncate(1);
     assert!(matches!(go(&one, &auto), RetargetError::TooShort(1)));
     let stick = "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nJOINT LeftArm\n{\nOFFSET 0 1 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{\nOFFSET 0 1 0\n}\n}\n}\nMOTION\nFrames: 2\nFrame Time: 0.01\n0 0 0 0 0 0\n0 0 0 0 0 0\n";
     let e = take(stick, &body, &auto).map(|_| ()).unwrap_err();
-    assert!(e.to_string().contains("l_forearm") && e.to_string().contains("r_foot"), "{e}");
+    assert!(
+        e.to_string().contains("l_forearm") && e.to_string().contains("r_foot"),
+        "{e}"
+    );
     let flat = source.offsets(&|_| [0.0; 3]);
     let e = go(&flat, &auto);
     assert!(matches!(e, RetargetError::Degenerate { .. }), "{e}");

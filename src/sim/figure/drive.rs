@@ -46,7 +46,7 @@ impl ClipPlayback {
         for a in &mut target.acceleration {
             *a *= self.speed * self.speed;
         }
-        self.origin.apply(&mut target);
+        self.origin.apply_to(&mut target);
         target
     }
 }

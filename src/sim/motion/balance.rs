@@ -41,7 +41,9 @@ pub fn mass_track(body: &Body, postures: &[Posture], rate_hz: f64) -> MassTrack 
     let centre = |i: usize, s: usize| poses[i][s].0 + poses[i][s].1.rotate(body.segments[s].com);
     let com: Vec<Vec3> = (0..n)
         .map(|i| {
-            (0..SEGMENT_COUNT).fold(Vec3::zero(), |sum, s| sum + centre(i, s) * (body.segments[s].mass / mass))
+            (0..SEGMENT_COUNT).fold(Vec3::zero(), |sum, s| {
+                sum + centre(i, s) * (body.segments[s].mass / mass)
+            })
         })
         .collect();
     let momentum: Vec<Vec3> = (0..n)
@@ -52,7 +54,9 @@ pub fn mass_track(body: &Body, postures: &[Posture], rate_hz: f64) -> MassTrack 
                 let seg = &body.segments[s];
                 let v = (centre(b, s) - centre(a, s)) * w;
                 let q = poses[i][s].1;
-                let spin = q.conjugate().rotate((poses[b][s].1 * poses[a][s].1.conjugate()).log() * w);
+                let spin = q
+                    .conjugate()
+                    .rotate((poses[b][s].1 * poses[a][s].1.conjugate()).log() * w);
                 sum + centre(i, s).cross(v) * seg.mass + q.rotate(seg.inertia * spin)
             })
         })
@@ -95,7 +99,9 @@ pub fn hull(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     if p.len() < 3 {
         return p;
     }
-    let cross = |o: [f64; 2], a: [f64; 2], b: [f64; 2]| (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
+    let cross = |o: [f64; 2], a: [f64; 2], b: [f64; 2]| {
+        (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0])
+    };
     let chain = |it: &mut dyn Iterator<Item = [f64; 2]>| {
         let mut c: Vec<[f64; 2]> = Vec::new();
         for q in it {
@@ -117,9 +123,14 @@ pub fn hull(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
 pub fn margin(polygon: &[[f64; 2]], z: [f64; 2]) -> f64 {
     let n = polygon.len();
     if n < 3 {
-        return -polygon.iter().map(|p| (p[0] - z[0]).hypot(p[1] - z[1])).fold(f64::INFINITY, f64::min);
+        return -polygon
+            .iter()
+            .map(|p| (p[0] - z[0]).hypot(p[1] - z[1]))
+            .fold(f64::INFINITY, f64::min);
     }
-    let inside = (0..n).map(|i| edge_distance(polygon[i], polygon[(i + 1) % n], z)).fold(f64::INFINITY, f64::min);
+    let inside = (0..n)
+        .map(|i| edge_distance(polygon[i], polygon[(i + 1) % n], z))
+        .fold(f64::INFINITY, f64::min);
     if inside >= 0.0 {
         inside
     } else {
@@ -142,7 +153,8 @@ fn closest(polygon: &[[f64; 2]], z: [f64; 2]) -> [f64; 2] {
     for i in 0..n {
         let (a, b) = (polygon[i], polygon[(i + 1) % n]);
         let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
-        let u = (((z[0] - a[0]) * dx + (z[1] - a[1]) * dy) / (dx * dx + dy * dy).max(1e-18)).clamp(0.0, 1.0);
+        let u = (((z[0] - a[0]) * dx + (z[1] - a[1]) * dy) / (dx * dx + dy * dy).max(1e-18))
+            .clamp(0.0, 1.0);
         let p = [a[0] + u * dx, a[1] + u * dy];
         let d = (p[0] - z[0]).hypot(p[1] - z[1]);
         if d < best.0 {
@@ -159,7 +171,9 @@ pub fn clip_inside(polygon: &[[f64; 2]], z: [f64; 2], inset: f64) -> [f64; 2] {
         return z;
     }
     let middle = {
-        let s = polygon.iter().fold([0.0; 2], |s, p| [s[0] + p[0], s[1] + p[1]]);
+        let s = polygon
+            .iter()
+            .fold([0.0; 2], |s, p| [s[0] + p[0], s[1] + p[1]]);
         [s[0] / n as f64, s[1] / n as f64]
     };
     if n < 3 {
@@ -208,7 +222,13 @@ pub enum Carrier {
 ///
 /// Solves Δ − Δ̈/ω² = p − z per axis with Δ̇ = 0 at both ends, Δ̈ = 0 in flight; p is z clipped to the inset polygon and smoothed.
 /// Samples that are far outside for long (`reach`, m) are carried by something else and are left alone. O(n).
-pub fn com_shift(track: &MassTrack, carriers: &[Carrier], inset: f64, reach: f64, rate_hz: f64) -> Vec<[f64; 2]> {
+pub fn com_shift(
+    track: &MassTrack,
+    carriers: &[Carrier],
+    inset: f64,
+    reach: f64,
+    rate_hz: f64,
+) -> Vec<[f64; 2]> {
     let n = track.com.len();
     let mut off: [Vec<f64>; 2] = [vec![0.0; n], vec![0.0; n]];
     for i in 0..n {
@@ -253,7 +273,11 @@ fn cart_table(rhs: &[f64], omega2: &[f64], carriers: &[Carrier], rate_hz: f64) -
         let flight = carriers[i] == Carrier::Air;
         // A trace of the stance equation keeps a clip that is all flight solvable.
         let one = if flight { 1e-6 } else { 1.0 };
-        let al = if flight { 1.0 } else { rate_hz * rate_hz / omega2[i] };
+        let al = if flight {
+            1.0
+        } else {
+            rate_hz * rate_hz / omega2[i]
+        };
         let (lower, diagonal, up) = if n == 1 {
             (0.0, one, 0.0)
         } else if i == 0 {
@@ -263,7 +287,11 @@ fn cart_table(rhs: &[f64], omega2: &[f64], carriers: &[Carrier], rate_hz: f64) -
         } else {
             (-al, one + 2.0 * al, -al)
         };
-        let before = if i > 0 { (upper[i - 1], x[i - 1]) } else { (0.0, 0.0) };
+        let before = if i > 0 {
+            (upper[i - 1], x[i - 1])
+        } else {
+            (0.0, 0.0)
+        };
         let w = 1.0 / (diagonal - lower * before.0);
         upper[i] = up * w;
         x[i] = (rhs[i] - lower * before.1) * w;
@@ -287,7 +315,11 @@ mod tests {
         let z: Vec<f64> = c.iter().map(|c| (1.0 + a * a / w2) * c).collect();
         let ground = vec![Carrier::Other; n as usize];
         let x = cart_table(&z, &vec![w2; n as usize], &ground, rate);
-        let worst = x.iter().zip(&c).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let worst = x
+            .iter()
+            .zip(&c)
+            .map(|(a, b)| (a - b).abs())
+            .fold(0.0, f64::max);
         assert!(worst < 5e-3, "{worst}");
         let flat = cart_table(&[0.05; 50], &[11.0; 50], &vec![Carrier::Other; 50], rate);
         assert!(flat.iter().all(|x| (x - 0.05).abs() < 1e-12));

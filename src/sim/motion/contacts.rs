@@ -87,7 +87,11 @@ fn label_foot(points: &[Vec<Vec3>], n: usize, rate_hz: f64) -> Vec<bool> {
         let level = percentile(&heights, 0.005);
         let mut down = false;
         for i in 0..n {
-            let (fast, high) = if down { (SPEED_OFF, HEIGHT_OFF) } else { (SPEED_ON, HEIGHT_ON) };
+            let (fast, high) = if down {
+                (SPEED_OFF, HEIGHT_OFF)
+            } else {
+                (SPEED_ON, HEIGHT_ON)
+            };
             down = speed[i] < fast && heights[i] - level < high;
             on[i] |= down;
         }
@@ -141,7 +145,10 @@ mod tests {
             let p = phases(&label_feet([&moving, &still], 120.0), 120.0);
             let letters: String = p.iter().map(ContactPhase::letter).collect();
             assert_eq!(letters, "DRD");
-            assert!((p[1].start - 0.5).abs() < 0.15 && (p[1].end - 1.0).abs() < 0.15, "{p:?}");
+            assert!(
+                (p[1].start - 0.5).abs() < 0.15 && (p[1].end - 1.0).abs() < 0.15,
+                "{p:?}"
+            );
         }
     }
 }

@@ -102,7 +102,11 @@ pub fn align_signs(rotations: &mut [Quat]) {
 /// Unit quaternion, or the identity if `q` has nearly no length (opposite rotations averaged out).
 pub fn renormalised(q: Quat) -> Quat {
     let n = q.to_xyzw().iter().map(|c| c * c).sum::<f64>();
-    if n > 1e-12 { q.normalized() } else { Quat::identity() }
+    if n > 1e-12 {
+        q.normalized()
+    } else {
+        Quat::identity()
+    }
 }
 
 /// Smooths rotations in place without delay; see [`low_pass`].
@@ -208,7 +212,12 @@ pub fn smooth_minimum(signal: &[f64], half: usize) -> Vec<f64> {
     let n = signal.len();
     let window = |i: usize| i.saturating_sub(half)..(i + half + 1).min(n);
     let least: Vec<f64> = (0..n)
-        .map(|i| signal[window(i)].iter().copied().fold(f64::INFINITY, f64::min))
+        .map(|i| {
+            signal[window(i)]
+                .iter()
+                .copied()
+                .fold(f64::INFINITY, f64::min)
+        })
         .collect();
     // Two averages of half the width each give a curve with continuous slope; both stay within the window of the minimum.
     let quarter = half / 2;
@@ -243,7 +252,9 @@ mod tests {
         let rate = 120.0;
         let n = 600;
         let wave = |f: f64| -> Vec<f64> {
-            (0..n).map(|i| (std::f64::consts::TAU * f * f64::from(i) / rate).sin()).collect()
+            (0..n)
+                .map(|i| (std::f64::consts::TAU * f * f64::from(i) / rate).sin())
+                .collect()
         };
         for (f, gain) in [(0.5, 1.0), (6.0, 0.5), (30.0, 0.0)] {
             let mut s = wave(f);
@@ -252,11 +263,20 @@ mod tests {
             let mid = 120..480;
             let dot: f64 = mid.clone().map(|i| s[i] * w[i]).sum();
             let own: f64 = mid.clone().map(|i| w[i] * w[i]).sum();
-            assert!((dot / own - gain).abs() < 0.01, "{f} Hz: gain {}", dot / own);
+            assert!(
+                (dot / own - gain).abs() < 0.01,
+                "{f} Hz: gain {}",
+                dot / own
+            );
         }
         let mut line: Vec<f64> = (0..50).map(f64::from).collect();
         low_pass(&mut line, 6.0, rate);
-        assert!(line.iter().enumerate().all(|(i, x)| (x - i as f64).abs() < 0.05), "edges hold a ramp: {line:?}");
+        assert!(
+            line.iter()
+                .enumerate()
+                .all(|(i, x)| (x - i as f64).abs() < 0.05),
+            "edges hold a ramp: {line:?}"
+        );
     }
 
     #[test]

@@ -97,7 +97,10 @@ impl Sole {
         let toes = body.segment(t).contact_points.clone();
         let toe_joint = body.joint_offset[t.index()];
         let low = foot.iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
-        let toe_low = toes.iter().map(|p| p.z + toe_joint.z).fold(f64::INFINITY, f64::min);
+        let toe_low = toes
+            .iter()
+            .map(|p| p.z + toe_joint.z)
+            .fold(f64::INFINITY, f64::min);
         let height = -low.min(toe_low);
         let ankle_height = if height.is_finite() { height } else { 0.0 };
         let back = foot.iter().map(|p| p.x).fold(f64::INFINITY, f64::min);
@@ -120,15 +123,18 @@ impl Sole {
     /// Contact points of the foot and of the toes in the foot frame, toes extended by `toe` rad.
     pub fn points(&self, toe: f64) -> impl Iterator<Item = Vec3> + '_ {
         let foot_from_toes = Quat::exp(Vec3::Y * -toe);
-        self.foot
-            .iter()
-            .copied()
-            .chain(self.toes.iter().map(move |p| self.toe_joint + foot_from_toes.rotate(*p)))
+        self.foot.iter().copied().chain(
+            self.toes
+                .iter()
+                .map(move |p| self.toe_joint + foot_from_toes.rotate(*p)),
+        )
     }
 
     /// Height of the lowest point of the sole relative to the ankle, m.
     pub fn lowest(&self, rotation: Quat, toe: f64) -> f64 {
-        self.points(toe).map(|p| rotation.rotate(p).z).fold(0.0, f64::min)
+        self.points(toe)
+            .map(|p| rotation.rotate(p).z)
+            .fold(0.0, f64::min)
     }
 
     /// Toe angle that keeps the toes flat on the floor with the foot pitched by `pitch` rad (toe-up positive).
@@ -140,7 +146,11 @@ impl Sole {
     pub fn stand(&self, anchor: Vec3, yaw: f64, pitch: f64) -> FootPose {
         let pitched = Quat::exp(Vec3::Y * -pitch);
         let toe = self.flat_toe(pitch);
-        let pivot = if pitch >= 0.0 { self.heel } else { self.toe_joint };
+        let pivot = if pitch >= 0.0 {
+            self.heel
+        } else {
+            self.toe_joint
+        };
         let mut ankle = pivot - pitched.rotate(pivot);
         ankle.z = -self.lowest(pitched, toe);
         let heading = Quat::exp(Vec3::Z * yaw);
@@ -153,7 +163,11 @@ impl Sole {
 
     /// Adds the floor polygon corners (x, y) that carry a foot standing at `at`: heel while not heel-up, toes while not toe-up.
     pub fn footprint(&self, at: &Anchor, out: &mut Vec<[f64; 2]>) {
-        let Anchor { place: anchor, yaw, pitch } = *at;
+        let Anchor {
+            place: anchor,
+            yaw,
+            pitch,
+        } = *at;
         let heading = Quat::exp(Vec3::Z * yaw);
         let ball = self.toe_joint.x;
         let mut push = |p: Vec3| {
@@ -248,7 +262,10 @@ impl Track {
         let shortest = (0.15 * rate_hz) as usize;
         let (anchor, yaw) = self.anchor(start, end);
         let inner = start + (end - start) / 12..end - (end - start) / 12;
-        let worst = inner.clone().map(|i| self.stray(i, anchor, yaw)).fold(0.0, f64::max);
+        let worst = inner
+            .clone()
+            .map(|i| self.stray(i, anchor, yaw))
+            .fold(0.0, f64::max);
         let step = (0.14 * rate_hz) as usize; // half of the time that the shuffle is given
         if worst <= 1.0 || end - start < 2 * (shortest + step) + 1 {
             out.push((start, end));
@@ -257,7 +274,8 @@ impl Track {
         // Split where the foot moves fastest over one shuffle's time.
         let moved = |i: usize| {
             let (a, b) = (i - step, i + step);
-            ((self.point[b] - self.point[a]).norm() / STRAY.0).max((self.yaw[b] - self.yaw[a]).abs() / STRAY.1)
+            ((self.point[b] - self.point[a]).norm() / STRAY.0)
+                .max((self.yaw[b] - self.yaw[a]).abs() / STRAY.1)
         };
         let at = (start + shortest + step..end - shortest - step)
             .max_by(|a, b| moved(*a).total_cmp(&moved(*b)).then(b.cmp(a)));
@@ -275,7 +293,9 @@ impl Track {
 fn fade(value: f64, slope: f64, curvature: f64, u: f64) -> f64 {
     let v = 1.0 - u;
     let v3 = v * v * v;
-    v3 * (value * (1.0 + 3.0 * u + 6.0 * u * u) + slope * u * (1.0 + 3.0 * u) + 0.5 * curvature * u * u)
+    v3 * (value * (1.0 + 3.0 * u + 6.0 * u * u)
+        + slope * u * (1.0 + 3.0 * u)
+        + 0.5 * curvature * u * u)
 }
 
 type Channels = [f64; 7];
@@ -307,7 +327,11 @@ pub fn lock_foot(
 ) -> LockedFoot {
     let n = ankles.len();
     let track = Track::new(sole, ankles, rotations);
-    let toes: Vec<f64> = track.pitch.iter().map(|p| (-p).clamp(0.0, SWING_TOE)).collect();
+    let toes: Vec<f64> = track
+        .pitch
+        .iter()
+        .map(|p| (-p).clamp(0.0, SWING_TOE))
+        .collect();
     let mut out = LockedFoot {
         poses: (0..n)
             .map(|i| FootPose {
@@ -338,12 +362,25 @@ pub fn lock_foot(
             yaws.copy_from_slice(&track.yaw[i..j]);
             low_pass(&mut yaws, 4.0, rate_hz);
         }
-        let ball = Vec3 { z: 0.0, ..sole.toe_joint };
+        let ball = Vec3 {
+            z: 0.0,
+            ..sole.toe_joint
+        };
         let arm = |yaw: f64| Quat::exp(Vec3::Z * yaw).rotate(ball);
         // A foot that turns does so on its ball: the ball's place is what stays.
         let stays = if pivots {
-            let of = |f: &dyn Fn(Vec3) -> f64| median((i..j).map(|k| f(track.point[k] + arm(track.yaw[k]))).collect());
-            Vec3 { x: of(&|p| p.x), y: of(&|p| p.y), z: 0.0 }
+            let of = |f: &dyn Fn(Vec3) -> f64| {
+                median(
+                    (i..j)
+                        .map(|k| f(track.point[k] + arm(track.yaw[k])))
+                        .collect(),
+                )
+            };
+            Vec3 {
+                x: of(&|p| p.x),
+                y: of(&|p| p.y),
+                z: 0.0,
+            }
         } else {
             place + arm(yaw)
         };
@@ -359,7 +396,11 @@ pub fn lock_foot(
             out.anchors[k] = at;
             out.poses[k] = sole.stand(at.place, at.yaw, at.pitch);
         }
-        out.stances.push(Stance { start: i, end: j, pivots });
+        out.stances.push(Stance {
+            start: i,
+            end: j,
+            pivots,
+        });
     }
     for (i, j, on) in runs(&out.planted.clone()) {
         if !on {
@@ -416,7 +457,9 @@ fn swing(
         .filter(|e| e.0)
         .map(|(_, k, inward)| {
             let step = |m: isize| (k as isize + inward * m).clamp(0, n as isize - 1) as usize;
-            let inside = |m: isize| out.planted[step(m)] && (0..n as isize).contains(&(k as isize + inward * m));
+            let inside = |m: isize| {
+                out.planted[step(m)] && (0..n as isize).contains(&(k as isize + inward * m))
+            };
             let x0 = at(k, out);
             let (mut v, mut a) = ([0.0; 7], [0.0; 7]);
             if inside(1) && inside(2) {
@@ -452,7 +495,11 @@ fn swing(
     let most = (0.12 * reach).clamp(0.015, CLEARANCE);
     let mut lift: Vec<f64> = (i..j)
         .map(|k| {
-            let since = if i > 0 { (k + 1 - i) as f64 / rate_hz } else { 1.0 };
+            let since = if i > 0 {
+                (k + 1 - i) as f64 / rate_hz
+            } else {
+                1.0
+            };
             let until = if j < n { (j - k) as f64 / rate_hz } else { 1.0 };
             let need = most.min(RISE.0 * since).min(RISE.1 * until);
             let p = &out.poses[k];
@@ -461,7 +508,11 @@ fn swing(
         .collect();
     low_pass(&mut lift, 10.0, rate_hz);
     for (k, l) in (i..j).zip(lift) {
-        let since = if i > 0 { (k + 1 - i) as f64 / rate_hz } else { 1.0 };
+        let since = if i > 0 {
+            (k + 1 - i) as f64 / rate_hz
+        } else {
+            1.0
+        };
         let until = if j < n { (j - k) as f64 / rate_hz } else { 1.0 };
         let w = (since.min(until) / 0.06).min(1.0);
         out.poses[k].ankle.z += l.max(0.0) * w * w * (3.0 - 2.0 * w);
@@ -533,12 +584,24 @@ mod tests {
                 let t = f64::from(i) / 120.0;
                 let u = ((t - 1.0) / 0.5).clamp(0.0, 1.0);
                 let b = u * u * (3.0 - 2.0 * u);
-                Vec3::from_array([0.5 * b + 0.01 * (3.0 * t).sin(), 0.1, 0.075 + 0.1 * b * (1.0 - b)])
+                Vec3::from_array([
+                    0.5 * b + 0.01 * (3.0 * t).sin(),
+                    0.1,
+                    0.075 + 0.1 * b * (1.0 - b),
+                ])
             })
             .collect();
         let rotations = vec![Quat::identity(); n as usize];
         let label: Vec<bool> = (0..n).map(|i| !(122..178).contains(&i)).collect();
-        let f = lock_foot(&s, &ankles, &rotations, &label, (&vec![0.0; n as usize], &vec![0.0; n as usize]), 0, 120.0);
+        let f = lock_foot(
+            &s,
+            &ankles,
+            &rotations,
+            &label,
+            (&vec![0.0; n as usize], &vec![0.0; n as usize]),
+            0,
+            120.0,
+        );
         assert_eq!(f.stances.len(), 2);
         for k in 1..n as usize {
             let step = (f.poses[k].ankle - f.poses[k - 1].ankle).norm();

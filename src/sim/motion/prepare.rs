@@ -6,7 +6,8 @@ use super::foot_lock::{LockedFoot, Sole, Stance, lock_foot};
 use super::leg_ik::{forward, solve_leg_in_plane};
 use crate::sim::body::angles::{anatomical_angles, clamp_to_limits};
 use crate::sim::body::topology::{
-    DOF_COUNT, DOF_START, JOINT, Joint, L_FOOT, L_SHANK, L_THIGH, L_TOES, R_FOOT, R_SHANK, R_THIGH, R_TOES, SegmentId,
+    DOF_COUNT, DOF_START, JOINT, Joint, L_FOOT, L_SHANK, L_THIGH, L_TOES, R_FOOT, R_SHANK, R_THIGH,
+    R_TOES, SegmentId,
 };
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::{Quat, Vec3};
@@ -133,7 +134,14 @@ impl Relief {
 
     /// Adds what the ankles of planted feet lack: too much dorsiflexion raises the heel, too much rotation turns the leg along.
     /// Hips that give way in turn set the foot down with another heading.
-    fn add(&mut self, body: &Body, postures: &[Posture], planted: &[[bool; 2]], stances: [&[Stance]; 2], rate_hz: f64) {
+    fn add(
+        &mut self,
+        body: &Body,
+        postures: &[Posture],
+        planted: &[[bool; 2]],
+        stances: [&[Stance]; 2],
+        rate_hz: f64,
+    ) {
         let n = postures.len();
         let half = (0.1 * rate_hz) as usize;
         for s in 0..2 {
@@ -145,7 +153,11 @@ impl Relief {
                             return 0.0;
                         }
                         let a = anatomical_angles(&postures[i])[dof];
-                        let e = if up { a - body.upper[dof] } else { body.lower[dof] - a };
+                        let e = if up {
+                            a - body.upper[dof]
+                        } else {
+                            body.lower[dof] - a
+                        };
                         -(e + RELIEF_MARGIN).max(0.0)
                     })
                     .collect();
@@ -159,7 +171,8 @@ impl Relief {
             // A thigh adducted too far goes out with the knee, one abducted too far goes in.
             let (abducted, adducted) = (over(hip + 1, true), over(hip + 1, false));
             for (i, sum) in self.turn_in[s].iter_mut().enumerate() {
-                *sum = (*sum + inward[i] - outward[i] + abducted[i] - adducted[i]).clamp(-MOST_TURN, MOST_TURN);
+                *sum = (*sum + inward[i] - outward[i] + abducted[i] - adducted[i])
+                    .clamp(-MOST_TURN, MOST_TURN);
             }
             let (rotated_in, rotated_out) = (over(hip + 2, true), over(hip + 2, false));
             for st in stances[s] {
@@ -188,18 +201,37 @@ pub fn prepare(body: &Body, draft: &Draft, options: PrepareOptions) -> Prepared 
     clamp_upper(body, &mut upper, rate, &mut clamped);
 
     let label: [Vec<bool>; 2] = std::array::from_fn(|s| {
-        (0..n).map(|i| draft.label[i][s] && options.lock_feet && upper[i].root_position.z > LYING * standing).collect()
+        (0..n)
+            .map(|i| {
+                draft.label[i][s]
+                    && options.lock_feet
+                    && upper[i].root_position.z > LYING * standing
+            })
+            .collect()
     });
     let lock = |relief: &Relief| -> [LockedFoot; 2] {
-        std::array::from_fn(|s| lock_foot(&soles[s], &draft.ankle[s], &draft.foot[s], &label[s], (&relief.heel_up[s], &relief.toe_out[s]), s, rate))
+        std::array::from_fn(|s| {
+            lock_foot(
+                &soles[s],
+                &draft.ankle[s],
+                &draft.foot[s],
+                &label[s],
+                (&relief.heel_up[s], &relief.toe_out[s]),
+                s,
+                rate,
+            )
+        })
     };
     let mut relief = Relief::new(n);
     let mut locked = lock(&relief);
-    let mut planted: Vec<[bool; 2]> = (0..n).map(|i| [locked[0].planted[i], locked[1].planted[i]]).collect();
+    let mut planted: Vec<[bool; 2]> = (0..n)
+        .map(|i| [locked[0].planted[i], locked[1].planted[i]])
+        .collect();
     let mut penetration_before: f64 = 0.0;
     for s in 0..2 {
         for i in (0..n).filter(|i| draft.label[*i][s]) {
-            let low = draft.ankle[s][i].z + soles[s].lowest(draft.foot[s][i], locked[s].poses[i].toe);
+            let low =
+                draft.ankle[s][i].z + soles[s].lowest(draft.foot[s][i], locked[s].poses[i].toe);
             penetration_before = penetration_before.max(-low);
         }
     }
@@ -210,9 +242,19 @@ pub fn prepare(body: &Body, draft: &Draft, options: PrepareOptions) -> Prepared 
     let mut carriers = carriers_of(body, &soles, &upper, &locked, draft);
     let mut track = mass_track(body, &postures, rate);
     let before = zmp_outside(&track, &carriers);
-    for round in 0..if options.lock_feet && n >= 8 { ROUNDS } else { 0 } {
+    for round in 0..if options.lock_feet && n >= 8 {
+        ROUNDS
+    } else {
+        0
+    } {
         if round + 2 < ROUNDS {
-            relief.add(body, &postures, &planted, [&locked[0].stances, &locked[1].stances], rate);
+            relief.add(
+                body,
+                &postures,
+                &planted,
+                [&locked[0].stances, &locked[1].stances],
+                rate,
+            );
             locked = lock(&relief);
             carriers = carriers_of(body, &soles, &upper, &locked, draft);
         }
@@ -222,7 +264,11 @@ pub fn prepare(body: &Body, draft: &Draft, options: PrepareOptions) -> Prepared 
                 // The feet stay behind, so the centre of mass follows the pelvis by some 85 %.
                 let (x, y) = (s[0] + 1.15 * d[0], s[1] + 1.15 * d[1]);
                 let far = x.hypot(y);
-                let k = if far > MOST_SHIFT { MOST_SHIFT / far } else { 1.0 };
+                let k = if far > MOST_SHIFT {
+                    MOST_SHIFT / far
+                } else {
+                    1.0
+                };
                 *s = [x * k, y * k];
             }
         }
@@ -268,7 +314,10 @@ pub fn prepare(body: &Body, draft: &Draft, options: PrepareOptions) -> Prepared 
         postures,
         planted,
         clamped,
-        slide: (locked[0].slide_before.max(locked[1].slide_before), slide_after),
+        slide: (
+            locked[0].slide_before.max(locked[1].slide_before),
+            slide_after,
+        ),
         penetration: (penetration_before, penetration_after),
         zmp: (before, after),
         shift_max: shift.iter().map(|s| s[0].hypot(s[1])).fold(0.0, f64::max),
@@ -286,7 +335,13 @@ fn toe_hinge(side: usize) -> usize {
 }
 
 /// What carries the body in each sample.
-fn carriers_of(body: &Body, soles: &[Sole; 2], upper: &[Posture], locked: &[LockedFoot; 2], draft: &Draft) -> Vec<Carrier> {
+fn carriers_of(
+    body: &Body,
+    soles: &[Sole; 2],
+    upper: &[Posture],
+    locked: &[LockedFoot; 2],
+    draft: &Draft,
+) -> Vec<Carrier> {
     let standing = body.standing_root_height();
     let mut corners = Vec::new();
     (0..upper.len())
@@ -319,7 +374,12 @@ fn note_clamped(clamped: &mut [(f64, f64); DOF_COUNT], off: &[f64; DOF_COUNT], n
 }
 
 /// Spine, neck and arms into their limits, then smooth again where clamping left a corner.
-fn clamp_upper(body: &Body, postures: &mut [Posture], rate_hz: f64, clamped: &mut [(f64, f64); DOF_COUNT]) {
+fn clamp_upper(
+    body: &Body,
+    postures: &mut [Posture],
+    rate_hz: f64,
+    clamped: &mut [(f64, f64); DOF_COUNT],
+) {
     let n = postures.len();
     let mut any = false;
     for p in postures.iter_mut() {
@@ -371,8 +431,16 @@ fn assemble(
             let height = (most * most - level * level).max(0.04 * most * most).sqrt();
             let need = (height - d.z).min(0.0);
             // A swinging leg must not be straight when it lands either; one that kicks or lies is its own affair.
-            let weight = if foot.planted[i] { 1.0 } else { ((0.6 - level / most) / 0.15).clamp(0.0, 1.0) };
-            let need = if foot.planted[i] { need } else { need.max(-SWING_DROP) * weight };
+            let weight = if foot.planted[i] {
+                1.0
+            } else {
+                ((0.6 - level / most) / 0.15).clamp(0.0, 1.0)
+            };
+            let need = if foot.planted[i] {
+                need
+            } else {
+                need.max(-SWING_DROP) * weight
+            };
             drop[i] = drop[i].min(need);
         }
     }
@@ -399,9 +467,21 @@ fn assemble(
                 foot.ankle = hip + line * (most / far);
             }
             // Inwards is clockwise seen from above for the left leg: about the line pointing down, positive.
-            let inward = if s == 0 { relief.turn_in[s][i] } else { -relief.turn_in[s][i] };
-            let axis = Quat::exp(line.normalized_or(-Vec3::Z) * inward).rotate(draft.knee_axis[s][i]);
-            solve_leg_in_plane(body, &mut out[i], s == 0, (foot.ankle, foot.rotation), foot.toe, axis);
+            let inward = if s == 0 {
+                relief.turn_in[s][i]
+            } else {
+                -relief.turn_in[s][i]
+            };
+            let axis =
+                Quat::exp(line.normalized_or(-Vec3::Z) * inward).rotate(draft.knee_axis[s][i]);
+            solve_leg_in_plane(
+                body,
+                &mut out[i],
+                s == 0,
+                (foot.ankle, foot.rotation),
+                foot.toe,
+                axis,
+            );
         }
     }
     (out, -lowest)

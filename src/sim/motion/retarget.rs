@@ -10,14 +10,15 @@ use super::bvh::Bvh;
 use super::clip::{Clip, ClipError};
 use super::contacts::{ContactPhase, label_feet, phases};
 use super::filter::{
-    align_signs, low_pass, low_pass_points, low_pass_rotations, percentile, renormalised, resample_points, resample_rotations, speeds,
+    align_signs, low_pass, low_pass_points, low_pass_rotations, percentile, renormalised,
+    resample_points, resample_rotations, speeds,
 };
 use super::foot_lock::{Sole, turn};
 use super::prepare::{Draft, PrepareOptions, ZmpOutside, prepare};
 use super::skeleton_map::{MapError, SideMap, SkeletonMap, map_skeleton};
 use crate::sim::body::topology::{
-    BALL_COUNT, DOF_COUNT, DOF_NAMES, HINGE_COUNT, JOINT, Joint, L_FOOT, L_FOREARM, L_HAND, L_SHANK, L_UPPER_ARM, R_FOREARM, R_HAND,
-    R_UPPER_ARM, SEGMENT_COUNT, SEGMENT_NAMES, SegmentId,
+    BALL_COUNT, DOF_COUNT, DOF_NAMES, HINGE_COUNT, JOINT, Joint, L_FOOT, L_FOREARM, L_HAND,
+    L_SHANK, L_UPPER_ARM, R_FOREARM, R_HAND, R_UPPER_ARM, SEGMENT_COUNT, SEGMENT_NAMES, SegmentId,
 };
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::{Mat3, Quat, Vec3};
@@ -235,7 +236,9 @@ pub enum RetargetError {
         frames: usize,
     },
     /// The rate is no capture rate.
-    #[error("rate {rate_hz} Hz is outside {lower}…{upper} Hz; give rate_hz if the file's frame time is wrong")]
+    #[error(
+        "rate {rate_hz} Hz is outside {lower}…{upper} Hz; give rate_hz if the file's frame time is wrong"
+    )]
     Rate {
         /// Offending value.
         rate_hz: f64,
@@ -245,13 +248,17 @@ pub enum RetargetError {
         upper: f64,
     },
     /// No usual unit gives a human stature.
-    #[error("the figure measures {measured:.4} file units from sole to crown, which no usual unit makes 1.3 to 2.0 m; give unit_m")]
+    #[error(
+        "the figure measures {measured:.4} file units from sole to crown, which no usual unit makes 1.3 to 2.0 m; give unit_m"
+    )]
     Unit {
         /// Stature in file units.
         measured: f64,
     },
     /// The given unit gives no human stature.
-    #[error("with unit_m = {unit_m} the figure measures {stature:.3} m ({measured:.4} file units); people measure 0.7 to 2.6 m")]
+    #[error(
+        "with unit_m = {unit_m} the figure measures {stature:.3} m ({measured:.4} file units); people measure 0.7 to 2.6 m"
+    )]
     Stature {
         /// Unit as given.
         unit_m: f64,
@@ -297,7 +304,11 @@ pub enum RetargetError {
 ///
 /// # Errors
 /// [`RetargetError`] names what is missing: the bone, the unit with the measured figure, the frame.
-pub fn retarget(bvh: &Bvh, body: &Body, options: &RetargetOptions) -> Result<Retargeted, RetargetError> {
+pub fn retarget(
+    bvh: &Bvh,
+    body: &Body,
+    options: &RetargetOptions,
+) -> Result<Retargeted, RetargetError> {
     check_options(options)?;
     let frames = bvh.frame_count;
     if frames < 2 {
@@ -349,8 +360,15 @@ pub fn retarget(bvh: &Bvh, body: &Body, options: &RetargetOptions) -> Result<Ret
     let rest: Vec<Vec3> = rest.into_iter().map(|v| z_up(up, v * unit_m)).collect();
 
     // Even samples, smooth.
-    let rate = options.output_rate_hz.unwrap_or(if (59.0..=240.5).contains(&source_rate) { source_rate } else { 120.0 });
-    let count = ((((take.len() - 1) as f64) * rate / source_rate + 1e-6).floor() as usize + 1).min(MAX_FRAMES * 4);
+    let rate = options
+        .output_rate_hz
+        .unwrap_or(if (59.0..=240.5).contains(&source_rate) {
+            source_rate
+        } else {
+            120.0
+        });
+    let count = ((((take.len() - 1) as f64) * rate / source_rate + 1e-6).floor() as usize + 1)
+        .min(MAX_FRAMES * 4);
     let mut smoothing = (0.0, 0usize);
     let same = (rate - source_rate).abs() < 1e-9;
     let mut feet: [Vec<Vec<Vec3>>; 2] = Default::default();
@@ -423,11 +441,22 @@ pub fn retarget(bvh: &Bvh, body: &Body, options: &RetargetOptions) -> Result<Ret
     };
     let (turn_to, move_to) = if options.keep_origin {
         // Place is kept in metres of the room; the path about it is in body size.
-        (ground.level, Vec3 { x: start.x * (1.0 / scale - 1.0), y: start.y * (1.0 / scale - 1.0), z: 0.0 })
+        (
+            ground.level,
+            Vec3 {
+                x: start.x * (1.0 / scale - 1.0),
+                y: start.y * (1.0 / scale - 1.0),
+                z: 0.0,
+            },
+        )
     } else {
         (Quat::exp(Vec3::Z * -yaw) * ground.level, {
             let s = Quat::exp(Vec3::Z * -yaw).rotate(start);
-            Vec3 { x: -s.x, y: -s.y, z: 0.0 }
+            Vec3 {
+                x: -s.x,
+                y: -s.y,
+                z: 0.0,
+            }
         })
     };
     let floor_height = 0.5 * (ground.height[0] + ground.height[1]);
@@ -469,7 +498,9 @@ pub fn retarget(bvh: &Bvh, body: &Body, options: &RetargetOptions) -> Result<Ret
     let draft = Draft {
         rate_hz: rate,
         postures: Vec::new(),
-        knee_axis: frames.knee_axis.map(|axis| axis.into_iter().map(|v| turn_to.rotate(v)).collect()),
+        knee_axis: frames
+            .knee_axis
+            .map(|axis| axis.into_iter().map(|v| turn_to.rotate(v)).collect()),
         ankle,
         foot,
         label,
@@ -480,7 +511,9 @@ pub fn retarget(bvh: &Bvh, body: &Body, options: &RetargetOptions) -> Result<Ret
         chest,
         head: frames.head.map(turned),
         upper_arm: frames.upper_arm.map(turned),
-        forearm_axis: frames.forearm.map(|axis| axis.into_iter().map(|v| turn_to.rotate(v)).collect()),
+        forearm_axis: frames
+            .forearm
+            .map(|axis| axis.into_iter().map(|v| turn_to.rotate(v)).collect()),
         hand: frames.hand.map(turned),
         has_hand: [0, 1].map(|s| map.sides[s].hand.is_some()),
     };
@@ -547,10 +580,16 @@ impl RetargetReport {
     fn note_warnings(&mut self, from_rest: bool) {
         let w = &mut self.warnings;
         if self.by_structure {
-            w.push("bone names told nothing: the shape of the skeleton decided which bone is which".into());
+            w.push(
+                "bone names told nothing: the shape of the skeleton decided which bone is which"
+                    .into(),
+            );
         }
         if !self.missing.is_empty() {
-            w.push(format!("no bone for {}: held at the neutral angle", self.missing.join(", ")));
+            w.push(format!(
+                "no bone for {}: held at the neutral angle",
+                self.missing.join(", ")
+            ));
         }
         if !from_rest {
             w.push("the file's zero pose is no standing person: the most upright frame was taken for calibration".into());
@@ -559,7 +598,11 @@ impl RetargetReport {
             let frames: usize = self.bridged.iter().map(|b| b.count).sum();
             w.push(format!("{frames} frames with jumps were bridged"));
         }
-        for c in self.clamped.iter().filter(|c| c.max > 0.17 && c.fraction > 0.02) {
+        for c in self
+            .clamped
+            .iter()
+            .filter(|c| c.max > 0.17 && c.fraction > 0.02)
+        {
             w.push(format!(
                 "{} was up to {:.0}° outside the body's limits in {:.0} % of the clip",
                 c.dof,
@@ -579,9 +622,17 @@ impl RetargetReport {
                 100.0 * self.carried
             ));
         }
-        let off = self.knee_off_axis.iter().chain(&self.elbow_off_axis).copied().fold(0.0, f64::max);
+        let off = self
+            .knee_off_axis
+            .iter()
+            .chain(&self.elbow_off_axis)
+            .copied()
+            .fold(0.0, f64::max);
         if off > 0.17 {
-            w.push(format!("knees or elbows leave their hinge plane by {:.0}° (95th percentile)", off.to_degrees()));
+            w.push(format!(
+                "knees or elbows leave their hinge plane by {:.0}° (95th percentile)",
+                off.to_degrees()
+            ));
         }
     }
 }
@@ -605,7 +656,11 @@ fn check_options(o: &RetargetOptions) -> Result<(), RetargetError> {
 
 fn z_up(up: UpAxis, v: Vec3) -> Vec3 {
     match up {
-        UpAxis::Y => Vec3 { x: v.z, y: v.x, z: v.y },
+        UpAxis::Y => Vec3 {
+            x: v.z,
+            y: v.x,
+            z: v.y,
+        },
         UpAxis::Z => v,
     }
 }
@@ -636,7 +691,13 @@ impl Recording {
         let n = bvh.joints.len();
         let mut keep = vec![false; n];
         let ends = |s: &SideMap| [Some(s.foot), s.toes, s.hand, Some(s.forearm), Some(s.shank)];
-        let wanted = map.sides.iter().flat_map(ends).flatten().chain(map.head).chain(map.trunk.iter().copied());
+        let wanted = map
+            .sides
+            .iter()
+            .flat_map(ends)
+            .flatten()
+            .chain(map.head)
+            .chain(map.trunk.iter().copied());
         for j in wanted {
             let mut at = Some(j);
             while let Some(i) = at {
@@ -651,14 +712,26 @@ impl Recording {
         for (k, j) in joints.iter().enumerate() {
             index[*j] = Some(k);
         }
-        let mut parent: Vec<Option<usize>> = joints.iter().map(|j| bvh.joints[*j].parent.and_then(|p| index[p])).collect();
+        let mut parent: Vec<Option<usize>> = joints
+            .iter()
+            .map(|j| bvh.joints[*j].parent.and_then(|p| index[p]))
+            .collect();
         let bones = joints.len();
         // Tips: where a bone ends that has no mapped joint below it.
         let mut tips: Vec<Vec3> = Vec::new();
         for s in &map.sides {
-            let tip_of = [s.toes.or(Some(s.foot)), if s.hand.is_none() { Some(s.forearm) } else { None }];
+            let tip_of = [
+                s.toes.or(Some(s.foot)),
+                if s.hand.is_none() {
+                    Some(s.forearm)
+                } else {
+                    None
+                },
+            ];
             for j in tip_of.into_iter().flatten() {
-                let child = (j + 1..n).find(|c| bvh.joints[*c].parent == Some(j)).map(|c| bvh.joints[c].offset);
+                let child = (j + 1..n)
+                    .find(|c| bvh.joints[*c].parent == Some(j))
+                    .map(|c| bvh.joints[c].offset);
                 let Some(end) = bvh.joints[j].end_site.or(child).map(Vec3::from_array) else {
                     continue;
                 };
@@ -738,7 +811,11 @@ impl Recording {
 
     /// Largest turns of a single bone from one frame to the next: (second largest angle, rad; root distance).
     fn jump(&self, frame: usize) -> f64 {
-        let mut angles: Vec<f64> = self.turn.iter().map(|t| angle_of(t[frame].conjugate() * t[frame + 1])).collect();
+        let mut angles: Vec<f64> = self
+            .turn
+            .iter()
+            .map(|t| angle_of(t[frame].conjugate() * t[frame + 1]))
+            .collect();
         angles.sort_by(f64::total_cmp);
         // Several bones must jump at once; one alone is a glitch.
         angles.iter().rev().nth(3).copied().unwrap_or(0.0)
@@ -768,7 +845,9 @@ impl Recording {
             for s in &mut self.step {
                 s.drain(..cut);
             }
-            warnings.push(format!("the first {cut} frame(s) hold a pose and jump into the motion: left out"));
+            warnings.push(format!(
+                "the first {cut} frame(s) hold a pose and jump into the motion: left out"
+            ));
             return cut;
         }
         0
@@ -828,7 +907,10 @@ impl Recording {
         let mut out: Vec<Vec3> = Vec::with_capacity(self.joints.len());
         for (k, j) in self.joints.iter().enumerate() {
             // A tip's step is the same in every frame.
-            let offset = bvh.joints.get(*j).map_or(self.step[k][0], |b| Vec3::from_array(b.offset));
+            let offset = bvh
+                .joints
+                .get(*j)
+                .map_or(self.step[k][0], |b| Vec3::from_array(b.offset));
             out.push(self.parent[k].map_or(Vec3::zero(), |p| out[p]) + offset);
         }
         out
@@ -841,15 +923,27 @@ struct Measure {
     stature: f64,
 }
 
-fn measure(bvh: &Bvh, places: &[Vec<Vec3>], take: &Recording, map: &SkeletonMap) -> Result<Measure, RetargetError> {
+fn measure(
+    bvh: &Bvh,
+    places: &[Vec<Vec3>],
+    take: &Recording,
+    map: &SkeletonMap,
+) -> Result<Measure, RetargetError> {
     let n = take.len();
     let median_length = |a: usize, b: usize| {
-        let v: Vec<f64> = (0..n).step_by((n / 500).max(1)).map(|i| (places[take.at(a)][i] - places[take.at(b)][i]).norm()).collect();
+        let v: Vec<f64> = (0..n)
+            .step_by((n / 500).max(1))
+            .map(|i| (places[take.at(a)][i] - places[take.at(b)][i]).norm())
+            .collect();
         percentile(&v, 0.5)
     };
     let mut leg = 0.0;
     for s in &map.sides {
-        for (a, b) in [(s.thigh, s.shank), (s.shank, s.foot), (s.upper_arm, s.forearm)] {
+        for (a, b) in [
+            (s.thigh, s.shank),
+            (s.shank, s.foot),
+            (s.upper_arm, s.forearm),
+        ] {
             let l = median_length(a, b);
             if !(l > 0.0 && l.is_finite()) {
                 return Err(RetargetError::Degenerate {
@@ -860,7 +954,10 @@ fn measure(bvh: &Bvh, places: &[Vec<Vec3>], take: &Recording, map: &SkeletonMap)
                 leg += 0.5 * l;
             }
         }
-        if !take.wrist(s).is_some_and(|w| median_length(s.forearm, w) > 0.0) {
+        if !take
+            .wrist(s)
+            .is_some_and(|w| median_length(s.forearm, w) > 0.0)
+        {
             return Err(RetargetError::Degenerate {
                 bone: bvh.joints[s.forearm].name.clone(),
             });
@@ -871,7 +968,9 @@ fn measure(bvh: &Bvh, places: &[Vec<Vec3>], take: &Recording, map: &SkeletonMap)
         .step_by((n / 500).max(1))
         .map(|i| {
             let mid = |a: usize, b: usize| (places[take.at(a)][i] + places[take.at(b)][i]) * 0.5;
-            (mid(map.sides[0].upper_arm, map.sides[1].upper_arm) - mid(map.sides[0].thigh, map.sides[1].thigh)).norm()
+            (mid(map.sides[0].upper_arm, map.sides[1].upper_arm)
+                - mid(map.sides[0].thigh, map.sides[1].thigh))
+            .norm()
         })
         .collect();
     let trunk = percentile(&trunk, 0.8);
@@ -989,7 +1088,9 @@ impl Scene<'_> {
     /// Direction in which the feet of a sample point, made level in the figure; zero if the file has no toes.
     fn toe_direction(&self, map: &SkeletonMap, s: usize, i: usize) -> Vec3 {
         let side = &map.sides[s];
-        self.take.toe(side).map_or(Vec3::zero(), |t| self.place(t)[i] - self.place(side.foot)[i])
+        self.take.toe(side).map_or(Vec3::zero(), |t| {
+            self.place(t)[i] - self.place(side.foot)[i]
+        })
     }
 
     /// Exchanges sides that the file names the wrong way round, told by where feet point and knees bend.
@@ -1009,7 +1110,10 @@ impl Scene<'_> {
                 let shank = (p(side.foot) - p(side.shank)).normalized_or(Vec3::zero());
                 // A bent knee turns about an axis towards the left.
                 vote += thigh.cross(shank).dot(left);
-                vote += self.toe_direction(map, s, i).normalized_or(Vec3::zero()).dot(forward);
+                vote += self
+                    .toe_direction(map, s, i)
+                    .normalized_or(Vec3::zero())
+                    .dot(forward);
             }
         }
         if arms < 0.0 {
@@ -1038,10 +1142,15 @@ impl Scene<'_> {
             let across = at(l.thigh) - at(r.thigh);
             let left = across.normalized_or(Vec3::Y);
             let down = |a: usize, b: usize| (at(b) - at(a)).normalized_or(Vec3::zero()).dot(-up);
-            let legs = [(l.thigh, l.shank), (l.shank, l.foot), (r.thigh, r.shank), (r.shank, r.foot)]
-                .into_iter()
-                .map(|(a, b)| down(a, b))
-                .fold(f64::INFINITY, f64::min);
+            let legs = [
+                (l.thigh, l.shank),
+                (l.shank, l.foot),
+                (r.thigh, r.shank),
+                (r.shank, r.foot),
+            ]
+            .into_iter()
+            .map(|(a, b)| down(a, b))
+            .fold(f64::INFINITY, f64::min);
             (trunk, up, left, across, legs)
         };
         let (trunk, up, left, across, legs) = pose(&rest);
@@ -1052,7 +1161,9 @@ impl Scene<'_> {
             && (rest(l.upper_arm) - rest(r.upper_arm)).dot(left) > 0.0;
         if standing {
             // A trunk that leans a little about a file axis was drawn along that axis.
-            let axis = [Vec3::X, -Vec3::X, Vec3::Y, -Vec3::Y, Vec3::Z, -Vec3::Z].into_iter().find(|a| a.dot(up) > 0.95);
+            let axis = [Vec3::X, -Vec3::X, Vec3::Y, -Vec3::Y, Vec3::Z, -Vec3::Z]
+                .into_iter()
+                .find(|a| a.dot(up) > 0.95);
             return Calibration {
                 from_rest: true,
                 figure: frame_of(axis.unwrap_or(up), left),
@@ -1064,7 +1175,9 @@ impl Scene<'_> {
             let (_, up, _, _, legs) = pose(&at);
             up.z + 0.5 * legs
         };
-        let sample = (0..self.count).max_by(|a, b| upright(*a).total_cmp(&upright(*b)).then(b.cmp(a))).unwrap_or(0);
+        let sample = (0..self.count)
+            .max_by(|a, b| upright(*a).total_cmp(&upright(*b)).then(b.cmp(a)))
+            .unwrap_or(0);
         let at = |j: usize| self.place(j)[sample];
         let (_, up, left, _, _) = pose(&at);
         Calibration {
@@ -1077,9 +1190,16 @@ impl Scene<'_> {
     /// Segment frame per sample from a bone's rotation and the segment's frame in the calibration pose (`figure · relative`).
     fn follow(&self, joint: usize, calibration: &Calibration, relative: Quat) -> Vec<Quat> {
         let turns = self.turn(joint);
-        let at_calibration = if calibration.from_rest { self.basis } else { turns[calibration.sample] };
+        let at_calibration = if calibration.from_rest {
+            self.basis
+        } else {
+            turns[calibration.sample]
+        };
         let bone_from_segment = at_calibration.conjugate() * calibration.figure * relative;
-        turns.iter().map(|q| (*q * bone_from_segment).normalized()).collect()
+        turns
+            .iter()
+            .map(|q| (*q * bone_from_segment).normalized())
+            .collect()
     }
 
     /// Direction of a bone in the calibration pose, figure axes.
@@ -1089,17 +1209,25 @@ impl Scene<'_> {
         } else {
             self.place(to)[calibration.sample] - self.place(from)[calibration.sample]
         };
-        calibration.figure.conjugate().rotate(d).normalized_or(-Vec3::Z)
+        calibration
+            .figure
+            .conjugate()
+            .rotate(d)
+            .normalized_or(-Vec3::Z)
     }
 
     fn pelvis(&self, map: &SkeletonMap, calibration: &Calibration) -> (Vec<Vec3>, Vec<Quat>) {
         let [l, r] = map.sides;
-        let centre = (0..self.count).map(|i| (self.place(l.thigh)[i] + self.place(r.thigh)[i]) * 0.5).collect();
+        let centre = (0..self.count)
+            .map(|i| (self.place(l.thigh)[i] + self.place(r.thigh)[i]) * 0.5)
+            .collect();
         let mut turn = self.follow(map.pelvis, calibration, Quat::identity());
         // The line of the hips is better known than the bone's calibration: take the mean difference out.
         let mut sum = Vec3::zero();
         for i in 0..self.count {
-            sum += turn[i].conjugate().rotate(self.place(l.thigh)[i] - self.place(r.thigh)[i]);
+            sum += turn[i]
+                .conjugate()
+                .rotate(self.place(l.thigh)[i] - self.place(r.thigh)[i]);
         }
         let correct = shortest(Vec3::Y, sum.normalized_or(Vec3::Y));
         for q in &mut turn {
@@ -1141,8 +1269,14 @@ impl Scene<'_> {
             mean.normalized_or(Vec3::Y)
         } else {
             let direction = self.calibrated_direction(upper, middle, calibration);
-            let axis = calibration.figure.rotate(shortest(-Vec3::Z, direction).rotate(Vec3::Y));
-            let q = if calibration.from_rest { self.basis } else { turn[calibration.sample] };
+            let axis = calibration
+                .figure
+                .rotate(shortest(-Vec3::Z, direction).rotate(Vec3::Y));
+            let q = if calibration.from_rest {
+                self.basis
+            } else {
+                turn[calibration.sample]
+            };
             q.conjugate().rotate(axis)
         };
         let mut axis = Vec::with_capacity(self.count);
@@ -1157,7 +1291,9 @@ impl Scene<'_> {
                 let v = (c[i] - b[i]).normalized_or(u);
                 off.push(v.dot(own).abs().clamp(0.0, 1.0).asin());
             }
-            let w = smoothstep(bend, PLANE_TRUST.0, PLANE_TRUST.1) * (1.0 - smoothstep(bend, 2.6, 2.9)) * smoothstep(agree, 0.3, 0.7);
+            let w = smoothstep(bend, PLANE_TRUST.0, PLANE_TRUST.1)
+                * (1.0 - smoothstep(bend, 2.6, 2.9))
+                * smoothstep(agree, 0.3, 0.7);
             axis.push((own * (1.0 - w) + plane * w).normalized_or(own));
         }
         (axis, off)
@@ -1171,9 +1307,15 @@ impl Scene<'_> {
             self.follow(map.trunk[map.abdomen], calibration, Quat::identity())
         } else {
             // One bone bends the trunk: both of our joints share it.
-            pelvis.iter().zip(&chest).map(|(p, c)| p.slerp(*c, 0.5)).collect()
+            pelvis
+                .iter()
+                .zip(&chest)
+                .map(|(p, c)| p.slerp(*c, 0.5))
+                .collect()
         };
-        let head = map.head.map(|h| self.follow(h, calibration, Quat::identity()));
+        let head = map
+            .head
+            .map(|h| self.follow(h, calibration, Quat::identity()));
         let mut knee_off_axis = [0.0; 2];
         let knee_axis = [0, 1].map(|s| {
             let m = &map.sides[s];
@@ -1186,12 +1328,21 @@ impl Scene<'_> {
         let mut hand: [Vec<Quat>; 2] = Default::default();
         for s in 0..2 {
             let m = &map.sides[s];
-            let wrist = self.take.wrist(m).expect("measured before: every forearm has an end");
+            let wrist = self
+                .take
+                .wrist(m)
+                .expect("measured before: every forearm has an end");
             let (shoulder, elbow) = (self.place(m.upper_arm), self.place(m.forearm));
             let hand_place = self.place(wrist);
-            forearm[s] = (0..self.count).map(|i| (hand_place[i] - elbow[i]).normalized_or(-Vec3::Z)).collect();
-            let axis = self.hinge_axis((m.upper_arm, m.forearm, wrist), -1.0, calibration).0;
-            upper_arm[s] = (0..self.count).map(|i| frame_of(shoulder[i] - elbow[i], axis[i])).collect();
+            forearm[s] = (0..self.count)
+                .map(|i| (hand_place[i] - elbow[i]).normalized_or(-Vec3::Z))
+                .collect();
+            let axis = self
+                .hinge_axis((m.upper_arm, m.forearm, wrist), -1.0, calibration)
+                .0;
+            upper_arm[s] = (0..self.count)
+                .map(|i| frame_of(shoulder[i] - elbow[i], axis[i]))
+                .collect();
             let bone = m.hand.unwrap_or(m.forearm);
             let direction = self.calibrated_direction(m.forearm, wrist, calibration);
             hand[s] = self.follow(bone, calibration, shortest(-Vec3::Z, direction));
@@ -1223,20 +1374,36 @@ impl Scene<'_> {
         let hip = self.place(map.sides[s].thigh);
         let speed = speeds(ankle, self.rate);
         // Under a standing or squatting body only: feet of someone who lies are slow and low, and not flat.
-        let slow: Vec<usize> = (0..self.count).filter(|i| speed[*i] < 0.25 && hip[*i].z - ankle[*i].z > 0.4 * leg).collect();
+        let slow: Vec<usize> = (0..self.count)
+            .filter(|i| speed[*i] < 0.25 && hip[*i].z - ankle[*i].z > 0.4 * leg)
+            .collect();
         let heights: Vec<f64> = slow.iter().map(|i| ankle[*i].z).collect();
         let low = percentile(&heights, 0.15);
-        slow.into_iter().filter(|i| (ankle[*i].z - low).abs() < 0.012).collect()
+        slow.into_iter()
+            .filter(|i| (ankle[*i].z - low).abs() < 0.012)
+            .collect()
     }
 
     /// `world_from_foot` per sample: x from ankle to toes made level while the foot stands flat, z up then.
-    fn foot_frames(&self, map: &SkeletonMap, s: usize, flat: &[usize], calibration: &Calibration) -> Vec<Quat> {
+    fn foot_frames(
+        &self,
+        map: &SkeletonMap,
+        s: usize,
+        flat: &[usize],
+        calibration: &Calibration,
+    ) -> Vec<Quat> {
         let side = &map.sides[s];
         let turns = self.turn(side.foot);
         let toe = self.take.toe(side);
         let from_rest = || {
-            let ahead = toe.map_or(Vec3::X, |t| self.calibrated_direction(side.foot, t, calibration));
-            let yaw = if ahead.x.hypot(ahead.y) > 0.2 { ahead.y.atan2(ahead.x) } else { 0.0 };
+            let ahead = toe.map_or(Vec3::X, |t| {
+                self.calibrated_direction(side.foot, t, calibration)
+            });
+            let yaw = if ahead.x.hypot(ahead.y) > 0.2 {
+                ahead.y.atan2(ahead.x)
+            } else {
+                0.0
+            };
             self.follow(side.foot, calibration, Quat::exp(Vec3::Z * yaw))
         };
         let Some(toe) = toe.filter(|_| flat.len() >= 5) else {
@@ -1254,7 +1421,18 @@ impl Scene<'_> {
             }
             let q = turns[i].conjugate() * Quat::exp(Vec3::Z * d.y.atan2(d.x));
             let like = *first.get_or_insert(q);
-            let sign = if like.to_xyzw().iter().zip(q.to_xyzw()).map(|(a, b)| a * b).sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
+            let sign = if like
+                .to_xyzw()
+                .iter()
+                .zip(q.to_xyzw())
+                .map(|(a, b)| a * b)
+                .sum::<f64>()
+                < 0.0
+            {
+                -1.0
+            } else {
+                1.0
+            };
             for (s, c) in sum.iter_mut().zip(q.to_xyzw()) {
                 *s += sign * c;
             }
@@ -1265,7 +1443,10 @@ impl Scene<'_> {
             return from_rest();
         }
         let bone_from_foot = renormalised(Quat::from_xyzw(sum.map(|c| c / length)));
-        turns.iter().map(|q| (*q * bone_from_foot).normalized()).collect()
+        turns
+            .iter()
+            .map(|q| (*q * bone_from_foot).normalized())
+            .collect()
     }
 }
 
@@ -1299,10 +1480,18 @@ fn fit_floor(ankle: &[Vec<Vec3>; 2], flat: &[Vec<usize>; 2]) -> Ground {
     // Steeper than 5 % is no floor but a motion that the fit misread.
     let slope = sx.hypot(sy);
     let (sx, sy) = if slope < 0.05 { (sx, sy) } else { (0.0, 0.0) };
-    let normal = Vec3 { x: -sx, y: -sy, z: 1.0 }.normalized_or(Vec3::Z);
+    let normal = Vec3 {
+        x: -sx,
+        y: -sy,
+        z: 1.0,
+    }
+    .normalized_or(Vec3::Z);
     let level = shortest(normal, Vec3::Z);
     let heights = [0, 1].map(|s| {
-        let of_flat: Vec<f64> = flat[s].iter().map(|i| level.rotate(ankle[s][*i]).z).collect();
+        let of_flat: Vec<f64> = flat[s]
+            .iter()
+            .map(|i| level.rotate(ankle[s][*i]).z)
+            .collect();
         if of_flat.len() >= 5 {
             Some(percentile(&of_flat, 0.5))
         } else {
@@ -1394,7 +1583,11 @@ impl Joints {
                 let (sin_b, level) = (w.y.z, w.y.x.hypot(w.y.y));
                 let beta = sin_b.atan2(level);
                 // A hand bent by 90° leaves the twist undefined: hold it.
-                let twist = if level > 0.2 { (-w.y.x).atan2(w.y.y) } else { before };
+                let twist = if level > 0.2 {
+                    (-w.y.x).atan2(w.y.y)
+                } else {
+                    before
+                };
                 let twist = before + turn(before, twist);
                 before = twist;
                 p.hinge[elbow + 1] = m * twist;
@@ -1411,7 +1604,14 @@ impl Joints {
                 wrist_bias[s] = wrist_bias[s].max(bias.abs());
             }
         }
-        (out, [percentile(&off_axis[0], 0.95), percentile(&off_axis[1], 0.95)], wrist_bias)
+        (
+            out,
+            [
+                percentile(&off_axis[0], 0.95),
+                percentile(&off_axis[1], 0.95),
+            ],
+            wrist_bias,
+        )
     }
 }
 
@@ -1434,9 +1634,16 @@ pub(super) fn smooth_joints(postures: &mut [Posture], cutoff_hz: f64, rate_hz: f
 }
 
 fn mapped_bones(bvh: &Bvh, map: &SkeletonMap) -> Vec<MappedBone> {
-    let names = |bones: &[usize]| bones.iter().map(|b| bvh.joints[*b].name.clone()).collect::<Vec<_>>();
+    let names = |bones: &[usize]| {
+        bones
+            .iter()
+            .map(|b| bvh.joints[*b].name.clone())
+            .collect::<Vec<_>>()
+    };
     let split = (map.abdomen + 1).min(map.trunk.len());
-    let (waist, thorax) = map.trunk.split_at(if map.trunk.len() >= 2 { split } else { 0 });
+    let (waist, thorax) = map
+        .trunk
+        .split_at(if map.trunk.len() >= 2 { split } else { 0 });
     let mut out = Vec::new();
     let mut add = |s: usize, bones: Vec<String>| {
         if !bones.is_empty() {
@@ -1460,7 +1667,12 @@ fn mapped_bones(bvh: &Bvh, map: &SkeletonMap) -> Vec<MappedBone> {
         add(leg + 2, names(&[side.foot]));
         add(leg + 3, names(side.toes.as_slice()));
     }
-    out.sort_by_key(|m| SEGMENT_NAMES.iter().position(|n| *n == m.segment).unwrap_or(SEGMENT_COUNT));
+    out.sort_by_key(|m| {
+        SEGMENT_NAMES
+            .iter()
+            .position(|n| *n == m.segment)
+            .unwrap_or(SEGMENT_COUNT)
+    });
     out
 }
 

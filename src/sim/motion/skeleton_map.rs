@@ -54,7 +54,9 @@ pub enum MapError {
     #[error("{0} joints; at most {MAX_JOINTS} are read")]
     TooManyJoints(usize),
     /// A bone without which no posture can be formed.
-    #[error("no bone found for {segments:?} among {bones} joints, neither by name nor by structure")]
+    #[error(
+        "no bone found for {segments:?} among {bones} joints, neither by name nor by structure"
+    )]
     Missing {
         /// Segments that found no bone.
         segments: Vec<&'static str>,
@@ -102,7 +104,8 @@ fn words(name: &str) -> Vec<String> {
         let next = chars.get(i + 1);
         let starts = c.is_uppercase()
             && (prev.is_some_and(char::is_lowercase)
-                || (prev.is_some_and(char::is_uppercase) && next.is_some_and(|n| n.is_lowercase())));
+                || (prev.is_some_and(char::is_uppercase)
+                    && next.is_some_and(|n| n.is_lowercase())));
         if starts && !word.is_empty() {
             out.push(std::mem::take(&mut word));
         }
@@ -128,7 +131,9 @@ fn part_of(stem: &str) -> Option<Part> {
         "fingerbase" => Part::Palm,
         "thigh" | "upleg" | "upperleg" | "legupper" | "hip" | "femur" | "thighbend" => Part::Thigh,
         "leg" => Part::Leg,
-        "shin" | "lowerleg" | "lowleg" | "leglower" | "calf" | "knee" | "tibia" | "shank" => Part::Shank,
+        "shin" | "lowerleg" | "lowleg" | "leglower" | "calf" | "knee" | "tibia" | "shank" => {
+            Part::Shank
+        }
         "foot" | "ankle" => Part::Foot,
         "toe" | "toes" | "toebase" | "ball" | "football" | "toesbase" => Part::Toes,
         _ => return None,
@@ -137,8 +142,22 @@ fn part_of(stem: &str) -> Option<Part> {
 
 /// Words that say whose rig it is, not which bone.
 const RIG_WORDS: [&str; 16] = [
-    "mixamorig", "bip", "biped", "valvebiped", "j", "character", "def", "org", "ctrl", "jnt", "joint", "bone", "cc", "base",
-    "rig", "skeleton",
+    "mixamorig",
+    "bip",
+    "biped",
+    "valvebiped",
+    "j",
+    "character",
+    "def",
+    "org",
+    "ctrl",
+    "jnt",
+    "joint",
+    "bone",
+    "cc",
+    "base",
+    "rig",
+    "skeleton",
 ];
 
 /// Sided bones that look like a part but move nothing: CMU's joint between pelvis and hip.
@@ -161,7 +180,13 @@ fn read_name(name: &str) -> Option<(Option<Side>, Part)> {
     }
     let bare: String = words
         .iter()
-        .filter(|w| !RIG_WORDS.contains(&w.as_str()) && !matches!(w.as_str(), "l" | "left" | "lft" | "r" | "right" | "rt" | "rgt"))
+        .filter(|w| {
+            !RIG_WORDS.contains(&w.as_str())
+                && !matches!(
+                    w.as_str(),
+                    "l" | "left" | "lft" | "r" | "right" | "rt" | "rgt"
+                )
+        })
         .map(String::as_str)
         .collect();
     for stem in [stem.as_str(), bare.as_str()] {
@@ -169,7 +194,12 @@ fn read_name(name: &str) -> Option<(Option<Side>, Part)> {
             return Some((side, p));
         }
         // Names in one case ("leftupperarm", "lshldr") hide the side in the stem.
-        for (prefix, s) in [("left", Side::Left), ("right", Side::Right), ("l", Side::Left), ("r", Side::Right)] {
+        for (prefix, s) in [
+            ("left", Side::Left),
+            ("right", Side::Right),
+            ("l", Side::Left),
+            ("r", Side::Right),
+        ] {
             if let Some(p) = stem.strip_prefix(prefix).and_then(part_of) {
                 return Some((side.or(Some(s)), p));
             }
@@ -198,7 +228,10 @@ fn length(v: [f64; 3]) -> f64 {
 impl<'a> Tree<'a> {
     fn new(joints: &'a [BvhJoint]) -> Self {
         let mut children = vec![Vec::new(); joints.len()];
-        let mut reach: Vec<f64> = joints.iter().map(|j| j.end_site.map_or(0.0, length)).collect();
+        let mut reach: Vec<f64> = joints
+            .iter()
+            .map(|j| j.end_site.map_or(0.0, length))
+            .collect();
         for i in (0..joints.len()).rev() {
             if let Some(p) = joints[i].parent {
                 children[p].push(i);
@@ -208,7 +241,11 @@ impl<'a> Tree<'a> {
         for c in &mut children {
             c.sort_unstable();
         }
-        Self { joints, children, reach }
+        Self {
+            joints,
+            children,
+            reach,
+        }
     }
     fn is_below(&self, joint: usize, ancestor: usize) -> bool {
         let mut at = self.joints[joint].parent;
@@ -325,7 +362,9 @@ fn by_names(tree: &Tree<'_>) -> Result<SkeletonMap, Vec<&'static str>> {
     if !missing.is_empty() {
         return Err(missing);
     }
-    let head = read.iter().position(|r| matches!(r, Some((None, Part::Head))));
+    let head = read
+        .iter()
+        .position(|r| matches!(r, Some((None, Part::Head))));
     finish(tree, [sides[0], sides[1]], head, false).ok_or_else(|| vec!["pelvis"])
 }
 
@@ -348,7 +387,9 @@ fn finish(
             .iter()
             .copied()
             .filter(|c| {
-                sides.iter().all(|s| *c != s.upper_arm && !tree.is_below(s.upper_arm, *c))
+                sides
+                    .iter()
+                    .all(|s| *c != s.upper_arm && !tree.is_below(s.upper_arm, *c))
             })
             .max_by(|a, b| tree.reach[*a].total_cmp(&tree.reach[*b]))?;
         let mut at = branch;
@@ -359,7 +400,12 @@ fn finish(
     });
     // Two of our joints bend the trunk. The abdomen follows the first bone; where the first has no length (CMU's lower back), the next.
     let lengthless = |i: usize| length(tree.joints[trunk[i]].offset) < 1e-6;
-    let abdomen = if trunk.len() >= 3 && trunk.get(1).is_some_and(|t| length(tree.joints[*t].offset) > 0.0) && lengthless(0) {
+    let abdomen = if trunk.len() >= 3
+        && trunk
+            .get(1)
+            .is_some_and(|t| length(tree.joints[*t].offset) > 0.0)
+        && lengthless(0)
+    {
         1
     } else if trunk.len() >= 5 {
         trunk.len() / 2 - 1
@@ -380,14 +426,10 @@ fn finish(
 fn limb(tree: &Tree<'_>, start: usize) -> Option<(usize, usize, Option<usize>, Option<usize>)> {
     let mut chain = vec![start];
     let mut at = start;
-    while let Some(next) = tree.children[at]
-        .iter()
-        .copied()
-        .max_by(|a, b| {
-            let far = |c: usize| tree.reach[c] + length(tree.joints[c].offset);
-            far(*a).total_cmp(&far(*b)).then(b.cmp(a))
-        })
-    {
+    while let Some(next) = tree.children[at].iter().copied().max_by(|a, b| {
+        let far = |c: usize| tree.reach[c] + length(tree.joints[c].offset);
+        far(*a).total_cmp(&far(*b)).then(b.cmp(a))
+    }) {
         chain.push(next);
         at = next;
     }
@@ -404,21 +446,40 @@ fn limb(tree: &Tree<'_>, start: usize) -> Option<(usize, usize, Option<usize>, O
     if bone(best).min(bone(best + 1)) <= 0.0 {
         return None;
     }
-    Some((chain[best], chain[best + 1], chain.get(best + 2).copied(), chain.get(best + 3).copied()))
+    Some((
+        chain[best],
+        chain[best + 1],
+        chain.get(best + 2).copied(),
+        chain.get(best + 3).copied(),
+    ))
 }
 
 fn by_structure(tree: &Tree<'_>) -> Option<SkeletonMap> {
     let far = |c: usize| tree.reach[c] + length(tree.joints[c].offset);
-    let total = (0..tree.joints.len()).filter(|i| tree.joints[*i].parent.is_none()).map(|i| tree.reach[i]).fold(0.0, f64::max);
+    let total = (0..tree.joints.len())
+        .filter(|i| tree.joints[*i].parent.is_none())
+        .map(|i| tree.reach[i])
+        .fold(0.0, f64::max);
     // Branches long enough to be a limb or a trunk, not a finger, an eye or a helper.
     let branches = |i: usize| -> Vec<usize> {
-        tree.children[i].iter().copied().filter(|c| far(*c) > 0.15 * total).collect()
+        tree.children[i]
+            .iter()
+            .copied()
+            .filter(|c| far(*c) > 0.15 * total)
+            .collect()
     };
     let pelvis = (0..tree.joints.len()).find(|i| branches(*i).len() >= 3)?;
-    let splits = |c: usize| (c..tree.joints.len()).find(|i| (*i == c || tree.is_below(*i, c)) && branches(*i).len() >= 2);
+    let splits = |c: usize| {
+        (c..tree.joints.len())
+            .find(|i| (*i == c || tree.is_below(*i, c)) && branches(*i).len() >= 2)
+    };
     let of_pelvis = branches(pelvis);
     // The trunk is the branch that fans out into arms; among several the one that reaches farthest.
-    let trunk = of_pelvis.iter().copied().filter(|c| splits(*c).is_some()).max_by(|a, b| far(*a).total_cmp(&far(*b)))?;
+    let trunk = of_pelvis
+        .iter()
+        .copied()
+        .filter(|c| splits(*c).is_some())
+        .max_by(|a, b| far(*a).total_cmp(&far(*b)))?;
     let mut legs: Vec<usize> = of_pelvis.into_iter().filter(|c| *c != trunk).collect();
     legs.sort_by(|a, b| far(*b).total_cmp(&far(*a)));
     legs.truncate(2);
@@ -435,7 +496,11 @@ fn by_structure(tree: &Tree<'_>) -> Option<SkeletonMap> {
         let mut sum = 0.0;
         loop {
             sum += tree.joints[at].offset[0];
-            match tree.children[at].iter().copied().max_by(|a, b| far(*a).total_cmp(&far(*b))) {
+            match tree.children[at]
+                .iter()
+                .copied()
+                .max_by(|a, b| far(*a).total_cmp(&far(*b)))
+            {
                 Some(c) => at = c,
                 None => return sum,
             }
@@ -498,7 +563,17 @@ mod tests {
         for (name, side, part) in cases {
             assert_eq!(read_name(name), Some((*side, *part)), "{name}");
         }
-        for name in ["LThumb", "LHipJoint", "leftEye", "Spine1", "lButtock", "LeftHandIndex1", "HeadTop_End", "", "…"] {
+        for name in [
+            "LThumb",
+            "LHipJoint",
+            "leftEye",
+            "Spine1",
+            "lButtock",
+            "LeftHandIndex1",
+            "HeadTop_End",
+            "",
+            "…",
+        ] {
             assert_eq!(read_name(name), None, "{name} is no segment");
         }
     }
