@@ -69,7 +69,6 @@ pairs = [
     ("factor", "one/factor", 1, "sparse_LTL_decompose", "tree-sparse"),
     ("solve", "one/solve", 1, "sparse_LTL_solve", "tree-sparse"),
     ("forward dynamics", "one/aba", 1, "aba_local", "kinematics and ABA"),
-    ("paper tick", "tick/control_paper", 1, "paper_tick_limits_x1", "terms, support, strength, controller"),
     ("world step, paper", "world_step/paper/1", 1, "paper_tick_limits_x1", "ours with contact solver, integration and report"),
 ]
 print(f"{'what':28} {'ours us':>9} {'peer us':>9} {'ratio':>7}  (ratios of the rounds)")

@@ -6,8 +6,13 @@ use sinew::sim::dynamics::lanes::rnea_x8;
 use sinew::sim::dynamics::{
     CompositeInertia, Kinematics, MassMatrix, RneaWorkspace, Terms, crba, factor, rnea, solve,
 };
+use sinew::sim::figure::{ControlParams, ControllerKind, StepperKind, StrengthScale};
 use sinew::sim::math::{F64x8, Lane};
+use sinew::sim::motion::PlanarTransform;
+use sinew::sim::motion::builtin::builtin;
+use sinew::sim::world::{ClipPlayback, Drive, FigureSetup, World, WorldParams};
 use std::hint::black_box;
+use std::sync::Arc;
 
 const GRAVITY: f64 = 9.81;
 
@@ -20,11 +25,45 @@ fn sample() -> (State, [f64; NV]) {
     (state, wave(10.0))
 }
 
+/// A world with one man who squats without end.
+fn squatting(controller: ControllerKind) -> World {
+    let body = Arc::new(Body::adult_man());
+    let clip = Arc::new(builtin(&body, "squat").expect("a built-in motion"));
+    let start = clip.sample_looped(0.0);
+    let mut world = World::new(WorldParams::default()).expect("default parameters");
+    let key = world
+        .add_figure(FigureSetup {
+            body,
+            strength: StrengthScale::default(),
+            controller,
+            stepper: StepperKind::Torque,
+            params: ControlParams::default(),
+            state: State {
+                posture: start.posture,
+                velocity: start.velocity,
+            },
+            name: "figure".to_owned(),
+        })
+        .expect("a valid figure");
+    let figure = world.figure_mut(key).expect("just added");
+    let origin = PlanarTransform::default();
+    figure.set_drive(Drive::Clip(ClipPlayback {
+        clip,
+        start: 0.0,
+        speed: 1.0,
+        looped: true,
+        origin,
+    }));
+    world
+}
+
 fn main() {
     let mut args = std::env::args().skip(1);
     let (Some(work), Some(count)) = (args.next(), args.next().and_then(|n| n.parse::<u64>().ok()))
     else {
-        eprintln!("usage: instructions kinematics|rnea|rnea_x8|crba_factor_solve|terms N");
+        eprintln!(
+            "usage: instructions kinematics|rnea|rnea_x8|crba_factor_solve|terms|paper_tick|modern_tick N"
+        );
         std::process::exit(2);
     };
     let links = Links::new(&Body::adult_man());
@@ -95,6 +134,18 @@ fn main() {
                 terms.compute(black_box(&links), black_box(&state), &[], GRAVITY);
             }
             black_box(&terms);
+        }
+        "paper_tick" | "modern_tick" => {
+            let controller = if work == "paper_tick" {
+                ControllerKind::Paper
+            } else {
+                ControllerKind::Modern
+            };
+            let mut world = squatting(controller);
+            for _ in 0..count {
+                world.step();
+            }
+            black_box(world.state_hash());
         }
         other => {
             eprintln!("no work is called {other:?}");
