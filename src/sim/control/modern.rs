@@ -26,6 +26,7 @@ mod weight {
     pub(super) const HAND: f64 = 30.0;
     pub(super) const SWING_FOOT: f64 = 30.0;
     pub(super) const SWING_ROTATION: f64 = 1.0;
+    pub(super) const PLANTED_ROTATION: f64 = 3.0;
     pub(super) const PELVIS: f64 = 1.0;
     pub(super) const HOLD: f64 = 3000.0;
     pub(super) const BASE: f64 = 1e-6;
@@ -146,11 +147,17 @@ impl Modern {
         }
         let next = &input.target.next;
         for (side, foot) in [(0, L_FOOT.index()), (1, R_FOOT.index())] {
-            if next.planted[side] {
-                continue;
-            }
             let (position, rotation) = &input.feet[side];
-            self.point_task(t, law, foot, Vec3::zero(), position, weight::SWING_FOOT);
+            // A planted foot is held where it touches; a swinging one is led. Both are turned as the motion turns them: a heel that
+            // has come up is out of reach of the contact rows.
+            let turn = if next.planted[side] {
+                weight::PLANTED_ROTATION
+            } else {
+                weight::SWING_ROTATION
+            };
+            if !next.planted[side] {
+                self.point_task(t, law, foot, Vec3::zero(), position, weight::SWING_FOOT);
+            }
             let error = rotation_error(t, foot, rotation.now);
             let w = t.kin.omega[foot];
             let feedback = law_feedback(law, error, rotation.now_velocity - w);

@@ -355,10 +355,12 @@ pub fn lock_foot(
     }
     for &(i, j) in &pieces {
         let (place, yaw) = track.anchor(i, j);
-        let pitch = stance_pitch(&track.pitch[i..j], rate_hz);
+        let mut pitch = stance_pitch(&track.pitch[i..j], rate_hz);
         let pivots = (i..j).any(|k| (track.yaw[k] - yaw).abs() > STRAY.1);
         let mut yaws = vec![yaw; j - i];
         if pivots {
+            // On its ball, not on its heel.
+            pitch.iter_mut().for_each(|p| *p = p.min(0.0));
             yaws.copy_from_slice(&track.yaw[i..j]);
             low_pass(&mut yaws, 4.0, rate_hz);
         }
