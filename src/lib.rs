@@ -12,6 +12,7 @@ pub mod cli;
 pub mod client;
 #[cfg(feature = "net")]
 pub mod server;
+pub mod evaluate;
 pub mod sim;
 #[cfg(feature = "net")]
 pub mod wire;
