@@ -1,5 +1,6 @@
 //! Desired motion: reading, retargeting, preparing, sampling (paper §3.2).
 
+pub mod builtin;
 pub mod balance;
 pub mod bvh;
 pub mod bvh_write;
