@@ -1,0 +1,100 @@
+//! The inertia matrix with the sparsity of the tree.
+
+use crate::sim::body::topology::{NV, VELOCITY_PARENT};
+use crate::sim::math::Lane;
+
+/// Longest chain of velocity components from the pelvis to a hand.
+pub const MAX_DEPTH: usize = 19;
+
+/// Depth of each velocity component: how many others lie between it and the root of the tree.
+pub const DEPTH: [usize; NV] = {
+    let mut out = [0; NV];
+    let mut i = 0;
+    while i < NV {
+        if VELOCITY_PARENT[i] != usize::MAX {
+            out[i] = out[VELOCITY_PARENT[i]] + 1;
+        }
+        i += 1;
+    }
+    out
+};
+
+/// `CHAIN[i][k]`: the component of depth `k` on the way from the root to component `i` (`k ≤ DEPTH[i]`).
+pub const CHAIN: [[usize; MAX_DEPTH]; NV] = {
+    let mut out = [[0; MAX_DEPTH]; NV];
+    let mut i = 0;
+    while i < NV {
+        let mut j = i;
+        loop {
+            out[i][DEPTH[j]] = j;
+            if VELOCITY_PARENT[j] == usize::MAX {
+                break;
+            }
+            j = VELOCITY_PARENT[j];
+        }
+        i += 1;
+    }
+    out
+};
+
+/// Symmetric 45×45 matrix whose entry (i, j), j ≤ i, is nonzero only if j lies on the chain of i.
+///
+/// Row `i` is stored by depth, so that the rows of a chain line up and the factorisation runs over contiguous memory.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MassMatrix<L = f64> {
+    /// `rows[i][k]` is entry `(i, CHAIN[i][k])`.
+    pub rows: [[L; MAX_DEPTH]; NV],
+}
+
+impl<L: Lane> Default for MassMatrix<L> {
+    fn default() -> Self {
+        Self {
+            rows: [[L::zero(); MAX_DEPTH]; NV],
+        }
+    }
+}
+
+impl<L: Lane> MassMatrix<L> {
+    /// Entry (i, j) in either order.
+    pub fn get(&self, i: usize, j: usize) -> L {
+        let (i, j) = if i >= j { (i, j) } else { (j, i) };
+        if DEPTH[j] <= DEPTH[i] && CHAIN[i][DEPTH[j]] == j {
+            self.rows[i][DEPTH[j]]
+        } else {
+            L::zero()
+        }
+    }
+
+    /// `y = M x`. 2 kflop.
+    #[inline(always)]
+    pub fn mul(&self, x: &[L; NV], y: &mut [L; NV]) {
+        for i in 0..NV {
+            y[i] = self.rows[i][DEPTH[i]] * x[i];
+        }
+        for i in 0..NV {
+            let mut z = y[i];
+            for k in 0..DEPTH[i] {
+                let (j, m) = (CHAIN[i][k], self.rows[i][k]);
+                z += m * x[j];
+                y[j] += m * x[i];
+            }
+            y[i] = z;
+        }
+    }
+}
+
+impl MassMatrix<f64> {
+    /// Writes the full symmetric matrix; columns 45…47 are zero padding.
+    pub fn to_dense(&self, out: &mut [[f64; 48]; NV]) {
+        for row in out.iter_mut() {
+            row.fill(0.0);
+        }
+        for i in 0..NV {
+            for k in 0..=DEPTH[i] {
+                let j = CHAIN[i][k];
+                out[i][j] = self.rows[i][k];
+                out[j][i] = self.rows[i][k];
+            }
+        }
+    }
+}

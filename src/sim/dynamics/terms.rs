@@ -1,0 +1,202 @@
+//! Everything of one state that controllers and steppers share: inertia, bias, centre of mass, Jacobians (ALGORITHM §1, §4).
+
+use super::crba::{CompositeInertia, crba};
+use super::jacobian::{bias_accelerations, for_each_column};
+use super::kinematics::Kinematics;
+use super::mass_matrix::MassMatrix;
+use super::rnea::{External, RneaWorkspace, rnea};
+use crate::sim::body::topology::{NV, SEGMENT_COUNT, SegmentId};
+use crate::sim::body::{Links, State};
+use crate::sim::math::{Mat3, Vec3};
+
+/// Width of a padded row of 45 velocity components.
+pub const WIDTH: usize = 48;
+
+/// A force on a point of a segment: segment, point (segment frame, m), force (world axes, N).
+pub type AppliedForce = (SegmentId, Vec3, Vec3);
+
+/// Dynamics of one state. Boxed once per figure; [`Terms::compute`] allocates nothing.
+#[derive(Clone, Debug)]
+pub struct Terms {
+    /// The state.
+    pub state: State,
+    /// Segments in world axes.
+    pub kin: Kinematics<f64>,
+    /// Inertia matrix, tree-sparse, armature included.
+    pub mass_matrix: MassMatrix<f64>,
+    /// The same, dense and symmetric, rows padded with zeros.
+    pub m: Box<[[f64; WIDTH]; NV]>,
+    /// Coriolis, centrifugal and gravity forces minus applied forces.
+    pub h: [f64; NV],
+    /// Total mass, kg.
+    pub mass: f64,
+    /// Centre of mass, world, m.
+    pub com: Vec3,
+    /// Velocity of the centre of mass, m/s.
+    pub com_velocity: Vec3,
+    /// Bias acceleration of the centre of mass `J̇_c v`, m/s².
+    pub com_bias: Vec3,
+    /// Jacobian of the centre of mass, rows x, y, z.
+    pub jc: [[f64; WIDTH]; 3],
+    /// Mass properties of subtrees.
+    pub composite: CompositeInertia<f64>,
+    bias: RneaWorkspace<f64>,
+    scratch: RneaWorkspace<f64>,
+    external: [External; SEGMENT_COUNT],
+}
+
+impl Default for Terms {
+    fn default() -> Self {
+        Self {
+            state: State::default(),
+            kin: Kinematics::default(),
+            mass_matrix: MassMatrix::default(),
+            m: Box::new([[0.0; WIDTH]; NV]),
+            h: [0.0; NV],
+            mass: 0.0,
+            com: Vec3::zero(),
+            com_velocity: Vec3::zero(),
+            com_bias: Vec3::zero(),
+            jc: [[0.0; WIDTH]; 3],
+            composite: CompositeInertia::default(),
+            bias: RneaWorkspace::default(),
+            scratch: RneaWorkspace::default(),
+            external: [External {
+                moment: Vec3::zero(),
+                force: Vec3::zero(),
+            }; SEGMENT_COUNT],
+        }
+    }
+}
+
+impl Terms {
+    /// Fills everything from a state. `gravity` is a magnitude (m/s²) along −z.
+    pub fn compute(
+        &mut self,
+        links: &Links,
+        state: &State,
+        applied: &[AppliedForce],
+        gravity: f64,
+    ) {
+        self.state = *state;
+        self.kin.set_state(links, state);
+        crba(links, &self.kin, &mut self.composite, &mut self.mass_matrix);
+        self.mass_matrix.to_dense(&mut self.m);
+        bias_accelerations(&self.kin, &state.velocity, &mut self.bias);
+        let zero = [0.0; NV];
+        let external: &[External] = if applied.is_empty() {
+            &[]
+        } else {
+            self.external.fill(External {
+                moment: Vec3::zero(),
+                force: Vec3::zero(),
+            });
+            for (s, point, force) in applied {
+                let e = &mut self.external[s.index()];
+                e.force += *force;
+                e.moment += (self.kin.rotation[s.index()] * *point).cross(*force);
+            }
+            &self.external
+        };
+        rnea(
+            links,
+            &self.kin,
+            &state.velocity,
+            &zero,
+            gravity,
+            external,
+            &mut self.scratch,
+            &mut self.h,
+        );
+        self.mass = self.composite.mass[0];
+        let inv = 1.0 / self.mass;
+        self.com = state.posture.root_position + self.composite.moment[0] * inv;
+        for i in 0..NV {
+            for k in 0..3 {
+                self.jc[k][i] = self.m[3 + k][i] * inv;
+            }
+        }
+        let row = |k: usize| {
+            (0..NV)
+                .map(|i| self.jc[k][i] * state.velocity[i])
+                .sum::<f64>()
+        };
+        self.com_velocity = Vec3 {
+            x: row(0),
+            y: row(1),
+            z: row(2),
+        };
+        let mut f = Vec3::zero();
+        for s in 0..SEGMENT_COUNT {
+            let (w, h) = (self.kin.omega[s], self.kin.moment[s]);
+            f += self.bias.acceleration[s] * links.mass[s]
+                + self.bias.alpha[s].cross(h)
+                + w.cross(w.cross(h));
+        }
+        self.com_bias = f * inv;
+    }
+
+    /// World position of a segment origin, m.
+    pub fn segment_position(&self, s: usize) -> Vec3 {
+        self.state.posture.root_position + self.kin.position[s]
+    }
+    /// `world_from_segment`.
+    pub fn segment_rotation(&self, s: usize) -> Mat3 {
+        self.kin.rotation[s]
+    }
+    /// World position of a point given in the segment frame, m.
+    pub fn point_world(&self, s: usize, local: Vec3) -> Vec3 {
+        self.segment_position(s) + self.kin.rotation[s] * local
+    }
+    /// Velocity of a point given in the segment frame, m/s.
+    pub fn point_velocity(&self, s: usize, local: Vec3) -> Vec3 {
+        self.kin.velocity[s] + self.kin.omega[s].cross(self.kin.rotation[s] * local)
+    }
+    /// Bias acceleration `J̇ v` of a point given in the segment frame, m/s².
+    pub fn point_bias(&self, s: usize, local: Vec3) -> Vec3 {
+        let r = self.kin.rotation[s] * local;
+        let w = self.kin.omega[s];
+        self.bias.acceleration[s] + self.bias.alpha[s].cross(r) + w.cross(w.cross(r))
+    }
+    /// Bias angular acceleration and bias acceleration of the origin of a segment.
+    pub fn segment_bias(&self, s: usize) -> (Vec3, Vec3) {
+        (self.bias.alpha[s], self.bias.acceleration[s])
+    }
+    /// Jacobian (rows x, y, z) of a point given in the segment frame.
+    pub fn point_jacobian(&self, s: usize, local: Vec3, out: &mut [[f64; WIDTH]; 3]) {
+        *out = [[0.0; WIDTH]; 3];
+        let r = self.kin.position[s] + self.kin.rotation[s] * local;
+        for_each_column(&self.kin, s, r, |i, _, v| {
+            out[0][i] = v.x;
+            out[1][i] = v.y;
+            out[2][i] = v.z;
+        });
+    }
+    /// Jacobian of a segment, angular rows first, then the velocity of its origin; world axes.
+    pub fn segment_jacobian(&self, s: usize, out: &mut [[f64; WIDTH]; 6]) {
+        *out = [[0.0; WIDTH]; 6];
+        for_each_column(&self.kin, s, self.kin.position[s], |i, a, v| {
+            (out[0][i], out[1][i], out[2][i]) = (a.x, a.y, a.z);
+            (out[3][i], out[4][i], out[5][i]) = (v.x, v.y, v.z);
+        });
+    }
+    /// Force and moment about the world origin that the ground must supply for the acceleration `vdot` (first six rows of
+    /// `M v̇ + h`, ALGORITHM §4).
+    pub fn ground_wrench(&self, vdot: &[f64; NV]) -> (Vec3, Vec3) {
+        let row = |i: usize| self.h[i] + (0..NV).map(|j| self.m[i][j] * vdot[j]).sum::<f64>();
+        let moment = Vec3 {
+            x: row(0),
+            y: row(1),
+            z: row(2),
+        };
+        let force = Vec3 {
+            x: row(3),
+            y: row(4),
+            z: row(5),
+        };
+        (
+            force,
+            moment + self.state.posture.root_position.cross(force),
+        )
+    }
+}
