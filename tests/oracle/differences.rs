@@ -118,8 +118,7 @@ fn coriolis_forces_do_no_work_beyond_the_change_of_inertia() {
         let form = |t: &Terms| -> f64 {
             (0..NV)
                 .map(|i| {
-                    state.velocity[i]
-                        * (0..NV).map(|j| t.m[i][j] * state.velocity[j]).sum::<f64>()
+                    state.velocity[i] * (0..NV).map(|j| t.m[i][j] * state.velocity[j]).sum::<f64>()
                 })
                 .sum()
         };
@@ -148,14 +147,19 @@ fn energy_changes_by_the_power_of_the_torques_in_flight() {
             let t = terms(&links, &s);
             let kinetic: f64 = 0.5
                 * (0..NV)
-                    .map(|i| s.velocity[i] * (0..NV).map(|j| t.m[i][j] * s.velocity[j]).sum::<f64>())
+                    .map(|i| {
+                        s.velocity[i] * (0..NV).map(|j| t.m[i][j] * s.velocity[j]).sum::<f64>()
+                    })
                     .sum::<f64>();
             kinetic + t.mass * GRAVITY * t.com.z
         };
         let h = 1e-4;
-        let rate = (8.0 * (energy(h) - energy(-h)) - (energy(2.0 * h) - energy(-2.0 * h)))
-            / (12.0 * h);
+        let rate =
+            (8.0 * (energy(h) - energy(-h)) - (energy(2.0 * h) - energy(-2.0 * h))) / (12.0 * h);
         let scale = power.abs().max(energy(0.0).abs());
-        assert!((rate - power).abs() < 1e-6 * scale, "{rate} against {power}");
+        assert!(
+            (rate - power).abs() < 1e-6 * scale,
+            "{rate} against {power}"
+        );
     }
 }

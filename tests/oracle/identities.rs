@@ -1,7 +1,9 @@
 //! Independent algorithms agree on random bodies and states. Tolerances are relative to the largest entry of the quantity;
 //! [`ROUNDING`] is some hundred operations' worth of rounding, [`SOLVED`] allows for the condition number of M (10⁵–10⁶).
 
-use super::bodies::{components, generator, loaded, random_body, random_loads, random_state, vector};
+use super::bodies::{
+    components, generator, loaded, random_body, random_loads, random_state, vector,
+};
 use super::{GRAVITY, inverse, relative, terms};
 use nalgebra::{DMatrix, DVector};
 use sinew::sim::body::{Links, NV, SEGMENT_COUNT, SegmentId, State};
@@ -144,10 +146,7 @@ fn the_tree_factor_solves_as_a_dense_factor_does() {
         let mut x = *a;
         solve(&l, &mut x);
         let m = DMatrix::from_fn(NV, NV, |i, j| t.m[i][j]);
-        let dense = m
-            .cholesky()
-            .unwrap()
-            .solve(&DVector::from_row_slice(a));
+        let dense = m.cholesky().unwrap().solve(&DVector::from_row_slice(a));
         assert!(relative(&x, dense.as_slice()) < SOLVED);
         // And the residual is at rounding level, whatever the condition.
         let mut b = [0.0; NV];
@@ -166,7 +165,13 @@ fn applied_forces_act_through_the_jacobian_of_their_point() {
     cases(|links, state, _, rng| {
         let t = terms(links, state);
         let forces: Vec<(SegmentId, Vec3, Vec3)> = [3usize, 9, 9, 17]
-            .map(|s| (SegmentId::new(s).unwrap(), vector(rng, 0.3), vector(rng, 300.0)))
+            .map(|s| {
+                (
+                    SegmentId::new(s).unwrap(),
+                    vector(rng, 0.3),
+                    vector(rng, 300.0),
+                )
+            })
             .to_vec();
         let mut with = sinew::sim::dynamics::Terms::default();
         with.compute(links, state, &forces, GRAVITY);
