@@ -3,6 +3,7 @@
 //! `world` ─► `figure` ─► `control`, `contact` ─► `support`, `strength`, `motion` ─► `dynamics` ─► `body` ─► `math`.
 
 pub mod body;
+pub mod contact;
 pub mod dynamics;
 pub mod figure;
 pub mod math;

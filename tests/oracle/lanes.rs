@@ -1,8 +1,10 @@
 //! Eight figures in lock-step carry, each, the bits that it would have alone: every kernel, a different body and state per lane, through
 //! the plain generic code and through the run-time dispatch to the machine's widest instructions.
 
-use super::bodies::{components, generator, loaded, random_body, random_loads, random_state, vector};
 use super::GRAVITY;
+use super::bodies::{
+    components, generator, loaded, random_body, random_loads, random_state, vector,
+};
 use sinew::sim::body::topology::{BALL_COUNT, HINGE_COUNT};
 use sinew::sim::body::{Links, NV, Posture, SEGMENT_COUNT, State};
 use sinew::sim::dynamics::jacobian::{bias_accelerations, for_each_column};

@@ -13,7 +13,7 @@ mod bodies;
 //mod closed_forms;
 mod differences;
 mod identities;
-//mod lanes;
+mod lanes;
 //mod reference;
 //mod vectors;
 

@@ -2,8 +2,11 @@
 
 pub mod angles;
 pub mod export;
+pub mod geometry;
+pub mod humanoid;
 pub mod links;
 pub mod model;
+mod shape;
 pub mod state;
 pub mod topology;
 

@@ -1,0 +1,20 @@
+//! The convex kernel of ALGORITHM §14: one semi-smooth Newton method for the simulator's substep and for the modern controller.
+//!
+//! Minimise ½ xᵀA x − bᵀx + Σ motors(x_j) + Σ limits(aᵀx) + Σ cones(J_k x + c_k) over x ∈ R⁴⁵. The simulator reads x as velocity
+//! and A as inertia; the controller reads x as the price of the dynamics. Every iterate respects strength and friction.
+
+pub mod dense;
+pub mod limits;
+pub mod newton;
+pub mod projection;
+pub mod rows;
+pub mod sparse;
+
+pub use dense::DenseSystem;
+pub use limits::{LimitRow, LimitRows, collect_limits};
+pub use newton::{Motors, NewtonWorkspace, Outcome, minimise};
+pub use rows::ContactRows;
+pub use sparse::SparseSystem;
+
+#[cfg(test)]
+mod tests;

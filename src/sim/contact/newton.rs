@@ -1,0 +1,266 @@
+//! Semi-smooth Newton method with exact line search, warm start and a bound on its work (ALGORITHM §14.2).
+
+use super::limits::{LIMIT_STIFFNESS, LimitRows};
+use super::projection::Region;
+use super::rows::{CHAIN_WIDTH, ContactRows, SegmentRows, add_point_stiffness};
+use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT};
+use crate::sim::figure::report::MAX_CONTACTS;
+use crate::sim::math::Vec3;
+
+/// The quadratic part of the problem and the matrix Newton steps are solved with.
+pub trait System {
+    /// Storage of `A + …` and of its factor.
+    type Hessian;
+    /// `y = A x`.
+    fn mul(&self, x: &[f64; NV], y: &mut [f64; NV]);
+    /// `g = A`.
+    fn load(&self, g: &mut Self::Hessian);
+    /// Adds to entry (i, j), i ≥ j, of the lower triangle.
+    fn add(g: &mut Self::Hessian, i: usize, j: usize, x: f64);
+    /// Adds `Jᵀ(K J)` of one segment; `kj` is `K J`.
+    fn add_segment(g: &mut Self::Hessian, s: &SegmentRows, kj: &[[f64; CHAIN_WIDTH]; 6]);
+    /// Factors `g` and solves in place; false if it is not positive definite.
+    fn solve(g: &mut Self::Hessian, x: &mut [f64; NV]) -> bool;
+}
+
+/// Saturating springs on the 39 joint components: `t_j = clip(g_j (r_j − x_j), lower_j, upper_j)`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Motors {
+    /// Gain.
+    pub gain: [f64; DOF_COUNT],
+    /// Rest value.
+    pub rest: [f64; DOF_COUNT],
+    /// Least value.
+    pub lower: [f64; DOF_COUNT],
+    /// Largest value.
+    pub upper: [f64; DOF_COUNT],
+}
+
+impl Default for Motors {
+    fn default() -> Self {
+        let z = [0.0; DOF_COUNT];
+        Self {
+            gain: z,
+            rest: z,
+            lower: z,
+            upper: z,
+        }
+    }
+}
+
+impl Motors {
+    /// Value and slope at `x`.
+    #[inline(always)]
+    fn value(&self, j: usize, x: f64) -> (f64, f64) {
+        let t = self.gain[j] * (self.rest[j] - x);
+        if t > self.upper[j] {
+            (self.upper[j], 0.0)
+        } else if t < self.lower[j] {
+            (self.lower[j], 0.0)
+        } else {
+            (t, self.gain[j])
+        }
+    }
+}
+
+/// Forces of the last iterate; they respect strength and friction whatever the residual.
+#[derive(Clone, Debug)]
+pub struct NewtonWorkspace {
+    /// Motor values `t`.
+    pub motor: [f64; DOF_COUNT],
+    /// Limit impulses mapped to the joint components.
+    pub limit: [f64; DOF_COUNT],
+    /// Contact forces, one per point.
+    pub force: Box<[Vec3; MAX_CONTACTS]>,
+    velocity: Box<[Vec3; MAX_CONTACTS]>,
+    direction: Box<[Vec3; MAX_CONTACTS]>,
+    region: Box<[Region; MAX_CONTACTS]>,
+}
+
+impl Default for NewtonWorkspace {
+    fn default() -> Self {
+        let z = || Box::new([Vec3::zero(); MAX_CONTACTS]);
+        Self {
+            motor: [0.0; DOF_COUNT],
+            limit: [0.0; DOF_COUNT],
+            force: z(),
+            velocity: z(),
+            direction: z(),
+            region: Box::new([Region::Open; MAX_CONTACTS]),
+        }
+    }
+}
+
+/// How a solve ended.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Outcome {
+    /// Newton iterations.
+    pub iterations: u32,
+    /// Largest component of the gradient left.
+    pub residual: f64,
+    /// Residual below the tolerance.
+    pub converged: bool,
+}
+
+/// Most evaluations of one line search.
+const LINE_SEARCH: usize = 12;
+
+/// Minimises the problem from `x`, which holds the last iterate afterwards. Bounded work, no allocation.
+///
+/// The forces left in `ws` are those of the last iterate. The residual is in the units of `b`.
+#[inline(always)]
+pub fn minimise<S: System>(
+    system: &S,
+    hessian: &mut S::Hessian,
+    b: &[f64; NV],
+    motors: &Motors,
+    limits: &LimitRows,
+    contacts: &ContactRows,
+    max_iterations: u32,
+    tolerance: f64,
+    x: &mut [f64; NV],
+    ws: &mut NewtonWorkspace,
+) -> Outcome {
+    let n = contacts.points.len();
+    let mut ax = [0.0; NV];
+    system.mul(x, &mut ax);
+    contacts.velocities(x, &mut ws.velocity);
+    let mut out = Outcome::default();
+    loop {
+        // Gradient A x − b − t − limits − Jᵀf, and where each motor, limit and contact stands.
+        let mut grad = [0.0; NV];
+        let mut slope = [0.0; DOF_COUNT];
+        for i in 0..6 {
+            grad[i] = ax[i] - b[i];
+        }
+        for j in 0..DOF_COUNT {
+            let (t, s) = motors.value(j, x[6 + j]);
+            ws.motor[j] = t;
+            slope[j] = s;
+            grad[6 + j] = ax[6 + j] - b[6 + j] - t;
+        }
+        ws.limit.fill(0.0);
+        for row in &limits.rows {
+            let p = row.impulse(row.rate(x));
+            if p > 0.0 {
+                for k in 0..row.len {
+                    ws.limit[row.first - 6 + k] += p * row.coefficients[k];
+                }
+            }
+        }
+        for j in 0..DOF_COUNT {
+            grad[6 + j] -= ws.limit[j];
+        }
+        for k in 0..n {
+            (ws.force[k], ws.region[k]) = contacts.force(k, ws.velocity[k]);
+        }
+        contacts.add_transposed(&ws.force, -1.0, &mut grad);
+        out.residual = grad.iter().fold(0.0, |m: f64, g| m.max(g.abs()));
+        out.converged = out.residual < tolerance;
+        if out.converged || out.iterations >= max_iterations || !out.residual.is_finite() {
+            return out;
+        }
+        out.iterations += 1;
+
+        // Newton matrix.
+        system.load(hessian);
+        for j in 0..DOF_COUNT {
+            S::add(hessian, 6 + j, 6 + j, slope[j]);
+        }
+        for row in &limits.rows {
+            if row.rate(x) < -row.allowed {
+                for i in 0..row.len {
+                    for j in 0..=i {
+                        let v = LIMIT_STIFFNESS * row.coefficients[i] * row.coefficients[j];
+                        S::add(hessian, row.first + i, row.first + j, v);
+                    }
+                }
+            }
+        }
+        let mut stiffness = [[[0.0; 6]; 6]; SEGMENT_COUNT];
+        let mut touching = [false; SEGMENT_COUNT];
+        for (k, p) in contacts.points.iter().enumerate() {
+            if ws.region[k] != Region::Open {
+                let d = contacts.stiffness(k, ws.velocity[k], ws.region[k]);
+                add_point_stiffness(&mut stiffness[p.slot], p.r, &d);
+                touching[p.slot] = true;
+            }
+        }
+        for (slot, s) in contacts.segments.iter().enumerate() {
+            if touching[slot] {
+                let mut kj = [[0.0; CHAIN_WIDTH]; 6];
+                for a in 0..6 {
+                    for c in 0..6 {
+                        let y = stiffness[slot][a][c];
+                        for i in 0..CHAIN_WIDTH {
+                            kj[a][i] += y * s.jacobian[c][i];
+                        }
+                    }
+                }
+                S::add_segment(hessian, s, &kj);
+            }
+        }
+        let mut d: [f64; NV] = std::array::from_fn(|i| -grad[i]);
+        if !S::solve(hessian, &mut d) {
+            return out;
+        }
+
+        // Exact line search: φ'(a) = dᵀ∇(x + a d) is monotone.
+        let mut ad = [0.0; NV];
+        system.mul(&d, &mut ad);
+        contacts.velocities(&d, &mut ws.direction);
+        let (mut q0, mut q1, mut slope0) = (0.0, 0.0, 0.0);
+        for i in 0..NV {
+            q0 += d[i] * (ax[i] - b[i]);
+            q1 += d[i] * ad[i];
+            slope0 += d[i] * grad[i];
+        }
+        let phi = |a: f64| {
+            let mut z = q0 + a * q1;
+            for j in 0..DOF_COUNT {
+                z -= d[6 + j] * motors.value(j, x[6 + j] + a * d[6 + j]).0;
+            }
+            for row in &limits.rows {
+                let r = row.rate(&d);
+                if r != 0.0 {
+                    z -= r * row.impulse(row.rate(x) + a * r);
+                }
+            }
+            for k in 0..n {
+                let (f, _) = contacts.force(k, ws.velocity[k] + ws.direction[k] * a);
+                z -= ws.direction[k].dot(f);
+            }
+            z
+        };
+        let mut a = 1.0;
+        let full = phi(1.0);
+        if full > 0.1 * slope0.abs() {
+            // Illinois variant of regula falsi between 0 and 1.
+            let (mut lo, mut flo, mut hi, mut fhi) = (0.0, slope0, 1.0, full);
+            for _ in 0..LINE_SEARCH {
+                a = lo - flo * (hi - lo) / (fhi - flo);
+                if !(a > lo + 1e-3 * (hi - lo)) {
+                    a = lo + 1e-2 * (hi - lo);
+                }
+                let p = phi(a);
+                if p.abs() < 0.05 * slope0.abs() {
+                    break;
+                }
+                if p < 0.0 {
+                    (lo, flo) = (a, p);
+                    fhi *= 0.5;
+                } else {
+                    (hi, fhi) = (a, p);
+                    flo *= 0.5;
+                }
+            }
+        }
+        for i in 0..NV {
+            x[i] += a * d[i];
+            ax[i] += a * ad[i];
+        }
+        for k in 0..n {
+            ws.velocity[k] += ws.direction[k] * a;
+        }
+    }
+}

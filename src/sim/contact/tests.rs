@@ -1,0 +1,154 @@
+//! The kernel against its optimality conditions and against each other storage.
+
+use super::*;
+use crate::sim::body::topology::{DOF_COUNT, NV};
+use crate::sim::contact::newton::NewtonWorkspace;
+use crate::sim::contact::projection::{derivative, project};
+use crate::sim::contact::rows::PointRow;
+use crate::sim::dynamics::Terms;
+use crate::sim::dynamics::tests::{random_links, random_state};
+use crate::sim::math::Vec3;
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+#[test]
+fn projection_is_nearest_point_of_the_cone_and_its_derivative_matches_differences() {
+    let mut rng = Pcg64Mcg::seed_from_u64(1);
+    for _ in 0..2000 {
+        let u = Vec3 {
+            x: rng.random_range(-2.0..2.0),
+            y: rng.random_range(-2.0..2.0),
+            z: rng.random_range(-2.0..2.0),
+        };
+        let (f, region) = project(u, 0.7);
+        assert!((f.x * f.x + f.y * f.y).sqrt() <= 0.7 * f.z + 1e-12);
+        // Moreau: u − f is in the polar cone and orthogonal to f.
+        let r = u - f;
+        assert!(r.dot(f).abs() < 1e-12);
+        assert!(0.7 * (r.x * r.x + r.y * r.y).sqrt() <= -r.z + 1e-12);
+        let d = derivative(u, 0.7, region);
+        let h = 1e-6;
+        for (c, e) in [Vec3::X, Vec3::Y, Vec3::Z].into_iter().enumerate() {
+            let (a, ra) = project(u + e * h, 0.7);
+            let (b, rb) = project(u - e * h, 0.7);
+            if ra != region || rb != region {
+                continue;
+            }
+            let num = (a - b) * (0.5 / h);
+            assert!(
+                (num - Vec3 {
+                    x: d[0][c],
+                    y: d[1][c],
+                    z: d[2][c]
+                })
+                .norm()
+                    < 1e-6
+            );
+        }
+    }
+}
+
+#[test]
+fn newton_reaches_the_minimum_and_both_storages_agree() {
+    let mut rng = Pcg64Mcg::seed_from_u64(2);
+    for case in 0..40 {
+        let (links, state) = (random_links(&mut rng), random_state(&mut rng));
+        let mut t = Terms::default();
+        t.compute(&links, &state, &[], 9.81);
+        let mut contacts = ContactRows::new(0.9);
+        for segment in [6, 12, 16] {
+            let slot = contacts.slot(&t.kin, segment);
+            for vertex in 0..4 {
+                let mut r = || rng.random_range(-0.1..0.1);
+                let r = Vec3 {
+                    x: r(),
+                    y: r(),
+                    z: r(),
+                };
+                let c = Vec3 {
+                    x: 0.0,
+                    y: 0.0,
+                    z: rng.random_range(-1.0..1.0),
+                };
+                contacts.points.push(PointRow {
+                    slot,
+                    r,
+                    c,
+                    inverse_r: 1e4,
+                    segment,
+                    vertex,
+                });
+            }
+        }
+        let motors = Motors {
+            gain: std::array::from_fn(|_| rng.random_range(0.1..10.0)),
+            rest: std::array::from_fn(|_| rng.random_range(-3.0..3.0)),
+            lower: [-0.5; DOF_COUNT],
+            upper: [0.5; DOF_COUNT],
+        };
+        let limits = LimitRows {
+            rows: (0..39)
+                .map(|d| LimitRow {
+                    first: 6 + d,
+                    len: 1,
+                    coefficients: [if d % 2 == 0 { 1.0 } else { -1.0 }, 0.0, 0.0],
+                    allowed: rng.random_range(-0.5..4.0),
+                })
+                .collect(),
+        };
+        let mut b = [0.0; NV];
+        t.mass_matrix.mul(&state.velocity, &mut b);
+        let (mut x, mut ws) = (state.velocity, NewtonWorkspace::default());
+        let sparse = SparseSystem(&t.mass_matrix);
+        let o = minimise(
+            &sparse,
+            &mut t.mass_matrix.clone(),
+            &b,
+            &motors,
+            &limits,
+            &contacts,
+            60,
+            1e-9,
+            &mut x,
+            &mut ws,
+        );
+        assert!(
+            o.converged,
+            "case {case}: residual {:e} after {}",
+            o.residual, o.iterations
+        );
+        let (mut y, mut ws2) = (state.velocity, NewtonWorkspace::default());
+        let dense = DenseSystem(&t.m);
+        let o2 = minimise(
+            &dense,
+            &mut t.m.clone(),
+            &b,
+            &motors,
+            &limits,
+            &contacts,
+            60,
+            1e-9,
+            &mut y,
+            &mut ws2,
+        );
+        assert!(o2.converged);
+        for i in 0..NV {
+            assert!((x[i] - y[i]).abs() < 1e-8, "component {i}");
+        }
+        for (k, f) in ws.force.iter().enumerate().take(contacts.points.len()) {
+            assert!(
+                (f.x * f.x + f.y * f.y).sqrt() <= 0.9 * f.z * (1.0 + 1e-12) + 1e-15,
+                "cone of point {k}"
+            );
+        }
+        assert!(ws.motor.iter().all(|t| t.abs() <= 0.5));
+        assert_ne!(
+            ws.force[0],
+            Vec3 {
+                x: f64::NAN,
+                ..Vec3::zero()
+            }
+        );
+        let _ = Region::Open;
+    }
+}

@@ -1,0 +1,215 @@
+//! How much of its isometric peak a muscle group gives at an angle and at a speed: the factors f_len and f_vel of equation (5).
+//!
+//! Whatever data a curve is made from, it is continuous, positive, and gives less the faster it shortens (ALGORITHM §3). Published
+//! fits that break this are repaired here (Anderson 2007: eccentric branch, plantarflexion, cosine beyond its half wave).
+//! Evaluated within the tick: no allocation and no platform libm.
+
+use crate::sim::math::trig;
+
+/// Least angle factor: the groups reach farther than the postures they were measured in, and none goes dead at the end of its range.
+pub const ANGLE_FLOOR: f64 = 0.1;
+/// Least velocity factor.
+pub const VELOCITY_FLOOR: f64 = 0.05;
+/// Largest factor in lengthening.
+pub const ECCENTRIC_MOST: f64 = 1.4;
+/// Least factor at fast lengthening: one muscle never gives less there than when it holds still.
+const ECCENTRIC_LEAST: f64 = 1.05;
+
+/// Torque over peak torque against the joint angle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AngleFactor {
+    /// `cos(width·(θ − peak))` within its half wave (Anderson 2007).
+    Cosine {
+        /// C2, 1/rad.
+        width: f64,
+        /// C3, rad.
+        peak: f64,
+    },
+    /// A bell `1/(1 + y + y²/2)`, `y = ½((θ − peak)/deviation)²`: a Gaussian to second order whose flanks fall more slowly.
+    Bell {
+        /// Angle of the peak, rad.
+        peak: f64,
+        /// One standard deviation, rad.
+        deviation: f64,
+    },
+}
+
+impl AngleFactor {
+    /// Factor at angle `theta` (rad), [`ANGLE_FLOOR`]…1.
+    #[inline]
+    pub fn at(&self, theta: f64) -> f64 {
+        let f = match *self {
+            Self::Cosine { width, peak } => {
+                let half = std::f64::consts::PI;
+                trig::sin_cos((width * (theta - peak)).clamp(-half, half)).1
+            }
+            Self::Bell { peak, deviation } => {
+                let z = (theta - peak) / deviation;
+                let y = 0.5 * z * z;
+                1.0 / (1.0 + y + 0.5 * y * y)
+            }
+        };
+        f.max(ANGLE_FLOOR)
+    }
+}
+
+/// Torque over isometric torque against the speed of shortening. C¹ except where it meets its floor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VelocityFactor {
+    shortening: Shortening,
+    /// Factor at infinitely fast lengthening, less 1.
+    gain: f64,
+    /// Lengthening speed at half the gain, rad/s.
+    half: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Shortening {
+    /// `(1 − u)/(1 + bend·u)`, `u = ω/fastest`.
+    Hill { fastest: f64, bend: f64 },
+    /// `(1 + a ω)/(1 + b ω)` up to `until`, where it is ½; beyond that `½/(1 + tail (ω − until))` with the same slope.
+    Measured { a: f64, b: f64, until: f64, tail: f64 },
+}
+
+impl VelocityFactor {
+    /// Hill hyperbola that vanishes at `fastest` (rad/s) and is `at_half` (0.05…0.5) at half that speed; `eccentric` is the plateau.
+    pub fn hill(fastest: f64, at_half: f64, eccentric: f64) -> Self {
+        let bend = 1.0 / at_half - 2.0;
+        let slope = (1.0 + bend) / fastest;
+        Self::with_eccentric(Shortening::Hill { fastest, bend }, slope, eccentric)
+    }
+
+    /// The concentric curve of Anderson 2007, which is ¾ at `c4` and ½ at `c5` (rad/s, 0 < c4 < c5).
+    ///
+    /// It was measured to about `c5`. Extrapolated, it crosses zero at 6…9 rad/s at the hip, speeds that a brisk step reaches, or never (plantarflexion);
+    /// here it goes on as a hyperbola instead. The eccentric branch, which falls below 1 or even below 0 as published, is replaced.
+    pub fn anderson(c4: f64, c5: f64, eccentric: f64) -> Self {
+        let a = (c5 - 3.0 * c4) / (2.0 * c4 * c5);
+        let b = (2.0 * c5 - 4.0 * c4) / (2.0 * c4 * c5);
+        let tail = c4 / (c5 * (c5 - c4)); // twice the slope at c5, since the value there is ½
+        let slope = b - a;
+        let shortening = Shortening::Measured {
+            a,
+            b,
+            until: c5,
+            tail,
+        };
+        Self::with_eccentric(shortening, slope, eccentric)
+    }
+
+    /// Lengthening rises from 1 with the `slope` of the concentric side (no kink at rest) towards the plateau.
+    fn with_eccentric(shortening: Shortening, slope: f64, eccentric: f64) -> Self {
+        let gain = eccentric.clamp(ECCENTRIC_LEAST, ECCENTRIC_MOST) - 1.0;
+        Self {
+            shortening,
+            gain,
+            half: gain / slope,
+        }
+    }
+
+    /// Factor at shortening speed `speed` (rad/s; negative = lengthening), [`VELOCITY_FLOOR`]…[`ECCENTRIC_MOST`], not increasing.
+    #[inline]
+    pub fn at(&self, speed: f64) -> f64 {
+        if speed <= 0.0 {
+            return 1.0 - self.gain * speed / (self.half - speed);
+        }
+        let f = match self.shortening {
+            Shortening::Hill { fastest, bend } => {
+                let u = speed / fastest;
+                (1.0 - u) / (1.0 + bend * u)
+            }
+            Shortening::Measured { a, b, until, tail } => {
+                if speed < until {
+                    (1.0 + a * speed) / (1.0 + b * speed)
+                } else {
+                    0.5 / (1.0 + tail * (speed - until))
+                }
+            }
+        };
+        f.max(VELOCITY_FLOOR)
+    }
+}
+
+/// One direction of one DOF: isometric peak and the two factors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Muscle {
+    /// Isometric torque at the angle of the peak, N·m.
+    pub peak: f64,
+    /// f_len.
+    pub angle: AngleFactor,
+    /// f_vel.
+    pub velocity: VelocityFactor,
+}
+
+impl Muscle {
+    /// Largest torque at `angle` (rad) and shortening `speed` (rad/s), N·m, > 0: equation (5).
+    #[inline]
+    pub fn torque(&self, angle: f64, speed: f64) -> f64 {
+        self.peak * self.angle.at(angle) * self.velocity.at(speed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn curves() -> Vec<VelocityFactor> {
+        vec![
+            VelocityFactor::hill(19.1, 0.25, 1.23),
+            VelocityFactor::hill(36.5, 0.12, 1.17),
+            VelocityFactor::hill(11.8, 0.41, 1.159),
+            VelocityFactor::anderson(2.095, 4.267, 1.14),
+            VelocityFactor::anderson(0.987, 3.558, 1.159),
+        ]
+    }
+
+    #[test]
+    fn velocity_is_one_at_rest_smooth_there_and_monotone() {
+        for c in curves() {
+            assert_eq!(c.at(0.0), 1.0);
+            let h = 1e-6;
+            let (left, right) = ((c.at(0.0) - c.at(-h)) / h, (c.at(h) - c.at(0.0)) / h);
+            assert!((left - right).abs() < 1e-4 * right.abs(), "slopes {left}, {right}");
+            let mut before = ECCENTRIC_MOST;
+            for i in -4000..=4000 {
+                let f = c.at(f64::from(i) * 0.02);
+                assert!(f <= before && f >= VELOCITY_FLOOR, "{f} after {before}");
+                before = f;
+            }
+        }
+    }
+
+    #[test]
+    fn measured_curve_passes_its_points_and_hill_its_middle() {
+        let c = VelocityFactor::anderson(2.095, 4.267, 1.14);
+        assert!((c.at(2.095) - 0.75).abs() < 1e-12);
+        assert!((c.at(4.267) - 0.5).abs() < 1e-12);
+        let h = 1e-6;
+        let (left, right) = (c.at(4.267) - c.at(4.267 - h), c.at(4.267 + h) - c.at(4.267));
+        assert!((left / right - 1.0).abs() < 1e-4, "slope is kept");
+        let hill = VelocityFactor::hill(11.8, 0.41, 1.2);
+        assert!((hill.at(5.9) - 0.41).abs() < 1e-12);
+        assert_eq!(hill.at(12.0), VELOCITY_FLOOR);
+    }
+
+    #[test]
+    fn angle_factors_peak_at_one_and_never_vanish() {
+        let cosine = AngleFactor::Cosine {
+            width: 1.391,
+            peak: 0.408,
+        };
+        let bell = AngleFactor::Bell {
+            peak: 0.9,
+            deviation: 1.2,
+        };
+        assert!((cosine.at(0.408) - 1.0).abs() < 1e-15 && bell.at(0.9) == 1.0);
+        for f in [cosine, bell] {
+            let mut before = f.at(-6.0);
+            for i in -600..=600 {
+                let x = f.at(f64::from(i) * 0.01);
+                assert!((ANGLE_FLOOR..=1.0).contains(&x) && (x - before).abs() < 0.02);
+                before = x;
+            }
+        }
+    }
+}

@@ -1,0 +1,372 @@
+//! Available joint torque, equation (5): isometric level × angle factor × velocity factor, per DOF and direction.
+//!
+//! [`Strength`] is made once per body (sex, age, mass, stature) and read in every tick by [`Strength::range`]. [`tables`] holds the data and their
+//! origin, [`curve`] the shapes.
+
+pub mod curve;
+pub mod tables;
+
+#[cfg(test)]
+mod tests;
+
+use crate::sim::body::{Body, DOF_COUNT, Sex};
+use crate::sim::figure::setup::StrengthScale;
+use crate::sim::math::exp::exp;
+use curve::{AngleFactor, Muscle, VelocityFactor};
+use tables::{Action, AndersonRow, Group, Leg, Origin, Tissue};
+
+/// Ligaments act within this angle before a limit, rad (4°): ALGORITHM §3.
+pub const LIGAMENT_ZONE: f64 = 4.0 / 180.0 * std::f64::consts::PI;
+/// At and past a limit, ligaments oppose it with this multiple of the isometric peak that drives into it.
+pub const LIGAMENT_FACTOR: f64 = 3.0;
+/// Passive tissue pushes this share more while it is stretched at [`TISSUE_SPEED`] or faster, and less while it recoils: it rings otherwise.
+const TISSUE_DAMPING: f64 = 0.1;
+const TISSUE_SPEED: f64 = 10.0;
+
+/// Where one number of a DOF's strength comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Provenance {
+    /// The action it belongs to, for example `knee extension`.
+    pub action: &'static str,
+    /// What is given.
+    pub quantity: &'static str,
+    /// Value as used for this body.
+    pub value: f64,
+    /// Unit of the value.
+    pub unit: &'static str,
+    /// Publication or reason.
+    pub source: &'static str,
+    /// S1 read in data citing the publication; S2 read in the publication; S3 cross-check; D derived; R estimate.
+    pub tag: &'static str,
+    /// What was done with it.
+    pub note: &'static str,
+}
+
+/// One side of a DOF's passive tissue: `amplitude · exp(steepness · x)`, x the angle beyond `onset`, up to `cap`, then linear to twice that.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Passive {
+    amplitude: f64,
+    steepness: f64,
+    onset: f64,
+    cap: f64,
+    /// Angle beyond onset at which the cap is met, rad.
+    capped_at: f64,
+}
+
+impl Passive {
+    fn new(amplitude: f64, steepness: f64, onset: f64, cap: f64) -> Self {
+        Self {
+            amplitude,
+            steepness,
+            onset,
+            cap,
+            capped_at: (cap / amplitude).ln() / steepness,
+        }
+    }
+    /// Torque (N·m, ≥ 0) at `x` rad beyond the onset.
+    #[inline]
+    fn at(&self, x: f64) -> f64 {
+        let over = x - self.capped_at;
+        if over < 0.0 {
+            self.amplitude * exp(self.steepness * x)
+        } else {
+            self.cap * (1.0 + (self.steepness * over).min(1.0))
+        }
+    }
+}
+
+/// Strength of one body: immutable, shared by every figure that has the body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Strength {
+    /// Muscles for the positive and for the negative direction of each DOF.
+    muscle: [[Muscle; 2]; DOF_COUNT],
+    /// Passive tissue at the lower and at the upper end of each DOF.
+    tissue: [[Passive; 2]; DOF_COUNT],
+    lower: [f64; DOF_COUNT],
+    upper: [f64; DOF_COUNT],
+    provenance: Vec<Vec<Provenance>>,
+}
+
+impl Strength {
+    /// Strength of the person that `body.profile` describes: the tables, scaled by sex, mass · g · height and age.
+    ///
+    /// Ages beyond 18…90 years count as the nearest of them. Allocates; offline.
+    pub fn for_body(body: &Body) -> Self {
+        let person = Person::of(body);
+        let (groups, tissues) = (in_dof_order(&tables::TRUNK, &tables::ARM, &tables::LEG), {
+            in_dof_order(&tables::TRUNK_TISSUE, &tables::ARM_TISSUE, &tables::LEG_TISSUE)
+        });
+        let muscle: [[Muscle; 2]; DOF_COUNT] =
+            std::array::from_fn(|d| groups[d].map(|g| person.muscle(&g)));
+        let tissue = std::array::from_fn(|d| {
+            // The tissue stretched at the upper end is that of the muscle which pulls away from it.
+            let (upper, lower) = (body.upper[d], body.lower[d]);
+            [
+                passive(tissues[d][0], -lower, muscle[d][0].peak, -1.0),
+                passive(tissues[d][1], upper, muscle[d][1].peak, 1.0),
+            ]
+        });
+        let provenance = (0..DOF_COUNT)
+            .map(|d| person.provenance(&groups[d], &muscle[d], &tissues[d], &tissue[d]))
+            .collect();
+        Self {
+            muscle,
+            tissue,
+            lower: body.lower,
+            upper: body.upper,
+            provenance,
+        }
+    }
+
+    /// Torque available at this instant, N·m, equation (5) with ligaments (ALGORITHM §3).
+    ///
+    /// τ_max = T⁺ f_len(θ) f_vel(θ̇), τ_min = −T⁻ f_len(θ) f_vel(−θ̇). Within [`LIGAMENT_ZONE`] of a limit the torque that opposes it grows linearly to
+    /// [`LIGAMENT_FACTOR`] times the isometric peak that drives into it; ligaments do not scale with strength.
+    ///
+    /// * `angles`: anatomical angles, rad; `rates`: joint rates, rad/s; both in DOF order.
+    /// * `scale`: factors on the muscles, > 0.
+    /// * `lower` < 0 < `upper`: results in DOF order.
+    ///
+    /// About a microsecond; no allocation.
+    pub fn range(
+        &self,
+        angles: &[f64; DOF_COUNT],
+        rates: &[f64; DOF_COUNT],
+        scale: &StrengthScale,
+        lower: &mut [f64; DOF_COUNT],
+        upper: &mut [f64; DOF_COUNT],
+    ) {
+        for d in 0..DOF_COUNT {
+            let (theta, rate) = (angles[d], rates[d]);
+            let [plus, minus] = &self.muscle[d];
+            let s = scale.all * scale.dof[d];
+            let into_upper = 1.0 - (self.upper[d] - theta) / LIGAMENT_ZONE;
+            let into_lower = 1.0 - (theta - self.lower[d]) / LIGAMENT_ZONE;
+            upper[d] = s * plus.torque(theta, rate)
+                + LIGAMENT_FACTOR * minus.peak * into_lower.clamp(0.0, 1.0);
+            lower[d] = -(s * minus.torque(theta, -rate)
+                + LIGAMENT_FACTOR * plus.peak * into_upper.clamp(0.0, 1.0));
+        }
+    }
+
+    /// Torque of stretched tissue, N·m, in DOF order: elastic, with 10 % of internal damping; at most 2.2 isometric peaks.
+    ///
+    /// * `angles`: anatomical angles, rad; `rates`: joint rates, rad/s.
+    ///
+    /// No allocation.
+    pub fn passive(
+        &self,
+        angles: &[f64; DOF_COUNT],
+        rates: &[f64; DOF_COUNT],
+        out: &mut [f64; DOF_COUNT],
+    ) {
+        for d in 0..DOF_COUNT {
+            let [low, high] = &self.tissue[d];
+            let damping = TISSUE_DAMPING * (rates[d] / TISSUE_SPEED).clamp(-1.0, 1.0);
+            out[d] = low.at(-angles[d] - low.onset) * (1.0 - damping)
+                - high.at(angles[d] - high.onset) * (1.0 + damping);
+        }
+    }
+
+    /// Where the numbers of DOF `dof` (0…38) come from.
+    pub fn provenance(&self, dof: usize) -> &[Provenance] {
+        &self.provenance[dof]
+    }
+
+    /// Muscles of DOF `dof` (0…38) for its positive and its negative direction.
+    pub fn muscles(&self, dof: usize) -> &[Muscle; 2] {
+        &self.muscle[dof]
+    }
+}
+
+/// Trunk, left arm, right arm, left leg, right leg.
+fn in_dof_order<T: Copy>(trunk: &[T; 9], arm: &[T; 7], leg: &[T; 8]) -> [T; DOF_COUNT] {
+    std::array::from_fn(|d| match d {
+        0..9 => trunk[d],
+        9..16 => arm[d - 9],
+        16..23 => arm[d - 16],
+        23..31 => leg[d - 23],
+        _ => leg[d - 31],
+    })
+}
+
+/// Tissue at the end where `sign · θ` is largest; `limit` is that of `sign · θ`, `cap` the antagonist's peak.
+fn passive(tissue: Tissue, limit: f64, cap: f64, sign: f64) -> Passive {
+    match tissue {
+        Tissue::Measured(amplitude, steepness, onset) => {
+            Passive::new(amplitude, steepness, sign * onset, cap)
+        }
+        Tissue::AtLimit(amplitude, steepness) => {
+            Passive::new(amplitude, steepness, limit - 0.1, cap)
+        }
+        Tissue::Unknown => {
+            let half = 15f64.to_radians();
+            let steepness = 100f64.ln() / (2.0 * half);
+            Passive::new(0.01 * cap, steepness, limit - half, cap)
+        }
+    }
+}
+
+/// What the tables are scaled by.
+struct Person {
+    sex: Sex,
+    age: f64,
+    /// mass · g · height, N·m.
+    mgh: f64,
+    /// The same of the body the levels refer to, N·m.
+    reference_mgh: f64,
+}
+
+impl Person {
+    fn of(body: &Body) -> Self {
+        let p = body.profile;
+        let (height, mass) = tables::reference_body(p.sex);
+        Self {
+            sex: p.sex,
+            age: p.age.clamp(18.0, 90.0),
+            mgh: p.mass * tables::NORMALISING_GRAVITY * p.height,
+            reference_mgh: mass * tables::NORMALISING_GRAVITY * height,
+        }
+    }
+
+    fn table(&self) -> usize {
+        match self.sex {
+            Sex::Male => 0,
+            Sex::Female => 1,
+        }
+    }
+
+    fn age_factor(&self) -> f64 {
+        tables::age_factor(self.sex, self.age)
+    }
+
+    fn muscle(&self, group: &Group) -> Muscle {
+        match group {
+            Group::Leg(leg) => {
+                let rows = &tables::ANDERSON[*leg as usize][self.table()];
+                let mut muscle = anderson(*leg, &at_age(rows, self.age), self.mgh);
+                // C1 follows its own posture, so the level is carried over at one that everybody reaches.
+                let young = anderson(*leg, &rows[0], self.mgh);
+                let at = leg.reference_angle();
+                let level = young.peak * young.angle.at(at) * self.age_factor();
+                muscle.peak = level / muscle.angle.at(at);
+                muscle
+            }
+            Group::Other(a) => self.other(a),
+        }
+    }
+
+    fn other(&self, a: &Action) -> Muscle {
+        let [peak, deviation] = a.bell.map(f64::to_radians);
+        let angle = AngleFactor::Bell { peak, deviation };
+        let level = a.level[self.table()] * self.mgh / self.reference_mgh * self.age_factor();
+        let [fastest, at_half, eccentric] = a.hill;
+        Muscle {
+            peak: level / angle.at(a.at.to_radians()),
+            angle,
+            velocity: VelocityFactor::hill(fastest, at_half, eccentric),
+        }
+    }
+
+    fn provenance(
+        &self,
+        groups: &[Group; 2],
+        muscles: &[Muscle; 2],
+        tissues: &[Tissue; 2],
+        passive: &[Passive; 2],
+    ) -> Vec<Provenance> {
+        let mut out = Vec::new();
+        let mut add = |action, quantity, value: f64, unit, origin: Origin| {
+            out.push(Provenance {
+                action,
+                quantity,
+                value,
+                unit,
+                source: origin.source,
+                tag: origin.tag,
+                note: origin.note,
+            });
+        };
+        for (group, muscle) in groups.iter().zip(muscles) {
+            let (name, level, shape, speed) = match group {
+                Group::Leg(Leg::Plantarflexion) => (
+                    Leg::Plantarflexion.name(),
+                    tables::ANDERSON_ORIGIN,
+                    tables::ANDERSON_ORIGIN,
+                    tables::PLANTARFLEXION_ORIGIN,
+                ),
+                Group::Leg(leg) => (
+                    leg.name(),
+                    tables::ANDERSON_ORIGIN,
+                    tables::ANDERSON_ORIGIN,
+                    tables::ANDERSON_ORIGIN,
+                ),
+                Group::Other(a) => (a.name, a.level_origin, a.shape_origin, a.shape_origin),
+            };
+            let peak = match muscle.angle {
+                AngleFactor::Cosine { peak, .. } | AngleFactor::Bell { peak, .. } => peak,
+            };
+            add(name, "isometric peak torque", muscle.peak, "N·m", level);
+            add(name, "angle of the peak", peak.to_degrees(), "deg", shape);
+            let share = muscle.velocity.at(5.0);
+            add(name, "share of it at 5 rad/s shortening", share, "1", speed);
+            let share = muscle.velocity.at(-5.0);
+            add(name, "share of it at 5 rad/s lengthening", share, "1", speed);
+        }
+        let name = match groups[0] {
+            Group::Leg(leg) => leg.name(),
+            Group::Other(a) => a.name,
+        };
+        add(name, "age factor", self.age_factor(), "1", tables::AGE_ORIGIN);
+        let ends = ["passive torque at the lower onset", "passive torque at the upper onset"];
+        for k in 0..2 {
+            let origin = match tissues[k] {
+                Tissue::Unknown => tables::UNKNOWN_TISSUE_ORIGIN,
+                Tissue::Measured(..) | Tissue::AtLimit(..) => tables::TISSUE_ORIGIN,
+            };
+            add(name, ends[k], passive[k].amplitude, "N·m", origin);
+        }
+        out
+    }
+}
+
+/// The muscle of one row of Anderson 2007 for a person of `mgh` N·m, with the repairs of [`curve`].
+fn anderson(leg: Leg, row: &AndersonRow, mgh: f64) -> Muscle {
+    let eccentric = 1.1 + 0.2 * row.c6;
+    let velocity = if leg == Leg::Plantarflexion {
+        let [fastest, at_half] = tables::PLANTARFLEXION_HILL;
+        VelocityFactor::hill(fastest, at_half, eccentric)
+    } else {
+        VelocityFactor::anderson(row.c4, row.c5, eccentric)
+    };
+    Muscle {
+        peak: row.c1 * mgh,
+        angle: AngleFactor::Cosine {
+            width: row.c2,
+            peak: row.c3,
+        },
+        velocity,
+    }
+}
+
+/// Row at an age between the groups: smoothstep between their middle ages, so that nothing jumps at a birthday.
+fn at_age(rows: &[AndersonRow; 3], age: f64) -> AndersonRow {
+    let [young, middle, senior] = tables::ANDERSON_AGE;
+    let smooth = |from: f64, to: f64| {
+        let x = ((age - from) / (to - from)).clamp(0.0, 1.0);
+        x * x * (3.0 - 2.0 * x)
+    };
+    let (a, b) = (smooth(young, middle), smooth(middle, senior));
+    let mix = |of: fn(&AndersonRow) -> f64| {
+        let [y, m, s] = [of(&rows[0]), of(&rows[1]), of(&rows[2])];
+        y + a * (m - y) + b * (s - m)
+    };
+    AndersonRow {
+        c1: mix(|r| r.c1),
+        c2: mix(|r| r.c2),
+        c3: mix(|r| r.c3),
+        c4: mix(|r| r.c4),
+        c5: mix(|r| r.c5),
+        c6: mix(|r| r.c6),
+    }
+}
