@@ -14,7 +14,7 @@ mod bodies;
 mod differences;
 mod identities;
 mod lanes;
-//mod reference;
+mod reference;
 //mod vectors;
 
 use sinew::sim::body::{Links, NV, State};
