@@ -10,7 +10,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod bodies;
-//mod closed_forms;
+mod closed_forms;
 mod differences;
 mod identities;
 mod lanes;
