@@ -4,7 +4,11 @@
 
 pub mod body;
 pub mod contact;
+pub mod control;
 pub mod dynamics;
 pub mod figure;
 pub mod math;
 pub mod motion;
+pub mod strength;
+pub mod support;
+pub mod world;

@@ -149,6 +149,5 @@ fn newton_reaches_the_minimum_and_both_storages_agree() {
                 ..Vec3::zero()
             }
         );
-        let _ = Region::Open;
     }
 }

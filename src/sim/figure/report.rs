@@ -43,10 +43,8 @@ impl Flags {
     pub const QUARANTINED: Self = Self(1 << 7);
     /// Balance is lost: the controller handed over to motors alone.
     pub const BALANCE_LOST: Self = Self(1 << 8);
-    /// Joint speed was capped (kinematic stepping only).
-    pub const SPEED_CAP: Self = Self(1 << 9);
     /// Names of the flags, by bit.
-    pub const NAMES: [&'static str; 10] = [
+    pub const NAMES: [&'static str; 9] = [
         "FLIGHT",
         "TIPPING",
         "OVERLOAD",
@@ -56,7 +54,6 @@ impl Flags {
         "FALLEN",
         "QUARANTINED",
         "BALANCE_LOST",
-        "SPEED_CAP",
     ];
     /// True if every flag of `f` is set.
     pub const fn has(self, f: Self) -> bool {
@@ -125,7 +122,7 @@ pub struct TickReport {
     pub com_desired: Vec3,
     /// Joint error `desired ⊖ actual` at the start of the tick, rad.
     pub joint_error: [f64; DOF_COUNT],
-    /// Largest depth of any contact point below the surface at the end of the tick, m.
+    /// Largest depth of any contact point below the surface at the start of any substep, m.
     pub penetration: f64,
     /// Iterations of the controller.
     pub control_iterations: u32,

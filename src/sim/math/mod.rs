@@ -5,6 +5,7 @@
 //! figure gets the same bits alone, in a batch, and on any instruction set.
 
 pub mod exp;
+pub mod hash;
 pub mod lane;
 pub mod mat3;
 pub mod quat;

@@ -1,0 +1,144 @@
+//! Tracking controllers: accelerations and torques that follow the desired motion within strength.
+//!
+//! [`Paper`] is Oshita & Makinouchi 2000, Eqs. (4)–(17), with the repairs of ALGORITHM §4–9.
+
+pub mod feasible_com;
+pub mod modern;
+pub mod paper;
+pub mod reroot;
+pub mod rows;
+pub mod spatial_targets;
+pub mod torque_limits;
+pub mod tracking;
+
+pub use modern::Modern;
+pub use paper::Paper;
+pub use tracking::Law;
+
+use crate::sim::body::{Body, DOF_COUNT, NV, SegmentId};
+use crate::sim::dynamics::Terms;
+use crate::sim::figure::{ControlParams, Flags};
+use crate::sim::math::{Quat, Vec3};
+use crate::sim::motion::TargetPair;
+use crate::sim::support::Support;
+
+/// Where a point should be and how it should move, world axes, at the start and at the end of the tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PointTarget {
+    /// Position at the start, m.
+    pub now: Vec3,
+    /// Velocity at the start, m/s.
+    pub now_velocity: Vec3,
+    /// Position at the end, m.
+    pub next: Vec3,
+    /// Velocity at the end, m/s.
+    pub next_velocity: Vec3,
+}
+
+/// How a segment should be turned, at the start and at the end of the tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RotationTarget {
+    /// `world_from_segment` at the start.
+    pub now: Quat,
+    /// Angular velocity at the start, world axes, rad/s.
+    pub now_velocity: Vec3,
+    /// `world_from_segment` at the end.
+    pub next: Quat,
+    /// Angular velocity at the end, world axes, rad/s.
+    pub next_velocity: Vec3,
+}
+
+/// An end-effector: a point of a segment with its target.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Effector {
+    /// Segment, mostly a hand.
+    pub segment: SegmentId,
+    /// Point, segment frame, m.
+    pub point: Vec3,
+    /// Where the point should go.
+    pub position: PointTarget,
+    /// How the segment should be turned, if that matters.
+    pub rotation: Option<RotationTarget>,
+}
+
+/// Everything a controller reads in one tick.
+#[derive(Clone, Copy, Debug)]
+pub struct ControlInput<'a> {
+    /// Dynamics of the present state.
+    pub terms: &'a Terms,
+    /// The body (limits of angles).
+    pub body: &'a Body,
+    /// Contacts, ratios, polygon of the present state.
+    pub support: &'a Support,
+    /// Desired motion at the start and the end of the tick.
+    pub target: &'a TargetPair,
+    /// Desired centre of mass, computed with the present loads.
+    pub com: &'a PointTarget,
+    /// End-effectors to control, at most two count.
+    pub effectors: &'a [Effector],
+    /// Left and right foot: ankle and rotation of the foot, for feet that the motion swings.
+    pub feet: &'a [(PointTarget, RotationTarget); 2],
+    /// Least available torques, N·m (negative).
+    pub lower: &'a [f64; DOF_COUNT],
+    /// Largest available torques, N·m.
+    pub upper: &'a [f64; DOF_COUNT],
+    /// Choices and gains.
+    pub params: &'a ControlParams,
+    /// Magnitude of gravity, m/s².
+    pub gravity: f64,
+    /// Length of the tick, s.
+    pub dt: f64,
+    /// True if the accelerations are applied as they are. Planted feet are then kept in place by the controller, and overload is answered
+    /// with accelerations that the clipped torques give; strength-limited motors settle both by themselves.
+    pub kinematic: bool,
+}
+
+/// What a controller decided.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Command {
+    /// θ̈, rad/s².
+    pub joint_acceleration: [f64; DOF_COUNT],
+    /// v̇ = N θ̈ + b, layout of `State::velocity`.
+    pub acceleration: [f64; NV],
+    /// τ within the available range, N·m.
+    pub torque: [f64; DOF_COUNT],
+    /// DOFs at their limit after the primary constraint, K (bit = DOF).
+    pub saturated: u64,
+    /// DOFs held back by the secondary constraints, L.
+    pub saturated_secondary: u64,
+    /// Rounds of both active sets in the last pass.
+    pub iterations: u32,
+    /// Safeguards that acted.
+    pub flags: Flags,
+    /// Zero-moment point of the decision, with the support at rest, world, m; `None` in flight.
+    pub zmp: Option<Vec3>,
+    /// Its signed distance inside the support polygon, m.
+    pub margin: Option<f64>,
+    /// What the support tips about, if it does.
+    pub pivot: Option<crate::sim::support::Pivot>,
+}
+
+impl Default for Command {
+    fn default() -> Self {
+        Self {
+            joint_acceleration: [0.0; DOF_COUNT],
+            acceleration: [0.0; NV],
+            torque: [0.0; DOF_COUNT],
+            saturated: 0,
+            saturated_secondary: 0,
+            iterations: 0,
+            flags: Flags::default(),
+            zmp: None,
+            margin: None,
+            pivot: None,
+        }
+    }
+}
+
+/// A tracking controller. It keeps its workspace and what it remembers of the last tick; nothing allocates.
+pub trait Controller {
+    /// Decides one tick.
+    fn control(&mut self, input: &ControlInput<'_>) -> &Command;
+    /// Forgets the last tick (the figure was reset).
+    fn reset(&mut self);
+}

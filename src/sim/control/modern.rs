@@ -1,0 +1,482 @@
+//! Modern mode: whole-body tracking as one convex program, solved through its dual (ALGORITHM §14.1–14.2).
+//!
+//! Unknowns are the 45 accelerations, 39 torques and the forces of the planned contact points; the dual has 45 unknowns and is the same
+//! kernel as the simulator's substep. Torques stay within strength and forces within friction at every iterate, the solution is a
+//! continuous function of the state, and the work is bounded.
+
+use super::tracking::{Law, initial_acceleration};
+use super::{Command, ControlInput, Controller, PointTarget};
+use crate::sim::body::topology::{DOF_COUNT, L_FOOT, L_TOES, NV, R_FOOT, R_TOES, SEGMENT_COUNT};
+use crate::sim::contact::dense::{Dense, cholesky, solve_lower, solve_upper};
+use crate::sim::contact::rows::{CHAIN_WIDTH, PointRow, add_point_stiffness};
+use crate::sim::contact::{
+    ContactRows, DenseSystem, LimitRows, Motors, NewtonWorkspace, Outcome, minimise,
+};
+use crate::sim::dynamics::Terms;
+use crate::sim::dynamics::terms::WIDTH;
+use crate::sim::figure::Flags;
+use crate::sim::figure::report::MAX_CONTACTS;
+use crate::sim::math::{Quat, Vec3};
+use crate::sim::motion::TargetPair;
+use multiversion::multiversion;
+
+/// Weights of ALGORITHM §14.1.
+mod weight {
+    pub(super) const COM: [f64; 3] = [300.0, 300.0, 30.0];
+    pub(super) const HAND: f64 = 30.0;
+    pub(super) const SWING_FOOT: f64 = 30.0;
+    pub(super) const SWING_ROTATION: f64 = 1.0;
+    pub(super) const PLANTED_ROTATION: f64 = 3.0;
+    pub(super) const PELVIS: f64 = 1.0;
+    pub(super) const HOLD: f64 = 3000.0;
+    pub(super) const BASE: f64 = 1e-6;
+    /// ε: pull of a torque, relative to its half-range, towards the last tick's.
+    pub(super) const TORQUE: f64 = 10.0;
+    /// w_f: pull of a contact force towards the last tick's.
+    pub(super) const FORCE: f64 = 1e-3;
+}
+/// Bounds of the joint weights `clip(M_jj, …)`.
+const JOINT_WEIGHT: (f64, f64) = (0.02, 1.0);
+/// Friction the plan counts on; below the simulator's.
+const FRICTION_MARGIN: f64 = 0.7 / 0.9;
+/// Gains of the CoM law, 1/s² and 1/s.
+const COM_GAIN: (f64, f64) = (25.0, 10.0);
+/// Largest feedback of an end-effector, m/s², and of the pelvis rotation, rad/s².
+const EFFECTOR_FEEDBACK: f64 = 20.0;
+const ROTATION_FEEDBACK: f64 = 50.0;
+/// Time constant that brings a planted point to rest, s.
+const HOLD_TIME: f64 = 0.05;
+/// Fastest correction of a planted point's height, m/s.
+const HOLD_SPEED: f64 = 0.3;
+/// A planted point counts fully below the first height and not at all above the second, m.
+const FADE: (f64, f64) = (0.004, 0.010);
+/// What is kept of the last tick's contact force.
+const FORCE_MEMORY: f64 = 0.98;
+/// Share of hold and force that segments other than feet get.
+const OTHER_SEGMENT: f64 = 1e-3;
+/// Most Newton iterations; residual of the equations of motion at which it stops, N·m.
+const MAX_ITERATIONS: u32 = 12;
+const TOLERANCE: f64 = 1e-3;
+/// Points of one segment.
+const POINTS: usize = MAX_CONTACTS / SEGMENT_COUNT;
+
+/// The modern controller with its buffers and its memory of the last tick (warm start).
+pub struct Modern {
+    price: [f64; NV],
+    last_torque: [f64; DOF_COUNT],
+    last_force: Box<[Vec3; MAX_CONTACTS]>,
+    p: Box<Dense>,
+    y: Box<Dense>,
+    a: Box<Dense>,
+    hessian: Box<Dense>,
+    contacts: ContactRows,
+    hold: Vec<(f64, Vec3)>,
+    limits: LimitRows,
+    motors: Motors,
+    newton: NewtonWorkspace,
+    rows: Vec<TaskRow>,
+    command: Command,
+}
+
+#[derive(Clone)]
+struct TaskRow {
+    row: [f64; WIDTH],
+    weight: f64,
+    value: f64,
+}
+
+impl std::fmt::Debug for Modern {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Modern")
+            .field("command", &self.command)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Modern {
+    /// A controller that plans with a little less friction than the simulator's `friction`.
+    pub fn new(friction: f64) -> Self {
+        let dense = || Box::new([[0.0; WIDTH]; NV]);
+        Self {
+            price: [0.0; NV],
+            last_torque: [0.0; DOF_COUNT],
+            last_force: Box::new([Vec3::zero(); MAX_CONTACTS]),
+            p: dense(),
+            y: dense(),
+            a: dense(),
+            hessian: dense(),
+            contacts: ContactRows::new(friction * FRICTION_MARGIN),
+            hold: Vec::with_capacity(MAX_CONTACTS),
+            limits: LimitRows::default(),
+            motors: Motors::default(),
+            newton: NewtonWorkspace::default(),
+            rows: Vec::with_capacity(32),
+            command: Command::default(),
+        }
+    }
+
+    /// Rows of the CoM, the end-effectors and the swing feet.
+    fn collect_tasks(&mut self, input: &ControlInput<'_>, law: &Law) {
+        self.rows.clear();
+        let t = input.terms;
+        if input.params.track_com {
+            let c = input.com;
+            let ff = (c.next_velocity - c.now_velocity) * (1.0 / input.dt);
+            let a =
+                ff + (c.now - t.com) * COM_GAIN.0 + (c.now_velocity - t.com_velocity) * COM_GAIN.1
+                    - t.com_bias;
+            for (k, value) in [a.x, a.y, a.z].into_iter().enumerate() {
+                self.rows.push(TaskRow {
+                    row: t.jc[k],
+                    weight: weight::COM[k],
+                    value,
+                });
+            }
+        }
+        if input.params.track_hands {
+            for e in input.effectors {
+                self.point_task(
+                    t,
+                    law,
+                    e.segment.index(),
+                    e.point,
+                    &e.position,
+                    weight::HAND,
+                );
+            }
+        }
+        let next = &input.target.next;
+        for (side, foot) in [(0, L_FOOT.index()), (1, R_FOOT.index())] {
+            let (position, rotation) = &input.feet[side];
+            // A planted foot is held where it touches; a swinging one is led. Both are turned as the motion turns them: a heel that
+            // has come up is out of reach of the contact rows.
+            let turn = if next.planted[side] {
+                weight::PLANTED_ROTATION
+            } else {
+                weight::SWING_ROTATION
+            };
+            if !next.planted[side] {
+                self.point_task(t, law, foot, Vec3::zero(), position, weight::SWING_FOOT);
+            }
+            let error = rotation_error(t, foot, rotation.now);
+            let w = t.kin.omega[foot];
+            let feedback = law_feedback(law, error, rotation.now_velocity - w);
+            let ff = (rotation.next_velocity - rotation.now_velocity) * (1.0 / input.dt);
+            let (bias, _) = t.segment_bias(foot);
+            let a = ff + soft(feedback, ROTATION_FEEDBACK) - bias;
+            let mut j = [[0.0; WIDTH]; 6];
+            t.segment_jacobian(foot, &mut j);
+            for (k, value) in [a.x, a.y, a.z].into_iter().enumerate() {
+                self.rows.push(TaskRow {
+                    row: j[k],
+                    weight: weight::SWING_ROTATION,
+                    value,
+                });
+            }
+        }
+    }
+
+    fn point_task(
+        &mut self,
+        t: &Terms,
+        law: &Law,
+        s: usize,
+        point: Vec3,
+        target: &PointTarget,
+        weight: f64,
+    ) {
+        let (x, v) = (t.point_world(s, point), t.point_velocity(s, point));
+        let ff = (target.next_velocity - target.now_velocity) * (1.0 / law.step());
+        let feedback = law_feedback(law, target.now - x, target.now_velocity - v);
+        let a = ff + soft(feedback, EFFECTOR_FEEDBACK) - t.point_bias(s, point);
+        let mut j = [[0.0; WIDTH]; 3];
+        t.point_jacobian(s, point, &mut j);
+        for (row, value) in j.into_iter().zip([a.x, a.y, a.z]) {
+            self.rows.push(TaskRow { row, weight, value });
+        }
+    }
+
+    /// Contact points that the plan keeps down, faded by height, with the acceleration that brings them to rest.
+    fn collect_contacts(&mut self, input: &ControlInput<'_>) {
+        self.contacts.clear();
+        self.hold.clear();
+        let t = input.terms;
+        let planted = input.target.next.planted;
+        for s in 0..SEGMENT_COUNT {
+            let foot = s == L_FOOT.index()
+                || s == L_TOES.index()
+                || s == R_FOOT.index()
+                || s == R_TOES.index();
+            if foot && !planted[usize::from(s >= R_FOOT.index())] {
+                self.last_force[s * POINTS..(s + 1) * POINTS].fill(Vec3::zero());
+                continue;
+            }
+            for (vertex, p) in input.body.segments[s]
+                .contact_points
+                .iter()
+                .enumerate()
+                .take(POINTS)
+            {
+                let r = t.kin.rotation[s] * *p;
+                let z = t.segment_position(s).z + r.z;
+                let u = ((FADE.1 - z) / (FADE.1 - FADE.0)).clamp(0.0, 1.0);
+                let mut fade = u * u * (3.0 - 2.0 * u);
+                if fade <= 0.0 {
+                    self.last_force[s * POINTS + vertex] = Vec3::zero();
+                    continue;
+                }
+                if !foot {
+                    fade *= OTHER_SEGMENT;
+                }
+                let v = t.kin.velocity[s] + t.kin.omega[s].cross(r);
+                let rise = (-0.2 * z / input.dt).clamp(-HOLD_SPEED, HOLD_SPEED);
+                let a = (Vec3 {
+                    x: -v.x,
+                    y: -v.y,
+                    z: rise - v.z,
+                }) * (1.0 / HOLD_TIME)
+                    - t.point_bias(s, *p);
+                let inverse_r = fade.max(OTHER_SEGMENT) / weight::FORCE;
+                let c = self.last_force[s * POINTS + vertex] * (-FORCE_MEMORY / inverse_r);
+                let slot = self.contacts.slot(&t.kin, s);
+                self.contacts.points.push(PointRow {
+                    slot,
+                    r,
+                    c,
+                    inverse_r,
+                    segment: s,
+                    vertex,
+                });
+                self.hold.push((weight::HOLD * fade, a));
+            }
+        }
+    }
+}
+
+/// `(0.25/T²) error + (1/T) rate error`: the feedback part of the law with horizon.
+fn law_feedback(law: &Law, error: Vec3, rate: Vec3) -> Vec3 {
+    let t = law.horizon_or_step();
+    error * (0.25 / (t * t)) + rate * (1.0 / t)
+}
+
+/// Capped in norm.
+fn soft(a: Vec3, most: f64) -> Vec3 {
+    let n = a.norm();
+    if n > most { a * (most / n) } else { a }
+}
+
+/// Rotation vector from the segment's present rotation to `desired`, world axes.
+fn rotation_error(t: &Terms, s: usize, desired: Quat) -> Vec3 {
+    (desired * Quat::from_mat3(&t.kin.rotation[s]).conjugate()).log()
+}
+
+fn pelvis_demand(t: &Terms, target: &TargetPair, law: &Law, dt: f64) -> Vec3 {
+    let w = |v: &[f64; NV]| Vec3 {
+        x: v[0],
+        y: v[1],
+        z: v[2],
+    };
+    let (now, next) = (w(&target.now.velocity), w(&target.next.velocity));
+    let error =
+        (target.now.posture.root_rotation * t.state.posture.root_rotation.conjugate()).log();
+    (next - now) * (1.0 / dt)
+        + soft(
+            law_feedback(law, error, now - w(&t.state.velocity)),
+            ROTATION_FEEDBACK,
+        )
+}
+
+impl Controller for Modern {
+    fn control(&mut self, input: &ControlInput<'_>) -> &Command {
+        let law = Law::new(input.params, input.dt);
+        let t = input.terms;
+        self.collect_tasks(input, &law);
+        self.collect_contacts(input);
+        let demand = initial_acceleration(input.body, &t.state, input.target, &law);
+
+        // Diagonal part of P and p: base, joints, pelvis rotation.
+        let mut diagonal = [weight::BASE; NV];
+        let mut linear = [0.0; WIDTH];
+        let w = pelvis_demand(t, input.target, &law, input.dt);
+        for (k, value) in [w.x, w.y, w.z].into_iter().enumerate() {
+            diagonal[k] += weight::PELVIS;
+            linear[k] += weight::PELVIS * value;
+        }
+        for j in 0..DOF_COUNT {
+            let wj = t.m[6 + j][6 + j].clamp(JOINT_WEIGHT.0, JOINT_WEIGHT.1);
+            diagonal[6 + j] = wj;
+            linear[6 + j] = wj * demand[j];
+            let rho = 0.5 * (input.upper[j] - input.lower[j]);
+            self.motors.gain[j] = rho * rho / weight::TORQUE;
+            self.motors.lower[j] = input.lower[j];
+            self.motors.upper[j] = input.upper[j];
+            self.motors.rest[j] =
+                self.last_torque[j].clamp(input.lower[j], input.upper[j]) / self.motors.gain[j];
+        }
+        let outcome = kernel(self, t, &diagonal, &mut linear);
+        if !self.price.iter().all(|x| x.is_finite()) {
+            self.price = [0.0; NV];
+        }
+        let c = &mut self.command;
+        c.flags = Flags::default();
+        if !outcome.converged {
+            c.flags.set(Flags::CONTROL_BOUND);
+        }
+        c.iterations = outcome.iterations;
+        c.saturated = 0;
+        c.saturated_secondary = 0;
+        for j in 0..DOF_COUNT {
+            let tau = self.newton.motor[j];
+            c.torque[j] = tau;
+            self.last_torque[j] = tau;
+            if tau <= input.lower[j] || tau >= input.upper[j] {
+                c.saturated |= 1 << j;
+            }
+            c.joint_acceleration[j] = c.acceleration[6 + j];
+        }
+        let (mut force, mut moment) = (Vec3::zero(), Vec3::zero());
+        for (k, p) in self.contacts.points.iter().enumerate() {
+            let f = self.newton.force[k];
+            self.last_force[p.segment * POINTS + p.vertex] = f;
+            force += f;
+            moment += (t.segment_position(p.segment) + p.r).cross(f);
+        }
+        c.zmp = (force.z > 1.0).then(|| Vec3 {
+            x: -moment.y / force.z,
+            y: moment.x / force.z,
+            z: 0.0,
+        });
+        c.margin = c.zmp.and_then(|z| input.support.margin(z));
+        c.pivot = None;
+        if input.support.main().is_none() {
+            c.flags.set(Flags::FLIGHT);
+        }
+        &self.command
+    }
+
+    fn reset(&mut self) {
+        self.price = [0.0; NV];
+        self.last_torque = [0.0; DOF_COUNT];
+        self.last_force.fill(Vec3::zero());
+    }
+}
+
+/// Builds P, A and b, solves for the price x, and leaves v̇ in the command.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
+fn kernel(c: &mut Modern, t: &Terms, diagonal: &[f64; NV], linear: &mut [f64; WIDTH]) -> Outcome {
+    // 1. P: diagonal + task rows + held points. Column j of the lower triangle is row j.
+    for (j, row) in c.p.iter_mut().enumerate() {
+        row.fill(0.0);
+        row[j] = diagonal[j];
+    }
+    for task in &c.rows {
+        for j in 0..NV {
+            let a = task.weight * task.row[j];
+            if a != 0.0 {
+                linear[j] += a * task.value;
+                for (x, y) in c.p[j].iter_mut().zip(&task.row) {
+                    *x += a * y;
+                }
+            }
+        }
+    }
+    let mut stiffness = [[[0.0; 6]; 6]; SEGMENT_COUNT];
+    let mut pull = [[0.0; 6]; SEGMENT_COUNT];
+    for (p, (w, a)) in c.contacts.points.iter().zip(&c.hold) {
+        let d = [[*w, 0.0, 0.0], [0.0, *w, 0.0], [0.0, 0.0, *w]];
+        add_point_stiffness(&mut stiffness[p.slot], p.r, &d);
+        let (f, n) = (*a * *w, p.r.cross(*a * *w));
+        for (x, y) in pull[p.slot].iter_mut().zip([n.x, n.y, n.z, f.x, f.y, f.z]) {
+            *x += y;
+        }
+    }
+    for (slot, s) in c.contacts.segments.iter().enumerate() {
+        let mut kj = [[0.0; CHAIN_WIDTH]; 6];
+        for a in 0..6 {
+            for b in 0..6 {
+                let y = stiffness[slot][a][b];
+                for i in 0..CHAIN_WIDTH {
+                    kj[a][i] += y * s.jacobian[b][i];
+                }
+            }
+        }
+        for (i, ci) in s.chain().iter().enumerate() {
+            for (k, ck) in s.chain().iter().enumerate().take(i + 1) {
+                let mut z = 0.0;
+                for a in 0..6 {
+                    z += s.jacobian[a][i] * kj[a][k];
+                }
+                c.p[*ck][*ci] += z;
+            }
+            for a in 0..6 {
+                linear[*ci] += s.jacobian[a][i] * pull[slot][a];
+            }
+        }
+    }
+    // 2. Y = L⁻¹ M, A = YᵀY = M P⁻¹ M, b = −(Yᵀ L⁻¹ p + h). P is positive definite: every diagonal entry has its own weight.
+    let positive = cholesky(&mut c.p);
+    debug_assert!(positive, "P is positive definite by construction");
+    *c.y = *t.m;
+    for j in 0..NV {
+        let (head, tail) = c.y.split_at_mut(j + 1);
+        let row = &mut head[j];
+        let s = 1.0 / c.p[j][j];
+        for x in row.iter_mut() {
+            *x *= s;
+        }
+        for (k, other) in tail.iter_mut().enumerate() {
+            let a = c.p[j][j + 1 + k];
+            if a != 0.0 {
+                for (x, y) in other.iter_mut().zip(row.iter()) {
+                    *x -= a * y;
+                }
+            }
+        }
+    }
+    for i in (0..NV).step_by(3) {
+        let mut acc = [[0.0; WIDTH]; 3];
+        for row in c.y.iter() {
+            let (a0, a1, a2) = (row[i], row[i + 1], row[i + 2]);
+            for k in 0..WIDTH {
+                acc[0][k] += a0 * row[k];
+                acc[1][k] += a1 * row[k];
+                acc[2][k] += a2 * row[k];
+            }
+        }
+        c.a[i..i + 3].copy_from_slice(&acc);
+    }
+    let mut lp = *linear;
+    solve_lower(&c.p, &mut lp);
+    let mut b = [0.0; NV];
+    for i in 0..NV {
+        b[i] = -t.h[i];
+    }
+    for (row, l) in c.y.iter().zip(&lp) {
+        for i in 0..NV {
+            b[i] -= row[i] * l;
+        }
+    }
+    // 3. Newton on the dual; 4. v̇ = P⁻¹(p + M x).
+    let outcome = minimise(
+        &DenseSystem(&c.a),
+        &mut c.hessian,
+        &b,
+        &c.motors,
+        &c.limits,
+        &c.contacts,
+        MAX_ITERATIONS,
+        TOLERANCE,
+        &mut c.price,
+        &mut c.newton,
+    );
+    let mut v = *linear;
+    for (row, x) in t.m.iter().zip(&c.price) {
+        for i in 0..WIDTH {
+            v[i] += row[i] * x;
+        }
+    }
+    solve_lower(&c.p, &mut v);
+    solve_upper(&c.p, &mut v);
+    c.command.acceleration.copy_from_slice(&v[..NV]);
+    outcome
+}

@@ -1,0 +1,331 @@
+//! Secondary constraints: centre of mass and end-effectors, Eqs. (12)–(16) (ALGORITHM §9).
+
+use super::rows::{ROW, Row, RowQr, Square, add_scaled, cholesky_solve, dot};
+use super::torque_limits::{Outcome, TOLERANCE, violates};
+use crate::sim::body::DOF_COUNT;
+use crate::sim::figure::Priority;
+
+/// Most rows of one task: two end-effectors with position and orientation.
+pub const MAX_ROWS: usize = 12;
+/// Damping λ² of the centre-of-mass rows, for rows of unit length.
+const COM_DAMPING: f64 = 1e-6;
+/// Damping λ² of end-effector rows, for rows of unit length: a straight arm makes them dependent.
+const EFFECTOR_DAMPING: f64 = 1e-4;
+
+/// Rows of a Jacobian on joint accelerations with the wanted change of their acceleration.
+#[derive(Clone, Debug)]
+pub struct Task {
+    rows: [Row; MAX_ROWS],
+    change: [f64; MAX_ROWS],
+    len: usize,
+}
+
+impl Default for Task {
+    fn default() -> Self {
+        Self {
+            rows: [[0.0; ROW]; MAX_ROWS],
+            change: [0.0; MAX_ROWS],
+            len: 0,
+        }
+    }
+}
+
+impl Task {
+    /// Forgets all rows.
+    pub fn clear(&mut self) {
+        self.len = 0;
+    }
+    /// Adds a row; ignored beyond [`MAX_ROWS`].
+    pub fn push(&mut self, row: Row, change: f64) {
+        if self.len < MAX_ROWS {
+            self.rows[self.len] = row;
+            self.change[self.len] = change;
+            self.len += 1;
+        }
+    }
+    /// The rows.
+    pub fn rows(&self) -> &[Row] {
+        &self.rows[..self.len]
+    }
+    /// Wanted change per row.
+    pub fn change(&self) -> &[f64] {
+        &self.change[..self.len]
+    }
+    /// True if there is no row.
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+    /// Restricts the rows to changes that leave the rows of `held` alone.
+    pub(crate) fn restrict(&mut self, held: &RowQr) {
+        for r in &mut self.rows[..self.len] {
+            held.project_out(r);
+        }
+    }
+}
+
+/// Adds to `x` the damped least-norm solution `J⁺ t`: rows scaled by `1/lengths`, then `Jᵀ(J Jᵀ + λ²)⁻¹`.
+#[inline(always)]
+fn add_damped(
+    rows: &[Row],
+    lengths: &[f64; MAX_ROWS],
+    damping: f64,
+    t: &[f64; MAX_ROWS],
+    x: &mut Row,
+) {
+    let n = rows.len();
+    let mut g = [[0.0; MAX_ROWS]; MAX_ROWS];
+    let mut y = [0.0; MAX_ROWS];
+    for i in 0..n {
+        for j in 0..=i {
+            g[i][j] = dot(&rows[i], &rows[j]) / (lengths[i] * lengths[j]);
+        }
+        g[i][i] += damping;
+        y[i] = t[i] / lengths[i];
+    }
+    cholesky_solve(&mut g, n, &mut y);
+    for i in 0..n {
+        add_scaled(x, y[i] / lengths[i], &rows[i]);
+    }
+}
+
+fn lengths(rows: &[Row]) -> [f64; MAX_ROWS] {
+    let mut l = [1.0; MAX_ROWS];
+    for (l, r) in l.iter_mut().zip(rows) {
+        *l = dot(r, r).sqrt().max(1e-9);
+    }
+    l
+}
+
+/// The wish x of Eq. (12) for the centre of mass and the end-effectors.
+///
+/// `Priority::Paper`:  x = J_g⁺Δg̈ + (I − J_g⁺J_g) J_e⁺Δë.
+/// `Priority::Nested`: x = J_g⁺Δg̈ + (J_e P)⁺(Δë − J_e J_g⁺Δg̈), P = I − J_g⁺J_g: exact for the end-effector as far as the centre of mass allows.
+///
+/// Pseudo-inverses are damped. The printed (13) and (15) exchange J_e and J_g; this is what the text means. No allocation.
+#[inline(always)]
+pub fn wish(com: &Task, effector: &Task, priority: Priority) -> Row {
+    let mut x = [0.0; ROW];
+    let lg = lengths(com.rows());
+    add_damped(com.rows(), &lg, COM_DAMPING, &com.change, &mut x);
+    if effector.is_empty() {
+        return x;
+    }
+    let le = lengths(effector.rows());
+    // P r for a joint vector: take away what the centre of mass would feel.
+    let project = |r: &mut Row| {
+        let mut t = [0.0; MAX_ROWS];
+        for (t, g) in t.iter_mut().zip(com.rows()) {
+            *t = -dot(g, r);
+        }
+        add_damped(com.rows(), &lg, COM_DAMPING, &t, r);
+    };
+    match priority {
+        Priority::Paper => {
+            let mut y = [0.0; ROW];
+            add_damped(
+                effector.rows(),
+                &le,
+                EFFECTOR_DAMPING,
+                &effector.change,
+                &mut y,
+            );
+            project(&mut y);
+            add_scaled(&mut x, 1.0, &y);
+        }
+        Priority::Nested => {
+            let mut rest = effector.change;
+            let mut rows = effector.rows;
+            for (i, r) in effector.rows().iter().enumerate() {
+                rest[i] -= dot(r, &x);
+                project(&mut rows[i]); // P is symmetric: rows of J_e P
+            }
+            add_damped(&rows[..effector.len], &le, EFFECTOR_DAMPING, &rest, &mut x);
+        }
+    }
+    x
+}
+
+/// Active set of (16); keeps its buffers.
+#[derive(Clone, Debug, Default)]
+pub struct SpatialLimits {
+    qr: RowQr,
+}
+
+impl SpatialLimits {
+    /// The part of the wish `x` that torques allow, in place: Δ₂ = x − H_L⁺H_L x (16).
+    ///
+    /// L starts empty and takes in every DOF whose torque `τ₁ + HΔ₂` would leave its limits; its torque then stays at τ₁ — or goes to
+    /// the violated limit with `to_limit`. At 39 members Δ₂ = 0 (or what the limits ask for): the loop cannot fail.
+    ///
+    /// * `held`: rows that keep the value they have for `x` (kinematic loops), dropped when there is no room.
+    /// * `most`: larger sets are given up.
+    #[inline(always)]
+    pub fn solve(
+        &mut self,
+        h: &Square,
+        tau1: &Row,
+        lower: &[f64; DOF_COUNT],
+        upper: &[f64; DOF_COUNT],
+        x: &mut Row,
+        to_limit: bool,
+        held: &[Row],
+        most: usize,
+    ) -> Outcome {
+        let wish = *x;
+        let mut out = Outcome::default();
+        let (mut order, mut goal, mut k, mut fixed) = ([0; DOF_COUNT], [0.0; 2 * ROW], 0, 0);
+        self.qr.clear();
+        loop {
+            let first = k;
+            for j in 0..DOF_COUNT {
+                let tau = tau1[j] + dot(&h[j], x);
+                // Members of K sit on their limit to rounding: leave them twice the tolerance.
+                if out.set >> j & 1 == 0 && violates(tau, lower[j], upper[j], 2.0 * TOLERANCE) {
+                    out.set |= 1 << j;
+                    order[k] = j;
+                    if to_limit {
+                        let limit = if tau > upper[j] { upper[j] } else { lower[j] };
+                        goal[k] = limit - tau1[j];
+                    }
+                    k += 1;
+                }
+            }
+            if k == first {
+                out.complete = x.iter().all(|v| v.is_finite());
+                return out;
+            }
+            out.rounds += 1;
+            if k > most {
+                return out;
+            }
+            if first == 0 && held.len() + k < DOF_COUNT {
+                held.iter().for_each(|r| self.qr.push(r));
+                fixed = held.len();
+            }
+            if fixed > 0 && fixed + k >= DOF_COUNT {
+                self.qr.clear();
+                fixed = 0;
+                (0..first).for_each(|i| self.qr.push(&h[order[i]]));
+            }
+            (first..k).for_each(|i| self.qr.push(&h[order[i]]));
+            *x = wish;
+            self.qr.project_out(x);
+            if to_limit || fixed > 0 {
+                let mut t = [0.0; 2 * ROW];
+                for (i, r) in held.iter().enumerate().take(fixed) {
+                    t[i] = dot(r, &wish);
+                }
+                t[fixed..fixed + k].copy_from_slice(&goal[..k]);
+                out.damped |= self.qr.is_dependent();
+                let mut y = [0.0; ROW];
+                self.qr.solve(&t[..fixed + k], &mut y);
+                add_scaled(x, 1.0, &y);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::support::testing::Rng;
+
+    fn random_task(rng: &mut Rng, rows: usize) -> Task {
+        let mut t = Task::default();
+        for _ in 0..rows {
+            let mut r = [0.0; ROW];
+            (0..DOF_COUNT).for_each(|i| r[i] = rng.unit());
+            t.push(r, 3.0 * rng.unit());
+        }
+        t
+    }
+    fn miss(task: &Task, x: &Row) -> f64 {
+        let rows = task.rows().iter().zip(task.change());
+        rows.map(|(r, c)| (dot(r, x) - c).abs()).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn centre_of_mass_alone_gets_what_it_asks_for() {
+        let mut rng = Rng::new(21);
+        for _ in 0..50 {
+            let com = random_task(&mut rng, 2);
+            let x = wish(&com, &Task::default(), Priority::Paper);
+            assert!(miss(&com, &x) < 1e-5 * 3.0);
+        }
+    }
+
+    #[test]
+    fn nested_priority_reaches_both_and_the_papers_only_the_first() {
+        let mut rng = Rng::new(22);
+        let mut missed = 0;
+        for _ in 0..50 {
+            let (com, hands) = (random_task(&mut rng, 2), random_task(&mut rng, 6));
+            let x = wish(&com, &hands, Priority::Nested);
+            assert!(
+                miss(&com, &x) < 1e-4 && miss(&hands, &x) < 5e-3,
+                "{}",
+                miss(&hands, &x)
+            );
+            let x = wish(&com, &hands, Priority::Paper);
+            assert!(miss(&com, &x) < 1e-4);
+            missed += usize::from(miss(&hands, &x) > 0.05);
+        }
+        assert!(missed > 40);
+    }
+
+    #[test]
+    fn dependent_effector_rows_stay_finite() {
+        let mut rng = Rng::new(23);
+        let com = random_task(&mut rng, 2);
+        let mut hands = random_task(&mut rng, 1);
+        let (row, _) = (hands.rows()[0], 0);
+        hands.push(row, -1.0);
+        hands.push([0.0; ROW], 1.0);
+        for p in [Priority::Paper, Priority::Nested] {
+            let x = wish(&com, &hands, p);
+            assert!(x.iter().all(|v| v.is_finite()) && dot(&x, &x) < 1e3);
+        }
+    }
+
+    #[test]
+    fn members_keep_their_torque_and_the_others_get_the_wish() {
+        let mut rng = Rng::new(24);
+        for round in 0..60 {
+            // A positive definite H.
+            let mut h = Box::new([[0.0; ROW]; DOF_COUNT]);
+            let b: Vec<[f64; 39]> = (0..39)
+                .map(|_| std::array::from_fn(|_| 0.4 * rng.unit()))
+                .collect();
+            for i in 0..39 {
+                for j in 0..39 {
+                    h[i][j] = b.iter().map(|r| r[i] * r[j]).sum::<f64>();
+                }
+                h[i][i] += 0.05;
+            }
+            let (lower, upper) = ([-4.0; 39], [5.0; 39]);
+            let mut tau1 = [0.0; ROW];
+            (0..39).for_each(|j| tau1[j] = rng.between(-4.0, 5.0));
+            (tau1[0], tau1[1]) = (5.0, -4.0);
+            let scale = [0.3, 3.0, 300.0][round % 3];
+            let mut x = [0.0; ROW];
+            (0..39).for_each(|j| x[j] = scale * rng.unit());
+            for to_limit in [false, true] {
+                let (mut s, mut d) = (SpatialLimits::default(), x);
+                let o = s.solve(&h, &tau1, &lower, &upper, &mut d, to_limit, &[], 39);
+                assert!(o.complete && o.rounds <= 39);
+                for j in 0..39 {
+                    let change = dot(&h[j], &d);
+                    if !to_limit && o.set >> j & 1 == 1 {
+                        assert!(change.abs() < 1e-9 * scale.max(1.0), "H_L Δ₂ = 0");
+                    }
+                    assert!(!violates(
+                        tau1[j] + change,
+                        lower[j],
+                        upper[j],
+                        3e-9 * scale.max(1.0)
+                    ));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,292 @@
+//! Primary constraint: available torque, Eqs. (7)–(11), by an active set that only grows (ALGORITHM §8).
+
+use super::rows::{ROW, Row, RowQr, Square, dot, eliminate};
+use crate::sim::body::DOF_COUNT;
+use crate::sim::figure::Metric;
+
+/// A torque may exceed its limit by this part of it (or of 1 N·m) before it counts as a violation.
+pub const TOLERANCE: f64 = 1e-9;
+
+/// True if `torque` is outside `lower…upper` by more than `slack` times the limit (at least 1 N·m).
+#[inline(always)]
+pub(crate) fn violates(torque: f64, lower: f64, upper: f64, slack: f64) -> bool {
+    // Written so that NaN violates.
+    !(torque <= upper + slack * upper.abs().max(1.0)
+        && torque >= lower - slack * lower.abs().max(1.0))
+}
+
+/// What an active set ended with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Outcome {
+    /// Members of the set (bit = DOF).
+    pub set: u64,
+    /// Rounds taken.
+    pub rounds: u32,
+    /// Rows were nearly dependent and the solution was damped.
+    pub damped: bool,
+    /// False if the set was given up because it outgrew the allowed size, or numbers became infinite.
+    pub complete: bool,
+}
+
+/// Active set of (7)–(11); keeps its buffers.
+#[derive(Clone, Debug)]
+pub struct TorqueLimits {
+    qr: RowQr,
+    system: Box<Square>,
+    order: [usize; DOF_COUNT],
+    goal: [f64; 2 * ROW],
+    /// Δθ̈₁ of the last call.
+    pub change: Row,
+}
+
+impl Default for TorqueLimits {
+    fn default() -> Self {
+        Self {
+            qr: RowQr::default(),
+            system: Box::new([[0.0; ROW]; DOF_COUNT]),
+            order: [0; DOF_COUNT],
+            goal: [0.0; 2 * ROW],
+            change: [0.0; ROW],
+        }
+    }
+}
+
+impl TorqueLimits {
+    /// Least change Δθ̈₁ (in the chosen norm) that brings `τ₀ + H Δθ̈₁` within the limits, into [`Self::change`].
+    ///
+    /// τ = τ₀ + HΔ; K = K ∪ {violators}; H_K Δ = τ_lim,K − τ₀,K; Δ = H_K⁺(…) — Oshita & Makinouchi 2000, Eqs. 7–11
+    ///
+    /// * `h`: rad/s² → N·m; `tau0`: torques of the initial accelerations; `lower`, `upper`: available torques, N·m.
+    /// * `held`: rows that must not change (kinematic loops); respected by [`Metric::Identity`] while there is room for them.
+    /// * `most`: larger sets are given up (`complete` = false).
+    ///
+    /// K only grows, hence at most 39 rounds. No allocation.
+    #[inline(always)]
+    pub fn solve(
+        &mut self,
+        h: &Square,
+        tau0: &Row,
+        lower: &[f64; DOF_COUNT],
+        upper: &[f64; DOF_COUNT],
+        metric: Metric,
+        held: &[Row],
+        most: usize,
+    ) -> Outcome {
+        self.change = [0.0; ROW];
+        let mut out = Outcome::default();
+        if metric == Metric::Torque {
+            return self.clip(h, tau0, lower, upper);
+        }
+        self.qr.clear();
+        let (mut k, mut fixed) = (0, 0);
+        loop {
+            let first = k;
+            for j in 0..DOF_COUNT {
+                let tau = tau0[j] + dot(&h[j], &self.change);
+                if out.set >> j & 1 == 0 && violates(tau, lower[j], upper[j], TOLERANCE) {
+                    out.set |= 1 << j;
+                    self.order[k] = j;
+                    // The limit that is violated now, also for those that join late.
+                    let limit = if tau > upper[j] { upper[j] } else { lower[j] };
+                    self.goal[k] = limit - tau0[j];
+                    k += 1;
+                }
+            }
+            if k == first {
+                out.complete = self.change.iter().all(|x| x.is_finite());
+                return out;
+            }
+            out.rounds += 1;
+            if k > most || !self.goal[..k].iter().all(|t| t.is_finite()) {
+                return out;
+            }
+            match metric {
+                Metric::Inertia => out.damped |= !self.solve_members(h, k),
+                _ => {
+                    // Held rows come first; when there is no room left for them, start over without.
+                    if first == 0 && held.len() + k < DOF_COUNT {
+                        held.iter().for_each(|r| self.qr.push(r));
+                        fixed = held.len();
+                    }
+                    if fixed > 0 && fixed + k >= DOF_COUNT {
+                        self.qr.clear();
+                        fixed = 0;
+                        (0..first).for_each(|i| self.qr.push(&h[self.order[i]]));
+                    }
+                    (first..k).for_each(|i| self.qr.push(&h[self.order[i]]));
+                    self.least_norm(h, k, fixed);
+                    out.damped |= self.qr.is_dependent();
+                }
+            }
+        }
+    }
+
+    /// W = I: Δ = H_K⁺ t by QR, refined once.
+    #[inline(always)]
+    fn least_norm(&mut self, h: &Square, k: usize, fixed: usize) {
+        let mut t = [0.0; 2 * ROW];
+        t[fixed..fixed + k].copy_from_slice(&self.goal[..k]);
+        self.qr.solve(&t[..fixed + k], &mut self.change);
+        for i in 0..k {
+            t[fixed + i] = self.goal[i] - dot(&h[self.order[i]], &self.change);
+        }
+        let mut correction = [0.0; ROW];
+        self.qr.solve(&t[..fixed + k], &mut correction);
+        for d in 0..ROW {
+            self.change[d] += correction[d];
+        }
+    }
+
+    /// W = H: only the members accelerate differently, H_KK Δ_K = t, refined once. False if singular (then least norm is used).
+    #[inline(always)]
+    fn solve_members(&mut self, h: &Square, k: usize) -> bool {
+        self.change = [0.0; ROW];
+        for _ in 0..2 {
+            let mut b = [0.0; ROW];
+            for i in 0..k {
+                b[i] = self.goal[i] - dot(&h[self.order[i]], &self.change);
+                for j in 0..k {
+                    self.system[i][j] = h[self.order[i]][self.order[j]];
+                }
+                self.system[i][k..].fill(0.0);
+            }
+            if !eliminate(&mut self.system, k, &mut b) {
+                self.qr.clear();
+                (0..k).for_each(|i| self.qr.push(&h[self.order[i]]));
+                self.least_norm(h, k, 0);
+                return false;
+            }
+            for i in 0..k {
+                self.change[self.order[i]] += b[i];
+            }
+        }
+        true
+    }
+
+    /// W = H²: only the saturated torques change, HΔ = clip(τ₀) − τ₀. No iteration.
+    #[inline(always)]
+    fn clip(
+        &mut self,
+        h: &Square,
+        tau0: &Row,
+        lower: &[f64; DOF_COUNT],
+        upper: &[f64; DOF_COUNT],
+    ) -> Outcome {
+        let mut out = Outcome::default();
+        let mut excess = [0.0; ROW];
+        for j in 0..DOF_COUNT {
+            if violates(tau0[j], lower[j], upper[j], TOLERANCE) {
+                out.set |= 1 << j;
+                excess[j] = tau0[j].max(lower[j]).min(upper[j]) - tau0[j];
+            }
+        }
+        if out.set != 0 {
+            out.rounds = 1;
+            for _ in 0..2 {
+                *self.system = *h;
+                let mut b = [0.0; ROW];
+                for j in 0..DOF_COUNT {
+                    b[j] = excess[j] - dot(&h[j], &self.change);
+                }
+                if !eliminate(&mut self.system, DOF_COUNT, &mut b) {
+                    out.damped = true;
+                    break;
+                }
+                for d in 0..DOF_COUNT {
+                    self.change[d] += b[d];
+                }
+            }
+        }
+        out.complete = self.change.iter().all(|x| x.is_finite());
+        out
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The example of ALGORITHM §17 in the first two DOFs; the others are unit inertias without torque.
+    fn example(metric: Metric) -> (Row, Row, Outcome) {
+        let mut h = Box::new([[0.0; ROW]; DOF_COUNT]);
+        (0..DOF_COUNT).for_each(|j| h[j][j] = 1.0);
+        (h[0][0], h[0][1], h[1][0], h[1][1]) = (2.0, 1.0, 1.0, 3.0);
+        let mut tau0 = [0.0; ROW];
+        (tau0[0], tau0[1]) = (5.0, 1.0);
+        let mut t = TorqueLimits::default();
+        let out = t.solve(&h, &tau0, &[-4.0; 39], &[4.0; 39], metric, &[], 39);
+        let mut dtau = [0.0; ROW];
+        (0..DOF_COUNT).for_each(|j| dtau[j] = dot(&h[j], &t.change));
+        (t.change, dtau, out)
+    }
+
+    #[test]
+    fn two_joint_example_in_three_metrics() {
+        let near = |a: f64, b: f64| (a - b).abs() < 1e-14;
+        let (d, _, o) = example(Metric::Identity);
+        assert!(near(d[0], -0.4) && near(d[1], -0.2) && o.set == 1 && o.rounds == 1 && o.complete);
+        let (d, _, o) = example(Metric::Inertia);
+        assert!(near(d[0], -0.5) && near(d[1], 0.0) && o.set == 1);
+        let (_, tau, o) = example(Metric::Torque);
+        assert!(near(tau[0], -1.0) && near(tau[1], 0.0) && o.set == 1);
+    }
+
+    #[test]
+    fn sets_beyond_the_bound_and_infinite_demands_are_given_up() {
+        let mut h = Box::new([[0.0; ROW]; DOF_COUNT]);
+        (0..DOF_COUNT).for_each(|j| h[j][j] = 1.0);
+        let mut t = TorqueLimits::default();
+        let limit = [4.0; 39];
+        let o = t.solve(
+            &h,
+            &[9.0; ROW],
+            &[-4.0; 39],
+            &limit,
+            Metric::Identity,
+            &[],
+            20,
+        );
+        assert!(!o.complete);
+        let o = t.solve(
+            &h,
+            &[9.0; ROW],
+            &[-4.0; 39],
+            &limit,
+            Metric::Identity,
+            &[],
+            39,
+        );
+        assert!(o.complete && o.set.count_ones() == 39);
+        let mut tau0 = [0.0; ROW];
+        tau0[3] = f64::NAN;
+        for metric in [Metric::Identity, Metric::Inertia, Metric::Torque] {
+            assert!(
+                !t.solve(&h, &tau0, &[-4.0; 39], &limit, metric, &[], 39)
+                    .complete
+            );
+        }
+    }
+
+    #[test]
+    fn held_rows_do_not_move() {
+        let mut h = Box::new([[0.0; ROW]; DOF_COUNT]);
+        (0..DOF_COUNT).for_each(|j| h[j][j] = 1.0 + 0.1 * j as f64);
+        (h[0][1], h[1][0]) = (0.5, 0.5);
+        let mut held = [[0.0; ROW]; 1];
+        (held[0][0], held[0][5]) = (1.0, -1.0);
+        let mut tau0 = [0.0; ROW];
+        tau0[0] = 5.0;
+        let mut t = TorqueLimits::default();
+        let o = t.solve(
+            &h,
+            &tau0,
+            &[-4.0; 39],
+            &[4.0; 39],
+            Metric::Identity,
+            &held,
+            39,
+        );
+        assert!(o.complete && dot(&held[0], &t.change).abs() < 1e-15);
+        assert!((tau0[0] + dot(&h[0], &t.change) - 4.0).abs() < 1e-14);
+    }
+}

@@ -1,0 +1,72 @@
+//! Where a figure's desired motion comes from.
+
+use crate::sim::body::Posture;
+use crate::sim::motion::clip::{Clip, PlanarTransform};
+use crate::sim::motion::{Target, TargetPair};
+use std::sync::Arc;
+
+/// A clip being played.
+#[derive(Clone, Debug)]
+pub struct ClipPlayback {
+    /// The motion.
+    pub clip: Arc<Clip>,
+    /// World time at which the clip's time 0 plays, s.
+    pub start: f64,
+    /// Clip seconds per world second, 0.1…10.
+    pub speed: f64,
+    /// Start over at the end, with the displacement of the root carried on.
+    pub looped: bool,
+    /// Where the clip's origin lies in the world.
+    pub origin: PlanarTransform,
+}
+
+/// Source of the desired motion.
+#[derive(Clone, Debug)]
+pub enum Drive {
+    /// Stand still in a posture.
+    Hold(Posture),
+    /// Play a clip.
+    Clip(ClipPlayback),
+    /// Whatever the caller sets before each step (live streams).
+    External(Box<TargetPair>),
+}
+
+impl ClipPlayback {
+    /// Desired motion at world time `t`, s. No allocation.
+    pub fn sample(&self, t: f64) -> Target {
+        let s = (t - self.start) * self.speed;
+        let mut target = if self.looped {
+            self.clip.sample_looped(s)
+        } else {
+            self.clip.sample(s)
+        };
+        for v in &mut target.velocity {
+            *v *= self.speed;
+        }
+        for a in &mut target.acceleration {
+            *a *= self.speed * self.speed;
+        }
+        self.origin.apply_to(&mut target);
+        target
+    }
+}
+
+impl Drive {
+    /// Desired motion at the start and the end of a tick from `t` to `t + dt`, s.
+    pub fn targets(&self, t: f64, dt: f64) -> TargetPair {
+        match self {
+            Self::Hold(posture) => {
+                let still = Target::still(*posture);
+                TargetPair {
+                    now: still.clone(),
+                    next: still,
+                }
+            }
+            Self::Clip(play) => TargetPair {
+                now: play.sample(t),
+                next: play.sample(t + dt),
+            },
+            Self::External(pair) => (**pair).clone(),
+        }
+    }
+}

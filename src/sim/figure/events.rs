@@ -1,0 +1,154 @@
+//! What happened to a figure in a tick, in words.
+
+use super::report::{Flags, TickReport};
+use crate::sim::body::SegmentId;
+use crate::sim::body::topology::{DOF_COUNT, SEGMENT_COUNT};
+use crate::sim::support::Support;
+
+/// Something worth telling.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FigureEvent {
+    /// A segment began to carry.
+    SupportGained {
+        /// Which.
+        segment: SegmentId,
+    },
+    /// A segment no longer carries.
+    SupportLost {
+        /// Which.
+        segment: SegmentId,
+    },
+    /// A DOF has been at its strength limit for [`SATURATION_TICKS`] ticks.
+    Saturated {
+        /// DOF index.
+        dof: usize,
+    },
+    /// A DOF has left its limit for as long.
+    Relieved {
+        /// DOF index.
+        dof: usize,
+    },
+    /// The zero-moment point left the support polygon.
+    BalanceLost,
+    /// It came back.
+    Recovered,
+    /// The figure has fallen.
+    Fell,
+    /// It stands again.
+    GotUp,
+    /// A load was taken up.
+    LoadTaken {
+        /// Carrying segment.
+        segment: SegmentId,
+        /// kg.
+        mass: f64,
+    },
+    /// A load was let go.
+    LoadDropped {
+        /// Carrying segment.
+        segment: SegmentId,
+        /// kg.
+        mass: f64,
+    },
+    /// The state turned non-finite or ran away; the figure is frozen at its last good state.
+    Quarantined,
+}
+
+/// Ticks a DOF must stay at (or off) its limit before it is told: flicker is not news.
+pub const SATURATION_TICKS: u16 = 6;
+/// Most events of one tick.
+const MAX_EVENTS: usize = 128;
+
+/// Turns reports into events; remembers the last tick.
+#[derive(Clone, Debug)]
+pub struct Watcher {
+    events: Vec<FigureEvent>,
+    supports: [bool; SEGMENT_COUNT],
+    saturated: [bool; DOF_COUNT],
+    streak: [u16; DOF_COUNT],
+    balanced: bool,
+    fallen: bool,
+}
+
+impl Default for Watcher {
+    fn default() -> Self {
+        Self {
+            events: Vec::with_capacity(MAX_EVENTS),
+            supports: [false; SEGMENT_COUNT],
+            saturated: [false; DOF_COUNT],
+            streak: [0; DOF_COUNT],
+            balanced: true,
+            fallen: false,
+        }
+    }
+}
+
+impl Watcher {
+    /// Starts a tick.
+    pub fn begin(&mut self) {
+        self.events.clear();
+    }
+
+    /// Adds an event; silently dropped beyond the bound, which no tick reaches.
+    pub fn push(&mut self, event: FigureEvent) {
+        if self.events.len() < MAX_EVENTS {
+            self.events.push(event);
+        }
+    }
+
+    /// Events of the tick.
+    pub fn events(&self) -> &[FigureEvent] {
+        &self.events
+    }
+
+    /// Compares a finished tick with the last one.
+    pub fn observe(&mut self, report: &TickReport, support: &Support, fallen: bool) {
+        let mut now = [false; SEGMENT_COUNT];
+        for p in support.points() {
+            now[p.support.index()] = true;
+        }
+        for s in 0..SEGMENT_COUNT {
+            let segment = SegmentId::new(s).expect("s < SEGMENT_COUNT");
+            match (self.supports[s], now[s]) {
+                (false, true) => self.push(FigureEvent::SupportGained { segment }),
+                (true, false) => self.push(FigureEvent::SupportLost { segment }),
+                _ => {}
+            }
+        }
+        self.supports = now;
+        for dof in 0..DOF_COUNT {
+            let at_limit = report.saturated & (1 << dof) != 0;
+            if at_limit == self.saturated[dof] {
+                self.streak[dof] = 0;
+                continue;
+            }
+            self.streak[dof] += 1;
+            if self.streak[dof] >= SATURATION_TICKS {
+                self.saturated[dof] = at_limit;
+                self.streak[dof] = 0;
+                self.push(if at_limit {
+                    FigureEvent::Saturated { dof }
+                } else {
+                    FigureEvent::Relieved { dof }
+                });
+            }
+        }
+        let balanced = !report.flags.has(Flags::TIPPING);
+        if balanced != self.balanced {
+            self.balanced = balanced;
+            self.push(if balanced {
+                FigureEvent::Recovered
+            } else {
+                FigureEvent::BalanceLost
+            });
+        }
+        if fallen != self.fallen {
+            self.fallen = fallen;
+            self.push(if fallen {
+                FigureEvent::Fell
+            } else {
+                FigureEvent::GotUp
+            });
+        }
+    }
+}

@@ -1,0 +1,506 @@
+//! One tick of one figure (ALGORITHM §10): the list of stages is [`Figure::step`].
+
+use super::drive::Drive;
+use super::events::{FigureEvent, Watcher};
+use super::loads::Disturbances;
+use super::report::{Audit, Flags, MAX_CONTACTS, TickReport};
+use super::setup::{ControlParams, ControllerKind, Perturbation, StepperKind, StrengthScale};
+use super::tasks::{TaskPoints, TaskWorkspace};
+use super::torque_step::{
+    FEED_FORWARD_SPEED, MOTORS_ALONE_SPEED, MotorCommand, StepInput, Stepper, TorqueStepper,
+};
+use crate::sim::body::angles::anatomical_angles;
+use crate::sim::body::topology::{DOF_COUNT, L_FOOT, L_TOES, NV, R_FOOT, R_TOES, SEGMENT_COUNT};
+use crate::sim::body::{Body, Links, Posture, State};
+use crate::sim::control::{Command, ControlInput, Controller, Law, Modern, Paper, tracking};
+use crate::sim::dynamics::{Kinematics, Terms, center_of_mass};
+use crate::sim::math::Vec3;
+use crate::sim::motion::{Target, TargetPair};
+use crate::sim::strength::Strength;
+use crate::sim::support::Support;
+use std::sync::Arc;
+
+/// Everything a figure is made of.
+#[derive(Clone, Debug)]
+pub struct FigureSetup {
+    /// Name, for people.
+    pub name: String,
+    /// The body.
+    pub body: Arc<Body>,
+    /// Scale of its strength.
+    pub strength: StrengthScale,
+    /// Who computes accelerations and torques.
+    pub controller: ControllerKind,
+    /// Who moves the body.
+    pub stepper: StepperKind,
+    /// Choices and gains.
+    pub params: ControlParams,
+    /// Where it starts.
+    pub state: State,
+}
+
+/// What a tick needs to know about the world.
+#[derive(Clone, Copy, Debug)]
+pub struct TickContext {
+    /// Tick that is computed; it begins at `tick · dt`.
+    pub tick: u64,
+    /// Length of the tick, s.
+    pub dt: f64,
+    /// Substeps of torque simulation.
+    pub substeps: u32,
+    /// Magnitude of gravity, m/s².
+    pub gravity: f64,
+}
+
+/// Speed beyond which a state counts as run away, rad/s or m/s.
+const RUNAWAY: f64 = 500.0;
+/// A figure has fallen when its CoM is below this share of its standing height and something other than a foot carries it.
+const FALLEN_HEIGHT: f64 = 0.45;
+/// A fallen figure relaxes: share of its strength, and time constant of its demand, s (ALGORITHM §12).
+const FALLEN_STRENGTH: f64 = 0.3;
+const FALLEN_HORIZON: f64 = 0.3;
+/// It stands again when its CoM is above this share of the standing height.
+const RISEN_HEIGHT: f64 = 0.6;
+
+/// One figure of a world.
+#[derive(Debug)]
+pub struct Figure {
+    setup: FigureSetup,
+    strength: Arc<Strength>,
+    state: State,
+    last_good: State,
+    links: Links,
+    disturbances: Disturbances,
+    drive: Drive,
+    target: TargetPair,
+    terms: Terms,
+    support: Support,
+    tasks: TaskWorkspace,
+    paper: Box<Paper>,
+    modern: Box<Modern>,
+    motors: Command,
+    stepper: TorqueStepper,
+    com_acceleration: Vec3,
+    standing_com_height: f64,
+    fallen: bool,
+    frozen: bool,
+    report: TickReport,
+    reported: bool,
+    watcher: Watcher,
+}
+
+impl Figure {
+    /// A figure on ground with friction coefficient `friction`; the world has validated the setup.
+    pub(crate) fn new(setup: FigureSetup, friction: f64) -> Self {
+        let still = Target::still(setup.state.posture);
+        Self {
+            strength: Arc::new(Strength::for_body(&setup.body)),
+            state: setup.state,
+            last_good: setup.state,
+            links: Links::new(&setup.body),
+            disturbances: Disturbances::default(),
+            drive: Drive::Hold(setup.state.posture),
+            target: TargetPair {
+                now: still.clone(),
+                next: still,
+            },
+            terms: Terms::default(),
+            support: Support::default(),
+            tasks: TaskWorkspace::default(),
+            paper: Box::default(),
+            modern: Box::new(Modern::new(friction)),
+            motors: Command::default(),
+            stepper: TorqueStepper::new(friction),
+            com_acceleration: Vec3::zero(),
+            standing_com_height: standing_com_height(&setup.body),
+            fallen: false,
+            frozen: false,
+            report: empty_report(&setup.state),
+            reported: false,
+            watcher: Watcher::default(),
+            setup,
+        }
+    }
+
+    /// One tick. Allocates nothing.
+    pub(crate) fn step(&mut self, world: &TickContext) {
+        let (time, dt) = (world.tick as f64 * world.dt, world.dt);
+        self.watcher.begin();
+        // 1. Commands: desired motion, loads, pushes.
+        self.target = self.drive.targets(time, dt);
+        let body = Arc::clone(&self.setup.body);
+        self.disturbances.apply(
+            time,
+            dt,
+            &body,
+            &mut self.links,
+            &mut self.state,
+            &mut self.watcher,
+        );
+        if self.frozen {
+            self.report.flags = Flags::QUARANTINED;
+            return;
+        }
+        // 2. Dynamics of the state, 3. supports, 4. strength.
+        self.terms.compute(
+            &self.links,
+            &self.state,
+            self.disturbances.applied(),
+            world.gravity,
+        );
+        self.support
+            .update(&self.terms, &body, self.com_acceleration, world.gravity);
+        let angles = anatomical_angles(&self.state.posture);
+        let rates: [f64; DOF_COUNT] = std::array::from_fn(|j| self.state.velocity[6 + j]);
+        let scale = self.available_strength();
+        let (mut lower, mut upper) = ([0.0; DOF_COUNT], [0.0; DOF_COUNT]);
+        self.strength
+            .range(&angles, &rates, &scale, &mut lower, &mut upper);
+        // 5. Control: accelerations and torques within strength.
+        let tasks = self.tasks.points(&body, &self.links, &self.target);
+        let motors = self.control(world, &tasks, &lower, &upper);
+        // 6. Simulate: motors, limits and contact move the body.
+        let before = self.state;
+        let input = StepInput {
+            body: &body,
+            links: &self.links,
+            strength: &self.strength,
+            scale: &scale,
+            terms: &self.terms,
+            command: &motors,
+            lower: &lower,
+            upper: &upper,
+            applied: self.disturbances.applied(),
+            gravity: world.gravity,
+            dt,
+            substeps: world.substeps,
+        };
+        match self.setup.stepper {
+            StepperKind::Torque => self.stepper.step(&input, &mut self.state),
+        }
+        // 7. Contain trouble, 8. report.
+        let frozen = self.contain();
+        self.fill_report(world, &before, &tasks, (&lower, &upper), frozen);
+        self.judge_fall();
+        self.watcher
+            .observe(&self.report, &self.support, self.fallen);
+    }
+
+    /// Runs the controller in charge and turns its command into work for the motors.
+    fn control(
+        &mut self,
+        world: &TickContext,
+        tasks: &TaskPoints,
+        lower: &[f64; DOF_COUNT],
+        upper: &[f64; DOF_COUNT],
+    ) -> MotorCommand {
+        let input = ControlInput {
+            terms: &self.terms,
+            body: &self.setup.body,
+            support: &self.support,
+            target: &self.target,
+            com: &tasks.com,
+            effectors: &tasks.hands,
+            feet: &tasks.feet,
+            lower,
+            upper,
+            params: &self.setup.params,
+            gravity: world.gravity,
+            dt: world.dt,
+            kinematic: false,
+        };
+        let (command, saturation_speed) = match self.active_controller() {
+            ControllerKind::Paper => (self.paper.control(&input), FEED_FORWARD_SPEED),
+            ControllerKind::Modern => (self.modern.control(&input), FEED_FORWARD_SPEED),
+            ControllerKind::Motors => {
+                let horizon = if self.fallen {
+                    Some(FALLEN_HORIZON)
+                } else {
+                    self.setup.params.horizon
+                };
+                let params = ControlParams {
+                    horizon,
+                    ..self.setup.params.clone()
+                };
+                let law = Law::new(&params, world.dt);
+                let demand = tracking::initial_acceleration(
+                    &self.setup.body,
+                    &self.state,
+                    &self.target,
+                    &law,
+                );
+                self.motors
+                    .joint_acceleration
+                    .copy_from_slice(&demand[..DOF_COUNT]);
+                (&self.motors, MOTORS_ALONE_SPEED)
+            }
+        };
+        let out = MotorCommand {
+            acceleration: command.joint_acceleration,
+            torque: command.torque,
+            saturation_speed,
+        };
+        self.report.saturated = command.saturated;
+        self.report.saturated_secondary = command.saturated_secondary;
+        self.report.control_iterations = command.iterations;
+        self.report.flags = command.flags;
+        out
+    }
+
+    /// The chosen controller, or motors alone once the figure lies on the ground.
+    fn active_controller(&self) -> ControllerKind {
+        if self.fallen {
+            ControllerKind::Motors
+        } else {
+            self.setup.controller
+        }
+    }
+
+    /// A fallen figure relaxes.
+    fn available_strength(&self) -> StrengthScale {
+        let mut scale = self.setup.strength.clone();
+        if self.fallen {
+            scale.all *= FALLEN_STRENGTH;
+        }
+        scale
+    }
+
+    /// Freezes a figure whose state is not finite or runs away at its last good state; the world goes on.
+    fn contain(&mut self) -> bool {
+        let good = self.state.is_finite() && self.state.velocity.iter().all(|v| v.abs() < RUNAWAY);
+        if good {
+            self.last_good = self.state;
+        } else {
+            self.state = self.last_good;
+            self.state.velocity = [0.0; NV];
+            self.frozen = true;
+            self.watcher.push(FigureEvent::Quarantined);
+        }
+        !good
+    }
+
+    fn fill_report(
+        &mut self,
+        world: &TickContext,
+        before: &State,
+        tasks: &TaskPoints,
+        range: (&[f64; DOF_COUNT], &[f64; DOF_COUNT]),
+        frozen: bool,
+    ) {
+        let (r, f) = (&mut self.report, &self.stepper.forces);
+        r.torque = f.torque;
+        r.ligament_torque = f.ligament_torque;
+        r.torque_lower = *range.0;
+        r.torque_upper = *range.1;
+        r.over_limit = f.over_limit;
+        for i in 0..NV {
+            r.acceleration[i] = (self.state.velocity[i] - before.velocity[i]) / world.dt;
+        }
+        r.contacts.clone_from(&f.contact);
+        r.main_support = self.support.main();
+        r.support_ratio = *self.support.ratio();
+        r.support_polygon.clear();
+        r.support_polygon
+            .extend_from_slice(self.support.polygon().corners());
+        // Zero-moment point of the forces that acted, (3): z = (−N_y, N_x)/F_z about the world origin.
+        let (mut force, mut moment) = (0.0, (0.0, 0.0));
+        for c in &r.contacts {
+            let n = c.position.cross(c.force);
+            force += c.force.z;
+            moment = (moment.0 + n.x, moment.1 + n.y);
+        }
+        r.zmp = (force > 1e-3 * self.terms.mass).then(|| Vec3 {
+            x: -moment.1 / force,
+            y: moment.0 / force,
+            z: 0.0,
+        });
+        r.margin = r.zmp.and_then(|z| self.support.margin(z));
+        r.com = self.terms.com;
+        r.com_velocity = self.terms.com_velocity;
+        r.com_desired = tasks.com.now;
+        r.joint_error = before.posture.joint_difference(&self.target.now.posture);
+        r.penetration = self.stepper.penetration();
+        r.step_iterations = f.iterations;
+        r.flags.set(f.flags);
+        if r.contacts.is_empty() {
+            r.flags.set(Flags::FLIGHT);
+        }
+        if self.fallen {
+            r.flags.set(Flags::FALLEN);
+        }
+        if frozen {
+            r.flags.set(Flags::QUARANTINED);
+        }
+        r.audit.clone_from(&f.audit);
+        let a = &r.acceleration;
+        self.com_acceleration = self.terms.com_bias
+            + Vec3 {
+                x: (0..NV).map(|i| self.terms.jc[0][i] * a[i]).sum(),
+                y: (0..NV).map(|i| self.terms.jc[1][i] * a[i]).sum(),
+                z: (0..NV).map(|i| self.terms.jc[2][i] * a[i]).sum(),
+            };
+        self.reported = true;
+    }
+
+    /// Falls and rises (ALGORITHM §12).
+    fn judge_fall(&mut self) {
+        let height = self.terms.com.z / self.standing_com_height;
+        let feet = [L_FOOT, L_TOES, R_FOOT, R_TOES];
+        let on_other = self
+            .report
+            .contacts
+            .iter()
+            .any(|c| !feet.contains(&c.segment));
+        if !self.fallen && height < FALLEN_HEIGHT && on_other {
+            self.fallen = true;
+        } else if self.fallen && height > RISEN_HEIGHT {
+            self.fallen = false;
+            self.modern.reset();
+            self.paper.reset();
+        }
+    }
+}
+
+impl Figure {
+    /// Name, for people.
+    pub fn name(&self) -> &str {
+        &self.setup.name
+    }
+    /// The body.
+    pub fn body(&self) -> &Arc<Body> {
+        &self.setup.body
+    }
+    /// What it was made of, with later changes.
+    pub fn setup(&self) -> &FigureSetup {
+        &self.setup
+    }
+    /// Strength curves of the body.
+    pub fn strength(&self) -> &Strength {
+        &self.strength
+    }
+    /// State after the last tick.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+    /// Mass properties with the present loads.
+    pub fn links(&self) -> &Links {
+        &self.links
+    }
+    /// Report of the last tick; `None` before the first.
+    pub fn report(&self) -> Option<&TickReport> {
+        self.reported.then_some(&self.report)
+    }
+    /// Desired motion of the last tick.
+    pub fn target(&self) -> &TargetPair {
+        &self.target
+    }
+    /// Events of the last tick.
+    pub fn events(&self) -> &[FigureEvent] {
+        self.watcher.events()
+    }
+    /// True once it lies on the ground, until it has risen again.
+    pub fn is_fallen(&self) -> bool {
+        self.fallen
+    }
+    /// Where the desired motion comes from.
+    pub fn drive(&self) -> &Drive {
+        &self.drive
+    }
+    /// Replaces the source of the desired motion from the next tick on.
+    pub fn set_drive(&mut self, drive: Drive) {
+        self.drive = drive;
+    }
+    /// Scheduled perturbations.
+    pub fn perturbations(&self) -> impl Iterator<Item = &Perturbation> {
+        self.disturbances.scheduled()
+    }
+    /// Lets go of all loads and stops all pushes at the next tick.
+    pub fn clear_perturbations(&mut self) {
+        self.disturbances.clear();
+    }
+    /// Schedules a checked perturbation; false if there is no room.
+    pub(crate) fn schedule(&mut self, what: Perturbation) -> bool {
+        self.disturbances.add(what)
+    }
+    /// Puts the figure into a state and forgets its past; loads stay.
+    pub fn reset(&mut self, state: State) {
+        self.state = state;
+        self.last_good = state;
+        self.fallen = false;
+        self.frozen = false;
+        self.com_acceleration = Vec3::zero();
+        self.support.reset();
+        self.paper.reset();
+        self.modern.reset();
+    }
+    /// Changes the scale of its strength.
+    pub fn set_strength(&mut self, scale: StrengthScale) {
+        self.setup.strength = scale;
+    }
+    /// Changes controller and gains.
+    pub fn set_controller(&mut self, controller: ControllerKind, params: ControlParams) {
+        if controller != self.setup.controller {
+            self.paper.reset();
+            self.modern.reset();
+        }
+        self.setup.controller = controller;
+        self.setup.params = params;
+    }
+    /// Hash of the state's bits (64-bit FNV-1a over little-endian words).
+    pub fn state_hash(&self) -> u64 {
+        let mut h = crate::sim::math::hash::Fnv::default();
+        let p = &self.state.posture;
+        h.f64s(&p.root_position.to_array());
+        h.f64s(&p.root_rotation.to_xyzw());
+        for q in &p.ball {
+            h.f64s(&q.to_xyzw());
+        }
+        h.f64s(&p.hinge);
+        h.f64s(&self.state.velocity);
+        h.finish()
+    }
+}
+
+/// Height of the centre of mass over the soles in the zero pose, m.
+fn standing_com_height(body: &Body) -> f64 {
+    let mut kin = Kinematics::default();
+    let links = Links::new(body);
+    kin.set_posture(&links, &Posture::default());
+    center_of_mass(&links, &kin).0.z + body.standing_root_height()
+}
+
+fn empty_report(state: &State) -> TickReport {
+    let z = [0.0; DOF_COUNT];
+    TickReport {
+        torque: z,
+        ligament_torque: z,
+        torque_lower: z,
+        torque_upper: z,
+        over_limit: 0.0,
+        acceleration: [0.0; NV],
+        saturated: 0,
+        saturated_secondary: 0,
+        contacts: Vec::with_capacity(MAX_CONTACTS),
+        main_support: None,
+        support_ratio: [0.0; SEGMENT_COUNT],
+        support_polygon: Vec::with_capacity(MAX_CONTACTS),
+        zmp: None,
+        margin: None,
+        com: Vec3::zero(),
+        com_velocity: Vec3::zero(),
+        com_desired: Vec3::zero(),
+        joint_error: z,
+        penetration: 0.0,
+        control_iterations: 0,
+        step_iterations: 0,
+        flags: Flags::default(),
+        audit: Audit {
+            state: *state,
+            acceleration: [0.0; NV],
+            torque: z,
+            ligament_torque: z,
+            contacts: Vec::with_capacity(MAX_CONTACTS),
+            applied: Vec::with_capacity(super::loads::MAX_PERTURBATIONS),
+        },
+    }
+}

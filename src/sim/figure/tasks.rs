@@ -1,0 +1,117 @@
+//! Where the desired motion puts the centre of mass, the hands and the feet, with the present loads.
+
+use crate::sim::body::topology::{L_FOOT, L_HAND, R_FOOT, R_HAND};
+use crate::sim::body::{Body, Links, NV, SegmentId};
+use crate::sim::control::{Effector, PointTarget, RotationTarget};
+use crate::sim::dynamics::{Kinematics, center_of_mass, momentum};
+use crate::sim::math::{Quat, Vec3};
+use crate::sim::motion::{Target, TargetPair};
+
+/// Spatial targets derived from the desired joint trajectories.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TaskPoints {
+    /// Desired centre of mass.
+    pub com: PointTarget,
+    /// Left and right hand.
+    pub hands: [Effector; 2],
+    /// Left and right foot: position of the ankle and rotation of the foot.
+    pub feet: [(PointTarget, RotationTarget); 2],
+}
+
+/// Where a load is held: the middle of the hand.
+pub fn grip(body: &Body, hand: SegmentId) -> Vec3 {
+    body.segment(hand).tip * 0.5
+}
+
+struct Pose<'a> {
+    kin: &'a Kinematics<f64>,
+    root: Vec3,
+}
+
+impl Pose<'_> {
+    fn point(&self, s: SegmentId, local: Vec3) -> (Vec3, Vec3) {
+        let i = s.index();
+        let r = self.kin.rotation[i] * local;
+        (
+            self.root + self.kin.position[i] + r,
+            self.kin.velocity[i] + self.kin.omega[i].cross(r),
+        )
+    }
+    fn rotation(&self, s: SegmentId) -> (Quat, Vec3) {
+        (
+            Quat::from_mat3(&self.kin.rotation[s.index()]),
+            self.kin.omega[s.index()],
+        )
+    }
+}
+
+/// Buffers for the kinematics of the two desired states of a tick.
+#[derive(Clone, Debug, Default)]
+pub struct TaskWorkspace {
+    now: Kinematics<f64>,
+    next: Kinematics<f64>,
+}
+
+impl TaskWorkspace {
+    /// Spatial targets of a tick. `links` carry the present loads. No allocation.
+    pub fn points(&mut self, body: &Body, links: &Links, target: &TargetPair) -> TaskPoints {
+        let set = |kin: &mut Kinematics<f64>, t: &Target| {
+            kin.set_posture(links, &t.posture);
+            let v: &[f64; NV] = &t.velocity;
+            kin.set_velocity(v);
+        };
+        set(&mut self.now, &target.now);
+        set(&mut self.next, &target.next);
+        let com = |kin: &Kinematics<f64>, t: &Target| {
+            let (c, m) = center_of_mass(links, kin);
+            (
+                t.posture.root_position + c,
+                momentum(links, kin).linear * (1.0 / m),
+            )
+        };
+        let (c0, c1) = (com(&self.now, &target.now), com(&self.next, &target.next));
+        let now = Pose {
+            kin: &self.now,
+            root: target.now.posture.root_position,
+        };
+        let next = Pose {
+            kin: &self.next,
+            root: target.next.posture.root_position,
+        };
+        let pair = |a: (Vec3, Vec3), b: (Vec3, Vec3)| PointTarget {
+            now: a.0,
+            now_velocity: a.1,
+            next: b.0,
+            next_velocity: b.1,
+        };
+        let hand = |segment: SegmentId| {
+            let point = grip(body, segment);
+            Effector {
+                segment,
+                point,
+                position: pair(now.point(segment, point), next.point(segment, point)),
+                rotation: None,
+            }
+        };
+        let foot = |segment: SegmentId| {
+            let (a, b) = (now.rotation(segment), next.rotation(segment));
+            (
+                pair(
+                    now.point(segment, Vec3::zero()),
+                    next.point(segment, Vec3::zero()),
+                ),
+                RotationTarget {
+                    now: a.0,
+                    now_velocity: a.1,
+                    next: b.0,
+                    next_velocity: b.1,
+                },
+            )
+        };
+        TaskPoints {
+            com: pair(c0, c1),
+            hands: [hand(L_HAND), hand(R_HAND)],
+            feet: [foot(L_FOOT), foot(R_FOOT)],
+        }
+    }
+}

@@ -1,0 +1,409 @@
+//! Full rigid-body dynamics driven by strength-limited motors, with contact and joint limits (ALGORITHM §14.3).
+//!
+//! One substep solves, implicitly and all at once, for the velocity at its end: motors that pull towards the commanded motion within
+//! the strength of that instant, unilateral joint limits, and speculative frictional contact with the ground. Then the step is *closed*:
+//! the velocity is recomputed from the impulses of the last iterate, so that torques, contact forces and accelerations satisfy the
+//! equations of motion to rounding whatever residual the iteration stopped at.
+
+use super::report::{Audit, ContactPoint, Flags, MAX_CONTACTS};
+use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT, SegmentId};
+use crate::sim::body::{Body, Links, State};
+use crate::sim::contact::rows::PointRow;
+use crate::sim::contact::{
+    ContactRows, LimitRows, Motors, NewtonWorkspace, Outcome, SparseSystem, collect_limits,
+    minimise,
+};
+use crate::sim::dynamics::terms::AppliedForce;
+use crate::sim::dynamics::{MassMatrix, Terms, factor, solve};
+use crate::sim::figure::setup::StrengthScale;
+use crate::sim::math::Vec3;
+use crate::sim::strength::Strength;
+use multiversion::multiversion;
+
+/// Compliance of a contact, 1/kg: R of ALGORITHM §14.3.
+const CONTACT_COMPLIANCE: f64 = 1e-4;
+/// Contact points lower than this take part in the solve even if they move away, m.
+const SPECULATIVE_HEIGHT: f64 = 0.02;
+/// Share of a penetration beyond the slop that is taken back per substep.
+const PENETRATION_RETURN: f64 = 0.2;
+/// Penetration that is left alone, m: resting feet neither hover nor chatter.
+const PENETRATION_SLOP: f64 = 1e-4;
+/// Fastest push-out of a penetrating point, m/s.
+const PENETRATION_SPEED: f64 = 1.0;
+/// Most Newton iterations of one substep.
+const MAX_ITERATIONS: u32 = 30;
+/// Residual at which a substep counts as solved, N·m·s.
+const TOLERANCE: f64 = 1e-6;
+
+/// What a stepper reads in one tick.
+#[derive(Clone, Copy, Debug)]
+pub struct StepInput<'a> {
+    /// The body.
+    pub body: &'a Body,
+    /// Its mass properties, loads included.
+    pub links: &'a Links,
+    /// Its strength.
+    pub strength: &'a Strength,
+    /// Scale of the strength.
+    pub scale: &'a StrengthScale,
+    /// Terms of the state at the start of the tick, those the controller used.
+    pub terms: &'a Terms,
+    /// What the motors are asked to do.
+    pub command: &'a MotorCommand,
+    /// Least available torque at the start of the tick, N·m.
+    pub lower: &'a [f64; DOF_COUNT],
+    /// Largest available torque at the start of the tick, N·m.
+    pub upper: &'a [f64; DOF_COUNT],
+    /// Forces of perturbations, constant over the tick.
+    pub applied: &'a [AppliedForce],
+    /// Magnitude of gravity, m/s².
+    pub gravity: f64,
+    /// Length of the tick, s.
+    pub dt: f64,
+    /// Number of substeps.
+    pub substeps: u32,
+}
+
+/// Who moves the body (ALGORITHM §15).
+pub trait Stepper {
+    /// Advances `state` by one tick. Allocates nothing.
+    fn step(&mut self, input: &StepInput<'_>, state: &mut State);
+}
+
+/// What the motors are asked to do during one tick.
+#[derive(Clone, Debug)]
+pub struct MotorCommand {
+    /// Commanded joint acceleration, rad/s².
+    pub acceleration: [f64; DOF_COUNT],
+    /// Feed-forward torque, N·m.
+    pub torque: [f64; DOF_COUNT],
+    /// Speed error at which a motor gives all it has, rad/s: 1 with a feed-forward torque, 0.005 for motors alone.
+    pub saturation_speed: f64,
+}
+
+/// Motors alone: the rate error that saturates them, rad/s (ALGORITHM §14.3).
+pub const MOTORS_ALONE_SPEED: f64 = 0.005;
+/// With the controller's torque as feed-forward, rad/s.
+pub const FEED_FORWARD_SPEED: f64 = 1.0;
+
+/// Means over a tick and the last substep.
+#[derive(Clone, Debug)]
+pub struct TickForces {
+    /// Mean muscle torque, N·m.
+    pub torque: [f64; DOF_COUNT],
+    /// Mean ligament torque, N·m.
+    pub ligament_torque: [f64; DOF_COUNT],
+    /// Mean contact force by segment and vertex; zero where nothing touched.
+    pub contact: Vec<ContactPoint>,
+    /// Largest relative violation of strength by any substep.
+    pub over_limit: f64,
+    /// Newton iterations of all substeps.
+    pub iterations: u32,
+    /// Flags raised while stepping.
+    pub flags: Flags,
+    /// The last substep.
+    pub audit: Audit,
+}
+
+/// Buffers of the stepper; made once per figure.
+#[derive(Clone, Debug)]
+pub struct TorqueStepper {
+    /// Terms of the current substep.
+    pub terms: Terms,
+    contacts: ContactRows,
+    limits: LimitRows,
+    motors: Motors,
+    newton: NewtonWorkspace,
+    hessian: MassMatrix<f64>,
+    /// Sum of contact impulses over the tick by segment × 8 + vertex, N·s, and where the point was when it first touched.
+    impulse: Box<[(Vec3, Vec3); MAX_CONTACTS]>,
+    penetration: f64,
+    /// Result of the last tick.
+    pub forces: TickForces,
+}
+
+/// Most contact points of one segment.
+const POINTS_PER_SEGMENT: usize = MAX_CONTACTS / SEGMENT_COUNT;
+
+impl TorqueStepper {
+    /// A stepper on ground with friction coefficient `friction`.
+    pub fn new(friction: f64) -> Self {
+        Self {
+            terms: Terms::default(),
+            contacts: ContactRows::new(friction),
+            limits: LimitRows::new(),
+            motors: Motors::default(),
+            newton: NewtonWorkspace::default(),
+            hessian: MassMatrix::default(),
+            impulse: Box::new([(Vec3::zero(), Vec3::zero()); MAX_CONTACTS]),
+            penetration: 0.0,
+            forces: TickForces {
+                torque: [0.0; DOF_COUNT],
+                ligament_torque: [0.0; DOF_COUNT],
+                contact: Vec::with_capacity(MAX_CONTACTS),
+                over_limit: 0.0,
+                iterations: 0,
+                flags: Flags::default(),
+                audit: Audit {
+                    state: State::default(),
+                    acceleration: [0.0; NV],
+                    torque: [0.0; DOF_COUNT],
+                    ligament_torque: [0.0; DOF_COUNT],
+                    contacts: Vec::with_capacity(MAX_CONTACTS),
+                    applied: Vec::with_capacity(64),
+                },
+            },
+        }
+    }
+
+    /// Deepest contact point below the surface at the start of any substep of the last tick, m.
+    pub fn penetration(&self) -> f64 {
+        self.penetration
+    }
+}
+
+impl Stepper for TorqueStepper {
+    /// Advances `state` by one tick of `dt` seconds in `substeps` substeps. Fills [`Self::forces`]. No allocation.
+    fn step(&mut self, input: &StepInput<'_>, state: &mut State) {
+        let StepInput {
+            body,
+            links,
+            strength,
+            scale,
+            command,
+            applied,
+            gravity,
+            dt,
+            substeps,
+            ..
+        } = *input;
+        let h = dt / f64::from(substeps);
+        let start: [f64; DOF_COUNT] = std::array::from_fn(|j| state.velocity[6 + j]);
+        let f = &mut self.forces;
+        f.torque.fill(0.0);
+        f.ligament_torque.fill(0.0);
+        f.over_limit = 0.0;
+        f.iterations = 0;
+        f.flags = Flags::default();
+        f.contact.clear();
+        self.impulse.fill((Vec3::zero(), Vec3::zero()));
+        self.penetration = 0.0;
+        for i in 0..substeps {
+            if i == 0 {
+                self.terms.clone_from(input.terms);
+            } else {
+                self.terms.compute(links, state, applied, gravity);
+            }
+            let angles = collect_limits(body, &state.posture, h, &mut self.limits);
+            let rates: [f64; DOF_COUNT] = std::array::from_fn(|j| state.velocity[6 + j]);
+            let (mut lower, mut upper) = ([0.0; DOF_COUNT], [0.0; DOF_COUNT]);
+            strength.range(&angles, &rates, scale, &mut lower, &mut upper);
+            for j in 0..DOF_COUNT {
+                // The gain follows strength: a motor gives all it has when it is `saturation_speed` off.
+                let k = 0.5 * (input.upper[j] - input.lower[j]) / command.saturation_speed;
+                let aim = start[j] + f64::from(i + 1) * h * command.acceleration[j];
+                self.motors.gain[j] = h * k;
+                self.motors.rest[j] = aim + command.torque[j] / k;
+                self.motors.lower[j] = h * lower[j];
+                self.motors.upper[j] = h * upper[j];
+            }
+            self.collect_contacts(body, h);
+            let outcome = self.solve_substep(h, state);
+            self.account(h, dt, i + 1 == substeps, &lower, &upper, applied, outcome);
+            let v = state.velocity;
+            state.posture.integrate(&v, h);
+        }
+        for s in 0..SEGMENT_COUNT {
+            for vertex in 0..body.segments[s]
+                .contact_points
+                .len()
+                .min(POINTS_PER_SEGMENT)
+            {
+                let (p, position) = self.impulse[s * POINTS_PER_SEGMENT + vertex];
+                if p.z > 0.0 {
+                    let segment = SegmentId::new(s).expect("s < SEGMENT_COUNT");
+                    self.forces.contact.push(ContactPoint {
+                        segment,
+                        vertex,
+                        position,
+                        force: p * (1.0 / dt),
+                    });
+                }
+            }
+        }
+    }
+}
+
+impl TorqueStepper {
+    /// Rows for every contact point that is low or arrives within the substep.
+    fn collect_contacts(&mut self, body: &Body, h: f64) {
+        self.contacts.clear();
+        let (t, root) = (&self.terms, self.terms.state.posture.root_position);
+        for s in 0..SEGMENT_COUNT {
+            let origin = root.z + t.kin.position[s].z;
+            for (vertex, p) in body.segments[s]
+                .contact_points
+                .iter()
+                .enumerate()
+                .take(POINTS_PER_SEGMENT)
+            {
+                let r = t.kin.rotation[s] * *p;
+                let z = origin + r.z;
+                self.penetration = self.penetration.max(-z);
+                let rate = (t.kin.velocity[s] + t.kin.omega[s].cross(r)).z;
+                if z < SPECULATIVE_HEIGHT || z + h * rate < 0.0 {
+                    let c = if z > 0.0 {
+                        z / h
+                    } else {
+                        -(PENETRATION_RETURN * (-z - PENETRATION_SLOP).max(0.0) / h)
+                            .min(PENETRATION_SPEED)
+                    };
+                    let slot = self.contacts.slot(&self.terms.kin, s);
+                    let c = Vec3 {
+                        x: 0.0,
+                        y: 0.0,
+                        z: c,
+                    };
+                    let inverse_r = 1.0 / CONTACT_COMPLIANCE;
+                    self.contacts.points.push(PointRow {
+                        slot,
+                        r,
+                        c,
+                        inverse_r,
+                        segment: s,
+                        vertex,
+                    });
+                }
+            }
+        }
+    }
+
+    /// Solves for the velocity at the end of the substep, closes the step, writes it to `state.velocity`.
+    fn solve_substep(&mut self, h: f64, state: &mut State) -> Outcome {
+        let t = &self.terms;
+        let mut momentum = [0.0; NV];
+        t.mass_matrix.mul(&state.velocity, &mut momentum);
+        for i in 0..NV {
+            momentum[i] -= h * t.h[i]; // M v_free
+        }
+        let mut v = state.velocity;
+        let outcome = substep_kernel(
+            &t.mass_matrix,
+            &mut self.hessian,
+            &momentum,
+            &self.motors,
+            &self.limits,
+            &self.contacts,
+            &mut v,
+            &mut self.newton,
+        );
+        let mut x = momentum;
+        for j in 0..DOF_COUNT {
+            x[6 + j] += self.newton.motor[j] + self.newton.limit[j];
+        }
+        self.contacts
+            .add_transposed(&self.newton.force, 1.0, &mut x);
+        close_kernel(&t.mass_matrix, &mut self.hessian, &mut x);
+        self.forces.audit.state = *state;
+        for i in 0..NV {
+            self.forces.audit.acceleration[i] = (x[i] - state.velocity[i]) / h;
+        }
+        state.velocity = x;
+        outcome
+    }
+
+    /// Adds a substep to the means of the tick, and keeps the last one.
+    fn account(
+        &mut self,
+        h: f64,
+        dt: f64,
+        last: bool,
+        lower: &[f64; DOF_COUNT],
+        upper: &[f64; DOF_COUNT],
+        applied: &[AppliedForce],
+        outcome: Outcome,
+    ) {
+        let f = &mut self.forces;
+        f.iterations += outcome.iterations;
+        if !outcome.converged {
+            f.flags.set(Flags::STEP_BOUND);
+        }
+        for j in 0..DOF_COUNT {
+            let tau = self.newton.motor[j] / h;
+            f.torque[j] += self.newton.motor[j] / dt;
+            f.ligament_torque[j] += self.newton.limit[j] / dt;
+            f.over_limit = f
+                .over_limit
+                .max(tau / upper[j] - 1.0)
+                .max(tau / lower[j] - 1.0);
+            f.audit.torque[j] = tau;
+            f.audit.ligament_torque[j] = self.newton.limit[j] / h;
+        }
+        f.over_limit = f.over_limit.max(0.0);
+        let root = self.terms.state.posture.root_position;
+        if last {
+            f.audit.contacts.clear();
+            f.audit.applied.clear();
+            for (s, p, force) in applied {
+                f.audit
+                    .applied
+                    .push((*s, self.terms.point_world(s.index(), *p), *force));
+            }
+        }
+        for (k, p) in self.contacts.points.iter().enumerate() {
+            let impulse = self.newton.force[k];
+            if impulse.z <= 0.0 {
+                continue;
+            }
+            let position = root + self.terms.kin.position[p.segment] + p.r;
+            let slot = &mut self.impulse[p.segment * POINTS_PER_SEGMENT + p.vertex];
+            if slot.0.z == 0.0 {
+                slot.1 = position;
+            }
+            slot.0 += impulse;
+            if last {
+                let segment = SegmentId::new(p.segment).expect("rows hold valid segments");
+                f.audit.contacts.push(ContactPoint {
+                    segment,
+                    vertex: p.vertex,
+                    position,
+                    force: impulse * (1.0 / h),
+                });
+            }
+        }
+    }
+}
+
+/// The kernel of one substep, compiled for the vector instructions at hand.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
+fn substep_kernel(
+    m: &MassMatrix<f64>,
+    hessian: &mut MassMatrix<f64>,
+    momentum: &[f64; NV],
+    motors: &Motors,
+    limits: &LimitRows,
+    contacts: &ContactRows,
+    v: &mut [f64; NV],
+    ws: &mut NewtonWorkspace,
+) -> Outcome {
+    minimise(
+        &SparseSystem(m),
+        hessian,
+        momentum,
+        motors,
+        limits,
+        contacts,
+        MAX_ITERATIONS,
+        TOLERANCE,
+        v,
+        ws,
+    )
+}
+
+/// `x ← M⁻¹ x`.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
+fn close_kernel(m: &MassMatrix<f64>, scratch: &mut MassMatrix<f64>, x: &mut [f64; NV]) {
+    scratch.rows = m.rows;
+    factor(scratch);
+    solve(scratch, x);
+}

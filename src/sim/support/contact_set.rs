@@ -1,0 +1,97 @@
+//! Which contact points of which segments touch the floor, with hysteresis (ALGORITHM §5).
+
+use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
+use crate::sim::body::{Body, SEGMENT_COUNT, SegmentId};
+use crate::sim::dynamics::Terms;
+use crate::sim::math::Vec3;
+
+/// A point that comes below this height touches, m.
+pub const ENTER_HEIGHT: f64 = 0.006;
+/// A touching point that rises above this height has left, m.
+pub const LEAVE_HEIGHT: f64 = 0.010;
+/// Contact points of one segment that are looked at (those of a valid body are far fewer).
+const POINTS_PER_SEGMENT: usize = 64;
+
+/// One touching point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SupportPoint {
+    /// Segment it belongs to.
+    pub segment: SegmentId,
+    /// Index in [`Segment::contact_points`](crate::sim::body::Segment::contact_points).
+    pub vertex: usize,
+    /// The support it counts for: the foot for toes that touch together with their foot, else the segment itself.
+    pub support: SegmentId,
+    /// World position, m.
+    pub position: Vec3,
+}
+
+/// Touching points of one figure; remembers the last tick.
+#[derive(Clone, Debug)]
+pub struct ContactSet {
+    touching: [u64; SEGMENT_COUNT],
+    points: Vec<SupportPoint>,
+}
+
+impl Default for ContactSet {
+    fn default() -> Self {
+        Self {
+            touching: [0; SEGMENT_COUNT],
+            points: Vec::with_capacity(crate::sim::figure::report::MAX_CONTACTS),
+        }
+    }
+}
+
+impl ContactSet {
+    /// Touching points, by segment, then by vertex.
+    pub fn points(&self) -> &[SupportPoint] {
+        &self.points
+    }
+
+    /// Forgets the last tick (after a reset of the figure).
+    pub fn clear(&mut self) {
+        self.touching = [0; SEGMENT_COUNT];
+        self.points.clear();
+    }
+
+    /// Looks at every contact point of the body: one below [`ENTER_HEIGHT`] enters, one above [`LEAVE_HEIGHT`] leaves.
+    ///
+    /// Allocates nothing as long as the body has at most [`MAX_CONTACTS`](crate::sim::figure::report::MAX_CONTACTS) points.
+    pub fn update(&mut self, terms: &Terms, body: &Body) {
+        self.points.clear();
+        for s in 0..SEGMENT_COUNT {
+            let Some(segment) = SegmentId::new(s) else {
+                continue;
+            };
+            let (origin, rotation) = (terms.segment_position(s), terms.segment_rotation(s));
+            let mut touching = 0;
+            let points = body.segments[s].contact_points.iter();
+            for (vertex, local) in points.enumerate().take(POINTS_PER_SEGMENT) {
+                let position = origin + rotation * *local;
+                let bit = 1 << vertex;
+                let limit = if self.touching[s] & bit != 0 {
+                    LEAVE_HEIGHT
+                } else {
+                    ENTER_HEIGHT
+                };
+                if position.z < limit {
+                    touching |= bit;
+                    self.points.push(SupportPoint {
+                        segment,
+                        vertex,
+                        support: segment,
+                        position,
+                    });
+                }
+            }
+            self.touching[s] = touching;
+        }
+        // Toes count with their foot, if that touches.
+        for (toes, foot) in [(L_TOES, L_FOOT), (R_TOES, R_FOOT)] {
+            if self.touching[foot.index()] != 0 {
+                for p in self.points.iter_mut().filter(|p| p.segment == toes) {
+                    p.support = foot;
+                }
+            }
+        }
+    }
+}

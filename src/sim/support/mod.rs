@@ -1,0 +1,107 @@
+//! What carries the figure: touching points, support ratios (2), main support, support polygon, zero-moment point (3), tipping.
+
+pub mod contact_set;
+pub mod polygon;
+pub mod ratio;
+pub mod sharing;
+pub mod tipping;
+pub mod zmp;
+
+#[cfg(test)]
+pub(crate) mod testing;
+#[cfg(test)]
+mod tests;
+
+pub use contact_set::{ContactSet, SupportPoint};
+pub use polygon::{Closest, Feature, Polygon};
+pub use sharing::Sharing;
+pub use tipping::{Pivot, pivot, tipping_acceleration};
+pub use zmp::zmp;
+
+use crate::sim::body::{Body, SEGMENT_COUNT, SegmentId};
+use crate::sim::dynamics::Terms;
+use crate::sim::figure::report::MAX_CONTACTS;
+use crate::sim::math::Vec3;
+
+/// Supports of one figure, computed once per tick and shared by controllers and steppers. Remembers what hysteresis needs.
+#[derive(Clone, Debug)]
+pub struct Support {
+    contacts: ContactSet,
+    ratio: [f64; SEGMENT_COUNT],
+    main: Option<SegmentId>,
+    polygon: Polygon,
+}
+
+impl Default for Support {
+    fn default() -> Self {
+        Self {
+            contacts: ContactSet::default(),
+            ratio: [0.0; SEGMENT_COUNT],
+            main: None,
+            polygon: Polygon::with_capacity(MAX_CONTACTS),
+        }
+    }
+}
+
+impl Support {
+    /// Finds contacts, ratios, main support and ground polygon of the state in `terms`.
+    ///
+    /// * `com_acceleration`: c̈ over the last tick, world, m/s² (zero at the start).
+    /// * `gravity`: magnitude, m/s².
+    ///
+    /// No allocation for bodies with at most [`MAX_CONTACTS`] contact points.
+    pub fn update(&mut self, terms: &Terms, body: &Body, com_acceleration: Vec3, gravity: f64) {
+        self.contacts.update(terms, body);
+        let points = self.contacts.points();
+        self.ratio = ratio::support_ratios(points, terms.com, com_acceleration, gravity);
+        self.main = ratio::main_support(points, &self.ratio, self.main);
+        self.polygon
+            .set_hull(points.iter().map(|p| [p.position.x, p.position.y]));
+        self.polygon.reduce_thin();
+    }
+
+    /// Forgets the past (after a reset of the figure).
+    pub fn reset(&mut self) {
+        *self = Self::default();
+    }
+
+    /// Touching points, by segment, then by vertex.
+    pub fn points(&self) -> &[SupportPoint] {
+        self.contacts.points()
+    }
+
+    /// Support ratio (2) per segment; 0 where it does not support.
+    pub fn ratio(&self) -> &[f64; SEGMENT_COUNT] {
+        &self.ratio
+    }
+
+    /// Main supporting segment S; `None` in flight.
+    pub fn main(&self) -> Option<SegmentId> {
+        self.main
+    }
+
+    /// True if the segment is a support (toes that touch with their foot are not: they count with it).
+    pub fn is_support(&self, segment: SegmentId) -> bool {
+        self.points().iter().any(|p| p.support == segment)
+    }
+
+    /// Ground polygon: hull over all supports; thin sets are edges and vertices.
+    pub fn polygon(&self) -> &Polygon {
+        &self.polygon
+    }
+
+    /// Hull of one support, into `out`.
+    pub fn support_polygon(&self, support: SegmentId, out: &mut Polygon) {
+        out.set_hull(
+            self.points()
+                .iter()
+                .filter(|p| p.support == support)
+                .map(|p| [p.position.x, p.position.y]),
+        );
+    }
+
+    /// Signed distance of a zero-moment point inside the ground polygon, m.
+    pub fn margin(&self, zmp: Vec3) -> Option<f64> {
+        Some(self.polygon.closest([zmp.x, zmp.y])?.margin)
+    }
+}

@@ -1,0 +1,265 @@
+//! Supports of whole figures: statics, cart-table, Eq. (3) two ways, tipping of boxes and feet.
+
+use super::testing::{GRAVITY, Rng, mannequin, random_stance, random_state, standing, terms};
+use super::zmp::{FootLoad, foot_ground_wrench, foot_zmp};
+use super::*;
+use crate::sim::body::topology::{L_FOOT, L_TOES, NV, R_FOOT, R_SHANK};
+use crate::sim::body::{Links, State};
+use crate::sim::math::vec3::vec3;
+
+fn supported(state: &State) -> (Terms, Support) {
+    let body = mannequin();
+    let t = terms(&body, state);
+    let mut s = Support::default();
+    s.update(&t, &body, Vec3::zero(), GRAVITY);
+    (t, s)
+}
+
+#[test]
+fn standing_figure_has_two_supports_with_equal_ratios() {
+    let (_, s) = supported(&standing(&mannequin()));
+    assert_eq!(
+        s.points().len(),
+        12,
+        "four corners of each sole and two of each toe cap"
+    );
+    assert!(
+        s.points()
+            .iter()
+            .all(|p| p.support == L_FOOT || p.support == R_FOOT)
+    );
+    assert!(s.is_support(L_FOOT) && !s.is_support(L_TOES));
+    assert!((s.ratio()[L_FOOT.index()] - 0.5).abs() < 1e-12);
+    assert_eq!(s.main(), Some(L_FOOT));
+    assert!(s.polygon().has_area());
+}
+
+#[test]
+fn contacts_enter_low_and_leave_high() {
+    let body = mannequin();
+    let mut state = standing(&body);
+    let mut s = Support::default();
+    let mut count = |height: f64| {
+        state.posture.root_position.z = standing(&body).posture.root_position.z + height;
+        s.update(&terms(&body, &state), &body, Vec3::zero(), GRAVITY);
+        s.points().len()
+    };
+    assert_eq!(count(0.008), 0, "not yet");
+    assert_eq!(count(0.005), 12);
+    assert_eq!(count(0.008), 12, "still");
+    assert_eq!(count(0.011), 0);
+    assert_eq!(count(0.008), 0);
+}
+
+#[test]
+fn main_support_is_kept_within_the_hysteresis() {
+    let body = mannequin();
+    let state = standing(&body);
+    let t = terms(&body, &state);
+    let mut s = Support::default();
+    s.update(&t, &body, vec3(0.0, -1.0, 0.0), GRAVITY);
+    let first = s.main().unwrap();
+    assert_eq!(
+        first, L_FOOT,
+        "the pull to the right leans on the left foot"
+    );
+    s.update(&t, &body, vec3(0.0, 1.0, 0.0), GRAVITY);
+    assert!(s.ratio()[R_FOOT.index()] > s.ratio()[L_FOOT.index()]);
+    assert_eq!(s.main(), Some(first));
+    s.update(&t, &body, vec3(0.0, 60.0, 0.0), GRAVITY);
+    assert_eq!(s.main(), Some(R_FOOT));
+    s.reset();
+    s.update(&t, &body, vec3(0.0, 1.0, 0.0), GRAVITY);
+    assert_eq!(s.main(), Some(R_FOOT));
+}
+
+#[test]
+fn a_lifted_figure_has_no_support() {
+    let mut state = standing(&mannequin());
+    state.posture.root_position.z += 0.5;
+    let (_, s) = supported(&state);
+    assert!(s.main().is_none() && s.points().is_empty() && s.polygon().is_empty());
+    assert!(s.margin(Vec3::zero()).is_none());
+}
+
+#[test]
+fn zmp_of_static_pose_is_below_com() {
+    let (body, mut rng) = (mannequin(), Rng::new(1));
+    for _ in 0..20 {
+        let t = terms(&body, &random_stance(&body, &mut rng, 0.5, 0.0));
+        let (f, n) = t.ground_wrench(&[0.0; NV]);
+        let z = zmp(f, n).unwrap();
+        assert!((z.x - t.com.x).abs() < 1e-12 && (z.y - t.com.y).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn zmp_of_a_sliding_figure_is_that_of_the_cart_table() {
+    // The whole body accelerates as one: no angular momentum, so the ZMP is x − (z/g) ẍ.
+    let body = mannequin();
+    let t = terms(&body, &standing(&body));
+    let mut a = [0.0; NV];
+    (a[3], a[4]) = (1.3, -0.7);
+    let (f, n) = t.ground_wrench(&a);
+    let z = zmp(f, n).unwrap();
+    assert!((z.x - (t.com.x - t.com.z / GRAVITY * 1.3)).abs() < 1e-12);
+    assert!((z.y - (t.com.y + t.com.z / GRAVITY * 0.7)).abs() < 1e-12);
+    a[5] = -GRAVITY;
+    let (f, n) = t.ground_wrench(&a);
+    assert!(zmp(f, n).is_none(), "free fall");
+}
+
+#[test]
+fn force_is_mass_times_com_acceleration_minus_gravity() {
+    let (body, mut rng) = (mannequin(), Rng::new(2));
+    for _ in 0..20 {
+        let t = terms(&body, &random_state(&body, &mut rng, 1.0, 3.0));
+        let a: [f64; NV] = std::array::from_fn(|_| 10.0 * rng.unit());
+        let (f, _) = t.ground_wrench(&a);
+        let row = |k: usize| (0..NV).map(|i| t.jc[k][i] * a[i]).sum::<f64>();
+        let c = vec3(row(0), row(1), row(2)) + t.com_bias;
+        let expected = (c + vec3(0.0, 0.0, GRAVITY)) * t.mass;
+        assert!((f - expected).norm() < 1e-9 * t.mass * GRAVITY);
+    }
+}
+
+/// What the shank does to the right foot (with its toes), from Newton's and Euler's equations of all *other* segments.
+fn foot_load(links: &Links, t: &Terms, a: &[f64; NV], foot: &[usize]) -> FootLoad {
+    let shank_end = t.segment_position(foot[0]);
+    // Momentum rates of each segment by its point accelerations.
+    let mut jacobian = [[0.0; 48]; 6];
+    let mut rates = |s: usize, about: Vec3| {
+        t.segment_jacobian(s, &mut jacobian);
+        let row = |k: usize| (0..NV).map(|i| jacobian[k][i] * a[i]).sum::<f64>();
+        let (bias_alpha, bias) = t.segment_bias(s);
+        let alpha = vec3(row(0), row(1), row(2)) + bias_alpha;
+        let acc = vec3(row(3), row(4), row(5)) + bias;
+        let (w, m) = (t.kin.omega[s], links.mass[s]);
+        let (h, i) = (t.kin.moment[s], t.kin.inertia[s]);
+        let p = acc * m + alpha.cross(h) + w.cross(w.cross(h));
+        let l = i * alpha + w.cross(i * w) + h.cross(acc);
+        (
+            p,
+            l + (t.segment_position(s) - about).cross(p),
+            h * (1.0 / m),
+        )
+    };
+    let (mut com, mut mass, mut p) = (Vec3::zero(), 0.0, Vec3::zero());
+    for s in foot {
+        let (rate, _, c) = rates(*s, Vec3::zero());
+        com += (t.segment_position(*s) + c) * links.mass[*s];
+        mass += links.mass[*s];
+        p += rate;
+    }
+    let com = com * (1.0 / mass);
+    let spin_rate = foot
+        .iter()
+        .fold(Vec3::zero(), |sum, s| sum + rates(*s, com).1);
+    // The rest of the body is carried by the foot alone: ground reaction of the others is what the ankle passes on.
+    let (mut force, mut moment) = (Vec3::zero(), Vec3::zero());
+    for s in (0..SEGMENT_COUNT).filter(|s| !foot.contains(s)) {
+        let (rate, l, c) = rates(s, shank_end);
+        let weight = vec3(0.0, 0.0, GRAVITY * links.mass[s]);
+        let arm = t.segment_position(s) + c - shank_end;
+        force += rate + weight;
+        moment += l + arm.cross(weight);
+    }
+    FootLoad {
+        ankle: shank_end,
+        ankle_force: -force,
+        ankle_moment: -moment,
+        com,
+        mass,
+        com_acceleration: p * (1.0 / mass),
+        spin_rate,
+    }
+}
+
+#[test]
+fn the_papers_foot_form_gives_the_total_wrench_zmp() {
+    let (body, mut rng) = (mannequin(), Rng::new(3));
+    let links = Links::new(&body);
+    let foot = [R_FOOT.index(), R_FOOT.index() + 1];
+    assert_eq!(body.segments.len(), SEGMENT_COUNT);
+    assert_ne!(R_SHANK, R_FOOT);
+    for _ in 0..20 {
+        let t = terms(&body, &random_state(&body, &mut rng, 0.5, 2.0));
+        let a: [f64; NV] = std::array::from_fn(|_| 2.0 * rng.unit());
+        let (f, n) = t.ground_wrench(&a);
+        let load = foot_load(&links, &t, &a, &foot);
+        let (f2, n2) = foot_ground_wrench(&load, Vec3::zero(), GRAVITY);
+        assert!((f - f2).norm() < 1e-9 * f.norm() && (n - n2).norm() < 1e-9 * f.norm());
+        let (z, z2) = (zmp(f, n).unwrap(), foot_zmp(&load, GRAVITY).unwrap());
+        assert!((z - z2).norm() < 1e-9);
+    }
+}
+
+#[test]
+fn mmp_of_square_foot_is_on_the_edge_or_corner_the_zmp_left() {
+    let mut foot = Polygon::default();
+    foot.set_hull([[0.0, 0.0], [0.2, 0.0], [0.2, 0.2], [0.0, 0.2]].into_iter());
+    assert!(pivot(&foot, vec3(0.1, 0.1, 0.0)).is_none());
+    for (z, mmp, axis) in [
+        ([0.1, -0.3], [0.1, 0.0], [1.0, 0.0]),
+        ([0.9, 0.15], [0.2, 0.15], [0.0, 1.0]),
+        ([0.05, 0.21], [0.05, 0.2], [1.0, 0.0]),
+        ([-1e-6, 0.03], [0.0, 0.03], [0.0, 1.0]),
+    ] {
+        let p = pivot(&foot, vec3(z[0], z[1], 0.0)).unwrap();
+        assert!((p.point - vec3(mmp[0], mmp[1], 0.0)).norm() < 1e-15);
+        assert_eq!(p.axes().len(), 1);
+        assert!(p.axes()[0].cross(vec3(axis[0], axis[1], 0.0)).norm() < 1e-15);
+        assert!((p.distance(vec3(mmp[0] + axis[0], mmp[1] + axis[1], 0.0))) < 1e-12);
+    }
+    for (z, corner) in [
+        ([-0.1, -0.1], [0.0, 0.0]),
+        ([0.3, -0.2], [0.2, 0.0]),
+        ([0.25, 0.4], [0.2, 0.2]),
+        ([-0.2, 0.3], [0.0, 0.2]),
+    ] {
+        let p = pivot(&foot, vec3(z[0], z[1], 0.0)).unwrap();
+        assert!((p.point - vec3(corner[0], corner[1], 0.0)).norm() < 1e-15);
+        assert_eq!(p.axes(), &[Vec3::X, Vec3::Y]);
+    }
+}
+
+#[test]
+fn a_tilted_figure_pivots_on_what_touches() {
+    let mut edge = Polygon::default();
+    edge.set_hull([[0.0, 0.0], [0.0, 0.1]].into_iter());
+    for x in [-0.2, 0.2] {
+        let p = pivot(&edge, vec3(x, 0.05, 0.0)).unwrap();
+        assert_eq!(p.axes().len(), 1);
+        assert!(p.axes()[0].x.abs() < 1e-15);
+    }
+    assert_eq!(pivot(&edge, vec3(0.1, 0.4, 0.0)).unwrap().axes().len(), 2);
+}
+
+#[test]
+fn a_stiff_figure_on_an_edge_turns_like_a_box() {
+    // A stiff body about an edge: ω̇ = m g l sin φ / I, l sin φ the horizontal distance of the centre of mass from the edge.
+    let body = mannequin();
+    let t = terms(&body, &standing(&body));
+    let (f, n) = t.ground_wrench(&[0.0; NV]);
+    for offset in [0.02, 0.1, 0.4] {
+        let edge = vec3(t.com.x - offset, 0.3, 0.0);
+        let p = Pivot::edge(edge, Vec3::Y);
+        let w = tipping_acceleration(&t, &p, f, n);
+        // Inertia about the edge by the parallel-axis theorem over all segments.
+        let links = Links::new(&body);
+        let mut inertia = 0.0;
+        for s in 0..SEGMENT_COUNT {
+            let (m, h) = (links.mass[s], t.kin.moment[s]);
+            let r = t.segment_position(s) - edge;
+            // About the segment origin, moved: I_yy + 2 r·h + m r² without the y parts.
+            let i = t.kin.inertia[s] * Vec3::Y;
+            inertia += i.y + 2.0 * (r.x * h.x + r.z * h.z) + m * (r.x * r.x + r.z * r.z);
+        }
+        let expected = t.mass * GRAVITY * offset / inertia;
+        assert!((w.y / expected - 1.0).abs() < 1e-9, "{} {expected}", w.y);
+        assert!(w.x.abs() < 1e-12 && w.z.abs() < 1e-12);
+        // At a vertex both horizontal axes are free.
+        let w = tipping_acceleration(&t, &Pivot::vertex(vec3(edge.x, t.com.y, 0.0)), f, n);
+        assert!(w.y > 0.0 && w.x.abs() < 0.2 * w.y);
+    }
+}

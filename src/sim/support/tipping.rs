@@ -1,0 +1,121 @@
+//! Minimum-moment point and the axes about which a support tips (ALGORITHM §6).
+
+use super::polygon::{Feature, Polygon};
+use crate::sim::dynamics::Terms;
+use crate::sim::math::{Vec3, vec3::vec3};
+
+/// Where a support tips, and about which axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pivot {
+    /// The minimum-moment point, world, m.
+    pub point: Vec3,
+    axes: [Vec3; 2],
+    count: usize,
+}
+
+impl Pivot {
+    /// A pivot on an edge: one free axis (unit vector, horizontal).
+    pub fn edge(point: Vec3, axis: Vec3) -> Self {
+        Self {
+            point,
+            axes: [axis, Vec3::zero()],
+            count: 1,
+        }
+    }
+    /// A pivot on a vertex: both horizontal axes are free, friction holds the yaw.
+    pub fn vertex(point: Vec3) -> Self {
+        Self {
+            point,
+            axes: [Vec3::X, Vec3::Y],
+            count: 2,
+        }
+    }
+    /// Free axes, unit vectors.
+    pub fn axes(&self) -> &[Vec3] {
+        &self.axes[..self.count]
+    }
+    /// The part of a rotation vector along the free axes.
+    pub fn project(&self, w: Vec3) -> Vec3 {
+        self.axes()
+            .iter()
+            .fold(Vec3::zero(), |s, u| s + *u * u.dot(w))
+    }
+    /// Distance of a point from what stays on the floor: the edge line, or the vertex, m.
+    pub fn distance(&self, p: Vec3) -> f64 {
+        let mut r = p - self.point;
+        if self.count == 1 {
+            r = r - self.axes[0] * self.axes[0].dot(r);
+        }
+        r.norm()
+    }
+}
+
+/// The pivot of a figure whose zero-moment point, evaluated with the support at rest, is `zmp`; `None` if the support holds still.
+///
+/// Outside the polygon the pivot is its closest point (minimum-moment point). On an edge or a vertex the figure is tilted already,
+/// and it pivots on what touches, whichever side the zero-moment point is.
+pub fn pivot(polygon: &Polygon, zmp: Vec3) -> Option<Pivot> {
+    let c = polygon.closest([zmp.x, zmp.y])?;
+    let point = vec3(c.point[0], c.point[1], 0.0);
+    match c.feature {
+        Feature::Inside => None,
+        Feature::Edge(i) => {
+            let u = polygon.edge_direction(i);
+            Some(Pivot::edge(point, vec3(u[0], u[1], 0.0)))
+        }
+        Feature::Vertex(_) => Some(Pivot::vertex(point)),
+    }
+}
+
+/// Rotational acceleration of a tipping support, rad/s² (world axes): ω̇ = −U (Uᵀ I_p U)⁻¹ Uᵀ n_p.
+///
+/// * I_p: inertia of all segments about the pivot.
+/// * `force`, `moment` (about the world origin): the ground wrench that the accelerations with the support *at rest* would need.
+pub fn tipping_acceleration(terms: &Terms, pivot: &Pivot, force: Vec3, moment: Vec3) -> Vec3 {
+    let n = moment - pivot.point.cross(force);
+    let (e, u) = (base_directions(terms, pivot), pivot.axes());
+    let mut g = [[0.0; 2]; 2];
+    for (i, a) in e.iter().enumerate().take(u.len()) {
+        for (j, b) in e.iter().enumerate().take(u.len()) {
+            g[i][j] = base_product(terms, a, b);
+        }
+    }
+    let rhs = [u[0].dot(n), u.get(1).map_or(0.0, |a| a.dot(n))];
+    let w = solve_up_to_2(&g, rhs, u.len());
+    u.iter().zip(w).fold(Vec3::zero(), |s, (a, w)| s - *a * w)
+}
+
+/// Pelvis velocity (angular, linear) for unit rotation of the whole stiff body about the pivot along each free axis: the base rows
+/// of `E` (ALGORITHM §4). Unused entries are zero.
+pub(crate) fn base_directions(terms: &Terms, pivot: &Pivot) -> [[f64; 6]; 2] {
+    let arm = terms.segment_position(0) - pivot.point;
+    let mut e = [[0.0; 6]; 2];
+    for (out, u) in e.iter_mut().zip(pivot.axes()) {
+        let v = u.cross(arm);
+        *out = [u.x, u.y, u.z, v.x, v.y, v.z];
+    }
+    e
+}
+
+/// `aᵀ M_bb b` for two pelvis velocities: with those of [`base_directions`], the inertia of all segments about the pivot axes.
+pub(crate) fn base_product(terms: &Terms, a: &[f64; 6], b: &[f64; 6]) -> f64 {
+    let mut s = 0.0;
+    for i in 0..6 {
+        for j in 0..6 {
+            s += a[i] * terms.m[i][j] * b[j];
+        }
+    }
+    s
+}
+
+/// Solves the leading `n`×`n` block (n = 1 or 2) of a positive definite system.
+pub(crate) fn solve_up_to_2(g: &[[f64; 2]; 2], b: [f64; 2], n: usize) -> [f64; 2] {
+    if n == 1 {
+        return [b[0] / g[0][0], 0.0];
+    }
+    let det = g[0][0] * g[1][1] - g[0][1] * g[1][0];
+    [
+        (b[0] * g[1][1] - b[1] * g[0][1]) / det,
+        (b[1] * g[0][0] - b[0] * g[1][0]) / det,
+    ]
+}

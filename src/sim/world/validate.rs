@@ -1,0 +1,110 @@
+//! Bounds of everything a world takes in: parsed once, trusted afterwards.
+
+use super::{WorldError, WorldParams};
+use crate::sim::body::State;
+use crate::sim::figure::{ControlParams, FigureSetup, Perturbation, StrengthScale};
+use crate::sim::math::Vec3;
+
+/// Farthest from the world origin a figure may be put, m: beyond, positions lose the precision that contact needs.
+const FAR: f64 = 1e5;
+
+fn range(field: &'static str, value: f64, lower: f64, upper: f64) -> Result<(), WorldError> {
+    if value >= lower && value <= upper {
+        Ok(())
+    } else {
+        Err(WorldError::Range {
+            field,
+            value,
+            lower,
+            upper,
+        })
+    }
+}
+
+fn vector(field: &'static str, v: Vec3, most: f64) -> Result<(), WorldError> {
+    for x in v.to_array() {
+        range(field, x, -most, most)?;
+    }
+    Ok(())
+}
+
+pub(super) fn params(p: &WorldParams) -> Result<(), WorldError> {
+    range("rate_hz", p.rate_hz, 10.0, 1000.0)?;
+    range("substeps", f64::from(p.substeps), 1.0, 16.0)?;
+    range("gravity_mps2", p.gravity, 0.0, 30.0)?;
+    range("friction", p.friction, 0.05, 2.0)?;
+    range("threads", p.threads as f64, 1.0, 64.0)
+}
+
+pub(super) fn state(s: &State) -> Result<(), WorldError> {
+    vector("state.root_position_m", s.posture.root_position, FAR)?;
+    for q in s.posture.ball.iter().chain([&s.posture.root_rotation]) {
+        let n: f64 = q.to_xyzw().iter().map(|c| c * c).sum();
+        range("state.rotation", n, 0.999, 1.001)?;
+    }
+    for a in s.posture.hinge {
+        range("state.joint_angle_rad", a, -10.0, 10.0)?;
+    }
+    for v in s.velocity {
+        range("state.velocity", v, -200.0, 200.0)?;
+    }
+    Ok(())
+}
+
+pub(super) fn strength(s: &StrengthScale) -> Result<(), WorldError> {
+    range("strength.all", s.all, 0.01, 100.0)?;
+    for f in s.dof {
+        range("strength.dof", f, 0.01, 100.0)?;
+    }
+    Ok(())
+}
+
+pub(super) fn control(c: &ControlParams) -> Result<(), WorldError> {
+    range("control.alpha", c.alpha, 0.0, 1.0)?;
+    if let Some(t) = c.horizon {
+        range("control.horizon_s", t, 0.01, 2.0)?;
+    }
+    Ok(())
+}
+
+pub(super) fn setup(s: &FigureSetup) -> Result<(), WorldError> {
+    strength(&s.strength)?;
+    control(&s.params)?;
+    state(&s.state)
+}
+
+pub(super) fn perturbation(p: &Perturbation) -> Result<(), WorldError> {
+    let (from, to) = match p {
+        Perturbation::Load {
+            point,
+            mass,
+            from,
+            to,
+            ..
+        } => {
+            range("load.mass_kg", *mass, 0.0, 500.0)?;
+            vector("load.point_m", *point, 10.0)?;
+            (*from, *to)
+        }
+        Perturbation::Force {
+            point,
+            force,
+            from,
+            to,
+            ..
+        } => {
+            vector("force.force_newtons", *force, 1e6)?;
+            vector("force.point_m", *point, 10.0)?;
+            (*from, *to)
+        }
+    };
+    range("perturbation.from_s", from, f64::NEG_INFINITY, 1e12)?;
+    if to.is_nan() || to < from {
+        return Err(WorldError::Interval {
+            field: "perturbation",
+            from,
+            to,
+        });
+    }
+    Ok(())
+}
