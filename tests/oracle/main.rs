@@ -15,7 +15,7 @@ mod differences;
 mod identities;
 mod lanes;
 mod reference;
-//mod vectors;
+mod vectors;
 
 use sinew::sim::body::{Links, NV, State};
 use sinew::sim::dynamics::{Kinematics, RneaWorkspace, Terms, rnea};
