@@ -102,8 +102,15 @@ impl PlanarTransform {
         posture.root_rotation = (self.rotation() * posture.root_rotation).normalized();
     }
 
-    /// Moves a target: pelvis pose, velocity and acceleration.
-    pub fn apply(self, target: &mut Target) {
+    /// A target, moved: pelvis pose, velocity and acceleration.
+    pub fn apply(self, target: &Target) -> Target {
+        let mut moved = target.clone();
+        self.apply_to(&mut moved);
+        moved
+    }
+
+    /// Like [`Self::apply`], in place.
+    pub fn apply_to(self, target: &mut Target) {
         self.apply_posture(&mut target.posture);
         let rotation = self.rotation();
         for v in [&mut target.velocity, &mut target.acceleration] {
@@ -289,7 +296,7 @@ impl Clip {
         if into > 0.0 {
             seam.blend(into, &mut target);
         }
-        seam.advance.power(round).apply(&mut target);
+        seam.advance.power(round).apply_to(&mut target);
         target
     }
 
@@ -383,7 +390,7 @@ impl Clip {
             planted: first.planted,
         };
         turn_root_rates(&mut goal);
-        advance.apply(&mut goal);
+        advance.apply_to(&mut goal);
         let root = goal.posture.root_rotation.conjugate();
         turn_root(root, &mut goal.velocity);
         turn_root(root, &mut goal.acceleration);
@@ -646,7 +653,6 @@ fn differences(postures: &[Posture], i: usize, h: f64) -> ([f64; NV], [f64; NV])
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
 
@@ -793,7 +799,7 @@ mod tests {
         for i in 0..50 {
             let t = 0.03 * f64::from(i);
             let mut one = clip.sample_looped(t);
-            advance.apply(&mut one);
+            advance.apply_to(&mut one);
             let two = clip.sample_looped(t + period);
             assert!(worst(&one.posture.difference(&two.posture), &[0.0; NV]) < 1e-9);
             assert!(worst(&one.velocity, &two.velocity) < 1e-7);

@@ -181,9 +181,7 @@ fn frame(first: Vec3, second: Vec3, spare: Vec3) -> Mat3 {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
 mod tests {
-    use super::super::test_body::body;
     use super::*;
     use crate::sim::body::topology::DOF_COUNT;
     use crate::sim::body::{Links, angles};
@@ -212,7 +210,7 @@ mod tests {
 
     #[test]
     fn forward_agrees_with_the_kernels() {
-        let body = body();
+        let body = Body::adult_man();
         let links = Links::new(&body);
         let mut random = Pcg64::seed_from_u64(1);
         let mut kin = Kinematics::<f64>::default();
@@ -238,7 +236,7 @@ mod tests {
     #[test]
     fn reachable_foot_poses_are_met_and_the_leg_is_found_again() {
         // Method: a random leg within limits gives the target; another random leg of the same pelvis is then sent there.
-        let body = body();
+        let body = Body::adult_man();
         let mut random = Pcg64::seed_from_u64(2);
         for left in [true, false] {
             let foot = leg_segments(left)[2].index();
@@ -279,7 +277,7 @@ mod tests {
 
     #[test]
     fn joints_that_are_offset_sideways_change_nothing() {
-        let mut body = body();
+        let mut body = Body::adult_man();
         for left in [true, false] {
             let [_, shank, foot, _] = leg_segments(left).map(SegmentId::index);
             body.joint_offset[shank] = Vec3 {
@@ -313,7 +311,7 @@ mod tests {
 
     #[test]
     fn targets_out_of_reach_leave_a_straight_leg_pointing_at_them() {
-        let body = body();
+        let body = Body::adult_man();
         let mut posture = Posture::default();
         let (thigh, foot) = (L_THIGH.index(), L_FOOT.index());
         let hip = body.joint_offset[thigh];
@@ -350,7 +348,7 @@ mod tests {
     #[test]
     fn legs_follow_a_moving_pelvis_without_jumps() {
         // A squat with feet planted: the largest change per step stays in proportion to the step.
-        let body = body();
+        let body = Body::adult_man();
         let mut posture = Posture::default();
         let targets = [true, false].map(|l| forward(&body, &posture)[leg_segments(l)[2].index()]);
         let mut last: Option<Posture> = None;

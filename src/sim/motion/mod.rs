@@ -2,6 +2,7 @@
 
 pub mod balance;
 pub mod bvh;
+pub mod bvh_write;
 mod chart;
 pub mod clip;
 pub mod contacts;
@@ -12,10 +13,9 @@ pub mod prepare;
 pub mod retarget;
 pub mod skeleton_map;
 pub mod target;
-#[cfg(test)]
-mod test_body;
 
 pub use bvh::{Bvh, BvhError};
+pub use bvh_write::write_bvh;
 pub use clip::{Clip, ClipError, PlanarTransform};
 pub use retarget::{RetargetError, RetargetOptions, RetargetReport, Retargeted, UpAxis, retarget};
 pub use target::{Target, TargetPair};
