@@ -10,9 +10,9 @@
 pub mod cli;
 #[cfg(feature = "net")]
 pub mod client;
+pub mod evaluate;
 #[cfg(feature = "net")]
 pub mod server;
-pub mod evaluate;
 pub mod sim;
 #[cfg(feature = "net")]
 pub mod wire;
