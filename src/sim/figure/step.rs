@@ -7,7 +7,8 @@ use super::report::{Audit, Flags, MAX_CONTACTS, TickReport};
 use super::setup::{ControlParams, ControllerKind, Perturbation, StepperKind, StrengthScale};
 use super::tasks::{TaskPoints, TaskWorkspace};
 use super::torque_step::{
-    FEED_FORWARD_SPEED, MOTORS_ALONE_SPEED, MotorCommand, StepInput, Stepper, TorqueStepper,
+    FALLEN_SPEED, FEED_FORWARD_SPEED, MOTORS_ALONE_SPEED, MotorCommand, StepInput, Stepper,
+    TorqueStepper,
 };
 use crate::sim::body::angles::anatomical_angles;
 use crate::sim::body::topology::{DOF_COUNT, L_FOOT, L_TOES, NV, R_FOOT, R_TOES, SEGMENT_COUNT};
@@ -232,7 +233,14 @@ impl Figure {
                 self.motors
                     .joint_acceleration
                     .copy_from_slice(&demand[..DOF_COUNT]);
-                (&self.motors, MOTORS_ALONE_SPEED)
+                (
+                    &self.motors,
+                    if self.fallen {
+                        FALLEN_SPEED
+                    } else {
+                        MOTORS_ALONE_SPEED
+                    },
+                )
             }
         };
         let out = MotorCommand {

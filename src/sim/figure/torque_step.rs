@@ -32,6 +32,8 @@ const PENETRATION_SLOP: f64 = 1e-4;
 const PENETRATION_SPEED: f64 = 1.0;
 /// Most Newton iterations of one substep.
 const MAX_ITERATIONS: u32 = 30;
+/// Gain that is left for the second try of a substep that did not converge.
+const SOFTENING: f64 = 0.01;
 /// Residual at which a substep counts as solved, N·m·s.
 const TOLERANCE: f64 = 1e-6;
 
@@ -83,6 +85,8 @@ pub struct MotorCommand {
 
 /// Motors alone: the rate error that saturates them, rad/s (ALGORITHM §14.3).
 pub const MOTORS_ALONE_SPEED: f64 = 0.005;
+/// A fallen figure: soft, and easy on the solver while many parts touch, rad/s.
+pub const FALLEN_SPEED: f64 = 0.5;
 /// With the controller's torque as feed-forward, rad/s.
 pub const FEED_FORWARD_SPEED: f64 = 1.0;
 
@@ -297,6 +301,12 @@ impl TorqueStepper {
             &mut v,
             &mut self.newton,
         );
+        let outcome = if outcome.converged {
+            outcome
+        } else {
+            self.solve_softer(&momentum, &mut v, outcome)
+        };
+        let t = &self.terms;
         let mut x = momentum;
         for j in 0..DOF_COUNT {
             x[6 + j] += self.newton.motor[j] + self.newton.limit[j];
@@ -310,6 +320,32 @@ impl TorqueStepper {
         }
         state.velocity = x;
         outcome
+    }
+
+    /// Second try of a substep whose stiff motors, limits and contacts kept Newton's method zigzagging: the same strength and friction with
+    /// motors that saturate later. Closing an unconverged step would turn its residual into the speed of a light joint.
+    fn solve_softer(&mut self, momentum: &[f64; NV], v: &mut [f64; NV], first: Outcome) -> Outcome {
+        for j in 0..DOF_COUNT {
+            let m = &mut self.motors;
+            let torque = m.gain[j] * m.rest[j]; // what the motor gives at rest stays the same
+            m.gain[j] *= SOFTENING;
+            m.rest[j] = (torque.clamp(m.lower[j], m.upper[j])) / m.gain[j];
+        }
+        let t = &self.terms;
+        let second = substep_kernel(
+            &t.mass_matrix,
+            &mut self.hessian,
+            momentum,
+            &self.motors,
+            &self.limits,
+            &self.contacts,
+            v,
+            &mut self.newton,
+        );
+        Outcome {
+            iterations: first.iterations + second.iterations,
+            ..second
+        }
     }
 
     /// Adds a substep to the means of the tick, and keeps the last one.
