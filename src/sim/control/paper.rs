@@ -418,7 +418,7 @@ impl Paper {
             for k in 0..3 {
                 (0..NV).for_each(|i| jacobian[k][i] -= terms.jc[k][i]);
             }
-            bias = bias - terms.com_bias;
+            bias -= terms.com_bias;
             (at, velocity) = (at - terms.com, velocity - terms.com_velocity);
             let c = input.com;
             (t.now, t.now_velocity) = (t.now - c.now, t.now_velocity - c.now_velocity);
@@ -564,6 +564,7 @@ mod tests {
         target: TargetPair,
         com: PointTarget,
         effectors: Vec<Effector>,
+        feet: [(PointTarget, super::super::RotationTarget); 2],
         lower: [f64; DOF_COUNT],
         upper: [f64; DOF_COUNT],
         params: ControlParams,
@@ -602,6 +603,7 @@ mod tests {
                     next: target,
                 },
                 effectors,
+                feet: Default::default(),
                 lower,
                 upper,
                 params: ControlParams::default(),
@@ -616,6 +618,7 @@ mod tests {
                 target: &self.target,
                 com: &self.com,
                 effectors: &self.effectors,
+                feet: &self.feet,
                 lower: &self.lower,
                 upper: &self.upper,
                 params: &self.params,

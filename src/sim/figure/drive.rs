@@ -46,7 +46,8 @@ impl ClipPlayback {
         for a in &mut target.acceleration {
             *a *= self.speed * self.speed;
         }
-        self.origin.apply(&target)
+        self.origin.apply_to(&mut target);
+        target
     }
 }
 

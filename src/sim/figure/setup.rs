@@ -1,7 +1,9 @@
 //! What a figure is made of and how it is controlled: set at creation, changeable between ticks.
 
-use crate::sim::body::{DOF_COUNT, SegmentId};
+use crate::sim::body::SegmentId;
 use crate::sim::math::Vec3;
+
+pub use crate::sim::strength::StrengthScale;
 
 /// Who computes accelerations and torques.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,24 +90,6 @@ impl Default for ControlParams {
             zmp_feasible: true,
             track_hands: true,
             track_com: true,
-        }
-    }
-}
-
-/// Scale of a figure's strength.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StrengthScale {
-    /// Factor on every DOF, 0.01…100.
-    pub all: f64,
-    /// Factor per DOF, 0.01…100.
-    pub dof: [f64; DOF_COUNT],
-}
-
-impl Default for StrengthScale {
-    fn default() -> Self {
-        Self {
-            all: 1.0,
-            dof: [1.0; DOF_COUNT],
         }
     }
 }

@@ -1,14 +1,22 @@
 //! Desired motion: reading, retargeting, preparing, sampling (paper §3.2).
 
+pub mod balance;
 pub mod builtin;
 pub mod bvh;
 pub mod bvh_write;
 mod chart;
 pub mod clip;
+pub mod contacts;
+pub mod filter;
+pub mod foot_lock;
 pub mod leg_ik;
+pub mod prepare;
+pub mod retarget;
+pub mod skeleton_map;
 pub mod target;
 
 pub use bvh::{Bvh, BvhError};
 pub use bvh_write::write_bvh;
 pub use clip::{Clip, ClipError, PlanarTransform};
+pub use retarget::{RetargetError, RetargetOptions, RetargetReport, Retargeted, UpAxis, retarget};
 pub use target::{Target, TargetPair};

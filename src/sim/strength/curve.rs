@@ -8,6 +8,9 @@ use crate::sim::math::trig;
 
 /// Least angle factor: the groups reach farther than the postures they were measured in, and none goes dead at the end of its range.
 pub const ANGLE_FLOOR: f64 = 0.1;
+/// Least factor of a published cosine: the postures it was fitted in keep it above about one half. Farther out it is extrapolation, and
+/// wrong (it leaves the knee a tenth of its torque in a full squat, from which people rise): half the peak is held there.
+pub const COSINE_FLOOR: f64 = 0.5;
 /// Least velocity factor.
 pub const VELOCITY_FLOOR: f64 = 0.05;
 /// Largest factor in lengthening.
@@ -25,12 +28,12 @@ pub enum AngleFactor {
         /// C3, rad.
         peak: f64,
     },
-    /// A bell `1/(1 + y + y²/2)`, `y = ½((θ − peak)/deviation)²`: a Gaussian to second order whose flanks fall more slowly.
+    /// A bell `1/(1 + y + y²/2)`, `y = ½((θ − peak)·narrowness)²`: a Gaussian to second order whose flanks fall more slowly.
     Bell {
         /// Angle of the peak, rad.
         peak: f64,
-        /// One standard deviation, rad.
-        deviation: f64,
+        /// One over the standard deviation, 1/rad.
+        narrowness: f64,
     },
 }
 
@@ -41,10 +44,12 @@ impl AngleFactor {
         let f = match *self {
             Self::Cosine { width, peak } => {
                 let half = std::f64::consts::PI;
-                trig::sin_cos((width * (theta - peak)).clamp(-half, half)).1
+                trig::sin_cos((width * (theta - peak)).clamp(-half, half))
+                    .1
+                    .max(COSINE_FLOOR)
             }
-            Self::Bell { peak, deviation } => {
-                let z = (theta - peak) / deviation;
+            Self::Bell { peak, narrowness } => {
+                let z = (theta - peak) * narrowness;
                 let y = 0.5 * z * z;
                 1.0 / (1.0 + y + 0.5 * y * y)
             }
@@ -65,10 +70,15 @@ pub struct VelocityFactor {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Shortening {
-    /// `(1 − u)/(1 + bend·u)`, `u = ω/fastest`.
-    Hill { fastest: f64, bend: f64 },
+    /// `(1 − u)/(1 + bend·u)`, `u = ω·slowness`, zero at 1/slowness.
+    Hill { slowness: f64, bend: f64 },
     /// `(1 + a ω)/(1 + b ω)` up to `until`, where it is ½; beyond that `½/(1 + tail (ω − until))` with the same slope.
-    Measured { a: f64, b: f64, until: f64, tail: f64 },
+    Measured {
+        a: f64,
+        b: f64,
+        until: f64,
+        tail: f64,
+    },
 }
 
 impl VelocityFactor {
@@ -76,7 +86,8 @@ impl VelocityFactor {
     pub fn hill(fastest: f64, at_half: f64, eccentric: f64) -> Self {
         let bend = 1.0 / at_half - 2.0;
         let slope = (1.0 + bend) / fastest;
-        Self::with_eccentric(Shortening::Hill { fastest, bend }, slope, eccentric)
+        let slowness = 1.0 / fastest;
+        Self::with_eccentric(Shortening::Hill { slowness, bend }, slope, eccentric)
     }
 
     /// The concentric curve of Anderson 2007, which is ¾ at `c4` and ½ at `c5` (rad/s, 0 < c4 < c5).
@@ -114,8 +125,8 @@ impl VelocityFactor {
             return 1.0 - self.gain * speed / (self.half - speed);
         }
         let f = match self.shortening {
-            Shortening::Hill { fastest, bend } => {
-                let u = speed / fastest;
+            Shortening::Hill { slowness, bend } => {
+                let u = speed * slowness;
                 (1.0 - u) / (1.0 + bend * u)
             }
             Shortening::Measured { a, b, until, tail } => {
@@ -169,7 +180,10 @@ mod tests {
             assert_eq!(c.at(0.0), 1.0);
             let h = 1e-6;
             let (left, right) = ((c.at(0.0) - c.at(-h)) / h, (c.at(h) - c.at(0.0)) / h);
-            assert!((left - right).abs() < 1e-4 * right.abs(), "slopes {left}, {right}");
+            assert!(
+                (left - right).abs() < 1e-4 * right.abs(),
+                "slopes {left}, {right}"
+            );
             let mut before = ECCENTRIC_MOST;
             for i in -4000..=4000 {
                 let f = c.at(f64::from(i) * 0.02);
@@ -200,7 +214,7 @@ mod tests {
         };
         let bell = AngleFactor::Bell {
             peak: 0.9,
-            deviation: 1.2,
+            narrowness: 1.0 / 1.2,
         };
         assert!((cosine.at(0.408) - 1.0).abs() < 1e-15 && bell.at(0.9) == 1.0);
         for f in [cosine, bell] {

@@ -10,18 +10,38 @@ pub mod tables;
 mod tests;
 
 use crate::sim::body::{Body, DOF_COUNT, Sex};
-use crate::sim::figure::setup::StrengthScale;
 use crate::sim::math::exp::exp;
 use curve::{AngleFactor, Muscle, VelocityFactor};
 use tables::{Action, AndersonRow, Group, Leg, Origin, Tissue};
 
 /// Ligaments act within this angle before a limit, rad (4°): ALGORITHM §3.
 pub const LIGAMENT_ZONE: f64 = 4.0 / 180.0 * std::f64::consts::PI;
+const PER_ZONE: f64 = 1.0 / LIGAMENT_ZONE;
 /// At and past a limit, ligaments oppose it with this multiple of the isometric peak that drives into it.
 pub const LIGAMENT_FACTOR: f64 = 3.0;
 /// Passive tissue pushes this share more while it is stretched at [`TISSUE_SPEED`] or faster, and less while it recoils: it rings otherwise.
 const TISSUE_DAMPING: f64 = 0.1;
 const TISSUE_SPEED: f64 = 10.0;
+/// Below this power of e tissue is slack: it would give less than 1e−13 N·m, and most joints spend their time there.
+const SLACK: f64 = -35.0;
+
+/// Scale of a figure's strength.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StrengthScale {
+    /// Factor on every DOF, 0.01…100.
+    pub all: f64,
+    /// Factor per DOF, 0.01…100.
+    pub dof: [f64; DOF_COUNT],
+}
+
+impl Default for StrengthScale {
+    fn default() -> Self {
+        Self {
+            all: 1.0,
+            dof: [1.0; DOF_COUNT],
+        }
+    }
+}
 
 /// Where one number of a DOF's strength comes from.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,8 +87,11 @@ impl Passive {
     #[inline]
     fn at(&self, x: f64) -> f64 {
         let over = x - self.capped_at;
-        if over < 0.0 {
-            self.amplitude * exp(self.steepness * x)
+        let power = self.steepness * x;
+        if power < SLACK {
+            0.0
+        } else if over < 0.0 {
+            self.amplitude * exp(power)
         } else {
             self.cap * (1.0 + (self.steepness * over).min(1.0))
         }
@@ -94,7 +117,11 @@ impl Strength {
     pub fn for_body(body: &Body) -> Self {
         let person = Person::of(body);
         let (groups, tissues) = (in_dof_order(&tables::TRUNK, &tables::ARM, &tables::LEG), {
-            in_dof_order(&tables::TRUNK_TISSUE, &tables::ARM_TISSUE, &tables::LEG_TISSUE)
+            in_dof_order(
+                &tables::TRUNK_TISSUE,
+                &tables::ARM_TISSUE,
+                &tables::LEG_TISSUE,
+            )
         });
         let muscle: [[Muscle; 2]; DOF_COUNT] =
             std::array::from_fn(|d| groups[d].map(|g| person.muscle(&g)));
@@ -140,8 +167,8 @@ impl Strength {
             let (theta, rate) = (angles[d], rates[d]);
             let [plus, minus] = &self.muscle[d];
             let s = scale.all * scale.dof[d];
-            let into_upper = 1.0 - (self.upper[d] - theta) / LIGAMENT_ZONE;
-            let into_lower = 1.0 - (theta - self.lower[d]) / LIGAMENT_ZONE;
+            let into_upper = 1.0 - (self.upper[d] - theta) * PER_ZONE;
+            let into_lower = 1.0 - (theta - self.lower[d]) * PER_ZONE;
             upper[d] = s * plus.torque(theta, rate)
                 + LIGAMENT_FACTOR * minus.peak * into_lower.clamp(0.0, 1.0);
             lower[d] = -(s * minus.torque(theta, -rate)
@@ -199,12 +226,19 @@ fn passive(tissue: Tissue, limit: f64, cap: f64, sign: f64) -> Passive {
         Tissue::AtLimit(amplitude, steepness) => {
             Passive::new(amplitude, steepness, limit - 0.1, cap)
         }
+        Tissue::Between(start, full) => {
+            between(sign * start.to_radians(), sign * full.to_radians(), cap)
+        }
         Tissue::Unknown => {
             let half = 15f64.to_radians();
-            let steepness = 100f64.ln() / (2.0 * half);
-            Passive::new(0.01 * cap, steepness, limit - half, cap)
+            between(limit - half, limit + half, cap)
         }
     }
+}
+
+/// Tissue that gives 1 % of `cap` at `start` and all of it at `full` (rad, growing towards the limit).
+fn between(start: f64, full: f64, cap: f64) -> Passive {
+    Passive::new(0.01 * cap, 100f64.ln() / (full - start), start, cap)
 }
 
 /// What the tables are scaled by.
@@ -258,7 +292,10 @@ impl Person {
 
     fn other(&self, a: &Action) -> Muscle {
         let [peak, deviation] = a.bell.map(f64::to_radians);
-        let angle = AngleFactor::Bell { peak, deviation };
+        let angle = AngleFactor::Bell {
+            peak,
+            narrowness: 1.0 / deviation,
+        };
         let level = a.level[self.table()] * self.mgh / self.reference_mgh * self.age_factor();
         let [fastest, at_half, eccentric] = a.hill;
         Muscle {
@@ -311,17 +348,33 @@ impl Person {
             let share = muscle.velocity.at(5.0);
             add(name, "share of it at 5 rad/s shortening", share, "1", speed);
             let share = muscle.velocity.at(-5.0);
-            add(name, "share of it at 5 rad/s lengthening", share, "1", speed);
+            add(
+                name,
+                "share of it at 5 rad/s lengthening",
+                share,
+                "1",
+                speed,
+            );
         }
         let name = match groups[0] {
             Group::Leg(leg) => leg.name(),
             Group::Other(a) => a.name,
         };
-        add(name, "age factor", self.age_factor(), "1", tables::AGE_ORIGIN);
-        let ends = ["passive torque at the lower onset", "passive torque at the upper onset"];
+        add(
+            name,
+            "age factor",
+            self.age_factor(),
+            "1",
+            tables::AGE_ORIGIN,
+        );
+        let ends = [
+            "passive torque at the lower onset",
+            "passive torque at the upper onset",
+        ];
         for k in 0..2 {
             let origin = match tissues[k] {
                 Tissue::Unknown => tables::UNKNOWN_TISSUE_ORIGIN,
+                Tissue::Between(..) => tables::BETWEEN_TISSUE_ORIGIN,
                 Tissue::Measured(..) | Tissue::AtLimit(..) => tables::TISSUE_ORIGIN,
             };
             add(name, ends[k], passive[k].amplitude, "N·m", origin);

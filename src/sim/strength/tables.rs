@@ -308,24 +308,97 @@ const fn thorax(waist: Group, name: &'static str) -> Group {
 }
 
 /// Lumbar extension peaks far into flexion in the gymnast set; two joints share the bend, and the level is known upright only.
-const TRUNK_FLEXION: Group = action("trunk flexion", [143.0, 75.0], 0.0, [0.0, 120.0], [19.2, 0.15, 1.1], STOBBE, GYMNAST);
-const TRUNK_EXTENSION: Group = action("trunk extension", [234.0, 184.0], 0.0, [30.0, 45.0], [8.0, 0.15, 1.1], STOBBE, GYMNAST);
-const TRUNK_LATERAL: Group = action("trunk lateral bend", [159.0, 94.0], 0.0, [0.0, 60.0], [10.0, 0.2, 1.2], STOBBE, ESTIMATE);
-const TRUNK_ROTATION: Group = action("trunk rotation", [75.0, 45.0], 0.0, [0.0, 70.0], [12.0, 0.2, 1.2], ESTIMATE, ESTIMATE);
-const NECK_LATERAL: Group = action("neck lateral bend", [36.0, 16.0], 0.0, [0.0, 70.0], [15.0, 0.2, 1.2], VASAVADA, ESTIMATE);
-const NECK_ROTATION: Group = action("neck rotation", [15.0, 6.0], 0.0, [0.0, 90.0], [18.0, 0.2, 1.2], VASAVADA, ESTIMATE);
+const TRUNK_FLEXION: Group = action(
+    "trunk flexion",
+    [143.0, 75.0],
+    0.0,
+    [0.0, 120.0],
+    [19.2, 0.15, 1.1],
+    STOBBE,
+    GYMNAST,
+);
+const TRUNK_EXTENSION: Group = action(
+    "trunk extension",
+    [234.0, 184.0],
+    0.0,
+    [30.0, 45.0],
+    [8.0, 0.15, 1.1],
+    STOBBE,
+    GYMNAST,
+);
+const TRUNK_LATERAL: Group = action(
+    "trunk lateral bend",
+    [159.0, 94.0],
+    0.0,
+    [0.0, 60.0],
+    [10.0, 0.2, 1.2],
+    STOBBE,
+    ESTIMATE,
+);
+const TRUNK_ROTATION: Group = action(
+    "trunk rotation",
+    [75.0, 45.0],
+    0.0,
+    [0.0, 70.0],
+    [12.0, 0.2, 1.2],
+    ESTIMATE,
+    ESTIMATE,
+);
+const NECK_LATERAL: Group = action(
+    "neck lateral bend",
+    [36.0, 16.0],
+    0.0,
+    [0.0, 70.0],
+    [15.0, 0.2, 1.2],
+    VASAVADA,
+    ESTIMATE,
+);
+const NECK_ROTATION: Group = action(
+    "neck rotation",
+    [15.0, 6.0],
+    0.0,
+    [0.0, 90.0],
+    [18.0, 0.2, 1.2],
+    VASAVADA,
+    ESTIMATE,
+);
 
 /// Trunk and neck, DOF order: muscles for the positive and for the negative direction.
 pub const TRUNK: [[Group; 2]; 9] = [
     [TRUNK_FLEXION, TRUNK_EXTENSION],
     [TRUNK_LATERAL, TRUNK_LATERAL],
     [TRUNK_ROTATION, TRUNK_ROTATION],
-    [thorax(TRUNK_FLEXION, "thorax flexion"), thorax(TRUNK_EXTENSION, "thorax extension")],
-    [thorax(TRUNK_LATERAL, "thorax lateral bend"), thorax(TRUNK_LATERAL, "thorax lateral bend")],
-    [thorax(TRUNK_ROTATION, "thorax rotation"), thorax(TRUNK_ROTATION, "thorax rotation")],
     [
-        action("neck flexion", [30.0, 15.0], 0.0, [0.0, 70.0], [15.0, 0.2, 1.2], VASAVADA, ESTIMATE),
-        action("neck extension", [52.0, 21.0], 0.0, [10.0, 70.0], [15.0, 0.2, 1.2], VASAVADA, ESTIMATE),
+        thorax(TRUNK_FLEXION, "thorax flexion"),
+        thorax(TRUNK_EXTENSION, "thorax extension"),
+    ],
+    [
+        thorax(TRUNK_LATERAL, "thorax lateral bend"),
+        thorax(TRUNK_LATERAL, "thorax lateral bend"),
+    ],
+    [
+        thorax(TRUNK_ROTATION, "thorax rotation"),
+        thorax(TRUNK_ROTATION, "thorax rotation"),
+    ],
+    [
+        action(
+            "neck flexion",
+            [30.0, 15.0],
+            0.0,
+            [0.0, 70.0],
+            [15.0, 0.2, 1.2],
+            VASAVADA,
+            ESTIMATE,
+        ),
+        action(
+            "neck extension",
+            [52.0, 21.0],
+            0.0,
+            [10.0, 70.0],
+            [15.0, 0.2, 1.2],
+            VASAVADA,
+            ESTIMATE,
+        ),
     ],
     [NECK_LATERAL, NECK_LATERAL],
     [NECK_ROTATION, NECK_ROTATION],
@@ -334,32 +407,144 @@ pub const TRUNK: [[Group; 2]; 9] = [
 /// One arm, DOF order.
 pub const ARM: [[Group; 2]; 7] = [
     [
-        action("shoulder flexion", [47.0, 22.0], 90.0, [51.0, 74.0], [19.1, 0.25, 1.23], SHOULDER_FLEXION, GYMNAST),
-        action("shoulder extension", [66.0, 31.0], 90.0, [123.0, 105.0], [16.2, 0.25, 1.1], SHOULDER_EXTENSION, GYMNAST),
+        action(
+            "shoulder flexion",
+            [47.0, 22.0],
+            90.0,
+            [51.0, 74.0],
+            [19.1, 0.25, 1.23],
+            SHOULDER_FLEXION,
+            GYMNAST,
+        ),
+        action(
+            "shoulder extension",
+            [66.0, 31.0],
+            90.0,
+            [123.0, 105.0],
+            [16.2, 0.25, 1.1],
+            SHOULDER_EXTENSION,
+            GYMNAST,
+        ),
     ],
     [
-        action("shoulder abduction", [71.0, 37.0], 90.0, [60.0, 80.0], [18.0, 0.22, 1.23], STOBBE, ESTIMATE),
-        action("shoulder adduction", [67.0, 30.0], 90.0, [80.0, 90.0], [18.0, 0.22, 1.23], STOBBE, ESTIMATE),
+        action(
+            "shoulder abduction",
+            [71.0, 37.0],
+            90.0,
+            [60.0, 80.0],
+            [18.0, 0.22, 1.23],
+            STOBBE,
+            ESTIMATE,
+        ),
+        action(
+            "shoulder adduction",
+            [67.0, 30.0],
+            90.0,
+            [80.0, 90.0],
+            [18.0, 0.22, 1.23],
+            STOBBE,
+            ESTIMATE,
+        ),
     ],
     [
-        action("shoulder internal rotation", [52.0, 21.0], 0.0, [68.0, 161.0], [19.5, 0.29, 1.28], STOBBE, GYMNAST),
-        action("shoulder external rotation", [33.0, 19.0], 0.0, [38.0, 114.0], [18.0, 0.23, 1.36], STOBBE, GYMNAST),
+        action(
+            "shoulder internal rotation",
+            [52.0, 21.0],
+            0.0,
+            [68.0, 161.0],
+            [19.5, 0.29, 1.28],
+            STOBBE,
+            GYMNAST,
+        ),
+        action(
+            "shoulder external rotation",
+            [33.0, 19.0],
+            0.0,
+            [38.0, 114.0],
+            [18.0, 0.23, 1.36],
+            STOBBE,
+            GYMNAST,
+        ),
     ],
     [
-        action("elbow flexion", [77.0, 41.0], 90.0, [19.0, 207.0], [18.1, 0.19, 1.37], STOBBE, GYMNAST),
-        action("elbow extension", [46.0, 27.0], 110.0, [94.0, 75.0], [18.4, 0.19, 1.32], STOBBE, GYMNAST),
+        action(
+            "elbow flexion",
+            [77.0, 41.0],
+            90.0,
+            [19.0, 207.0],
+            [18.1, 0.19, 1.37],
+            STOBBE,
+            GYMNAST,
+        ),
+        action(
+            "elbow extension",
+            [46.0, 27.0],
+            110.0,
+            [94.0, 75.0],
+            [18.4, 0.19, 1.32],
+            STOBBE,
+            GYMNAST,
+        ),
     ],
     [
-        action("pronation", [9.0, 5.0], 0.0, [12.0, 57.0], [27.9, 0.21, 1.39], ESTIMATE, GYMNAST),
-        action("supination", [9.5, 5.0], 0.0, [12.0, 77.0], [35.5, 0.25, 1.24], ESTIMATE, GYMNAST),
+        action(
+            "pronation",
+            [9.0, 5.0],
+            0.0,
+            [12.0, 57.0],
+            [27.9, 0.21, 1.39],
+            ESTIMATE,
+            GYMNAST,
+        ),
+        action(
+            "supination",
+            [9.5, 5.0],
+            0.0,
+            [12.0, 77.0],
+            [35.5, 0.25, 1.24],
+            ESTIMATE,
+            GYMNAST,
+        ),
     ],
     [
-        action("wrist flexion", [19.5, 10.5], 0.0, [38.0, 98.0], [36.4, 0.12, 1.14], HALF_GYMNAST, GYMNAST),
-        action("wrist extension", [8.0, 4.4], 0.0, [89.0, 80.0], [36.5, 0.12, 1.17], HALF_GYMNAST, GYMNAST),
+        action(
+            "wrist flexion",
+            [19.5, 10.5],
+            0.0,
+            [38.0, 98.0],
+            [36.4, 0.12, 1.14],
+            HALF_GYMNAST,
+            GYMNAST,
+        ),
+        action(
+            "wrist extension",
+            [8.0, 4.4],
+            0.0,
+            [89.0, 80.0],
+            [36.5, 0.12, 1.17],
+            HALF_GYMNAST,
+            GYMNAST,
+        ),
     ],
     [
-        action("radial deviation", [12.0, 6.5], 0.0, [65.0, 147.0], [21.8, 0.21, 1.31], HALF_GYMNAST, GYMNAST),
-        action("ulnar deviation", [15.5, 8.5], 0.0, [-25.0, 85.0], [18.0, 0.2, 1.35], HALF_GYMNAST, GYMNAST),
+        action(
+            "radial deviation",
+            [12.0, 6.5],
+            0.0,
+            [65.0, 147.0],
+            [21.8, 0.21, 1.31],
+            HALF_GYMNAST,
+            GYMNAST,
+        ),
+        action(
+            "ulnar deviation",
+            [15.5, 8.5],
+            0.0,
+            [-25.0, 85.0],
+            [18.0, 0.2, 1.35],
+            HALF_GYMNAST,
+            GYMNAST,
+        ),
     ],
 ];
 
@@ -371,26 +556,109 @@ const ANKLE_ROTATION: [f64; 2] = [25.0, 17.0];
 pub const LEG: [[Group; 2]; 8] = [
     [Group::Leg(Leg::HipFlexion), Group::Leg(Leg::HipExtension)],
     [
-        action("hip abduction", [112.0, 81.0], 0.0, [-10.0, 50.0], [12.0, 0.25, 1.2], SUGIMOTO, ESTIMATE),
-        action("hip adduction", [123.0, 89.0], 0.0, [15.0, 50.0], [12.0, 0.25, 1.2], ESTIMATE, ESTIMATE),
+        action(
+            "hip abduction",
+            [112.0, 81.0],
+            0.0,
+            [-10.0, 50.0],
+            [12.0, 0.25, 1.2],
+            SUGIMOTO,
+            ESTIMATE,
+        ),
+        action(
+            "hip adduction",
+            [123.0, 89.0],
+            0.0,
+            [15.0, 50.0],
+            [12.0, 0.25, 1.2],
+            ESTIMATE,
+            ESTIMATE,
+        ),
     ],
     [
-        action("hip internal rotation", HIP_ROTATION, 0.0, [0.0, 80.0], [15.0, 0.25, 1.2], ESTIMATE, ESTIMATE),
-        action("hip external rotation", HIP_ROTATION, 0.0, [0.0, 80.0], [15.0, 0.25, 1.2], ESTIMATE, ESTIMATE),
+        action(
+            "hip internal rotation",
+            HIP_ROTATION,
+            0.0,
+            [0.0, 80.0],
+            [15.0, 0.25, 1.2],
+            ESTIMATE,
+            ESTIMATE,
+        ),
+        action(
+            "hip external rotation",
+            HIP_ROTATION,
+            0.0,
+            [0.0, 80.0],
+            [15.0, 0.25, 1.2],
+            ESTIMATE,
+            ESTIMATE,
+        ),
     ],
     [Group::Leg(Leg::KneeFlexion), Group::Leg(Leg::KneeExtension)],
-    [Group::Leg(Leg::Dorsiflexion), Group::Leg(Leg::Plantarflexion)],
     [
-        action("ankle roll outward", ANKLE_ROLL, 0.0, [0.0, 40.0], [12.0, 0.25, 1.2], ESTIMATE, ESTIMATE),
-        action("ankle roll inward", ANKLE_ROLL, 0.0, [0.0, 40.0], [12.0, 0.25, 1.2], ESTIMATE, ESTIMATE),
+        Group::Leg(Leg::Dorsiflexion),
+        Group::Leg(Leg::Plantarflexion),
     ],
     [
-        action("ankle internal rotation", ANKLE_ROTATION, 0.0, [0.0, 60.0], [12.0, 0.25, 1.2], ESTIMATE, ESTIMATE),
-        action("ankle external rotation", ANKLE_ROTATION, 0.0, [0.0, 60.0], [12.0, 0.25, 1.2], ESTIMATE, ESTIMATE),
+        action(
+            "ankle roll outward",
+            ANKLE_ROLL,
+            0.0,
+            [0.0, 40.0],
+            [12.0, 0.25, 1.2],
+            ESTIMATE,
+            ESTIMATE,
+        ),
+        action(
+            "ankle roll inward",
+            ANKLE_ROLL,
+            0.0,
+            [0.0, 40.0],
+            [12.0, 0.25, 1.2],
+            ESTIMATE,
+            ESTIMATE,
+        ),
     ],
     [
-        action("toe extension", [7.0, 4.5], 0.0, [0.0, 60.0], [15.0, 0.25, 1.2], ESTIMATE, ESTIMATE),
-        action("toe flexion", [20.0, 14.0], 0.0, [30.0, 60.0], [15.0, 0.25, 1.2], ESTIMATE, ESTIMATE),
+        action(
+            "ankle internal rotation",
+            ANKLE_ROTATION,
+            0.0,
+            [0.0, 60.0],
+            [12.0, 0.25, 1.2],
+            ESTIMATE,
+            ESTIMATE,
+        ),
+        action(
+            "ankle external rotation",
+            ANKLE_ROTATION,
+            0.0,
+            [0.0, 60.0],
+            [12.0, 0.25, 1.2],
+            ESTIMATE,
+            ESTIMATE,
+        ),
+    ],
+    [
+        action(
+            "toe extension",
+            [7.0, 4.5],
+            0.0,
+            [0.0, 60.0],
+            [15.0, 0.25, 1.2],
+            ESTIMATE,
+            ESTIMATE,
+        ),
+        action(
+            "toe flexion",
+            [20.0, 14.0],
+            0.0,
+            [30.0, 60.0],
+            [15.0, 0.25, 1.2],
+            ESTIMATE,
+            ESTIMATE,
+        ),
     ],
 ];
 
@@ -421,11 +689,13 @@ pub enum Tissue {
     Measured(f64, f64, f64),
     /// Amplitude (N·m) and steepness (1/rad) as measured, onset 0.1 rad before the limit: the measured trunk bends in one joint, this one in two.
     AtLimit(f64, f64),
+    /// 1 % of the antagonist's peak at the first angle, all of it at the second, degrees.
+    Between(f64, f64),
     /// No data: 1 % of the antagonist's peak 15° before the limit, all of it 15° beyond.
     Unknown,
 }
 
-use Tissue::{AtLimit, Measured, Unknown};
+use Tissue::{AtLimit, Between, Measured, Unknown};
 
 /// Passive tissue at the lower and the upper end, DOF order.
 pub const TRUNK_TISSUE: [[Tissue; 2]; 9] = [
@@ -439,8 +709,16 @@ pub const TRUNK_TISSUE: [[Tissue; 2]; 9] = [
     [Unknown, Unknown],
     [Unknown, Unknown],
 ];
-/// One arm.
-pub const ARM_TISSUE: [[Tissue; 2]; 7] = [[Unknown, Unknown]; 7];
+/// One arm. The elbow hangs at the end of its range without effort, as in the gymnast set.
+pub const ARM_TISSUE: [[Tissue; 2]; 7] = [
+    [Unknown, Unknown],
+    [Unknown, Unknown],
+    [Unknown, Unknown],
+    [Between(0.0, -10.0), Unknown],
+    [Unknown, Unknown],
+    [Unknown, Unknown],
+    [Unknown, Unknown],
+];
 /// One leg. The measured toe resists flexion from 0 on, at 70/rad; here its steepness is that of extension and it begins at the limit.
 pub const LEG_TISSUE: [[Tissue; 2]; 8] = [
     [Measured(1.51, 21.88, -0.6981), Measured(2.44, 5.05, 1.81)],
@@ -458,6 +736,12 @@ pub const TISSUE_ORIGIN: Origin = Origin {
     source: "Falisse et al. 2019, after Anderson & Pandy",
     tag: "S1",
     note: "capped at the antagonist's isometric peak, then linear to twice that",
+};
+/// Origin of [`Tissue::Between`].
+pub const BETWEEN_TISSUE_ORIGIN: Origin = Origin {
+    source: GYMNAST.source,
+    tag: "S1",
+    note: "start and full angle of the passive curve; an exponential between them",
 };
 /// Origin of [`Tissue::Unknown`].
 pub const UNKNOWN_TISSUE_ORIGIN: Origin = Origin {

@@ -1,0 +1,508 @@
+//! From a recorded motion in body scale to a reference that a body can follow: feet locked, legs reaching, balance kept.
+
+use super::balance::{Carrier, LIGHT, MassTrack, com_shift, hull, margin, mass_track};
+use super::filter::{low_pass, low_pass_points, percentile, smooth_minimum};
+use super::foot_lock::{LockedFoot, Sole, Stance, lock_foot};
+use super::leg_ik::{forward, solve_leg_in_plane};
+use crate::sim::body::angles::{anatomical_angles, clamp_to_limits};
+use crate::sim::body::topology::{
+    DOF_COUNT, DOF_START, JOINT, Joint, L_FOOT, L_SHANK, L_THIGH, L_TOES, R_FOOT, R_SHANK, R_THIGH,
+    R_TOES, SegmentId,
+};
+use crate::sim::body::{Body, Posture};
+use crate::sim::math::{Quat, Vec3};
+
+/// A planted leg reaches at most this fraction of its length: a straight knee makes inverse kinematics jump.
+const REACH: f64 = 0.98;
+/// For a swinging leg the pelvis is lowered by no more than this, m.
+const SWING_DROP: f64 = 0.04;
+/// Rounds of shifting the trunk and solving the legs again.
+const ROUNDS: usize = 8;
+/// The zero-moment point is kept this far inside the support polygon, m.
+const INSET: f64 = 0.03;
+/// A zero-moment point outside by more than this for long means that something other than the feet carries the body, m.
+const CARRIED: f64 = 0.15;
+/// The trunk is never moved further than this for balance, m.
+const MOST_SHIFT: f64 = 0.12;
+/// Angles are kept this far from their limits, rad.
+const LIMIT_MARGIN: f64 = 0.01;
+/// Ankles of planted feet are kept this far from their limits, rad.
+const RELIEF_MARGIN: f64 = 0.03;
+/// A leg is turned at most this far for its ankle's sake, rad.
+const MOST_TURN: f64 = 0.6;
+/// Below this fraction of standing height the pelvis lies or sits on the floor: feet are not what stands.
+const LYING: f64 = 0.22;
+/// A planted foot that its leg cannot hold to this accuracy is declared free, m.
+const HELD: f64 = 5e-4;
+
+/// A recorded motion in body scale, floor at z = 0: what the preparation starts from.
+#[derive(Clone, Debug)]
+pub struct Draft {
+    /// Samples per second.
+    pub rate_hz: f64,
+    /// Pelvis pose, spine, neck and arms; the legs of these postures are not read.
+    pub postures: Vec<Posture>,
+    /// Left and right: knee axis (world, towards the figure's left) per sample.
+    pub knee_axis: [Vec<Vec3>; 2],
+    /// Left and right: ankle position per sample, m.
+    pub ankle: [Vec<Vec3>; 2],
+    /// Left and right: `world_from_foot` per sample.
+    pub foot: [Vec<Quat>; 2],
+    /// Left and right foot on the floor, per sample.
+    pub label: Vec<[bool; 2]>,
+}
+
+/// What to do with the draft.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PrepareOptions {
+    /// Lock planted feet to the floor.
+    pub lock_feet: bool,
+    /// Shift the trunk so that the zero-moment point stays in the support polygon.
+    pub balance: bool,
+}
+
+/// How far the zero-moment point is outside the support polygon of planted feet, over the samples that feet carry.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ZmpOutside {
+    /// Fraction of the samples outside.
+    pub fraction: f64,
+    /// Mean excess over all samples (0 inside), m.
+    pub mean: f64,
+    /// 95th percentile of the excess, m.
+    pub p95: f64,
+    /// Largest excess, m.
+    pub max: f64,
+}
+
+/// A motion that a body can follow.
+#[derive(Clone, Debug)]
+pub struct Prepared {
+    /// Postures, one per sample.
+    pub postures: Vec<Posture>,
+    /// Feet locked to the floor: left, right.
+    pub planted: Vec<[bool; 2]>,
+    /// By how much each DOF was outside the body's limits, rad, and in which fraction of the samples.
+    pub clamped: [(f64, f64); DOF_COUNT],
+    /// Largest distance of a planted foot from its place, m: as recorded, and prepared.
+    pub slide: (f64, f64),
+    /// Largest depth of a sole below the floor while the foot is on it, m: as recorded, and prepared.
+    pub penetration: (f64, f64),
+    /// Zero-moment point before and after balancing.
+    pub zmp: (ZmpOutside, ZmpOutside),
+    /// Largest horizontal shift of the pelvis for balance, m.
+    pub shift_max: f64,
+    /// Largest lowering of the pelvis so that planted legs reach, m.
+    pub drop_max: f64,
+    /// Fraction of the samples in which something other than the feet carries the body.
+    pub carried: f64,
+    /// Fraction of foot samples that were declared free because the leg's limits do not let it hold the foot in place.
+    pub freed: f64,
+}
+
+const FOOT: [SegmentId; 2] = [L_FOOT, R_FOOT];
+const TOES: [SegmentId; 2] = [L_TOES, R_TOES];
+
+/// Hip joint of each side in the pelvis frame, m, and length of the leg from hip to ankle, m.
+fn leg_geometry(body: &Body) -> [(Vec3, f64); 2] {
+    [L_THIGH, R_THIGH].map(|thigh| {
+        let t = thigh.index();
+        (
+            body.joint_offset[t],
+            body.joint_offset[t + 1].norm() + body.joint_offset[t + 2].norm(),
+        )
+    })
+}
+
+/// What is bent so that planted legs stay within their limits, per sample.
+struct Relief {
+    /// Heel raised further than recorded, rad.
+    heel_up: [Vec<f64>; 2],
+    /// Leg turned inwards about the line from hip to ankle, rad.
+    turn_in: [Vec<f64>; 2],
+    /// Foot turned outwards on the floor, rad; one value per stance.
+    toe_out: [Vec<f64>; 2],
+}
+
+impl Relief {
+    fn new(n: usize) -> Self {
+        Self {
+            heel_up: [vec![0.0; n], vec![0.0; n]],
+            turn_in: [vec![0.0; n], vec![0.0; n]],
+            toe_out: [vec![0.0; n], vec![0.0; n]],
+        }
+    }
+
+    /// Adds what the ankles of planted feet lack: too much dorsiflexion raises the heel, too much rotation turns the leg along.
+    /// Hips that give way in turn set the foot down with another heading.
+    fn add(
+        &mut self,
+        body: &Body,
+        postures: &[Posture],
+        planted: &[[bool; 2]],
+        stances: [&[Stance]; 2],
+        rate_hz: f64,
+    ) {
+        let n = postures.len();
+        let half = (0.1 * rate_hz) as usize;
+        for s in 0..2 {
+            let d = DOF_START[FOOT[s].index()];
+            let over = |dof: usize, up: bool| -> Vec<f64> {
+                let raw: Vec<f64> = (0..n)
+                    .map(|i| {
+                        if !planted[i][s] {
+                            return 0.0;
+                        }
+                        let a = anatomical_angles(&postures[i])[dof];
+                        let e = if up {
+                            a - body.upper[dof]
+                        } else {
+                            body.lower[dof] - a
+                        };
+                        -(e + RELIEF_MARGIN).max(0.0)
+                    })
+                    .collect();
+                smooth_minimum(&raw, half).into_iter().map(|x| -x).collect()
+            };
+            let hip = DOF_START[[L_THIGH, R_THIGH][s].index()];
+            for (sum, e) in self.heel_up[s].iter_mut().zip(over(d, true)) {
+                *sum += e;
+            }
+            let (inward, outward) = (over(d + 2, true), over(d + 2, false));
+            // A thigh adducted too far goes out with the knee, one abducted too far goes in.
+            let (abducted, adducted) = (over(hip + 1, true), over(hip + 1, false));
+            for (i, sum) in self.turn_in[s].iter_mut().enumerate() {
+                *sum = (*sum + inward[i] - outward[i] + abducted[i] - adducted[i])
+                    .clamp(-MOST_TURN, MOST_TURN);
+            }
+            let (rotated_in, rotated_out) = (over(hip + 2, true), over(hip + 2, false));
+            for st in stances[s] {
+                let most = |v: &[f64]| v[st.start..st.end].iter().copied().fold(0.0, f64::max);
+                let e = 1.3 * (most(&rotated_in) - most(&rotated_out));
+                for i in st.start..st.end {
+                    self.toe_out[s][i] = (self.toe_out[s][i] + e).clamp(-MOST_TURN, MOST_TURN);
+                    self.turn_in[s][i] = (self.turn_in[s][i] - e).clamp(-MOST_TURN, MOST_TURN);
+                }
+            }
+            low_pass(&mut self.turn_in[s], 3.0, rate_hz);
+        }
+    }
+}
+
+/// Turns a draft into a motion that the body can follow.
+///
+/// Memory and time are linear in the number of samples (times a handful of balancing rounds).
+pub fn prepare(body: &Body, draft: &Draft, options: PrepareOptions) -> Prepared {
+    let n = draft.postures.len();
+    let rate = draft.rate_hz;
+    let soles = [Sole::new(body, 0), Sole::new(body, 1)];
+    let standing = body.standing_root_height();
+    let mut upper = draft.postures.clone();
+    let mut clamped = [(0.0f64, 0.0f64); DOF_COUNT];
+    clamp_upper(body, &mut upper, rate, &mut clamped);
+
+    let label: [Vec<bool>; 2] = std::array::from_fn(|s| {
+        (0..n)
+            .map(|i| {
+                draft.label[i][s]
+                    && options.lock_feet
+                    && upper[i].root_position.z > LYING * standing
+            })
+            .collect()
+    });
+    let lock = |relief: &Relief| -> [LockedFoot; 2] {
+        std::array::from_fn(|s| {
+            lock_foot(
+                &soles[s],
+                &draft.ankle[s],
+                &draft.foot[s],
+                &label[s],
+                (&relief.heel_up[s], &relief.toe_out[s]),
+                s,
+                rate,
+            )
+        })
+    };
+    let mut relief = Relief::new(n);
+    let mut locked = lock(&relief);
+    let mut planted: Vec<[bool; 2]> = (0..n)
+        .map(|i| [locked[0].planted[i], locked[1].planted[i]])
+        .collect();
+    let mut penetration_before: f64 = 0.0;
+    for s in 0..2 {
+        for i in (0..n).filter(|i| draft.label[*i][s]) {
+            let low =
+                draft.ankle[s][i].z + soles[s].lowest(draft.foot[s][i], locked[s].poses[i].toe);
+            penetration_before = penetration_before.max(-low);
+        }
+    }
+
+    // Legs as recorded first; then rounds in which ankles are relieved and the trunk is shifted over the feet.
+    let mut shift = vec![[0.0f64; 2]; n];
+    let (mut postures, mut drop_max) = assemble(body, &upper, &locked, draft, &relief, &shift);
+    let mut carriers = carriers_of(body, &soles, &upper, &locked, draft);
+    let mut track = mass_track(body, &postures, rate);
+    let before = zmp_outside(&track, &carriers);
+    for round in 0..if options.lock_feet && n >= 8 {
+        ROUNDS
+    } else {
+        0
+    } {
+        if round + 2 < ROUNDS {
+            relief.add(
+                body,
+                &postures,
+                &planted,
+                [&locked[0].stances, &locked[1].stances],
+                rate,
+            );
+            locked = lock(&relief);
+            carriers = carriers_of(body, &soles, &upper, &locked, draft);
+        }
+        if options.balance && round > 0 {
+            let delta = com_shift(&track, &carriers, INSET, CARRIED, rate);
+            for (s, d) in shift.iter_mut().zip(&delta) {
+                // The feet stay behind, so the centre of mass follows the pelvis by some 85 %.
+                let (x, y) = (s[0] + 1.15 * d[0], s[1] + 1.15 * d[1]);
+                let far = x.hypot(y);
+                let k = if far > MOST_SHIFT {
+                    MOST_SHIFT / far
+                } else {
+                    1.0
+                };
+                *s = [x * k, y * k];
+            }
+        }
+        (postures, drop_max) = assemble(body, &upper, &locked, draft, &relief, &shift);
+        track = mass_track(body, &postures, rate);
+    }
+
+    // Legs into their limits last, and what is left of the lock.
+    let mut slide_after: f64 = 0.0;
+    let mut penetration_after: f64 = 0.0;
+    let mut freed = 0usize;
+    for i in 0..n {
+        let off = clamp_to_limits(body, &mut postures[i], LIMIT_MARGIN * 0.5);
+        note_clamped(&mut clamped, &off, n);
+        let poses = forward(body, &postures[i]);
+        for s in 0..2 {
+            if !planted[i][s] {
+                continue;
+            }
+            let (at, q) = poses[FOOT[s].index()];
+            let goal = &locked[s].poses[i];
+            let low = at.z + soles[s].lowest(q, postures[i].hinge[toe_hinge(s)]);
+            let stray = soles[s].stray((at, q), goal);
+            if stray > HELD || low < -HELD {
+                planted[i][s] = false;
+                freed += 1;
+                continue;
+            }
+            slide_after = slide_after.max(stray);
+            penetration_after = penetration_after.max(-low);
+        }
+    }
+    track = mass_track(body, &postures, rate);
+    let after = zmp_outside(&track, &carriers);
+    let far = (0..n)
+        .filter(|i| match &carriers[*i] {
+            Carrier::Feet(p) => margin(p, track.zmp[*i]) < -CARRIED,
+            Carrier::Other => true,
+            Carrier::Air => false,
+        })
+        .count();
+    Prepared {
+        postures,
+        planted,
+        clamped,
+        slide: (
+            locked[0].slide_before.max(locked[1].slide_before),
+            slide_after,
+        ),
+        penetration: (penetration_before, penetration_after),
+        zmp: (before, after),
+        shift_max: shift.iter().map(|s| s[0].hypot(s[1])).fold(0.0, f64::max),
+        drop_max,
+        carried: far as f64 / n.max(1) as f64,
+        freed: freed as f64 / (2 * n).max(1) as f64,
+    }
+}
+
+fn toe_hinge(side: usize) -> usize {
+    match JOINT[TOES[side].index()] {
+        Joint::Hinge1(h) => h,
+        _ => unreachable!("the toes are on a hinge"),
+    }
+}
+
+/// What carries the body in each sample.
+fn carriers_of(
+    body: &Body,
+    soles: &[Sole; 2],
+    upper: &[Posture],
+    locked: &[LockedFoot; 2],
+    draft: &Draft,
+) -> Vec<Carrier> {
+    let standing = body.standing_root_height();
+    let mut corners = Vec::new();
+    (0..upper.len())
+        .map(|i| {
+            corners.clear();
+            for (sole, foot) in soles.iter().zip(locked).filter(|(_, f)| f.planted[i]) {
+                sole.footprint(&foot.anchors[i], &mut corners);
+            }
+            if upper[i].root_position.z < 0.45 * standing {
+                Carrier::Other
+            } else if corners.len() >= 3 {
+                Carrier::Feet(hull(&corners))
+            } else if draft.label[i] == [false, false] {
+                Carrier::Air
+            } else {
+                Carrier::Other
+            }
+        })
+        .collect()
+}
+
+fn note_clamped(clamped: &mut [(f64, f64); DOF_COUNT], off: &[f64; DOF_COUNT], n: usize) {
+    for (c, o) in clamped.iter_mut().zip(off) {
+        // Below a tenth of a degree it is the margin, not the motion.
+        if o.abs() > 0.002 {
+            c.0 = c.0.max(o.abs());
+            c.1 += 1.0 / n as f64;
+        }
+    }
+}
+
+/// Spine, neck and arms into their limits, then smooth again where clamping left a corner.
+fn clamp_upper(
+    body: &Body,
+    postures: &mut [Posture],
+    rate_hz: f64,
+    clamped: &mut [(f64, f64); DOF_COUNT],
+) {
+    let n = postures.len();
+    let mut any = false;
+    for p in postures.iter_mut() {
+        let mut q = *p;
+        // Legs of a draft mean nothing yet: keep them out of the count.
+        for s in [L_THIGH, R_THIGH, L_FOOT, R_FOOT] {
+            if let Joint::Ball(b) = JOINT[s.index()] {
+                q.ball[b] = Quat::identity();
+            }
+        }
+        for s in [L_SHANK, R_SHANK, L_TOES, R_TOES] {
+            if let Joint::Hinge1(h) = JOINT[s.index()] {
+                let d = DOF_START[s.index()];
+                q.hinge[h] = 0.5 * (body.lower[d] + body.upper[d]);
+            }
+        }
+        let off = clamp_to_limits(body, &mut q, LIMIT_MARGIN);
+        let mut upper = off;
+        upper[DOF_START[L_THIGH.index()]..].fill(0.0);
+        any |= upper.iter().any(|o| o.abs() > 0.002);
+        note_clamped(clamped, &upper, n);
+        *p = q;
+    }
+    if any {
+        super::retarget::smooth_joints(postures, 8.0, rate_hz);
+    }
+}
+
+/// Postures from upper body, feet and trunk shift: pelvis lowered until planted legs reach, legs solved.
+fn assemble(
+    body: &Body,
+    upper: &[Posture],
+    locked: &[LockedFoot; 2],
+    draft: &Draft,
+    relief: &Relief,
+    shift: &[[f64; 2]],
+) -> (Vec<Posture>, f64) {
+    let n = upper.len();
+    let legs = leg_geometry(body);
+    let mut out = upper.to_vec();
+    let mut drop = vec![0.0f64; n];
+    for i in 0..n {
+        out[i].root_position.x += shift[i][0];
+        out[i].root_position.y += shift[i][1];
+        for ((hip, length), foot) in legs.iter().zip(locked) {
+            let d = out[i].root_position + out[i].root_rotation.rotate(*hip) - foot.poses[i].ankle;
+            let most = REACH * length;
+            let level = d.x.hypot(d.y);
+            let height = (most * most - level * level).max(0.04 * most * most).sqrt();
+            let need = (height - d.z).min(0.0);
+            // A swinging leg must not be straight when it lands either; one that kicks or lies is its own affair.
+            let weight = if foot.planted[i] {
+                1.0
+            } else {
+                ((0.6 - level / most) / 0.15).clamp(0.0, 1.0)
+            };
+            let need = if foot.planted[i] {
+                need
+            } else {
+                need.max(-SWING_DROP) * weight
+            };
+            drop[i] = drop[i].min(need);
+        }
+    }
+    let drop = smooth_minimum(&drop, (0.1 * draft.rate_hz) as usize);
+    // The moving average leaves corners of its own; a light low-pass of the pelvis path takes them out.
+    let mut path: Vec<Vec3> = (0..n)
+        .map(|i| {
+            let mut p = out[i].root_position;
+            p.z += drop[i];
+            p
+        })
+        .collect();
+    low_pass_points(&mut path, 10.0, draft.rate_hz);
+    let lowest = drop.iter().copied().fold(0.0, f64::min);
+    for i in 0..n {
+        out[i].root_position = path[i];
+        for (s, (hip, length)) in legs.iter().enumerate() {
+            let mut foot = locked[s].poses[i];
+            let hip = path[i] + out[i].root_rotation.rotate(*hip);
+            let line = foot.ankle - hip;
+            let far = line.norm();
+            let most = 0.995 * length;
+            if !locked[s].planted[i] && far > most {
+                foot.ankle = hip + line * (most / far);
+            }
+            // Inwards is clockwise seen from above for the left leg: about the line pointing down, positive.
+            let inward = if s == 0 {
+                relief.turn_in[s][i]
+            } else {
+                -relief.turn_in[s][i]
+            };
+            let axis =
+                Quat::exp(line.normalized_or(-Vec3::Z) * inward).rotate(draft.knee_axis[s][i]);
+            solve_leg_in_plane(
+                body,
+                &mut out[i],
+                s == 0,
+                (foot.ankle, foot.rotation),
+                foot.toe,
+                axis,
+            );
+        }
+    }
+    (out, -lowest)
+}
+
+fn zmp_outside(track: &MassTrack, carriers: &[Carrier]) -> ZmpOutside {
+    let outside: Vec<f64> = track
+        .zmp
+        .iter()
+        .zip(carriers)
+        .zip(&track.load)
+        .filter_map(|((z, c), load)| match c {
+            Carrier::Feet(p) if *load > LIGHT => Some((-margin(p, *z)).max(0.0)),
+            _ => None,
+        })
+        .collect();
+    let n = outside.len().max(1) as f64;
+    ZmpOutside {
+        fraction: outside.iter().filter(|x| **x > 0.0).count() as f64 / n,
+        mean: outside.iter().sum::<f64>() / n,
+        p95: percentile(&outside, 0.95),
+        max: outside.iter().copied().fold(0.0, f64::max),
+    }
+}
