@@ -27,10 +27,10 @@ pub const LIFT_GRASP: f64 = standing::LIFT_GRASP;
 /// * `lift` (4 s): semi-squat, right hand to an object half a metre up, grasp ([`LIFT_GRASP`]), raise it in front to shoulder height.
 /// * `squat` (5 s): down with the arms forward, and up.
 /// * `wave` (5 s): the right arm waves beside the head.
-/// * `step` (7 s, loops): steps on the spot.
-/// * `walk` (5 s): from standing, six steps forward, to standing.
+/// * `step` (8.4 s, loops): steps on the spot.
+/// * `walk` (6.6 s): from standing, six steps forward, to standing.
 ///
-/// Some thousand postures are solved: tens of milliseconds; allocates.
+/// Some thousand postures are solved: tens to a few hundred milliseconds; allocates.
 pub fn builtin(body: &Body, name: &str) -> Option<Clip> {
     let (postures, planted): (Vec<Posture>, Vec<[bool; 2]>) = match name {
         "idle" => standing::idle(body),

@@ -91,14 +91,14 @@ pub fn lift(body: &Body) -> (Vec<Posture>, Vec<[bool; 2]>) {
     let elbow_axis = -Vec3::Y;
 
     let mut low = stand;
-    low.height = 0.80;
-    low.pelvis.y = 32f64.to_radians();
+    low.height = 0.75;
+    low.pelvis.y = 29f64.to_radians();
     set(
         &mut low.angles,
         &[
-            ("waist_flexion", 26.0),
-            ("thorax_flexion", 14.0),
-            ("neck_flexion", -25.0),
+            ("waist_flexion", 24.0),
+            ("thorax_flexion", 13.0),
+            ("neck_flexion", -20.0),
             ("l_shoulder_flexion", 25.0),
             ("l_elbow_flexion", 25.0),
         ],
