@@ -8,6 +8,9 @@ use crate::sim::math::trig;
 
 /// Least angle factor: the groups reach farther than the postures they were measured in, and none goes dead at the end of its range.
 pub const ANGLE_FLOOR: f64 = 0.1;
+/// Least factor of a published cosine: the postures it was fitted in keep it above about one half. Farther out it is extrapolation, and
+/// wrong (it leaves the knee a tenth of its torque in a full squat, from which people rise): half the peak is held there.
+pub const COSINE_FLOOR: f64 = 0.5;
 /// Least velocity factor.
 pub const VELOCITY_FLOOR: f64 = 0.05;
 /// Largest factor in lengthening.
@@ -41,7 +44,9 @@ impl AngleFactor {
         let f = match *self {
             Self::Cosine { width, peak } => {
                 let half = std::f64::consts::PI;
-                trig::sin_cos((width * (theta - peak)).clamp(-half, half)).1
+                trig::sin_cos((width * (theta - peak)).clamp(-half, half))
+                    .1
+                    .max(COSINE_FLOOR)
             }
             Self::Bell { peak, narrowness } => {
                 let z = (theta - peak) * narrowness;
