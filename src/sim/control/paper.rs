@@ -10,7 +10,7 @@ use super::spatial_targets::{SpatialLimits, Task, wish};
 use super::torque_limits::{Outcome, TorqueLimits, violates};
 use super::tracking::{Law, initial_acceleration};
 use super::{Command, ControlInput, Controller, Effector};
-use crate::sim::body::topology::{DOF_START, L_FOOT, L_THIGH, R_FOOT, R_THIGH};
+use crate::sim::body::topology::{DOF_START, L_FOOT, L_THIGH, L_TOES, R_FOOT, R_THIGH, R_TOES};
 use crate::sim::body::{DOF_COUNT, NV, SegmentId};
 use crate::sim::dynamics::terms::WIDTH;
 use crate::sim::figure::report::MAX_CONTACTS;
@@ -42,6 +42,55 @@ enum Mode {
     Flight,
 }
 
+/// Which feet the desired motion keeps on the floor. A foot that it lifts carries nothing, or it could never be lifted.
+#[derive(Clone, Copy, Debug)]
+struct Planned([bool; 2]);
+
+impl Planned {
+    /// The plan of a motion; if it would leave no touching point to stand on, everything that touches carries.
+    fn new(input: &ControlInput<'_>) -> Self {
+        let plan = Self(input.target.next.planted);
+        let points = input.support.points();
+        if points.iter().any(|p| plan.holds(p.segment)) {
+            plan
+        } else {
+            Self([true; 2])
+        }
+    }
+
+    /// True if points of this segment may carry load.
+    fn holds(self, segment: SegmentId) -> bool {
+        match segment {
+            L_FOOT | L_TOES => self.0[0],
+            R_FOOT | R_TOES => self.0[1],
+            _ => true,
+        }
+    }
+
+    /// The main support: the usual one, but a foot that stays if the usual one is to be lifted.
+    fn main(self, input: &ControlInput<'_>) -> Option<SegmentId> {
+        let support = input.support;
+        let main = support.main()?;
+        if self.holds(main) {
+            return Some(main);
+        }
+        let stays = support
+            .points()
+            .iter()
+            .map(|p| p.support)
+            .filter(|s| self.holds(*s));
+        let ratio = support.ratio();
+        let best = stays.reduce(|a, b| {
+            if ratio[b.index()] > ratio[a.index()] {
+                b
+            } else {
+                a
+            }
+        });
+        best.or(Some(main))
+    }
+}
+
 /// The paper's controller with its workspace.
 #[derive(Clone, Debug)]
 pub struct Paper {
@@ -56,6 +105,7 @@ pub struct Paper {
     held: Box<[Row; 12]>,
     held_count: usize,
     held_qr: RowQr,
+    planned: Planned,
     anchors: [Option<(Vec3, Quat)>; 2],
     previous: Option<Row>,
     overload: bool,
@@ -76,6 +126,7 @@ impl Default for Paper {
             held: Box::new([[0.0; ROW]; 12]),
             held_count: 0,
             held_qr: RowQr::default(),
+            planned: Planned([true; 2]),
             anchors: [None; 2],
             previous: None,
             overload: false,
@@ -114,9 +165,11 @@ impl Paper {
             Mode::Tilt(s, pivot) => self.map.set_tilting(terms, s, &pivot),
             Mode::Flight => self.map.set_flight(terms),
         }
-        self.share(input, initial, mode);
         let mut initial = *initial;
         self.hold_planted_feet(input, &mut initial, mode);
+
+        self.balance_first(input, law, &mut initial, mode);
+        self.share(input, &initial, mode);
 
         let tau0 = self.map.torque(&initial);
         let held = &self.held[..self.held_count];
@@ -175,6 +228,30 @@ impl Paper {
         }
     }
 
+    /// With the ZMP-feasible demand, θ̈_initial gets the centre-of-mass part of (12) before strength is looked at. Without saturation the
+    /// result is the same. With it, (7)–(11) would otherwise act on a demand whose zero-moment point may be far outside the foot:
+    /// ankle and toes saturate, and the least change spreads over the whole body.
+    fn balance_first(
+        &mut self,
+        input: &ControlInput<'_>,
+        law: &Law,
+        initial: &mut Row,
+        mode: Mode,
+    ) {
+        let p = input.params;
+        if !(p.zmp_feasible && p.track_com && matches!(mode, Mode::Rest(_))) {
+            return;
+        }
+        self.com_task.clear();
+        self.hand_task.clear();
+        self.push_com(input, law, initial);
+        if self.held_count > 0 {
+            self.com_task.restrict(&self.held_qr);
+        }
+        let x = wish(&self.com_task, &self.hand_task, p.priority);
+        (0..ROW).for_each(|d| initial[d] += x[d]);
+    }
+
     /// The overload rule (ALGORITHM §8). With motors behind it, the intent of (4) and (12) as it is, to be clipped; for accelerations that
     /// are applied as they are, those of the clipped torques (W = H²) without secondary constraints.
     fn overloaded(
@@ -223,27 +300,27 @@ impl Paper {
             Mode::Flight => return,
         };
         let points = support.points();
+        let planned = self.planned;
         if only_main(points, main) {
             return;
         }
         match input.params.share {
             Share::Balanced => {
-                let mut dropped = 0u32;
-                loop {
-                    let any = self.sharing.set_balanced(points, support.ratio(), |p| {
-                        dropped >> p.support.index() & 1 == 0
-                            && tilt.is_none_or(|t| t.distance(p.position) < PIVOT_REACH)
-                    });
-                    if !any {
-                        return;
-                    }
-                    // A support that would have to pull carries nothing.
-                    let r = self.sharing.reference - terms.state.posture.root_position;
-                    let w = shift(&self.map.ground_wrench(initial), r);
-                    match self.sharing.pulling_support(points, &w) {
-                        Some(s) => dropped |= 1 << s.index(),
-                        None => break,
-                    }
+                let mut out = [false; MAX_CONTACTS];
+                for (o, p) in out.iter_mut().zip(points) {
+                    *o = !planned.holds(p.segment)
+                        || tilt.is_some_and(|t| t.distance(p.position) >= PIVOT_REACH);
+                }
+                let (w, root) = (
+                    self.map.ground_wrench(initial),
+                    terms.state.posture.root_position,
+                );
+                let total = |about: Vec3| shift(&w, about - root);
+                if !self
+                    .sharing
+                    .set_unilateral(points, support.ratio(), &mut out, total)
+                {
+                    return;
                 }
                 self.map.add_sharing(terms, &self.sharing, main);
             }
@@ -256,7 +333,8 @@ impl Paper {
                 };
                 for (i, p) in points.iter().enumerate() {
                     let s = p.support;
-                    if s == main || points[..i].iter().any(|q| q.support == s) {
+                    if s == main || !planned.holds(s) || points[..i].iter().any(|q| q.support == s)
+                    {
                         continue;
                     }
                     support.support_polygon(s, &mut self.polygon);
@@ -385,7 +463,12 @@ impl Paper {
         );
         let mut g = [g.x, g.y];
         if input.params.zmp_feasible {
-            self.inset.set_inset(input.support.polygon(), INSET);
+            let (points, planned) = (input.support.points(), self.planned);
+            let planned = points.iter().filter(|p| planned.holds(p.segment));
+            self.polygon
+                .set_hull(planned.map(|p| [p.position.x, p.position.y]));
+            self.polygon.reduce_thin();
+            self.inset.set_inset(&self.polygon, INSET);
             g = feasible(terms.com, g, &self.inset, input.gravity);
         }
         let bias = [terms.com_bias.x, terms.com_bias.y];
@@ -460,11 +543,12 @@ impl Controller for Paper {
         let (terms, support) = (input.terms, input.support);
         let law = Law::new(input.params, input.dt);
         let initial = initial_acceleration(input.body, &terms.state, input.target, &law);
+        self.planned = Planned::new(input);
         self.update_anchors(input);
         let mut flags = Flags::default();
         let (mut point, mut margin, mut tips_about) = (None, None, None);
 
-        let mut pass = match support.main() {
+        let mut pass = match self.planned.main(input) {
             None => {
                 flags.set(Flags::FLIGHT);
                 self.pass(input, &law, &initial, Mode::Flight)
@@ -750,7 +834,7 @@ mod tests {
             let balanced = round % 2 == 0;
             if balanced {
                 let mut sharing = Sharing::default();
-                sharing.set_balanced(s.support.points(), s.support.ratio(), |_| true);
+                sharing.set_balanced(s.support.points(), s.support.ratio(), &[false; 64]);
                 map.add_sharing(&s.terms, &sharing, main);
             }
             for scale in [1.0, 10.0, 100.0, 1000.0] {

@@ -610,7 +610,7 @@ mod tests {
             support.update(&t, &body, Vec3::zero(), GRAVITY);
             let main = support.main().unwrap();
             let mut sharing = Sharing::default();
-            assert!(sharing.set_balanced(support.points(), support.ratio(), |_| true));
+            assert!(sharing.set_balanced(support.points(), support.ratio(), &[false; 64]));
             let mut map = SupportMap::default();
             map.set_support(&t, main, (Vec3::zero(), Vec3::zero()));
             map.add_sharing(&t, &sharing, main);

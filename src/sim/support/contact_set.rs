@@ -3,14 +3,15 @@
 use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::body::{Body, SEGMENT_COUNT, SegmentId};
 use crate::sim::dynamics::Terms;
+use crate::sim::figure::report::MAX_CONTACTS;
 use crate::sim::math::Vec3;
 
 /// A point that comes below this height touches, m.
 pub const ENTER_HEIGHT: f64 = 0.006;
 /// A touching point that rises above this height has left, m.
 pub const LEAVE_HEIGHT: f64 = 0.010;
-/// Contact points of one segment that are looked at (those of a valid body are far fewer).
-const POINTS_PER_SEGMENT: usize = 64;
+/// Contact points of one segment that are looked at, as in the stepper.
+const POINTS_PER_SEGMENT: usize = MAX_CONTACTS / SEGMENT_COUNT;
 
 /// One touching point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,7 +37,7 @@ impl Default for ContactSet {
     fn default() -> Self {
         Self {
             touching: [0; SEGMENT_COUNT],
-            points: Vec::with_capacity(crate::sim::figure::report::MAX_CONTACTS),
+            points: Vec::with_capacity(MAX_CONTACTS),
         }
     }
 }
@@ -55,7 +56,7 @@ impl ContactSet {
 
     /// Looks at every contact point of the body: one below [`ENTER_HEIGHT`] enters, one above [`LEAVE_HEIGHT`] leaves.
     ///
-    /// Allocates nothing as long as the body has at most [`MAX_CONTACTS`](crate::sim::figure::report::MAX_CONTACTS) points.
+    /// Looks at the first 8 points of each segment; at most [`MAX_CONTACTS`] touch. Allocates nothing.
     pub fn update(&mut self, terms: &Terms, body: &Body) {
         self.points.clear();
         for s in 0..SEGMENT_COUNT {

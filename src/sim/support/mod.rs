@@ -28,6 +28,8 @@ use crate::sim::math::Vec3;
 pub struct Support {
     contacts: ContactSet,
     ratio: [f64; SEGMENT_COUNT],
+    load: [f64; SEGMENT_COUNT],
+    sharing: Sharing,
     main: Option<SegmentId>,
     polygon: Polygon,
 }
@@ -37,6 +39,8 @@ impl Default for Support {
         Self {
             contacts: ContactSet::default(),
             ratio: [0.0; SEGMENT_COUNT],
+            load: [0.0; SEGMENT_COUNT],
+            sharing: Sharing::default(),
             main: None,
             polygon: Polygon::with_capacity(MAX_CONTACTS),
         }
@@ -54,7 +58,24 @@ impl Support {
         self.contacts.update(terms, body);
         let points = self.contacts.points();
         self.ratio = ratio::support_ratios(points, terms.com, com_acceleration, gravity);
-        self.main = ratio::main_support(points, &self.ratio, self.main);
+        // Ratios (2) hardly tell a foot that carries everything from one that carries nothing; S follows statics instead.
+        self.load = [0.0; SEGMENT_COUNT];
+        let force = (com_acceleration + Vec3::Z * gravity) * terms.mass;
+        if self
+            .sharing
+            .set_balanced(points, &self.ratio, &[false; MAX_CONTACTS])
+        {
+            let n = (terms.com - self.sharing.reference).cross(force);
+            let w = [n.x, n.y, n.z, force.x, force.y, force.z];
+            let y = self.sharing.multiplier(&w);
+            for (i, p) in points.iter().enumerate() {
+                if points[..i].iter().all(|q| q.segment != p.segment) {
+                    let f = self.sharing.segment_wrench(p.segment.index(), &y)[5];
+                    self.load[p.support.index()] += f / force.z.abs().max(terms.mass);
+                }
+            }
+        }
+        self.main = ratio::main_support(points, &self.load, self.main);
         self.polygon
             .set_hull(points.iter().map(|p| [p.position.x, p.position.y]));
         self.polygon.reduce_thin();
@@ -75,7 +96,13 @@ impl Support {
         &self.ratio
     }
 
-    /// Main supporting segment S; `None` in flight.
+    /// Share of the normal force per support that balanced sharing gives the last tick's motion of the centre of mass; 0 where nothing
+    /// touches, slightly negative for a foot that would have to pull.
+    pub fn load(&self) -> &[f64; SEGMENT_COUNT] {
+        &self.load
+    }
+
+    /// Main supporting segment S, the one with the largest load (with hysteresis); `None` in flight.
     pub fn main(&self) -> Option<SegmentId> {
         self.main
     }

@@ -4,8 +4,11 @@ use super::contact_set::SupportPoint;
 use crate::sim::body::{SEGMENT_COUNT, SegmentId};
 use crate::sim::math::{Vec3, vec3::vec3};
 
-/// The main support is kept while its ratio is within this much of the largest (else it flickers in symmetric stance).
+/// The main support is kept while its share is within this much of the largest (else it flickers in symmetric stance).
 pub const MAIN_HYSTERESIS: f64 = 0.1;
+
+/// Shares that differ by less are equal; the first support is taken then.
+const TIE: f64 = 1e-9;
 
 /// Ratios of all supports, Eq. (2), normalised to a sum of 1.
 ///
@@ -48,7 +51,7 @@ pub fn support_ratios(
     ratio
 }
 
-/// The main supporting segment: largest ratio, but `previous` while that is within [`MAIN_HYSTERESIS`] of it.
+/// The main supporting segment: largest share, but `previous` while that is within [`MAIN_HYSTERESIS`] of it.
 pub fn main_support(
     points: &[SupportPoint],
     ratio: &[f64; SEGMENT_COUNT],
@@ -57,7 +60,7 @@ pub fn main_support(
     let supports = |s: SegmentId| points.iter().any(|p| p.support == s);
     let mut best: Option<SegmentId> = None;
     for p in points {
-        if best.is_none_or(|b| ratio[p.support.index()] > ratio[b.index()]) {
+        if best.is_none_or(|b| ratio[p.support.index()] > ratio[b.index()] + TIE) {
             best = Some(p.support);
         }
     }

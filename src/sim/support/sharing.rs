@@ -6,8 +6,8 @@
 //! of the points, so that it does not matter where in the world the figure stands.
 
 use super::contact_set::SupportPoint;
+use crate::sim::body::SEGMENT_COUNT;
 use crate::sim::body::topology::{L_TOES, R_TOES};
-use crate::sim::body::{SEGMENT_COUNT, SegmentId};
 use crate::sim::math::{Vec3, vec3::vec3};
 
 /// A 6×6 matrix; spatial order, moment first.
@@ -21,6 +21,10 @@ const CUT_OFF: f64 = 1e-6;
 const TOE_WEIGHT: f64 = 0.2;
 /// Least weight of a support, so that a ratio of zero does not remove it.
 const LEAST_WEIGHT: f64 = 0.02;
+/// Most solutions on the way to forces that only push.
+pub const MOST_ROUNDS: usize = 8;
+/// A point pulls if its normal force is below minus this part of the total.
+const PULL_TOLERANCE: f64 = 1e-3;
 
 /// Linear map from the total ground wrench to the wrench on each touching segment.
 #[derive(Clone, Debug)]
@@ -53,17 +57,21 @@ pub fn point_weight(p: &SupportPoint, ratio: &[f64; SEGMENT_COUNT]) -> f64 {
 }
 
 impl Sharing {
-    /// Balanced sharing over the points that `keep` accepts. No allocation. Returns false if it accepts none.
+    /// Balanced sharing over the points that are not `excluded` (by index). No allocation. Returns false if none is left.
     pub fn set_balanced(
         &mut self,
         points: &[SupportPoint],
         ratio: &[f64; SEGMENT_COUNT],
-        keep: impl Fn(&SupportPoint) -> bool,
+        excluded: &[bool],
     ) -> bool {
         self.active = [false; SEGMENT_COUNT];
         self.rank = 0;
         let (mut sum, mut count) = (Vec3::zero(), 0.0);
-        for p in points.iter().filter(|p| keep(p)) {
+        let kept = || {
+            let k = points.iter().zip(excluded);
+            k.filter(|(_, out)| !**out).map(|(p, _)| p)
+        };
+        for p in kept() {
             sum += p.position;
             count += 1.0;
         }
@@ -72,7 +80,7 @@ impl Sharing {
         }
         self.reference = sum * (1.0 / count);
         let mut total = [[0.0; 6]; 6];
-        for p in points.iter().filter(|p| keep(p)) {
+        for p in kept() {
             let (s, d) = (p.segment.index(), point_weight(p, ratio));
             if !self.active[s] {
                 self.active[s] = true;
@@ -106,6 +114,47 @@ impl Sharing {
         for i in 0..6 {
             for j in 0..6 {
                 self.pinv[i][j] *= scale(i) * scale(j);
+            }
+        }
+        true
+    }
+
+    /// Balanced sharing in which points that would have to pull on the floor carry nothing.
+    ///
+    /// The least forces may be negative where the load is near an edge; a foot that is asked for such a wrench rolls over its edge. So the
+    /// worst puller is left out and the rest solved again, as long as the others can still give any wrench that the set could give.
+    ///
+    /// * `excluded`: points that carry nothing from the start (by index); those left out are added.
+    /// * `total`: wrench (moment, force) to be shared, about the given world point.
+    /// * Returns false if there is no point. At most [`MOST_ROUNDS`] solutions; no allocation.
+    pub fn set_unilateral(
+        &mut self,
+        points: &[SupportPoint],
+        ratio: &[f64; SEGMENT_COUNT],
+        excluded: &mut [bool],
+        total: impl Fn(Vec3) -> [f64; 6],
+    ) -> bool {
+        if !self.set_balanced(points, ratio, excluded) {
+            return false;
+        }
+        let full = self.rank;
+        for _ in 1..MOST_ROUNDS {
+            let w = total(self.reference);
+            let y = self.multiplier(&w);
+            let (mut worst, mut least) = (None, -PULL_TOLERANCE * w[5].abs());
+            for (k, p) in points.iter().enumerate().filter(|(k, _)| !excluded[*k]) {
+                let normal = self.point_force(p, ratio, &y).z;
+                if normal < least {
+                    (worst, least) = (Some(k), normal);
+                }
+            }
+            let Some(k) = worst else {
+                return true;
+            };
+            excluded[k] = true;
+            if !self.set_balanced(points, ratio, excluded) || self.rank < full {
+                excluded[k] = false;
+                return self.set_balanced(points, ratio, excluded);
             }
         }
         true
@@ -145,31 +194,6 @@ impl Sharing {
         let y = multiplier;
         let (m, f) = (vec3(y[0], y[1], y[2]), vec3(y[3], y[4], y[5]));
         (f + m.cross(p.position - self.reference)) * point_weight(p, ratio)
-    }
-
-    /// The support, if any, that would have to pull on the floor (net normal force below zero) under the total wrench W.
-    pub fn pulling_support(&self, points: &[SupportPoint], wrench: &[f64; 6]) -> Option<SegmentId> {
-        let y = self.multiplier(wrench);
-        let mut normal = [0.0; SEGMENT_COUNT];
-        let mut supports = 0;
-        let mut worst: Option<SegmentId> = None;
-        for (i, p) in points.iter().enumerate() {
-            let s = p.segment.index();
-            // Each segment once, at its first point; supports are counted the same way.
-            if self.active[s] && points[..i].iter().all(|q| q.segment != p.segment) {
-                normal[p.support.index()] += self.segment_wrench(s, &y)[5];
-            }
-        }
-        for (i, p) in points.iter().enumerate() {
-            let s = p.support;
-            if points[..i].iter().all(|q| q.support != s) && normal[s.index()] != 0.0 {
-                supports += 1;
-                if normal[s.index()] < worst.map_or(0.0, |w: SegmentId| normal[w.index()]) {
-                    worst = Some(s);
-                }
-            }
-        }
-        worst.filter(|_| supports > 1)
     }
 }
 
@@ -281,7 +305,7 @@ mod tests {
             ratio[L_FOOT.index()] = 0.5 + 0.5 * rng.unit();
             ratio[R_FOOT.index()] = 1.0 - ratio[L_FOOT.index()];
             let mut s = Sharing::default();
-            assert!(s.set_balanced(&points, &ratio, |_| true));
+            assert!(s.set_balanced(&points, &ratio, &[false; 8]));
             assert_eq!(s.rank, 6, "round {k}");
             let w: [f64; 6] = std::array::from_fn(|_| 700.0 * rng.unit());
             let y = s.multiplier(&w);
@@ -307,7 +331,7 @@ mod tests {
     fn symmetric_stance_shares_evenly_and_weight_over_one_foot_stays_there() {
         let (points, ratio) = (stance(vec3(3.0, -2.0, 0.0)), even());
         let mut s = Sharing::default();
-        s.set_balanced(&points, &ratio, |_| true);
+        s.set_balanced(&points, &ratio, &[false; 8]);
         let weight = vec3(0.0, 0.0, 700.0);
         let share = |s: &Sharing, com: Vec3| {
             let y = s.multiplier(&wrench(com, weight, s.reference));
@@ -315,24 +339,58 @@ mod tests {
         };
         assert!((share(&s, vec3(3.05, -2.0, 1.0)) - 0.5).abs() < 1e-12);
         assert!(share(&s, vec3(3.05, -1.9, 1.0)) > 0.9);
-        assert!(
-            s.pulling_support(&points, &wrench(vec3(3.05, -2.0, 1.0), weight, s.reference))
-                .is_none()
-        );
-        // The centre of mass beyond the left foot: the right one would have to pull.
-        let beyond = wrench(vec3(3.05, -1.7, 1.0), weight, s.reference);
-        assert_eq!(s.pulling_support(&points, &beyond), Some(R_FOOT));
+    }
+
+    #[test]
+    fn unilateral_sharing_pushes_only_and_keeps_the_total() {
+        let mut rng = Rng::new(12);
+        let (points, ratio) = (stance(Vec3::zero()), even());
+        let mut s = Sharing::default();
+        for round in 0..200 {
+            // Weight somewhere inside the hull of both feet, with a modest horizontal force.
+            let at = vec3(rng.between(-0.03, 0.13), rng.between(-0.12, 0.12), 0.0);
+            let force = vec3(30.0 * rng.unit(), 30.0 * rng.unit(), 700.0);
+            let mut out = [false; 8];
+            assert!(s.set_unilateral(&points, &ratio, &mut out, |p| wrench(at, force, p)));
+            let y = s.multiplier(&wrench(at, force, s.reference));
+            let (mut total, mut least) = ([0.0; 6], 0.0f64);
+            for (p, _) in points.iter().zip(out).filter(|(_, o)| !o) {
+                let f = s.point_force(p, &ratio, &y);
+                least = least.min(f.z);
+                let one = wrench(p.position, f, s.reference);
+                (0..6).for_each(|i| total[i] += one[i]);
+            }
+            let w = wrench(at, force, s.reference);
+            for i in 0..6 {
+                assert!((total[i] - w[i]).abs() < 1e-6 * 700.0, "round {round}");
+            }
+            assert!(least > -0.05 * 700.0, "round {round}: {least}");
+        }
+        // Above the middle of the left foot: the far edge of the right one would pull, and is left out.
+        let mut out = [false; 8];
+        let at = vec3(0.05, 0.1, 0.0);
+        s.set_unilateral(&points, &ratio, &mut out, |p| {
+            wrench(at, vec3(0.0, 0.0, 700.0), p)
+        });
+        assert!(out[4..].iter().any(|o| *o) && !out[..4].iter().all(|o| *o));
     }
 
     #[test]
     fn edge_and_vertex_lose_the_moments_they_cannot_give() {
         let (points, ratio) = (stance(Vec3::zero()), even());
         let mut s = Sharing::default();
-        s.set_balanced(&points, &ratio, |p| p.position.x > 0.1);
+        let except = |keep: &dyn Fn(&SupportPoint) -> bool| -> Vec<bool> {
+            points.iter().map(|p| !keep(p)).collect()
+        };
+        s.set_balanced(&points, &ratio, &except(&|p| p.position.x > 0.1));
         assert_eq!(s.rank, 5);
-        s.set_balanced(&points, &ratio, |p| p.segment == L_FOOT && p.vertex == 1);
+        s.set_balanced(
+            &points,
+            &ratio,
+            &except(&|p| p.segment == L_FOOT && p.vertex == 1),
+        );
         assert_eq!(s.rank, 3);
-        assert!(!s.set_balanced(&points, &ratio, |_| false));
+        assert!(!s.set_balanced(&points, &ratio, &[true; 8]));
     }
 
     #[test]
