@@ -10,6 +10,7 @@
 pub mod cli;
 #[cfg(feature = "net")]
 pub mod client;
+pub mod evaluate;
 #[cfg(feature = "net")]
 pub mod server;
 pub mod sim;

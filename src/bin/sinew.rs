@@ -2,10 +2,11 @@
 
 use clap::{Parser, Subcommand};
 use sinew::cli;
+use std::process::ExitCode;
 
 /// Physically simulated human figures that track desired motions within human strength.
 #[derive(Parser)]
-#[command(name = "sinew", version)]
+#[command(name = "sinew", version, about)]
 struct Arguments {
     #[command(subcommand)]
     command: Option<Command>,
@@ -19,18 +20,37 @@ enum Command {
     Push(cli::push::Args),
     /// Print the frames of a world
     Watch(cli::watch::Args),
+    /// Run motions through the physics, offline, and report how well the figure followed
+    Run(Box<cli::run::RunArgs>),
+    /// Say how recordings fit the body: what was found, guessed and changed
+    Lint(cli::lint::LintArgs),
+    /// Fit a recording to the body and write the prepared motion
+    Convert(cli::convert::ConvertArgs),
+    /// List segments, degrees of freedom, limits and strength of a body
+    Bodies(cli::bodies::BodiesArgs),
 }
 
-fn main() -> anyhow::Result<()> {
+fn main() -> ExitCode {
     let arguments = match Arguments::parse() {
         // Settings from the environment count as well.
         Arguments { command: None } => Arguments::parse_from(["sinew", "serve"]),
         given => given,
     };
-    match arguments.command {
+    let done = match arguments.command {
         Some(Command::Serve(args)) => cli::serve::run(&args),
         Some(Command::Push(args)) => cli::push::run(&args),
         Some(Command::Watch(args)) => cli::watch::run(&args),
+        Some(Command::Run(args)) => cli::run::run(&args),
+        Some(Command::Lint(args)) => cli::lint::run(&args),
+        Some(Command::Convert(args)) => cli::convert::run(&args),
+        Some(Command::Bodies(args)) => cli::bodies::run(&args),
         None => unreachable!("`serve` was put in its place"),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::FAILURE
+        }
     }
 }

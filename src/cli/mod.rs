@@ -1,7 +1,14 @@
 //! The commands of the `sinew` binary, one module each.
 
+pub mod args;
+pub mod bodies;
+pub mod convert;
+pub mod lint;
+pub mod output;
 pub mod push;
+pub mod run;
 pub mod serve;
+pub mod source;
 pub mod watch;
 
 /// A world's resource name from what a user typed: `demo` or `worlds/demo`.

@@ -383,7 +383,7 @@ fn assemble(profile: Profile, table: &Table) -> Body {
     };
     let toes_segment = {
         let (mesh, corners) = shape::toes(scale, size, mass[9]);
-        let tip = vec3(size.toes, 0.0, corners[0].z);
+        let tip = vec3(size.toes, 0.0, corners[2].z);
         segment(mesh, mass[9] * TOES_MASS_SHARE, corners.to_vec(), tip)
     };
 

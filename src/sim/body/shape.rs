@@ -361,8 +361,9 @@ fn foot_section(x: f64, half: f64, sole: f64, top: f64) -> Section {
     }
 }
 
-/// Foot without toes, and its four sole corners: heel ±y, ball ±y. `mass` is that of foot and toes together.
-pub(super) fn foot(scale: f64, size: FootSize, mass: f64) -> (Mesh, [Vec3; 4]) {
+/// Foot without toes, and the two corners of its heel, ±y. The ball of the foot belongs to the toes: the foot rolls over the toe joint
+/// without rubbing against what stands on the ground. `mass` is that of foot and toes together.
+pub(super) fn foot(scale: f64, size: FootSize, mass: f64) -> (Mesh, [Vec3; 2]) {
     let w = scale * MM * foot_girth(scale, size, mass);
     let (h, ball, sole) = (size.heel, size.ball, -size.ankle_height);
     let up = |share: f64| sole + share * size.ankle_height;
@@ -382,26 +383,26 @@ pub(super) fn foot(scale: f64, size: FootSize, mass: f64) -> (Mesh, [Vec3; 4]) {
     let corners = [
         vec3(heel_x, HEEL_HALF * w, sole),
         vec3(heel_x, -HEEL_HALF * w, sole),
-        vec3(ball, BALL_HALF * w, sole),
-        vec3(ball, -BALL_HALF * w, sole),
     ];
     (loft(&sections, poles, FOOT_SIDES), corners)
 }
 
-/// Toes as one part, and the corners of their tip.
-pub(super) fn toes(scale: f64, size: FootSize, foot_mass: f64) -> (Mesh, [Vec3; 2]) {
+/// Toes as one part, and their four sole corners: ball ±y under the toe joint, tip ±y.
+pub(super) fn toes(scale: f64, size: FootSize, foot_mass: f64) -> (Mesh, [Vec3; 4]) {
     let w = scale * MM * foot_girth(scale, size, foot_mass);
     let (l, sole) = (size.toes, -size.ball_height);
     let tip_x = TIP_CORNER * l;
     let up = |share: f64| sole + share * size.ball_height;
     let sections = [
-        foot_section(-0.06 * l, 46.0 * w, sole, up(1.6)),
+        foot_section(0.0, BALL_HALF * w, sole, up(1.6)),
         foot_section(0.3 * l, 47.0 * w, sole, up(1.35)),
         foot_section(0.65 * l, 43.0 * w, sole, up(1.15)),
         foot_section(tip_x, TIP_HALF * w, sole, up(0.9)),
     ];
     let poles = [vec3(-0.16 * l, 0.0, up(0.7)), vec3(l, 0.0, up(0.4))];
     let corners = [
+        vec3(0.0, BALL_HALF * w, sole),
+        vec3(0.0, -BALL_HALF * w, sole),
         vec3(tip_x, TIP_HALF * w, sole),
         vec3(tip_x, -TIP_HALF * w, sole),
     ];

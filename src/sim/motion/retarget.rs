@@ -1641,9 +1641,12 @@ fn mapped_bones(bvh: &Bvh, map: &SkeletonMap) -> Vec<MappedBone> {
             .collect::<Vec<_>>()
     };
     let split = (map.abdomen + 1).min(map.trunk.len());
-    let (waist, thorax) = map
-        .trunk
-        .split_at(if map.trunk.len() >= 2 { split } else { 0 });
+    // A single bone bends both joints of our trunk.
+    let (waist, thorax) = if map.trunk.len() == 1 {
+        (&map.trunk[..], &map.trunk[..])
+    } else {
+        map.trunk.split_at(split)
+    };
     let mut out = Vec::new();
     let mut add = |s: usize, bones: Vec<String>| {
         if !bones.is_empty() {
@@ -1679,7 +1682,7 @@ fn mapped_bones(bvh: &Bvh, map: &SkeletonMap) -> Vec<MappedBone> {
 fn missing_segments(map: &SkeletonMap) -> Vec<&'static str> {
     let mut out = Vec::new();
     if map.trunk.is_empty() {
-        out.push(SEGMENT_NAMES[2]);
+        out.extend([SEGMENT_NAMES[1], SEGMENT_NAMES[2]]);
     }
     if map.head.is_none() {
         out.push(SEGMENT_NAMES[3]);

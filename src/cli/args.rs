@@ -1,0 +1,369 @@
+//! Arguments that several commands share, and the small languages of `--load` and `--push`.
+
+use crate::sim::body::topology::SEGMENT_NAMES;
+use crate::sim::body::{Body, Profile, SegmentId, Sex};
+use crate::sim::figure::{ControllerKind, Perturbation, StepperKind};
+use crate::sim::math::Vec3;
+use anyhow::{Context, Result};
+use clap::ValueEnum;
+use std::str::FromStr;
+
+/// Which body tables are used.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum BodyKind {
+    /// Adult man; 30 years, 1.75 m, 75 kg unless said otherwise.
+    #[default]
+    Man,
+    /// Adult woman, of average size unless said otherwise.
+    Woman,
+}
+
+/// Who the figure stands for.
+#[derive(Clone, Debug, Default, clap::Args)]
+pub struct BodyArgs {
+    /// Body and strength tables.
+    #[arg(long, value_enum, default_value_t)]
+    pub body: BodyKind,
+    /// Age, years.
+    #[arg(long, value_name = "YEARS")]
+    pub age: Option<f64>,
+    /// Stature, m.
+    #[arg(long, value_name = "M")]
+    pub height: Option<f64>,
+    /// Body mass, kg.
+    #[arg(long, value_name = "KG")]
+    pub mass: Option<f64>,
+}
+
+impl BodyArgs {
+    /// Builds the body.
+    ///
+    /// # Errors
+    /// When the tables do not cover the profile; names the value and its range.
+    pub fn build(&self) -> Result<Body> {
+        let standard = match self.body {
+            BodyKind::Man => Body::adult_man(),
+            BodyKind::Woman => Body::adult_woman(),
+        };
+        if self.age.is_none() && self.height.is_none() && self.mass.is_none() {
+            return Ok(standard);
+        }
+        let profile = Profile {
+            age: self.age.unwrap_or(standard.profile.age),
+            height: self.height.unwrap_or(standard.profile.height),
+            mass: self.mass.unwrap_or(standard.profile.mass),
+            ..standard.profile
+        };
+        Body::humanoid(profile).context("no such body")
+    }
+}
+
+/// `man` or `woman`.
+pub fn sex_name(sex: Sex) -> &'static str {
+    match sex {
+        Sex::Male => "man",
+        Sex::Female => "woman",
+    }
+}
+
+/// Who computes torques.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ControllerArg {
+    /// The paper's controller.
+    #[default]
+    Paper,
+    /// Whole-body quadratic program.
+    Modern,
+    /// Strength-limited motors at the joints alone.
+    Motors,
+}
+
+impl From<ControllerArg> for ControllerKind {
+    fn from(arg: ControllerArg) -> Self {
+        match arg {
+            ControllerArg::Paper => Self::Paper,
+            ControllerArg::Modern => Self::Modern,
+            ControllerArg::Motors => Self::Motors,
+        }
+    }
+}
+
+/// Who moves the body.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum StepperArg {
+    /// Torques drive rigid-body dynamics with ground contact.
+    #[default]
+    Torque,
+}
+
+impl From<StepperArg> for StepperKind {
+    fn from(arg: StepperArg) -> Self {
+        match arg {
+            StepperArg::Torque => Self::Torque,
+        }
+    }
+}
+
+/// Why a `--load` or `--push` cannot be read.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SpecError {
+    /// Wrong shape.
+    #[error("{got:?} is not of the form {form}")]
+    Form {
+        /// What was given.
+        got: String,
+        /// What is expected.
+        form: &'static str,
+    },
+    /// Not a number.
+    #[error("{what}: {got:?} is not a number")]
+    Number {
+        /// Which part.
+        what: &'static str,
+        /// What was given.
+        got: String,
+    },
+    /// Out of range.
+    #[error("{what}: {value} is outside {lower}…{upper}")]
+    Range {
+        /// Which part, with unit.
+        what: &'static str,
+        /// What was given.
+        value: f64,
+        /// Least.
+        lower: f64,
+        /// Largest.
+        upper: f64,
+    },
+    /// Unknown segment.
+    #[error("no segment is called {0:?}; there are {names}", names = SEGMENT_NAMES.join(", "))]
+    Segment(String),
+    /// An interval that ends before it begins.
+    #[error("the interval {from}..{to} s is empty")]
+    Interval {
+        /// Begin, s.
+        from: f64,
+        /// End, s.
+        to: f64,
+    },
+    /// A push without direction.
+    #[error("the push has no direction: 0,0,0")]
+    Direction,
+}
+
+fn number(what: &'static str, text: &str, lower: f64, upper: f64) -> Result<f64, SpecError> {
+    let value: f64 = text.trim().parse().map_err(|_| SpecError::Number {
+        what,
+        got: text.to_owned(),
+    })?;
+    if (lower..=upper).contains(&value) {
+        Ok(value)
+    } else {
+        Err(SpecError::Range {
+            what,
+            value,
+            lower,
+            upper,
+        })
+    }
+}
+
+fn segment(text: &str) -> Result<SegmentId, SpecError> {
+    SegmentId::from_name(text.trim()).ok_or_else(|| SpecError::Segment(text.to_owned()))
+}
+
+/// Largest time an argument may name, s.
+const MAX_TIME: f64 = 1e6;
+
+/// `KG@SEGMENT[@T0..T1]`: a load held by a segment, from T0 to T1 seconds; either end may be left out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LoadSpec {
+    /// Carrying segment.
+    pub segment: SegmentId,
+    /// Mass, kg.
+    pub mass_kg: f64,
+    /// Picked up at, s.
+    pub from_s: f64,
+    /// Dropped at, s; infinite = never.
+    pub to_s: f64,
+}
+
+impl LoadSpec {
+    const FORM: &'static str = "KG@SEGMENT[@T0..T1], for example 3@r_hand or 3@r_hand@1.0..2.5";
+
+    /// The load at the segment's centre of mass.
+    pub fn perturbation(&self, body: &Body) -> Perturbation {
+        Perturbation::Load {
+            segment: self.segment,
+            point: body.segment(self.segment).com,
+            mass: self.mass_kg,
+            from: self.from_s,
+            to: self.to_s,
+        }
+    }
+}
+
+impl FromStr for LoadSpec {
+    type Err = SpecError;
+
+    fn from_str(text: &str) -> Result<Self, SpecError> {
+        let form = || SpecError::Form {
+            got: text.to_owned(),
+            form: Self::FORM,
+        };
+        let mut parts = text.split('@');
+        let (Some(mass), Some(name), times, None) =
+            (parts.next(), parts.next(), parts.next(), parts.next())
+        else {
+            return Err(form());
+        };
+        let (mut from_s, mut to_s) = (0.0, f64::INFINITY);
+        if let Some(times) = times {
+            let (a, b) = times.split_once("..").ok_or_else(form)?;
+            if !a.trim().is_empty() {
+                from_s = number("begin (s)", a, 0.0, MAX_TIME)?;
+            }
+            if !b.trim().is_empty() {
+                to_s = number("end (s)", b, 0.0, MAX_TIME)?;
+            }
+            if to_s <= from_s {
+                return Err(SpecError::Interval {
+                    from: from_s,
+                    to: to_s,
+                });
+            }
+        }
+        Ok(Self {
+            mass_kg: number("mass (kg)", mass, 0.0, 500.0)?,
+            segment: segment(name)?,
+            from_s,
+            to_s,
+        })
+    }
+}
+
+/// `NS@SEGMENT@T:x,y,z`: a push of so many newton-seconds on a segment beginning at T seconds, along the world direction x, y, z.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PushSpec {
+    /// Pushed segment.
+    pub segment: SegmentId,
+    /// Impulse, N·s.
+    pub impulse_ns: f64,
+    /// Begins at, s.
+    pub at_s: f64,
+    /// Unit vector, world axes.
+    pub direction: Vec3,
+}
+
+impl PushSpec {
+    const FORM: &'static str = "NS@SEGMENT@T:x,y,z, for example 20@chest@1.5:1,0,0";
+
+    /// The push as a constant force at the segment's centre of mass for `duration` seconds.
+    pub fn perturbation(&self, body: &Body, duration: f64) -> Perturbation {
+        Perturbation::Force {
+            segment: self.segment,
+            point: body.segment(self.segment).com,
+            force: self.direction * (self.impulse_ns / duration),
+            from: self.at_s,
+            to: self.at_s + duration,
+        }
+    }
+}
+
+impl FromStr for PushSpec {
+    type Err = SpecError;
+
+    fn from_str(text: &str) -> Result<Self, SpecError> {
+        let form = || SpecError::Form {
+            got: text.to_owned(),
+            form: Self::FORM,
+        };
+        let (head, direction) = text.split_once(':').ok_or_else(form)?;
+        let head: Vec<&str> = head.split('@').collect();
+        let direction: Vec<&str> = direction.split(',').collect();
+        let ([impulse, name, at], [x, y, z]) = (head.as_slice(), direction.as_slice()) else {
+            return Err(form());
+        };
+        let component = |t: &str| number("direction", t, -1e6, 1e6);
+        let d = Vec3 {
+            x: component(x)?,
+            y: component(y)?,
+            z: component(z)?,
+        };
+        if d.norm() < 1e-9 {
+            return Err(SpecError::Direction);
+        }
+        Ok(Self {
+            impulse_ns: number("impulse (N·s)", impulse, 0.0, 1e5)?,
+            segment: segment(name)?,
+            at_s: number("time (s)", at, 0.0, MAX_TIME)?,
+            direction: d * (1.0 / d.norm()),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn loads_are_read() {
+        let l: LoadSpec = "3.5@r_hand".parse().expect("a load");
+        assert_eq!(
+            (l.mass_kg, l.segment.name(), l.from_s, l.to_s),
+            (3.5, "r_hand", 0.0, f64::INFINITY)
+        );
+        let l: LoadSpec = "2@l_hand@1..2.5".parse().expect("a load");
+        assert_eq!((l.from_s, l.to_s), (1.0, 2.5));
+        let l: LoadSpec = "2@l_hand@..2".parse().expect("a load");
+        assert_eq!((l.from_s, l.to_s), (0.0, 2.0));
+        let l: LoadSpec = "2@l_hand@1..".parse().expect("a load");
+        assert_eq!((l.from_s, l.to_s), (1.0, f64::INFINITY));
+    }
+
+    #[test]
+    fn bad_loads_say_what_is_wrong() {
+        for (text, says) in [
+            ("3", "is not of the form"),
+            ("3@r_hand@1", "is not of the form"),
+            ("3@r_hand@1..2@3", "is not of the form"),
+            ("x@r_hand", "mass (kg): \"x\" is not a number"),
+            ("nan@r_hand", "mass (kg): NaN is outside 0…500"),
+            ("-1@r_hand", "mass (kg): -1 is outside 0…500"),
+            ("3@tail", "no segment is called \"tail\""),
+            ("3@r_hand@2..1", "the interval 2..1 s is empty"),
+        ] {
+            let error = text.parse::<LoadSpec>().expect_err(text).to_string();
+            assert!(error.contains(says), "{text}: {error}");
+        }
+    }
+
+    #[test]
+    fn pushes_are_read_and_normalised() {
+        let p: PushSpec = "20@chest@1.5:0,-3,4".parse().expect("a push");
+        assert_eq!(
+            (p.impulse_ns, p.segment.name(), p.at_s),
+            (20.0, "chest", 1.5)
+        );
+        assert!((p.direction.y + 0.6).abs() < 1e-15 && (p.direction.z - 0.8).abs() < 1e-15);
+    }
+
+    #[test]
+    fn bad_pushes_say_what_is_wrong() {
+        for (text, says) in [
+            ("20@chest@1.5", "is not of the form"),
+            ("20@chest:1,0,0", "is not of the form"),
+            ("20@chest@1:1,0", "is not of the form"),
+            ("20@chest@1:1,0,up", "direction: \"up\" is not a number"),
+            ("20@chest@1:0,0,0", "no direction"),
+            ("20@chest@-1:1,0,0", "time (s): -1 is outside"),
+            ("inf@chest@1:1,0,0", "impulse (N·s): inf is outside"),
+        ] {
+            let error = text.parse::<PushSpec>().expect_err(text).to_string();
+            assert!(error.contains(says), "{text}: {error}");
+        }
+    }
+}

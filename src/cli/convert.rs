@@ -1,0 +1,105 @@
+//! `sinew convert`: a recording as the motion that the figure is asked to follow.
+
+use super::args::BodyArgs;
+use super::output::{extension, write};
+use super::source::{Source, load};
+use crate::evaluate::table::{header, row};
+use crate::sim::body::Body;
+use crate::sim::body::angles::anatomical_angles;
+use crate::sim::body::topology::DOF_NAMES;
+use crate::sim::motion::retarget::RetargetOptions;
+use crate::sim::motion::write_bvh;
+use anyhow::{Context, Result};
+use serde_json::json;
+use std::path::PathBuf;
+
+/// Fits a recording to the body and writes the prepared motion.
+#[derive(Clone, Debug, clap::Args)]
+pub struct ConvertArgs {
+    /// Motion: a BVH file or builtin:NAME.
+    #[arg(value_name = "CLIP")]
+    pub clip: String,
+    /// Where to: BVH of the figure's own skeleton, CSV, or JSON with the retargeting report.
+    #[arg(value_name = "FILE.bvh|.csv|.json")]
+    pub to: PathBuf,
+    /// Who the motion is fitted to.
+    #[command(flatten)]
+    pub body: BodyArgs,
+    /// Metres per unit of the file; guessed from the figure's size unless given.
+    #[arg(long, value_name = "M")]
+    pub unit: Option<f64>,
+    /// Frame rate of the file, Hz, where its frame time is wrong.
+    #[arg(long, value_name = "HZ")]
+    pub file_rate: Option<f64>,
+    /// Leaves sliding feet as they were recorded.
+    #[arg(long)]
+    pub no_foot_lock: bool,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// Bad names, unreadable or malformed files, skeletons that cannot be mapped.
+pub fn run(args: &ConvertArgs) -> Result<()> {
+    let format = extension("convert", &args.to, &["bvh", "csv", "json"])?;
+    let body = args.body.build()?;
+    let options = RetargetOptions {
+        unit_m: args.unit,
+        rate_hz: args.file_rate,
+        lock_feet: !args.no_foot_lock,
+        ..RetargetOptions::default()
+    };
+    let source = load(&args.clip, &body, &options)?;
+    let text = match format {
+        "bvh" => as_bvh(&source, &body),
+        "csv" => as_csv(&source),
+        _ => as_json(&source)?,
+    };
+    write(&args.to, text)?;
+    println!(
+        "{}: {} samples at {} Hz to {}",
+        source.name,
+        source.clip.len(),
+        source.clip.rate_hz(),
+        args.to.display()
+    );
+    Ok(())
+}
+
+fn as_bvh(source: &Source, body: &Body) -> String {
+    let clip = &source.clip;
+    let postures: Vec<_> = (0..clip.len()).map(|i| *clip.posture(i)).collect();
+    write_bvh(body, &postures, clip.rate_hz())
+}
+
+fn as_csv(source: &Source) -> String {
+    let clip = &source.clip;
+    let mut out = header(false);
+    for i in 0..clip.len() {
+        row(&mut out, i as f64 / clip.rate_hz(), clip.posture(i), None);
+    }
+    out
+}
+
+fn as_json(source: &Source) -> Result<String> {
+    let clip = &source.clip;
+    let samples: Vec<_> = (0..clip.len())
+        .map(|i| {
+            let p = clip.posture(i);
+            json!({
+                "root_position_m": p.root_position.to_array(),
+                "root_rotation_xyzw": p.root_rotation.to_xyzw(),
+                "angles_rad": anatomical_angles(p).to_vec(),
+                "planted": clip.planted(i),
+            })
+        })
+        .collect();
+    let document = json!({
+        "clip": source.name,
+        "rate_hz": clip.rate_hz(),
+        "dofs": DOF_NAMES.to_vec(),
+        "samples": samples,
+        "retarget": source.retarget.as_ref().map_or(serde_json::Value::Null, super::lint::to_json),
+    });
+    serde_json::to_string(&document).context("the motion cannot be written as JSON")
+}

@@ -1,0 +1,260 @@
+//! `sinew lint`: what retargeting finds in a recording, guesses and changes.
+
+use super::args::BodyArgs;
+use super::source::load;
+use crate::sim::motion::retarget::{RetargetOptions, RetargetReport, UpAxis};
+use anyhow::{Context, Result};
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// Reads recordings and says how they fit the body.
+#[derive(Clone, Debug, clap::Args)]
+pub struct LintArgs {
+    /// Motions: BVH files or builtin:NAME.
+    #[arg(required = true, value_name = "CLIP")]
+    pub clips: Vec<String>,
+    /// Who the motion is fitted to.
+    #[command(flatten)]
+    pub body: BodyArgs,
+    /// Metres per unit of the file; guessed from the figure's size unless given.
+    #[arg(long, value_name = "M")]
+    pub unit: Option<f64>,
+    /// Frame rate of the file, Hz, where its frame time is wrong.
+    #[arg(long, value_name = "HZ")]
+    pub file_rate: Option<f64>,
+    /// Prints JSON.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// Unreadable or malformed files, and skeletons that cannot be mapped.
+pub fn run(args: &LintArgs) -> Result<()> {
+    let body = args.body.build()?;
+    let options = RetargetOptions {
+        unit_m: args.unit,
+        rate_hz: args.file_rate,
+        ..RetargetOptions::default()
+    };
+    let mut all = Vec::new();
+    for spec in &args.clips {
+        let source = load(spec, &body, &options)?;
+        let clip = &source.clip;
+        if args.json {
+            all.push(json!({
+                "clip": source.name,
+                "duration_s": clip.duration(),
+                "rate_hz": clip.rate_hz(),
+                "samples": clip.len(),
+                "retarget": source.retarget.as_ref().map_or(Value::Null, to_json),
+            }));
+        } else {
+            println!(
+                "{}: {:.2} s, {} samples at {} Hz",
+                source.name,
+                clip.duration(),
+                clip.len(),
+                clip.rate_hz()
+            );
+            match &source.retarget {
+                Some(report) => print!("{}", describe(report)),
+                None => println!("  built in: made for the body, nothing to fit"),
+            }
+        }
+    }
+    if args.json {
+        let text = match all.as_slice() {
+            [one] => serde_json::to_string_pretty(one),
+            several => serde_json::to_string_pretty(several),
+        };
+        println!("{}", text.context("the report cannot be written as JSON")?);
+    }
+    Ok(())
+}
+
+/// The report as JSON; lengths in mm where they are errors, in m otherwise; angles in degrees.
+pub fn to_json(r: &RetargetReport) -> Value {
+    let outside = |z: &crate::sim::motion::prepare::ZmpOutside| json!({ "share": z.fraction, "mean_mm": 1e3 * z.mean, "p95_mm": 1e3 * z.p95, "max_mm": 1e3 * z.max });
+    json!({
+        "mapped": r.mapped.iter().map(|m| json!({ "segment": m.segment, "bones": m.bones })).collect::<Vec<_>>(),
+        "missing": r.missing,
+        "by_structure": r.by_structure,
+        "sides_swapped": r.sides_swapped,
+        "unit_m": r.unit_m,
+        "unit_given": r.unit_given,
+        "up": up_name(r.up),
+        "stature_m": r.stature,
+        "scale": r.scale,
+        "source_rate_hz": r.source_rate_hz,
+        "rate_hz": r.rate_hz,
+        "skipped_frames": r.skipped_frames,
+        "floor_offset_m": r.floor_offset,
+        "floor_slope": r.floor_slope,
+        "origin": { "x_m": r.origin.x, "y_m": r.origin.y, "yaw_deg": r.origin.yaw.to_degrees() },
+        "clamped": r.clamped.iter().map(|c| json!({
+            "dof": c.dof, "max_deg": c.max.to_degrees(), "share": c.fraction
+        })).collect::<Vec<_>>(),
+        "knee_off_axis_deg": r.knee_off_axis.map(f64::to_degrees),
+        "elbow_off_axis_deg": r.elbow_off_axis.map(f64::to_degrees),
+        "foot_slide_mm": { "recorded": 1e3 * r.foot_slide.0, "prepared": 1e3 * r.foot_slide.1 },
+        "penetration_mm": { "recorded": 1e3 * r.penetration.0, "prepared": 1e3 * r.penetration.1 },
+        "phases": r.phases.iter().map(|p| json!({
+            "from_s": p.start, "to_s": p.end, "left": p.planted[0], "right": p.planted[1]
+        })).collect::<Vec<_>>(),
+        "bridged": r.bridged.iter().map(|b| json!({
+            "bone": b.bone, "first_frame": b.first, "frames": b.count
+        })).collect::<Vec<_>>(),
+        "smoothing_rms_mm": 1e3 * r.smoothing_rms,
+        "zmp_outside": { "recorded": outside(&r.zmp_outside.0), "prepared": outside(&r.zmp_outside.1) },
+        "shift_max_mm": 1e3 * r.shift_max,
+        "pelvis_drop_max_mm": 1e3 * r.pelvis_drop_max,
+        "carried_share": r.carried,
+        "warnings": r.warnings,
+    })
+}
+
+fn up_name(up: UpAxis) -> &'static str {
+    match up {
+        UpAxis::Y => "y",
+        UpAxis::Z => "z",
+    }
+}
+
+/// The report in words, one finding per line.
+pub fn describe(r: &RetargetReport) -> String {
+    let mut out = String::new();
+    let mut line = |name: &str, text: String| {
+        // Writing to a string cannot fail.
+        let _ = writeln!(out, "  {name:<14} {text}");
+    };
+    let bones: usize = r.mapped.iter().map(|m| m.bones.len()).sum();
+    let how = if r.by_structure {
+        "by structure"
+    } else {
+        "by name"
+    };
+    let swapped = if r.sides_swapped {
+        ", left and right exchanged"
+    } else {
+        ""
+    };
+    line(
+        "skeleton",
+        format!(
+            "{bones} bones on {} segments, mapped {how}{swapped}",
+            r.mapped.len()
+        ),
+    );
+    if !r.missing.is_empty() {
+        line("missing", r.missing.join(", "));
+    }
+    let given = if r.unit_given { "given" } else { "guessed" };
+    line(
+        "size",
+        format!(
+            "1 unit = {} m ({given}), {} up, stature {:.2} m, scaled by {:.3}",
+            r.unit_m,
+            up_name(r.up),
+            r.stature,
+            r.scale
+        ),
+    );
+    line(
+        "rate",
+        format!(
+            "{:.2} Hz to {:.2} Hz, {} frames skipped",
+            r.source_rate_hz, r.rate_hz, r.skipped_frames
+        ),
+    );
+    line(
+        "floor",
+        format!(
+            "{:.1} mm high, slope {:.4}",
+            1e3 * r.floor_offset,
+            r.floor_slope
+        ),
+    );
+    let phases: Vec<String> = r
+        .phases
+        .iter()
+        .map(|p| format!("{} {:.2}-{:.2}", p.letter(), p.start, p.end))
+        .collect();
+    line("feet", phases.join("; "));
+    line(
+        "foot slide",
+        format!(
+            "{:.1} mm recorded, {:.1} mm prepared",
+            1e3 * r.foot_slide.0,
+            1e3 * r.foot_slide.1
+        ),
+    );
+    line(
+        "under floor",
+        format!(
+            "{:.1} mm recorded, {:.1} mm prepared",
+            1e3 * r.penetration.0,
+            1e3 * r.penetration.1
+        ),
+    );
+    let (z0, z1) = &r.zmp_outside;
+    line(
+        "balance",
+        format!(
+            "zero-moment point outside in {:.0} % of the clip (95 %: {:.0} mm) as recorded, {:.0} % (95 %: {:.0} mm) prepared",
+            100.0 * z0.fraction,
+            1e3 * z0.p95,
+            100.0 * z1.fraction,
+            1e3 * z1.p95
+        ),
+    );
+    line(
+        "changed",
+        format!(
+            "smoothing {:.1} mm rms, pelvis shifted by at most {:.0} mm and lowered by at most {:.0} mm",
+            1e3 * r.smoothing_rms,
+            1e3 * r.shift_max,
+            1e3 * r.pelvis_drop_max
+        ),
+    );
+    let pair = |v: [f64; 2]| format!("{:.1} and {:.1} deg", v[0].to_degrees(), v[1].to_degrees());
+    line(
+        "off axis",
+        format!(
+            "knees {}, elbows {}",
+            pair(r.knee_off_axis),
+            pair(r.elbow_off_axis)
+        ),
+    );
+    for c in &r.clamped {
+        line(
+            "clamped",
+            format!(
+                "{} by at most {:.1} deg in {:.1} % of the clip",
+                c.dof,
+                c.max.to_degrees(),
+                100.0 * c.fraction
+            ),
+        );
+    }
+    for b in &r.bridged {
+        line(
+            "bridged",
+            format!("{}: {} frames from frame {}", b.bone, b.count, b.first),
+        );
+    }
+    if r.carried > 0.0 {
+        line(
+            "carried",
+            format!(
+                "{:.0} % of the clip rests on something else than the feet",
+                100.0 * r.carried
+            ),
+        );
+    }
+    for w in &r.warnings {
+        line("warning", w.clone());
+    }
+    out
+}

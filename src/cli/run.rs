@@ -1,0 +1,618 @@
+//! `sinew run`: a motion through the physics, offline, as fast as it goes; measured, drawn and written.
+
+use super::args::{BodyArgs, ControllerArg, LoadSpec, PushSpec, StepperArg, sex_name};
+use super::output::{extension, for_clip, write};
+use super::source::{Source, load};
+use crate::evaluate::strip::{Frame, StripOptions, View, draw, evenly_spaced, raster, svg};
+use crate::evaluate::table::{Torques, header, row};
+use crate::evaluate::{Metrics, RunReport, Tick};
+use crate::sim::body::topology::DOF_NAMES;
+use crate::sim::body::{Body, Posture, State};
+use crate::sim::figure::{ControlParams, StrengthScale};
+use crate::sim::math::Vec3;
+use crate::sim::motion::retarget::RetargetOptions;
+use crate::sim::motion::{Clip, PlanarTransform, write_bvh};
+use crate::sim::world::{
+    ClipPlayback, Drive, Figure, FigureEvent, FigureSetup, World, WorldParams,
+};
+use anyhow::{Context, Result, ensure};
+use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
+use serde::Serialize;
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
+use std::time::Instant;
+
+/// Longest run that can be asked for, s.
+const MAX_DURATION: f64 = 86_400.0;
+
+/// Runs motions through the physics and reports how well the figure followed.
+#[derive(Clone, Debug, clap::Args)]
+pub struct RunArgs {
+    /// Motions: BVH files or builtin:NAME (idle, lift, squat, wave, step, walk). Each gets a world of its own.
+    #[arg(required = true, value_name = "CLIP")]
+    pub clips: Vec<String>,
+    /// Who the figure stands for.
+    #[command(flatten)]
+    pub body: BodyArgs,
+    /// Factor on the strength of every joint, 0.01 to 100.
+    #[arg(long, value_name = "F", default_value_t = 1.0)]
+    pub strength: f64,
+    /// Load held by a segment, for example 3@r_hand or 3@r_hand@1..2.5 (repeatable).
+    #[arg(long, value_name = "KG@SEGMENT[@T0..T1]")]
+    pub load: Vec<LoadSpec>,
+    /// Push on a segment, for example 20@chest@1.5:1,0,0 (N·s, start in s, world direction; repeatable).
+    #[arg(long, value_name = "NS@SEGMENT@T:x,y,z", allow_hyphen_values = true)]
+    pub push: Vec<PushSpec>,
+    /// How long a push lasts, s.
+    #[arg(long, value_name = "S", default_value_t = 0.2)]
+    pub push_duration: f64,
+    /// Who computes torques.
+    #[arg(long, value_enum, default_value_t)]
+    pub controller: ControllerArg,
+    /// Who moves the body.
+    #[arg(long, value_enum, default_value_t)]
+    pub stepper: StepperArg,
+    /// Ticks per second.
+    #[arg(long, value_name = "HZ", default_value_t = WorldParams::default().rate_hz)]
+    pub rate: f64,
+    /// Physics steps per tick.
+    #[arg(long, value_name = "N", default_value_t = WorldParams::default().substeps)]
+    pub substeps: u32,
+    /// Length of the run, s; the length of the motion unless given.
+    #[arg(long, value_name = "S")]
+    pub duration: Option<f64>,
+    /// Repeat the motion until --duration is over.
+    #[arg(long = "loop", requires = "duration")]
+    pub looped: bool,
+    /// Writes the measures as JSON (a list for several clips).
+    #[arg(long, value_name = "FILE.json")]
+    pub report: Option<PathBuf>,
+    /// Writes the motion that came out: BVH, or CSV with angles, torques and limits.
+    #[arg(long, value_name = "FILE.bvh|.csv")]
+    pub out: Option<PathBuf>,
+    /// Draws evenly spaced frames side by side.
+    #[arg(long, value_name = "FILE.svg|.png")]
+    pub strip: Option<PathBuf>,
+    /// Frames of the strip.
+    #[arg(long, value_name = "N", default_value_t = 8)]
+    pub strip_frames: usize,
+    /// From where the strip is drawn.
+    #[arg(long, value_enum, default_value_t)]
+    pub view: ViewArg,
+    /// Clips that are run at the same time.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub threads: usize,
+}
+
+/// From where a strip is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum ViewArg {
+    /// From the right side.
+    Side,
+    /// From the front.
+    Front,
+    /// From the front and right, from a little above.
+    #[default]
+    ThreeQuarter,
+}
+
+impl From<ViewArg> for View {
+    fn from(arg: ViewArg) -> Self {
+        match arg {
+            ViewArg::Side => Self::Side,
+            ViewArg::Front => Self::Front,
+            ViewArg::ThreeQuarter => Self::ThreeQuarter,
+        }
+    }
+}
+
+/// What is run, apart from the motion.
+struct Scenario<'a> {
+    args: &'a RunArgs,
+    body: Arc<Body>,
+    params: WorldParams,
+}
+
+/// `report.json`: the scenario, how the motion was fitted, and the measures.
+#[derive(Serialize)]
+struct Document<'a> {
+    clip: &'a str,
+    duration_s: f64,
+    body: BodyEntry,
+    controller: ControllerArg,
+    stepper: StepperArg,
+    strength: f64,
+    substeps: u32,
+    gravity_mps2: f64,
+    loads: Vec<LoadEntry>,
+    pushes: Vec<PushEntry>,
+    #[serde(flatten)]
+    measures: &'a RunReport,
+    /// `null` for built-in motions, which are made for the body.
+    retarget: serde_json::Value,
+}
+
+#[derive(Serialize)]
+struct BodyEntry {
+    sex: &'static str,
+    age_years: f64,
+    height_m: f64,
+    mass_kg: f64,
+}
+
+#[derive(Serialize)]
+struct LoadEntry {
+    segment: &'static str,
+    mass_kg: f64,
+    from_s: f64,
+    /// `null`: never put down.
+    to_s: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct PushEntry {
+    segment: &'static str,
+    impulse_ns: f64,
+    at_s: f64,
+    duration_s: f64,
+    direction: [f64; 3],
+}
+
+/// Runs the command. A figure that falls is a result, not an error: the report says so.
+///
+/// # Errors
+/// Bad arguments, unreadable clips, files that cannot be written.
+pub fn run(args: &RunArgs) -> Result<()> {
+    check(args)?;
+    let scenario = Scenario {
+        body: Arc::new(args.body.build()?),
+        params: WorldParams {
+            rate_hz: args.rate,
+            substeps: args.substeps,
+            ..WorldParams::default()
+        },
+        args,
+    };
+    // Bad parameters are worth knowing before clips are read.
+    World::new(scenario.params).context("no such world")?;
+    let options = RetargetOptions::default();
+    let sources = args
+        .clips
+        .iter()
+        .map(|spec| load(spec, &scenario.body, &options))
+        .collect::<Result<Vec<_>>>()?;
+    let documents = run_all(&scenario, &sources)?;
+    if let Some(path) = &args.report {
+        let text = match documents.as_slice() {
+            [one] => serde_json::to_string_pretty(one),
+            several => serde_json::to_string_pretty(several),
+        };
+        write(
+            path,
+            text.context("the report cannot be written as JSON")? + "\n",
+        )?;
+    }
+    Ok(())
+}
+
+/// Checks what clap cannot.
+fn check(args: &RunArgs) -> Result<()> {
+    ensure!(
+        (0.01..=100.0).contains(&args.strength),
+        "--strength {}: outside 0.01…100",
+        args.strength
+    );
+    ensure!(
+        (1e-3..=10.0).contains(&args.push_duration),
+        "--push-duration {} s: outside 0.001…10",
+        args.push_duration
+    );
+    if let Some(duration) = args.duration {
+        ensure!(
+            duration > 0.0 && duration <= MAX_DURATION,
+            "--duration {duration} s: outside 0…{MAX_DURATION}"
+        );
+    }
+    ensure!(
+        (1..=64).contains(&args.strip_frames),
+        "--strip-frames {}: outside 1…64",
+        args.strip_frames
+    );
+    ensure!(
+        (1..=256).contains(&args.threads),
+        "--threads {}: outside 1…256",
+        args.threads
+    );
+    if let Some(path) = &args.out {
+        extension("--out", path, &["bvh", "csv"])?;
+    }
+    if let Some(path) = &args.strip {
+        extension("--strip", path, &["svg", "png"])?;
+    }
+    Ok(())
+}
+
+/// Runs every clip, several at a time if asked for, and prints one line per clip in their order.
+fn run_all(scenario: &Scenario<'_>, sources: &[Source]) -> Result<Vec<serde_json::Value>> {
+    let bars = MultiProgress::new();
+    let next = AtomicUsize::new(0);
+    let results: Mutex<Vec<Option<Result<serde_json::Value>>>> =
+        Mutex::new(sources.iter().map(|_| None).collect());
+    println!("{}", summary_header());
+    std::thread::scope(|scope| {
+        for _ in 0..scenario.args.threads.min(sources.len()) {
+            scope.spawn(|| {
+                loop {
+                    let i = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(source) = sources.get(i) else { break };
+                    let result = run_one(scenario, source, sources.len() > 1, &bars);
+                    let mut results = results
+                        .lock()
+                        .expect("no thread panics while it holds the results");
+                    results[i] = Some(result);
+                }
+            });
+        }
+    });
+    results
+        .into_inner()
+        .expect("all threads have ended")
+        .into_iter()
+        .map(|r| r.expect("every clip was taken by a thread"))
+        .collect()
+}
+
+fn run_one(
+    scenario: &Scenario<'_>,
+    source: &Source,
+    several: bool,
+    bars: &MultiProgress,
+) -> Result<serde_json::Value> {
+    let args = scenario.args;
+    let duration = args.duration.unwrap_or_else(|| source.clip.duration());
+    let ticks = ((duration * args.rate).round() as u64).max(1);
+    let mut csv = None;
+    let mut postures = None;
+    if let Some(path) = &args.out {
+        let path = for_clip(path, &source.name, several);
+        if extension("--out", &path, &["bvh", "csv"])? == "csv" {
+            csv = Some(Csv::create(&path)?);
+        } else {
+            postures = Some((path, Vec::new()));
+        }
+    }
+    let bar = bars.add(progress_bar(&source.name, ticks));
+    let shown = if args.strip.is_some() {
+        evenly_spaced(ticks, args.strip_frames)
+    } else {
+        Vec::new()
+    };
+    let (report, frames) = simulate(scenario, &source.clip, ticks, &shown, |figure, time| {
+        bar.inc(1);
+        if let Some(csv) = &mut csv {
+            csv.row(time, figure)?;
+        }
+        if let Some((_, postures)) = &mut postures {
+            postures.push(figure.state().posture);
+        }
+        Ok(())
+    })?;
+    bar.finish_and_clear();
+    bars.suspend(|| println!("{}", summary_line(&source.name, &report)));
+    if let Some(csv) = csv {
+        csv.finish()?;
+    }
+    if let Some((path, postures)) = postures {
+        write(&path, bvh_text(&scenario.body, &postures, args.rate))?;
+    }
+    if let Some(path) = &args.strip {
+        let path = for_clip(path, &source.name, several);
+        write_strip(scenario, &source.name, &frames, &path)?;
+    }
+    let document = document(scenario, source, ticks as f64 / args.rate, &report);
+    serde_json::to_value(document).context("the report cannot be written as JSON")
+}
+
+/// The motion as BVH in metres.
+fn bvh_text(body: &Body, postures: &[Posture], rate_hz: f64) -> String {
+    write_bvh(body, postures, rate_hz)
+}
+
+/// Steps a world with one figure that follows `clip` for `ticks` ticks; `each` is called after every tick with the time (s).
+///
+/// Returns the measures and what there was to see at the ticks in `shown`.
+fn simulate(
+    scenario: &Scenario<'_>,
+    clip: &Clip,
+    ticks: u64,
+    shown: &[u64],
+    mut each: impl FnMut(&Figure, f64) -> Result<()>,
+) -> Result<(RunReport, Vec<Frame>)> {
+    let args = scenario.args;
+    let body = &scenario.body;
+    let mut world = World::new(scenario.params).context("no such world")?;
+    let start = clip.sample(0.0);
+    let key = world
+        .add_figure(FigureSetup {
+            body: Arc::clone(body),
+            strength: StrengthScale {
+                all: args.strength,
+                ..StrengthScale::default()
+            },
+            controller: args.controller.into(),
+            stepper: args.stepper.into(),
+            params: ControlParams::default(),
+            state: State {
+                posture: start.posture,
+                velocity: start.velocity,
+            },
+            name: clip.name().to_owned(),
+        })
+        .context("no such figure")?;
+    for load in &args.load {
+        world
+            .perturb(key, load.perturbation(body))
+            .context("--load")?;
+    }
+    for push in &args.push {
+        world
+            .perturb(key, push.perturbation(body, args.push_duration))
+            .context("--push")?;
+    }
+    let figure = world.figure_mut(key).expect("the figure was just added");
+    figure.set_drive(Drive::Clip(ClipPlayback {
+        clip: Arc::new(clip.clone()),
+        start: 0.0,
+        speed: 1.0,
+        looped: args.looped,
+        origin: PlanarTransform::default(),
+    }));
+    let mut metrics = Metrics::new(args.rate, &start.posture);
+    let mut frames = Vec::with_capacity(shown.len());
+    for n in 0..ticks {
+        let began = Instant::now();
+        world.step();
+        let us = began.elapsed().as_secs_f64() * 1e6;
+        let figure = world.figure(key).expect("nobody removes the figure");
+        let report = figure.report().expect("a stepped figure has a report");
+        let tick = Tick {
+            body,
+            links: figure.links(),
+            target: figure.target(),
+            report,
+            state: figure.state(),
+            strength: (figure.strength(), &figure.setup().strength),
+            gravity: scenario.params.gravity,
+        };
+        metrics.observe(tick, us);
+        for event in figure.events() {
+            note(&mut metrics, event);
+        }
+        if shown.binary_search(&n).is_ok() {
+            frames.push(Frame::of(
+                &tick,
+                metrics.time_s(),
+                held_loads(scenario, metrics.time_s()),
+            ));
+        }
+        each(figure, metrics.time_s())?;
+    }
+    Ok((metrics.finish(world.state_hash()), frames))
+}
+
+/// Loads in the figure's hands at `time` (s).
+fn held_loads(scenario: &Scenario<'_>, time: f64) -> Vec<(usize, Vec3, f64)> {
+    let held = |l: &&LoadSpec| l.from_s < time && time <= l.to_s && l.mass_kg > 0.0;
+    let place = |l: &LoadSpec| {
+        (
+            l.segment.index(),
+            scenario.body.segment(l.segment).com,
+            l.mass_kg,
+        )
+    };
+    scenario.args.load.iter().filter(held).map(place).collect()
+}
+
+fn note(metrics: &mut Metrics, event: &FigureEvent) {
+    use FigureEvent as E;
+    let (kind, segment, dof, mass) = match *event {
+        E::SupportGained { segment } => ("support_gained", Some(segment), None, None),
+        E::SupportLost { segment } => ("support_lost", Some(segment), None, None),
+        E::Saturated { dof } => ("saturated", None, Some(dof), None),
+        E::Relieved { dof } => ("relieved", None, Some(dof), None),
+        E::BalanceLost => ("balance_lost", None, None, None),
+        E::Recovered => ("recovered", None, None, None),
+        E::Fell => ("fell", None, None, None),
+        E::GotUp => ("got_up", None, None, None),
+        E::LoadTaken { segment, mass } => ("load_taken", Some(segment), None, Some(mass)),
+        E::LoadDropped { segment, mass } => ("load_dropped", Some(segment), None, Some(mass)),
+        E::Quarantined => ("quarantined", None, None, None),
+    };
+    metrics.event(
+        kind,
+        segment.map(|s| s.name()),
+        dof.map(|d| DOF_NAMES[d]),
+        mass,
+    );
+}
+
+fn document<'a>(
+    scenario: &Scenario<'a>,
+    source: &'a Source,
+    duration_s: f64,
+    measures: &'a RunReport,
+) -> Document<'a> {
+    let args = scenario.args;
+    let profile = scenario.body.profile;
+    Document {
+        clip: &source.name,
+        duration_s,
+        body: BodyEntry {
+            sex: sex_name(profile.sex),
+            age_years: profile.age,
+            height_m: profile.height,
+            mass_kg: profile.mass,
+        },
+        controller: args.controller,
+        stepper: args.stepper,
+        strength: args.strength,
+        substeps: args.substeps,
+        gravity_mps2: scenario.params.gravity,
+        loads: args
+            .load
+            .iter()
+            .map(|l| LoadEntry {
+                segment: l.segment.name(),
+                mass_kg: l.mass_kg,
+                from_s: l.from_s,
+                to_s: Some(l.to_s).filter(|t| t.is_finite()),
+            })
+            .collect(),
+        pushes: args
+            .push
+            .iter()
+            .map(|p| PushEntry {
+                segment: p.segment.name(),
+                impulse_ns: p.impulse_ns,
+                at_s: p.at_s,
+                duration_s: args.push_duration,
+                direction: p.direction.to_array(),
+            })
+            .collect(),
+        measures,
+        retarget: source
+            .retarget
+            .as_ref()
+            .map_or(serde_json::Value::Null, super::lint::to_json),
+    }
+}
+
+fn write_strip(scenario: &Scenario<'_>, name: &str, frames: &[Frame], path: &Path) -> Result<()> {
+    let args = scenario.args;
+    let profile = scenario.body.profile;
+    let mut title = format!(
+        "{name}: {}, {:.2} m, {:.0} kg, strength {}",
+        sex_name(profile.sex),
+        profile.height,
+        profile.mass,
+        args.strength
+    );
+    for l in &args.load {
+        title += &format!(", {} kg in {}", l.mass_kg, l.segment.name());
+    }
+    for p in &args.push {
+        title += &format!(", push {} Ns at {} s", p.impulse_ns, p.at_s);
+    }
+    let options = StripOptions {
+        view: args.view.into(),
+        title,
+        ..StripOptions::default()
+    };
+    let drawing = draw(&scenario.body, frames, &options);
+    if extension("--strip", path, &["svg", "png"])? == "svg" {
+        write(path, svg::write(&drawing))
+    } else {
+        let png =
+            raster::png(&drawing).with_context(|| format!("cannot draw {}", path.display()))?;
+        write(path, png)
+    }
+}
+
+/// The CSV file, written as the run goes.
+struct Csv {
+    path: PathBuf,
+    file: BufWriter<File>,
+    line: String,
+}
+
+impl Csv {
+    fn create(path: &Path) -> Result<Self> {
+        let file =
+            File::create(path).with_context(|| format!("cannot write {}", path.display()))?;
+        let mut out = Self {
+            path: path.to_owned(),
+            file: BufWriter::new(file),
+            line: header(true),
+        };
+        out.flush_line()?;
+        Ok(out)
+    }
+
+    fn row(&mut self, time: f64, figure: &Figure) -> Result<()> {
+        let report = figure.report().expect("a stepped figure has a report");
+        let torques = Torques {
+            torque: &report.torque,
+            lower: &report.torque_lower,
+            upper: &report.torque_upper,
+        };
+        row(&mut self.line, time, &figure.state().posture, Some(torques));
+        self.flush_line()
+    }
+
+    fn flush_line(&mut self) -> Result<()> {
+        let done = self.file.write_all(self.line.as_bytes());
+        self.line.clear();
+        done.with_context(|| format!("cannot write {}", self.path.display()))
+    }
+
+    fn finish(mut self) -> Result<()> {
+        self.file
+            .flush()
+            .with_context(|| format!("cannot write {}", self.path.display()))
+    }
+}
+
+fn progress_bar(name: &str, ticks: u64) -> ProgressBar {
+    let style = ProgressStyle::with_template(
+        "{prefix:>14} {wide_bar:.cyan/dim} {pos}/{len} ticks, {per_sec}, {eta} left",
+    )
+    .expect("the template is a constant")
+    .progress_chars("━╸─");
+    ProgressBar::new(ticks)
+        .with_style(style)
+        .with_prefix(name.to_owned())
+}
+
+fn summary_header() -> String {
+    format!(
+        "{:<14} {:>7} {:>8} {:>8} {:>8} {:>9} {:>7} {:>9} {:>8} {:>8}  result",
+        "clip",
+        "time s",
+        "rms deg",
+        "max deg",
+        "root mm",
+        "global mm",
+        "use max",
+        "margin m",
+        "slip mm",
+        "us/tick"
+    )
+}
+
+fn summary_line(name: &str, r: &RunReport) -> String {
+    let result = match (r.quarantined_at_s, r.fell_at_s) {
+        (Some(t), _) => format!("frozen at {t:.2} s"),
+        (None, Some(t)) => format!("fell at {t:.2} s"),
+        (None, None) => "stood".to_owned(),
+    };
+    let margin = r
+        .margin_min_m
+        .map_or_else(|| "none".to_owned(), |m| format!("{m:.3}"));
+    let longest = r.longest_saturated().map_or_else(String::new, |(d, s)| {
+        format!(", {d} at its limit for {s:.2} s")
+    });
+    format!(
+        "{name:<14} {:>7.2} {:>8.3} {:>8.2} {:>8.1} {:>9.1} {:>7.2} {margin:>9} {:>8.1} {:>8.0}  {result}{longest}",
+        r.ticks as f64 / r.rate_hz,
+        r.joint_rms_deg,
+        r.joint_max_deg,
+        r.mpjpe_root_mm,
+        r.mpjpe_global_mm,
+        r.max_utilisation,
+        r.foot_slip_mm_per_s,
+        r.us_per_tick_p50,
+    )
+}

@@ -1,0 +1,59 @@
+//! Where a motion comes from: a BVH file or one of the built-in motions.
+
+use crate::sim::body::Body;
+use crate::sim::motion::builtin::{BUILTIN_NAMES, builtin};
+use crate::sim::motion::retarget::{RetargetOptions, RetargetReport, retarget};
+use crate::sim::motion::{Bvh, Clip};
+use anyhow::{Context, Result, bail};
+use std::path::Path;
+
+/// A motion fitted to a body.
+pub struct Source {
+    /// File stem or built-in name.
+    pub name: String,
+    /// The motion.
+    pub clip: Clip,
+    /// How the recording was fitted; `None` for built-in motions, which are made for the body.
+    pub retarget: Option<RetargetReport>,
+}
+
+/// Prefix of built-in motions.
+const BUILTIN: &str = "builtin:";
+
+/// Loads `spec`, `builtin:NAME` or the path of a BVH file, and fits it to `body`.
+///
+/// # Errors
+/// Unknown name, unreadable or malformed file, or a skeleton that cannot be mapped; names the file and the place in it.
+pub fn load(spec: &str, body: &Body, options: &RetargetOptions) -> Result<Source> {
+    if let Some(name) = spec.strip_prefix(BUILTIN) {
+        let Some(clip) = builtin(body, name) else {
+            bail!(
+                "no built-in motion is called {name:?}; there are {}",
+                BUILTIN_NAMES.join(", ")
+            );
+        };
+        return Ok(Source {
+            name: name.to_owned(),
+            clip,
+            retarget: None,
+        });
+    }
+    let path = Path::new(spec);
+    let bytes = match std::fs::read(path) {
+        Err(e) if e.kind() == std::io::ErrorKind::NotFound && BUILTIN_NAMES.contains(&spec) => {
+            return Err(e).context(format!("cannot read {spec}; did you mean {BUILTIN}{spec}?"));
+        }
+        other => other.with_context(|| format!("cannot read {spec}"))?,
+    };
+    let bvh = Bvh::parse(&bytes).with_context(|| format!("{spec} is not a BVH file"))?;
+    let fitted =
+        retarget(&bvh, body, options).with_context(|| format!("{spec} does not fit the body"))?;
+    let name = path
+        .file_stem()
+        .map_or_else(|| spec.to_owned(), |s| s.to_string_lossy().into_owned());
+    Ok(Source {
+        name,
+        clip: fitted.clip,
+        retarget: Some(fitted.report),
+    })
+}

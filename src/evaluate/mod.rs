@@ -1,0 +1,15 @@
+//! Judging a run from outside: what a figure did, measured from its reports and checked against the laws of motion.
+//!
+//! [`metrics`] accumulates a run tick by tick into a [`RunReport`]; [`audit`] rebuilds the equations of motion from the body alone, without
+//! any number of the solver; [`strip`] draws the motion; [`table`] writes it as CSV. Nothing here reads a clock or a file.
+
+pub mod audit;
+pub mod metrics;
+pub mod pose;
+pub mod report;
+pub mod strip;
+pub mod table;
+
+pub use audit::{AuditResult, audit};
+pub use metrics::{Metrics, Tick};
+pub use report::{RunEvent, RunReport};

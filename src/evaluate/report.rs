@@ -1,0 +1,107 @@
+//! What a run comes to: the content of `report.json`.
+
+use crate::sim::body::DOF_COUNT;
+use crate::sim::body::topology::DOF_NAMES;
+
+/// Events kept in a report; later ones are counted only, so that a chattering figure cannot fill memory.
+pub const MAX_EVENTS: usize = 10_000;
+
+/// Something that happened at one instant of a run.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "net", derive(serde::Serialize))]
+pub struct RunEvent {
+    /// End of the tick in which it happened, s from the start.
+    pub time_s: f64,
+    /// What happened, for example `fell` or `support_lost`.
+    pub kind: &'static str,
+    /// Segment concerned, if any.
+    #[cfg_attr(feature = "net", serde(skip_serializing_if = "Option::is_none"))]
+    pub segment: Option<&'static str>,
+    /// DOF concerned, if any.
+    #[cfg_attr(feature = "net", serde(skip_serializing_if = "Option::is_none"))]
+    pub dof: Option<&'static str>,
+    /// Mass of the load concerned, if any, kg.
+    #[cfg_attr(feature = "net", serde(skip_serializing_if = "Option::is_none"))]
+    pub mass_kg: Option<f64>,
+}
+
+/// The measures of one run. Field names carry their units and are those of `report.json`.
+///
+/// *Tracking* measures (joint errors, distances, slip, margin) stop with the tick in which the figure falls: afterwards there is nothing
+/// left to track. *Physical* measures (limits, residuals, penetration) cover every tick.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "net", derive(serde::Serialize))]
+pub struct RunReport {
+    /// Ticks per second.
+    pub rate_hz: f64,
+    /// Ticks stepped.
+    pub ticks: u64,
+    /// When the figure fell, s; `None` if it stood to the end.
+    pub fell_at_s: Option<f64>,
+    /// Root mean square of desired ⊖ actual over all DOFs and ticks, degrees.
+    pub joint_rms_deg: f64,
+    /// Largest error of any DOF in any tick, degrees.
+    pub joint_max_deg: f64,
+    /// Mean distance of segment origins from their desired place, both seen from the pelvis origin, mm.
+    pub mpjpe_root_mm: f64,
+    /// Mean distance of segment origins from their desired place in the world, mm.
+    pub mpjpe_global_mm: f64,
+    /// Largest used share of the available muscle torque (1 = at the limit).
+    pub max_utilisation: f64,
+    /// Largest violation of a torque limit, relative to that limit; 0 when none.
+    pub over_limit_max: f64,
+    /// Time each DOF spent at its limit, s, in DOF order.
+    #[cfg_attr(feature = "net", serde(serialize_with = "by_dof"))]
+    pub saturated_s: [f64; DOF_COUNT],
+    /// Largest relative residual of the equations of motion (see [`super::audit`]).
+    pub dynamics_residual_max: f64,
+    /// Largest force on the pelvis that no contact or perturbation explains, N.
+    pub root_wrench_unexplained_max_n: f64,
+    /// Largest moment on the pelvis that no contact or perturbation explains, N·m.
+    pub root_wrench_unexplained_max_nm: f64,
+    /// Mean horizontal speed of foot contact points that carry more than 5 N, mm/s; 0 when no foot ever does.
+    pub foot_slip_mm_per_s: f64,
+    /// Deepest contact point below a surface, mm.
+    pub penetration_max_mm: f64,
+    /// Least distance of the zero-moment point inside the support polygon (negative: outside), m; `None` if there never was one.
+    pub margin_min_m: Option<f64>,
+    /// Hash of the world's state after the last tick, 16 hexadecimal digits.
+    pub state_hash: String,
+    /// Median time of one tick, µs.
+    pub us_per_tick_p50: f64,
+    /// 99th percentile of the time of one tick, µs.
+    pub us_per_tick_p99: f64,
+    /// Ticks whose state or report held a number that is not finite; 0 in a sound run.
+    pub non_finite_ticks: u64,
+    /// When the figure was frozen because its state ran away, s; `None` in a sound run.
+    pub quarantined_at_s: Option<f64>,
+    /// Largest used share of the available muscle torque of each DOF.
+    #[cfg_attr(feature = "net", serde(serialize_with = "by_dof"))]
+    pub utilisation_max: [f64; DOF_COUNT],
+    /// Root mean square error of each DOF, degrees.
+    #[cfg_attr(feature = "net", serde(serialize_with = "by_dof"))]
+    pub joint_rms_by_dof_deg: [f64; DOF_COUNT],
+    /// What happened, in order; at most [`MAX_EVENTS`].
+    pub events: Vec<RunEvent>,
+    /// Events beyond those kept.
+    pub events_dropped: u64,
+}
+
+impl RunReport {
+    /// Name and time of the DOF that was longest at its limit; `None` if none ever was.
+    pub fn longest_saturated(&self) -> Option<(&'static str, f64)> {
+        (0..DOF_COUNT)
+            .max_by(|a, b| self.saturated_s[*a].total_cmp(&self.saturated_s[*b]))
+            .map(|d| (DOF_NAMES[d], self.saturated_s[d]))
+            .filter(|(_, s)| *s > 0.0)
+    }
+}
+
+/// Writes one number per DOF as an object with DOF names.
+#[cfg(feature = "net")]
+fn by_dof<S: serde::Serializer>(
+    values: &[f64; DOF_COUNT],
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(DOF_NAMES.iter().zip(values))
+}

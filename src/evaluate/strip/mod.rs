@@ -1,0 +1,130 @@
+//! Motion strips: evenly spaced frames of a run side by side, as SVG or PNG.
+//!
+//! Each panel shows the figure as a solid body (left limbs blue, right limbs orange), the desired posture as a pale ghost behind it,
+//! the contact force of each segment, support polygon, centre of mass, zero-moment point, and a ring at every joint that is at (red) or
+//! near (amber) the limit of its strength. [`Drawing`] is the list of shapes; [`svg`] and [`raster`] are its two writers.
+
+mod drawing;
+#[cfg(feature = "net")]
+mod font;
+mod panel;
+#[cfg(feature = "net")]
+pub mod raster;
+pub mod svg;
+
+pub use drawing::{Drawing, Item, Rgba};
+
+use super::metrics::Tick;
+use crate::sim::body::{Body, DOF_COUNT, Posture, SEGMENT_COUNT};
+use crate::sim::figure::Flags;
+use crate::sim::math::Vec3;
+
+/// From where the figure is seen, relative to its heading in the first frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum View {
+    /// From its right side: it faces right.
+    Side,
+    /// From the front.
+    Front,
+    /// From the front and right, from a little above.
+    #[default]
+    ThreeQuarter,
+}
+
+/// One panel: what there is to see of a figure at one instant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// Time, s.
+    pub time_s: f64,
+    /// Where the figure is.
+    pub posture: Posture,
+    /// Where it should be.
+    pub desired: Posture,
+    /// Sum of contact forces (N) on each segment and the point it acts at (world, m); zero force where nothing touches.
+    pub contact: [(Vec3, Vec3); SEGMENT_COUNT],
+    /// Centre of mass, world, m.
+    pub com: Vec3,
+    /// Zero-moment point, world, m.
+    pub zmp: Option<Vec3>,
+    /// Support polygon on the ground, world x, y, m.
+    pub polygon: Vec<[f64; 2]>,
+    /// Used share of the available torque of each DOF.
+    pub utilisation: [f64; DOF_COUNT],
+    /// Loads on segments: segment, point in the segment frame (m), mass (kg).
+    pub loads: Vec<(usize, Vec3, f64)>,
+    /// The figure has fallen.
+    pub fallen: bool,
+}
+
+impl Frame {
+    /// The instant at the end of `tick`; `loads` as in [`Frame::loads`].
+    pub fn of(tick: &Tick<'_>, time_s: f64, loads: Vec<(usize, Vec3, f64)>) -> Self {
+        let report = tick.report;
+        let mut contact = [(Vec3::zero(), Vec3::zero()); SEGMENT_COUNT];
+        let mut weight = [0.0; SEGMENT_COUNT];
+        for c in &report.contacts {
+            let s = c.segment.index();
+            let n = c.force.norm();
+            contact[s].0 += c.position * n;
+            contact[s].1 += c.force;
+            weight[s] += n;
+        }
+        for s in 0..SEGMENT_COUNT {
+            if weight[s] > 0.0 {
+                contact[s].0 = contact[s].0 * (1.0 / weight[s]);
+            }
+        }
+        Self {
+            time_s,
+            posture: tick.state.posture,
+            desired: tick.target.next.posture,
+            contact,
+            com: report.com,
+            zmp: report.zmp,
+            polygon: report.support_polygon.clone(),
+            utilisation: tick.utilisation(),
+            loads,
+            fallen: report.flags.has(Flags::FALLEN),
+        }
+    }
+}
+
+/// How a strip is drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StripOptions {
+    /// From where.
+    pub view: View,
+    /// Pixels per metre.
+    pub scale: f64,
+    /// Heading over the panels.
+    pub title: String,
+}
+
+impl Default for StripOptions {
+    fn default() -> Self {
+        Self {
+            view: View::default(),
+            scale: 200.0,
+            title: String::new(),
+        }
+    }
+}
+
+/// Ticks of a run of `ticks` ticks that `count` evenly spaced panels show: from the first to the last, without repetition.
+pub fn evenly_spaced(ticks: u64, count: usize) -> Vec<u64> {
+    let last = ticks.saturating_sub(1);
+    let steps = (count.max(2) - 1) as u64;
+    let mut out: Vec<u64> = (0..=steps)
+        .map(|i| (i * last + steps / 2) / steps)
+        .collect();
+    out.dedup();
+    out
+}
+
+/// Draws `frames` of `body` side by side.
+pub fn draw(body: &Body, frames: &[Frame], options: &StripOptions) -> Drawing {
+    panel::draw(body, frames, options)
+}
+
+#[cfg(test)]
+mod tests;

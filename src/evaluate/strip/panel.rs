@@ -1,0 +1,593 @@
+//! Composes a strip: camera, ground tile, shadow, ghost, body and marks of every panel, then the legend.
+
+use super::drawing::{Anchor, Drawing, Item, Rgba, convex_hull};
+use super::{Frame, StripOptions, View};
+use crate::evaluate::pose::{SegmentPose, segment_poses};
+use crate::sim::body::topology::{DOF_COUNT, DOF_SEGMENT, SEGMENT_NAMES};
+use crate::sim::body::{Body, Mesh, Posture, SEGMENT_COUNT};
+use crate::sim::math::Vec3;
+
+const BACKGROUND: Rgba = Rgba::hex(0xfb_fbf9);
+const GROUND: Rgba = Rgba::hex(0xec_ebe6);
+const GRID: Rgba = Rgba::hex(0xdd_dbd4);
+const SHADOW: Rgba = Rgba::hex(0xd6_d4cd);
+const GHOST: Rgba = Rgba::hex(0xbf_cddd);
+const LEFT: Rgba = Rgba::hex(0x4f_93dd);
+const RIGHT: Rgba = Rgba::hex(0xf0_9345);
+const TRUNK: Rgba = Rgba::hex(0xbd_c2cb);
+const LOAD: Rgba = Rgba::hex(0x8a_6a4f);
+const FORCE: Rgba = Rgba::hex(0x1f_8f55);
+const COM: Rgba = Rgba::hex(0x22_262c);
+const ZMP: Rgba = Rgba::hex(0xb1_2d9a);
+const LIMIT: Rgba = Rgba::hex(0xd0_1f2e);
+const NEAR_LIMIT: Rgba = Rgba::hex(0xe0_a100);
+const INK: Rgba = Rgba::hex(0x33_373d);
+const FAINT: Rgba = Rgba::hex(0x77_7c84);
+
+/// Share of the strength above which a joint is marked as near its limit.
+const NEAR: f64 = 0.8;
+/// A force of the body's weight is drawn this long, m.
+const WEIGHT_LENGTH: f64 = 0.45;
+/// Half depth of a ground tile, m.
+const TILE_DEPTH: f64 = 0.5;
+/// A ghost farther off than this is not drawn: after a fall the desired motion walks on alone, m.
+const GHOST_RANGE: f64 = 1.5;
+/// Surface of a limb without a mesh, m.
+const BARE_RADIUS: f64 = 0.04;
+
+/// An orthographic camera: right, up and towards the viewer, world axes.
+#[derive(Clone, Copy)]
+struct Camera {
+    right: Vec3,
+    up: Vec3,
+    near: Vec3,
+}
+
+impl Camera {
+    /// Looks at a figure with the given heading (rad about z).
+    fn new(view: View, heading: f64) -> Self {
+        let (azimuth, elevation) = match view {
+            View::Side => (-90f64, 9f64),
+            View::Front => (0.0, 9.0),
+            View::ThreeQuarter => (-38.0, 14.0),
+        };
+        let (sa, ca) = (azimuth.to_radians() + heading).sin_cos();
+        let (se, ce) = elevation.to_radians().sin_cos();
+        let near = Vec3 {
+            x: ce * ca,
+            y: ce * sa,
+            z: se,
+        };
+        let right = Vec3 {
+            x: -sa,
+            y: ca,
+            z: 0.0,
+        };
+        Self {
+            right,
+            up: near.cross(right),
+            near,
+        }
+    }
+}
+
+/// A panel: camera, its centre on the ground and where that is in the picture.
+struct Place {
+    camera: Camera,
+    centre: Vec3,
+    origin: [f64; 2],
+    scale: f64,
+}
+
+impl Place {
+    fn to_screen(&self, p: Vec3) -> [f64; 3] {
+        let d = p - self.centre;
+        let (x, y, z) = (
+            d.dot(self.camera.right),
+            d.dot(self.camera.up),
+            d.dot(self.camera.near),
+        );
+        [
+            self.origin[0] + x * self.scale,
+            self.origin[1] - y * self.scale,
+            z * self.scale,
+        ]
+    }
+    fn flat(&self, p: Vec3) -> [f64; 2] {
+        let [x, y, _] = self.to_screen(p);
+        [x, y]
+    }
+}
+
+/// Surface of every segment with smooth normals, segment frame.
+struct Skin {
+    mesh: Mesh,
+    normals: Vec<Vec3>,
+}
+
+impl Skin {
+    fn new(mesh: Mesh) -> Self {
+        let mut normals = vec![Vec3::zero(); mesh.vertices.len()];
+        for t in &mesh.triangles {
+            let [a, b, c] = t.map(|i| mesh.vertices[i as usize]);
+            let n = (b - a).cross(c - a); // weighted by area
+            for i in t {
+                normals[*i as usize] += n;
+            }
+        }
+        for n in &mut normals {
+            *n = n.normalized_or(Vec3::Z);
+        }
+        Self { mesh, normals }
+    }
+
+    /// A ball.
+    fn ball(centre: Vec3, radius: f64) -> Self {
+        let (rings, sectors) = (8u32, 16u32);
+        let mut mesh = Mesh::default();
+        for i in 0..=rings {
+            let (st, ct) = (std::f64::consts::PI * f64::from(i) / f64::from(rings)).sin_cos();
+            for j in 0..sectors {
+                let (sp, cp) =
+                    (std::f64::consts::TAU * f64::from(j) / f64::from(sectors)).sin_cos();
+                mesh.vertices.push(
+                    centre
+                        + Vec3 {
+                            x: st * cp,
+                            y: st * sp,
+                            z: ct,
+                        } * radius,
+                );
+            }
+        }
+        for i in 0..rings {
+            for j in 0..sectors {
+                let at = |i: u32, j: u32| i * sectors + j % sectors;
+                mesh.triangles
+                    .push([at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
+                mesh.triangles
+                    .push([at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
+            }
+        }
+        let normals = mesh
+            .vertices
+            .iter()
+            .map(|v| (*v - centre).normalized_or(Vec3::Z))
+            .collect();
+        Self { mesh, normals }
+    }
+
+    /// The segment's own surface; a chain of balls from joint to tip if it has none.
+    fn of(body: &Body, s: usize) -> Self {
+        let segment = &body.segments[s];
+        if !segment.mesh.triangles.is_empty() {
+            return Self::new(segment.mesh.clone());
+        }
+        let mut out = Self {
+            mesh: Mesh::default(),
+            normals: Vec::new(),
+        };
+        for i in 0..=8 {
+            let ball = Self::ball(segment.tip * (f64::from(i) / 8.0), BARE_RADIUS);
+            let first = out.mesh.vertices.len() as u32;
+            out.mesh.vertices.extend(ball.mesh.vertices);
+            out.mesh
+                .triangles
+                .extend(ball.mesh.triangles.iter().map(|t| t.map(|v| v + first)));
+            out.normals.extend(ball.normals);
+        }
+        out
+    }
+}
+
+pub(super) fn draw(body: &Body, frames: &[Frame], options: &StripOptions) -> Drawing {
+    let heading = frames.first().map_or(0.0, |f| {
+        let forward = f.posture.root_rotation.rotate(Vec3::X);
+        forward.y.atan2(forward.x)
+    });
+    let camera = Camera::new(options.view, heading);
+    let skins: Vec<Skin> = (0..SEGMENT_COUNT).map(|s| Skin::of(body, s)).collect();
+    let scale = options.scale;
+    let extents: Vec<[f64; 3]> = frames
+        .iter()
+        .map(|f| extent(body, &skins, f, camera))
+        .collect();
+    let top = extents.iter().map(|e| e[2]).fold(1.0, f64::max);
+    let head_room = 46.0;
+    let tile_drop = TILE_DEPTH * camera.near.z * scale;
+    let ground_y = head_room + 14.0 + top * scale;
+    let label_y = ground_y + tile_drop + 22.0;
+    let mut items = Vec::new();
+    let mut x = 16.0;
+    for (frame, [left, right, _]) in frames.iter().zip(&extents) {
+        let place = Place {
+            camera,
+            centre: ground_below(frame.posture.root_position),
+            origin: [x + left * scale, ground_y],
+            scale,
+        };
+        panel(
+            &mut items,
+            body,
+            &skins,
+            frame,
+            &place,
+            [-left + 0.02, right - 0.02],
+        );
+        label(
+            &mut items,
+            frame,
+            [place.origin[0] + (right - left) / 2.0 * scale, label_y],
+        );
+        x += (left + right) * scale;
+    }
+    let legend_y = label_y + 42.0;
+    let legend_end = legend(&mut items, [20.0, legend_y]);
+    items.push(Item::Text {
+        at: [20.0, 30.0],
+        size: 20.0,
+        anchor: Anchor::Start,
+        colour: INK,
+        text: options.title.clone(),
+    });
+    Drawing {
+        width: (x + 16.0).max(legend_end),
+        height: legend_y + 18.0,
+        background: BACKGROUND,
+        items,
+    }
+}
+
+fn ground_below(p: Vec3) -> Vec3 {
+    Vec3 { z: 0.0, ..p }
+}
+
+fn shows_ghost(frame: &Frame) -> bool {
+    (frame.desired.root_position - frame.posture.root_position).norm() < GHOST_RANGE
+}
+
+/// How far a panel reaches to the left, to the right and up of its centre, m.
+fn extent(body: &Body, skins: &[Skin], frame: &Frame, camera: Camera) -> [f64; 3] {
+    let centre = ground_below(frame.posture.root_position);
+    let mut out = [0.36, 0.36, 0.0f64];
+    let mut reach = |p: Vec3, margin: f64| {
+        let d = p - centre;
+        let (x, y) = (d.dot(camera.right), d.dot(camera.up));
+        out = [
+            out[0].max(margin - x),
+            out[1].max(x + margin),
+            out[2].max(y),
+        ];
+    };
+    let mut postures = vec![&frame.posture];
+    if shows_ghost(frame) {
+        postures.push(&frame.desired);
+    }
+    for posture in postures {
+        for (pose, skin) in segment_poses(&body.joint_offset, posture).iter().zip(skins) {
+            for v in &skin.mesh.vertices {
+                reach(pose.point(*v), 0.06);
+            }
+        }
+    }
+    out
+}
+
+fn panel(
+    items: &mut Vec<Item>,
+    body: &Body,
+    skins: &[Skin],
+    frame: &Frame,
+    place: &Place,
+    sides: [f64; 2],
+) {
+    let poses = segment_poses(&body.joint_offset, &frame.posture);
+    tile(items, place, sides);
+    for (pose, skin) in poses.iter().zip(skins) {
+        let shadow: Vec<[f64; 2]> = skin
+            .mesh
+            .vertices
+            .iter()
+            .map(|v| place.flat(ground_below(pose.point(*v))))
+            .collect();
+        items.push(Item::Polygon {
+            points: convex_hull(&shadow),
+            fill: SHADOW,
+            stroke: None,
+        });
+    }
+    if frame.polygon.len() > 2 {
+        let points = frame
+            .polygon
+            .iter()
+            .map(|p| {
+                place.flat(Vec3 {
+                    x: p[0],
+                    y: p[1],
+                    z: 0.0,
+                })
+            })
+            .collect();
+        items.push(Item::Polygon {
+            points,
+            fill: FORCE.alpha(46),
+            stroke: Some((FORCE.alpha(150), 1.2)),
+        });
+    }
+    if shows_ghost(frame) {
+        ghost(items, body, skins, &frame.desired, place);
+    }
+    for s in 0..SEGMENT_COUNT {
+        items.push(solid(&skins[s], &poses[s], segment_colour(s), place));
+    }
+    for (s, point, mass) in &frame.loads {
+        // As large as a ball of twice the density of water.
+        let radius = (mass / 2000.0 * 0.75 / std::f64::consts::PI).cbrt();
+        items.push(solid(&Skin::ball(*point, radius), &poses[*s], LOAD, place));
+    }
+    marks(items, body, frame, &poses, place);
+}
+
+/// The ground under one panel with lines every half metre of the world.
+fn tile(items: &mut Vec<Item>, place: &Place, sides: [f64; 2]) {
+    let right = place.camera.right;
+    let towards = Vec3 {
+        x: right.y,
+        y: -right.x,
+        z: 0.0,
+    }; // horizontal, to the viewer
+    let at = |x: f64, y: f64| place.flat(place.centre + right * x + towards * y);
+    let depth = [-TILE_DEPTH, TILE_DEPTH];
+    items.push(Item::Polygon {
+        points: vec![
+            at(sides[0], depth[0]),
+            at(sides[1], depth[0]),
+            at(sides[1], depth[1]),
+            at(sides[0], depth[1]),
+        ],
+        fill: GROUND,
+        stroke: None,
+    });
+    for axis in [Vec3::X, Vec3::Y] {
+        let c = place.centre.dot(axis);
+        for k in ((c - 2.0) * 2.0).floor() as i64..=((c + 2.0) * 2.0).ceil() as i64 {
+            // The line {p: p·axis = k/2} in tile coordinates, clipped to the tile.
+            let foot = axis * (k as f64 / 2.0 - c);
+            let along = Vec3::Z.cross(axis);
+            let start = [foot.dot(right), foot.dot(towards)];
+            let step = [along.dot(right), along.dot(towards)];
+            let (mut from, mut to) = (-4.0f64, 4.0f64);
+            for (i, range) in [sides, depth].iter().enumerate() {
+                if step[i].abs() < 1e-9 {
+                    if start[i] < range[0] || start[i] > range[1] {
+                        to = from;
+                    }
+                    continue;
+                }
+                let (a, b) = (
+                    (range[0] - start[i]) / step[i],
+                    (range[1] - start[i]) / step[i],
+                );
+                from = from.max(a.min(b));
+                to = to.min(a.max(b));
+            }
+            if from < to {
+                let p = |u: f64| at(start[0] + u * step[0], start[1] + u * step[1]);
+                items.push(Item::Line {
+                    from: p(from),
+                    to: p(to),
+                    width: 1.0,
+                    colour: GRID,
+                });
+            }
+        }
+    }
+}
+
+/// The desired posture as one pale silhouette.
+fn ghost(items: &mut Vec<Item>, body: &Body, skins: &[Skin], desired: &Posture, place: &Place) {
+    let poses = segment_poses(&body.joint_offset, desired);
+    for (pose, skin) in poses.iter().zip(skins) {
+        let flat: Vec<[f64; 2]> = skin
+            .mesh
+            .vertices
+            .iter()
+            .map(|v| place.flat(pose.point(*v)))
+            .collect();
+        items.push(Item::Polygon {
+            points: convex_hull(&flat),
+            fill: GHOST,
+            stroke: Some((GHOST, 2.5)),
+        });
+    }
+}
+
+fn segment_colour(s: usize) -> Rgba {
+    match SEGMENT_NAMES[s].as_bytes() {
+        [b'l', b'_', ..] => LEFT,
+        [b'r', b'_', ..] => RIGHT,
+        _ => TRUNK,
+    }
+}
+
+fn solid(skin: &Skin, pose: &SegmentPose, colour: Rgba, place: &Place) -> Item {
+    let Camera { right, up, near } = place.camera;
+    let to_light = (right * -0.45 + up * 0.6 + near * 0.66).normalized_or(Vec3::Z);
+    let vertices: Vec<[f64; 3]> = skin
+        .mesh
+        .vertices
+        .iter()
+        .map(|v| place.to_screen(pose.point(*v)))
+        .collect();
+    let flat: Vec<[f64; 2]> = vertices.iter().map(|v| [v[0], v[1]]).collect();
+    let light = skin
+        .normals
+        .iter()
+        .map(|n| {
+            let n = pose.rotation.rotate(*n);
+            // Ambient, sky from above, key light, and a darker rim that sets limbs off from each other.
+            let rim = n.dot(near).clamp(0.0, 1.0).sqrt();
+            (0.56 + 0.1 * n.z + 0.5 * n.dot(to_light).max(0.0)) * (0.66 + 0.34 * rim)
+        })
+        .collect();
+    Item::Solid {
+        outline: convex_hull(&flat),
+        vertices,
+        light,
+        triangles: skin.mesh.triangles.clone(),
+        colour,
+    }
+}
+
+/// Forces, centre of mass, zero-moment point, and joints near the limit of their strength.
+fn marks(
+    items: &mut Vec<Item>,
+    body: &Body,
+    frame: &Frame,
+    poses: &[SegmentPose; SEGMENT_COUNT],
+    place: &Place,
+) {
+    let weight = body.profile.mass * 9.81;
+    for (point, force) in frame.contact {
+        let length = force * (WEIGHT_LENGTH / weight);
+        if length.norm() > 0.01 {
+            arrow(items, place.flat(point), place.flat(point + length));
+        }
+    }
+    let com = place.flat(frame.com);
+    items.push(Item::Line {
+        from: com,
+        to: place.flat(ground_below(frame.com)),
+        width: 1.0,
+        colour: COM.alpha(110),
+    });
+    if let Some(zmp) = frame.zmp {
+        let d = zmp - place.centre;
+        // The zero-moment point of a tipping figure can be far away.
+        if d.norm() < 1.0 {
+            cross(items, place.flat(zmp));
+        }
+    }
+    items.push(com_mark(com));
+    let mut used = [0.0f64; SEGMENT_COUNT];
+    for d in 0..DOF_COUNT {
+        used[DOF_SEGMENT[d]] = used[DOF_SEGMENT[d]].max(frame.utilisation[d]);
+    }
+    for s in 1..SEGMENT_COUNT {
+        if used[s] >= NEAR {
+            items.push(ring(place.flat(poses[s].position), used[s] >= 0.999));
+        }
+    }
+}
+
+fn com_mark(at: [f64; 2]) -> Item {
+    Item::Circle {
+        centre: at,
+        radius: 4.5,
+        fill: Rgba::hex(0xff_ffff),
+        stroke: Some((COM, 2.0)),
+    }
+}
+
+fn cross(items: &mut Vec<Item>, at: [f64; 2]) {
+    for (dx, dy) in [(4.0, 4.0), (4.0, -4.0)] {
+        let (from, to) = ([at[0] - dx, at[1] - dy], [at[0] + dx, at[1] + dy]);
+        items.push(Item::Line {
+            from,
+            to,
+            width: 2.4,
+            colour: ZMP,
+        });
+    }
+}
+
+fn ring(at: [f64; 2], at_limit: bool) -> Item {
+    let colour = if at_limit { LIMIT } else { NEAR_LIMIT };
+    Item::Circle {
+        centre: at,
+        radius: 6.5,
+        fill: colour.alpha(0),
+        stroke: Some((colour, 2.6)),
+    }
+}
+
+fn arrow(items: &mut Vec<Item>, from: [f64; 2], to: [f64; 2]) {
+    let d = [to[0] - from[0], to[1] - from[1]];
+    let n = d[0].hypot(d[1]).max(1e-9);
+    let u = [d[0] / n, d[1] / n];
+    let head = n.min(9.0);
+    let base = [to[0] - u[0] * head, to[1] - u[1] * head];
+    items.push(Item::Line {
+        from,
+        to: base,
+        width: 2.6,
+        colour: FORCE,
+    });
+    let side = [-u[1] * head * 0.42, u[0] * head * 0.42];
+    items.push(Item::Polygon {
+        points: vec![
+            to,
+            [base[0] + side[0], base[1] + side[1]],
+            [base[0] - side[0], base[1] - side[1]],
+        ],
+        fill: FORCE,
+        stroke: None,
+    });
+}
+
+fn label(items: &mut Vec<Item>, frame: &Frame, at: [f64; 2]) {
+    let (text, colour) = if frame.fallen {
+        (format!("{:.2} s, fallen", frame.time_s), LIMIT)
+    } else {
+        (format!("{:.2} s", frame.time_s), INK)
+    };
+    items.push(Item::Text {
+        at,
+        size: 16.0,
+        anchor: Anchor::Middle,
+        colour,
+        text,
+    });
+}
+
+/// Explains the marks; returns where it ends.
+fn legend(items: &mut Vec<Item>, at: [f64; 2]) -> f64 {
+    let mut x = at[0];
+    let y = at[1] - 4.0;
+    let entries: [(&str, &dyn Fn(&mut Vec<Item>, f64)); 8] = [
+        ("left", &|i, x| i.push(swatch(x, y, LEFT))),
+        ("right", &|i, x| i.push(swatch(x, y, RIGHT))),
+        ("desired", &|i, x| i.push(swatch(x, y, GHOST))),
+        ("contact force", &|i, x| {
+            arrow(i, [x, y + 7.0], [x, y - 8.0])
+        }),
+        ("centre of mass", &|i, x| i.push(com_mark([x, y]))),
+        ("zero-moment point", &|i, x| cross(i, [x, y])),
+        ("joint above 80 % of its strength", &|i, x| {
+            i.push(ring([x, y], false))
+        }),
+        ("at its limit", &|i, x| i.push(ring([x, y], true))),
+    ];
+    for (text, mark) in entries {
+        mark(items, x + 7.0);
+        items.push(Item::Text {
+            at: [x + 20.0, at[1]],
+            size: 13.0,
+            anchor: Anchor::Start,
+            colour: FAINT,
+            text: text.to_owned(),
+        });
+        // Wide enough for the proportional fonts of SVG viewers too.
+        x += 20.0 + text.chars().count() as f64 * 6.9 + 20.0;
+    }
+    x
+}
+
+fn swatch(x: f64, y: f64, colour: Rgba) -> Item {
+    Item::Circle {
+        centre: [x, y],
+        radius: 6.0,
+        fill: colour,
+        stroke: None,
+    }
+}

@@ -1,0 +1,421 @@
+//! The offline commands as a user meets them: `sinew run` on built-in motions writes what it promises, and wrong arguments are answered
+//! with what is wrong. Method: the real binary, files in a directory of its own per test.
+#![cfg(feature = "net")]
+
+use serde_json::Value;
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+/// Every field that `report.json` promises.
+const FIELDS: [&str; 21] = [
+    "rate_hz",
+    "ticks",
+    "fell_at_s",
+    "joint_rms_deg",
+    "joint_max_deg",
+    "mpjpe_root_mm",
+    "mpjpe_global_mm",
+    "max_utilisation",
+    "over_limit_max",
+    "saturated_s",
+    "dynamics_residual_max",
+    "root_wrench_unexplained_max_n",
+    "foot_slip_mm_per_s",
+    "penetration_max_mm",
+    "margin_min_m",
+    "state_hash",
+    "us_per_tick_p50",
+    "us_per_tick_p99",
+    "retarget",
+    "events",
+    "non_finite_ticks",
+];
+
+/// A directory of this test process that is empty at first and removed at the end.
+struct Scratch(PathBuf);
+
+impl Scratch {
+    fn new(test: &str) -> Self {
+        let path =
+            std::env::temp_dir().join(format!("sinew-run-cli-{}-{test}", std::process::id()));
+        std::fs::create_dir_all(&path).expect("a directory for the test");
+        Self(path)
+    }
+    fn file(&self, name: &str) -> String {
+        self.0.join(name).to_str().expect("UTF-8").to_owned()
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+fn sinew(args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_sinew"))
+        .args(args)
+        .output()
+        .expect("the binary runs")
+}
+
+fn succeed(args: &[&str]) -> String {
+    let out = sinew(args);
+    let errors = String::from_utf8_lossy(&out.stderr);
+    assert!(out.status.success(), "sinew {args:?}: {errors}");
+    String::from_utf8(out.stdout).expect("UTF-8")
+}
+
+/// Runs with arguments that must be refused; returns what it says.
+fn fail(args: &[&str]) -> String {
+    let out = sinew(args);
+    assert!(!out.status.success(), "sinew {args:?} should be refused");
+    String::from_utf8(out.stderr).expect("UTF-8")
+}
+
+fn json(path: &str) -> Value {
+    serde_json::from_str(&std::fs::read_to_string(path).expect("the file was written"))
+        .expect("JSON")
+}
+
+fn number(report: &Value, field: &str) -> f64 {
+    report[field]
+        .as_f64()
+        .unwrap_or_else(|| panic!("{field} is {}", report[field]))
+}
+
+#[test]
+fn standing_motions_are_tracked_within_the_laws_of_physics() {
+    let dir = Scratch::new("standing");
+    let path = dir.file("report.json");
+    succeed(&[
+        "run",
+        "builtin:idle",
+        "builtin:wave",
+        "builtin:squat",
+        "builtin:lift",
+        "--report",
+        &path,
+    ]);
+    let reports = json(&path);
+    assert_eq!(reports.as_array().map(Vec::len), Some(4));
+    for r in reports.as_array().expect("a list") {
+        let clip = &r["clip"];
+        for field in FIELDS {
+            assert!(r.get(field).is_some(), "{clip}: {field} is missing");
+        }
+        assert_eq!(number(r, "rate_hz"), 60.0);
+        assert_eq!(number(r, "ticks"), (number(r, "duration_s") * 60.0).round());
+        assert_eq!(number(r, "non_finite_ticks"), 0.0, "{clip}");
+        assert!(
+            r["fell_at_s"].is_null(),
+            "{clip} fell at {}",
+            r["fell_at_s"]
+        );
+        assert!(
+            number(r, "joint_rms_deg") < 1.5,
+            "{clip}: {} deg",
+            r["joint_rms_deg"]
+        );
+        assert!(
+            number(r, "over_limit_max") < 1e-9,
+            "{clip}: {}",
+            r["over_limit_max"]
+        );
+        assert!(
+            number(r, "dynamics_residual_max") < 1e-9,
+            "{clip}: {}",
+            r["dynamics_residual_max"]
+        );
+        let weight = number(&r["body"], "mass_kg") * number(r, "gravity_mps2");
+        assert!(
+            number(r, "root_wrench_unexplained_max_n") < 1e-6 * weight,
+            "{clip}"
+        );
+        assert!(
+            number(r, "penetration_max_mm") < 5.0,
+            "{clip}: {} mm",
+            r["penetration_max_mm"]
+        );
+        assert_eq!(r["saturated_s"].as_object().map(|o| o.len()), Some(39));
+        assert_eq!(r["state_hash"].as_str().map(str::len), Some(16));
+        assert!(
+            r["retarget"].is_null(),
+            "{clip}: built-in motions are made for the body"
+        );
+        assert!(r["events"].is_array());
+    }
+}
+
+#[test]
+fn same_run_gives_the_same_bits_alone_and_beside_others() {
+    let dir = Scratch::new("hash");
+    let (one, two) = (dir.file("one.json"), dir.file("two.json"));
+    succeed(&["run", "builtin:wave", "--duration", "1", "--report", &one]);
+    succeed(&[
+        "run",
+        "builtin:wave",
+        "builtin:idle",
+        "--duration",
+        "1",
+        "--threads",
+        "2",
+        "--report",
+        &two,
+    ]);
+    assert_eq!(json(&one)["state_hash"], json(&two)[0]["state_hash"]);
+}
+
+#[test]
+fn files_have_the_promised_content() {
+    let dir = Scratch::new("files");
+    let (csv, bvh) = (dir.file("out.csv"), dir.file("out.bvh"));
+    let (svg, png) = (dir.file("strip.svg"), dir.file("strip.png"));
+    let run = ["run", "builtin:squat", "--duration", "0.5", "--out"];
+    succeed(
+        &[
+            &run[..],
+            &[
+                &csv,
+                "--strip",
+                &svg,
+                "--strip-frames",
+                "3",
+                "--view",
+                "side",
+            ],
+        ]
+        .concat(),
+    );
+    succeed(&[&run[..], &[&bvh, "--strip", &png]].concat());
+
+    let table = std::fs::read_to_string(&csv).expect("a table");
+    let rows: Vec<Vec<&str>> = table.lines().map(|l| l.split(',').collect()).collect();
+    assert_eq!(rows.len(), 31, "a heading and 30 ticks");
+    assert!(
+        rows.iter().all(|r| r.len() == 8 + 4 * 39),
+        "time, root pose, angles, torques, two limits"
+    );
+    for row in &rows[1..] {
+        let values: Vec<f64> = row.iter().map(|v| v.parse().expect("a number")).collect();
+        assert!(values.iter().all(|v| v.is_finite()));
+        for d in 0..39 {
+            assert!(
+                values[8 + 78 + d] < 0.0 && values[8 + 117 + d] > 0.0,
+                "limits have opposite signs"
+            );
+        }
+    }
+    let picture = std::fs::read_to_string(&svg).expect("a picture");
+    assert_eq!(picture.matches("<svg ").count(), 1);
+    assert_eq!(picture.matches(" s</text>").count(), 3, "three panels");
+    assert!(
+        std::fs::read(&png)
+            .expect("a picture")
+            .starts_with(b"\x89PNG\r\n\x1a\n")
+    );
+    // What was written can be read again, by the same program.
+    let text = std::fs::read(&bvh).expect("a motion");
+    let motion = sinew::sim::motion::Bvh::parse(&text).expect("our own BVH");
+    assert_eq!(motion.frame_count, 30);
+    assert!(succeed(&["lint", &bvh]).contains("mapped by name"));
+}
+
+#[test]
+fn loads_pushes_and_weakness_reach_the_physics() {
+    let dir = Scratch::new("loads");
+    let path = dir.file("report.json");
+    let report = |extra: &[&str]| {
+        succeed(
+            &[
+                &[
+                    "run",
+                    "builtin:idle",
+                    "--duration",
+                    "2.5",
+                    "--report",
+                    &path,
+                ],
+                extra,
+            ]
+            .concat(),
+        );
+        json(&path)
+    };
+    let plain = report(&[]);
+    let loaded = report(&["--load", "3@r_hand@0.5..1.5"]);
+    assert!(number(&loaded, "max_utilisation") > number(&plain, "max_utilisation"));
+    let kinds: Vec<&str> = loaded["events"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .filter_map(|e| e["kind"].as_str())
+        .collect();
+    assert!(
+        kinds.contains(&"load_taken") && kinds.contains(&"load_dropped"),
+        "{kinds:?}"
+    );
+    assert!(
+        number(&loaded, "dynamics_residual_max") < 1e-9,
+        "the load is on the books"
+    );
+    let pushed = report(&["--push", "15@chest@0.5:-1,0,0"]);
+    assert_ne!(pushed["state_hash"], plain["state_hash"]);
+    assert!(
+        number(&pushed, "dynamics_residual_max") < 1e-9,
+        "the push is on the books"
+    );
+    assert!(number(&pushed, "root_wrench_unexplained_max_n") < 1e-6 * 735.0);
+    assert_eq!(pushed["pushes"][0]["segment"], "chest");
+    let weak = report(&["--strength", "0.05"]);
+    assert!(number(&weak, "over_limit_max") < 1e-9);
+    assert!(number(&weak, "max_utilisation") > number(&plain, "max_utilisation"));
+}
+
+#[test]
+fn a_fall_is_a_result_and_not_an_error() {
+    let dir = Scratch::new("fall");
+    let path = dir.file("report.json");
+    let out = succeed(&[
+        "run",
+        "builtin:idle",
+        "--duration",
+        "4",
+        "--push",
+        "120@chest@0.5:1,0,0",
+        "--report",
+        &path,
+    ]);
+    let report = json(&path);
+    assert!(number(&report, "fell_at_s") > 0.5, "120 N·s fell a person");
+    assert!(out.contains("fell at"), "{out}");
+    assert_eq!(number(&report, "non_finite_ticks"), 0.0);
+    assert!(
+        report["quarantined_at_s"].is_null(),
+        "a fall is ordinary physics"
+    );
+}
+
+#[test]
+fn wrong_arguments_are_told_apart() {
+    for (args, says) in [
+        (&["run"][..], "CLIP"),
+        (
+            &["run", "builtin:fly"],
+            "no built-in motion is called \"fly\"; there are idle, lift, squat, wave, step, walk",
+        ),
+        (&["run", "wave"], "did you mean builtin:wave?"),
+        (&["run", "no/such.bvh"], "cannot read no/such.bvh"),
+        (
+            &["run", "builtin:idle", "--load", "3@tail"],
+            "no segment is called \"tail\"",
+        ),
+        (
+            &["run", "builtin:idle", "--push", "3@chest"],
+            "is not of the form NS@SEGMENT@T:x,y,z",
+        ),
+        (
+            &["run", "builtin:idle", "--strength", "0"],
+            "--strength 0: outside 0.01…100",
+        ),
+        (
+            &["run", "builtin:idle", "--rate", "5"],
+            "rate_hz is 5, expected 10…1000",
+        ),
+        (&["run", "builtin:idle", "--height", "9"], "height"),
+        (
+            &["run", "builtin:idle", "--duration", "-1"],
+            "unexpected argument '-1'",
+        ),
+        (
+            &["run", "builtin:idle", "--duration", "nan"],
+            "--duration NaN s: outside",
+        ),
+        (&["run", "builtin:idle", "--loop"], "--duration"),
+        (
+            &["run", "builtin:idle", "--out", "a.txt"],
+            "--out a.txt: the name must end in one of .bvh, .csv",
+        ),
+        (
+            &["run", "builtin:idle", "--strip", "a.gif"],
+            "--strip a.gif: the name must end in one of .svg, .png",
+        ),
+        (
+            &["run", "builtin:idle", "--controller", "magic"],
+            "[possible values: paper, modern, motors]",
+        ),
+        (
+            &["convert", "builtin:idle", "a.fbx"],
+            "convert a.fbx: the name must end in one of .bvh, .csv, .json",
+        ),
+    ] {
+        let error = fail(args);
+        assert!(
+            error.contains(says),
+            "sinew {args:?} says {error:?}, not {says:?}"
+        );
+    }
+}
+
+#[test]
+fn a_file_that_is_no_motion_is_refused_with_the_place() {
+    let dir = Scratch::new("bad-bvh");
+    let path = dir.file("bad.bvh");
+    std::fs::write(&path, "HIERARCHY\nROOT hips\n{\n  OFFSET 0 0 zero\n}\n").expect("a file");
+    for command in ["run", "lint"] {
+        let error = fail(&[command, &path]);
+        assert!(
+            error.contains("is not a BVH file") && error.contains("line 4"),
+            "{error}"
+        );
+    }
+}
+
+#[test]
+fn prepared_motions_are_written_in_three_formats() {
+    let dir = Scratch::new("convert");
+    let (csv, bvh, list) = (dir.file("a.csv"), dir.file("a.bvh"), dir.file("a.json"));
+    for path in [&csv, &bvh, &list] {
+        succeed(&["convert", "builtin:wave", path, "--body", "woman"]);
+    }
+    let samples = json(&list)["samples"]
+        .as_array()
+        .map(Vec::len)
+        .expect("samples");
+    let rows = std::fs::read_to_string(&csv)
+        .expect("a table")
+        .lines()
+        .count();
+    let motion = sinew::sim::motion::Bvh::parse(&std::fs::read(&bvh).expect("a motion"))
+        .expect("our own BVH");
+    assert_eq!((rows, motion.frame_count), (samples + 1, samples));
+}
+
+#[test]
+fn bodies_are_listed_for_people_and_for_programs() {
+    let text = succeed(&["bodies", "--body", "woman", "--height", "1.6", "--sources"]);
+    assert!(
+        text.starts_with("woman, ") && text.contains("1.60 m") && text.contains("l_knee_flexion")
+    );
+    let body: Value = serde_json::from_str(&succeed(&["bodies", "--json"])).expect("JSON");
+    assert_eq!(body["dofs"].as_array().map(Vec::len), Some(39));
+    let mass: f64 = body["segments"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .map(|s| number(s, "mass_kg"))
+        .sum();
+    assert!((mass - number(&body, "mass_kg")).abs() < 1e-6);
+    for dof in body["dofs"].as_array().expect("a list") {
+        assert!(
+            number(dof, "torque_min_at_rest_nm") < 0.0
+                && number(dof, "torque_max_at_rest_nm") > 0.0,
+            "{dof}"
+        );
+        assert!(
+            !dof["sources"].as_array().expect("a list").is_empty(),
+            "{} has no source",
+            dof["name"]
+        );
+    }
+}
