@@ -1,0 +1,190 @@
+//! The server in this process, and what tests keep asking of it.
+
+use sinew::client::Client;
+use sinew::server::api::App;
+use sinew::server::config::Config;
+use sinew::wire::pb;
+use std::net::SocketAddr;
+use std::sync::Arc;
+use tonic::{Code, Status};
+use tonic_types::StatusExt;
+
+/// A server that ends when it is dropped.
+pub struct TestServer {
+    pub address: SocketAddr,
+    pub client: Client,
+    stop: Option<tokio::sync::oneshot::Sender<()>>,
+    ended: Option<tokio::task::JoinHandle<()>>,
+}
+
+impl TestServer {
+    pub async fn start() -> Self {
+        Self::with(&[]).await
+    }
+
+    /// With settings other than the defaults.
+    pub async fn with(settings: &[(&str, &str)]) -> Self {
+        let flags: Vec<_> = settings
+            .iter()
+            .map(|(a, b)| ((*a).to_owned(), (*b).to_owned()))
+            .collect();
+        let config = Config::load(None, std::iter::empty(), &flags).unwrap();
+        let listener = tokio::net::TcpListener::bind("127.0.0.1:0").await.unwrap();
+        let address = listener.local_addr().unwrap();
+        let (stop, stopped) = tokio::sync::oneshot::channel::<()>();
+        let (signal, stopping) = tokio::sync::watch::channel(false);
+        let app = Arc::new(App::new(Arc::new(config), stopping).unwrap());
+        let ended = tokio::spawn(async move {
+            let shutdown = async move {
+                let _ = stopped.await;
+            };
+            sinew::server::serve(app, listener, shutdown, signal)
+                .await
+                .unwrap();
+        });
+        let client = Client::connect(&address.to_string()).await.unwrap();
+        Self {
+            address,
+            client,
+            stop: Some(stop),
+            ended: Some(ended),
+        }
+    }
+
+    /// Shuts down and waits for the end.
+    pub async fn stop(mut self) {
+        drop(self.stop.take());
+        self.ended.take().unwrap().await.unwrap();
+    }
+
+    /// A world, paused so that tests say when it moves.
+    pub async fn paused_world(&self, id: &str) -> String {
+        self.world(id, true, pb::World::default()).await
+    }
+
+    pub async fn world(&self, id: &str, paused: bool, world: pb::World) -> String {
+        self.client
+            .worlds()
+            .create_world(pb::CreateWorldRequest {
+                world_id: id.into(),
+                world: Some(world),
+                paused,
+            })
+            .await
+            .unwrap()
+            .into_inner()
+            .world
+            .unwrap()
+            .name
+    }
+
+    pub async fn figure(&self, world: &str, id: &str) -> pb::Figure {
+        self.client
+            .figures()
+            .create_figure(pb::CreateFigureRequest {
+                parent: world.into(),
+                figure_id: id.into(),
+                figure: None,
+            })
+            .await
+            .unwrap()
+            .into_inner()
+            .figure
+            .unwrap()
+    }
+
+    pub async fn step(&self, world: &str, tick_count: i32) -> pb::StepWorldResponse {
+        self.client
+            .worlds()
+            .step_world(pb::StepWorldRequest {
+                name: world.into(),
+                tick_count,
+            })
+            .await
+            .unwrap()
+            .into_inner()
+    }
+
+    /// The latest frame in double precision.
+    pub async fn frame(&self, world: &str, fields: &[&str]) -> pb::WorldFrame {
+        self.client
+            .states()
+            .get_world_frame(pb::GetWorldFrameRequest {
+                world: world.into(),
+                tick: None,
+                view: Some(view(fields)),
+            })
+            .await
+            .unwrap()
+            .into_inner()
+            .frame
+            .unwrap()
+    }
+}
+
+/// A view of these fields in double precision.
+pub fn view(fields: &[&str]) -> pb::View {
+    pb::View {
+        fields: Some(prost_types::FieldMask {
+            paths: fields.iter().map(|f| (*f).to_owned()).collect(),
+        }),
+        encoding: pb::Encoding::Double.into(),
+        ..Default::default()
+    }
+}
+
+/// The reason and the field of a refusal.
+pub fn refusal(status: &Status) -> (Code, String, String) {
+    let details = status.get_error_details();
+    let reason = details
+        .error_info()
+        .map(|i| i.reason.clone())
+        .expect("every refusal has an ErrorInfo");
+    let field = details
+        .bad_request()
+        .and_then(|b| b.field_violations.first())
+        .map(|v| v.field.clone())
+        .unwrap_or_default();
+    (status.code(), reason, field)
+}
+
+/// Bytes of a recording.
+pub fn recording(name: &str) -> Vec<u8> {
+    let dir = std::env::var_os("SINEW_MOCAP_DIR").map_or_else(
+        || std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/mocap"),
+        Into::into,
+    );
+    let path = dir.join(name);
+    std::fs::read(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+}
+
+/// Desired motion of a lifted right arm, one frame per 1/60 s.
+pub fn arm_frame(figure: &str, i: i64) -> pb::MotionFrame {
+    let t = i as f64 / 60.0;
+    let mut angles = vec![0.0; 39];
+    angles[19] = 0.6 - 0.6 * (1.5 * t).cos(); // right elbow
+    let mut velocity = vec![0.0; 45];
+    velocity[6 + 19] = 0.9 * (1.5 * t).sin();
+    pb::MotionFrame {
+        sequence: i,
+        source_time_ns: (t * 1e9) as i64,
+        figures: vec![pb::FigureMotion {
+            figure: figure.into(),
+            joint_angles_rad: angles,
+            velocity,
+            planted: vec![true, true],
+            ..Default::default()
+        }],
+    }
+}
+
+/// A drive whose motion is used a fixed time after it came, so that what happens depends on ticks alone.
+pub fn header(world: &str, figure: &str, driver: &str) -> pb::DriveHeader {
+    pb::DriveHeader {
+        world: world.into(),
+        figures: vec![figure.into()],
+        driver_id: driver.into(),
+        playout_delay_ms: Some(0.0),
+        ..Default::default()
+    }
+}
