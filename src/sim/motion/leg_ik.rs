@@ -117,33 +117,21 @@ pub fn solve_leg_in_plane(
     let to_ankle = wanted - hip;
     let distance = to_ankle.norm();
 
-    // Hip to ankle in the thigh frame is r(θ) = a + R(θ) b about the hinge axis n. With the parts of a and b across n,
-    // |r|² = |a|² + |b|² + 2 (a·n)(b·n) + 2 C cos(θ − φ),  C = |a⊥||b⊥|: longest at θ = φ, shorter on both sides.
     let (a, b, n) = (
         body.joint_offset[shank],
         body.joint_offset[foot],
         hinge_axis(left),
     );
-    let (an, bn) = (a.dot(n), b.dot(n));
-    let (across_a, across_b) = (a - n * an, b - n * bn);
-    let cosine_part = across_a.dot(across_b);
-    let sine_part = across_a.dot(n.cross(across_b));
-    let amplitude = cosine_part.hypot(sine_part);
-    let stretched = sine_part.atan2(cosine_part);
-    let constant = a.dot(a) + b.dot(b) + 2.0 * an * bn;
-    let cosine = ((distance * distance - constant) / (2.0 * amplitude)).clamp(-1.0, 1.0);
     let dof = DOF_START[shank];
     let lower = body.lower[dof].max(0.0);
     let upper = body.upper[dof].max(lower);
-    let knee = (stretched + cosine.acos()).clamp(lower, upper);
+    let knee = hinge_for_distance(a, b, n, distance).clamp(lower, upper);
     let knee_rotation = Quat::exp(n * knee);
     let reach = a + knee_rotation.rotate(b); // thigh frame
 
     // Turn the thigh frame so that `reach` points at the ankle and n lies as near to `axis` as that leaves open.
     let direction = to_ankle.normalized_or(-pelvis.rotate(Vec3::Z));
-    let thigh_frame = frame(reach.normalized_or(-Vec3::Z), n, Vec3::X);
-    let world_frame = frame(direction, axis, pelvis.rotate(Vec3::X));
-    let world_from_thigh = Quat::from_mat3(&(world_frame * thigh_frame.transpose()));
+    let world_from_thigh = point_and_roll(reach, n, direction, axis, pelvis.rotate(Vec3::X));
 
     if let (Joint::Ball(h), Joint::Hinge1(k), Joint::Ball(f), Joint::Hinge1(t)) =
         (JOINT[thigh], JOINT[shank], JOINT[foot], JOINT[toes])
@@ -162,6 +150,37 @@ pub fn solve_leg_in_plane(
         shortfall: (hip + world_from_thigh.rotate(reach) - wanted).norm(),
         knee,
     }
+}
+
+/// Angle of the hinge with axis `n` at the end of `a` that brings the end of `b` to `distance` from the start of `a`; the flexed of
+/// the two solutions, stretched or folded where there is none.
+///
+/// Start to end is `r(θ) = a + R(θ) b`. With the parts of a and b across n,
+/// `|r|² = |a|² + |b|² + 2 (a·n)(b·n) + 2 C cos(θ − φ)`, `C = |a⊥||b⊥|`: longest at θ = φ, shorter on both sides.
+pub(super) fn hinge_for_distance(a: Vec3, b: Vec3, n: Vec3, distance: f64) -> f64 {
+    let (an, bn) = (a.dot(n), b.dot(n));
+    let (across_a, across_b) = (a - n * an, b - n * bn);
+    let cosine_part = across_a.dot(across_b);
+    let sine_part = across_a.dot(n.cross(across_b));
+    let amplitude = cosine_part.hypot(sine_part);
+    let stretched = sine_part.atan2(cosine_part);
+    let constant = a.dot(a) + b.dot(b) + 2.0 * an * bn;
+    let cosine = ((distance * distance - constant) / (2.0 * amplitude)).clamp(-1.0, 1.0);
+    stretched + cosine.acos()
+}
+
+/// Rotation that takes `reach` to the unit vector `direction` and turns `n` as near to `axis` as that leaves open (`spare` where
+/// `axis` does not say).
+pub(super) fn point_and_roll(
+    reach: Vec3,
+    n: Vec3,
+    direction: Vec3,
+    axis: Vec3,
+    spare: Vec3,
+) -> Quat {
+    let from = frame(reach.normalized_or(-Vec3::Z), n, Vec3::X);
+    let to = frame(direction, axis, spare);
+    Quat::from_mat3(&(to * from.transpose()))
 }
 
 /// Right-handed frame whose first axis is `first` (unit) and whose second lies in the half plane of `second`; where the two are

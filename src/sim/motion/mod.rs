@@ -1,6 +1,7 @@
 //! Desired motion: reading, retargeting, preparing, sampling (paper §3.2).
 
 pub mod balance;
+pub mod builtin;
 pub mod bvh;
 pub mod bvh_write;
 mod chart;

@@ -1,0 +1,53 @@
+//! Motions that need no recording: written for any body, balanced and within its limits.
+//!
+//! Each motion is a smooth plan (joint angles of the upper body, orientation and height of the pelvis, poses of the feet, path
+//! of the centre of mass over the floor); [`shape`] turns it into postures: legs by inverse kinematics, and the pelvis shifted until
+//! the centre of mass is where the plan wants it. Lengths scale with the body's legs. The figure starts at the origin,
+//! facing +x, on the floor z = 0.
+
+mod gait;
+mod shape;
+mod standing;
+
+use super::clip::Clip;
+use crate::sim::body::{Body, Posture};
+
+/// Names that [`builtin`] knows.
+pub const BUILTIN_NAMES: [&str; 6] = ["idle", "lift", "squat", "wave", "step", "walk"];
+
+/// Samples per second of every built-in motion.
+pub const RATE: f64 = 120.0;
+
+/// Time at which the hand of `lift` is at rest on the object and starts to raise it, s.
+pub const LIFT_GRASP: f64 = standing::LIFT_GRASP;
+
+/// The built-in motion `name` for `body`; `None` if there is no such name.
+///
+/// * `idle` (8 s, loops): breathing and a slight shift of weight.
+/// * `lift` (4 s): semi-squat, right hand to an object half a metre up, grasp ([`LIFT_GRASP`]), raise it in front to shoulder height.
+/// * `squat` (5 s): down with the arms forward, and up.
+/// * `wave` (5 s): the right arm waves beside the head.
+/// * `step` (7 s, loops): steps on the spot.
+/// * `walk` (5 s): from standing, six steps forward, to standing.
+///
+/// Some thousand postures are solved: tens of milliseconds; allocates.
+pub fn builtin(body: &Body, name: &str) -> Option<Clip> {
+    let (postures, planted): (Vec<Posture>, Vec<[bool; 2]>) = match name {
+        "idle" => standing::idle(body),
+        "lift" => standing::lift(body),
+        "squat" => standing::squat(body),
+        "wave" => standing::wave(body),
+        "step" => gait::step(body),
+        "walk" => gait::walk(body),
+        _ => return None,
+    };
+    let clip = Clip::from_postures(name, RATE, postures, planted);
+    Some(
+        clip.expect(
+            "plans are finite, of bounded length, and their rotations are unit quaternions",
+        ),
+    )
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,178 @@
+//! Motions with both feet planted flat.
+
+use super::RATE;
+use super::shape::{COM_AHEAD, Measures, Plan, posture, ramp, reach_right, set};
+use crate::sim::body::topology::DOF_COUNT;
+use crate::sim::body::{Body, Posture};
+use crate::sim::math::Vec3;
+use std::f64::consts::TAU;
+
+/// See [`super::LIFT_GRASP`].
+pub const LIFT_GRASP: f64 = 1.7;
+/// Half the distance between the ankles, reference body, m.
+const HALF_STANCE: f64 = 0.11;
+/// Arms hanging at ease, degrees.
+const HANGING: [(&str, f64); 8] = [
+    ("l_shoulder_flexion", 2.0),
+    ("l_shoulder_abduction", 9.0),
+    ("l_elbow_flexion", 15.0),
+    ("l_elbow_pronation", 15.0),
+    ("r_shoulder_flexion", 2.0),
+    ("r_shoulder_abduction", 9.0),
+    ("r_elbow_flexion", 15.0),
+    ("r_elbow_pronation", 15.0),
+];
+
+/// Upper body at ease.
+pub fn at_ease() -> [f64; DOF_COUNT] {
+    let mut angles = [0.0; DOF_COUNT];
+    set(&mut angles, &HANGING);
+    angles
+}
+
+/// Standing at ease, knees a little bent.
+pub fn stand(body: &Body, half_stance: f64) -> Plan {
+    let m = Measures::of(body);
+    let y = half_stance * m.scale;
+    Plan {
+        angles: at_ease(),
+        pelvis: Vec3::zero(),
+        height: 0.99,
+        com: [COM_AHEAD * m.scale, 0.0],
+        feet: [m.flat(0.0, y), m.flat(0.0, -y)],
+    }
+}
+
+fn planted(
+    body: &Body,
+    seconds: f64,
+    plan: impl Fn(f64) -> Plan,
+) -> (Vec<Posture>, Vec<[bool; 2]>) {
+    let count = (seconds * RATE).round() as usize + 1;
+    let postures: Vec<Posture> = (0..count)
+        .map(|i| posture(body, &plan(i as f64 / RATE)))
+        .collect();
+    (postures, vec![[true; 2]; count])
+}
+
+pub fn idle(body: &Body) -> (Vec<Posture>, Vec<[bool; 2]>) {
+    const PERIOD: f64 = 8.0;
+    let stand = stand(body, HALF_STANCE);
+    let scale = Measures::of(body).scale;
+    planted(body, PERIOD, |t| {
+        let phase = TAU * t / PERIOD;
+        let breath = 0.5 - 0.5 * (2.0 * phase).cos(); // two breaths
+        let sway = phase.sin() * (1.0 - phase.cos()) / 1.299; // −1…1, starts and ends without speed
+        let mut plan = stand;
+        plan.com[0] += 0.004 * scale * (0.5 - 0.5 * phase.cos());
+        plan.com[1] += 0.018 * scale * sway;
+        plan.pelvis.x = 0.02 * sway;
+        let a = |d: f64| d.to_degrees();
+        set(
+            &mut plan.angles,
+            &[
+                ("waist_lateral", a(-0.025 * sway)),
+                ("thorax_flexion", -1.2 * breath),
+                ("neck_flexion", 1.0 * breath),
+                ("neck_rotation", 3.0 * sway),
+                ("l_shoulder_abduction", 9.0 + 1.2 * breath),
+                ("r_shoulder_abduction", 9.0 + 1.2 * breath),
+            ],
+        );
+        plan
+    })
+}
+
+pub fn lift(body: &Body) -> (Vec<Posture>, Vec<[bool; 2]>) {
+    const REACHED: f64 = LIFT_GRASP - 0.3;
+    const RAISED: f64 = LIFT_GRASP + 0.8;
+    let scale = Measures::of(body).scale;
+    let stand = stand(body, 0.12);
+    let elbow_axis = -Vec3::Y;
+
+    let mut low = stand;
+    low.height = 0.80;
+    low.pelvis.y = 32f64.to_radians();
+    set(
+        &mut low.angles,
+        &[
+            ("waist_flexion", 26.0),
+            ("thorax_flexion", 14.0),
+            ("neck_flexion", -25.0),
+            ("l_shoulder_flexion", 25.0),
+            ("l_elbow_flexion", 25.0),
+        ],
+    );
+    reach_right(
+        body,
+        &mut low,
+        Vec3::from_array([0.46, -0.16, 0.50]) * scale,
+        elbow_axis,
+    );
+
+    let mut high = stand;
+    reach_right(
+        body,
+        &mut high,
+        Vec3::from_array([0.58, -0.20, 1.28]) * scale,
+        elbow_axis,
+    );
+
+    planted(body, RAISED + 1.5, |t| {
+        if t < LIFT_GRASP {
+            stand.mix(&low, ramp(t, 0.2, REACHED))
+        } else {
+            low.mix(&high, ramp(t, LIFT_GRASP, RAISED))
+        }
+    })
+}
+
+pub fn squat(body: &Body) -> (Vec<Posture>, Vec<[bool; 2]>) {
+    let stand = stand(body, 0.13);
+    let mut low = stand;
+    low.height = 0.60;
+    low.pelvis.y = 32f64.to_radians();
+    set(
+        &mut low.angles,
+        &[
+            ("waist_flexion", 14.0),
+            ("thorax_flexion", 8.0),
+            ("neck_flexion", -25.0),
+            ("l_shoulder_flexion", 120.0),
+            ("r_shoulder_flexion", 120.0),
+            ("l_shoulder_abduction", 5.0),
+            ("r_shoulder_abduction", 5.0),
+        ],
+    );
+    planted(body, 5.0, |t| {
+        stand.mix(&low, ramp(t, 0.3, 2.0) - ramp(t, 2.6, 4.4))
+    })
+}
+
+pub fn wave(body: &Body) -> (Vec<Posture>, Vec<[bool; 2]>) {
+    let stand = stand(body, HALF_STANCE);
+    let mut raised = stand;
+    raised.com[1] += 0.01 * Measures::of(body).scale;
+    set(
+        &mut raised.angles,
+        &[
+            ("waist_lateral", -2.0),
+            ("neck_rotation", -8.0),
+            ("r_shoulder_flexion", 25.0),
+            ("r_shoulder_abduction", 92.0),
+            ("r_shoulder_rotation", -68.0),
+            ("r_elbow_flexion", 75.0),
+            ("r_elbow_pronation", 35.0),
+        ],
+    );
+    planted(body, 5.0, |t| {
+        let mut plan = stand.mix(&raised, ramp(t, 0.2, 1.3) - ramp(t, 3.7, 4.8));
+        let strength = ramp(t, 1.0, 1.6) - ramp(t, 3.4, 4.0);
+        let beat = strength * (TAU * 1.5 * (t - 1.0)).sin();
+        let elbow = super::shape::dof("r_elbow_flexion");
+        let wrist = super::shape::dof("r_wrist_deviation");
+        plan.angles[elbow] += 25f64.to_radians() * beat;
+        plan.angles[wrist] += 6f64.to_radians() * beat;
+        plan
+    })
+}
