@@ -8,5 +8,11 @@
 
 #[cfg(feature = "net")]
 pub mod cli;
+#[cfg(feature = "net")]
+pub mod client;
 pub mod evaluate;
+#[cfg(feature = "net")]
+pub mod server;
 pub mod sim;
+#[cfg(feature = "net")]
+pub mod wire;

@@ -4,32 +4,47 @@ use clap::{Parser, Subcommand};
 use sinew::cli;
 use std::process::ExitCode;
 
-/// Physically simulated human figures that track motions within human strength.
+/// Physically simulated human figures that track desired motions within human strength.
 #[derive(Parser)]
-#[command(version, about)]
-struct Cli {
+#[command(name = "sinew", version, about)]
+struct Arguments {
     #[command(subcommand)]
-    command: Command,
+    command: Option<Command>,
 }
 
 #[derive(Subcommand)]
 enum Command {
-    /// Run motions through the physics, offline, and report how well the figure followed.
+    /// Serve worlds over gRPC (the default): a demo world, and whatever clients create
+    Serve(cli::serve::Args),
+    /// Stream a BVH file to a server as the live driver of a figure
+    Push(cli::push::Args),
+    /// Print the frames of a world
+    Watch(cli::watch::Args),
+    /// Run motions through the physics, offline, and report how well the figure followed
     Run(Box<cli::run::RunArgs>),
-    /// Say how recordings fit the body: what was found, guessed and changed.
+    /// Say how recordings fit the body: what was found, guessed and changed
     Lint(cli::lint::LintArgs),
-    /// Fit a recording to the body and write the prepared motion.
+    /// Fit a recording to the body and write the prepared motion
     Convert(cli::convert::ConvertArgs),
-    /// List segments, degrees of freedom, limits and strength of a body.
+    /// List segments, degrees of freedom, limits and strength of a body
     Bodies(cli::bodies::BodiesArgs),
 }
 
 fn main() -> ExitCode {
-    let done = match Cli::parse().command {
-        Command::Run(args) => cli::run::run(&args),
-        Command::Lint(args) => cli::lint::run(&args),
-        Command::Convert(args) => cli::convert::run(&args),
-        Command::Bodies(args) => cli::bodies::run(&args),
+    let arguments = match Arguments::parse() {
+        // Settings from the environment count as well.
+        Arguments { command: None } => Arguments::parse_from(["sinew", "serve"]),
+        given => given,
+    };
+    let done = match arguments.command {
+        Some(Command::Serve(args)) => cli::serve::run(&args),
+        Some(Command::Push(args)) => cli::push::run(&args),
+        Some(Command::Watch(args)) => cli::watch::run(&args),
+        Some(Command::Run(args)) => cli::run::run(&args),
+        Some(Command::Lint(args)) => cli::lint::run(&args),
+        Some(Command::Convert(args)) => cli::convert::run(&args),
+        Some(Command::Bodies(args)) => cli::bodies::run(&args),
+        None => unreachable!("`serve` was put in its place"),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

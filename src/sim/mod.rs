@@ -1,6 +1,6 @@
 //! Physics and control: pure, synchronous, without I/O, clock or logging.
 //!
-//! `world` ─► `figure` ─► `control`, `contact` ─► `support`, `strength`, `motion` ─► `dynamics` ─► `body` ─► `math`.
+//! `world` ─► `figure` ─► `control` ─► `contact` ─► `support`, `strength`, `motion` ─► `dynamics` ─► `body` ─► `math`.
 
 pub mod body;
 pub mod contact;

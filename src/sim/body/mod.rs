@@ -1,6 +1,7 @@
 //! The articulated body: tree, segments, limits, mass and shape, and the positions and velocities of one figure.
 
 pub mod angles;
+pub mod export;
 pub mod geometry;
 pub mod humanoid;
 pub mod links;

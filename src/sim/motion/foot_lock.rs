@@ -142,6 +142,14 @@ impl Sole {
         (-pitch).clamp(self.toe_range.0.max(0.0), self.toe_range.1.max(0.0))
     }
 
+    /// Largest distance between where a foot is and where it should be, over ankle, heel edge and toe joint, m.
+    pub fn stray(&self, is: (Vec3, Quat), should: &FootPose) -> f64 {
+        [Vec3::zero(), self.heel, self.toe_joint]
+            .into_iter()
+            .map(|p| (is.0 + is.1.rotate(p) - should.ankle - should.rotation.rotate(p)).norm())
+            .fold(0.0, f64::max)
+    }
+
     /// Pose of a foot that stands at `anchor` with heading `yaw`, pitched about heel edge (toe-up) or toe joint (heel-up).
     pub fn stand(&self, anchor: Vec3, yaw: f64, pitch: f64) -> FootPose {
         let pitched = Quat::exp(Vec3::Y * -pitch);

@@ -291,7 +291,7 @@ pub fn prepare(body: &Body, draft: &Draft, options: PrepareOptions) -> Prepared 
             let (at, q) = poses[FOOT[s].index()];
             let goal = &locked[s].poses[i];
             let low = at.z + soles[s].lowest(q, postures[i].hinge[toe_hinge(s)]);
-            let stray = (at - goal.ankle).norm();
+            let stray = soles[s].stray((at, q), goal);
             if stray > HELD || low < -HELD {
                 planted[i][s] = false;
                 freed += 1;

@@ -1,0 +1,45 @@
+# Short recipes; `make ci` runs exactly what CI runs. Everything uses the dev profile, so nothing is compiled twice.
+# Targets work from any directory: make -C path/to/sinew test.
+
+ROOT := $(abspath $(dir $(lastword $(MAKEFILE_LIST))))
+CARGO ?= cargo
+PYTHON ?= python3
+# Motion capture is not part of the repository; tests that read it fail without it.
+SINEW_MOCAP_DIR ?= $(abspath $(ROOT)/../shared/mocap)
+export SINEW_MOCAP_DIR PYTHON
+
+.DEFAULT_GOAL := help
+.PHONY: help run test ci setup lint physics rust oracle load fmt
+
+help: ## what there is
+	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(ROOT)/Makefile
+
+run: ## the demo server
+	cd $(ROOT) && $(CARGO) run --release
+
+test: setup lint physics rust load oracle ## every test; installs what they need into .venv and .tools
+
+ci: test ## what CI runs
+
+setup: ## Python environment of the tests
+	$(ROOT)/tests/setup.sh
+
+lint: ## format and lints, warnings denied
+	cd $(ROOT) && $(CARGO) fmt --check
+	cd $(ROOT) && $(CARGO) clippy --locked --all-targets -- -D warnings
+
+physics: ## the physics compiles without a network crate in sight
+	cd $(ROOT) && $(CARGO) check --locked --lib --no-default-features
+
+rust: ## Rust tests
+	cd $(ROOT) && $(CARGO) test --locked --no-fail-fast
+
+load: ## load test against a live server, where there is one
+	@if [ -x $(ROOT)/tests/load/run.sh ]; then $(ROOT)/tests/load/run.sh; fi
+
+oracle: setup ## comparison with Pinocchio and MuJoCo, and the server seen from Python
+	cd $(ROOT) && $(CARGO) build --locked --bins --examples
+	cd $(ROOT) && .venv/bin/python -m pytest tests/oracle
+
+fmt: ## format everything
+	cd $(ROOT) && $(CARGO) fmt

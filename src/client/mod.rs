@@ -1,0 +1,198 @@
+//! A thin client: one connection, the generated clients over it, and the few steps that every user of a stream takes.
+
+use crate::wire::convert::world_name;
+use crate::wire::pb;
+use crate::wire::watched::WatchWorldResponse;
+use tokio::sync::mpsc;
+use tokio_stream::wrappers::ReceiverStream;
+use tonic::transport::{Channel, Endpoint};
+use tonic::{Code, Status, Streaming};
+
+/// Largest message that is taken: an offline simulation with frames.
+const MAX_MESSAGE: usize = 64 * 1024 * 1024;
+/// Window of one stream: a few frames, so that what is read is never old.
+const STREAM_WINDOW: u32 = 64 * 1024;
+/// Batches on their way to the server.
+const DRIVE_QUEUE: usize = 8;
+
+/// Why a connection is not made.
+#[derive(Debug, thiserror::Error)]
+pub enum ConnectError {
+    /// Not an address.
+    #[error("{0:?} is not an address: give host:port, for example 127.0.0.1:7463")]
+    Address(String),
+    /// Nobody answers.
+    #[error("no server answers at {address}: {error}")]
+    Refused {
+        /// The address.
+        address: String,
+        /// Why.
+        error: tonic::transport::Error,
+    },
+}
+
+/// A connection to a server. Cheap to clone.
+#[derive(Clone, Debug)]
+pub struct Client {
+    channel: Channel,
+}
+
+macro_rules! services {
+    ($($(#[doc = $doc:literal])+ $name:ident: $module:ident :: $client:ident;)*) => {
+        $($(#[doc = $doc])+
+        pub fn $name(&self) -> pb::$module::$client<Channel> {
+            pb::$module::$client::new(self.channel.clone()).max_decoding_message_size(MAX_MESSAGE)
+        })*
+    };
+}
+
+impl Client {
+    /// Connects to `host:port` or `http://host:port`.
+    ///
+    /// # Errors
+    /// The address is none, or nobody answers there.
+    pub async fn connect(address: &str) -> Result<Self, ConnectError> {
+        let url = if address.contains("://") {
+            address.to_owned()
+        } else {
+            format!("http://{address}")
+        };
+        let endpoint = Endpoint::from_shared(url)
+            .map_err(|_| ConnectError::Address(address.to_owned()))?
+            .connect_timeout(std::time::Duration::from_secs(5))
+            .initial_stream_window_size(STREAM_WINDOW)
+            .tcp_nodelay(true);
+        let channel = endpoint
+            .connect()
+            .await
+            .map_err(|error| ConnectError::Refused {
+                address: address.to_owned(),
+                error,
+            })?;
+        Ok(Self { channel })
+    }
+
+    services! {
+        /// `WorldService`.
+        worlds: world_service_client::WorldServiceClient;
+        /// `FigureService`.
+        figures: figure_service_client::FigureServiceClient;
+        /// `BodyService`.
+        bodies: body_service_client::BodyServiceClient;
+        /// `MotionService`.
+        motions: motion_service_client::MotionServiceClient;
+        /// `PerturbationService`.
+        perturbations: perturbation_service_client::PerturbationServiceClient;
+        /// `StateService`.
+        states: state_service_client::StateServiceClient;
+        /// `SimulationService`.
+        simulations: simulation_service_client::SimulationServiceClient;
+        /// `ServerService`.
+        server: server_service_client::ServerServiceClient;
+    }
+
+    /// The world of this name, created with default settings if there is none.
+    ///
+    /// # Errors
+    /// Those of the server.
+    pub async fn world(&self, name: &str) -> Result<pb::World, Status> {
+        let id = world_name("world", name)?;
+        let found = self
+            .worlds()
+            .get_world(pb::GetWorldRequest { name: name.into() })
+            .await;
+        match found {
+            Err(e) if e.code() == Code::NotFound => Ok(self
+                .worlds()
+                .create_world(pb::CreateWorldRequest {
+                    world_id: id.to_owned(),
+                    ..Default::default()
+                })
+                .await?
+                .into_inner()
+                .world
+                .unwrap_or_default()),
+            other => Ok(other?.into_inner().world.unwrap_or_default()),
+        }
+    }
+
+    /// Frames of a world as they come.
+    ///
+    /// # Errors
+    /// Those of the server.
+    pub async fn watch(
+        &self,
+        world: &str,
+        view: pb::View,
+        resume_tick: Option<i64>,
+    ) -> Result<Streaming<WatchWorldResponse>, Status> {
+        let request = pb::WatchWorldRequest {
+            world: world.into(),
+            view: Some(view),
+            resume_tick,
+        };
+        Ok(self.states().watch_world(request).await?.into_inner())
+    }
+
+    /// Begins to drive figures live.
+    ///
+    /// # Errors
+    /// Those of the server, for example that someone else drives one of the figures.
+    pub async fn drive(&self, header: pb::DriveHeader) -> Result<Driver, Status> {
+        use pb::drive_figures_request::Message;
+        let (send, receive) = mpsc::channel(DRIVE_QUEUE);
+        let first = pb::DriveFiguresRequest {
+            message: Some(Message::Header(header)),
+        };
+        // The queue is empty, so there is room.
+        let _ = send.try_send(first);
+        let feedback = self
+            .motions()
+            .drive_figures(ReceiverStream::new(receive))
+            .await?
+            .into_inner();
+        Ok(Driver { send, feedback })
+    }
+}
+
+/// A live drive. Dropping it gives the figures back.
+#[derive(Debug)]
+pub struct Driver {
+    send: mpsc::Sender<pb::DriveFiguresRequest>,
+    feedback: Streaming<pb::DriveFiguresResponse>,
+}
+
+impl Driver {
+    /// Sends a batch; false if the server has ended the stream (its reason comes from [`Self::feedback`]).
+    pub async fn send(&self, frames: Vec<pb::MotionFrame>) -> bool {
+        let message = pb::drive_figures_request::Message::Batch(pb::MotionBatch { frames });
+        self.send
+            .send(pb::DriveFiguresRequest {
+                message: Some(message),
+            })
+            .await
+            .is_ok()
+    }
+
+    /// The next feedback; `None` at the end of the stream.
+    ///
+    /// # Errors
+    /// Why the server ended the stream.
+    pub async fn feedback(&mut self) -> Result<Option<pb::DriveFeedback>, Status> {
+        Ok(self.feedback.message().await?.and_then(|m| m.feedback))
+    }
+
+    /// Ends the drive and returns the last feedback.
+    ///
+    /// # Errors
+    /// Why the server ended the stream before.
+    pub async fn finish(self) -> Result<Option<pb::DriveFeedback>, Status> {
+        let Self { send, mut feedback } = self;
+        drop(send);
+        let mut last = None;
+        while let Some(m) = feedback.message().await? {
+            last = m.feedback;
+        }
+        Ok(last)
+    }
+}

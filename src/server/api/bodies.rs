@@ -1,0 +1,68 @@
+//! `BodyService`.
+
+use super::{Api, answer};
+use crate::server::engine;
+use crate::wire::convert::body::{self, TextForm};
+use crate::wire::convert::page;
+use crate::wire::pb::{self, body_service_server::BodyService};
+use tonic::{Request, Response, Status};
+
+#[tonic::async_trait]
+impl BodyService for Api {
+    async fn list_bodies(
+        &self,
+        request: Request<pb::ListBodiesRequest>,
+    ) -> Result<Response<pb::ListBodiesResponse>, Status> {
+        let r = request.get_ref();
+        let items = self
+            .bodies
+            .list()
+            .iter()
+            .map(|b| (b.id.clone(), body::brief(b)))
+            .collect();
+        answer(
+            page(items, r.page_size, &r.page_token).map(|(bodies, next_page_token)| {
+                pb::ListBodiesResponse {
+                    bodies,
+                    next_page_token,
+                }
+            }),
+        )
+    }
+
+    async fn get_body(
+        &self,
+        request: Request<pb::GetBodyRequest>,
+    ) -> Result<Response<pb::GetBodyResponse>, Status> {
+        let result = async {
+            let r = request.get_ref();
+            let reference = body::by_name("name", &r.name)?;
+            let built = self.body("name", &reference).await?;
+            Ok(pb::GetBodyResponse {
+                body: Some(body::describe(&reference.id, &built, r.include_geometry)),
+            })
+        };
+        answer(result.await)
+    }
+
+    async fn export_body(
+        &self,
+        request: Request<pb::ExportBodyRequest>,
+    ) -> Result<Response<pb::ExportBodyResponse>, Status> {
+        let result = async {
+            let r = request.get_ref();
+            let form = body::text_form(r.format)?;
+            let reference = body::by_name("name", &r.name)?;
+            let built = self.body("name", &reference).await?;
+            let (text, kind) = match form {
+                TextForm::Mjcf => (engine::mjcf(&built), "xml"),
+                TextForm::Urdf => (engine::urdf(&built), "urdf"),
+            };
+            Ok(pb::ExportBodyResponse {
+                text,
+                file_name: format!("{}.{kind}", reference.id),
+            })
+        };
+        answer(result.await)
+    }
+}

@@ -1,0 +1,146 @@
+//! `MotionService`: stored clips, playing them, and the unary twin of live driving. The stream itself is in `drive`.
+
+use super::{Api, answer, drive, origin};
+use crate::wire::convert::{body, clip_name, display_name, motion, new_id, page};
+use crate::wire::pb::{self, motion_service_server::MotionService};
+use tonic::{Request, Response, Status, Streaming};
+
+#[tonic::async_trait]
+impl MotionService for Api {
+    async fn create_clip(
+        &self,
+        request: Request<pb::CreateClipRequest>,
+    ) -> Result<Response<pb::CreateClipResponse>, Status> {
+        let result = async {
+            let r = request.into_inner();
+            let id = new_id("clip_id", &r.clip_id)?;
+            let title = display_name("display_name", &r.display_name)?;
+            let reference = body::reference("body", &r.body, "profile", None)?;
+            let max_bytes = self.config.max_clip_bytes;
+            let app = self.0.clone();
+            let info = self
+                .workers
+                .run(move |_| {
+                    let source = motion::clip_source(r.source, max_bytes)?;
+                    app.clips.check_room(id.as_deref(), &source)?;
+                    let built = app.bodies.get("body", &reference)?;
+                    app.clips.create(id, title, &reference, &built, source)
+                })
+                .await?;
+            Ok(pb::CreateClipResponse {
+                clip: Some(motion::clip_out(&info, true)),
+            })
+        };
+        answer(result.await)
+    }
+
+    async fn get_clip(
+        &self,
+        request: Request<pb::GetClipRequest>,
+    ) -> Result<Response<pb::GetClipResponse>, Status> {
+        answer(
+            clip_name("name", &request.get_ref().name)
+                .and_then(|id| self.clips.info(id))
+                .map(|info| pb::GetClipResponse {
+                    clip: Some(motion::clip_out(&info, true)),
+                }),
+        )
+    }
+
+    async fn list_clips(
+        &self,
+        request: Request<pb::ListClipsRequest>,
+    ) -> Result<Response<pb::ListClipsResponse>, Status> {
+        let r = request.get_ref();
+        let items = self
+            .clips
+            .list()
+            .iter()
+            .map(|c| (c.id.clone(), motion::clip_out(c, false)))
+            .collect();
+        answer(
+            page(items, r.page_size, &r.page_token).map(|(clips, next_page_token)| {
+                pb::ListClipsResponse {
+                    clips,
+                    next_page_token,
+                }
+            }),
+        )
+    }
+
+    async fn delete_clip(
+        &self,
+        request: Request<pb::DeleteClipRequest>,
+    ) -> Result<Response<pb::DeleteClipResponse>, Status> {
+        answer(
+            clip_name("name", &request.get_ref().name)
+                .and_then(|id| self.clips.delete(id))
+                .map(|()| pb::DeleteClipResponse {}),
+        )
+    }
+
+    async fn play_clip(
+        &self,
+        request: Request<pb::PlayClipRequest>,
+    ) -> Result<Response<pb::PlayClipResponse>, Status> {
+        let result = async {
+            let r = request.get_ref();
+            let playback = motion::playback(r)?;
+            let clip_id = clip_name("clip", &r.clip)?.to_owned();
+            let (handle, figure) = self.figure("figure", &r.figure)?;
+            let figure = figure.to_owned();
+            self.clips.info(&clip_id)?;
+            let name = figure.clone();
+            let (body_id, body) = handle
+                .call(origin(&request), move |s| s.body_of(&name))
+                .await?;
+            let clip = match self.clips.ready(&clip_id, &body_id) {
+                Some(clip) => clip,
+                None => {
+                    let (app, id) = (self.0.clone(), clip_id.clone());
+                    self.workers
+                        .run(move |_| app.clips.prepared(&id, &body_id, &body))
+                        .await?
+                }
+            };
+            let start_time_s = handle
+                .call(origin(&request), move |s| {
+                    s.play(&figure, &clip_id, clip, playback)
+                })
+                .await?;
+            Ok(pb::PlayClipResponse { start_time_s })
+        };
+        answer(result.await)
+    }
+
+    async fn stop_clip(
+        &self,
+        request: Request<pb::StopClipRequest>,
+    ) -> Result<Response<pb::StopClipResponse>, Status> {
+        let result = async {
+            let (handle, figure) = self.figure("figure", &request.get_ref().figure)?;
+            let figure = figure.to_owned();
+            handle
+                .call(origin(&request), move |s| s.stop(&figure))
+                .await?;
+            Ok(pb::StopClipResponse {})
+        };
+        answer(result.await)
+    }
+
+    async fn push_motion(
+        &self,
+        request: Request<pb::PushMotionRequest>,
+    ) -> Result<Response<pb::PushMotionResponse>, Status> {
+        answer(drive::push(self, request.into_inner()).await)
+    }
+
+    type DriveFiguresStream = drive::Feedbacks;
+
+    async fn drive_figures(
+        &self,
+        request: Request<Streaming<pb::DriveFiguresRequest>>,
+    ) -> Result<Response<Self::DriveFiguresStream>, Status> {
+        drive::stream(self, request.into_inner()).await
+    }
+}

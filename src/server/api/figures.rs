@@ -1,0 +1,129 @@
+//! `FigureService`.
+
+use super::{Api, answer, origin};
+use crate::wire::convert::{figure, figure_name, new_id, page, place};
+use crate::wire::pb::{self, figure_service_server::FigureService};
+use crate::wire::status::Fault;
+use tonic::{Request, Response, Status};
+
+#[tonic::async_trait]
+impl FigureService for Api {
+    async fn create_figure(
+        &self,
+        request: Request<pb::CreateFigureRequest>,
+    ) -> Result<Response<pb::CreateFigureResponse>, Status> {
+        let result = async {
+            let r = request.get_ref();
+            let handle = self.world("parent", &r.parent)?;
+            let id = new_id("figure_id", &r.figure_id)?;
+            let settings = figure::settings("figure", r.figure.as_ref())?;
+            let body = self.body("figure.profile", &settings.body).await?;
+            let info = handle
+                .call(origin(&request), move |s| {
+                    s.create_figure(id, settings, body)
+                })
+                .await?;
+            Ok(pb::CreateFigureResponse {
+                figure: Some(figure::figure_out(&info)),
+            })
+        };
+        answer(result.await)
+    }
+
+    async fn get_figure(
+        &self,
+        request: Request<pb::GetFigureRequest>,
+    ) -> Result<Response<pb::GetFigureResponse>, Status> {
+        let result = async {
+            let (handle, id) = self.figure("name", &request.get_ref().name)?;
+            let id = id.to_owned();
+            let info = handle
+                .call(origin(&request), move |s| s.figure(&id))
+                .await?;
+            Ok(pb::GetFigureResponse {
+                figure: Some(figure::figure_out(&info)),
+            })
+        };
+        answer(result.await)
+    }
+
+    async fn list_figures(
+        &self,
+        request: Request<pb::ListFiguresRequest>,
+    ) -> Result<Response<pb::ListFiguresResponse>, Status> {
+        let result = async {
+            let r = request.get_ref();
+            let handle = self.world("parent", &r.parent)?;
+            let infos = handle.call(origin(&request), |s| Ok(s.figures())).await?;
+            // Indices grow in the order of creation; padded they sort as text.
+            let items = infos
+                .iter()
+                .map(|f| (format!("{:010}", f.index), figure::figure_out(f)))
+                .collect();
+            let (figures, next_page_token) = page(items, r.page_size, &r.page_token)?;
+            Ok(pb::ListFiguresResponse {
+                figures,
+                next_page_token,
+            })
+        };
+        answer(result.await)
+    }
+
+    async fn update_figure(
+        &self,
+        request: Request<pb::UpdateFigureRequest>,
+    ) -> Result<Response<pb::UpdateFigureResponse>, Status> {
+        let result = async {
+            let r = request.get_ref();
+            let f = r
+                .figure
+                .as_ref()
+                .ok_or_else(|| Fault::invalid("figure", "must be given"))?;
+            figure_name("figure.name", &f.name)?;
+            let update = figure::update(f, r.update_mask.as_ref())?;
+            let (handle, id) = self.figure("figure.name", &f.name)?;
+            let id = id.to_owned();
+            let info = handle
+                .call(origin(&request), move |s| s.update_figure(&id, update))
+                .await?;
+            Ok(pb::UpdateFigureResponse {
+                figure: Some(figure::figure_out(&info)),
+            })
+        };
+        answer(result.await)
+    }
+
+    async fn delete_figure(
+        &self,
+        request: Request<pb::DeleteFigureRequest>,
+    ) -> Result<Response<pb::DeleteFigureResponse>, Status> {
+        let result = async {
+            let (handle, id) = self.figure("name", &request.get_ref().name)?;
+            let id = id.to_owned();
+            handle
+                .call(origin(&request), move |s| s.delete_figure(&id))
+                .await?;
+            Ok(pb::DeleteFigureResponse {})
+        };
+        answer(result.await)
+    }
+
+    async fn reset_figure(
+        &self,
+        request: Request<pb::ResetFigureRequest>,
+    ) -> Result<Response<pb::ResetFigureResponse>, Status> {
+        let result = async {
+            let r = request.get_ref();
+            let (handle, id) = self.figure("name", &r.name)?;
+            let id = id.to_owned();
+            let at = r.placement.map(|p| place("placement", p)).transpose()?;
+            let info = handle
+                .call(origin(&request), move |s| s.reset_figure(&id, at))
+                .await?;
+            Ok(pb::ResetFigureResponse {
+                figure: Some(figure::figure_out(&info)),
+            })
+        };
+        answer(result.await)
+    }
+}

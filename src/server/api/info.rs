@@ -1,0 +1,63 @@
+//! `ServerService`.
+
+use super::{Api, answer};
+use crate::server::engine::{BUILTIN_NAMES, CAPABILITIES};
+use crate::sim::figure::Flags;
+use crate::wire::convert::{server, timestamp};
+use crate::wire::frame::FIELD_NAMES;
+use crate::wire::pb::{self, server_service_server::ServerService};
+use tonic::{Request, Response, Status};
+
+#[tonic::async_trait]
+impl ServerService for Api {
+    async fn get_server_info(
+        &self,
+        _: Request<pb::GetServerInfoRequest>,
+    ) -> Result<Response<pb::GetServerInfoResponse>, Status> {
+        let names = |list: &[&str]| list.iter().map(|n| (*n).to_owned()).collect();
+        answer(Ok(pb::GetServerInfoResponse {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            start_time: Some(timestamp(self.started)),
+            flag_names: names(&Flags::NAMES),
+            view_fields: names(&FIELD_NAMES),
+            builtin_clips: BUILTIN_NAMES.iter().map(|n| format!("clips/{n}")).collect(),
+            capabilities: names(&CAPABILITIES),
+            limits: server::limits(&self.config.limits()),
+        }))
+    }
+
+    async fn get_server_stats(
+        &self,
+        request: Request<pb::GetServerStatsRequest>,
+    ) -> Result<Response<pb::GetServerStatsResponse>, Status> {
+        let stats = || {
+            let name = &request.get_ref().world;
+            let worlds = if name.is_empty() {
+                self.worlds.list()
+            } else {
+                vec![self.world("world", name)?]
+            };
+            Ok(pb::GetServerStatsResponse {
+                worlds: worlds
+                    .iter()
+                    .map(|w| {
+                        let s = w.stats();
+                        server::stats(&server::Stats {
+                            world: &s.id,
+                            ticks: s.ticks,
+                            refused: s.refused,
+                            dropped: s.dropped,
+                            viewers: s.viewers,
+                            budget_used: s.budget_used,
+                            stages: s.stages.map(|(n, p)| (n, [p.p50, p.p99, p.max])).to_vec(),
+                        })
+                    })
+                    .collect(),
+                watch_stream_count: self.viewers.taken() as i32,
+                drive_stream_count: self.drivers.taken() as i32,
+                simulation_count: self.workers.running() as i32,
+            })
+        };
+        answer(stats())
+    }
+}

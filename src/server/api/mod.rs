@@ -1,0 +1,234 @@
+//! The services: convert, ask the world or the library, convert back.
+
+mod bodies;
+mod clips;
+mod drive;
+mod figures;
+mod info;
+mod perturbations;
+mod simulation;
+mod state;
+mod watching;
+mod worlds;
+
+use super::config::Config;
+use super::library::{Bodies, Clips};
+use super::tick::command::Origin;
+use super::workers::Workers;
+use super::worlds::{Registry, WorldHandle};
+use crate::wire::convert::world_name;
+use crate::wire::pb;
+use crate::wire::status::Fault;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::SystemTime;
+use tokio::sync::{Semaphore, watch};
+use tonic::service::RoutesBuilder;
+use tonic::{Request, Response, Status};
+
+/// Names of the services, for health checks; the empty name is the server as a whole.
+pub const SERVICE_NAMES: [&str; 9] = [
+    "",
+    pb::world_service_server::SERVICE_NAME,
+    pb::figure_service_server::SERVICE_NAME,
+    pb::body_service_server::SERVICE_NAME,
+    pb::motion_service_server::SERVICE_NAME,
+    pb::perturbation_service_server::SERVICE_NAME,
+    pb::state_service_server::SERVICE_NAME,
+    pb::simulation_service_server::SERVICE_NAME,
+    pb::server_service_server::SERVICE_NAME,
+];
+
+/// What the services share.
+pub struct App {
+    /// Settings.
+    pub config: Arc<Config>,
+    /// Worlds.
+    pub worlds: Registry,
+    /// Bodies.
+    pub bodies: Bodies,
+    /// Clips.
+    pub clips: Clips,
+    /// Where long work is done.
+    pub workers: Workers,
+    /// When the server started.
+    pub started: SystemTime,
+    /// Turns true when streams are to end.
+    stopping: watch::Receiver<bool>,
+    viewers: Places,
+    drivers: Places,
+    next_stream: AtomicU64,
+}
+
+/// Places for streams of one kind.
+struct Places {
+    free: Arc<Semaphore>,
+    limit: &'static str,
+    most: u64,
+    gauge: &'static str,
+}
+
+/// A place that is given back when the stream ends.
+struct Place {
+    gauge: &'static str,
+    _permit: tokio::sync::OwnedSemaphorePermit,
+}
+
+impl Drop for Place {
+    fn drop(&mut self) {
+        metrics::gauge!(self.gauge).decrement(1.0);
+    }
+}
+
+impl Places {
+    fn new(limit: &'static str, most: u64, gauge: &'static str) -> Self {
+        Self {
+            free: Arc::new(Semaphore::new(most as usize)),
+            limit,
+            most,
+            gauge,
+        }
+    }
+
+    fn take(&self) -> Result<Place, Fault> {
+        let permit = self
+            .free
+            .clone()
+            .try_acquire_owned()
+            .map_err(|_| Fault::Exhausted {
+                limit: self.limit,
+                value: self.most,
+                message: "one more stream".into(),
+                retry: Some(std::time::Duration::from_secs(1)),
+            })?;
+        metrics::gauge!(self.gauge).increment(1.0);
+        Ok(Place {
+            gauge: self.gauge,
+            _permit: permit,
+        })
+    }
+
+    fn taken(&self) -> usize {
+        self.most as usize - self.free.available_permits()
+    }
+}
+
+impl App {
+    /// An application without worlds.
+    ///
+    /// # Errors
+    /// The built-in data cannot be prepared.
+    pub fn new(config: Arc<Config>, stopping: watch::Receiver<bool>) -> Result<Self, Fault> {
+        super::telemetry::metrics();
+        let bodies = Bodies::new(&config);
+        Ok(Self {
+            clips: Clips::new(&config, &bodies)?,
+            bodies,
+            worlds: Registry::new(config.clone()),
+            workers: Workers::new(config.max_simulations, config.max_waiting_simulations),
+            started: SystemTime::now(),
+            stopping,
+            viewers: Places::new("max_viewers", config.max_viewers, "sinew_viewers"),
+            drivers: Places::new("max_drivers", config.max_drivers, "sinew_drivers"),
+            next_stream: AtomicU64::new(1),
+            config,
+        })
+    }
+
+    fn world(&self, field: &str, name: &str) -> Result<Arc<WorldHandle>, Fault> {
+        self.worlds.get(world_name(field, name)?)
+    }
+
+    /// World and last part of the name of a figure.
+    fn figure<'a>(&self, field: &str, name: &'a str) -> Result<(Arc<WorldHandle>, &'a str), Fault> {
+        let (world, figure) = crate::wire::convert::figure_name(field, name)?;
+        Ok((self.worlds.get(world)?, figure))
+    }
+
+    fn next_stream(&self) -> u64 {
+        self.next_stream.fetch_add(1, Ordering::Relaxed)
+    }
+
+    /// The body of a reference. Building one takes milliseconds, so it is done where waiting does no harm.
+    async fn body(
+        self: &Arc<Self>,
+        field: &'static str,
+        reference: &crate::wire::types::BodyRef,
+    ) -> Result<Arc<crate::sim::body::Body>, Fault> {
+        let (app, reference) = (self.clone(), reference.clone());
+        tokio::task::spawn_blocking(move || app.bodies.get(field, &reference))
+            .await
+            .unwrap_or_else(|e| Err(Fault::Internal(format!("building the body failed: {e}"))))
+    }
+}
+
+/// The services; cheap to clone.
+#[derive(Clone)]
+pub struct Api(Arc<App>);
+
+impl std::ops::Deref for Api {
+    type Target = Arc<App>;
+    fn deref(&self) -> &Arc<App> {
+        &self.0
+    }
+}
+
+/// Adds every service to the routes.
+pub fn add_services(routes: &mut RoutesBuilder, app: &Arc<App>) {
+    let api = Api(app.clone());
+    let small = app.config.max_request_bytes as usize;
+    // A file comes whole in one message, with a little around it.
+    let large = (app.config.max_clip_bytes as usize).max(small) + 65_536;
+    let response = app.config.max_response_bytes as usize * 2;
+    macro_rules! add {
+        ($($module:ident :: $server:ident, $request:expr;)*) => {
+            $(routes.add_service(
+                pb::$module::$server::new(api.clone())
+                    .max_decoding_message_size($request)
+                    .max_encoding_message_size(response),
+            );)*
+        };
+    }
+    add! {
+        world_service_server::WorldServiceServer, small;
+        figure_service_server::FigureServiceServer, small;
+        body_service_server::BodyServiceServer, small;
+        motion_service_server::MotionServiceServer, large;
+        perturbation_service_server::PerturbationServiceServer, small;
+        state_service_server::StateServiceServer, small;
+        simulation_service_server::SimulationServiceServer, large;
+        server_service_server::ServerServiceServer, small;
+    }
+}
+
+/// Completes when the server shuts down.
+async fn stopped(stopping: &mut watch::Receiver<bool>) {
+    // An error means that the sender is gone, which says the same.
+    let _ = stopping.wait_for(|s| *s).await;
+}
+
+/// The sender of a request, as commands of its world are ordered by.
+fn origin<T>(request: &Request<T>) -> Origin {
+    Origin {
+        client: request
+            .remote_addr()
+            .map_or_else(String::new, |a| a.to_string())
+            .into(),
+        sequence: 0,
+    }
+}
+
+/// A result as gRPC wants it; refusals are counted by reason.
+fn answer<T>(result: Result<T, Fault>) -> Result<Response<T>, Status> {
+    result.map(Response::new).map_err(refusal)
+}
+
+fn refusal(fault: Fault) -> Status {
+    metrics::counter!("sinew_faults_total", "reason" => fault.reason()).increment(1);
+    if let Fault::Internal(why) = &fault {
+        tracing::error!(why, "request failed");
+    } else {
+        tracing::debug!(%fault, "request refused");
+    }
+    fault.into()
+}

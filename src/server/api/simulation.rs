@@ -1,0 +1,54 @@
+//! `SimulationService`.
+
+use super::{Api, answer};
+use crate::server::engine;
+use crate::server::simulate::{self, Limits};
+use crate::wire::convert::simulation::{self, Source};
+use crate::wire::pb::{self, simulation_service_server::SimulationService};
+use std::sync::Arc;
+use tonic::{Request, Response, Status};
+
+#[tonic::async_trait]
+impl SimulationService for Api {
+    async fn simulate_clip(
+        &self,
+        request: Request<pb::SimulateClipRequest>,
+    ) -> Result<Response<pb::SimulateClipResponse>, Status> {
+        let result = async {
+            let limits = Limits {
+                seconds: self.config.max_simulation_s,
+                bytes: self.config.max_response_bytes,
+            };
+            let (source, settings) = simulation::settings(
+                request.into_inner(),
+                self.config.max_clip_bytes,
+                limits.seconds,
+            )?;
+            if let Source::Clip(id) = &source {
+                self.clips.info(id)?; // an unknown name does not wait for its turn
+            }
+            let app = self.0.clone();
+            self.workers
+                .run(move |cancelled| {
+                    let body_id = settings.figure.body.id.clone();
+                    let body = app.bodies.get("figure.profile", &settings.figure.body)?;
+                    let (clip, report) = match source {
+                        Source::Clip(id) => (app.clips.prepared(&id, &body_id, &body)?, None),
+                        Source::File(file) => {
+                            let (clip, report) = engine::prepare("bvh", "upload", &file, &body)?;
+                            (Arc::new(clip), report)
+                        }
+                    };
+                    let out = simulate::run(&settings, &body, clip, limits, cancelled)?;
+                    Ok(simulation::response(
+                        &out.summary,
+                        out.frames,
+                        &out.events,
+                        report.as_ref(),
+                    ))
+                })
+                .await
+        };
+        answer(result.await)
+    }
+}

@@ -1,0 +1,98 @@
+//! `StateService`.
+
+use super::{Api, answer, origin, refusal, watching};
+use crate::wire::convert::state;
+use crate::wire::frame::{roster, world_frame};
+use crate::wire::pb::{self, state_service_server::StateService};
+use crate::wire::status::Fault;
+use crate::wire::types::{Snapshot, ViewSpec};
+use tonic::{Request, Response, Status};
+
+/// Checks that the figures of a view are in the world.
+fn check(view: &[String], snapshot: &Snapshot) -> Result<(), Fault> {
+    for figure in view {
+        if !snapshot.roster.iter().any(|e| e.figure == *figure) {
+            return Err(Fault::not_found(
+                "figure",
+                format!("worlds/{}/figures/{figure}", snapshot.world),
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn response(snapshot: &Snapshot, view: &ViewSpec) -> pb::GetWorldFrameResponse {
+    pb::GetWorldFrameResponse {
+        roster: Some(roster(snapshot, view)),
+        frame: Some(world_frame(snapshot, view)),
+    }
+}
+
+#[tonic::async_trait]
+impl StateService for Api {
+    async fn get_world_frame(
+        &self,
+        request: Request<pb::GetWorldFrameRequest>,
+    ) -> Result<Response<pb::GetWorldFrameResponse>, Status> {
+        let result = async {
+            let r = request.get_ref();
+            let handle = self.world("world", &r.world)?;
+            let view = state::view(r.view.as_ref())?;
+            let snapshot = match r.tick {
+                // The latest is there without asking the world's thread.
+                None => handle.outlet.latest.borrow().clone(),
+                Some(tick) => handle.call(origin(&request), move |s| s.held(tick)).await?,
+            };
+            check(&view.figures, &snapshot)?;
+            Ok(response(&snapshot, &view))
+        };
+        answer(result.await)
+    }
+
+    type WatchWorldStream = watching::Frames;
+
+    async fn watch_world(
+        &self,
+        request: Request<pb::WatchWorldRequest>,
+    ) -> Result<Response<Self::WatchWorldStream>, Status> {
+        let result = async {
+            let r = request.get_ref();
+            let handle = self.world("world", &r.world)?;
+            let view = state::view(r.view.as_ref())?;
+            check(&view.figures, &handle.outlet.latest.borrow())?;
+            let place = self.viewers.take()?;
+            let held = match r.resume_tick {
+                None => Vec::new(),
+                Some(tick) => {
+                    handle
+                        .call(origin(&request), move |s| s.held_after(tick))
+                        .await?
+                }
+            };
+            watching::frames(handle, &view, &held, self.stopping.clone(), place)
+        };
+        result.await.map(Response::new).map_err(refusal)
+    }
+
+    type WatchEventsStream = watching::Events;
+
+    async fn watch_events(
+        &self,
+        request: Request<pb::WatchEventsRequest>,
+    ) -> Result<Response<Self::WatchEventsStream>, Status> {
+        let watch = || {
+            let r = request.get_ref();
+            let handle = self.world("world", &r.world)?;
+            let filter = state::event_filter(r)?;
+            check(&filter.figures, &handle.outlet.latest.borrow())?;
+            let place = self.viewers.take()?;
+            Ok(watching::events(
+                handle,
+                filter,
+                self.stopping.clone(),
+                place,
+            ))
+        };
+        watch().map(Response::new).map_err(refusal)
+    }
+}

@@ -1,0 +1,232 @@
+//! Streams of frames and events. A stream is asked for its next message when the connection has room, so a slow viewer skips
+//! frames instead of collecting them.
+
+use super::{Place, refusal, stopped};
+use crate::server::fanout::hub::{Channel, Encoded};
+use crate::server::worlds::WorldHandle;
+use crate::wire::convert::state::{event_out, wanted};
+use crate::wire::frame::{shared_frame, shared_roster};
+use crate::wire::pb;
+use crate::wire::status::Fault;
+use crate::wire::types::{EventFilter, Snapshot, ViewSpec, WorldEvent};
+use crate::wire::watched::WatchWorldResponse;
+use prost::bytes::Bytes;
+use std::collections::VecDeque;
+use std::pin::Pin;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use tokio::sync::{broadcast, watch};
+use tokio_stream::Stream;
+use tonic::Status;
+
+/// Frames as they come.
+pub type Frames = Pin<Box<dyn Stream<Item = Result<WatchWorldResponse, Status>> + Send>>;
+/// Events as they come.
+pub type Events = Pin<Box<dyn Stream<Item = Result<pb::WatchEventsResponse, Status>> + Send>>;
+
+/// Why a stream ends.
+enum End {
+    World,
+    Server,
+}
+
+impl End {
+    fn fault(&self, handle: &WorldHandle) -> Fault {
+        match self {
+            Self::World => Fault::not_found("world", format!("worlds/{}", handle.id)),
+            Self::Server => Fault::Draining,
+        }
+    }
+}
+
+struct Viewer {
+    handle: Arc<WorldHandle>,
+    _channel: Arc<Channel>, // keeps its encoder running
+    frames: watch::Receiver<Option<Encoded>>,
+    ready: VecDeque<Bytes>,
+    roster: Option<i32>,
+    last: Option<u64>,
+    divisor: u64,
+    closed: watch::Receiver<()>,
+    stopping: watch::Receiver<bool>,
+    over: bool,
+    _place: Place,
+}
+
+impl Drop for Viewer {
+    fn drop(&mut self) {
+        self.handle.viewers.fetch_sub(1, Ordering::Relaxed);
+    }
+}
+
+/// Frames of a view: first those that are held, then as they come.
+pub(super) fn frames(
+    handle: Arc<WorldHandle>,
+    view: &ViewSpec,
+    held: &[Arc<Snapshot>],
+    stopping: watch::Receiver<bool>,
+    place: Place,
+) -> Result<Frames, Fault> {
+    let channel = handle.hub.channel(view, &handle.outlet)?;
+    let mut frames = channel.subscribe();
+    frames.mark_changed(); // what is there already is the first to send
+    handle.viewers.fetch_add(1, Ordering::Relaxed);
+    let divisor = u64::from(view.divisor);
+    let mut viewer = Viewer {
+        closed: handle.closed.clone(),
+        handle,
+        _channel: channel,
+        frames,
+        ready: VecDeque::new(),
+        roster: None,
+        last: None,
+        divisor,
+        stopping,
+        over: false,
+        _place: place,
+    };
+    for snapshot in held {
+        if snapshot.tick % divisor != 0 {
+            continue;
+        }
+        if viewer.roster != Some(snapshot.roster_version) {
+            viewer.roster = Some(snapshot.roster_version);
+            viewer.ready.push_back(shared_roster(snapshot, view));
+        }
+        viewer.ready.push_back(shared_frame(snapshot, view));
+        viewer.last = Some(snapshot.tick);
+    }
+    Ok(Box::pin(futures_util::stream::unfold(
+        viewer,
+        |mut v| async move {
+            let item = v.next().await?;
+            Some((item, v))
+        },
+    )))
+}
+
+impl Viewer {
+    async fn next(&mut self) -> Option<Result<WatchWorldResponse, Status>> {
+        loop {
+            if let Some(bytes) = self.ready.pop_front() {
+                metrics::counter!("sinew_frames_sent_total").increment(1);
+                return Some(Ok(WatchWorldResponse::Encoded(bytes)));
+            }
+            if self.over {
+                return None;
+            }
+            let ended = tokio::select! {
+                changed = self.frames.changed() => changed.is_err().then_some(End::World),
+                () = stopped(&mut self.stopping) => Some(End::Server),
+                _ = self.closed.changed() => Some(End::World),
+            };
+            if let Some(end) = ended {
+                self.over = true;
+                return Some(Err(refusal(end.fault(&self.handle))));
+            }
+            let Some(new) = self.frames.borrow_and_update().clone() else {
+                continue;
+            };
+            let known = self.roster == Some(new.roster_version);
+            if known && self.last.is_some_and(|l| new.tick <= l) {
+                continue;
+            }
+            if let Some(last) = self.last {
+                let missed = (new.tick / self.divisor)
+                    .saturating_sub(last / self.divisor)
+                    .saturating_sub(1);
+                if missed > 0 {
+                    self.handle.dropped.fetch_add(missed, Ordering::Relaxed);
+                    metrics::counter!("sinew_frames_dropped_total").increment(missed);
+                }
+            }
+            if !known {
+                self.roster = Some(new.roster_version);
+                self.ready.push_back(new.roster);
+            }
+            self.last = Some(new.tick);
+            self.ready.push_back(new.frame);
+        }
+    }
+}
+
+struct Listener {
+    handle: Arc<WorldHandle>,
+    filter: EventFilter,
+    events: broadcast::Receiver<Arc<Vec<WorldEvent>>>,
+    closed: watch::Receiver<()>,
+    stopping: watch::Receiver<bool>,
+    missed: u64,
+    begun: bool,
+    over: bool,
+    _place: Place,
+}
+
+impl Drop for Listener {
+    fn drop(&mut self) {
+        self.handle.viewers.fetch_sub(1, Ordering::Relaxed);
+    }
+}
+
+/// Events that pass a filter.
+pub(super) fn events(
+    handle: Arc<WorldHandle>,
+    filter: EventFilter,
+    stopping: watch::Receiver<bool>,
+    place: Place,
+) -> Events {
+    handle.viewers.fetch_add(1, Ordering::Relaxed);
+    let listener = Listener {
+        events: handle.outlet.events.subscribe(),
+        closed: handle.closed.clone(),
+        handle,
+        filter,
+        stopping,
+        missed: 0,
+        begun: false,
+        over: false,
+        _place: place,
+    };
+    Box::pin(futures_util::stream::unfold(listener, |mut l| async move {
+        let item = l.next().await?;
+        Some((item, l))
+    }))
+}
+
+impl Listener {
+    async fn next(&mut self) -> Option<Result<pb::WatchEventsResponse, Status>> {
+        if !std::mem::replace(&mut self.begun, true) {
+            return Some(Ok(pb::WatchEventsResponse::default()));
+        }
+        while !self.over {
+            let end = tokio::select! {
+                received = self.events.recv() => match received {
+                    Ok(batch) => {
+                        let events: Vec<pb::Event> = batch
+                            .iter()
+                            .filter(|e| wanted(&self.filter, e))
+                            .map(event_out)
+                            .collect();
+                        if events.is_empty() {
+                            continue;
+                        }
+                        return Some(Ok(pb::WatchEventsResponse {
+                            events,
+                            missed_count: self.missed as i64,
+                        }));
+                    }
+                    Err(broadcast::error::RecvError::Lagged(n)) => {
+                        self.missed += n;
+                        continue;
+                    }
+                    Err(broadcast::error::RecvError::Closed) => End::World,
+                },
+                () = stopped(&mut self.stopping) => End::Server,
+                _ = self.closed.changed() => End::World,
+            };
+            self.over = true;
+            return Some(Err(refusal(end.fault(&self.handle))));
+        }
+        None
+    }
+}

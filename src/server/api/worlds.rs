@@ -1,0 +1,221 @@
+//! `WorldService`.
+
+use super::{Api, answer, origin};
+use crate::server::tick::shard::{Shard, StepRequest};
+use crate::wire::convert::{count, new_id, page, world, world_name};
+use crate::wire::pb::{self, world_service_server::WorldService};
+use crate::wire::status::Fault;
+use crate::wire::types::{WorldInfo, WorldUpdate};
+use std::sync::Arc;
+use tokio::sync::oneshot;
+use tonic::{Request, Response, Status};
+
+/// Most ticks of one `StepWorld`: two minutes and three quarters at 60 Hz.
+const MAX_STEPS: u32 = 10_000;
+
+impl Api {
+    async fn on_world<T>(
+        &self,
+        request: &Request<T>,
+        name: &str,
+        f: impl FnOnce(&mut Shard) -> Result<WorldInfo, Fault> + Send + 'static,
+    ) -> Result<pb::World, Fault> {
+        let handle = self.world("name", name)?;
+        let info = handle.call(origin(request), f).await?;
+        Ok(world::world_out(&info))
+    }
+}
+
+#[tonic::async_trait]
+impl WorldService for Api {
+    async fn create_world(
+        &self,
+        request: Request<pb::CreateWorldRequest>,
+    ) -> Result<Response<pb::CreateWorldResponse>, Status> {
+        let from = origin(&request);
+        let r = request.into_inner();
+        let create = || {
+            let id = new_id("world_id", &r.world_id)?;
+            self.worlds.create(id, world::settings(r.world)?, r.paused)
+        };
+        let result = async {
+            let handle = create()?;
+            let info = handle.call(from, |s| Ok(s.info())).await?;
+            Ok(pb::CreateWorldResponse {
+                world: Some(world::world_out(&info)),
+            })
+        };
+        answer(result.await)
+    }
+
+    async fn get_world(
+        &self,
+        request: Request<pb::GetWorldRequest>,
+    ) -> Result<Response<pb::GetWorldResponse>, Status> {
+        let name = request.get_ref().name.clone();
+        answer(
+            self.on_world(&request, &name, |s| Ok(s.info()))
+                .await
+                .map(|w| pb::GetWorldResponse { world: Some(w) }),
+        )
+    }
+
+    async fn list_worlds(
+        &self,
+        request: Request<pb::ListWorldsRequest>,
+    ) -> Result<Response<pb::ListWorldsResponse>, Status> {
+        let result = async {
+            let r = request.get_ref();
+            let items = self
+                .worlds
+                .list()
+                .into_iter()
+                .map(|w| (w.id.to_string(), w))
+                .collect();
+            let (handles, next_page_token) = page(items, r.page_size, &r.page_token)?;
+            // All are asked at once: each answers at its own next tick.
+            let infos = futures_util::future::join_all(
+                handles
+                    .iter()
+                    .map(|h| h.call(origin(&request), |s: &mut Shard| Ok(s.info()))),
+            )
+            .await;
+            Ok(pb::ListWorldsResponse {
+                // A world that ended meanwhile is left out.
+                worlds: infos
+                    .into_iter()
+                    .flatten()
+                    .map(|i| world::world_out(&i))
+                    .collect(),
+                next_page_token,
+            })
+        };
+        answer(result.await)
+    }
+
+    async fn update_world(
+        &self,
+        request: Request<pb::UpdateWorldRequest>,
+    ) -> Result<Response<pb::UpdateWorldResponse>, Status> {
+        let result = async {
+            let r = request.get_ref();
+            let w = r
+                .world
+                .as_ref()
+                .ok_or_else(|| Fault::invalid("world", "must be given"))?;
+            world_name("world.name", &w.name)?;
+            let update = world::update(w, r.update_mask.as_ref())?;
+            self.on_world(&request, &w.name, |s| s.update(update)).await
+        };
+        answer(
+            result
+                .await
+                .map(|w| pb::UpdateWorldResponse { world: Some(w) }),
+        )
+    }
+
+    async fn delete_world(
+        &self,
+        request: Request<pb::DeleteWorldRequest>,
+    ) -> Result<Response<pb::DeleteWorldResponse>, Status> {
+        let result = async {
+            self.worlds
+                .delete(world_name("name", &request.get_ref().name)?)
+                .await?;
+            Ok(pb::DeleteWorldResponse {})
+        };
+        answer(result.await)
+    }
+
+    async fn pause_world(
+        &self,
+        request: Request<pb::PauseWorldRequest>,
+    ) -> Result<Response<pb::PauseWorldResponse>, Status> {
+        let name = request.get_ref().name.clone();
+        answer(
+            self.on_world(&request, &name, Shard::pause)
+                .await
+                .map(|w| pb::PauseWorldResponse { world: Some(w) }),
+        )
+    }
+
+    async fn resume_world(
+        &self,
+        request: Request<pb::ResumeWorldRequest>,
+    ) -> Result<Response<pb::ResumeWorldResponse>, Status> {
+        let name = request.get_ref().name.clone();
+        answer(
+            self.on_world(&request, &name, Shard::resume)
+                .await
+                .map(|w| pb::ResumeWorldResponse { world: Some(w) }),
+        )
+    }
+
+    async fn step_world(
+        &self,
+        request: Request<pb::StepWorldRequest>,
+    ) -> Result<Response<pb::StepWorldResponse>, Status> {
+        let result = async {
+            let r = request.get_ref();
+            let handle = self.world("name", &r.name)?;
+            let left = count("tick_count", r.tick_count, 1, 1, MAX_STEPS)?;
+            let (tx, rx) = oneshot::channel();
+            let slot = Arc::new(std::sync::Mutex::new(Some(tx)));
+            let (waits, fills) = (slot.clone(), slot);
+            let lock = |m: &std::sync::Mutex<Option<oneshot::Sender<_>>>| {
+                m.lock()
+                    .unwrap_or_else(std::sync::PoisonError::into_inner)
+                    .take()
+            };
+            handle.send(origin(&request), move |s| {
+                s.step(StepRequest {
+                    left,
+                    done: Box::new(move |result| {
+                        if let Some(tx) = lock(&fills) {
+                            let _ = tx.send(result); // the client may be gone
+                        }
+                    }),
+                    abandoned: Box::new(move || {
+                        waits
+                            .lock()
+                            .unwrap_or_else(std::sync::PoisonError::into_inner)
+                            .as_ref()
+                            .is_none_or(oneshot::Sender::is_closed)
+                    }),
+                });
+            })?;
+            let snapshot = rx.await.unwrap_or_else(|_| {
+                Err(Fault::Aborted {
+                    reason: "WORLD_ENDED",
+                    message: "the world ended before its steps were done".into(),
+                })
+            })?;
+            Ok(pb::StepWorldResponse {
+                tick: snapshot.tick as i64,
+                time_s: snapshot.time,
+                state_hash: snapshot.hash as i64,
+            })
+        };
+        answer(result.await)
+    }
+
+    async fn set_world_speed(
+        &self,
+        request: Request<pb::SetWorldSpeedRequest>,
+    ) -> Result<Response<pb::SetWorldSpeedResponse>, Status> {
+        let result = async {
+            let r = request.get_ref();
+            world_name("name", &r.name)?;
+            let update = WorldUpdate {
+                speed: Some(world::speed("speed", r.speed)?),
+                ..Default::default()
+            };
+            self.on_world(&request, &r.name, |s| s.update(update)).await
+        };
+        answer(
+            result
+                .await
+                .map(|w| pb::SetWorldSpeedResponse { world: Some(w) }),
+        )
+    }
+}

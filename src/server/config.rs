@@ -1,0 +1,307 @@
+//! Settings of the server: defaults, then a TOML file, then environment variables, then flags. Checked as a whole before a port is
+//! bound, and printed.
+
+use std::net::SocketAddr;
+use std::path::Path;
+
+/// Why the settings are not usable.
+#[derive(Debug, thiserror::Error)]
+pub enum ConfigError {
+    /// The file cannot be read.
+    #[error("{path}: {error}")]
+    File {
+        /// Its path.
+        path: String,
+        /// Why.
+        error: std::io::Error,
+    },
+    /// The file is not TOML.
+    #[error("{path}: {error}")]
+    Toml {
+        /// Its path.
+        path: String,
+        /// Where and why.
+        error: toml::de::Error,
+    },
+    /// There is no such setting.
+    #[error("{source_name}: there is no setting {name:?}; settings are {known}")]
+    Unknown {
+        /// File, environment or flag.
+        source_name: String,
+        /// What was given.
+        name: String,
+        /// All names.
+        known: String,
+    },
+    /// A value is not what the setting needs.
+    #[error("{source_name}: {name} must be {expected}, got {value}")]
+    Value {
+        /// File, environment or flag.
+        source_name: String,
+        /// Setting.
+        name: &'static str,
+        /// What it needs.
+        expected: String,
+        /// What was given.
+        value: String,
+    },
+    /// The address is not loopback and that was not allowed.
+    #[error(
+        "listen is {0}, which other machines can reach, and there is no authentication: use a loopback address or give --insecure-bind-any"
+    )]
+    NotLoopback(SocketAddr),
+}
+
+macro_rules! settings {
+    ($($(#[doc = $doc:literal])+ $name:ident: $kind:tt = $default:expr, $least:expr, $most:expr;)*) => {
+        /// The settings. Every one can be given in a TOML file and by the flag `--set name=value` under its name, and in the
+        /// environment in upper case with the prefix `SINEW_`.
+        #[derive(Clone, Debug, PartialEq)]
+        pub struct Config {
+            $($(#[doc = $doc])+ pub $name: settings!(@type $kind),)*
+        }
+
+        impl Default for Config {
+            fn default() -> Self {
+                Self { $($name: settings!(@default $kind, $default),)* }
+            }
+        }
+
+        impl Config {
+            /// Names, explanations and values, in order.
+            pub fn table(&self) -> Vec<(&'static str, &'static str, String)> {
+                vec![$((stringify!($name), concat!($($doc),+), self.$name.to_string()),)*]
+            }
+
+            /// Integer settings, for `GetServerInfo`.
+            pub fn limits(&self) -> Vec<(&'static str, i64)> {
+                let mut out = Vec::new();
+                $(settings!(@limit $kind, out, stringify!($name), self.$name);)*
+                out
+            }
+
+            fn set(&mut self, source_name: &str, name: &str, value: &toml::Value) -> Result<(), ConfigError> {
+                match name {
+                    $(stringify!($name) => {
+                        self.$name = settings!(@parse $kind, value, $least, $most).ok_or_else(|| ConfigError::Value {
+                            source_name: source_name.to_owned(),
+                            name: stringify!($name),
+                            expected: settings!(@expected $kind, $least, $most),
+                            value: value.to_string(),
+                        })?;
+                    })*
+                    _ => return Err(ConfigError::Unknown {
+                        source_name: source_name.to_owned(),
+                        name: name.to_owned(),
+                        known: [$(stringify!($name)),*].join(", "),
+                    }),
+                }
+                Ok(())
+            }
+
+            fn set_text(&mut self, source_name: &str, name: &str, text: &str) -> Result<(), ConfigError> {
+                let value = match name {
+                    $(stringify!($name) => settings!(@text $kind, text),)*
+                    _ => toml::Value::String(text.to_owned()),
+                };
+                self.set(source_name, name, &value)
+            }
+        }
+
+        const NAMES: &[&str] = &[$(stringify!($name)),*];
+    };
+    (@type int) => { u64 }; (@type float) => { f64 }; (@type flag) => { bool }; (@type addr) => { SocketAddr }; (@type text) => { String };
+    (@default addr, $d:expr) => { $d.parse().expect("the default is an address") };
+    (@default text, $d:expr) => { $d.to_owned() };
+    (@default $kind:tt, $d:expr) => { $d };
+    (@limit int, $out:ident, $name:expr, $value:expr) => { $out.push(($name, $value as i64)) };
+    (@limit $kind:tt, $out:ident, $name:expr, $value:expr) => {};
+    (@parse int, $v:ident, $least:expr, $most:expr) => { $v.as_integer().and_then(|n| u64::try_from(n).ok()).filter(|n| ($least..=$most).contains(n)) };
+    (@parse float, $v:ident, $least:expr, $most:expr) => {
+        $v.as_float().or_else(|| $v.as_integer().map(|n| n as f64)).filter(|n| ($least..=$most).contains(n))
+    };
+    (@parse flag, $v:ident, $least:expr, $most:expr) => { $v.as_bool() };
+    (@parse addr, $v:ident, $least:expr, $most:expr) => { $v.as_str().and_then(|s| s.parse().ok()) };
+    (@parse text, $v:ident, $least:expr, $most:expr) => { $v.as_str().map(str::to_owned) };
+    (@text addr, $t:ident) => { toml::Value::String($t.to_owned()) };
+    (@text text, $t:ident) => { toml::Value::String($t.to_owned()) };
+    (@text $kind:tt, $t:ident) => { typed($t) };
+    (@expected int, $least:expr, $most:expr) => {{
+        let (least, most): (u64, u64) = ($least, $most);
+        format!("a whole number in {least}…{most}")
+    }};
+    (@expected float, $least:expr, $most:expr) => { format!("a number in {}…{}", $least, $most) };
+    (@expected flag, $least:expr, $most:expr) => { "true or false".to_owned() };
+    (@expected addr, $least:expr, $most:expr) => { "an address and port, for example 127.0.0.1:7463".to_owned() };
+    (@expected text, $least:expr, $most:expr) => { "a text".to_owned() };
+}
+
+/// A text as TOML would read it; what TOML does not know stays text.
+fn typed(text: &str) -> toml::Value {
+    text.parse::<i64>()
+        .map(toml::Value::Integer)
+        .or_else(|_| text.parse::<f64>().map(toml::Value::Float))
+        .or_else(|_| text.parse::<bool>().map(toml::Value::Boolean))
+        .unwrap_or_else(|_| toml::Value::String(text.to_owned()))
+}
+
+settings! {
+    /// Address and port of gRPC, gRPC-Web, the status page and the metrics.
+    listen: addr = "127.0.0.1:7463", (), ();
+    /// Allows an address that other machines can reach. There is no authentication: whoever reaches the port may do everything.
+    insecure_bind_any: flag = false, (), ();
+    /// Which messages are logged, as `level` or `target=level` lists.
+    log: text = "info", (), ();
+    /// Logs as JSON lines.
+    log_json: flag = false, (), ();
+    /// Worlds at a time; each has a thread of its own.
+    max_worlds: int = 16, 1, 256;
+    /// Figures in one world; 60 of them fill one core at 60 Hz.
+    max_figures_per_world: int = 64, 1, 1000;
+    /// Streams of frames and events at a time.
+    max_viewers: int = 512, 1, 100_000;
+    /// Different views (figures, fields, encoding) of one world at a time; each is encoded once per tick.
+    max_views_per_world: int = 32, 1, 1000;
+    /// Streams of desired motion at a time.
+    max_drivers: int = 64, 1, 10_000;
+    /// Stored clips.
+    max_clips: int = 256, 1, 100_000;
+    /// Bytes of one uploaded file.
+    max_clip_bytes: int = 16_777_216, 1024, 1_073_741_824;
+    /// Bytes of all stored files and their frames.
+    max_clip_total_bytes: int = 536_870_912, 1024, 1_099_511_627_776;
+    /// Bodies that are kept ready.
+    max_bodies: int = 128, 2, 10_000;
+    /// Requests that wait for the next tick of one world.
+    command_queue: int = 1024, 16, 1_000_000;
+    /// Ticks of one world that are held for late readers.
+    history_ticks: int = 64, 1, 100_000;
+    /// Event messages that are held for slow viewers.
+    event_queue: int = 1024, 16, 1_000_000;
+    /// Offline simulations and file conversions that run at a time.
+    max_simulations: int = 2, 1, 256;
+    /// Offline simulations and file conversions that wait for their turn.
+    max_waiting_simulations: int = 64, 0, 100_000;
+    /// Longest offline simulation, s of its own time.
+    max_simulation_s: float = 120.0, 1.0, 86_400.0;
+    /// Bytes of the frames of one offline simulation.
+    max_response_bytes: int = 33_554_432, 65_536, 1_073_741_824;
+    /// Bytes of one request other than a file upload.
+    max_request_bytes: int = 1_048_576, 65_536, 67_108_864;
+    /// HTTP/2 streams of one connection; browsers and load tools open up to a hundred.
+    max_streams_per_connection: int = 256, 1, 100_000;
+    /// Requests of one connection that are worked on at a time.
+    max_requests_per_connection: int = 256, 1, 100_000;
+    /// Connections at a time.
+    max_connections: int = 1024, 1, 1_000_000;
+    /// How long a request may take before its response begins, s.
+    request_timeout_s: float = 300.0, 1.0, 86_400.0;
+    /// Interval of HTTP/2 pings on quiet connections, s.
+    keepalive_s: float = 20.0, 1.0, 3600.0;
+    /// How long a ping may go unanswered, s.
+    keepalive_timeout_s: float = 10.0, 1.0, 3600.0;
+    /// How long open streams get to end when the server shuts down, s.
+    shutdown_grace_s: float = 5.0, 0.0, 600.0;
+}
+
+impl Config {
+    /// Settings from all sources. `flags` are pairs of name and value, as `--set` gives them.
+    ///
+    /// # Errors
+    /// What is wrong and where it was given.
+    pub fn load(
+        file: Option<&Path>,
+        environment: impl Iterator<Item = (String, String)>,
+        flags: &[(String, String)],
+    ) -> Result<Self, ConfigError> {
+        let mut config = Self::default();
+        if let Some(path) = file {
+            let name = path.display().to_string();
+            let text = std::fs::read_to_string(path).map_err(|error| ConfigError::File {
+                path: name.clone(),
+                error,
+            })?;
+            let table: toml::Table = text.parse().map_err(|error| ConfigError::Toml {
+                path: name.clone(),
+                error,
+            })?;
+            for (key, value) in &table {
+                config.set(&name, key, value)?;
+            }
+        }
+        for (key, value) in environment {
+            let Some(name) = key.strip_prefix("SINEW_").map(str::to_lowercase) else {
+                continue;
+            };
+            // Other variables with this prefix (the name of the file, where tests find recordings) are not settings.
+            if NAMES.contains(&name.as_str()) {
+                config.set_text(&key, &name, &value)?;
+            }
+        }
+        for (name, value) in flags {
+            config.set_text(&format!("--set {name}"), &name.replace('-', "_"), value)?;
+        }
+        if !config.listen.ip().is_loopback() && !config.insecure_bind_any {
+            return Err(ConfigError::NotLoopback(config.listen));
+        }
+        Ok(config)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pair(a: &str, b: &str) -> (String, String) {
+        (a.to_owned(), b.to_owned())
+    }
+
+    #[test]
+    fn later_sources_win() {
+        let dir = std::env::temp_dir().join(format!("sinew-config-{}", std::process::id()));
+        std::fs::write(&dir, "max_worlds = 3\nmax_clips = 7\nkeepalive_s = 5").unwrap();
+        let config = Config::load(
+            Some(&dir),
+            [
+                pair("SINEW_MAX_WORLDS", "4"),
+                pair("SINEW_LOG", "debug"),
+                pair("SINEW_MOCAP_DIR", "x"),
+            ]
+            .into_iter(),
+            &[pair("max_worlds", "5")],
+        )
+        .unwrap();
+        std::fs::remove_file(&dir).unwrap();
+        assert_eq!((config.max_worlds, config.max_clips), (5, 7));
+        assert_eq!((config.keepalive_s, config.log.as_str()), (5.0, "debug"));
+    }
+
+    #[test]
+    fn mistakes_are_named() {
+        let load = |flags: &[(String, String)]| Config::load(None, std::iter::empty(), flags);
+        assert!(
+            load(&[pair("max_world", "5")])
+                .unwrap_err()
+                .to_string()
+                .contains("max_worlds")
+        );
+        assert!(
+            load(&[pair("max_worlds", "0")])
+                .unwrap_err()
+                .to_string()
+                .contains("1…256")
+        );
+        assert!(load(&[pair("max_worlds", "many")]).is_err());
+        assert!(matches!(
+            load(&[pair("listen", "0.0.0.0:1")]),
+            Err(ConfigError::NotLoopback(_))
+        ));
+        assert!(
+            load(&[
+                pair("listen", "0.0.0.0:1"),
+                pair("insecure-bind-any", "true")
+            ])
+            .is_ok()
+        );
+    }
+}

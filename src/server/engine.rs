@@ -1,0 +1,452 @@
+//! The only place of the server that builds and steps the physics: bodies, clips, worlds.
+//!
+//! Everything else of the server goes through the types and functions that are named here, so that the seam between clock and physics
+//! is one file.
+
+use crate::sim::body::topology::{self, BONE_NAMES, SEGMENT_NAMES};
+use crate::sim::body::{Body, DOF_COUNT, Posture, SegmentId, State};
+use crate::sim::figure::loads::MAX_PERTURBATIONS;
+use crate::sim::figure::{ControlParams, ControllerKind, Perturbation, StrengthScale};
+use crate::sim::math::{Quat, Vec3};
+use crate::sim::motion::{Bvh, PlanarTransform, RetargetOptions, Target, UpAxis};
+use crate::sim::world::{FigureSetup, WorldError, WorldParams};
+use crate::wire::status::Fault;
+use crate::wire::types::{
+    BvhReading, Disturbance, EventKind, FigureSettings, FigureSnapshot, MotionSource, Place,
+    ReadingReport, WorldSettings,
+};
+use std::sync::Arc;
+
+pub use super::fake::BUILTIN_NAMES;
+pub use crate::sim::motion::Clip;
+pub use crate::sim::world::{ClipPlayback, Drive, Figure, FigureEvent, FigureKey, World};
+
+/// Builds a body; the fault names the field of the profile that its tables do not cover.
+pub fn build_body(profile: crate::sim::body::Profile) -> Result<Body, Fault> {
+    use crate::sim::body::model::BodyError;
+    Body::humanoid(profile).map_err(|e| match e {
+        BodyError::Profile { field, .. } => {
+            let field = match field {
+                "age" => "age_years",
+                "height" => "height_m",
+                "mass" => "mass_kg",
+                other => other,
+            };
+            Fault::invalid(field, e.to_string())
+        }
+        other => Fault::invalid("", other.to_string()),
+    })
+}
+
+/// A body as MuJoCo XML.
+pub fn mjcf(body: &Body) -> String {
+    crate::server::fake::mjcf(body)
+}
+
+/// A body as URDF.
+pub fn urdf(body: &Body) -> String {
+    crate::server::fake::urdf(body)
+}
+
+/// A motion that comes with the program.
+pub fn builtin(body: &Body, name: &str) -> Option<Clip> {
+    crate::server::fake::builtin(body, name)
+}
+
+/// Prepares a motion for a body.
+///
+/// # Errors
+/// What is wrong with the file or its motion, with `field` as the place of the source in the request.
+pub fn prepare(
+    field: &str,
+    name: &str,
+    source: &MotionSource,
+    body: &Body,
+) -> Result<(Clip, Option<ReadingReport>), Fault> {
+    match source {
+        MotionSource::Bvh(bytes, reading) => {
+            let bvh = Bvh::parse(bytes)
+                .map_err(|e| Fault::invalid(format!("{field}.data"), e.to_string()))?;
+            let (clip, report) = retarget(name, &bvh, reading, body)
+                .map_err(|e| Fault::invalid(format!("{field}.data"), e))?;
+            Ok((clip, Some(report)))
+        }
+        MotionSource::Postures {
+            rate_hz,
+            postures,
+            planted,
+        } => {
+            let planted = if planted.is_empty() {
+                planted_feet(body, postures, *rate_hz)
+            } else {
+                planted.clone()
+            };
+            let clip = Clip::from_postures(name, *rate_hz, postures.clone(), planted)
+                .map_err(|e| Fault::invalid(format!("{field}.frames"), e.to_string()))?;
+            Ok((clip, None))
+        }
+    }
+}
+
+/// Retargets a file to a body. The clip keeps the place and heading of the recording.
+///
+/// # Errors
+/// A sentence that names bone, frame or figure of what cannot be used.
+pub fn retarget(
+    name: &str,
+    bvh: &Bvh,
+    reading: &BvhReading,
+    body: &Body,
+) -> Result<(Clip, ReadingReport), String> {
+    let defaults = RetargetOptions::default();
+    let options = RetargetOptions {
+        name: name.to_owned(),
+        unit_m: reading.unit_m,
+        up: reading.z_up.map(|z| if z { UpAxis::Z } else { UpAxis::Y }),
+        rate_hz: reading.rate_hz,
+        floor: reading.floor.unwrap_or(defaults.floor),
+        lock_feet: reading.lock_feet.unwrap_or(defaults.lock_feet),
+        cutoff_hz: reading.cutoff_hz.unwrap_or(defaults.cutoff_hz),
+        ..defaults
+    };
+    let out = crate::sim::motion::retarget(bvh, body, &options).map_err(|e| e.to_string())?;
+    let r = out.report;
+    let bone = |segment: &str| {
+        let i = SEGMENT_NAMES.iter().position(|s| *s == segment);
+        i.map_or(segment, |i| BONE_NAMES[i]).to_owned()
+    };
+    let report = ReadingReport {
+        mapped: r
+            .mapped
+            .iter()
+            .map(|m| (bone(m.segment), m.bones.clone()))
+            .collect(),
+        missing: r.missing.iter().map(|s| bone(s)).collect(),
+        by_structure: r.by_structure,
+        sides_swapped: r.sides_swapped,
+        unit_m: r.unit_m,
+        up_axis: match r.up {
+            UpAxis::Y => "y",
+            UpAxis::Z => "z",
+        }
+        .to_owned(),
+        stature_m: r.stature,
+        scale: r.scale,
+        source_rate_hz: r.source_rate_hz,
+        floor_offset_m: r.floor_offset,
+        clamped: r
+            .clamped
+            .iter()
+            .map(|c| (c.dof.to_owned(), c.fraction, c.max))
+            .collect(),
+        foot_slide_m: [r.foot_slide.0, r.foot_slide.1],
+        bridged: r.bridged.iter().map(|b| b.count).sum(),
+        dropped: r.skipped_frames,
+        phases: r
+            .phases
+            .iter()
+            .flat_map(|p| {
+                [(true, p.planted[0]), (false, p.planted[1])]
+                    .into_iter()
+                    .filter(|(_, down)| *down)
+                    .map(|(left, _)| (left, p.start, p.end))
+            })
+            .collect(),
+        warnings: r.warnings,
+    };
+    Ok((out.clip, report))
+}
+
+/// Lowest point of each foot (left, right) in a posture, with its world position.
+fn soles(body: &Body, posture: &Posture) -> [Vec3; 2] {
+    let poses = crate::wire::posture::segment_poses(body, posture);
+    [
+        [topology::L_FOOT, topology::L_TOES],
+        [topology::R_FOOT, topology::R_TOES],
+    ]
+    .map(|side| {
+        side.iter()
+            .flat_map(|s| {
+                let (p, q) = poses[s.index()];
+                body.segment(*s)
+                    .contact_points
+                    .iter()
+                    .map(move |c| p + q.rotate(*c))
+            })
+            .min_by(|a, b| a.z.total_cmp(&b.z))
+            .unwrap_or(poses[side[0].index()].0)
+    })
+}
+
+/// Height of a sole over the ground below which a foot may count as planted, m (captured feet differ by a few cm).
+const PLANTED_HEIGHT: f64 = 0.06;
+/// Speed of a sole below which a foot may count as planted, m/s.
+const PLANTED_SPEED: f64 = 0.45;
+
+/// Which feet a desired motion keeps on the floor between two postures `dt` seconds apart: low and slow.
+pub fn planted_between(body: &Body, before: &Posture, after: &Posture, dt: f64) -> [bool; 2] {
+    let (a, b) = (soles(body, before), soles(body, after));
+    std::array::from_fn(|i| {
+        b[i].z < PLANTED_HEIGHT && (b[i] - a[i]).norm() < PLANTED_SPEED * dt.max(1e-3)
+    })
+}
+
+fn planted_feet(body: &Body, postures: &[Posture], rate_hz: f64) -> Vec<[bool; 2]> {
+    (0..postures.len())
+        .map(|i| {
+            let (a, b) = (i.saturating_sub(1), (i + 1).min(postures.len() - 1));
+            planted_between(
+                body,
+                &postures[a],
+                &postures[b],
+                (b - a).max(1) as f64 / rate_hz,
+            )
+        })
+        .collect()
+}
+
+/// Quiet standing at a place: the zero pose with the soles on the ground.
+pub fn standing(body: &Body, place: Place) -> Posture {
+    Posture {
+        root_position: Vec3 {
+            x: place.x,
+            y: place.y,
+            z: body.standing_root_height(),
+        },
+        root_rotation: Quat::from_axis_angle(Vec3::Z, place.yaw),
+        ..Posture::default()
+    }
+}
+
+/// Heading of a rotation about the vertical, rad.
+pub fn heading(q: Quat) -> f64 {
+    let forward = q.rotate(Vec3::X);
+    forward.y.atan2(forward.x)
+}
+
+/// Where a figure stands: pelvis over the ground and its heading.
+pub fn place_of(posture: &Posture) -> Place {
+    Place {
+        x: posture.root_position.x,
+        y: posture.root_position.y,
+        yaw: heading(posture.root_rotation),
+    }
+}
+
+/// A refusal of the physics, with the place of its input in the request.
+fn refused(prefix: &str, e: &WorldError) -> Fault {
+    match e {
+        WorldError::Range { field, .. } | WorldError::Interval { field, .. } => {
+            Fault::invalid(format!("{prefix}.{field}"), e.to_string())
+        }
+        WorldError::TooManyPerturbations => Fault::Exhausted {
+            limit: "max_perturbations_per_figure",
+            value: MAX_PERTURBATIONS as u64,
+            message: e.to_string(),
+            retry: None,
+        },
+        WorldError::UnknownFigure(_) => Fault::Internal(e.to_string()),
+    }
+}
+
+/// A world with these settings.
+pub fn new_world(s: &WorldSettings) -> Result<World, Fault> {
+    World::new(WorldParams {
+        rate_hz: s.rate_hz,
+        substeps: s.substeps,
+        gravity: s.gravity,
+        friction: s.friction,
+        threads: 1,
+    })
+    .map_err(|e| refused("world", &e))
+}
+
+/// Schedules a perturbation.
+pub fn perturb(world: &mut World, key: FigureKey, p: Perturbation) -> Result<(), Fault> {
+    world
+        .perturb(key, p)
+        .map_err(|e| refused("perturbations", &e))
+}
+
+/// Room for perturbations that a figure has left.
+pub fn perturbation_room(figure: &Figure) -> usize {
+    MAX_PERTURBATIONS.saturating_sub(figure.perturbations().count())
+}
+
+/// Puts a figure into a state. Speeds that no body reaches are cut.
+pub fn reset(world: &mut World, key: FigureKey, mut state: State) -> Result<(), Fault> {
+    const FASTEST: f64 = 200.0;
+    for v in &mut state.velocity {
+        *v = v.clamp(-FASTEST, FASTEST);
+    }
+    world
+        .reset_figure(key, state)
+        .map_err(|e| refused("figure", &e))
+}
+
+/// Changes strength and controller.
+pub fn retune(
+    world: &mut World,
+    key: FigureKey,
+    strength: StrengthScale,
+    controller: ControllerKind,
+) -> Result<(), Fault> {
+    world
+        .retune_figure(key, strength, controller, ControlParams::default())
+        .map_err(|e| refused("figure", &e))
+}
+
+/// Names of the controllers and steppers that work in this build.
+pub const CAPABILITIES: [&str; 4] = [
+    "CONTROLLER_PAPER",
+    "CONTROLLER_MODERN",
+    "CONTROLLER_MOTORS",
+    "STEPPER_TORQUE",
+];
+
+/// Adds a figure, standing still at its place.
+pub fn add_figure(
+    world: &mut World,
+    id: &str,
+    s: &FigureSettings,
+    body: Arc<Body>,
+) -> Result<FigureKey, Fault> {
+    let state = State {
+        posture: standing(&body, s.place),
+        ..State::default()
+    };
+    world
+        .add_figure(FigureSetup {
+            body,
+            strength: s.strength.clone(),
+            controller: s.controller,
+            stepper: s.stepper,
+            params: ControlParams::default(),
+            state,
+            name: id.to_owned(),
+        })
+        .map_err(|e| refused("figure", &e))
+}
+
+/// Where a clip has to be moved so that it begins at a place.
+pub fn playback(clip: Arc<Clip>, start: f64, speed: f64, looped: bool, at: Place) -> ClipPlayback {
+    let origin = placing(place_of(clip.posture(0)), at);
+    ClipPlayback {
+        clip,
+        start,
+        speed,
+        looped,
+        origin,
+    }
+}
+
+/// What moves a motion that begins at `from` so that it begins at `to`.
+pub fn placing(from: Place, to: Place) -> PlanarTransform {
+    let turn = PlanarTransform {
+        x: 0.0,
+        y: 0.0,
+        yaw: to.yaw - from.yaw,
+    };
+    let turned = turn.point(Vec3 {
+        x: from.x,
+        y: from.y,
+        z: 0.0,
+    });
+    PlanarTransform {
+        x: to.x - turned.x,
+        y: to.y - turned.y,
+        yaw: turn.yaw,
+    }
+}
+
+/// First state of a clip that begins at a place.
+pub fn first_state(clip: &Clip, at: Place) -> State {
+    let target: Target = placing(place_of(clip.posture(0)), at).apply(&clip.sample(0.0));
+    State {
+        posture: target.posture,
+        velocity: target.velocity,
+    }
+}
+
+/// The physics' perturbation for a disturbance that begins at world time `from`.
+pub fn perturbation(body: &Body, what: &Disturbance, from: f64) -> Perturbation {
+    let com = |s: SegmentId| body.segment(s).com;
+    match *what {
+        Disturbance::Load {
+            segment,
+            point,
+            mass,
+            duration,
+        } => {
+            use topology::{L_FOOT, L_HAND, L_TOES, R_FOOT, R_HAND, R_TOES};
+            let holds = [L_HAND, R_HAND, L_FOOT, R_FOOT, L_TOES, R_TOES].contains(&segment);
+            let at = if holds {
+                body.segment(segment).tip
+            } else {
+                com(segment)
+            };
+            Perturbation::Load {
+                segment,
+                point: point.unwrap_or(at),
+                mass,
+                from,
+                to: from + duration,
+            }
+        }
+        Disturbance::Force {
+            segment,
+            point,
+            force,
+            duration,
+        } => Perturbation::Force {
+            segment,
+            point: point.unwrap_or(com(segment)),
+            force,
+            from,
+            to: from + duration,
+        },
+    }
+}
+
+/// A figure's event in the words of the server.
+pub fn event_kind(e: &FigureEvent) -> EventKind {
+    match *e {
+        FigureEvent::SupportGained { segment } => EventKind::SupportGained(segment),
+        FigureEvent::SupportLost { segment } => EventKind::SupportLost(segment),
+        FigureEvent::Saturated { dof } => EventKind::Saturated(dof.min(DOF_COUNT - 1)),
+        FigureEvent::Relieved { dof } => EventKind::Relieved(dof.min(DOF_COUNT - 1)),
+        FigureEvent::BalanceLost => EventKind::BalanceLost,
+        FigureEvent::Recovered => EventKind::Recovered,
+        FigureEvent::Fell => EventKind::Fell,
+        FigureEvent::GotUp => EventKind::GotUp,
+        FigureEvent::LoadTaken { segment, mass } => EventKind::LoadTaken(segment, mass),
+        FigureEvent::LoadDropped { segment, mass } => EventKind::LoadDropped(segment, mass),
+        FigureEvent::Quarantined => EventKind::Quarantined,
+    }
+}
+
+/// What a figure looks like after the tick that began at world time `start`; its loads are those of that tick.
+pub fn snapshot(figure: &Figure, start: f64, dt: f64, applied: (i64, i64)) -> FigureSnapshot {
+    let soon = start + 1e-9 * dt; // as the physics has it: times on a tick boundary belong to that tick
+    FigureSnapshot {
+        body: figure.body().clone(),
+        state: *figure.state(),
+        report: figure.report().cloned(),
+        desired: figure.target().next.clone(),
+        applied_sequence: applied.0,
+        applied_source_ns: applied.1,
+        loads: figure
+            .perturbations()
+            .filter_map(|p| match *p {
+                Perturbation::Load {
+                    segment,
+                    point,
+                    mass,
+                    from,
+                    to,
+                } if from <= soon && soon < to => Some((segment, point, mass)),
+                _ => None,
+            })
+            .collect(),
+    }
+}

@@ -1,0 +1,449 @@
+//! Desired motion of one figure between its arrival and its use.
+//!
+//! Frames carry the time at which they were captured. The buffer plays them at that pace, a playout delay behind their arrival, so that
+//! the jitter of the network does not become jitter of the motion. Asked for an instant it answers with a frame, between two frames,
+//! beyond the newest (fading out), with the last posture, or with quiet standing; each case is counted. Clock of arrival and playout is
+//! world time, so that pausing or slowing a world does not starve its drivers.
+
+use crate::sim::body::{NV, Posture};
+use crate::sim::motion::{Target, TargetPair};
+use crate::wire::types::{Delay, DriveSettings, Supply};
+use std::collections::VecDeque;
+
+/// Most frames that are held: over four seconds at 120 Hz.
+pub const CAPACITY: usize = 512;
+/// Arrivals that the jitter is measured over.
+const WINDOW: usize = 256;
+/// Share of time by which an adaptive delay shrinks: one hundredth is not seen.
+const SHRINK: f64 = 0.01;
+/// Time over which a jump of the desired motion is spread, s.
+const BLEND: f64 = 0.3;
+/// Time in which a figure relaxes into quiet standing, s.
+const RELAX: f64 = 2.0;
+/// Times closer than this are the same, s.
+const SAME: f64 = 1e-6;
+/// Reach to either side of the slope that stands in for a velocity that was not sent, s.
+const SLOPE: f64 = 0.04;
+/// Jump of a joint or the pelvis beyond which the motion is blended, rad or m.
+const JUMP: f64 = 0.02;
+
+/// A frame as it is held.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    /// Sequence.
+    pub sequence: i64,
+    /// Source time, ns.
+    pub source_ns: i64,
+    /// Desired posture.
+    pub posture: Posture,
+    /// Desired velocity.
+    pub velocity: Option<Box<[f64; NV]>>,
+    /// Planted feet.
+    pub planted: [bool; 2],
+}
+
+/// Counters of one buffer.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Ticks by answer: present, interpolated, extrapolated, held, relaxed.
+    pub ticks: [u64; 5],
+    /// Frames too late to be interpolated to.
+    pub late: u64,
+    /// Frames not newer than what was there.
+    pub stale: u64,
+    /// Frames dropped for want of room.
+    pub overflow: u64,
+}
+
+/// The buffer.
+#[derive(Debug)]
+pub struct JitterBuffer {
+    settings: DriveSettings,
+    tick: f64,
+    frames: VecDeque<Frame>,
+    /// Source time and world time of the first frame.
+    origin: Option<(i64, f64)>,
+    /// World time minus (first arrival + source time since then) of recent frames.
+    transit: VecDeque<f64>,
+    jitter: f64,
+    /// Present delay of playout behind the ideal clock, s; may be negative when frames come early.
+    delay: Option<f64>,
+    /// Playout time of the last answer, s since the first frame.
+    played: f64,
+    supply: Supply,
+    counts: Counts,
+    applied: Option<(i64, i64)>,
+    /// What was asked for at the end of the last tick.
+    last: Target,
+    /// Difference to a jump of the desired motion, and when it began to fade (world s).
+    blend: Option<(Box<[f64; NV]>, f64)>,
+    /// Where to relax from and since when (playout s).
+    stand: Posture,
+}
+
+/// Position on a curve in the tangent space of `base`, as a target: value, first and second derivative.
+fn on_curve(
+    base: &Posture,
+    x: &[f64; NV],
+    v: [f64; NV],
+    a: [f64; NV],
+    planted: [bool; 2],
+) -> Target {
+    let mut posture = *base;
+    posture.integrate(x, 1.0);
+    Target {
+        posture,
+        velocity: v,
+        acceleration: a,
+        planted,
+    }
+}
+
+impl JitterBuffer {
+    /// An empty buffer for ticks of `tick` seconds. `now` is what is asked of the figure at present, `stand` its quiet standing posture.
+    pub fn new(settings: DriveSettings, tick: f64, now: Target, stand: Posture) -> Self {
+        Self {
+            settings,
+            tick,
+            frames: VecDeque::new(),
+            origin: None,
+            transit: VecDeque::new(),
+            jitter: 0.0,
+            delay: None,
+            played: f64::NEG_INFINITY,
+            supply: Supply::None,
+            counts: Counts::default(),
+            applied: None,
+            last: now,
+            blend: None,
+            stand,
+        }
+    }
+
+    /// Newest desired posture, for frames that leave the pelvis where it is.
+    pub fn newest_posture(&self) -> &Posture {
+        self.frames
+            .back()
+            .map_or(&self.last.posture, |f| &f.posture)
+    }
+
+    /// Newest frame.
+    pub fn newest(&self) -> Option<&Frame> {
+        self.frames.back()
+    }
+
+    /// Counters.
+    pub fn counts(&self) -> Counts {
+        self.counts
+    }
+
+    /// How the last tick was answered.
+    pub fn supply(&self) -> Supply {
+        self.supply
+    }
+
+    /// Sequence and source time (ns) that act now.
+    pub fn applied(&self) -> Option<(i64, i64)> {
+        self.applied
+    }
+
+    /// p99 of the arrival jitter, s.
+    pub fn jitter(&self) -> f64 {
+        self.jitter
+    }
+
+    /// Delay between arrival and use, s.
+    pub fn delay(&self) -> f64 {
+        match self.settings.delay {
+            Delay::Fixed(d) => d,
+            Delay::Adaptive { .. } => self.delay.unwrap_or(0.0) - self.fastest(),
+        }
+    }
+
+    /// Motion that is held but not used yet, s.
+    pub fn buffered(&self) -> f64 {
+        match (self.frames.back(), self.played.is_finite()) {
+            (Some(f), true) => (self.seconds(f) - self.played).max(0.0),
+            (Some(f), false) => {
+                self.seconds(f) - self.frames.front().map_or(0.0, |f| self.seconds(f))
+            }
+            _ => 0.0,
+        }
+    }
+
+    fn seconds(&self, f: &Frame) -> f64 {
+        let (source0, _) = self.origin.unwrap_or((f.source_ns, 0.0));
+        // Differences of hostile times must not overflow.
+        (i128::from(f.source_ns) - i128::from(source0)) as f64 * 1e-9
+    }
+
+    fn fastest(&self) -> f64 {
+        self.transit
+            .iter()
+            .copied()
+            .fold(f64::INFINITY, f64::min)
+            .min(1e12)
+    }
+
+    /// Takes a frame that arrived at world time `now`. Frames whose sequence or source time does not grow are dropped and counted.
+    pub fn push(&mut self, frame: Frame, now: f64) {
+        let newer = self
+            .frames
+            .back()
+            .is_none_or(|last| frame.sequence > last.sequence && frame.source_ns > last.source_ns);
+        if !newer {
+            self.counts.stale += 1;
+            return;
+        }
+        if self.frames.len() == CAPACITY {
+            // Fed faster than it is played: what is oldest of the unplayed matters least for where the motion is going.
+            self.frames.pop_front();
+            self.counts.overflow += 1;
+        }
+        let (_, world0) = *self.origin.get_or_insert((frame.source_ns, now));
+        let at = self.seconds(&frame);
+        if self.transit.len() == WINDOW {
+            self.transit.pop_front();
+        }
+        self.transit.push_back(now - world0 - at);
+        self.measure();
+        if at < self.played {
+            self.counts.late += 1;
+        }
+        self.frames.push_back(frame);
+    }
+
+    fn measure(&mut self) {
+        let base = self.fastest();
+        let mut late: Vec<f64> = self.transit.iter().map(|t| t - base).collect();
+        let rank = (late.len() - 1) * 99 / 100;
+        let (_, p99, _) = late.select_nth_unstable_by(rank, f64::total_cmp);
+        self.jitter = *p99;
+    }
+
+    /// Playout time at world time `t`, s since the first frame; moves the adaptive delay on.
+    fn playout(&mut self, t: f64) -> Option<f64> {
+        let (_, world0) = self.origin?;
+        let delay = match self.settings.delay {
+            Delay::Fixed(d) => d,
+            Delay::Adaptive { most } => {
+                let base = self.fastest();
+                let frame = 1.0 / self.settings.rate_hz;
+                // Interpolation needs the next frame to be there as well.
+                let wanted = base + (self.jitter + frame + self.tick).min(most);
+                match self.delay {
+                    None => wanted,
+                    Some(d) if wanted > d => wanted,
+                    Some(d) if d - wanted > most => wanted, // the clocks jumped
+                    Some(d) => (d - SHRINK * self.tick).max(wanted),
+                }
+            }
+        };
+        self.delay = Some(delay);
+        let p = t - world0 - delay;
+        // Time may stand still while a delay grows, but does not run backwards.
+        Some(if self.played.is_finite() {
+            p.max(self.played)
+        } else {
+            p
+        })
+    }
+
+    fn velocity(&self, i: usize) -> [f64; NV] {
+        if let Some(v) = &self.frames[i].velocity {
+            return **v;
+        }
+        // Least-squares slope through the neighbours within SLOPE, at least the adjacent ones.
+        let t0 = self.seconds(&self.frames[i]);
+        let mut lo = i.saturating_sub(1);
+        let mut hi = (i + 1).min(self.frames.len() - 1);
+        while lo > 0 && t0 - self.seconds(&self.frames[lo - 1]) <= SLOPE {
+            lo -= 1;
+        }
+        while hi + 1 < self.frames.len() && self.seconds(&self.frames[hi + 1]) - t0 <= SLOPE {
+            hi += 1;
+        }
+        let n = (hi - lo + 1) as f64;
+        let mean = (lo..=hi)
+            .map(|k| self.seconds(&self.frames[k]) - t0)
+            .sum::<f64>()
+            / n;
+        let mut v = [0.0; NV];
+        let mut square = 0.0;
+        for k in lo..=hi {
+            let dt = self.seconds(&self.frames[k]) - t0 - mean;
+            square += dt * dt;
+            let x = self.frames[i].posture.difference(&self.frames[k].posture);
+            for (v, x) in v.iter_mut().zip(x) {
+                *v += dt * x;
+            }
+        }
+        if square > 0.0 {
+            for v in &mut v {
+                *v = (*v / square).clamp(-1000.0, 1000.0);
+            }
+        }
+        v
+    }
+
+    /// The desired motion at playout time `p`.
+    fn at(&self, p: f64) -> (Target, Supply, usize) {
+        let after = self.frames.partition_point(|f| self.seconds(f) <= p + SAME);
+        if after == 0 {
+            return (Target::still(self.last.posture), Supply::Waiting, 0);
+        }
+        let i = after - 1;
+        let from = &self.frames[i];
+        let since = (p - self.seconds(from)).max(0.0);
+        let v0 = self.velocity(i);
+        if let Some(to) = self.frames.get(i + 1) {
+            // Cubic Hermite curve in the tangent space of the frame before.
+            let h = self.seconds(to) - self.seconds(from);
+            let u = (since / h).clamp(0.0, 1.0);
+            let d = from.posture.difference(&to.posture);
+            let v1 = self.velocity(i + 1);
+            let mut x = [0.0; NV];
+            let mut v = [0.0; NV];
+            let mut a = [0.0; NV];
+            for k in 0..NV {
+                let (m0, m1) = (v0[k] * h, v1[k] * h);
+                let c3 = m0 + m1 - 2.0 * d[k];
+                let c2 = 3.0 * d[k] - 2.0 * m0 - m1;
+                x[k] = u * (m0 + u * (c2 + u * c3));
+                v[k] = (m0 + u * (2.0 * c2 + 3.0 * u * c3)) / h;
+                a[k] = (2.0 * c2 + 6.0 * u * c3) / (h * h);
+            }
+            let planted = if u < 0.5 { from.planted } else { to.planted };
+            let supply = if since <= SAME {
+                Supply::Present
+            } else {
+                Supply::Interpolated
+            };
+            return (on_curve(&from.posture, &x, v, a, planted), supply, i);
+        }
+        let limit = self.settings.extrapolation;
+        if since <= SAME {
+            let still = [0.0; NV];
+            return (
+                on_curve(&from.posture, &still, v0, still, from.planted),
+                Supply::Present,
+                i,
+            );
+        }
+        // The last velocity fades out linearly over the limit.
+        let u = since.min(limit);
+        let x = if limit > 0.0 {
+            v0.map(|v| v * (u - u * u / (2.0 * limit)))
+        } else {
+            [0.0; NV]
+        };
+        if since < limit {
+            let v = v0.map(|v| v * (1.0 - u / limit));
+            let a = v0.map(|v| -v / limit);
+            return (
+                on_curve(&from.posture, &x, v, a, from.planted),
+                Supply::Extrapolated,
+                i,
+            );
+        }
+        let held = on_curve(&from.posture, &x, [0.0; NV], [0.0; NV], from.planted);
+        let over = since - limit - self.settings.hold;
+        if over <= 0.0 {
+            return (held, Supply::Held, i);
+        }
+        let d = held.posture.difference(&self.standing(&held.posture));
+        let u = (over / RELAX).min(1.0);
+        let s = u * u * (3.0 - 2.0 * u);
+        let moving = if u < 1.0 { 1.0 / RELAX } else { 0.0 };
+        let (s1, s2) = (
+            6.0 * u * (1.0 - u) * moving,
+            (6.0 - 12.0 * u) * moving * moving,
+        );
+        (
+            on_curve(
+                &held.posture,
+                &d.map(|d| d * s),
+                d.map(|d| d * s1),
+                d.map(|d| d * s2),
+                [true; 2],
+            ),
+            Supply::Relaxed,
+            i,
+        )
+    }
+
+    /// Quiet standing where the held posture has its pelvis.
+    fn standing(&self, held: &Posture) -> Posture {
+        use crate::sim::math::{Quat, Vec3};
+        let mut p = self.stand;
+        p.root_position.x = held.root_position.x;
+        p.root_position.y = held.root_position.y;
+        let forward = held.root_rotation.rotate(Vec3::X);
+        p.root_rotation = Quat::from_axis_angle(Vec3::Z, forward.y.atan2(forward.x));
+        p
+    }
+
+    /// The desired motion over the tick from world time `t`. `None` while nothing was pushed or the first frame is still to come:
+    /// what was asked of the figure before then goes on.
+    pub fn sample(&mut self, t: f64) -> Option<TargetPair> {
+        let p = self.playout(t)?;
+        let (mut now, supply, i) = self.at(p);
+        self.supply = supply;
+        let began = self.applied.is_none();
+        match supply {
+            Supply::Waiting | Supply::None => return None,
+            Supply::Present => self.counts.ticks[0] += 1,
+            Supply::Interpolated => self.counts.ticks[1] += 1,
+            Supply::Extrapolated => self.counts.ticks[2] += 1,
+            Supply::Held => self.counts.ticks[3] += 1,
+            Supply::Relaxed => self.counts.ticks[4] += 1,
+        }
+        self.played = p;
+        self.applied = Some((self.frames[i].sequence, self.frames[i].source_ns));
+        let (mut next, _, _) = self.at(p + self.tick);
+        // A jump, at the start or after a gap, is spread over time.
+        if !(began && self.settings.reset) {
+            let jump = Box::new(now.posture.difference(&self.last.posture));
+            let expected = self.blend.is_some();
+            let beyond =
+                |(k, e): (usize, &f64)| e.abs() > JUMP + self.last.velocity[k].abs() * self.tick;
+            if !expected && jump.iter().enumerate().any(beyond) {
+                self.blend = Some((jump, t));
+            }
+        }
+        if let Some((jump, since)) = &self.blend {
+            let fade = |target: &mut Target, t: f64| {
+                let u = ((t - since) / BLEND).clamp(0.0, 1.0);
+                // 1 at the start, 0 at the end, flat at both.
+                let s = 1.0 - u * u * (3.0 - 2.0 * u);
+                let moving = if u < 1.0 { 1.0 / BLEND } else { 0.0 };
+                let s1 = -6.0 * u * (1.0 - u) * moving;
+                let s2 = -(6.0 - 12.0 * u) * moving * moving;
+                target.posture.integrate(&jump.map(|e| e * s), 1.0);
+                for k in 0..NV {
+                    target.velocity[k] += jump[k] * s1;
+                    target.acceleration[k] += jump[k] * s2;
+                }
+            };
+            fade(&mut now, t);
+            fade(&mut next, t + self.tick);
+            if t - since >= BLEND {
+                self.blend = None;
+            }
+        }
+        self.last = next.clone();
+        // Frames before the one in use serve only as neighbours of its velocity.
+        while self.frames.len() > 2 && self.seconds(&self.frames[1]) < p - 2.0 * SLOPE {
+            self.frames.pop_front();
+        }
+        Some(TargetPair { now, next })
+    }
+
+    /// True once, when the figure is to be put into its first desired posture.
+    pub fn resets_now(&self) -> bool {
+        self.settings.reset && self.counts.ticks.iter().sum::<u64>() == 1
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,4 @@
+//! Live desired motion on its way to the tick.
+
+pub mod admission;
+pub mod jitter_buffer;

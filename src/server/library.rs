@@ -1,0 +1,314 @@
+//! Bodies and clips that the server holds, each prepared once and shared.
+
+use super::config::Config;
+use super::engine::{self, BUILTIN_NAMES, Clip};
+use crate::sim::body::{Body, Posture};
+use crate::wire::convert::body::{NAMED, by_id};
+use crate::wire::status::Fault;
+use crate::wire::types::{BodyRef, ClipInfo, MotionSource};
+use std::collections::{BTreeMap, HashMap};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::SystemTime;
+
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    // Entries are inserted whole, so a panic elsewhere leaves a usable map.
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Bodies by the last parts of their names.
+#[derive(Debug)]
+pub struct Bodies {
+    most: usize,
+    held: Mutex<BTreeMap<String, Arc<Body>>>,
+}
+
+impl Bodies {
+    /// No bodies yet.
+    pub fn new(config: &Config) -> Self {
+        Self {
+            most: config.max_bodies as usize,
+            held: Mutex::default(),
+        }
+    }
+
+    /// The body of a reference, built if need be; `field` is where the profile stands in the request.
+    ///
+    /// # Errors
+    /// The tables do not cover the profile.
+    pub fn get(&self, field: &str, body: &BodyRef) -> Result<Arc<Body>, Fault> {
+        if let Some(held) = locked(&self.held).get(&body.id) {
+            return Ok(held.clone());
+        }
+        let built = Arc::new(engine::build_body(body.profile).map_err(|f| f.within(field))?);
+        let mut held = locked(&self.held);
+        if held.len() >= self.most {
+            // Figures keep theirs; one that nobody uses is built again when it is asked for.
+            held.retain(|id, b| Arc::strong_count(b) > 1 || NAMED.iter().any(|(n, _)| n == id));
+        }
+        if held.len() < self.most {
+            held.insert(body.id.clone(), built.clone());
+        }
+        Ok(built)
+    }
+
+    /// Named bodies and those in use, by name.
+    pub fn list(&self) -> Vec<BodyRef> {
+        let mut out: BTreeMap<String, BodyRef> = NAMED
+            .iter()
+            .filter_map(|(id, _)| by_id(id))
+            .map(|b| (b.id.clone(), b))
+            .collect();
+        for (id, body) in locked(&self.held).iter() {
+            out.insert(
+                id.clone(),
+                BodyRef {
+                    id: id.clone(),
+                    profile: body.profile,
+                },
+            );
+        }
+        out.into_values().collect()
+    }
+}
+
+/// A stored motion.
+struct Stored {
+    info: ClipInfo,
+    source: Option<MotionSource>,
+    bytes: u64,
+    /// Prepared for bodies by the last parts of their names.
+    prepared: Mutex<HashMap<String, Arc<Clip>>>,
+}
+
+/// Clips by the last parts of their names.
+pub struct Clips {
+    most: u64,
+    most_bytes: u64,
+    held: Mutex<BTreeMap<String, Arc<Stored>>>,
+    next: std::sync::atomic::AtomicU64,
+}
+
+/// Bytes of a prepared frame: posture, velocity and acceleration.
+const FRAME_BYTES: u64 = (size_of::<Posture>() + 2 * 45 * 8 + 8) as u64;
+/// Bodies that one clip is kept prepared for.
+const MAX_PREPARED: usize = 16;
+
+impl Clips {
+    /// The built-in clips.
+    ///
+    /// # Errors
+    /// A built-in clip cannot be made for the adult man: a mistake of the program.
+    pub fn new(config: &Config, bodies: &Bodies) -> Result<Self, Fault> {
+        let reference = by_id("adult-man").ok_or_else(|| Fault::not_found("body", "adult-man"))?;
+        let body = bodies.get("body", &reference)?;
+        let mut held = BTreeMap::new();
+        for name in BUILTIN_NAMES {
+            let clip = engine::builtin(&body, name)
+                .ok_or_else(|| Fault::not_found("clip", format!("clips/{name}")))?;
+            let info = ClipInfo {
+                id: name.to_owned(),
+                display_name: name.to_owned(),
+                builtin: true,
+                body: reference.id.clone(),
+                rate_hz: clip.rate_hz(),
+                frames: clip.len(),
+                duration: clip.duration(),
+                report: None,
+                created: None,
+            };
+            let prepared = HashMap::from([(reference.id.clone(), Arc::new(clip))]);
+            held.insert(
+                name.to_owned(),
+                Arc::new(Stored {
+                    info,
+                    source: None,
+                    bytes: 0,
+                    prepared: Mutex::new(prepared),
+                }),
+            );
+        }
+        Ok(Self {
+            most: config.max_clips,
+            most_bytes: config.max_clip_total_bytes,
+            held: Mutex::new(held),
+            next: std::sync::atomic::AtomicU64::new(1),
+        })
+    }
+
+    fn room(
+        &self,
+        held: &BTreeMap<String, Arc<Stored>>,
+        id: Option<&str>,
+        bytes: u64,
+    ) -> Result<(), Fault> {
+        if let Some(id) = id
+            && held.contains_key(id)
+        {
+            return Err(Fault::Exists {
+                kind: "clip",
+                name: format!("clips/{id}"),
+            });
+        }
+        let own = held.values().filter(|s| !s.info.builtin);
+        if own.clone().count() as u64 >= self.most {
+            return Err(Fault::Exhausted {
+                limit: "max_clips",
+                value: self.most,
+                message: "one more clip".into(),
+                retry: None,
+            });
+        }
+        if own.map(|s| s.bytes).sum::<u64>() + bytes > self.most_bytes {
+            return Err(Fault::Exhausted {
+                limit: "max_clip_total_bytes",
+                value: self.most_bytes,
+                message: format!("a clip of {bytes} bytes"),
+                retry: None,
+            });
+        }
+        Ok(())
+    }
+
+    /// Refuses early what would be refused in the end, before any work is done.
+    ///
+    /// # Errors
+    /// The name is taken or there is no room.
+    pub fn check_room(&self, id: Option<&str>, source: &MotionSource) -> Result<(), Fault> {
+        self.room(&locked(&self.held), id, source_bytes(source))
+    }
+
+    /// Stores a motion, prepared for one body. Slow: not on an async thread.
+    ///
+    /// # Errors
+    /// The file is bad, the name is taken, or there is no room. Nothing is stored then.
+    pub fn create(
+        &self,
+        id: Option<String>,
+        display_name: String,
+        reference: &BodyRef,
+        body: &Body,
+        source: MotionSource,
+    ) -> Result<ClipInfo, Fault> {
+        let field = source_field(&source);
+        let title = id.as_deref().unwrap_or("clip").to_owned();
+        let (clip, report) = engine::prepare(field, &title, &source, body)?;
+        let bytes = source_bytes(&source) + clip.len() as u64 * FRAME_BYTES;
+        let mut held = locked(&self.held);
+        let id = id.unwrap_or_else(|| {
+            loop {
+                let n = self.next.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+                let id = format!("clip-{n}");
+                if !held.contains_key(&id) {
+                    return id;
+                }
+            }
+        });
+        self.room(&held, Some(&id), bytes)?;
+        let info = ClipInfo {
+            id: id.clone(),
+            display_name,
+            builtin: false,
+            body: reference.id.clone(),
+            rate_hz: clip.rate_hz(),
+            frames: clip.len(),
+            duration: clip.duration(),
+            report: report.map(Arc::new),
+            created: Some(SystemTime::now()),
+        };
+        let stored = Stored {
+            info: info.clone(),
+            source: Some(source),
+            bytes,
+            prepared: Mutex::new(HashMap::from([(reference.id.clone(), Arc::new(clip))])),
+        };
+        held.insert(id, Arc::new(stored));
+        metrics::gauge!("sinew_clips").set(held.len() as f64);
+        Ok(info)
+    }
+
+    fn stored(&self, id: &str) -> Result<Arc<Stored>, Fault> {
+        locked(&self.held)
+            .get(id)
+            .cloned()
+            .ok_or_else(|| Fault::not_found("clip", format!("clips/{id}")))
+    }
+
+    /// One clip.
+    ///
+    /// # Errors
+    /// There is none of that name.
+    pub fn info(&self, id: &str) -> Result<ClipInfo, Fault> {
+        Ok(self.stored(id)?.info.clone())
+    }
+
+    /// All clips, by name.
+    pub fn list(&self) -> Vec<ClipInfo> {
+        locked(&self.held)
+            .values()
+            .map(|s| s.info.clone())
+            .collect()
+    }
+
+    /// Forgets a clip.
+    ///
+    /// # Errors
+    /// There is none of that name, or it comes with the server.
+    pub fn delete(&self, id: &str) -> Result<(), Fault> {
+        let mut held = locked(&self.held);
+        match held.get(id) {
+            None => Err(Fault::not_found("clip", format!("clips/{id}"))),
+            Some(s) if s.info.builtin => Err(Fault::Precondition {
+                reason: "CLIP_BUILTIN",
+                message: format!("clip {id:?} comes with the server"),
+                facts: vec![],
+            }),
+            Some(_) => {
+                held.remove(id);
+                metrics::gauge!("sinew_clips").set(held.len() as f64);
+                Ok(())
+            }
+        }
+    }
+
+    /// A clip prepared for a body. Slow the first time: not on an async thread.
+    ///
+    /// # Errors
+    /// There is none of that name, or it cannot be prepared for this body.
+    pub fn prepared(&self, id: &str, body_id: &str, body: &Body) -> Result<Arc<Clip>, Fault> {
+        let stored = self.stored(id)?;
+        if let Some(clip) = locked(&stored.prepared).get(body_id) {
+            return Ok(clip.clone());
+        }
+        let clip = match &stored.source {
+            None => engine::builtin(body, id)
+                .ok_or_else(|| Fault::not_found("clip", format!("clips/{id}")))?,
+            Some(source) => engine::prepare(source_field(source), id, source, body)?.0,
+        };
+        let clip = Arc::new(clip);
+        let mut prepared = locked(&stored.prepared);
+        if prepared.len() < MAX_PREPARED {
+            prepared.insert(body_id.to_owned(), clip.clone());
+        }
+        Ok(clip)
+    }
+
+    /// A clip that is already prepared for a body.
+    pub fn ready(&self, id: &str, body_id: &str) -> Option<Arc<Clip>> {
+        let stored = self.stored(id).ok()?;
+        locked(&stored.prepared).get(body_id).cloned()
+    }
+}
+
+fn source_field(source: &MotionSource) -> &'static str {
+    match source {
+        MotionSource::Bvh(..) => "bvh",
+        MotionSource::Postures { .. } => "frames",
+    }
+}
+
+fn source_bytes(source: &MotionSource) -> u64 {
+    match source {
+        MotionSource::Bvh(bytes, _) => bytes.len() as u64,
+        MotionSource::Postures { postures, .. } => (postures.len() * size_of::<Posture>()) as u64,
+    }
+}

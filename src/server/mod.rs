@@ -1,0 +1,142 @@
+//! Everything that touches the network or the clock.
+//!
+//! [`run`] serves one port: gRPC, gRPC-Web, reflection, health, a status page and metrics. Each world has a thread of its own that runs
+//! [`tick::run`]; services send it commands and read what it publishes.
+
+pub mod api;
+pub mod config;
+pub mod engine;
+pub mod fanout;
+pub mod ingest;
+pub mod library;
+pub mod simulate;
+pub mod telemetry;
+pub mod tick;
+pub mod workers;
+pub mod worlds;
+
+mod connections;
+mod fake;
+mod http;
+
+use crate::wire::DESCRIPTOR_SET;
+use api::App;
+use config::Config;
+use std::future::Future;
+use std::sync::Arc;
+use std::time::Duration;
+use tokio::net::TcpListener;
+use tokio::sync::watch;
+use tonic::service::Routes;
+use tonic::transport::Server;
+
+/// Any error, for `main` and for callers that only report.
+pub type BoxError = Box<dyn std::error::Error + Send + Sync>;
+
+/// Flow-control window of one stream: a few frames, so that a slow sender or reader is felt soon.
+const STREAM_WINDOW: u32 = 256 * 1024;
+/// Flow-control window of one connection.
+const CONNECTION_WINDOW: u32 = 1024 * 1024;
+/// Largest HTTP/2 frame.
+const HTTP2_FRAME: u32 = 16 * 1024;
+/// Largest set of request headers.
+const HEADER_LIST: u32 = 16 * 1024;
+/// Streams that were reset and not yet forgotten, per connection (rapid reset).
+const RESET_STREAMS: usize = 32;
+
+/// Serves until `shutdown` completes, then stops admitting, tells streams, finishes the ticks and returns within the grace time.
+///
+/// # Errors
+/// The built-in data cannot be prepared, or the listener fails.
+pub async fn run(
+    config: Config,
+    listener: TcpListener,
+    shutdown: impl Future<Output = ()> + Send + 'static,
+) -> Result<(), BoxError> {
+    let (stop, stopping) = watch::channel(false);
+    let app = Arc::new(App::new(Arc::new(config), stopping)?);
+    serve(app, listener, shutdown, stop).await
+}
+
+/// As [`run`], with an application that the caller has prepared; `stop` must be the sender of the receiver it was made with.
+///
+/// # Errors
+/// The listener fails.
+pub async fn serve(
+    app: Arc<App>,
+    listener: TcpListener,
+    shutdown: impl Future<Output = ()> + Send + 'static,
+    stop: watch::Sender<bool>,
+) -> Result<(), BoxError> {
+    let config = app.config.clone();
+    let (health, health_service) = tonic_health::server::health_reporter();
+    for name in api::SERVICE_NAMES {
+        health
+            .set_service_status(name, tonic_health::ServingStatus::Serving)
+            .await;
+    }
+    let reflection = tonic_reflection::server::Builder::configure()
+        .register_encoded_file_descriptor_set(DESCRIPTOR_SET)
+        .register_encoded_file_descriptor_set(tonic_health::pb::FILE_DESCRIPTOR_SET)
+        .build_v1()?;
+    let mut routes = Routes::builder();
+    routes.add_service(health_service).add_service(reflection);
+    api::add_services(&mut routes, &app);
+    // tonic's own fallback would answer for the pages below.
+    let grpc = routes
+        .routes()
+        .into_axum_router()
+        .reset_fallback()
+        .layer(tonic_web::GrpcWebLayer::new())
+        .layer(http::cors());
+    let router = grpc
+        .merge(http::router(app.clone()))
+        .fallback(http::unknown);
+
+    let seconds = Duration::from_secs_f64;
+    let mut server = Server::builder()
+        .accept_http1(true) // status page, metrics, gRPC-Web from browsers
+        .max_concurrent_streams(Some(config.max_streams_per_connection as u32))
+        .concurrency_limit_per_connection(config.max_requests_per_connection as usize)
+        .load_shed(true)
+        .timeout(seconds(config.request_timeout_s))
+        .initial_stream_window_size(STREAM_WINDOW)
+        .initial_connection_window_size(CONNECTION_WINDOW)
+        .max_frame_size(HTTP2_FRAME)
+        .http2_max_header_list_size(HEADER_LIST)
+        .http2_max_pending_accept_reset_streams(Some(RESET_STREAMS))
+        .http2_keepalive_interval(Some(seconds(config.keepalive_s)))
+        .http2_keepalive_timeout(Some(seconds(config.keepalive_timeout_s)))
+        .tcp_nodelay(true);
+
+    let mut stopping = stop.subscribe();
+    let drain = {
+        let app = app.clone();
+        async move {
+            shutdown.await;
+            tracing::info!("shutting down");
+            for name in api::SERVICE_NAMES {
+                health
+                    .set_service_status(name, tonic_health::ServingStatus::NotServing)
+                    .await;
+            }
+            stop.send_replace(true); // streams end with UNAVAILABLE
+            app.worlds.drain().await; // ticks end whole
+        }
+    };
+    let incoming = connections::incoming(listener, config.max_connections as usize);
+    let serving = server
+        .add_routes(Routes::from(router))
+        .serve_with_incoming_shutdown(incoming, drain);
+    tokio::pin!(serving);
+    tokio::select! {
+        ended = &mut serving => ended?,
+        () = async {
+            // The sender lives in the future above; it only goes when that one ends.
+            let _ = stopping.wait_for(|s| *s).await;
+            tokio::time::sleep(seconds(config.shutdown_grace_s)).await;
+        } => tracing::warn!("connections were still open after the grace time"),
+    }
+    tracing::info!("stopped");
+    Ok(())
+}

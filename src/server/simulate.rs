@@ -1,0 +1,217 @@
+//! One clip tracked by one figure, without clock and world: as fast as it computes.
+
+use super::engine::{self, Clip, Drive};
+use super::tick::stage_times::percentiles;
+use super::workers::Cancelled;
+use crate::sim::body::{Body, DOF_COUNT};
+use crate::sim::figure::{Flags, TickReport};
+use crate::wire::frame::world_frame;
+use crate::wire::pb;
+use crate::wire::status::Fault;
+use crate::wire::types::{
+    Overrun, Pace, RosterEntry, SimulationSettings, SimulationSummary, Snapshot, WorldEvent,
+    WorldSettings,
+};
+use prost::Message as _;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// What a simulation gives.
+#[derive(Debug)]
+pub struct Outcome {
+    /// Figures of merit.
+    pub summary: SimulationSummary,
+    /// Frames of the view.
+    pub frames: Vec<pb::WorldFrame>,
+    /// Events in order.
+    pub events: Vec<WorldEvent>,
+}
+
+/// Limits of one simulation.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// Longest simulated time, s.
+    pub seconds: f64,
+    /// Most bytes of frames.
+    pub bytes: u64,
+}
+
+/// Most events that are kept: a figure in trouble changes support and saturation at every tick.
+const MAX_EVENTS: usize = 20_000;
+
+#[derive(Default)]
+struct Merit {
+    square: f64,
+    most: f64,
+    utilisation: f64,
+    over_limit: f64,
+    saturated: Vec<u64>,
+    margin: Option<f64>,
+    penetration: f64,
+    fell_at: Option<f64>,
+    micros: Vec<f32>,
+}
+
+impl Merit {
+    fn count(&mut self, r: &TickReport, time: f64) {
+        for d in 0..DOF_COUNT {
+            let e = r.joint_error[d].abs();
+            self.square += e * e;
+            self.most = self.most.max(e);
+            let limit = if r.torque[d] < 0.0 {
+                r.torque_lower[d]
+            } else {
+                r.torque_upper[d]
+            };
+            if limit.abs() > 0.0 {
+                self.utilisation = self.utilisation.max((r.torque[d] / limit).abs());
+            }
+            self.saturated[d] += r.saturated >> d & 1;
+        }
+        self.over_limit = self.over_limit.max(r.over_limit);
+        self.penetration = self.penetration.max(r.penetration);
+        if let Some(m) = r.margin {
+            self.margin = Some(self.margin.map_or(m, |least| least.min(m)));
+        }
+        if r.flags.has(Flags::FALLEN) && self.fell_at.is_none() {
+            self.fell_at = Some(time);
+        }
+    }
+}
+
+/// Simulates.
+///
+/// # Errors
+/// Settings that the physics refuses; more frames than the limit allows; nobody waits any more.
+pub fn run(
+    s: &SimulationSettings,
+    body: &Arc<Body>,
+    clip: Arc<Clip>,
+    limits: Limits,
+    cancelled: &Cancelled,
+) -> Result<Outcome, Fault> {
+    let duration = s.duration.unwrap_or_else(|| clip.duration());
+    if duration > limits.seconds {
+        return Err(Fault::Exhausted {
+            limit: "max_simulation_s",
+            value: limits.seconds as u64,
+            message: format!("the clip is {duration:.1} s long; give duration_s"),
+            retry: None,
+        });
+    }
+    let mut world = engine::new_world(&WorldSettings {
+        rate_hz: s.rate_hz,
+        substeps: s.substeps,
+        gravity: 9.81,
+        friction: 0.9,
+        pace: Pace {
+            display_name: String::new(),
+            overrun: Overrun::Dilate,
+            catch_up_limit: 1,
+            speed: 1.0,
+        },
+    })?;
+    let key = engine::add_figure(&mut world, "figure", &s.figure, body.clone())?;
+    let place = engine::place_of(clip.posture(0));
+    let figure = world.figure_mut(key).expect("it was just added");
+    let state = engine::first_state(&clip, place);
+    figure.set_drive(Drive::Clip(engine::playback(
+        clip, 0.0, 1.0, s.looped, place,
+    )));
+    engine::reset(&mut world, key, state)?;
+    for (from, what) in &s.disturbances {
+        let p = engine::perturbation(body, what, *from);
+        engine::perturb(&mut world, key, p)?;
+    }
+
+    let ticks = ((duration * s.rate_hz).round() as u64).max(1);
+    let roster: Arc<[RosterEntry]> = Arc::new([RosterEntry {
+        index: 0,
+        figure: "figure".into(),
+        body: s.figure.body.id.clone(),
+    }]);
+    let mut merit = Merit {
+        saturated: vec![0; DOF_COUNT],
+        ..Merit::default()
+    };
+    let mut frames = Vec::new();
+    let mut bytes = 0u64;
+    let mut events = Vec::new();
+    for _ in 0..ticks {
+        if cancelled.is_set() {
+            return Err(Fault::Aborted {
+                reason: "CANCELLED",
+                message: "the client is gone".into(),
+            });
+        }
+        let before = world.time();
+        let start = Instant::now();
+        world.step();
+        merit.micros.push(start.elapsed().as_secs_f32() * 1e6);
+        let figure = world.figure(key).expect("it is still there");
+        let (tick, time) = (world.tick(), world.time());
+        if let Some(r) = figure.report() {
+            merit.count(r, time);
+        }
+        for e in figure.events() {
+            if events.len() < MAX_EVENTS {
+                events.push(WorldEvent {
+                    tick,
+                    time,
+                    figure: "figure".into(),
+                    kind: engine::event_kind(e),
+                });
+            }
+        }
+        if let Some(view) = s.view.as_ref().filter(|v| tick % u64::from(v.divisor) == 0) {
+            let snapshot = Snapshot {
+                world: "".into(),
+                rate_hz: s.rate_hz,
+                gravity: 9.81,
+                tick,
+                time,
+                hash: world.state_hash(),
+                epoch: 1,
+                server_ns: 0,
+                roster_version: 1,
+                roster: roster.clone(),
+                figures: vec![engine::snapshot(figure, before, world.dt(), (-1, 0))],
+            };
+            let frame = world_frame(&snapshot, view);
+            bytes += frame.encoded_len() as u64;
+            if bytes > limits.bytes {
+                return Err(Fault::Exhausted {
+                    limit: "max_response_bytes",
+                    value: limits.bytes,
+                    message: "frames of this view; ask for fewer fields or a larger rate_divisor"
+                        .into(),
+                    retry: None,
+                });
+            }
+            frames.push(frame);
+        }
+    }
+    let times = percentiles(&merit.micros);
+    Ok(Outcome {
+        summary: SimulationSummary {
+            ticks,
+            rate_hz: s.rate_hz,
+            fell_at: merit.fell_at,
+            joint_rms: (merit.square / (ticks as f64 * DOF_COUNT as f64)).sqrt(),
+            joint_max: merit.most,
+            utilisation: merit.utilisation,
+            over_limit: merit.over_limit,
+            saturated: merit
+                .saturated
+                .iter()
+                .map(|n| *n as f64 / s.rate_hz)
+                .collect(),
+            margin: merit.margin,
+            penetration: merit.penetration,
+            hash: world.state_hash(),
+            tick_us: [times.p50, times.p99],
+        },
+        frames,
+        events,
+    })
+}

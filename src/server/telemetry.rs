@@ -1,0 +1,58 @@
+//! Logs and metrics.
+
+use super::config::Config;
+use metrics_exporter_prometheus::{PrometheusBuilder, PrometheusHandle};
+use std::sync::OnceLock;
+
+/// Metrics of this process; the recorder is installed by the first call.
+pub fn metrics() -> Option<PrometheusHandle> {
+    static HANDLE: OnceLock<Option<PrometheusHandle>> = OnceLock::new();
+    HANDLE
+        .get_or_init(|| {
+            let handle = PrometheusBuilder::new().install_recorder().ok()?;
+            describe();
+            Some(handle)
+        })
+        .clone()
+}
+
+fn describe() {
+    use metrics::{Unit, describe_counter, describe_gauge, describe_histogram};
+    describe_counter!("sinew_ticks_total", "Ticks computed by all worlds.");
+    describe_histogram!("sinew_tick_seconds", Unit::Seconds, "Time of one tick.");
+    describe_gauge!("sinew_worlds", "Worlds.");
+    describe_gauge!("sinew_clips", "Stored clips.");
+    describe_gauge!("sinew_viewers", "Open streams of frames and events.");
+    describe_gauge!("sinew_drivers", "Open streams of desired motion.");
+    describe_counter!("sinew_worlds_failed_total", "Worlds that failed.");
+    describe_counter!("sinew_frames_sent_total", "Frames sent to viewers.");
+    describe_counter!(
+        "sinew_frames_dropped_total",
+        "Frames that viewers were too slow for."
+    );
+    describe_counter!(
+        "sinew_commands_refused_total",
+        "Requests that found the queue of a world full."
+    );
+    describe_counter!("sinew_connections_total", "Connections accepted.");
+    describe_counter!("sinew_faults_total", "Requests refused, by reason.");
+}
+
+/// Sends logs to standard error as the configuration says. Only the first call in a process has an effect.
+///
+/// # Errors
+/// The filter is not understood.
+pub fn init_logs(config: &Config) -> Result<(), String> {
+    let filter = tracing_subscriber::EnvFilter::try_new(&config.log)
+        .map_err(|e| format!("log: {e} in {:?}", config.log))?;
+    let logs = tracing_subscriber::fmt()
+        .with_env_filter(filter)
+        .with_writer(std::io::stderr);
+    // Already installed: the caller of this library logs in its own way.
+    let _ = if config.log_json {
+        logs.json().try_init()
+    } else {
+        logs.try_init()
+    };
+    Ok(())
+}

@@ -1,0 +1,196 @@
+//! Who drives which figure live: at most one driver per figure, kept for a grace time when the driver is gone.
+
+use crate::server::engine::{self, FigureKey};
+use crate::server::ingest::admission::Admission;
+use crate::server::ingest::jitter_buffer::{Frame, JitterBuffer};
+use crate::sim::motion::TargetPair;
+use crate::wire::status::Fault;
+use crate::wire::types::{DriveSettings, Feedback, FigureFeedback, MotionSample, Supply};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// One driven figure.
+#[derive(Debug)]
+pub struct Slot {
+    /// Last part of the figure's name.
+    pub figure: String,
+    /// The figure; `None` once it was removed.
+    pub key: Option<FigureKey>,
+    /// Its desired motion.
+    pub buffer: JitterBuffer,
+    /// Its body, to tell planted feet.
+    pub body: Arc<crate::sim::body::Body>,
+}
+
+/// One driver with its figures.
+#[derive(Debug)]
+pub struct Drive {
+    /// Who drives.
+    pub driver: String,
+    /// The stream that may send; `None` for pushes.
+    pub connection: Option<u64>,
+    /// Settings.
+    pub settings: DriveSettings,
+    /// Figures.
+    pub slots: Vec<Slot>,
+    /// When the figures are given up; `None` while a stream is open.
+    pub expires: Option<Instant>,
+    /// Largest sequence taken.
+    pub received: i64,
+    /// Batches refused.
+    pub refused: u64,
+    admission: Admission,
+}
+
+impl Drive {
+    /// A drive without motion yet.
+    pub fn new(
+        driver: String,
+        connection: Option<u64>,
+        settings: DriveSettings,
+        slots: Vec<Slot>,
+        now: Instant,
+    ) -> Self {
+        let mut drive = Self {
+            driver,
+            connection,
+            settings,
+            slots,
+            expires: None,
+            received: -1,
+            refused: 0,
+            admission: Admission::new(now),
+        };
+        drive.touch(connection, now);
+        drive
+    }
+
+    /// Notes that the driver is there: by a stream or by a push.
+    pub fn touch(&mut self, connection: Option<u64>, now: Instant) {
+        if connection.is_some() || self.connection.is_none() {
+            self.connection = connection;
+        }
+        self.expires = self
+            .connection
+            .is_none()
+            .then(|| now + Duration::from_secs_f64(self.settings.grace));
+    }
+
+    /// Notes that the stream was lost: the figures are kept for the grace time.
+    pub fn lost(&mut self, now: Instant) {
+        self.connection = None;
+        self.expires = Some(now + Duration::from_secs_f64(self.settings.grace));
+    }
+
+    /// True if it drives exactly these figures.
+    pub fn drives(&self, figures: &[String]) -> bool {
+        self.slots.len() == figures.len()
+            && self.slots.iter().zip(figures).all(|(s, f)| s.figure == *f)
+    }
+
+    /// True if it drives this figure.
+    pub fn has(&self, figure: &str) -> bool {
+        self.slots
+            .iter()
+            .any(|s| s.figure == figure && s.key.is_some())
+    }
+
+    /// The fault that others get who want one of its figures.
+    pub fn controlled(&self, figure: &str, now: Instant) -> Fault {
+        let mut facts = vec![("controller", self.driver.clone())];
+        if let Some(at) = self.expires {
+            let left = at.saturating_duration_since(now).as_millis();
+            facts.push(("lease_expires_ms", left.to_string()));
+        }
+        Fault::Precondition {
+            reason: "FIGURE_CONTROLLED",
+            message: format!("figure {figure:?} is driven by {:?}", self.driver),
+            facts,
+        }
+    }
+
+    /// Takes a batch at world time `time`; false if it came too fast and was dropped.
+    pub fn take(&mut self, batch: Vec<MotionSample>, time: f64, now: Instant) -> bool {
+        if !self.admission.admit(now) {
+            self.refused += 1;
+            return false;
+        }
+        for sample in batch {
+            self.received = self.received.max(sample.sequence);
+            for f in sample.figures {
+                let slot = &mut self.slots[f.slot];
+                let mut posture = f.posture;
+                if !f.has_root {
+                    let newest = slot.buffer.newest_posture();
+                    posture.root_position = newest.root_position;
+                    posture.root_rotation = newest.root_rotation;
+                }
+                let planted = f.planted.unwrap_or_else(|| match slot.buffer.newest() {
+                    Some(last) => {
+                        let dt = (sample.source_ns as f64 - last.source_ns as f64) * 1e-9;
+                        engine::planted_between(&slot.body, &last.posture, &posture, dt)
+                    }
+                    None => engine::planted_between(&slot.body, &posture, &posture, 1.0),
+                });
+                slot.buffer.push(
+                    Frame {
+                        sequence: sample.sequence,
+                        source_ns: sample.source_ns,
+                        posture,
+                        velocity: f.velocity,
+                        planted,
+                    },
+                    time,
+                );
+            }
+        }
+        true
+    }
+
+    /// What the driver is told.
+    pub fn feedback(&self, tick: u64) -> Feedback {
+        Feedback {
+            driver: self.driver.clone(),
+            tick,
+            received_sequence: self.received,
+            refused: self.refused,
+            figures: self
+                .slots
+                .iter()
+                .map(|s| {
+                    let counts = s.buffer.counts();
+                    let applied = s.buffer.applied();
+                    FigureFeedback {
+                        figure: s.figure.clone(),
+                        applied_sequence: applied.map_or(-1, |a| a.0),
+                        applied_source_ns: applied.map_or(0, |a| a.1),
+                        buffered: s.buffer.buffered(),
+                        delay: s.buffer.delay(),
+                        jitter: s.buffer.jitter(),
+                        supply: s.buffer.supply(),
+                        ticks: counts.ticks,
+                        late: counts.late,
+                        stale: counts.stale,
+                        overflow: counts.overflow,
+                    }
+                })
+                .collect(),
+        }
+    }
+}
+
+impl Slot {
+    /// The desired motion over the tick from world time `time`, and whether the figure is to be put into it at once.
+    pub fn sample(&mut self, time: f64) -> Option<(TargetPair, bool)> {
+        let pair = self.buffer.sample(time)?;
+        Some((pair, self.buffer.resets_now()))
+    }
+
+    /// Sequence and source time that act now.
+    pub fn applied(&self) -> Option<(i64, i64)> {
+        match self.buffer.supply() {
+            Supply::None | Supply::Waiting => None,
+            _ => self.buffer.applied(),
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! The rate keeper: each world has a thread that runs [`run`].
+//!
+//! A tick is: wait for the deadline, carry out commands in order, sample desired motion, step the physics, publish the frame,
+//! account for time. The thread never waits for a client, for a lock held elsewhere, or for the disk. Commands come through a bounded
+//! queue, frames leave through latest-wins cells.
+
+pub mod clock;
+pub mod command;
+pub mod drives;
+pub mod shard;
+pub mod stage_times;
+
+use crate::wire::status::Fault;
+use crate::wire::types::{EventKind, Snapshot, WorldEvent};
+use command::Command;
+use shard::Shard;
+use stage_times::StageTimes;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+use tokio::sync::{broadcast, watch};
+
+/// Longest wait before commands of a slow or paused world are looked at.
+const PATIENCE: Duration = Duration::from_millis(50);
+/// Most commands of one round, so that a flood cannot keep the clock from running.
+const ROUND: usize = 4096;
+
+/// What leaves a world's thread.
+#[derive(Debug)]
+pub struct Outlet {
+    /// Latest frame.
+    pub latest: watch::Sender<Arc<Snapshot>>,
+    /// Events of each tick that has some.
+    pub events: broadcast::Sender<Arc<Vec<WorldEvent>>>,
+    /// Times of recent ticks.
+    pub times: Mutex<StageTimes>,
+    /// Ticks computed.
+    pub ticks: AtomicU64,
+    /// Ticks that took longer than their period.
+    pub overruns: AtomicU64,
+    /// Deadlines left out.
+    pub skipped: AtomicU64,
+}
+
+/// Runs one world until it is closed or all its handles are gone.
+pub fn run(mut shard: Shard, commands: &Receiver<Command>, outlet: &Outlet) {
+    let mut batch: Vec<Command> = Vec::new();
+    loop {
+        // Wait: for the deadline, for a command if the clock stands still, not at all if someone waits for steps.
+        let stopped = shard.paused || shard.failed.is_some();
+        let wait = match (stopped, shard.steps.is_empty()) {
+            (true, true) => PATIENCE,
+            (true, false) => Duration::ZERO,
+            (false, _) => shard
+                .clock
+                .deadline()
+                .saturating_duration_since(Instant::now())
+                .min(PATIENCE),
+        };
+        if !gather(commands, &mut batch, wait, stopped) {
+            break;
+        }
+        let start = Instant::now();
+        let late = start.saturating_duration_since(shard.clock.deadline());
+
+        // Commands, in (client, sequence) order.
+        command::order(&mut batch);
+        for c in batch.drain(..) {
+            guarded(&mut shard, "a command", |s| (c.action)(s));
+        }
+        shard.expire_drives(start);
+        if shard.closing {
+            break;
+        }
+        let commands_done = Instant::now();
+
+        // Is a tick due?
+        shard.steps.retain(|s| !(s.abandoned)());
+        let stopped = shard.paused || shard.failed.is_some();
+        let due = if stopped {
+            shard.failed.is_none() && !shard.steps.is_empty()
+        } else {
+            shard.clock.deadline() <= start
+        };
+        if !due {
+            if shard.changed {
+                publish(&mut shard, outlet);
+            }
+            publish_events(&mut shard, outlet);
+            continue;
+        }
+
+        guarded(&mut shard, "sampling desired motion", Shard::sample_motion);
+        let motion_done = Instant::now();
+        if shard.failed.is_none() {
+            guarded(&mut shard, "the physics", Shard::step_world);
+        }
+        let step_done = Instant::now();
+        if shard.failed.is_none() {
+            let snapshot = publish(&mut shard, outlet);
+            finish_steps(&mut shard, &snapshot);
+        }
+        publish_events(&mut shard, outlet);
+
+        // Account for time.
+        let end = Instant::now();
+        if !stopped {
+            shard.clock.advance(end);
+        }
+        outlet.ticks.fetch_add(1, Ordering::Relaxed);
+        outlet
+            .overruns
+            .store(shard.clock.overruns, Ordering::Relaxed);
+        outlet.skipped.store(shard.clock.skipped, Ordering::Relaxed);
+        metrics::counter!("sinew_ticks_total").increment(1);
+        metrics::histogram!("sinew_tick_seconds").record((end - start).as_secs_f64());
+        if let Ok(mut times) = outlet.times.try_lock() {
+            times.record([
+                if stopped { Duration::ZERO } else { late },
+                commands_done - start,
+                motion_done - commands_done,
+                step_done - motion_done,
+                end - step_done,
+                end - start,
+            ]);
+        }
+    }
+    for step in shard.steps.drain(..) {
+        (step.done)(Err(Fault::Aborted {
+            reason: "WORLD_DELETED",
+            message: "the world was deleted before its steps were done".into(),
+        }));
+    }
+}
+
+/// Collects commands for up to `wait`; with `eager` one command ends the wait. False when all handles are gone.
+fn gather(
+    commands: &Receiver<Command>,
+    batch: &mut Vec<Command>,
+    wait: Duration,
+    eager: bool,
+) -> bool {
+    let until = Instant::now() + wait;
+    loop {
+        let left = until.saturating_duration_since(Instant::now());
+        if left.is_zero() {
+            break;
+        }
+        match commands.recv_timeout(left) {
+            Ok(c) => batch.push(c),
+            Err(RecvTimeoutError::Timeout) => break,
+            Err(RecvTimeoutError::Disconnected) => return false,
+        }
+        if eager {
+            break;
+        }
+    }
+    batch.extend(commands.try_iter().take(ROUND));
+    true
+}
+
+/// Calls `f`; a panic fails this world and no other.
+fn guarded(shard: &mut Shard, what: &str, f: impl FnOnce(&mut Shard)) {
+    if let Err(panic) = catch_unwind(AssertUnwindSafe(|| f(shard))) {
+        let message = panic
+            .downcast_ref::<&str>()
+            .map(|s| (*s).to_owned())
+            .or_else(|| panic.downcast_ref::<String>().cloned())
+            .unwrap_or_else(|| "no message".to_owned());
+        tracing::error!(world = shard.info().id, what, message, "world failed");
+        metrics::counter!("sinew_worlds_failed_total").increment(1);
+        let why = format!("{what} panicked: {message}");
+        shard.failed = Some(why.clone());
+        shard.world_event(EventKind::Failed(why.clone()));
+        for step in shard.steps.drain(..) {
+            (step.done)(Err(Fault::Internal(why.clone())));
+        }
+    }
+}
+
+fn publish(shard: &mut Shard, outlet: &Outlet) -> Arc<Snapshot> {
+    let snapshot = shard.snapshot();
+    outlet.latest.send_replace(snapshot.clone());
+    snapshot
+}
+
+fn publish_events(shard: &mut Shard, outlet: &Outlet) {
+    let events = shard.take_events();
+    if !events.is_empty() {
+        // An error only means that nobody listens.
+        let _ = outlet.events.send(Arc::new(events));
+    }
+}
+
+fn finish_steps(shard: &mut Shard, snapshot: &Arc<Snapshot>) {
+    let Some(first) = shard.steps.front_mut() else {
+        return;
+    };
+    first.left -= 1;
+    if first.left == 0
+        && let Some(step) = shard.steps.pop_front()
+    {
+        (step.done)(Ok(snapshot.clone()));
+    }
+}

@@ -1,0 +1,5 @@
+//! Worlds by name.
+
+pub mod registry;
+
+pub use registry::{Registry, WorldHandle};

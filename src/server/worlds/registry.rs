@@ -1,0 +1,327 @@
+//! The worlds of this server, and how others talk to their threads.
+
+use crate::server::config::Config;
+use crate::server::fanout::hub::Hub;
+use crate::server::tick::command::{Command, Origin};
+use crate::server::tick::shard::{Limits, Shard};
+use crate::server::tick::stage_times::{Percentiles, STAGES};
+use crate::server::tick::{self, Outlet};
+use crate::wire::status::Fault;
+use crate::wire::types::WorldSettings;
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU64, Ordering};
+use std::sync::mpsc::{SyncSender, TrySendError, sync_channel};
+use std::sync::{Arc, Mutex, PoisonError, RwLock};
+use std::thread::JoinHandle;
+use std::time::Duration;
+use tokio::sync::{broadcast, oneshot, watch};
+
+/// One world, seen from outside its thread.
+#[derive(Debug)]
+pub struct WorldHandle {
+    /// Last part of its name.
+    pub id: Arc<str>,
+    /// What leaves its thread.
+    pub outlet: Arc<Outlet>,
+    /// Its views.
+    pub hub: Hub,
+    /// Ends when the world does.
+    pub closed: watch::Receiver<()>,
+    /// Ticks per second.
+    pub rate_hz: f64,
+    /// Frames that viewers were too slow for.
+    pub dropped: AtomicU64,
+    /// Requests that found the queue full.
+    pub refused: AtomicU64,
+    /// Viewers.
+    pub viewers: AtomicI64,
+    commands: SyncSender<Command>,
+    queue: u64,
+    thread: Mutex<Option<JoinHandle<()>>>,
+}
+
+/// How busy a world is.
+#[derive(Clone, Debug)]
+pub struct WorldStats {
+    /// Last part of its name.
+    pub id: String,
+    /// Ticks computed, overruns, deadlines left out.
+    pub ticks: [u64; 3],
+    /// Refused requests.
+    pub refused: u64,
+    /// Dropped frames.
+    pub dropped: u64,
+    /// Viewers.
+    pub viewers: i64,
+    /// p99 of a tick relative to its period.
+    pub budget_used: f64,
+    /// Stages of a tick.
+    pub stages: [(&'static str, Percentiles); STAGES.len()],
+}
+
+impl WorldHandle {
+    fn gone(&self) -> Fault {
+        Fault::not_found("world", format!("worlds/{}", self.id))
+    }
+
+    /// Queues something for the start of the next tick.
+    ///
+    /// # Errors
+    /// The queue is full or the world is gone.
+    pub fn send(
+        &self,
+        origin: Origin,
+        action: impl FnOnce(&mut Shard) + Send + 'static,
+    ) -> Result<(), Fault> {
+        let command = Command {
+            origin,
+            action: Box::new(action),
+        };
+        self.commands.try_send(command).map_err(|e| match e {
+            TrySendError::Full(_) => {
+                self.refused.fetch_add(1, Ordering::Relaxed);
+                metrics::counter!("sinew_commands_refused_total").increment(1);
+                Fault::Exhausted {
+                    limit: "command_queue",
+                    value: self.queue,
+                    message: format!("requests wait for the next tick of world {:?}", &*self.id),
+                    retry: Some(Duration::from_secs_f64((2.0 / self.rate_hz).max(0.01))),
+                }
+            }
+            TrySendError::Disconnected(_) => self.gone(),
+        })
+    }
+
+    /// Does something at the start of the next tick and waits for its result.
+    ///
+    /// # Errors
+    /// Those of `f`; the queue is full; the world is gone.
+    pub async fn call<T: Send + 'static>(
+        &self,
+        origin: Origin,
+        f: impl FnOnce(&mut Shard) -> Result<T, Fault> + Send + 'static,
+    ) -> Result<T, Fault> {
+        let (tx, rx) = oneshot::channel();
+        self.send(origin, move |shard| {
+            // The caller may have given up; then nobody wants the answer.
+            let _ = tx.send(f(shard));
+        })?;
+        rx.await.unwrap_or_else(|_| {
+            Err(Fault::Aborted {
+                reason: "WORLD_ENDED",
+                message: format!("world {:?} ended before the request was done", &*self.id),
+            })
+        })
+    }
+
+    /// How busy it is.
+    pub fn stats(&self) -> WorldStats {
+        let times = self
+            .outlet
+            .times
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .clone();
+        let summary = times.summary();
+        let load = |a: &AtomicU64| a.load(Ordering::Relaxed);
+        WorldStats {
+            id: self.id.to_string(),
+            ticks: [
+                load(&self.outlet.ticks),
+                load(&self.outlet.overruns),
+                load(&self.outlet.skipped),
+            ],
+            refused: load(&self.refused),
+            dropped: load(&self.dropped),
+            viewers: self.viewers.load(Ordering::Relaxed),
+            budget_used: summary[STAGES.len() - 1].p99 * 1e-6 * self.rate_hz,
+            stages: std::array::from_fn(|i| (STAGES[i], summary[i])),
+        }
+    }
+}
+
+/// All worlds.
+#[derive(Debug)]
+pub struct Registry {
+    worlds: RwLock<BTreeMap<String, Arc<WorldHandle>>>,
+    next: AtomicU64,
+    draining: AtomicBool,
+    config: Arc<Config>,
+}
+
+impl Registry {
+    /// No worlds yet.
+    pub fn new(config: Arc<Config>) -> Self {
+        Self {
+            worlds: RwLock::default(),
+            next: AtomicU64::new(1),
+            draining: AtomicBool::new(false),
+            config,
+        }
+    }
+
+    /// Creates a world and starts its thread.
+    ///
+    /// # Errors
+    /// The name is taken, there are too many worlds, or the server shuts down.
+    pub fn create(
+        &self,
+        id: Option<String>,
+        settings: WorldSettings,
+        paused: bool,
+    ) -> Result<Arc<WorldHandle>, Fault> {
+        let mut worlds = self.worlds.write().unwrap_or_else(PoisonError::into_inner);
+        if self.draining.load(Ordering::SeqCst) {
+            return Err(Fault::Draining);
+        }
+        let id = match id {
+            Some(id) if worlds.contains_key(&id) => {
+                return Err(Fault::Exists {
+                    kind: "world",
+                    name: format!("worlds/{id}"),
+                });
+            }
+            Some(id) => id,
+            None => loop {
+                let id = format!("world-{}", self.next.fetch_add(1, Ordering::Relaxed));
+                if !worlds.contains_key(&id) {
+                    break id;
+                }
+            },
+        };
+        if worlds.len() as u64 >= self.config.max_worlds {
+            return Err(Fault::Exhausted {
+                limit: "max_worlds",
+                value: self.config.max_worlds,
+                message: "one more world".into(),
+                retry: None,
+            });
+        }
+        let rate_hz = settings.rate_hz;
+        let name: Arc<str> = id.as_str().into();
+        let limits = Limits {
+            figures: self.config.max_figures_per_world,
+            history: self.config.history_ticks as usize,
+        };
+        let mut shard = Shard::new(name.clone(), settings, paused, limits)?;
+        let (commands, queue) = sync_channel(self.config.command_queue as usize);
+        let outlet = Arc::new(Outlet {
+            latest: watch::Sender::new(shard.snapshot()),
+            events: broadcast::Sender::new(self.config.event_queue as usize),
+            times: Mutex::default(),
+            ticks: AtomicU64::new(0),
+            overruns: AtomicU64::new(0),
+            skipped: AtomicU64::new(0),
+        });
+        let (alive, closed) = watch::channel(());
+        let out = outlet.clone();
+        let thread = std::thread::Builder::new()
+            .name(format!("world {id}").chars().take(15).collect())
+            .spawn(move || {
+                tick::run(shard, &queue, &out);
+                drop(alive);
+            })
+            .map_err(|e| Fault::Internal(format!("no thread for the world: {e}")))?;
+        let handle = Arc::new(WorldHandle {
+            id: name,
+            outlet,
+            hub: Hub::new(self.config.max_views_per_world as usize),
+            closed,
+            rate_hz,
+            dropped: AtomicU64::new(0),
+            refused: AtomicU64::new(0),
+            viewers: AtomicI64::new(0),
+            commands,
+            queue: self.config.command_queue,
+            thread: Mutex::new(Some(thread)),
+        });
+        worlds.insert(id.clone(), handle.clone());
+        metrics::gauge!("sinew_worlds").set(worlds.len() as f64);
+        tracing::info!(world = id, rate_hz, paused, "world created");
+        Ok(handle)
+    }
+
+    /// One world.
+    ///
+    /// # Errors
+    /// There is none of that name.
+    pub fn get(&self, id: &str) -> Result<Arc<WorldHandle>, Fault> {
+        self.worlds
+            .read()
+            .unwrap_or_else(PoisonError::into_inner)
+            .get(id)
+            .cloned()
+            .ok_or_else(|| Fault::not_found("world", format!("worlds/{id}")))
+    }
+
+    /// All worlds, by name.
+    pub fn list(&self) -> Vec<Arc<WorldHandle>> {
+        self.worlds
+            .read()
+            .unwrap_or_else(PoisonError::into_inner)
+            .values()
+            .cloned()
+            .collect()
+    }
+
+    /// Ends a world and waits for its thread.
+    ///
+    /// # Errors
+    /// There is none of that name.
+    pub async fn delete(&self, id: &str) -> Result<(), Fault> {
+        let handle = {
+            let mut worlds = self.worlds.write().unwrap_or_else(PoisonError::into_inner);
+            let handle = worlds
+                .remove(id)
+                .ok_or_else(|| Fault::not_found("world", format!("worlds/{id}")))?;
+            metrics::gauge!("sinew_worlds").set(worlds.len() as f64);
+            handle
+        };
+        end(&handle).await;
+        tracing::info!(world = id, "world deleted");
+        Ok(())
+    }
+
+    /// Ends all worlds; none can be created afterwards.
+    pub async fn drain(&self) {
+        let all = {
+            let mut worlds = self.worlds.write().unwrap_or_else(PoisonError::into_inner);
+            self.draining.store(true, Ordering::SeqCst);
+            std::mem::take(&mut *worlds)
+        };
+        for handle in all.values() {
+            end(handle).await;
+        }
+    }
+
+    /// True once the server shuts down.
+    pub fn is_draining(&self) -> bool {
+        self.draining.load(Ordering::SeqCst)
+    }
+}
+
+async fn end(handle: &WorldHandle) {
+    // A full queue must not keep the world alive; it drains within a tick.
+    while handle
+        .send(
+            Origin {
+                client: "".into(),
+                sequence: i64::MIN,
+            },
+            Shard::close,
+        )
+        .is_err_and(|f| matches!(f, Fault::Exhausted { .. }))
+    {
+        tokio::time::sleep(Duration::from_millis(5)).await;
+    }
+    let mut closed = handle.closed.clone();
+    let _ = closed.changed().await; // an error: the thread has ended, as it should
+    let thread = handle
+        .thread
+        .lock()
+        .unwrap_or_else(PoisonError::into_inner)
+        .take();
+    if let Some(thread) = thread {
+        let _ = thread.join(); // it has ended; a panic of it was reported where it happened
+    }
+}

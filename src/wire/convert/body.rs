@@ -1,0 +1,268 @@
+//! Bodies: names that say their profile, and descriptions.
+
+use super::super::pb;
+use super::super::status::Fault;
+use super::super::types::BodyRef;
+use super::{clip_text, vector_out};
+use crate::sim::body::topology::{
+    BONE_NAMES, DOF_AXIS, DOF_LEN, DOF_NAMES, DOF_SEGMENT, DOF_START, JOINT, JOINT_NAMES, Joint,
+    PARENT, SEGMENT_NAMES,
+};
+use crate::sim::body::{Body, DOF_COUNT, Profile, SEGMENT_COUNT, Sex};
+use crate::sim::math::Vec3;
+
+/// Bodies that have names of their own.
+pub const NAMED: [(&str, Profile); 2] = [
+    (
+        "adult-man",
+        Profile {
+            sex: Sex::Male,
+            age: 30.0,
+            height: 1.75,
+            mass: 75.0,
+        },
+    ),
+    (
+        "adult-woman",
+        Profile {
+            sex: Sex::Female,
+            age: 30.0,
+            height: 1.63,
+            mass: 62.0,
+        },
+    ),
+];
+
+/// The name that says a profile: `{sex}-{age}y-{height}mm-{mass}g`.
+pub fn profile_id(p: &Profile) -> String {
+    let sex = match p.sex {
+        Sex::Male => "male",
+        Sex::Female => "female",
+    };
+    format!(
+        "{sex}-{}y-{}mm-{}g",
+        p.age,
+        (p.height * 1e3).round(),
+        (p.mass * 1e3).round()
+    )
+}
+
+fn profile_of_id(id: &str) -> Option<Profile> {
+    let mut parts = id.split('-');
+    let sex = match parts.next()? {
+        "male" => Sex::Male,
+        "female" => Sex::Female,
+        _ => return None,
+    };
+    let mut number = |unit: &str| -> Option<f64> {
+        let digits = parts.next()?.strip_suffix(unit)?;
+        let plain = digits.len() <= 8 && digits.bytes().all(|b| b.is_ascii_digit() || b == b'.');
+        plain.then(|| digits.parse().ok()).flatten()
+    };
+    let (age, height, mass) = (number("y")?, number("mm")?, number("g")?);
+    let profile = Profile {
+        sex,
+        age,
+        height: height / 1e3,
+        mass: mass / 1e3,
+    };
+    // One body, one name.
+    (parts.next().is_none() && profile_id(&profile) == id).then_some(profile)
+}
+
+/// The body with this last part of a name.
+pub fn by_id(id: &str) -> Option<BodyRef> {
+    let profile = NAMED
+        .iter()
+        .find(|(name, _)| *name == id)
+        .map(|(_, p)| *p)
+        .or_else(|| profile_of_id(id))?;
+    Some(BodyRef {
+        id: id.to_owned(),
+        profile,
+    })
+}
+
+/// The body of a resource name.
+pub fn by_name(field: &str, name: &str) -> Result<BodyRef, Fault> {
+    let id = super::last_part(field, name, "bodies/{body}", "bodies/")?;
+    by_id(id).ok_or_else(|| Fault::not_found("body", clip_text(name)))
+}
+
+/// Body of a request: by name, by profile, or the adult man. Whether the tables cover the profile is found when it is built.
+pub fn reference(
+    field: &str,
+    name: &str,
+    profile_field: &str,
+    profile: Option<&pb::BodyProfile>,
+) -> Result<BodyRef, Fault> {
+    match (name.is_empty(), profile) {
+        (false, Some(_)) => Err(Fault::invalid(
+            profile_field,
+            "must be absent when the body is given by name",
+        )),
+        (false, None) => by_name(field, name),
+        (true, None) => by_name(field, "bodies/adult-man"),
+        (true, Some(p)) => {
+            let sex = match pb::Sex::try_from(p.sex) {
+                Ok(pb::Sex::Male) => Sex::Male,
+                Ok(pb::Sex::Female) => Sex::Female,
+                _ => {
+                    return Err(Fault::invalid(
+                        format!("{profile_field}.sex"),
+                        "must be SEX_MALE or SEX_FEMALE",
+                    ));
+                }
+            };
+            let at = |part: &str| format!("{profile_field}.{part}");
+            let profile = Profile {
+                sex,
+                age: (super::within(&at("age_years"), p.age_years, 0.0, 150.0)? * 10.0).round()
+                    / 10.0,
+                height: (super::within(&at("height_m"), p.height_m, 0.3, 3.0)? * 1e3).round() / 1e3,
+                mass: (super::within(&at("mass_kg"), p.mass_kg, 1.0, 500.0)? * 1e3).round() / 1e3,
+            };
+            Ok(BodyRef {
+                id: profile_id(&profile),
+                profile,
+            })
+        }
+    }
+}
+
+/// A profile for a response.
+pub fn profile_out(p: &Profile) -> pb::BodyProfile {
+    pb::BodyProfile {
+        sex: match p.sex {
+            Sex::Male => pb::Sex::Male,
+            Sex::Female => pb::Sex::Female,
+        }
+        .into(),
+        age_years: p.age,
+        height_m: p.height,
+        mass_kg: p.mass,
+    }
+}
+
+/// Name and profile only.
+pub fn brief(body: &BodyRef) -> pb::Body {
+    pb::Body {
+        name: format!("bodies/{}", body.id),
+        profile: Some(profile_out(&body.profile)),
+        ..Default::default()
+    }
+}
+
+/// The whole description.
+pub fn describe(id: &str, body: &Body, geometry: bool) -> pb::Body {
+    let flat = |points: &[Vec3]| points.iter().flat_map(|p| p.to_array()).collect();
+    let segment = |i: usize| {
+        let s = &body.segments[i];
+        let j = s.inertia;
+        let mut out = pb::Segment {
+            name: SEGMENT_NAMES[i].into(),
+            bone: BONE_NAMES[i].into(),
+            parent: if i == 0 { -1 } else { PARENT[i] as i32 },
+            mass_kg: s.mass,
+            com_m: Some(vector_out(s.com)),
+            inertia_kgm2: vec![j.xx, j.yy, j.zz, j.xy, j.xz, j.yz],
+            tip_m: Some(vector_out(s.tip)),
+            contact_points_m: flat(&s.contact_points),
+            ..Default::default()
+        };
+        if geometry {
+            out.mesh_vertices_m = flat(&s.mesh.vertices);
+            out.mesh_triangles = s
+                .mesh
+                .triangles
+                .iter()
+                .flatten()
+                .map(|v| *v as i32)
+                .collect();
+        }
+        out
+    };
+    let joint = |i: usize| pb::Joint {
+        name: JOINT_NAMES[i].into(),
+        r#type: match JOINT[i] {
+            Joint::Free => pb::JointType::Free,
+            Joint::Ball(_) => pb::JointType::Ball,
+            Joint::Hinge1(_) | Joint::Hinge2(_) => pb::JointType::Hinge,
+        }
+        .into(),
+        offset_m: Some(vector_out(if i == 0 {
+            Vec3::zero()
+        } else {
+            body.joint_offset[i]
+        })),
+        dof_start: DOF_START[i] as i32,
+        dof_count: DOF_LEN[i] as i32,
+    };
+    let dof = |d: usize| pb::Dof {
+        name: DOF_NAMES[d].into(),
+        joint: DOF_SEGMENT[d] as i32,
+        axis: Some(vector_out(Vec3::from_array(DOF_AXIS[d].vector()))),
+        lower_rad: body.lower[d],
+        upper_rad: body.upper[d],
+        armature_kgm2: body.armature[d],
+    };
+    pb::Body {
+        name: format!("bodies/{id}"),
+        profile: Some(profile_out(&body.profile)),
+        segments: (0..SEGMENT_COUNT).map(segment).collect(),
+        joints: (0..SEGMENT_COUNT).map(joint).collect(),
+        dofs: (0..DOF_COUNT).map(dof).collect(),
+        standing_root_height_m: body.standing_root_height(),
+    }
+}
+
+/// Which text form is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TextForm {
+    /// MuJoCo XML.
+    Mjcf,
+    /// URDF.
+    Urdf,
+}
+
+/// The format of an export.
+pub fn text_form(value: i32) -> Result<TextForm, Fault> {
+    match pb::ExportFormat::try_from(value) {
+        Ok(pb::ExportFormat::Mjcf) => Ok(TextForm::Mjcf),
+        Ok(pb::ExportFormat::Urdf) => Ok(TextForm::Urdf),
+        _ => Err(Fault::invalid(
+            "format",
+            "must be EXPORT_FORMAT_MJCF or EXPORT_FORMAT_URDF",
+        )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_say_the_profile() {
+        let body = by_id("female-25y-1680mm-61500g").unwrap();
+        assert_eq!(
+            body.profile,
+            Profile {
+                sex: Sex::Female,
+                age: 25.0,
+                height: 1.68,
+                mass: 61.5
+            }
+        );
+        assert_eq!(profile_id(&body.profile), body.id);
+        for bad in [
+            "male",
+            "male-30y",
+            "male-30y-1750mm-75000g-x",
+            "male-030y-1750mm-75000g",
+            "male-1e1y-1750mm-75000g",
+            "male--1y-1750mm-75000g",
+        ] {
+            assert!(by_id(bad).is_none(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! Figures.
+
+use super::super::pb;
+use super::super::status::Fault;
+use super::super::types::{FigureInfo, FigureSettings, FigureUpdate};
+use super::{body, clip_text, display_name, or_default, place, place_out, within};
+use crate::sim::body::topology::DOF_NAMES;
+use crate::sim::figure::{ControllerKind, StepperKind, StrengthScale};
+
+/// Controller of a request.
+pub fn controller(field: &str, value: i32) -> Result<ControllerKind, Fault> {
+    match pb::Controller::try_from(value) {
+        Ok(pb::Controller::Unspecified | pb::Controller::Paper) => Ok(ControllerKind::Paper),
+        Ok(pb::Controller::Motors) => Ok(ControllerKind::Motors),
+        Ok(pb::Controller::Modern) => Ok(ControllerKind::Modern),
+        Err(_) => Err(Fault::invalid(
+            field,
+            format!("{value} is not a controller"),
+        )),
+    }
+}
+
+/// Stepper of a request.
+pub fn stepper(field: &str, value: i32) -> Result<StepperKind, Fault> {
+    match pb::Stepper::try_from(value) {
+        Ok(pb::Stepper::Unspecified | pb::Stepper::Torque) => Ok(StepperKind::Torque),
+        Ok(pb::Stepper::Kinematic) => Err(Fault::Unimplemented("STEPPER_KINEMATIC".into())),
+        Err(_) => Err(Fault::invalid(field, format!("{value} is not a stepper"))),
+    }
+}
+
+/// Strength of a request.
+pub fn strength(field: &str, s: Option<&pb::StrengthScale>) -> Result<StrengthScale, Fault> {
+    let mut out = StrengthScale::default();
+    let Some(s) = s else { return Ok(out) };
+    out.all = or_default(&format!("{field}.all"), s.all, 1.0, 0.01, 100.0)?;
+    for (i, d) in s.dofs.iter().enumerate() {
+        let at = |part: &str| format!("{field}.dofs[{i}].{part}");
+        let dof = DOF_NAMES.iter().position(|n| *n == d.dof).ok_or_else(|| {
+            Fault::invalid(
+                at("dof"),
+                format!(
+                    "must be a DOF name as GetBody lists it, got {:?}",
+                    clip_text(&d.dof)
+                ),
+            )
+        })?;
+        out.dof[dof] = within(&at("factor"), d.factor, 0.01, 100.0)?;
+    }
+    Ok(out)
+}
+
+/// Settings of a new figure; `field` is where the message stands in the request.
+pub fn settings(field: &str, f: Option<&pb::Figure>) -> Result<FigureSettings, Fault> {
+    let none = pb::Figure::default();
+    let f = f.unwrap_or(&none);
+    let at = |part: &str| format!("{field}.{part}");
+    Ok(FigureSettings {
+        display_name: display_name(&at("display_name"), &f.display_name)?,
+        body: body::reference(&at("body"), &f.body, &at("profile"), f.profile.as_ref())?,
+        strength: strength(&at("strength"), f.strength.as_ref())?,
+        controller: controller(&at("controller"), f.controller)?,
+        stepper: stepper(&at("stepper"), f.stepper)?,
+        place: f
+            .placement
+            .map(|p| place(&at("placement"), p))
+            .transpose()?
+            .unwrap_or_default(),
+    })
+}
+
+/// Changes of a figure.
+pub fn update(
+    f: &pb::Figure,
+    mask: Option<&prost_types::FieldMask>,
+) -> Result<FigureUpdate, Fault> {
+    let mut out = FigureUpdate::default();
+    let paths = mask.map(|m| m.paths.as_slice()).unwrap_or_default();
+    if paths.is_empty() {
+        return Err(Fault::invalid(
+            "update_mask",
+            "must name at least one field",
+        ));
+    }
+    for (i, path) in paths.iter().enumerate() {
+        match path.as_str() {
+            "display_name" => {
+                out.display_name = Some(display_name("figure.display_name", &f.display_name)?)
+            }
+            "strength" => out.strength = Some(strength("figure.strength", f.strength.as_ref())?),
+            "controller" => out.controller = Some(controller("figure.controller", f.controller)?),
+            other => {
+                return Err(Fault::invalid(
+                    format!("update_mask.paths[{i}]"),
+                    format!(
+                        "must be display_name, strength or controller, got {:?}",
+                        clip_text(other)
+                    ),
+                ));
+            }
+        }
+    }
+    Ok(out)
+}
+
+/// A figure for a response.
+pub fn figure_out(f: &FigureInfo) -> pb::Figure {
+    let s = &f.settings;
+    pb::Figure {
+        name: format!("worlds/{}/figures/{}", f.world, f.id),
+        display_name: s.display_name.clone(),
+        body: format!("bodies/{}", s.body.id),
+        profile: Some(body::profile_out(&s.body.profile)),
+        strength: Some(pb::StrengthScale {
+            all: s.strength.all,
+            dofs: s
+                .strength
+                .dof
+                .iter()
+                .enumerate()
+                .filter(|(_, factor)| **factor != 1.0)
+                .map(|(d, factor)| pb::DofStrength {
+                    dof: DOF_NAMES[d].into(),
+                    factor: *factor,
+                })
+                .collect(),
+        }),
+        controller: match s.controller {
+            ControllerKind::Paper => pb::Controller::Paper,
+            ControllerKind::Modern => pb::Controller::Modern,
+            ControllerKind::Motors => pb::Controller::Motors,
+        }
+        .into(),
+        stepper: match s.stepper {
+            StepperKind::Torque => pb::Stepper::Torque,
+        }
+        .into(),
+        placement: Some(place_out(s.place)),
+        clip: f
+            .clip
+            .as_ref()
+            .map(|c| format!("clips/{c}"))
+            .unwrap_or_default(),
+        driver_id: f.driver.clone().unwrap_or_default(),
+        figure_index: f.index,
+    }
+}

@@ -1,0 +1,305 @@
+//! Requests to domain types and domain types to responses. Everything is checked here, once: finite, in range, counted, named.
+
+pub mod body;
+pub mod figure;
+pub mod motion;
+pub mod perturbation;
+pub mod server;
+pub mod simulation;
+pub mod state;
+pub mod world;
+
+use super::pb;
+use super::status::Fault;
+use super::types::Place;
+use crate::sim::math::{Quat, Vec3};
+
+/// Farthest place from the origin, m.
+pub const WORLD_EXTENT: f64 = 10_000.0;
+
+/// A finite number within bounds.
+pub(crate) fn within(field: &str, value: f64, least: f64, most: f64) -> Result<f64, Fault> {
+    // Written so that NaN fails.
+    if value >= least && value <= most {
+        Ok(value)
+    } else {
+        Err(Fault::invalid(
+            field,
+            format!("must be a finite number in {least}…{most}, got {value}"),
+        ))
+    }
+}
+
+/// A number within bounds where 0 stands for `default`.
+pub(crate) fn or_default(
+    field: &str,
+    value: f64,
+    default: f64,
+    least: f64,
+    most: f64,
+) -> Result<f64, Fault> {
+    if value == 0.0 {
+        Ok(default)
+    } else {
+        within(field, value, least, most)
+    }
+}
+
+/// An integer within bounds where 0 stands for `default`.
+pub(crate) fn count(
+    field: &str,
+    value: i32,
+    default: u32,
+    least: u32,
+    most: u32,
+) -> Result<u32, Fault> {
+    match u32::try_from(value) {
+        Ok(0) => Ok(default),
+        Ok(n) if (least..=most).contains(&n) => Ok(n),
+        _ => Err(Fault::invalid(
+            field,
+            format!("must be {least}…{most}, got {value}"),
+        )),
+    }
+}
+
+/// A vector with every component within ± `most`.
+pub(crate) fn vector(field: &str, v: pb::Vector3, most: f64) -> Result<Vec3, Fault> {
+    Ok(Vec3 {
+        x: within(&format!("{field}.x"), v.x, -most, most)?,
+        y: within(&format!("{field}.y"), v.y, -most, most)?,
+        z: within(&format!("{field}.z"), v.z, -most, most)?,
+    })
+}
+
+/// A vector for a response.
+pub fn vector_out(v: Vec3) -> pb::Vector3 {
+    pb::Vector3 {
+        x: v.x,
+        y: v.y,
+        z: v.z,
+    }
+}
+
+/// A rotation; its length must be 1 within 0.001.
+pub(crate) fn rotation(field: &str, q: pb::Quaternion) -> Result<Quat, Fault> {
+    let n = (q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w).sqrt();
+    // Written so that NaN fails.
+    if (n - 1.0).abs() <= 1e-3 {
+        Ok(Quat {
+            x: q.x,
+            y: q.y,
+            z: q.z,
+            w: q.w,
+        }
+        .normalized())
+    } else {
+        Err(Fault::invalid(
+            field,
+            format!("must be a quaternion of length 1 within 0.001, its length is {n}"),
+        ))
+    }
+}
+
+/// A place on the ground.
+pub(crate) fn place(field: &str, p: pb::Placement) -> Result<Place, Fault> {
+    Ok(Place {
+        x: within(&format!("{field}.x_m"), p.x_m, -WORLD_EXTENT, WORLD_EXTENT)?,
+        y: within(&format!("{field}.y_m"), p.y_m, -WORLD_EXTENT, WORLD_EXTENT)?,
+        yaw: within(&format!("{field}.yaw_rad"), p.yaw_rad, -100.0, 100.0)?,
+    })
+}
+
+/// A place for a response.
+pub fn place_out(p: Place) -> pb::Placement {
+    pb::Placement {
+        x_m: p.x,
+        y_m: p.y,
+        yaw_rad: p.yaw,
+    }
+}
+
+/// A name for people.
+pub(crate) fn display_name(field: &str, name: &str) -> Result<String, Fault> {
+    if name.len() > 128 {
+        return Err(Fault::invalid(
+            field,
+            format!("must be at most 128 bytes, has {}", name.len()),
+        ));
+    }
+    if name.chars().any(char::is_control) {
+        return Err(Fault::invalid(field, "must not hold control characters"));
+    }
+    Ok(name.to_owned())
+}
+
+/// The last part of a new name; `None` if the server is to choose.
+pub(crate) fn new_id(field: &str, id: &str) -> Result<Option<String>, Fault> {
+    if id.is_empty() {
+        return Ok(None);
+    }
+    let good = id.len() <= 63
+        && id.starts_with(|c: char| c.is_ascii_lowercase())
+        && id
+            .chars()
+            .all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-');
+    if good {
+        Ok(Some(id.to_owned()))
+    } else {
+        Err(Fault::invalid(
+            field,
+            format!(
+                "must be 1 to 63 of a-z, 0-9 and -, beginning with a letter, got {:?}",
+                clip_text(id)
+            ),
+        ))
+    }
+}
+
+/// Who asks, at most 64 printable ASCII characters.
+pub(crate) fn client_id(field: &str, id: &str) -> Result<String, Fault> {
+    if id.len() > 64 || !id.bytes().all(|b| b.is_ascii_graphic() || b == b' ') {
+        return Err(Fault::invalid(
+            field,
+            "must be at most 64 bytes of printable ASCII",
+        ));
+    }
+    Ok(id.to_owned())
+}
+
+/// The start of a text that came from outside, short enough for a message.
+pub(crate) fn clip_text(text: &str) -> &str {
+    match text.char_indices().nth(80) {
+        Some((end, _)) => &text[..end],
+        None => text,
+    }
+}
+
+fn last_part<'a>(
+    field: &str,
+    name: &'a str,
+    pattern: &str,
+    prefix: &str,
+) -> Result<&'a str, Fault> {
+    match name.strip_prefix(prefix) {
+        Some(rest) if !rest.is_empty() && !rest.contains('/') => Ok(rest),
+        _ => Err(Fault::invalid(
+            field,
+            format!(
+                "must be a resource name {pattern}, got {:?}",
+                clip_text(name)
+            ),
+        )),
+    }
+}
+
+/// Last part of `worlds/{world}`.
+pub fn world_name<'a>(field: &str, name: &'a str) -> Result<&'a str, Fault> {
+    last_part(field, name, "worlds/{world}", "worlds/")
+}
+
+/// Last part of `clips/{clip}`.
+pub fn clip_name<'a>(field: &str, name: &'a str) -> Result<&'a str, Fault> {
+    last_part(field, name, "clips/{clip}", "clips/")
+}
+
+/// World and figure of `worlds/{world}/figures/{figure}`.
+pub fn figure_name<'a>(field: &str, name: &'a str) -> Result<(&'a str, &'a str), Fault> {
+    let parts: Vec<&str> = name.splitn(5, '/').collect();
+    match parts[..] {
+        ["worlds", world, "figures", figure] if !world.is_empty() && !figure.is_empty() => {
+            Ok((world, figure))
+        }
+        _ => Err(Fault::invalid(
+            field,
+            format!(
+                "must be a resource name worlds/{{world}}/figures/{{figure}}, got {:?}",
+                clip_text(name)
+            ),
+        )),
+    }
+}
+
+/// Page of a sorted list: the items after `page_token` and the token of the next page.
+pub fn page<T>(
+    items: Vec<(String, T)>,
+    page_size: i32,
+    page_token: &str,
+) -> Result<(Vec<T>, String), Fault> {
+    let size = count("page_size", page_size, 100, 1, 1000)? as usize;
+    let from = if page_token.is_empty() {
+        0
+    } else {
+        // A token is the key of the last item of the page before; items may have come and gone since.
+        items.partition_point(|(key, _)| key.as_str() <= page_token)
+    };
+    let more = items.len() > from + size;
+    let mut last = String::new();
+    let page = items
+        .into_iter()
+        .skip(from)
+        .take(size)
+        .map(|(key, item)| {
+            last = key;
+            item
+        })
+        .collect();
+    Ok((page, if more { last } else { String::new() }))
+}
+
+/// A point in time for a response.
+pub fn timestamp(t: std::time::SystemTime) -> prost_types::Timestamp {
+    t.into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_taken_apart_or_refused() {
+        assert_eq!(world_name("name", "worlds/a").unwrap(), "a");
+        assert_eq!(
+            figure_name("name", "worlds/a/figures/b").unwrap(),
+            ("a", "b")
+        );
+        for bad in ["", "worlds/", "worlds/a/figures", "world/a", "worlds/a/b"] {
+            assert!(
+                matches!(world_name("name", bad), Err(Fault::Invalid { field, .. }) if field == "name"),
+                "{bad}"
+            );
+            assert!(figure_name("name", bad).is_err(), "{bad}");
+        }
+        assert!(new_id("world_id", "Ä").is_err());
+        assert!(new_id("world_id", "-a").is_err());
+        assert_eq!(new_id("world_id", "a-1").unwrap().as_deref(), Some("a-1"));
+    }
+
+    #[test]
+    fn pages_continue_where_the_last_one_ended() {
+        let items = || (0..5).map(|i| (format!("k{i}"), i)).collect::<Vec<_>>();
+        let (first, token) = page(items(), 2, "").unwrap();
+        assert_eq!((first, token.as_str()), (vec![0, 1], "k1"));
+        let (rest, token) = page(items(), 3, &token).unwrap();
+        assert_eq!((rest, token.as_str()), (vec![2, 3, 4], ""));
+        assert!(page(items(), -1, "").is_err());
+    }
+
+    #[test]
+    fn numbers_must_be_finite_and_in_range() {
+        assert!(within("x", f64::NAN, -1.0, 1.0).is_err());
+        assert!(within("x", f64::INFINITY, -1.0, f64::MAX).is_err());
+        assert!(
+            rotation(
+                "q",
+                pb::Quaternion {
+                    x: 0.0,
+                    y: 0.0,
+                    z: f64::NAN,
+                    w: 1.0
+                }
+            )
+            .is_err()
+        );
+    }
+}

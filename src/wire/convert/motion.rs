@@ -1,0 +1,628 @@
+//! Clips and live desired motion.
+
+use super::super::pb;
+use super::super::posture::{segment_of_bone, segment_poses, set_joint_rotation};
+use super::super::status::Fault;
+use super::super::types::{
+    BvhReading, ClipInfo, Delay, DriveOpen, DriveSettings, Feedback, FigureSample, MotionSample,
+    MotionSource, Playback, ReadingReport, Supply,
+};
+use super::{
+    WORLD_EXTENT, client_id, clip_text, or_default, place, rotation, timestamp, vector, within,
+};
+use crate::sim::body::angles::set_anatomical_angles;
+use crate::sim::body::topology::PARENT;
+use crate::sim::body::{DOF_COUNT, NV, Posture, SEGMENT_COUNT};
+use crate::sim::math::Quat;
+
+/// Most frames in one batch.
+pub const MAX_BATCH_FRAMES: usize = 64;
+/// Most figures one driver can drive.
+pub const MAX_DRIVEN_FIGURES: usize = 64;
+/// Most frames of a clip given as frames: 20 minutes at 120 Hz.
+pub const MAX_CLIP_FRAMES: usize = 144_000;
+
+fn optional(field: &str, value: Option<f64>, least: f64, most: f64) -> Result<Option<f64>, Fault> {
+    value.map(|v| within(field, v, least, most)).transpose()
+}
+
+/// How a BVH file is read.
+pub fn bvh_reading(field: &str, o: Option<&pb::BvhOptions>) -> Result<BvhReading, Fault> {
+    let Some(o) = o else {
+        return Ok(BvhReading::default());
+    };
+    let at = |part: &str| format!("{field}.{part}");
+    Ok(BvhReading {
+        unit_m: optional(&at("unit_m"), o.unit_m, 1e-6, 100.0)?,
+        z_up: match o.up_axis.as_str() {
+            "" => None,
+            "y" | "Y" | "+y" => Some(false),
+            "z" | "Z" | "+z" => Some(true),
+            other => {
+                return Err(Fault::invalid(
+                    at("up_axis"),
+                    format!("must be y or z, got {:?}", clip_text(other)),
+                ));
+            }
+        },
+        rate_hz: optional(&at("rate_hz"), o.rate_hz, 1.0, 1000.0)?,
+        floor: o.fit_floor,
+        lock_feet: o.lock_feet,
+        cutoff_hz: optional(&at("cutoff_hz"), o.cutoff_hz, 0.5, 60.0)?,
+    })
+}
+
+/// A BVH file with its options; the file itself is read elsewhere.
+pub fn bvh(field: &str, source: pb::BvhSource, max_bytes: u64) -> Result<MotionSource, Fault> {
+    if source.data.is_empty() {
+        return Err(Fault::invalid(format!("{field}.data"), "must not be empty"));
+    }
+    if source.data.len() as u64 > max_bytes {
+        return Err(Fault::Exhausted {
+            limit: "max_clip_bytes",
+            value: max_bytes,
+            message: format!("the file has {} bytes", source.data.len()),
+            retry: None,
+        });
+    }
+    let reading = bvh_reading(&format!("{field}.options"), source.options.as_ref())?;
+    Ok(MotionSource::Bvh(source.data, reading))
+}
+
+/// The motion of a new clip.
+pub fn clip_source(
+    source: Option<pb::create_clip_request::Source>,
+    max_bytes: u64,
+) -> Result<MotionSource, Fault> {
+    use pb::create_clip_request::Source;
+    match source {
+        None => Err(Fault::invalid("source", "must be bvh or frames")),
+        Some(Source::Bvh(b)) => bvh("bvh", b, max_bytes),
+        Some(Source::Frames(f)) => {
+            let rate_hz = within("frames.rate_hz", f.rate_hz, 1.0, 1000.0)?;
+            if !(2..=MAX_CLIP_FRAMES).contains(&f.frames.len()) {
+                return Err(Fault::invalid(
+                    "frames.frames",
+                    format!("must be 2…{MAX_CLIP_FRAMES} frames, got {}", f.frames.len()),
+                ));
+            }
+            let mut postures = Vec::with_capacity(f.frames.len());
+            let mut planted = Vec::new();
+            for (i, frame) in f.frames.iter().enumerate() {
+                let at = format!("frames.frames[{i}]");
+                let s = figure_sample(&at, 0, frame)?;
+                if !s.has_root {
+                    return Err(Fault::invalid(format!("{at}.root"), "must be given"));
+                }
+                postures.push(s.posture);
+                match s.planted {
+                    Some(p) if planted.len() == i => planted.push(p),
+                    None if planted.is_empty() => {}
+                    _ => {
+                        return Err(Fault::invalid(
+                            format!("{at}.planted"),
+                            "must be given in every frame or in none",
+                        ));
+                    }
+                }
+            }
+            Ok(MotionSource::Postures {
+                rate_hz,
+                postures,
+                planted,
+            })
+        }
+    }
+}
+
+/// How a clip is played.
+pub fn playback(r: &pb::PlayClipRequest) -> Result<Playback, Fault> {
+    Ok(Playback {
+        speed: or_default("speed", r.speed, 1.0, 0.1, 4.0)?,
+        looped: r.r#loop,
+        start: optional("start_time_s", r.start_time_s, 0.0, 1e9)?,
+        reset: r.reset,
+        place: r.placement.map(|p| place("placement", p)).transpose()?,
+    })
+}
+
+/// Header of a drive; `field` is where it stands in the request.
+pub fn drive_open(field: &str, h: &pb::DriveHeader) -> Result<DriveOpen, Fault> {
+    let at = |part: &str| format!("{field}.{part}");
+    let world = super::world_name(&at("world"), &h.world)?.to_owned();
+    if h.figures.is_empty() || h.figures.len() > MAX_DRIVEN_FIGURES {
+        return Err(Fault::invalid(
+            at("figures"),
+            format!(
+                "must name 1…{MAX_DRIVEN_FIGURES} figures, got {}",
+                h.figures.len()
+            ),
+        ));
+    }
+    for (i, name) in h.figures.iter().enumerate() {
+        if h.figures[..i].contains(name) {
+            return Err(Fault::invalid(
+                at(&format!("figures[{i}]")),
+                format!("{:?} is named twice", clip_text(name)),
+            ));
+        }
+    }
+    let ms = |part: &str, value: Option<f64>, default: f64, most: f64| {
+        within(&at(part), value.unwrap_or(default), 0.0, most).map(|v| v / 1e3)
+    };
+    let extrapolation = ms(
+        "extrapolation_limit_ms",
+        h.extrapolation_limit_ms,
+        100.0,
+        1000.0,
+    )?;
+    let extrapolation = match pb::Underrun::try_from(h.underrun) {
+        Ok(pb::Underrun::Unspecified | pb::Underrun::Extrapolate) => extrapolation,
+        Ok(pb::Underrun::Hold) => 0.0,
+        Err(_) => {
+            return Err(Fault::invalid(
+                at("underrun"),
+                format!("{} is not a choice", h.underrun),
+            ));
+        }
+    };
+    let most = or_default(
+        &at("max_playout_delay_ms"),
+        h.max_playout_delay_ms,
+        100.0,
+        1.0,
+        2000.0,
+    )? / 1e3;
+    Ok(DriveOpen {
+        world,
+        figures: h.figures.clone(),
+        driver: client_id(&at("driver_id"), &h.driver_id)?,
+        settings: DriveSettings {
+            rate_hz: or_default(&at("nominal_rate_hz"), h.nominal_rate_hz, 60.0, 1.0, 1000.0)?,
+            delay: match h.playout_delay_ms {
+                Some(d) => Delay::Fixed(within(&at("playout_delay_ms"), d, 0.0, 2000.0)? / 1e3),
+                None => Delay::Adaptive { most },
+            },
+            extrapolation,
+            hold: ms("hold_limit_ms", h.hold_limit_ms, 5000.0, 600_000.0)?,
+            grace: ms("grace_ms", h.grace_ms, 5000.0, 60_000.0)?,
+            reset: h.reset,
+        },
+    })
+}
+
+/// Desired motion of one figure.
+pub fn figure_sample(
+    field: &str,
+    slot: usize,
+    m: &pb::FigureMotion,
+) -> Result<FigureSample, Fault> {
+    let at = |part: &str| format!("{field}.{part}");
+    let mut posture = Posture::default();
+    if let Some(root) = &m.root {
+        if let Some(p) = root.position_m {
+            posture.root_position = vector(&at("root.position_m"), p, WORLD_EXTENT)?;
+        }
+        if let Some(q) = root.rotation {
+            posture.root_rotation = rotation(&at("root.rotation"), q)?;
+        }
+    }
+    match (m.joint_angles_rad.is_empty(), m.bone_rotations.is_empty()) {
+        (false, false) => {
+            return Err(Fault::invalid(
+                at("bone_rotations"),
+                "must be empty when joint angles are given",
+            ));
+        }
+        (true, true) => {
+            return Err(Fault::invalid(
+                at("joint_angles_rad"),
+                "joint angles or bone rotations must be given",
+            ));
+        }
+        (false, true) => {
+            let angles: &[f64; DOF_COUNT] =
+                m.joint_angles_rad.as_slice().try_into().map_err(|_| {
+                    Fault::invalid(
+                        at("joint_angles_rad"),
+                        format!(
+                            "must hold {DOF_COUNT} angles, got {}",
+                            m.joint_angles_rad.len()
+                        ),
+                    )
+                })?;
+            const TURN: f64 = 2.0 * std::f64::consts::PI;
+            for (d, a) in angles.iter().enumerate() {
+                within(&at(&format!("joint_angles_rad[{d}]")), *a, -TURN, TURN)?;
+            }
+            set_anatomical_angles(&mut posture, angles);
+        }
+        (true, false) => bone_rotations(field, m, &mut posture)?,
+    }
+    let velocity = match m.velocity.len() {
+        0 => None,
+        NV => {
+            let mut v = Box::new([0.0; NV]);
+            for (i, x) in m.velocity.iter().enumerate() {
+                v[i] = within(&at(&format!("velocity[{i}]")), *x, -1000.0, 1000.0)?;
+            }
+            Some(v)
+        }
+        n => {
+            return Err(Fault::invalid(
+                at("velocity"),
+                format!("must hold {NV} numbers or none, got {n}"),
+            ));
+        }
+    };
+    let planted = match m.planted[..] {
+        [] => None,
+        [left, right] => Some([left, right]),
+        _ => {
+            return Err(Fault::invalid(
+                at("planted"),
+                format!("must hold 2 values or none, got {}", m.planted.len()),
+            ));
+        }
+    };
+    Ok(FigureSample {
+        slot,
+        posture,
+        has_root: m.root.is_some(),
+        velocity,
+        planted,
+    })
+}
+
+fn bone_rotations(field: &str, m: &pb::FigureMotion, posture: &mut Posture) -> Result<(), Fault> {
+    let mut given: [Option<Quat>; SEGMENT_COUNT] = [None; SEGMENT_COUNT];
+    for (i, b) in m.bone_rotations.iter().enumerate() {
+        let at = |part: &str| format!("{field}.bone_rotations[{i}].{part}");
+        let s = segment_of_bone(&b.bone).ok_or_else(|| {
+            Fault::invalid(
+                at("bone"),
+                format!(
+                    "must be a bone name as GetBody lists it, got {:?}",
+                    clip_text(&b.bone)
+                ),
+            )
+        })?;
+        if given[s].is_some() {
+            return Err(Fault::invalid(
+                at("bone"),
+                format!("{} is given twice", b.bone),
+            ));
+        }
+        let q = b
+            .rotation
+            .ok_or_else(|| Fault::invalid(at("rotation"), "must be given"))?;
+        given[s] = Some(rotation(&at("rotation"), q)?);
+    }
+    let world = match pb::RotationSpace::try_from(m.rotation_space) {
+        Ok(pb::RotationSpace::Unspecified | pb::RotationSpace::Parent) => false,
+        Ok(pb::RotationSpace::World) => true,
+        Err(_) => {
+            return Err(Fault::invalid(
+                format!("{field}.rotation_space"),
+                format!("{} is not a choice", m.rotation_space),
+            ));
+        }
+    };
+    // World rotations as they come out of the joints, so that what a hinge drops does not turn the segments beyond it.
+    let mut world_from = [Quat::identity(); SEGMENT_COUNT];
+    if let Some(q) = given[0] {
+        posture.root_rotation = q;
+    }
+    world_from[0] = posture.root_rotation;
+    for s in 1..SEGMENT_COUNT {
+        let parent = world_from[PARENT[s]];
+        let local = match given[s] {
+            None => Quat::identity(),
+            Some(q) if world => (parent.conjugate() * q).normalized(),
+            Some(q) => q,
+        };
+        set_joint_rotation(posture, s, local);
+        world_from[s] = (parent * super::super::posture::joint_rotation(posture, s)).normalized();
+    }
+    Ok(())
+}
+
+/// A batch of desired motion for the figures of a drive.
+pub fn batch(
+    field: &str,
+    batch: &pb::MotionBatch,
+    figures: &[String],
+) -> Result<Vec<MotionSample>, Fault> {
+    if batch.frames.len() > MAX_BATCH_FRAMES {
+        return Err(Fault::invalid(
+            format!("{field}.frames"),
+            format!(
+                "must be at most {MAX_BATCH_FRAMES} frames, got {}",
+                batch.frames.len()
+            ),
+        ));
+    }
+    let mut out = Vec::with_capacity(batch.frames.len());
+    for (i, frame) in batch.frames.iter().enumerate() {
+        let at = format!("{field}.frames[{i}]");
+        if frame.sequence < 0 {
+            return Err(Fault::invalid(
+                format!("{at}.sequence"),
+                format!("must not be negative, got {}", frame.sequence),
+            ));
+        }
+        if frame.figures.is_empty() || frame.figures.len() > figures.len() {
+            return Err(Fault::invalid(
+                format!("{at}.figures"),
+                format!(
+                    "must hold 1…{} figures, got {}",
+                    figures.len(),
+                    frame.figures.len()
+                ),
+            ));
+        }
+        let mut samples: Vec<FigureSample> = Vec::with_capacity(frame.figures.len());
+        for (j, m) in frame.figures.iter().enumerate() {
+            let at = format!("{at}.figures[{j}]");
+            let slot = if m.figure.is_empty() && figures.len() == 1 {
+                0
+            } else {
+                figures.iter().position(|f| *f == m.figure).ok_or_else(|| {
+                    Fault::invalid(
+                        format!("{at}.figure"),
+                        format!(
+                            "must be a figure of the header, got {:?}",
+                            clip_text(&m.figure)
+                        ),
+                    )
+                })?
+            };
+            if samples.iter().any(|s| s.slot == slot) {
+                return Err(Fault::invalid(
+                    format!("{at}.figure"),
+                    format!("{:?} is given twice", clip_text(&m.figure)),
+                ));
+            }
+            samples.push(figure_sample(&at, slot, m)?);
+        }
+        out.push(MotionSample {
+            sequence: frame.sequence,
+            source_ns: frame.source_time_ns,
+            figures: samples,
+        });
+    }
+    Ok(out)
+}
+
+/// State of a drive for a response.
+pub fn feedback_out(f: &Feedback) -> pb::DriveFeedback {
+    pb::DriveFeedback {
+        driver_id: f.driver.clone(),
+        tick: f.tick as i64,
+        received_sequence: f.received_sequence,
+        refused_batch_count: f.refused as i64,
+        figures: f
+            .figures
+            .iter()
+            .map(|g| pb::FigureFeedback {
+                figure: g.figure.clone(),
+                applied_sequence: g.applied_sequence,
+                applied_source_time_ns: g.applied_source_ns,
+                buffered_ms: g.buffered * 1e3,
+                playout_delay_ms: g.delay * 1e3,
+                jitter_ms: g.jitter * 1e3,
+                supply: match g.supply {
+                    Supply::None => pb::Supply::Unspecified,
+                    Supply::Present => pb::Supply::Present,
+                    Supply::Interpolated => pb::Supply::Interpolated,
+                    Supply::Extrapolated => pb::Supply::Extrapolated,
+                    Supply::Held => pb::Supply::Held,
+                    Supply::Relaxed => pb::Supply::Relaxed,
+                    Supply::Waiting => pb::Supply::Waiting,
+                }
+                .into(),
+                present_count: g.ticks[0] as i64,
+                interpolated_count: g.ticks[1] as i64,
+                extrapolated_count: g.ticks[2] as i64,
+                held_count: g.ticks[3] as i64,
+                relaxed_count: g.ticks[4] as i64,
+                late_count: g.late as i64,
+                stale_count: g.stale as i64,
+                overflow_count: g.overflow as i64,
+            })
+            .collect(),
+    }
+}
+
+/// How a file was understood, for a response.
+pub fn report_out(r: &ReadingReport) -> pb::RetargetReport {
+    pb::RetargetReport {
+        mapped: r
+            .mapped
+            .iter()
+            .map(|(bone, joints)| pb::BoneMapping {
+                bone: bone.clone(),
+                joints: joints.clone(),
+            })
+            .collect(),
+        missing_bones: r.missing.clone(),
+        by_structure: r.by_structure,
+        sides_swapped: r.sides_swapped,
+        scale: r.scale,
+        source_rate_hz: r.source_rate_hz,
+        unit_m: r.unit_m,
+        up_axis: r.up_axis.clone(),
+        stature_m: r.stature_m,
+        floor_offset_m: r.floor_offset_m,
+        clamped: r
+            .clamped
+            .iter()
+            .map(|(dof, fraction, most)| pb::ClampedAngle {
+                dof: dof.clone(),
+                fraction: *fraction,
+                max_excess_rad: *most,
+            })
+            .collect(),
+        foot_slide_before_m: r.foot_slide_m[0],
+        foot_slide_after_m: r.foot_slide_m[1],
+        bridged_frame_count: r.bridged as i32,
+        contact_phases: r
+            .phases
+            .iter()
+            .map(|(left, start, end)| pb::ContactPhase {
+                left: *left,
+                start_s: *start,
+                end_s: *end,
+            })
+            .collect(),
+        warnings: r.warnings.clone(),
+        dropped_frame_count: r.dropped as i32,
+    }
+}
+
+/// A clip for a response.
+pub fn clip_out(c: &ClipInfo, with_report: bool) -> pb::Clip {
+    pb::Clip {
+        name: format!("clips/{}", c.id),
+        display_name: c.display_name.clone(),
+        builtin: c.builtin,
+        body: format!("bodies/{}", c.body),
+        rate_hz: c.rate_hz,
+        frame_count: c.frames as i32,
+        duration_s: c.duration,
+        report: c
+            .report
+            .as_ref()
+            .filter(|_| with_report)
+            .map(|r| report_out(r)),
+        create_time: c.created.map(timestamp),
+    }
+}
+
+/// A posture as clients send it: for our own client.
+pub fn figure_motion(
+    figure: &str,
+    posture: &Posture,
+    velocity: &[f64],
+    planted: Option<[bool; 2]>,
+) -> pb::FigureMotion {
+    let (p, q) = (posture.root_position, posture.root_rotation);
+    pb::FigureMotion {
+        figure: figure.to_owned(),
+        root: Some(pb::Pose {
+            position_m: Some(super::vector_out(p)),
+            rotation: Some(pb::Quaternion {
+                x: q.x,
+                y: q.y,
+                z: q.z,
+                w: q.w,
+            }),
+        }),
+        joint_angles_rad: crate::sim::body::angles::anatomical_angles(posture).to_vec(),
+        velocity: velocity.to_vec(),
+        planted: planted.map(|p| p.to_vec()).unwrap_or_default(),
+        ..Default::default()
+    }
+}
+
+/// World rotation of each bone in a posture, for tests and for clients that think in bones.
+pub fn bones_of(body: &crate::sim::body::Body, posture: &Posture) -> Vec<pb::BoneRotation> {
+    segment_poses(body, posture)
+        .iter()
+        .zip(crate::sim::body::topology::BONE_NAMES)
+        .map(|((_, q), bone)| pb::BoneRotation {
+            bone: bone.into(),
+            rotation: Some(pb::Quaternion {
+                x: q.x,
+                y: q.y,
+                z: q.z,
+                w: q.w,
+            }),
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn field_of(r: Result<FigureSample, Fault>) -> String {
+        match r {
+            Err(Fault::Invalid { field, .. }) => field,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn angles_and_bone_rotations_say_the_same() {
+        let mut angles = vec![0.0; DOF_COUNT];
+        for (i, a) in angles.iter_mut().enumerate() {
+            *a = 0.01 * (i as f64) - 0.2;
+        }
+        let by_angle = figure_sample(
+            "f",
+            0,
+            &pb::FigureMotion {
+                joint_angles_rad: angles,
+                ..Default::default()
+            },
+        )
+        .unwrap();
+        for space in [pb::RotationSpace::Parent, pb::RotationSpace::World] {
+            let mut m = pb::FigureMotion {
+                rotation_space: space.into(),
+                ..Default::default()
+            };
+            let mut world = [Quat::identity(); SEGMENT_COUNT];
+            for s in 0..SEGMENT_COUNT {
+                let local = super::super::super::posture::joint_rotation(&by_angle.posture, s);
+                world[s] = if s == 0 {
+                    local
+                } else {
+                    world[PARENT[s]] * local
+                };
+                let q = if space == pb::RotationSpace::World {
+                    world[s]
+                } else {
+                    local
+                };
+                m.bone_rotations.push(pb::BoneRotation {
+                    bone: crate::sim::body::topology::BONE_NAMES[s].into(),
+                    rotation: Some(pb::Quaternion {
+                        x: q.x,
+                        y: q.y,
+                        z: q.z,
+                        w: q.w,
+                    }),
+                });
+            }
+            let by_bone = figure_sample("f", 0, &m).unwrap();
+            let e = by_angle.posture.difference(&by_bone.posture);
+            assert!(e.iter().all(|e| e.abs() < 1e-12), "{e:?}");
+        }
+    }
+
+    #[test]
+    fn bad_samples_name_the_field() {
+        let mut m = pb::FigureMotion {
+            joint_angles_rad: vec![0.0; DOF_COUNT],
+            ..Default::default()
+        };
+        m.joint_angles_rad[5] = f64::NAN;
+        assert_eq!(field_of(figure_sample("f", 0, &m)), "f.joint_angles_rad[5]");
+        m.joint_angles_rad = vec![0.0; 38];
+        assert_eq!(field_of(figure_sample("f", 0, &m)), "f.joint_angles_rad");
+        m.joint_angles_rad = vec![0.0; 39];
+        m.velocity = vec![f64::INFINITY; NV];
+        assert_eq!(field_of(figure_sample("f", 0, &m)), "f.velocity[0]");
+        m.velocity.clear();
+        m.planted = vec![true];
+        assert_eq!(field_of(figure_sample("f", 0, &m)), "f.planted");
+        m.planted.clear();
+        m.root = Some(pb::Pose {
+            position_m: None,
+            rotation: Some(pb::Quaternion::default()),
+        });
+        assert_eq!(field_of(figure_sample("f", 0, &m)), "f.root.rotation");
+    }
+}

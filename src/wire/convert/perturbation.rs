@@ -1,0 +1,168 @@
+//! Loads, pushes and forces.
+
+use super::super::pb;
+use super::super::status::Fault;
+use super::super::types::{Disturbance, FigureDisturbance};
+use super::{clip_text, or_default, vector, within};
+use crate::sim::body::SegmentId;
+
+/// Most disturbances in one request.
+pub const MAX_BATCH: usize = 64;
+/// Longest duration, s.
+const DAY: f64 = 86_400.0;
+
+fn segment(field: &str, name: &str) -> Result<SegmentId, Fault> {
+    SegmentId::from_name(name).ok_or_else(|| {
+        Fault::invalid(
+            field,
+            format!(
+                "must be a segment name as GetBody lists it, got {:?}",
+                clip_text(name)
+            ),
+        )
+    })
+}
+
+fn lasting(field: &str, value: f64) -> Result<f64, Fault> {
+    or_default(field, value, f64::INFINITY, 0.0, DAY)
+}
+
+/// What disturbs a figure; `field` is where the message stands in the request.
+pub fn disturbance(field: &str, p: &pb::Perturbation) -> Result<Disturbance, Fault> {
+    use pb::perturbation::Kind;
+    let point = |at: &str, p: Option<pb::Vector3>| p.map(|p| vector(at, p, 2.0)).transpose();
+    match &p.kind {
+        None => Err(Fault::invalid(
+            format!("{field}.kind"),
+            "must be load, impulse or force",
+        )),
+        Some(Kind::Load(l)) => {
+            let at = |part: &str| format!("{field}.load.{part}");
+            Ok(Disturbance::Load {
+                segment: segment(&at("segment"), &l.segment)?,
+                point: point(&at("point_m"), l.point_m)?,
+                mass: within(&at("mass_kg"), l.mass_kg, 0.0, 500.0)?,
+                duration: lasting(&at("duration_s"), l.duration_s)?,
+            })
+        }
+        Some(Kind::Impulse(i)) => {
+            let at = |part: &str| format!("{field}.impulse.{part}");
+            let duration = or_default(&at("duration_s"), i.duration_s, 0.1, 1e-3, 10.0)?;
+            let impulse = i
+                .impulse_ns
+                .ok_or_else(|| Fault::invalid(at("impulse_ns"), "must be given"))?;
+            Ok(Disturbance::Force {
+                segment: segment(&at("segment"), &i.segment)?,
+                point: point(&at("point_m"), i.point_m)?,
+                force: vector(&at("impulse_ns"), impulse, 1000.0)? * (1.0 / duration),
+                duration,
+            })
+        }
+        Some(Kind::Force(f)) => {
+            let at = |part: &str| format!("{field}.force.{part}");
+            let force = f
+                .force_n
+                .ok_or_else(|| Fault::invalid(at("force_n"), "must be given"))?;
+            Ok(Disturbance::Force {
+                segment: segment(&at("segment"), &f.segment)?,
+                point: point(&at("point_m"), f.point_m)?,
+                force: vector(&at("force_n"), force, 1e5)?,
+                duration: lasting(&at("duration_s"), f.duration_s)?,
+            })
+        }
+    }
+}
+
+/// A batch of disturbances.
+pub fn batch(list: &[pb::Perturbation]) -> Result<Vec<FigureDisturbance>, Fault> {
+    if !(1..=MAX_BATCH).contains(&list.len()) {
+        return Err(Fault::invalid(
+            "perturbations",
+            format!("must be 1…{MAX_BATCH}, got {}", list.len()),
+        ));
+    }
+    list.iter()
+        .enumerate()
+        .map(|(i, p)| {
+            Ok(FigureDisturbance {
+                figure: p.figure.clone(),
+                tick: p.tick,
+                what: disturbance(&format!("perturbations[{i}]"), p)?,
+            })
+        })
+        .collect()
+}
+
+/// Disturbances in time of a clip: when (s) and what.
+pub fn timed(list: &[pb::TimedPerturbation]) -> Result<Vec<(f64, Disturbance)>, Fault> {
+    if list.len() > MAX_BATCH {
+        return Err(Fault::invalid(
+            "perturbations",
+            format!("must be at most {MAX_BATCH}, got {}", list.len()),
+        ));
+    }
+    list.iter()
+        .enumerate()
+        .map(|(i, t)| {
+            let at = format!("perturbations[{i}]");
+            let start = within(&format!("{at}.start_s"), t.start_s, 0.0, DAY)?;
+            let p = t
+                .perturbation
+                .as_ref()
+                .ok_or_else(|| Fault::invalid(format!("{at}.perturbation"), "must be given"))?;
+            Ok((start, disturbance(&format!("{at}.perturbation"), p)?))
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_impulse_is_the_force_that_gives_it() {
+        let p = pb::Perturbation {
+            kind: Some(pb::perturbation::Kind::Impulse(pb::Impulse {
+                segment: "chest".into(),
+                impulse_ns: Some(pb::Vector3 {
+                    x: 20.0,
+                    y: 0.0,
+                    z: 0.0,
+                }),
+                duration_s: 0.2,
+                ..Default::default()
+            })),
+            ..Default::default()
+        };
+        let Disturbance::Force {
+            force, duration, ..
+        } = disturbance("p", &p).unwrap()
+        else {
+            panic!("not a force");
+        };
+        assert_eq!((force.x * duration, duration), (20.0, 0.2));
+    }
+
+    #[test]
+    fn bad_disturbances_name_the_field() {
+        let load = |mass_kg, segment: &str| pb::Perturbation {
+            kind: Some(pb::perturbation::Kind::Load(pb::Load {
+                segment: segment.into(),
+                mass_kg,
+                ..Default::default()
+            })),
+            ..Default::default()
+        };
+        for (p, path) in [
+            (load(f64::NAN, "r_hand"), "perturbations[1].load.mass_kg"),
+            (load(-1.0, "r_hand"), "perturbations[1].load.mass_kg"),
+            (load(1.0, "tail"), "perturbations[1].load.segment"),
+            (pb::Perturbation::default(), "perturbations[1].kind"),
+        ] {
+            let Err(Fault::Invalid { field, .. }) = batch(&[load(1.0, "r_hand"), p]) else {
+                panic!("accepted");
+            };
+            assert_eq!(field, path);
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! Offline simulations.
+
+use super::super::pb;
+use super::super::status::Fault;
+use super::super::types::{
+    MotionSource, ReadingReport, SimulationSettings, SimulationSummary, WorldEvent,
+};
+use super::{figure, motion, or_default, perturbation, state, world};
+
+/// Where the motion of a simulation comes from.
+#[derive(Debug)]
+pub enum Source {
+    /// Last part of a clip's name.
+    Clip(String),
+    /// A file.
+    File(MotionSource),
+}
+
+/// Motion and settings of a simulation.
+pub fn settings(
+    r: pb::SimulateClipRequest,
+    max_bytes: u64,
+    max_seconds: f64,
+) -> Result<(Source, SimulationSettings), Fault> {
+    use pb::simulate_clip_request::Source as S;
+    let source = match r.source {
+        None => return Err(Fault::invalid("source", "must be clip or bvh")),
+        Some(S::Clip(name)) => Source::Clip(super::clip_name("clip", &name)?.to_owned()),
+        Some(S::Bvh(b)) => Source::File(motion::bvh("bvh", b, max_bytes)?),
+    };
+    let duration = or_default("duration_s", r.duration_s, 0.0, 0.0, max_seconds)?;
+    Ok((
+        source,
+        SimulationSettings {
+            figure: figure::settings("figure", r.figure.as_ref())?,
+            rate_hz: world::rate("rate_hz", r.rate_hz)?,
+            substeps: world::substeps("substeps", r.substeps)?,
+            duration: (duration > 0.0).then_some(duration),
+            looped: r.r#loop,
+            disturbances: perturbation::timed(&r.perturbations)?,
+            view: r.view.as_ref().map(|v| state::view(Some(v))).transpose()?,
+        },
+    ))
+}
+
+/// What came of it, for a response.
+pub fn response(
+    s: &SimulationSummary,
+    frames: Vec<pb::WorldFrame>,
+    events: &[WorldEvent],
+    report: Option<&ReadingReport>,
+) -> pb::SimulateClipResponse {
+    pb::SimulateClipResponse {
+        summary: Some(pb::SimulationSummary {
+            tick_count: s.ticks as i32,
+            rate_hz: s.rate_hz,
+            fell_at_s: s.fell_at,
+            joint_rms_deg: s.joint_rms.to_degrees(),
+            joint_max_deg: s.joint_max.to_degrees(),
+            max_utilisation: s.utilisation,
+            over_limit_max: s.over_limit,
+            saturated_s: s.saturated.clone(),
+            margin_min_m: s.margin,
+            penetration_max_m: s.penetration,
+            state_hash: s.hash as i64,
+            tick_p50_us: s.tick_us[0],
+            tick_p99_us: s.tick_us[1],
+        }),
+        frames,
+        events: events.iter().map(state::event_out).collect(),
+        report: report.map(motion::report_out),
+    }
+}

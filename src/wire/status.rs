@@ -1,0 +1,233 @@
+//! Faults of requests and how they look on the wire: a gRPC code with `google.rpc` details (AIP-193).
+//!
+//! Every status carries an `ErrorInfo` with a reason in UPPER_SNAKE; bad input names the field in a `BadRequest`, an unknown resource its
+//! name in a `ResourceInfo`, a limit its name in a `QuotaFailure`, and what may work later says when in a `RetryInfo`.
+
+use std::time::Duration;
+use tonic::{Code, Status};
+use tonic_types::{ErrorDetails, StatusExt};
+
+/// Domain of the reasons in `ErrorInfo`.
+pub const DOMAIN: &str = "sinew";
+
+/// Why a request was not carried out. Nothing was changed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Fault {
+    /// A field holds something that is not allowed.
+    #[error("{field}: {problem}")]
+    Invalid {
+        /// Path of the field, for example `batch.frames[3].figures[0].velocity[7]`.
+        field: String,
+        /// What is wrong and what was expected.
+        problem: String,
+    },
+    /// There is no such resource.
+    #[error("{kind} {name:?} does not exist")]
+    NotFound {
+        /// Kind of resource: `world`, `figure`, `clip`, `body`, `segment`, `dof`, `bone`.
+        kind: &'static str,
+        /// Its name as it was asked for.
+        name: String,
+    },
+    /// The name is taken.
+    #[error("{kind} {name:?} exists already")]
+    Exists {
+        /// Kind of resource.
+        kind: &'static str,
+        /// The name.
+        name: String,
+    },
+    /// The request does not fit the state the resource is in.
+    #[error("{message}")]
+    Precondition {
+        /// Reason in UPPER_SNAKE.
+        reason: &'static str,
+        /// What is in the way.
+        message: String,
+        /// Further facts.
+        facts: Vec<(&'static str, String)>,
+    },
+    /// A limit of the server is reached.
+    #[error("{limit} is {value}: {message}")]
+    Exhausted {
+        /// Name of the limit in the configuration.
+        limit: &'static str,
+        /// Its value.
+        value: u64,
+        /// What would pass it.
+        message: String,
+        /// When trying again may work; `None` if only giving something up helps.
+        retry: Option<Duration>,
+    },
+    /// A tick is not held any more or not computed yet.
+    #[error("tick {asked} is not held; held are {oldest} to {newest}")]
+    Expired {
+        /// Wanted tick.
+        asked: i64,
+        /// Oldest tick that is held.
+        oldest: i64,
+        /// Newest tick.
+        newest: i64,
+    },
+    /// Something else took over meanwhile.
+    #[error("{message}")]
+    Aborted {
+        /// Reason in UPPER_SNAKE.
+        reason: &'static str,
+        /// What happened.
+        message: String,
+    },
+    /// This server cannot do it.
+    #[error("{0} is not available in this server")]
+    Unimplemented(String),
+    /// The server shuts down.
+    #[error("the server is shutting down")]
+    Draining,
+    /// The resource failed; the server's log has more.
+    #[error("{0}")]
+    Internal(String),
+}
+
+impl Fault {
+    /// Bad input in `field`.
+    pub fn invalid(field: impl Into<String>, problem: impl Into<String>) -> Self {
+        Self::Invalid {
+            field: field.into(),
+            problem: problem.into(),
+        }
+    }
+
+    /// Unknown resource.
+    pub fn not_found(kind: &'static str, name: impl Into<String>) -> Self {
+        Self::NotFound {
+            kind,
+            name: name.into(),
+        }
+    }
+
+    /// The same fault with `prefix` put before the field path, for messages inside messages.
+    #[must_use]
+    pub fn within(self, prefix: &str) -> Self {
+        match self {
+            Self::Invalid { field, problem } => Self::Invalid {
+                field: if field.is_empty() {
+                    prefix.to_owned()
+                } else {
+                    format!("{prefix}.{field}")
+                },
+                problem,
+            },
+            other => other,
+        }
+    }
+
+    /// Reason in UPPER_SNAKE, as `ErrorInfo` carries it.
+    pub fn reason(&self) -> &'static str {
+        match self {
+            Self::Invalid { .. } => "INVALID_FIELD",
+            Self::NotFound { .. } => "RESOURCE_NOT_FOUND",
+            Self::Exists { .. } => "ALREADY_EXISTS",
+            Self::Precondition { reason, .. } | Self::Aborted { reason, .. } => reason,
+            Self::Exhausted { .. } => "LIMIT_REACHED",
+            Self::Expired { .. } => "RESUME_EXPIRED",
+            Self::Unimplemented(_) => "NOT_AVAILABLE",
+            Self::Draining => "DRAINING",
+            Self::Internal(_) => "INTERNAL",
+        }
+    }
+}
+
+impl From<Fault> for Status {
+    fn from(fault: Fault) -> Self {
+        let mut details = ErrorDetails::new();
+        let mut facts = std::collections::HashMap::new();
+        let code = match &fault {
+            Fault::Invalid { field, problem } => {
+                details.add_bad_request_violation(field, problem);
+                facts.insert("field".to_owned(), field.clone());
+                Code::InvalidArgument
+            }
+            Fault::NotFound { kind, name } => {
+                details.set_resource_info(format!("sinew/{kind}"), name, "", fault.to_string());
+                Code::NotFound
+            }
+            Fault::Exists { kind, name } => {
+                details.set_resource_info(format!("sinew/{kind}"), name, "", fault.to_string());
+                Code::AlreadyExists
+            }
+            Fault::Precondition {
+                message,
+                facts: more,
+                reason,
+            } => {
+                details.add_precondition_failure_violation(*reason, "", message);
+                facts.extend(more.iter().map(|(k, v)| ((*k).to_owned(), v.clone())));
+                Code::FailedPrecondition
+            }
+            Fault::Exhausted {
+                limit,
+                value,
+                message,
+                retry,
+            } => {
+                details.add_quota_failure_violation(*limit, message);
+                if retry.is_some() {
+                    details.set_retry_info(*retry);
+                }
+                facts.insert("limit".to_owned(), (*limit).to_owned());
+                facts.insert("value".to_owned(), value.to_string());
+                Code::ResourceExhausted
+            }
+            Fault::Expired { oldest, newest, .. } => {
+                facts.insert("oldest_tick".to_owned(), oldest.to_string());
+                facts.insert("newest_tick".to_owned(), newest.to_string());
+                Code::OutOfRange
+            }
+            Fault::Aborted { .. } => Code::Aborted,
+            Fault::Unimplemented(_) => Code::Unimplemented,
+            Fault::Draining => {
+                details.set_retry_info(Some(Duration::from_secs(5)));
+                Code::Unavailable
+            }
+            Fault::Internal(_) => Code::Internal,
+        };
+        details.set_error_info(fault.reason(), DOMAIN, facts);
+        Status::with_error_details(code, fault.to_string(), details)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_status_carries_reason_and_field() {
+        let status: Status = Fault::invalid("mass_kg", "must be 0…500, got NaN")
+            .within("perturbations[2].load")
+            .into();
+        assert_eq!(status.code(), Code::InvalidArgument);
+        let details = status.get_error_details();
+        assert_eq!(
+            details.bad_request().unwrap().field_violations[0].field,
+            "perturbations[2].load.mass_kg"
+        );
+        assert_eq!(details.error_info().unwrap().reason, "INVALID_FIELD");
+        let status: Status = Fault::Exhausted {
+            limit: "max_worlds",
+            value: 3,
+            message: "one more world".into(),
+            retry: None,
+        }
+        .into();
+        assert_eq!(status.code(), Code::ResourceExhausted);
+        assert_eq!(
+            status
+                .get_error_details()
+                .quota_failure()
+                .unwrap()
+                .violations[0]
+                .subject,
+            "max_worlds"
+        );
+    }
+}

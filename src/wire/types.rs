@@ -1,0 +1,628 @@
+//! What requests and frames are about, as domain types: checked once at the edge, trusted afterwards.
+
+use crate::sim::body::{Body, NV, Posture, Profile, SegmentId, State};
+use crate::sim::figure::{ControllerKind, StepperKind, StrengthScale, TickReport};
+use crate::sim::math::Vec3;
+use crate::sim::motion::Target;
+use std::sync::Arc;
+
+/// A place on the ground: world x, y (m) and heading about z (rad).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Place {
+    /// World x, m.
+    pub x: f64,
+    /// World y, m.
+    pub y: f64,
+    /// Heading about z, rad.
+    pub yaw: f64,
+}
+
+/// What the clock does when a tick takes longer than its period.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Overrun {
+    /// Leaves out the deadlines that were missed.
+    Skip,
+    /// Computes up to this many missed ticks back to back, then leaves out the rest.
+    CatchUp(u32),
+    /// World time runs slower.
+    Dilate,
+}
+
+/// Settings of a world that may change while it runs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pace {
+    /// Name for people.
+    pub display_name: String,
+    /// Overrun policy.
+    pub overrun: Overrun,
+    /// Catch-up limit as it was set; used by `Overrun::CatchUp`.
+    pub catch_up_limit: u32,
+    /// World seconds per wall second.
+    pub speed: f64,
+}
+
+/// Settings of a new world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WorldSettings {
+    /// Ticks per second.
+    pub rate_hz: f64,
+    /// Substeps per tick.
+    pub substeps: u32,
+    /// Gravity, m/s².
+    pub gravity: f64,
+    /// Friction of the ground.
+    pub friction: f64,
+    /// What may change later.
+    pub pace: Pace,
+}
+
+/// What a world is doing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum WorldCondition {
+    /// Its clock runs.
+    Running,
+    /// Its clock is stopped.
+    Paused,
+    /// A step ended abnormally: why.
+    Failed(String),
+}
+
+/// A world as it is now.
+#[derive(Clone, Debug)]
+pub struct WorldInfo {
+    /// Last part of its name.
+    pub id: String,
+    /// Settings.
+    pub settings: WorldSettings,
+    /// What it is doing.
+    pub condition: WorldCondition,
+    /// Ticks computed.
+    pub tick: u64,
+    /// World time, s.
+    pub time: f64,
+    /// Number of figures.
+    pub figures: usize,
+    /// Epoch.
+    pub epoch: i32,
+    /// When it was created.
+    pub created: std::time::SystemTime,
+}
+
+/// Changes of a world; `None` leaves a setting as it is.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct WorldUpdate {
+    /// Name for people.
+    pub display_name: Option<String>,
+    /// Overrun policy; `CatchUp` carries a limit that `catch_up_limit` replaces.
+    pub overrun: Option<Overrun>,
+    /// Catch-up limit.
+    pub catch_up_limit: Option<u32>,
+    /// Speed.
+    pub speed: Option<f64>,
+}
+
+/// Which body: a name that says its profile, see [`super::convert::body`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodyRef {
+    /// Last part of the name.
+    pub id: String,
+    /// Who it stands for.
+    pub profile: Profile,
+}
+
+/// Settings of a new figure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FigureSettings {
+    /// Name for people.
+    pub display_name: String,
+    /// Body.
+    pub body: BodyRef,
+    /// Strength.
+    pub strength: StrengthScale,
+    /// Controller.
+    pub controller: ControllerKind,
+    /// Stepper.
+    pub stepper: StepperKind,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// A figure as it is now.
+#[derive(Clone, Debug)]
+pub struct FigureInfo {
+    /// Last part of its world's name.
+    pub world: String,
+    /// Last part of its name.
+    pub id: String,
+    /// Settings.
+    pub settings: FigureSettings,
+    /// Last part of the name of the clip it plays.
+    pub clip: Option<String>,
+    /// Who drives it.
+    pub driver: Option<String>,
+    /// Index in frames.
+    pub index: i32,
+}
+
+/// Changes of a figure; `None` leaves a setting as it is.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FigureUpdate {
+    /// Name for people.
+    pub display_name: Option<String>,
+    /// Strength.
+    pub strength: Option<StrengthScale>,
+    /// Controller.
+    pub controller: Option<ControllerKind>,
+}
+
+/// What disturbs a figure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Disturbance {
+    /// A carried mass, kg.
+    Load {
+        /// Carrying segment.
+        segment: SegmentId,
+        /// Where, segment frame; `None`: the tip of hands and feet, else the centre of mass.
+        point: Option<Vec3>,
+        /// Mass, kg.
+        mass: f64,
+        /// How long, s; infinite until cleared.
+        duration: f64,
+    },
+    /// A force, N, world axes. An impulse is the force that gives it over its duration.
+    Force {
+        /// Pushed segment.
+        segment: SegmentId,
+        /// Where, segment frame; `None`: the centre of mass.
+        point: Option<Vec3>,
+        /// Force, N.
+        force: Vec3,
+        /// How long, s; infinite until cleared.
+        duration: f64,
+    },
+}
+
+/// A disturbance of one figure of a world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FigureDisturbance {
+    /// Last part of the figure's name.
+    pub figure: String,
+    /// Tick at whose start it begins; `None`: the next.
+    pub tick: Option<i64>,
+    /// What happens.
+    pub what: Disturbance,
+}
+
+/// How a clip is played.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Playback {
+    /// Speed factor.
+    pub speed: f64,
+    /// Repeat.
+    pub looped: bool,
+    /// World time of the start, s; `None`: the next tick.
+    pub start: Option<f64>,
+    /// Put the figure into the first posture.
+    pub reset: bool,
+    /// Where the clip begins; `None`: where the figure is.
+    pub place: Option<Place>,
+}
+
+/// Delay between arrival and use of live motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Delay {
+    /// Always this many seconds.
+    Fixed(f64),
+    /// As the arrival jitter needs, at most this many seconds.
+    Adaptive {
+        /// Largest delay, s.
+        most: f64,
+    },
+}
+
+/// How a drive answers when frames are late, and how long it lasts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DriveSettings {
+    /// Expected frames per second.
+    pub rate_hz: f64,
+    /// Delay between arrival and use.
+    pub delay: Delay,
+    /// How long the last velocity is continued, s; 0 holds at once.
+    pub extrapolation: f64,
+    /// How long the last posture is held before relaxing, s.
+    pub hold: f64,
+    /// How long the figures are kept without a connection or push, s.
+    pub grace: f64,
+    /// Put each figure into its first desired posture.
+    pub reset: bool,
+}
+
+/// Header of a drive.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DriveOpen {
+    /// Last part of the world's name.
+    pub world: String,
+    /// Last parts of the figures' names.
+    pub figures: Vec<String>,
+    /// Who drives; empty: the server chooses.
+    pub driver: String,
+    /// Settings.
+    pub settings: DriveSettings,
+}
+
+/// Desired motion of one figure at one instant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FigureSample {
+    /// Position in the drive's list of figures.
+    pub slot: usize,
+    /// Desired posture. Without `has_root` its pelvis pose means nothing.
+    pub posture: Posture,
+    /// True if the sender gave the pelvis pose.
+    pub has_root: bool,
+    /// Desired velocity, layout of `State::velocity`.
+    pub velocity: Option<Box<[f64; NV]>>,
+    /// Which feet are planted.
+    pub planted: Option<[bool; 2]>,
+}
+
+/// Desired motion at one instant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MotionSample {
+    /// Sequence.
+    pub sequence: i64,
+    /// Source time, ns on the driver's clock.
+    pub source_ns: i64,
+    /// Driven figures.
+    pub figures: Vec<FigureSample>,
+}
+
+/// How the jitter buffer answered.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Supply {
+    /// Nothing was asked yet.
+    #[default]
+    None,
+    /// A frame exactly at the wanted time.
+    Present,
+    /// Between two frames.
+    Interpolated,
+    /// Beyond the newest frame.
+    Extrapolated,
+    /// The last posture.
+    Held,
+    /// On the way to, or in, quiet standing.
+    Relaxed,
+    /// Before the first frame.
+    Waiting,
+}
+
+/// State of the buffer of one figure.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FigureFeedback {
+    /// Last part of the figure's name.
+    pub figure: String,
+    /// Sequence of the newest frame that acts; −1 if none.
+    pub applied_sequence: i64,
+    /// Source time that acts, ns.
+    pub applied_source_ns: i64,
+    /// Motion held but not used, s.
+    pub buffered: f64,
+    /// Present delay, s.
+    pub delay: f64,
+    /// p99 of the arrival jitter, s.
+    pub jitter: f64,
+    /// Last answer.
+    pub supply: Supply,
+    /// Ticks by answer: present, interpolated, extrapolated, held, relaxed.
+    pub ticks: [u64; 5],
+    /// Frames too late to act.
+    pub late: u64,
+    /// Frames not newer than what was there.
+    pub stale: u64,
+    /// Frames dropped for want of room.
+    pub overflow: u64,
+}
+
+/// State of a drive.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Feedback {
+    /// Who drives.
+    pub driver: String,
+    /// Tick of the world.
+    pub tick: u64,
+    /// Largest sequence taken; −1 if none.
+    pub received_sequence: i64,
+    /// Refused batches.
+    pub refused: u64,
+    /// Figures.
+    pub figures: Vec<FigureFeedback>,
+}
+
+/// How numbers are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum NumberFormat {
+    /// 32-bit floating point.
+    Float,
+    /// 64-bit floating point.
+    Double,
+    /// 16-bit fixed point.
+    Fixed16,
+}
+
+/// A set of the optional fields of a figure's frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Fields(pub u32);
+
+/// What a viewer wants; equal views share encoded frames.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct ViewSpec {
+    /// Last parts of figure names, sorted; empty: all.
+    pub figures: Vec<String>,
+    /// Fields.
+    pub fields: Fields,
+    /// Number format.
+    pub format: NumberFormat,
+    /// One frame for every so many ticks.
+    pub divisor: u32,
+}
+
+/// One figure of a roster.
+#[derive(Clone, Debug)]
+pub struct RosterEntry {
+    /// Index in frames.
+    pub index: i32,
+    /// Last part of the figure's name.
+    pub figure: String,
+    /// Last part of the body's name.
+    pub body: String,
+}
+
+/// What a world looks like after one tick: everything that any view can show.
+#[derive(Clone, Debug)]
+pub struct Snapshot {
+    /// Last part of the world's name.
+    pub world: Arc<str>,
+    /// Ticks per second.
+    pub rate_hz: f64,
+    /// Gravity, m/s².
+    pub gravity: f64,
+    /// Ticks computed.
+    pub tick: u64,
+    /// World time, s.
+    pub time: f64,
+    /// State hash.
+    pub hash: u64,
+    /// Epoch.
+    pub epoch: i32,
+    /// Server clock, ns since 1970.
+    pub server_ns: i64,
+    /// Version of the roster.
+    pub roster_version: i32,
+    /// Who is who; same order as `figures`.
+    pub roster: Arc<[RosterEntry]>,
+    /// Figures, in the order of creation.
+    pub figures: Vec<FigureSnapshot>,
+}
+
+/// One figure after one tick.
+#[derive(Clone, Debug)]
+pub struct FigureSnapshot {
+    /// Its body.
+    pub body: Arc<Body>,
+    /// Positions and velocities.
+    pub state: State,
+    /// What the tick did; `None` before the first.
+    pub report: Option<TickReport>,
+    /// What was asked for at the end of the tick.
+    pub desired: Target,
+    /// Sequence of the desired-motion frame that acts; −1 if not driven live.
+    pub applied_sequence: i64,
+    /// Its source time, ns.
+    pub applied_source_ns: i64,
+    /// Loads carried: segment, point (segment frame, m), mass (kg).
+    pub loads: Vec<(SegmentId, Vec3, f64)>,
+}
+
+/// What happened in a world.
+#[derive(Clone, Debug, PartialEq)]
+pub enum EventKind {
+    /// A segment began to support the figure.
+    SupportGained(SegmentId),
+    /// A segment no longer supports it.
+    SupportLost(SegmentId),
+    /// A DOF reached the limit of its strength.
+    Saturated(usize),
+    /// A DOF is no longer at its limit.
+    Relieved(usize),
+    /// Balance was lost.
+    BalanceLost,
+    /// Balance was found again.
+    Recovered,
+    /// The figure fell.
+    Fell,
+    /// The figure stands again after a fall.
+    GotUp,
+    /// A load was taken: segment, kg.
+    LoadTaken(SegmentId, f64),
+    /// A load was dropped: segment, kg.
+    LoadDropped(SegmentId, f64),
+    /// The figure is frozen at its last good state.
+    Quarantined,
+    /// A figure was added.
+    FigureAdded,
+    /// A figure was removed.
+    FigureRemoved,
+    /// A driver took the figure.
+    DriveBegan(String),
+    /// A driver no longer has the figure: driver, why.
+    DriveEnded(String),
+    /// The world was paused.
+    Paused,
+    /// The world was resumed.
+    Resumed,
+    /// The world failed: why.
+    Failed(String),
+}
+
+/// One event.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WorldEvent {
+    /// Tick after which it was true.
+    pub tick: u64,
+    /// World time, s.
+    pub time: f64,
+    /// Last part of the figure's name; empty for events of the world.
+    pub figure: String,
+    /// What happened.
+    pub kind: EventKind,
+}
+
+/// Which events a viewer wants.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct EventFilter {
+    /// Last parts of figure names; empty: all, and events of the world.
+    pub figures: Vec<String>,
+    /// Wanted types as on the wire; empty: all.
+    pub types: Vec<i32>,
+}
+
+/// How a BVH file is read; `None` leaves the choice to the reader.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BvhReading {
+    /// Length of a file unit, m.
+    pub unit_m: Option<f64>,
+    /// True: z is up; false: y.
+    pub z_up: Option<bool>,
+    /// Frames per second.
+    pub rate_hz: Option<f64>,
+    /// Put the feet on the floor.
+    pub floor: Option<bool>,
+    /// Keep planted feet from sliding.
+    pub lock_feet: Option<bool>,
+    /// Low-pass corner, Hz.
+    pub cutoff_hz: Option<f64>,
+}
+
+/// Where a motion comes from.
+#[derive(Clone, Debug)]
+pub enum MotionSource {
+    /// Bytes of a BVH file.
+    Bvh(prost::bytes::Bytes, BvhReading),
+    /// Postures at a constant rate.
+    Postures {
+        /// Frames per second.
+        rate_hz: f64,
+        /// At least two.
+        postures: Vec<Posture>,
+        /// Which feet are planted, one per posture; empty: decided from height and speed.
+        planted: Vec<[bool; 2]>,
+    },
+}
+
+/// A stored motion as it is described to clients.
+#[derive(Clone, Debug)]
+pub struct ClipInfo {
+    /// Last part of its name.
+    pub id: String,
+    /// Name for people.
+    pub display_name: String,
+    /// Comes with the server.
+    pub builtin: bool,
+    /// Last part of the name of the body it was prepared for.
+    pub body: String,
+    /// Frames per second.
+    pub rate_hz: f64,
+    /// Number of frames.
+    pub frames: usize,
+    /// Length, s.
+    pub duration: f64,
+    /// How the file was understood.
+    pub report: Option<Arc<ReadingReport>>,
+    /// When it was stored.
+    pub created: Option<std::time::SystemTime>,
+}
+
+/// How a file was understood, in the words of the API.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ReadingReport {
+    /// Bone and the joints of the file that drive it.
+    pub mapped: Vec<(String, Vec<String>)>,
+    /// Bones without a counterpart.
+    pub missing: Vec<String>,
+    /// Bones were found by shape.
+    pub by_structure: bool,
+    /// Left and right were swapped.
+    pub sides_swapped: bool,
+    /// Length of a file unit, m.
+    pub unit_m: f64,
+    /// File axis that points up.
+    pub up_axis: String,
+    /// Stature of the captured person, m.
+    pub stature_m: f64,
+    /// Scale of the pelvis motion.
+    pub scale: f64,
+    /// Frames per second of the file.
+    pub source_rate_hz: f64,
+    /// Height taken off, m.
+    pub floor_offset_m: f64,
+    /// DOF, fraction of frames clamped, largest excess (rad).
+    pub clamped: Vec<(String, f64, f64)>,
+    /// Largest distance of a planted foot from its place, as recorded and as prepared, m.
+    pub foot_slide_m: [f64; 2],
+    /// Frames bridged.
+    pub bridged: usize,
+    /// Calibration frames dropped at the start.
+    pub dropped: usize,
+    /// Left foot?, start, end (s).
+    pub phases: Vec<(bool, f64, f64)>,
+    /// Anything else.
+    pub warnings: Vec<String>,
+}
+
+/// What an offline simulation is asked for.
+#[derive(Clone, Debug)]
+pub struct SimulationSettings {
+    /// The figure.
+    pub figure: FigureSettings,
+    /// Ticks per second.
+    pub rate_hz: f64,
+    /// Substeps per tick.
+    pub substeps: u32,
+    /// How long, s; `None`: the length of the clip.
+    pub duration: Option<f64>,
+    /// Repeat the clip.
+    pub looped: bool,
+    /// Disturbances by time, s.
+    pub disturbances: Vec<(f64, Disturbance)>,
+    /// Frames wanted.
+    pub view: Option<ViewSpec>,
+}
+
+/// Figures of merit of a simulation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SimulationSummary {
+    /// Ticks.
+    pub ticks: u64,
+    /// Ticks per second.
+    pub rate_hz: f64,
+    /// When the figure fell, s.
+    pub fell_at: Option<f64>,
+    /// Root mean square of the joint errors, rad.
+    pub joint_rms: f64,
+    /// Largest joint error, rad.
+    pub joint_max: f64,
+    /// Largest torque relative to the torque available.
+    pub utilisation: f64,
+    /// Largest violation of the strength.
+    pub over_limit: f64,
+    /// Time at the limit per DOF, s.
+    pub saturated: Vec<f64>,
+    /// Least margin, m.
+    pub margin: Option<f64>,
+    /// Largest penetration, m.
+    pub penetration: f64,
+    /// State hash at the end.
+    pub hash: u64,
+    /// Median and p99 of the time of a tick, µs.
+    pub tick_us: [f64; 2],
+}
