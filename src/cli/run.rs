@@ -235,7 +235,7 @@ fn check(args: &RunArgs) -> Result<()> {
     Ok(())
 }
 
-/// Runs every clip, several at a time if asked for, and prints one line per clip in their order.
+/// Runs every clip, several at a time if asked for, and prints a line as each one ends; the results are in the order of the clips.
 fn run_all(scenario: &Scenario<'_>, sources: &[Source]) -> Result<Vec<serde_json::Value>> {
     let bars = MultiProgress::new();
     let next = AtomicUsize::new(0);
