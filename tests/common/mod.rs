@@ -1,8 +1,11 @@
 //! Scenes shared by the tests that run whole figures: bodies, clips, one figure in a world, and its measures.
 #![allow(dead_code, clippy::unwrap_used)] // every test file uses its own part
 
+use sinew::evaluate::pose::segment_poses;
 use sinew::evaluate::{Metrics, RunReport, Tick};
-use sinew::sim::body::{Body, Posture, State};
+use sinew::sim::body::angles::set_anatomical_angles;
+use sinew::sim::body::topology::{DOF_NAMES, L_FOOT, R_FOOT};
+use sinew::sim::body::{Body, DOF_COUNT, Posture, State};
 use sinew::sim::figure::{ControlParams, ControllerKind, StepperKind, StrengthScale};
 use sinew::sim::motion::builtin::builtin;
 use sinew::sim::motion::retarget::{RetargetOptions, retarget};
@@ -167,4 +170,40 @@ impl Scene {
             gravity: self.world.params().gravity,
         }
     }
+}
+
+/// Knees bent by `2·bend` rad over flat feet, trunk upright, arms hanging; ankles below the world origin, soles on the floor.
+///
+/// Made with the arithmetic of the simulation alone, so that it has the same bits on every machine.
+pub fn bent(body: &Body, bend: f64) -> Posture {
+    let mut angles = [0.0; DOF_COUNT];
+    for side in ["l", "r"] {
+        let mut set = |joint: &str, angle: f64| {
+            let name = format!("{side}_{joint}");
+            angles[DOF_NAMES.iter().position(|n| *n == name).unwrap()] = angle;
+        };
+        set("hip_flexion", bend);
+        set("knee_flexion", 2.0 * bend);
+        set("ankle_flexion", bend);
+        set("elbow_flexion", 0.3);
+    }
+    let mut posture = Posture::default();
+    set_anatomical_angles(&mut posture, &angles);
+    on_floor(body, &mut posture);
+    posture
+}
+
+/// Shifts a posture so that its lowest point is on the floor and the mean of its ankles above the world origin.
+pub fn on_floor(body: &Body, posture: &mut Posture) {
+    let poses = segment_poses(&body.joint_offset, posture);
+    let ankles = (poses[L_FOOT.index()].position + poses[R_FOOT.index()].position) * 0.5;
+    let mut lowest = f64::INFINITY;
+    for (segment, pose) in body.segments.iter().zip(&poses) {
+        for p in &segment.contact_points {
+            lowest = lowest.min(pose.point(*p).z);
+        }
+    }
+    posture.root_position.x -= ankles.x;
+    posture.root_position.y -= ankles.y;
+    posture.root_position.z -= lowest;
 }
