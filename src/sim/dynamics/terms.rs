@@ -15,8 +15,8 @@ pub const WIDTH: usize = 48;
 /// A force on a point of a segment: segment, point (segment frame, m), force (world axes, N).
 pub type AppliedForce = (SegmentId, Vec3, Vec3);
 
-/// Dynamics of one state. Boxed once per figure; [`Terms::compute`] allocates nothing.
-#[derive(Clone, Debug)]
+/// Dynamics of one state. Boxed once per figure; [`Terms::compute`] and `clone_from` allocate nothing.
+#[derive(Debug)]
 pub struct Terms {
     /// The state.
     pub state: State,
@@ -43,6 +43,48 @@ pub struct Terms {
     bias: RneaWorkspace<f64>,
     scratch: RneaWorkspace<f64>,
     external: [External; SEGMENT_COUNT],
+}
+
+impl Clone for Terms {
+    fn clone(&self) -> Self {
+        let mut out = Self::default();
+        out.clone_from(self);
+        out
+    }
+
+    /// Field by field: the derived one would drop the box and allocate another, every tick.
+    fn clone_from(&mut self, other: &Self) {
+        let Self {
+            state,
+            kin,
+            mass_matrix,
+            m,
+            h,
+            mass,
+            com,
+            com_velocity,
+            com_bias,
+            jc,
+            composite,
+            bias,
+            scratch,
+            external,
+        } = other;
+        self.state = *state;
+        self.kin.clone_from(kin);
+        self.mass_matrix.clone_from(mass_matrix);
+        self.m.clone_from(m);
+        self.h = *h;
+        self.mass = *mass;
+        self.com = *com;
+        self.com_velocity = *com_velocity;
+        self.com_bias = *com_bias;
+        self.jc = *jc;
+        self.composite.clone_from(composite);
+        self.bias.clone_from(bias);
+        self.scratch.clone_from(scratch);
+        self.external = *external;
+    }
 }
 
 impl Default for Terms {

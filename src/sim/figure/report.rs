@@ -67,7 +67,7 @@ impl Flags {
 
 /// The last substep as it was solved. It satisfies the equations of motion to rounding:
 /// `M v̇ + h = Sᵀτ + Σ Jᵀ f`, with `h` from Coriolis forces and gravity.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct Audit {
     /// State at the start of the substep.
     pub state: State,
@@ -81,6 +81,37 @@ pub struct Audit {
     pub contacts: Vec<ContactPoint>,
     /// Forces of perturbations: segment, world point, world force (N).
     pub applied: Vec<(SegmentId, Vec3, Vec3)>,
+}
+
+impl Clone for Audit {
+    fn clone(&self) -> Self {
+        Self {
+            state: self.state,
+            acceleration: self.acceleration,
+            torque: self.torque,
+            ligament_torque: self.ligament_torque,
+            contacts: self.contacts.clone(),
+            applied: self.applied.clone(),
+        }
+    }
+
+    /// Keeps the lists' memory: the derived one would allocate every tick.
+    fn clone_from(&mut self, other: &Self) {
+        let Self {
+            state,
+            acceleration,
+            torque,
+            ligament_torque,
+            contacts,
+            applied,
+        } = other;
+        self.state = *state;
+        self.acceleration = *acceleration;
+        self.torque = *torque;
+        self.ligament_torque = *ligament_torque;
+        self.contacts.clone_from(contacts);
+        self.applied.clone_from(applied);
+    }
 }
 
 /// What one tick of one figure did. Torques and forces are means over the tick.
