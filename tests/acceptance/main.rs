@@ -1,0 +1,56 @@
+//! Acceptance scenarios: whole figures in whole worlds against statics, pendulums, parabolas and conservation laws.
+//!
+//! * `stand`: ten seconds of standing still.
+//! * `push`: what a standing figure survives, and where it falls when it does not.
+//! * `fall`: a stiff figure is a physical pendulum.
+//! * `flight`: the parabola and the momenta of a thrown figure; a limp one gains no energy.
+//! * `load`: a held load is inertia.
+//! * `containment`: bad input is refused, a figure that runs away harms nobody.
+//!
+//! Everything is seeded or constant; nothing is timed.
+#![allow(clippy::unwrap_used)]
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod containment;
+mod fall;
+mod flight;
+mod load;
+mod push;
+mod stand;
+
+use sinew::sim::body::{DOF_COUNT, Links, State};
+use sinew::sim::dynamics::{Kinematics, Momentum, center_of_mass, kinetic_energy, momentum};
+use sinew::sim::math::Vec3;
+
+/// Gravity of the default world, m/s².
+const GRAVITY: f64 = 9.81;
+
+/// A vector.
+fn vec3(x: f64, y: f64, z: f64) -> Vec3 {
+    Vec3 { x, y, z }
+}
+
+/// World integrals of one state.
+struct Integrals {
+    com: Vec3,
+    momentum: Momentum,
+    /// Kinetic (armature included) and potential energy, J.
+    energy: f64,
+}
+
+fn integrals(links: &Links, state: &State) -> Integrals {
+    let mut kin = Kinematics::default();
+    kin.set_state(links, state);
+    let (com, mass) = center_of_mass(links, &kin);
+    let com = state.posture.root_position + com;
+    let rotors: f64 = (0..DOF_COUNT)
+        .map(|d| 0.5 * links.armature[d] * state.velocity[6 + d].powi(2))
+        .sum();
+    Integrals {
+        com,
+        momentum: momentum(links, &kin),
+        energy: kinetic_energy(links, &kin) + rotors + mass * GRAVITY * com.z,
+    }
+}
