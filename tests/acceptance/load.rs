@@ -2,7 +2,7 @@
 //! Method: statics of a stretched arm; conservation of momentum in weightless flight.
 
 use crate::common::{Scene, authored, bent, figure, man, still};
-use crate::{GRAVITY, integrals, vec3};
+use crate::{GRAVITY, integrals};
 use sinew::evaluate::audit::inertial_forces;
 use sinew::evaluate::pose::segment_poses;
 use sinew::sim::body::angles::{anatomical_angles, set_anatomical_angles};
@@ -202,6 +202,5 @@ fn a_dropped_load_is_forgotten() {
             moved.norm()
         );
         assert!(moved.norm() < 2e-3, "{kind:?}: {} m", moved.norm());
-        let _ = vec3(0.0, 0.0, 0.0);
     }
 }
