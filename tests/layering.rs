@@ -3,6 +3,7 @@
 //! Goal: a module uses only what lies to its right in the table below, and the physics names nothing of network, clock, files or
 //! platform mathematics. Method: a small reader of Rust tokens resolves every path that starts with `crate`, `super`, `self` or `sinew`
 //! (imports, re-exports and paths in code alike) to a module, and looks the pair up. Test modules are left out: they may look anywhere.
+#![allow(clippy::unwrap_used)] // a panic here is the failure message
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

@@ -235,7 +235,7 @@ fn check(args: &RunArgs) -> Result<()> {
     Ok(())
 }
 
-/// Runs every clip, several at a time if asked for, and prints one line per clip in their order.
+/// Runs every clip, several at a time if asked for, and prints a line as each one ends; the results are in the order of the clips.
 fn run_all(scenario: &Scenario<'_>, sources: &[Source]) -> Result<Vec<serde_json::Value>> {
     let bars = MultiProgress::new();
     let next = AtomicUsize::new(0);
@@ -593,11 +593,13 @@ fn summary_header() -> String {
 }
 
 fn summary_line(name: &str, r: &RunReport) -> String {
-    let result = match (r.quarantined_at_s, r.fell_at_s) {
-        (Some(t), _) => format!("frozen at {t:.2} s"),
-        (None, Some(t)) => format!("fell at {t:.2} s"),
-        (None, None) => "stood".to_owned(),
+    let mut result = match r.fell_at_s {
+        Some(t) => format!("fell at {t:.2} s"),
+        None => "stood".to_owned(),
     };
+    if let Some(t) = r.quarantined_at_s {
+        result += &format!(", frozen at {t:.2} s");
+    }
     let margin = r
         .margin_min_m
         .map_or_else(|| "none".to_owned(), |m| format!("{m:.3}"));

@@ -54,6 +54,8 @@ pub struct Frame {
     pub loads: Vec<(usize, Vec3, f64)>,
     /// The figure has fallen.
     pub fallen: bool,
+    /// The figure is frozen at its last good state: forces and utilisation are none of this instant's.
+    pub frozen: bool,
 }
 
 impl Frame {
@@ -62,7 +64,8 @@ impl Frame {
         let report = tick.report;
         let mut contact = [(Vec3::zero(), Vec3::zero()); SEGMENT_COUNT];
         let mut weight = [0.0; SEGMENT_COUNT];
-        for c in &report.contacts {
+        let frozen = report.flags.has(Flags::QUARANTINED);
+        for c in report.contacts.iter().filter(|_| !frozen) {
             let s = c.segment.index();
             let n = c.force.norm();
             contact[s].0 += c.position * n;
@@ -82,9 +85,14 @@ impl Frame {
             com: report.com,
             zmp: report.zmp,
             polygon: report.support_polygon.clone(),
-            utilisation: tick.utilisation(),
+            utilisation: if frozen {
+                [0.0; DOF_COUNT]
+            } else {
+                tick.utilisation()
+            },
             loads,
             fallen: report.flags.has(Flags::FALLEN),
+            frozen,
         }
     }
 }

@@ -28,6 +28,8 @@ const FAINT: Rgba = Rgba::hex(0x77_7c84);
 const NEAR: f64 = 0.8;
 /// A force of the body's weight is drawn this long, m.
 const WEIGHT_LENGTH: f64 = 0.45;
+/// Impacts reach many times the weight; their arrows end here, m.
+const LONGEST_FORCE: f64 = 1.0;
 /// Half depth of a ground tile, m.
 const TILE_DEPTH: f64 = 0.5;
 /// A ghost farther off than this is not drawn: after a fall the desired motion walks on alone, m.
@@ -450,7 +452,9 @@ fn marks(
     let weight = body.profile.mass * 9.81;
     for (point, force) in frame.contact {
         let length = force * (WEIGHT_LENGTH / weight);
-        if length.norm() > 0.01 {
+        let n = length.norm();
+        if n > 0.01 {
+            let length = length * (LONGEST_FORCE / n).min(1.0);
             arrow(items, place.flat(point), place.flat(point + length));
         }
     }
@@ -536,7 +540,9 @@ fn arrow(items: &mut Vec<Item>, from: [f64; 2], to: [f64; 2]) {
 }
 
 fn label(items: &mut Vec<Item>, frame: &Frame, at: [f64; 2]) {
-    let (text, colour) = if frame.fallen {
+    let (text, colour) = if frame.frozen {
+        (format!("{:.2} s, frozen", frame.time_s), LIMIT)
+    } else if frame.fallen {
         (format!("{:.2} s, fallen", frame.time_s), LIMIT)
     } else {
         (format!("{:.2} s", frame.time_s), INK)

@@ -27,6 +27,7 @@ fn frame(body: &Body) -> Frame {
         utilisation,
         loads: vec![(9, Vec3::zero(), 5.0)],
         fallen: false,
+        frozen: false,
     }
 }
 

@@ -69,8 +69,6 @@ pub struct Measures {
     pub leg: f64,
     /// Ankle over the sole, m.
     pub ankle: f64,
-    /// Hip centre to the side, m.
-    pub hip: f64,
     /// Heel behind the ankle, m.
     pub heel: f64,
     /// Toe joint from the ankle, foot frame, m.
@@ -79,7 +77,7 @@ pub struct Measures {
 
 impl Measures {
     pub fn of(body: &Body) -> Self {
-        let [thigh, shank, foot, toes] = leg_segments(true).map(|s| s.index());
+        let [_, shank, foot, toes] = leg_segments(true).map(|s| s.index());
         debug_assert_eq!((shank, foot), (L_SHANK.index(), L_FOOT.index()));
         let leg = body.joint_offset[shank].norm() + body.joint_offset[foot].norm();
         let sole = &body.segments[foot].contact_points;
@@ -88,7 +86,6 @@ impl Measures {
             scale: leg / REFERENCE_LEG,
             leg,
             ankle: -least(|p| p.z),
-            hip: body.joint_offset[thigh].y,
             heel: -least(|p| p.x),
             ball: body.joint_offset[toes],
         }
