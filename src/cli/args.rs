@@ -72,9 +72,9 @@ pub fn sex_name(sex: Sex) -> &'static str {
 #[serde(rename_all = "snake_case")]
 pub enum ControllerArg {
     /// The paper's controller.
-    #[default]
     Paper,
-    /// Whole-body quadratic program.
+    /// Whole-body optimisation within strength and friction.
+    #[default]
     Modern,
     /// Strength-limited motors at the joints alone.
     Motors,

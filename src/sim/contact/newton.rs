@@ -239,7 +239,7 @@ pub fn minimise<S: System>(
             let (mut lo, mut flo, mut hi, mut fhi) = (0.0, slope0, 1.0, full);
             for _ in 0..LINE_SEARCH {
                 a = lo - flo * (hi - lo) / (fhi - flo);
-                if !(a > lo + 1e-3 * (hi - lo)) {
+                if a.is_nan() || a <= lo + 1e-3 * (hi - lo) {
                     a = lo + 1e-2 * (hi - lo);
                 }
                 let p = phi(a);

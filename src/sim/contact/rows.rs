@@ -85,10 +85,8 @@ impl ContactRows {
 
     /// Slot of `segment`, added with its Jacobian if it has none yet. Points must be added segment by segment.
     pub fn slot(&mut self, kin: &Kinematics<f64>, segment: usize) -> usize {
-        if let Some(last) = self.segments.last() {
-            if last.segment == segment {
-                return self.segments.len() - 1;
-            }
+        if self.segments.last().is_some_and(|last| last.segment == segment) {
+            return self.segments.len() - 1;
         }
         let mut jacobian = [[0.0; CHAIN_WIDTH]; 6];
         for_each_column(kin, segment, kin.position[segment], |i, a, v| {

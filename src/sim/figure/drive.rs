@@ -22,6 +22,7 @@ pub struct ClipPlayback {
 
 /// Source of the desired motion.
 #[derive(Clone, Debug)]
+#[allow(clippy::large_enum_variant)] // one per figure; boxing a posture would only add a pointer chase
 pub enum Drive {
     /// Stand still in a posture.
     Hold(Posture),

@@ -10,9 +10,9 @@ use crate::sim::figure::{ControllerKind, StepperKind, StrengthScale};
 /// Controller of a request.
 pub fn controller(field: &str, value: i32) -> Result<ControllerKind, Fault> {
     match pb::Controller::try_from(value) {
-        Ok(pb::Controller::Unspecified | pb::Controller::Paper) => Ok(ControllerKind::Paper),
+        Ok(pb::Controller::Unspecified | pb::Controller::Modern) => Ok(ControllerKind::Modern),
+        Ok(pb::Controller::Paper) => Ok(ControllerKind::Paper),
         Ok(pb::Controller::Motors) => Ok(ControllerKind::Motors),
-        Ok(pb::Controller::Modern) => Ok(ControllerKind::Modern),
         Err(_) => Err(Fault::invalid(
             field,
             format!("{value} is not a controller"),

@@ -1103,7 +1103,7 @@ pub struct ResetFigureResponse {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
 #[repr(i32)]
 pub enum Controller {
-    /// The default: CONTROLLER_PAPER.
+    /// The default: CONTROLLER_MODERN.
     Unspecified = 0,
     /// The tracking controller of Oshita and Makinouchi 2000, with safeguards.
     Paper = 1,
