@@ -10,7 +10,7 @@ pub mod tables;
 mod tests;
 
 use crate::sim::body::{Body, DOF_COUNT, Sex};
-use crate::sim::math::exp::exp;
+use crate::sim::math::exp::{exp, ln};
 use curve::{AngleFactor, Muscle, VelocityFactor};
 use tables::{Action, AndersonRow, Group, Leg, Origin, Tissue};
 
@@ -80,7 +80,7 @@ impl Passive {
             steepness,
             onset,
             cap,
-            capped_at: (cap / amplitude).ln() / steepness,
+            capped_at: ln(cap / amplitude) / steepness,
         }
     }
     /// Torque (N·m, ≥ 0) at `x` rad beyond the onset.
@@ -238,7 +238,7 @@ fn passive(tissue: Tissue, limit: f64, cap: f64, sign: f64) -> Passive {
 
 /// Tissue that gives 1 % of `cap` at `start` and all of it at `full` (rad, growing towards the limit).
 fn between(start: f64, full: f64, cap: f64) -> Passive {
-    Passive::new(0.01 * cap, 100f64.ln() / (full - start), start, cap)
+    Passive::new(0.01 * cap, ln(100.0) / (full - start), start, cap)
 }
 
 /// What the tables are scaled by.

@@ -1,0 +1,183 @@
+//! Goal: after a warm-up, a tick allocates nothing, whatever the figure does: no pauses, no growth.
+//! Method: a counting global allocator around [`World::step`] on one thread; a first test shows that it counts.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use allocation_counter::measure;
+use common::{Scene, authored, bent, figure, man, play, still};
+use sinew::sim::body::SegmentId;
+use sinew::sim::body::topology::{CHEST, L_HAND, R_HAND};
+use sinew::sim::figure::{ControllerKind, Flags, Perturbation};
+use sinew::sim::math::{Quat, Vec3};
+use sinew::sim::world::{Drive, World};
+
+const KINDS: [ControllerKind; 3] = [
+    ControllerKind::Modern,
+    ControllerKind::Paper,
+    ControllerKind::Motors,
+];
+/// Ticks before counting starts.
+const WARM_UP: usize = 3;
+
+/// Steps `seconds`; panics if any tick allocates.
+fn assert_none(what: &str, scene: &mut Scene, seconds: f64) {
+    for _ in 0..WARM_UP {
+        scene.world.step();
+    }
+    for _ in 0..scene.ticks(seconds) {
+        let world: &mut World = &mut scene.world;
+        let counted = measure(|| world.step());
+        assert_eq!(
+            (counted.count_total, counted.bytes_total),
+            (0, 0),
+            "{what}: allocations and bytes of tick {}",
+            scene.world.tick()
+        );
+    }
+    assert!(
+        !scene
+            .figure()
+            .report()
+            .unwrap()
+            .flags
+            .has(Flags::QUARANTINED),
+        "{what}"
+    );
+}
+
+fn standing(kind: ControllerKind) -> Scene {
+    let body = man();
+    Scene::of(figure(&body, kind, still(bent(&body, 0.3))))
+}
+
+fn push(scene: &mut Scene, newtons: Vec3, from: f64) {
+    let what = Perturbation::Force {
+        segment: CHEST,
+        point: Vec3::zero(),
+        force: newtons,
+        from,
+        to: from + 0.15,
+    };
+    scene.world.perturb(scene.key, what).unwrap();
+}
+
+fn load(scene: &mut Scene, segment: SegmentId, kg: f64, from: f64, to: f64) {
+    let what = Perturbation::Load {
+        segment,
+        point: Vec3 {
+            x: 0.0,
+            y: 0.0,
+            z: -0.08,
+        },
+        mass: kg,
+        from,
+        to,
+    };
+    scene.world.perturb(scene.key, what).unwrap();
+}
+
+#[test]
+fn the_counter_counts() {
+    let counted = measure(|| drop(std::hint::black_box(vec![0u8; 100])));
+    assert_eq!((counted.count_total, counted.bytes_total), (1, 100));
+}
+
+#[test]
+fn standing_allocates_nothing() {
+    for kind in KINDS {
+        assert_none(&format!("{kind:?}"), &mut standing(kind), 1.0);
+    }
+}
+
+#[test]
+fn playing_a_clip_allocates_nothing() {
+    let body = man();
+    for kind in KINDS {
+        for name in ["lift", "walk"] {
+            let clip = authored(&body, name);
+            let mut scene = Scene::playing(&body, kind, &clip);
+            assert_none(&format!("{kind:?} {name}"), &mut scene, clip.duration());
+        }
+        // Over the seam of a loop.
+        let clip = authored(&body, "step");
+        let mut scene = Scene::playing(&body, kind, &clip);
+        if let Drive::Clip(mut play) = play(&clip) {
+            play.looped = true;
+            play.speed = 2.0;
+            scene.figure_mut().set_drive(Drive::Clip(play));
+        }
+        assert_none(&format!("{kind:?} loop"), &mut scene, 0.6 * clip.duration());
+    }
+}
+
+#[test]
+fn loads_and_pushes_allocate_nothing() {
+    for kind in KINDS {
+        let mut scene = standing(kind);
+        load(&mut scene, R_HAND, 3.0, 0.2, 0.9);
+        load(&mut scene, L_HAND, 1.0, 0.4, 0.6);
+        push(&mut scene, Vec3::X * 60.0, 0.3);
+        push(&mut scene, Vec3::Y * -40.0, 0.35);
+        assert_none(&format!("{kind:?}"), &mut scene, 1.5);
+    }
+}
+
+#[test]
+fn falling_and_lying_allocate_nothing() {
+    for kind in KINDS {
+        let mut scene = standing(kind);
+        push(&mut scene, Vec3::X * 1500.0, 0.2);
+        assert_none(&format!("{kind:?}"), &mut scene, 4.0);
+        assert!(
+            scene.figure().is_fallen(),
+            "{kind:?}: the scene must have a fall in it"
+        );
+    }
+}
+
+#[test]
+fn flight_and_impact_allocate_nothing() {
+    let body = man();
+    for kind in KINDS {
+        let mut state = still(bent(&body, 0.3));
+        state.posture.root_position.z += 0.6;
+        state.posture.root_rotation = Quat::exp(Vec3::X * 0.7);
+        state.velocity[0] = 3.0;
+        assert_none(
+            &format!("{kind:?}"),
+            &mut Scene::of(figure(&body, kind, state)),
+            2.5,
+        );
+    }
+}
+
+#[test]
+fn quarantine_allocates_nothing() {
+    let mut scene = standing(ControllerKind::Modern);
+    for _ in 0..WARM_UP {
+        scene.world.step();
+    }
+    // The strongest push the world accepts, on one hand.
+    let what = Perturbation::Force {
+        segment: R_HAND,
+        point: Vec3::X * 10.0,
+        force: Vec3::Y * 1e6,
+        from: 0.0,
+        to: 1.0,
+    };
+    scene.world.perturb(scene.key, what).unwrap();
+    for _ in 0..60 {
+        let world: &mut World = &mut scene.world;
+        let counted = measure(|| world.step());
+        assert_eq!(counted.count_total, 0, "tick {}", scene.world.tick());
+    }
+    assert!(
+        scene
+            .figure()
+            .report()
+            .unwrap()
+            .flags
+            .has(Flags::QUARANTINED)
+    );
+}
