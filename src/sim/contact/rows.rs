@@ -85,7 +85,11 @@ impl ContactRows {
 
     /// Slot of `segment`, added with its Jacobian if it has none yet. Points must be added segment by segment.
     pub fn slot(&mut self, kin: &Kinematics<f64>, segment: usize) -> usize {
-        if self.segments.last().is_some_and(|last| last.segment == segment) {
+        if self
+            .segments
+            .last()
+            .is_some_and(|last| last.segment == segment)
+        {
             return self.segments.len() - 1;
         }
         let mut jacobian = [[0.0; CHAIN_WIDTH]; 6];
