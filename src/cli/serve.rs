@@ -3,7 +3,7 @@
 use crate::server::api::App;
 use crate::server::config::Config;
 use crate::server::tick::command::Origin;
-use crate::server::{self, engine, telemetry};
+use crate::server::{self, telemetry};
 use crate::wire::convert;
 use crate::wire::pb;
 use crate::wire::types::{Place, Playback};
@@ -132,14 +132,15 @@ async fn demo(app: &Arc<App>) -> anyhow::Result<()> {
         sequence: 0,
     };
     for (name, body, clip_name, y) in [
-        ("man", "bodies/adult-man", "lift", 0.0),
+        ("man", "bodies/adult-man", "squat", 0.0),
         ("woman", "bodies/adult-woman", "wave", 1.5),
-        ("walker", "bodies/adult-man", "squat", -1.5),
+        ("stepper", "bodies/adult-man", "step", -1.5),
     ] {
         let settings = convert::figure::settings(
             "figure",
             Some(&pb::Figure {
                 body: body.into(),
+                controller: pb::Controller::Modern.into(),
                 placement: Some(pb::Placement {
                     y_m: y,
                     ..Default::default()
@@ -166,6 +167,5 @@ async fn demo(app: &Arc<App>) -> anyhow::Result<()> {
             })
             .await?;
     }
-    debug_assert!(engine::BUILTIN_NAMES.contains(&"lift"));
     Ok(())
 }

@@ -277,6 +277,21 @@ mod tests {
     }
 
     #[test]
+    fn the_example_files_are_true() {
+        let dir = Path::new(env!("CARGO_MANIFEST_DIR")).join("deploy/config");
+        let load = |name: &str| Config::load(Some(&dir.join(name)), std::iter::empty(), &[]);
+        assert_eq!(load("sinew.toml").unwrap(), Config::default());
+        let text = std::fs::read_to_string(dir.join("sinew.toml")).unwrap();
+        for name in NAMES {
+            assert!(
+                text.contains(&format!("\n{name} = ")),
+                "{name} is missing from the example"
+            );
+        }
+        assert!(load("container.toml").unwrap().insecure_bind_any);
+    }
+
+    #[test]
     fn mistakes_are_named() {
         let load = |flags: &[(String, String)]| Config::load(None, std::iter::empty(), flags);
         assert!(

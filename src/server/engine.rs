@@ -17,8 +17,8 @@ use crate::wire::types::{
 };
 use std::sync::Arc;
 
-pub use super::fake::BUILTIN_NAMES;
 pub use crate::sim::motion::Clip;
+pub use crate::sim::motion::builtin::BUILTIN_NAMES;
 pub use crate::sim::world::{ClipPlayback, Drive, Figure, FigureEvent, FigureKey, World};
 
 /// Builds a body; the fault names the field of the profile that its tables do not cover.
@@ -40,17 +40,17 @@ pub fn build_body(profile: crate::sim::body::Profile) -> Result<Body, Fault> {
 
 /// A body as MuJoCo XML.
 pub fn mjcf(body: &Body) -> String {
-    crate::server::fake::mjcf(body)
+    crate::sim::body::export::mjcf(body)
 }
 
 /// A body as URDF.
 pub fn urdf(body: &Body) -> String {
-    crate::server::fake::urdf(body)
+    crate::sim::body::export::urdf(body)
 }
 
 /// A motion that comes with the program.
 pub fn builtin(body: &Body, name: &str) -> Option<Clip> {
-    crate::server::fake::builtin(body, name)
+    crate::sim::motion::builtin::builtin(body, name)
 }
 
 /// Prepares a motion for a body.

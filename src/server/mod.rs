@@ -16,7 +16,6 @@ pub mod workers;
 pub mod worlds;
 
 mod connections;
-mod fake;
 mod http;
 
 use crate::wire::DESCRIPTOR_SET;

@@ -115,7 +115,7 @@ mod tests {
             Ok(1)
         });
         tokio::pin!(first);
-        assert!(futures_util::poll!(&mut first).is_pending());
+        assert!(futures_util::FutureExt::now_or_never(&mut first).is_none());
         assert!(matches!(
             workers.run(|_| Ok(2)).await,
             Err(Fault::Exhausted { .. })

@@ -1,7 +1,6 @@
 //! Files to clips, playing them, simulating without a world.
 
 use crate::support::{TestServer, recording};
-use sinew::wire::frame::values;
 use sinew::wire::pb;
 
 #[tokio::test(flavor = "multi_thread")]
@@ -55,6 +54,7 @@ async fn a_recording_is_uploaded_played_and_simulated() {
                 figure_id: id.into(),
                 figure: Some(pb::Figure {
                     body: body.into(),
+                    controller: pb::Controller::Modern.into(),
                     ..Default::default()
                 }),
             })
@@ -73,17 +73,10 @@ async fn a_recording_is_uploaded_played_and_simulated() {
             .unwrap();
     }
     server.step(&world, 120).await;
-    let frame = server
-        .frame(&world, &["joint_angles", "desired", "status"])
-        .await;
+    let frame = server.frame(&world, &["status"]).await;
     for f in &frame.figures {
-        let is = values(f.joint_angles.as_ref().unwrap());
-        let wanted = values(f.desired.as_ref().unwrap().joint_angles.as_ref().unwrap());
-        let worst = is
-            .iter()
-            .zip(&wanted)
-            .fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
-        assert!(worst < 0.2, "tracks within 0.2 rad, off by {worst}");
+        let error = f.status.as_ref().unwrap().joint_rms_rad.to_degrees();
+        assert!(error < 3.0, "figure {} is off by {error}°", f.figure_index);
     }
 
     let simulated = server
@@ -94,6 +87,10 @@ async fn a_recording_is_uploaded_played_and_simulated() {
                 data: data.into(),
                 options: None,
             })),
+            figure: Some(pb::Figure {
+                controller: pb::Controller::Modern.into(),
+                ..Default::default()
+            }),
             duration_s: 1.0,
             view: Some(pb::View {
                 rate_divisor: 2,

@@ -302,6 +302,7 @@ impl JitterBuffer {
             let u = (since / h).clamp(0.0, 1.0);
             let d = from.posture.difference(&to.posture);
             let v1 = self.velocity(i + 1);
+            let measured = from.velocity.is_some() && to.velocity.is_some();
             let mut x = [0.0; NV];
             let mut v = [0.0; NV];
             let mut a = [0.0; NV];
@@ -311,7 +312,13 @@ impl JitterBuffer {
                 let c2 = 3.0 * d[k] - 2.0 * m0 - m1;
                 x[k] = u * (m0 + u * (c2 + u * c3));
                 v[k] = (m0 + u * (2.0 * c2 + 3.0 * u * c3)) / h;
-                a[k] = (2.0 * c2 + 6.0 * u * c3) / (h * h);
+                // Slopes that stand in for velocities are a little off, equally at both ends. The curve would turn that into
+                // accelerations six times as far off per frame time; their difference does not.
+                a[k] = if measured {
+                    (2.0 * c2 + 6.0 * u * c3) / (h * h)
+                } else {
+                    (v1[k] - v0[k]) / h
+                };
             }
             let planted = if u < 0.5 { from.planted } else { to.planted };
             let supply = if since <= SAME {

@@ -98,10 +98,7 @@ pub fn run(mut shard: Shard, commands: &Receiver<Command>, outlet: &Outlet) {
             guarded(&mut shard, "the physics", Shard::step_world);
         }
         let step_done = Instant::now();
-        if shard.failed.is_none() {
-            let snapshot = publish(&mut shard, outlet);
-            finish_steps(&mut shard, &snapshot);
-        }
+        let snapshot = shard.failed.is_none().then(|| publish(&mut shard, outlet));
         publish_events(&mut shard, outlet);
 
         // Account for time.
@@ -125,6 +122,9 @@ pub fn run(mut shard: Shard, commands: &Receiver<Command>, outlet: &Outlet) {
                 end - step_done,
                 end - start,
             ]);
+        }
+        if let Some(snapshot) = snapshot {
+            finish_steps(&mut shard, &snapshot); // last, so that who waits finds everything done
         }
     }
     for step in shard.steps.drain(..) {

@@ -2010,7 +2010,7 @@ pub struct DesiredPosture {
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Status {
     /// Set of flags by bit; `GetServerInfo` lists their names: FLIGHT, TIPPING, OVERLOAD, DAMPED, CONTROL_BOUND, STEP_BOUND, FALLEN,
-    /// QUARANTINED, BALANCE_LOST, SPEED_CAP.
+    /// QUARANTINED, BALANCE_LOST.
     #[prost(int32, tag = "1")]
     pub flags: i32,
     /// Set of DOFs at the limit of their strength, by bit.
