@@ -1,5 +1,5 @@
 #!/bin/sh
-# Our kernels and ticks against Pinocchio's, alternately on one core, three rounds, medians of each round: a table of ratios.
+# Our kernels and ticks against Pinocchio's and MuJoCo's, alternately on one core, three rounds, medians of each round: a table of ratios.
 #
 # Usage: benches/peers.sh [SCRATCH]            SCRATCH: where the peers are built, default target/peers
 #   SINEW_PEERS_DIR   sources of the peer benches, default ../shared/peers
@@ -33,7 +33,7 @@ fi
 
 cd "$root"
 target=${CARGO_TARGET_DIR:-$root/target}
-cargo bench --no-default-features --bench dynamics --bench world_step --no-run
+cargo bench --no-default-features --bench dynamics --bench control --bench world_step --no-run
 run_ours() {
     taskset -c "$core" cargo bench --quiet --no-default-features --bench "$1" -- --noplot --warm-up-time 0.5 --measurement-time 2 "$2"
 }
@@ -41,7 +41,9 @@ round=1
 while [ $round -le $rounds ]; do
     echo "round $round of $rounds" >&2
     taskset -c "$core" "$scratch/pin_bench" "$scratch/model/human.txt" pin >"$scratch/pin-$round.jsonl"
+    taskset -c "$core" "$scratch/venv/bin/python" "$peers/mj_bench.py" "$scratch/model" >"$scratch/mj-$round.jsonl"
     run_ours dynamics '' >"$scratch/ours-$round.log"
+    run_ours control '' >>"$scratch/ours-$round.log"
     run_ours world_step '/1$' >>"$scratch/ours-$round.log"
     rm -rf "$scratch/ours-$round"
     cp -r "$target/criterion" "$scratch/ours-$round"
@@ -53,9 +55,10 @@ import json, pathlib, statistics, sys
 
 scratch, rounds = pathlib.Path(sys.argv[1]), range(1, int(sys.argv[2]) + 1)
 
-def pin(name, n):
-    rows = (json.loads(line) for line in (scratch / f"pin-{n}.jsonl").read_text().splitlines())
-    return next(r["us_med"] for r in rows if r["name"] == f"pin/{name}")
+def peer_us(name, n):
+    """Median of a peer's row; `name` starts with the engine: pin/… or mj/…"""
+    rows = (json.loads(line) for line in (scratch / f"{name.split('/')[0]}-{n}.jsonl").read_text().splitlines())
+    return next(r["us_med"] for r in rows if r["name"].startswith(name))
 
 def ours(path, n):
     estimates = json.loads((scratch / f"ours-{n}" / path / "new" / "estimates.json").read_text())
@@ -63,13 +66,17 @@ def ours(path, n):
 
 # name, ours, figures per call, peer, what the two do
 pairs = [
-    ("inverse dynamics", "one/rnea", 1, "rnea", "kinematics and RNEA"),
-    ("inverse dynamics, 8 lanes", "eight/rnea_x8", 8, "rnea", "per figure"),
-    ("inertia matrix", "one/crba", 1, "crba_local", "kinematics and CRBA"),
-    ("factor", "one/factor", 1, "sparse_LTL_decompose", "tree-sparse"),
-    ("solve", "one/solve", 1, "sparse_LTL_solve", "tree-sparse"),
-    ("forward dynamics", "one/aba", 1, "aba_local", "kinematics and ABA"),
-    ("world step, paper", "world_step/paper/1", 1, "paper_tick_limits_x1", "ours with contact solver, integration and report"),
+    ("inverse dynamics", "one/rnea", 1, "pin/rnea", "kinematics and RNEA"),
+    ("inverse dynamics, 8 lanes", "eight/rnea_x8", 8, "pin/rnea", "per figure"),
+    ("inertia matrix", "one/crba", 1, "pin/crba_local", "kinematics and CRBA"),
+    ("factor", "one/factor", 1, "pin/sparse_LTL_decompose", "tree-sparse"),
+    ("solve", "one/solve", 1, "pin/sparse_LTL_solve", "tree-sparse"),
+    ("forward dynamics", "one/aba", 1, "pin/aba_local", "kinematics and ABA"),
+    ("inverse dynamics", "one/rnea", 1, "mj/inverse_free", "MuJoCo, no contact"),
+    ("paper control tick", "control/tick/paper", 1, "pin/paper_tick_limits_x1", "without stepping, as the peer"),
+    ("modern decision", "control/decide/modern", 1, "pin/paper_tick_limits_x1", "the paper's tick of the peer, for scale"),
+    ("world step, modern", "world_step/modern/1", 1, "mj/step_PD_stand dt=1/240", "one tick of 1/60 s against one PD step of 1/240 s"),
+    ("world step, paper", "world_step/paper/1", 1, "pin/paper_tick_limits_x1", "ours with contact solver, integration and report"),
 ]
 print(f"{'what':28} {'ours us':>9} {'peer us':>9} {'ratio':>7}  (ratios of the rounds)")
 for what, path, figures, peer, note in pairs:
@@ -77,7 +84,7 @@ for what, path, figures, peer, note in pairs:
         mine = [ours(path, n) / figures for n in rounds]
     except FileNotFoundError:
         continue
-    theirs = [pin(peer, n) for n in rounds]
+    theirs = [peer_us(peer, n) for n in rounds]
     ratios = [a / b for a, b in zip(mine, theirs)]
     spread = " ".join(f"{r:.3f}" for r in ratios)
     print(f"{what:28} {statistics.median(mine):9.3f} {statistics.median(theirs):9.3f} {statistics.median(ratios):7.3f}  ({spread}) {note}")
