@@ -89,6 +89,7 @@ pub fn run(mut shard: Shard, commands: &Receiver<Command>, outlet: &Outlet) {
                 publish(&mut shard, outlet);
             }
             publish_events(&mut shard, outlet);
+            shard.send_replies();
             continue;
         }
 
@@ -123,10 +124,12 @@ pub fn run(mut shard: Shard, commands: &Receiver<Command>, outlet: &Outlet) {
                 end - start,
             ]);
         }
+        shard.send_replies();
         if let Some(snapshot) = snapshot {
             finish_steps(&mut shard, &snapshot); // last, so that who waits finds everything done
         }
     }
+    shard.send_replies();
     for step in shard.steps.drain(..) {
         (step.done)(Err(Fault::Aborted {
             reason: "WORLD_DELETED",

@@ -62,6 +62,7 @@ pub struct Shard {
     pub(super) steps: VecDeque<StepRequest>,
     pub(super) paused: bool,
     pub(super) failed: Option<String>,
+    replies: Vec<Box<dyn FnOnce() + Send>>,
     /// What viewers see changed without a tick.
     pub(super) changed: bool,
     pub(super) closing: bool,
@@ -96,6 +97,7 @@ impl Shard {
             events: Vec::new(),
             clock,
             steps: VecDeque::new(),
+            replies: Vec::new(),
             paused,
             failed: None,
             changed: true,
@@ -214,6 +216,17 @@ impl Shard {
         match ready {
             Ok(()) => self.steps.push_back(request),
             Err(fault) => (request.done)(Err(fault)),
+        }
+    }
+
+    /// Answers a command once what it did can be seen by viewers, so that a client sees its own changes.
+    pub fn reply(&mut self, answer: impl FnOnce() + Send + 'static) {
+        self.replies.push(Box::new(answer));
+    }
+
+    pub(super) fn send_replies(&mut self) {
+        for answer in self.replies.drain(..) {
+            answer();
         }
     }
 

@@ -103,8 +103,11 @@ impl WorldHandle {
     ) -> Result<T, Fault> {
         let (tx, rx) = oneshot::channel();
         self.send(origin, move |shard| {
-            // The caller may have given up; then nobody wants the answer.
-            let _ = tx.send(f(shard));
+            let result = f(shard);
+            shard.reply(move || {
+                // The caller may have given up; then nobody wants the answer.
+                let _ = tx.send(result);
+            });
         })?;
         rx.await.unwrap_or_else(|_| {
             Err(Fault::Aborted {
