@@ -75,9 +75,7 @@ macro_rules! settings {
 
             /// Integer settings, for `GetServerInfo`.
             pub fn limits(&self) -> Vec<(&'static str, i64)> {
-                let mut out = Vec::new();
-                $(settings!(@limit $kind, out, stringify!($name), self.$name);)*
-                out
+                [$(settings!(@limit $kind, stringify!($name), self.$name)),*].into_iter().flatten().collect()
             }
 
             fn set(&mut self, source_name: &str, name: &str, value: &toml::Value) -> Result<(), ConfigError> {
@@ -114,8 +112,8 @@ macro_rules! settings {
     (@default addr, $d:expr) => { $d.parse().expect("the default is an address") };
     (@default text, $d:expr) => { $d.to_owned() };
     (@default $kind:tt, $d:expr) => { $d };
-    (@limit int, $out:ident, $name:expr, $value:expr) => { $out.push(($name, $value as i64)) };
-    (@limit $kind:tt, $out:ident, $name:expr, $value:expr) => {};
+    (@limit int, $name:expr, $value:expr) => { Some(($name, $value as i64)) };
+    (@limit $kind:tt, $name:expr, $value:expr) => { None };
     (@parse int, $v:ident, $least:expr, $most:expr) => { $v.as_integer().and_then(|n| u64::try_from(n).ok()).filter(|n| ($least..=$most).contains(n)) };
     (@parse float, $v:ident, $least:expr, $most:expr) => {
         $v.as_float().or_else(|| $v.as_integer().map(|n| n as f64)).filter(|n| ($least..=$most).contains(n))

@@ -109,7 +109,7 @@ mod tests {
         let workers = Workers::new(1, 0);
         let panicked = workers.run(|_| -> Result<(), Fault> { panic!("oh") }).await;
         assert!(matches!(panicked, Err(Fault::Internal(_))));
-        let (go, wait) = std::sync::mpsc::channel::<()>();
+        let (go, wait) = std::sync::mpsc::sync_channel::<()>(1);
         let first = workers.run(move |_| {
             wait.recv().ok();
             Ok(1)

@@ -1,5 +1,6 @@
 //! A real client against the server in this process, on a port of the system's choice.
 #![cfg(feature = "net")]
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking")]
 
 mod clips;
 mod drives;

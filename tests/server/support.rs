@@ -13,6 +13,7 @@ use tonic_types::StatusExt;
 pub struct TestServer {
     pub address: SocketAddr,
     pub client: Client,
+    pub app: Arc<App>,
     stop: Option<tokio::sync::oneshot::Sender<()>>,
     ended: Option<tokio::task::JoinHandle<()>>,
 }
@@ -34,11 +35,12 @@ impl TestServer {
         let (stop, stopped) = tokio::sync::oneshot::channel::<()>();
         let (signal, stopping) = tokio::sync::watch::channel(false);
         let app = Arc::new(App::new(Arc::new(config), stopping).unwrap());
+        let served = app.clone();
         let ended = tokio::spawn(async move {
             let shutdown = async move {
                 let _ = stopped.await;
             };
-            sinew::server::serve(app, listener, shutdown, signal)
+            sinew::server::serve(served, listener, shutdown, signal)
                 .await
                 .unwrap();
         });
@@ -46,6 +48,7 @@ impl TestServer {
         Self {
             address,
             client,
+            app,
             stop: Some(stop),
             ended: Some(ended),
         }

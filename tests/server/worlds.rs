@@ -496,3 +496,61 @@ async fn shutting_down_ends_streams_and_worlds() {
     };
     assert_eq!(end.code(), Code::Unavailable);
 }
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_panic_fails_its_world_and_no_other() {
+    let server = TestServer::start().await;
+    let broken = server.paused_world("broken").await;
+    let sound = server.paused_world("sound").await;
+    server.figure(&broken, "a").await;
+    server.figure(&sound, "a").await;
+    server.step(&broken, 3).await;
+    let origin = sinew::server::tick::command::Origin {
+        client: "test".into(),
+        sequence: 0,
+    };
+    let lost = server
+        .app
+        .worlds
+        .get("broken")
+        .unwrap()
+        .call::<()>(origin, |_| panic!("on purpose"))
+        .await;
+    assert!(lost.is_err());
+    let failed = server
+        .client
+        .worlds()
+        .get_world(pb::GetWorldRequest {
+            name: broken.clone(),
+        })
+        .await
+        .unwrap()
+        .into_inner()
+        .world
+        .unwrap();
+    assert_eq!(failed.state(), pb::WorldState::Failed);
+    assert!(failed.failure.contains("on purpose"));
+    assert_eq!(
+        server.frame(&broken, &["root_pose"]).await.tick,
+        3,
+        "its last frame stays"
+    );
+    let e = server
+        .client
+        .worlds()
+        .step_world(pb::StepWorldRequest {
+            name: broken.clone(),
+            tick_count: 1,
+        })
+        .await
+        .unwrap_err();
+    assert_eq!(refusal(&e).1, "WORLD_FAILED");
+    assert_eq!(server.step(&sound, 3).await.tick, 3);
+    server
+        .client
+        .worlds()
+        .delete_world(pb::DeleteWorldRequest { name: broken })
+        .await
+        .unwrap();
+    server.stop().await;
+}

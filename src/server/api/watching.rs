@@ -67,7 +67,7 @@ pub(super) fn frames(
     stopping: watch::Receiver<bool>,
     place: Place,
 ) -> Result<Frames, Fault> {
-    let channel = handle.hub.channel(view, &handle.outlet)?;
+    let channel = handle.hub.channel(view, &handle.outlet.latest)?;
     let mut frames = channel.subscribe();
     frames.mark_changed(); // what is there already is the first to send
     handle.viewers.fetch_add(1, Ordering::Relaxed);

@@ -1,9 +1,8 @@
 //! Views of one world: for each that someone watches, a task that encodes the latest frame and hands the bytes to all its viewers.
 
-use crate::server::tick::Outlet;
 use crate::wire::frame::{shared_frame, shared_roster};
 use crate::wire::status::Fault;
-use crate::wire::types::ViewSpec;
+use crate::wire::types::{Snapshot, ViewSpec};
 use prost::bytes::Bytes;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
@@ -51,11 +50,15 @@ impl Hub {
         }
     }
 
-    /// The channel of a view; its task starts with the first viewer and ends with the last.
+    /// The channel of a view of the world whose frames come from `latest`; its task starts with the first viewer and ends with the last.
     ///
     /// # Errors
     /// Too many different views.
-    pub fn channel(&self, view: &ViewSpec, outlet: &Outlet) -> Result<Arc<Channel>, Fault> {
+    pub fn channel(
+        &self,
+        view: &ViewSpec,
+        latest: &watch::Sender<Arc<Snapshot>>,
+    ) -> Result<Arc<Channel>, Fault> {
         // A poisoned map is as good as any: entries are whole.
         let mut channels = self.channels.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(channel) = channels.get(view).and_then(Weak::upgrade) {
@@ -77,7 +80,7 @@ impl Hub {
         tokio::spawn(encode(
             Arc::downgrade(&channel),
             view.clone(),
-            outlet.latest.subscribe(),
+            latest.subscribe(),
         ));
         Ok(channel)
     }
@@ -86,7 +89,7 @@ impl Hub {
 async fn encode(
     channel: Weak<Channel>,
     view: ViewSpec,
-    mut latest: watch::Receiver<Arc<crate::wire::types::Snapshot>>,
+    mut latest: watch::Receiver<Arc<Snapshot>>,
 ) {
     let mut roster: Option<(i32, Bytes)> = None;
     let mut last: Option<u64> = None;
