@@ -243,7 +243,7 @@ fn loads_pushes_and_weakness_reach_the_physics() {
         json(&path)
     };
     let plain = report(&[]);
-    let loaded = report(&["--load", "3@r_hand@0.5..1.5"]);
+    let loaded = report(&["--load", "8@r_hand@0.5..1.5"]);
     assert!(number(&loaded, "max_utilisation") > number(&plain, "max_utilisation"));
     let kinds: Vec<&str> = loaded["events"]
         .as_array()
