@@ -29,6 +29,7 @@ const PARTS: &[(&str, &[&str])] = &[
 const SIM: &[&[&str]] = &[
     &["world"],
     &["figure"],
+    &["gait"],
     &["control"],
     &["contact"],
     &["figure::setup"],

@@ -1,12 +1,13 @@
 //! Physics and control: pure, synchronous, without I/O, clock or logging.
 //!
-//! `world` ─► `figure` ─► `control` ─► `contact` ─► `support`, `strength`, `motion` ─► `dynamics` ─► `body` ─► `math`.
+//! `world` ─► `figure` ─► `gait` ─► `control` ─► `contact` ─► `support`, `strength`, `motion` ─► `dynamics` ─► `body` ─► `math`.
 
 pub mod body;
 pub mod contact;
 pub mod control;
 pub mod dynamics;
 pub mod figure;
+pub mod gait;
 pub mod math;
 pub mod motion;
 pub mod strength;

@@ -37,6 +37,14 @@ impl Law {
         }
     }
 
+    /// The same law with `share` of the horizon, though never shorter than the step.
+    pub fn sharpened(self, share: f64) -> Self {
+        Self {
+            horizon: self.horizon.map(|t| (share * t).max(self.dt)),
+            ..self
+        }
+    }
+
     /// Length of the step, s.
     pub fn step(&self) -> f64 {
         self.dt

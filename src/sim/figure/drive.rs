@@ -33,9 +33,14 @@ pub enum Drive {
 }
 
 impl ClipPlayback {
+    /// Clip time at world time `t`, s.
+    pub fn clip_time(&self, t: f64) -> f64 {
+        (t - self.start) * self.speed
+    }
+
     /// Desired motion at world time `t`, s. No allocation.
     pub fn sample(&self, t: f64) -> Target {
-        let s = (t - self.start) * self.speed;
+        let s = self.clip_time(t);
         let mut target = if self.looped {
             self.clip.sample_looped(s)
         } else {

@@ -7,14 +7,15 @@ use super::report::{Audit, Flags, MAX_CONTACTS, TickReport};
 use super::setup::{ControlParams, ControllerKind, Perturbation, StepperKind, StrengthScale};
 use super::tasks::{TaskPoints, TaskWorkspace};
 use super::torque_step::{
-    FALLEN_SPEED, FEED_FORWARD_SPEED, MOTORS_ALONE_SPEED, MotorCommand, StepInput, Stepper,
-    TorqueStepper,
+    FALLEN_SPEED, FEED_FORWARD_SPEED, MODERN_SPEED, MOTORS_ALONE_SPEED, MotorCommand, StepInput,
+    Stepper, TorqueStepper,
 };
 use crate::sim::body::angles::anatomical_angles;
 use crate::sim::body::topology::{DOF_COUNT, L_FOOT, L_TOES, NV, R_FOOT, R_TOES, SEGMENT_COUNT};
 use crate::sim::body::{Body, Links, Posture, State};
 use crate::sim::control::{Command, ControlInput, Controller, Law, Modern, Paper, tracking};
 use crate::sim::dynamics::{Kinematics, Terms, center_of_mass};
+use crate::sim::gait::{Gait, StepPlan};
 use crate::sim::math::Vec3;
 use crate::sim::motion::{Target, TargetPair};
 use crate::sim::strength::Strength;
@@ -73,6 +74,7 @@ pub struct Figure {
     links: Links,
     disturbances: Disturbances,
     drive: Drive,
+    gait: Option<Box<Gait>>,
     target: TargetPair,
     terms: Terms,
     support: Support,
@@ -101,6 +103,7 @@ impl Figure {
             links: Links::new(&setup.body),
             disturbances: Disturbances::default(),
             drive: Drive::Hold(setup.state.posture),
+            gait: None,
             target: TargetPair {
                 now: still.clone(),
                 next: still,
@@ -127,8 +130,7 @@ impl Figure {
     pub(crate) fn step(&mut self, world: &TickContext) {
         let (time, dt) = (world.tick as f64 * world.dt, world.dt);
         self.watcher.begin();
-        // 1. Commands: desired motion, loads, pushes.
-        self.target = self.drive.targets(time, dt);
+        // 1. Commands: loads, pushes.
         let body = Arc::clone(&self.setup.body);
         self.disturbances.apply(
             time,
@@ -142,13 +144,14 @@ impl Figure {
             self.report.flags = Flags::QUARANTINED;
             return;
         }
-        // 2. Dynamics of the state, 3. supports, 4. strength.
+        // 2. Dynamics of the state, desired motion, 3. supports, 4. strength.
         self.terms.compute(
             &self.links,
             &self.state,
             self.disturbances.applied(),
             world.gravity,
         );
+        self.target = self.desired(time, dt);
         self.support
             .update(&self.terms, &body, self.com_acceleration, world.gravity);
         let angles = anatomical_angles(&self.state.posture);
@@ -158,7 +161,17 @@ impl Figure {
         self.strength
             .range(&angles, &rates, &scale, &mut lower, &mut upper);
         // 5. Control: accelerations and torques within strength.
-        let tasks = self.tasks.points(&body, &self.links, &self.target);
+        let mut tasks = self.tasks.points(&body, &self.links, &self.target);
+        if let Some(gait) = self.gait.as_mut().filter(|_| !self.fallen) {
+            gait.lead_feet(
+                &self.terms,
+                &tasks.com,
+                self.support.polygon(),
+                world.gravity,
+                dt,
+                &mut tasks.feet,
+            );
+        }
         let motors = self.control(world, &tasks, &lower, &upper);
         // 6. Simulate: motors, limits and contact move the body.
         let before = self.state;
@@ -187,6 +200,20 @@ impl Figure {
             .observe(&self.report, &self.support, self.fallen);
     }
 
+    /// Desired motion of the tick: as the drive has it, or as its steps come out.
+    fn desired(&mut self, time: f64, dt: f64) -> TargetPair {
+        match (&self.drive, &mut self.gait) {
+            (Drive::Clip(play), Some(gait)) if !self.fallen => gait.targets(
+                time,
+                dt,
+                &self.terms,
+                |t| play.clip_time(t),
+                |t| play.sample(t),
+            ),
+            (drive, _) => drive.targets(time, dt),
+        }
+    }
+
     /// Runs the controller in charge and turns its command into work for the motors.
     fn control(
         &mut self,
@@ -212,7 +239,7 @@ impl Figure {
         };
         let (command, saturation_speed) = match self.active_controller() {
             ControllerKind::Paper => (self.paper.control(&input), FEED_FORWARD_SPEED),
-            ControllerKind::Modern => (self.modern.control(&input), FEED_FORWARD_SPEED),
+            ControllerKind::Modern => (self.modern.control(&input), MODERN_SPEED),
             ControllerKind::Motors => {
                 let horizon = if self.fallen {
                     Some(FALLEN_HORIZON)
@@ -416,7 +443,19 @@ impl Figure {
     }
     /// Replaces the source of the desired motion from the next tick on.
     pub fn set_drive(&mut self, drive: Drive) {
+        self.gait = match &drive {
+            Drive::Clip(play) => {
+                let plan = StepPlan::new(&self.setup.body, &play.clip, play.looped);
+                plan.steps()
+                    .then(|| Box::new(Gait::new(&self.setup.body, plan, play.speed, play.origin)))
+            }
+            _ => None,
+        };
         self.drive = drive;
+    }
+    /// The steps of the clip that plays, if its feet leave the floor.
+    pub fn gait(&self) -> Option<&Gait> {
+        self.gait.as_deref()
     }
     /// Scheduled perturbations.
     pub fn perturbations(&self) -> impl Iterator<Item = &Perturbation> {
@@ -436,6 +475,9 @@ impl Figure {
         self.last_good = state;
         self.fallen = false;
         self.frozen = false;
+        if let Some(gait) = &mut self.gait {
+            gait.reset();
+        }
         self.com_acceleration = Vec3::zero();
         self.support.reset();
         self.paper.reset();

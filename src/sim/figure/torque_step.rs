@@ -88,8 +88,10 @@ pub struct MotorCommand {
 pub const MOTORS_ALONE_SPEED: f64 = 0.005;
 /// A fallen figure: soft, and easy on the solver while many parts touch, rad/s.
 pub const FALLEN_SPEED: f64 = 0.5;
-/// With the controller's torque as feed-forward, rad/s.
+/// With the paper controller's torque as feed-forward, rad/s.
 pub const FEED_FORWARD_SPEED: f64 = 1.0;
+/// With the modern controller's: legs that give a little when a foot lands, rad/s.
+pub const MODERN_SPEED: f64 = 3.0;
 
 /// Means over a tick and the last substep.
 #[derive(Clone, Debug)]

@@ -262,6 +262,13 @@ impl Clip {
         self.knots[i].planted
     }
 
+    /// Displacement along the ground and change of heading of one round of [`Self::sample_looped`].
+    pub fn advance(&self) -> PlanarTransform {
+        self.seam
+            .as_ref()
+            .map_or_else(PlanarTransform::default, |s| s.advance)
+    }
+
     /// The motion at time `t` (s).
     ///
     /// Before 0 and from the end on it stands still in the first or last posture (also for a time that is no number).

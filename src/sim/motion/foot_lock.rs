@@ -120,6 +120,16 @@ impl Sole {
         }
     }
 
+    /// Contact points of the foot, foot frame, m.
+    pub fn foot_points(&self) -> &[Vec3] {
+        &self.foot
+    }
+
+    /// Contact points of the toes, toe frame, m.
+    pub fn toe_points(&self) -> &[Vec3] {
+        &self.toes
+    }
+
     /// Contact points of the foot and of the toes in the foot frame, toes extended by `toe` rad.
     pub fn points(&self, toe: f64) -> impl Iterator<Item = Vec3> + '_ {
         let foot_from_toes = Quat::exp(Vec3::Y * -toe);

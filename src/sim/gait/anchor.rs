@@ -1,0 +1,78 @@
+//! Where the motion lies in the world: a planar transform that follows the places where the feet really landed (WALKING §2).
+
+use crate::sim::math::exp::exp;
+use crate::sim::math::{Quat, Vec3, trig};
+use crate::sim::motion::PlanarTransform;
+
+/// Time constant with which the motion moves to a new anchor, s.
+const SETTLE: f64 = 0.04;
+/// Share of the heading error of a landed foot that the motion takes over, and share of its heading that is given back per step.
+const HEADING_GAIN: f64 = 0.3;
+const HEADING_HOME: f64 = 0.2;
+
+/// Maps the motion as planned to the world. Pivots on the last foothold, so that a change of heading moves nothing far away.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Anchor {
+    /// Foothold as planned, m.
+    planned: Vec3,
+    /// Where it is now, m, and where it goes.
+    at: Vec3,
+    goal: Vec3,
+    /// Turn about the vertical, rad, and where it goes.
+    yaw: f64,
+    yaw_goal: f64,
+}
+
+/// The same direction within −π…π.
+pub fn wrapped(angle: f64) -> f64 {
+    let (s, c) = trig::sin_cos(angle);
+    trig::atan2(s, c)
+}
+
+impl Anchor {
+    /// Image of a planned point.
+    pub fn point(&self, p: Vec3) -> Vec3 {
+        let level = Vec3 {
+            x: p.x - self.planned.x,
+            y: p.y - self.planned.y,
+            z: 0.0,
+        };
+        let q = Quat::exp(Vec3::Z * self.yaw).rotate(level);
+        Vec3 {
+            x: self.at.x + q.x,
+            y: self.at.y + q.y,
+            z: p.z,
+        }
+    }
+
+    /// Turn about the vertical, rad.
+    pub fn yaw(&self) -> f64 {
+        self.yaw
+    }
+
+    /// As a transform of whole targets.
+    pub fn transform(&self) -> PlanarTransform {
+        let origin = self.point(Vec3::zero());
+        PlanarTransform {
+            x: origin.x,
+            y: origin.y,
+            yaw: self.yaw,
+        }
+    }
+
+    /// A foot planned at `planned`, heading `planned_yaw`, stands at `actual`, heading `actual_yaw`: the motion goes there.
+    pub fn land(&mut self, planned: Vec3, planned_yaw: f64, actual: Vec3, actual_yaw: f64) {
+        self.at = self.point(Vec3 { z: 0.0, ..planned });
+        self.planned = Vec3 { z: 0.0, ..planned };
+        self.goal = Vec3 { z: 0.0, ..actual };
+        let off = wrapped(actual_yaw - planned_yaw - self.yaw);
+        self.yaw_goal = (1.0 - HEADING_HOME) * (self.yaw + HEADING_GAIN * off);
+    }
+
+    /// Moves on by `dt` seconds.
+    pub fn settle(&mut self, dt: f64) {
+        let a = 1.0 - exp(-dt / SETTLE);
+        self.at += (self.goal - self.at) * a;
+        self.yaw += (self.yaw_goal - self.yaw) * a;
+    }
+}

@@ -1,0 +1,143 @@
+//! The capture point (divergent component of motion) and where to step so that the error it has is gone when the foot lands (WALKING §4).
+
+use crate::sim::body::topology::{L_FOOT, R_FOOT};
+use crate::sim::body::{Body, Links};
+use crate::sim::control::PointTarget;
+use crate::sim::dynamics::{Kinematics, Terms};
+use crate::sim::math::exp::exp;
+use crate::sim::math::{Quat, Vec3};
+use crate::sim::motion::Target;
+use crate::sim::support::Polygon;
+
+/// Gain k of `p* = p_ref + (1 + k) e`.
+const GAIN: f64 = 1.0;
+/// The zero-moment point stays this far inside the polygon, m.
+const INSET: f64 = 0.01;
+/// Largest displacement of a foothold along and across its heading, m.
+const REACH: (f64, f64) = (0.30, 0.40);
+/// Least distance to the side from the stance foot, m, unless the plan itself comes closer or crosses.
+const SEPARATION: f64 = 0.03;
+/// Time constant of the foothold, s, and time before touch-down in which it does not change any more.
+const SMOOTHING: f64 = 0.03;
+pub(super) const FREEZE: f64 = 0.06;
+/// Least downward acceleration the pendulum is computed with, m/s².
+const LEAST_LOAD: f64 = 3.0;
+
+/// The capture point `ξ = c + ċ/ω` against the motion's.
+#[derive(Clone, Debug)]
+pub struct Capture {
+    /// e = ξ − ξ_ref on the ground, m.
+    pub error: [f64; 2],
+    /// Part of it that the zero-moment point can take care of, m.
+    handled: [f64; 2],
+    omega: f64,
+    inner: Polygon,
+    links: Option<Links>,
+    kin: Kinematics<f64>,
+}
+
+impl Default for Capture {
+    fn default() -> Self {
+        Self {
+            error: [0.0; 2],
+            handled: [0.0; 2],
+            omega: 3.0,
+            inner: Polygon::with_capacity(64),
+            links: None,
+            kin: Kinematics::default(),
+        }
+    }
+}
+
+/// Share of the way to a new value in `dt` seconds.
+pub(super) fn smoothing(dt: f64) -> f64 {
+    1.0 - exp(-dt / SMOOTHING)
+}
+
+impl Capture {
+    /// For figures with this body.
+    pub fn new(body: &Body) -> Self {
+        Self {
+            links: Some(Links::new(body)),
+            ..Self::default()
+        }
+    }
+
+    /// Ankles and rotations of both feet of a target.
+    pub(super) fn feet(&mut self, target: &Target) -> [(Vec3, Quat); 2] {
+        let Some(links) = &self.links else {
+            return [(Vec3::zero(), Quat::identity()); 2];
+        };
+        self.kin.set_posture(links, &target.posture);
+        [L_FOOT, R_FOOT].map(|s| {
+            (
+                target.posture.root_position + self.kin.position[s.index()],
+                Quat::from_mat3(&self.kin.rotation[s.index()]),
+            )
+        })
+    }
+
+    /// Compares the state with the desired centre of mass over a support `polygon`.
+    pub fn update(
+        &mut self,
+        terms: &Terms,
+        com: &PointTarget,
+        polygon: &Polygon,
+        gravity: f64,
+        dt: f64,
+    ) {
+        let height = com.now.z.max(0.1);
+        let w = (gravity.max(LEAST_LOAD) / height).sqrt();
+        self.omega = w;
+        let ff = (com.next_velocity - com.now_velocity) * (1.0 / dt);
+        let w2 = (gravity + ff.z).max(LEAST_LOAD) / height;
+        let (c, r) = (terms.com, com.now);
+        let (dc, dr) = (terms.com_velocity, com.now_velocity);
+        self.error = [c.x - r.x + (dc.x - dr.x) / w, c.y - r.y + (dc.y - dr.y) / w];
+        let planned = [r.x - ff.x / w2, r.y - ff.y / w2];
+        let wanted = [
+            planned[0] + (1.0 + GAIN) * self.error[0],
+            planned[1] + (1.0 + GAIN) * self.error[1],
+        ];
+        self.inner.set_inset(polygon, INSET);
+        let can = self.inner.closest(wanted).map_or(wanted, |c| c.point);
+        for k in 0..2 {
+            let e = self.error[k];
+            self.handled[k] = (can[k] - planned[k]).clamp(e.min(0.0), e.max(0.0));
+        }
+    }
+
+    /// Error that is left after `remaining` seconds of swing: a foothold displaced by it makes the error zero.
+    pub fn left_over(&self, remaining: f64) -> [f64; 2] {
+        let grows = exp(self.omega * remaining.min(1.0));
+        std::array::from_fn(|k| {
+            let (e, d) = (self.error[k], self.handled[k]);
+            (e - d) * grows + d
+        })
+    }
+}
+
+/// Limits a displacement `d` (m, world) of a foothold at `home` with heading `yaw` to what a leg can do beside the stance foot.
+pub(super) fn within_reach(
+    d: [f64; 2],
+    home: Vec3,
+    stance: Vec3,
+    yaw: f64,
+    side: usize,
+) -> [f64; 2] {
+    let back = Quat::exp(Vec3::Z * -yaw);
+    let level = |x: f64, y: f64| Vec3 { x, y, z: 0.0 };
+    let mut local = back.rotate(level(d[0], d[1]));
+    local.x = local.x.clamp(-REACH.0, REACH.0);
+    local.y = local.y.clamp(-REACH.1, REACH.1);
+    let outward = if side == 0 { 1.0 } else { -1.0 };
+    let planned = back.rotate(level(home.x - stance.x, home.y - stance.y));
+    // A step that the plan crosses over keeps its sign.
+    let least = SEPARATION.min(planned.y * outward);
+    let away = (planned.y + local.y) * outward;
+    if away < least {
+        local.y = least * outward - planned.y;
+    }
+    let world = Quat::exp(Vec3::Z * yaw).rotate(local);
+    [world.x, world.y]
+}

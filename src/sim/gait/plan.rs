@@ -1,0 +1,208 @@
+//! When and where the feet of a clip stand: the stances of both feet, in order, also over the seam of a loop.
+
+use crate::sim::body::Body;
+use crate::sim::body::SegmentId;
+use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
+use crate::sim::math::{Quat, Vec3, trig};
+use crate::sim::motion::Clip;
+use crate::sim::motion::clip::PlanarTransform;
+use crate::sim::motion::foot_lock::Sole;
+use crate::sim::motion::leg_ik::forward;
+
+/// A stance of one foot as the clip has it. Times in clip seconds, place and heading in clip coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Footfall {
+    /// Touch-down, s.
+    pub on: f64,
+    /// Lift-off, s.
+    pub off: f64,
+    /// Point of the floor under the flat ankle, m.
+    pub place: Vec3,
+    /// Heading of the foot, rad.
+    pub yaw: f64,
+}
+
+/// The stances of a clip. Made when a clip begins to play; queries allocate nothing.
+#[derive(Clone, Debug)]
+pub struct StepPlan {
+    stances: [Vec<Footfall>; 2],
+    duration: f64,
+    /// Displacement of one round, if the clip repeats.
+    round: Option<PlanarTransform>,
+}
+
+/// Heading and pitch (toe-up positive) of a foot without its roll, rad. Platform-independent, since it feeds the tick.
+pub fn heading(rotation: Quat) -> (f64, f64) {
+    let x = rotation.rotate(Vec3::X);
+    let level = (x.x * x.x + x.y * x.y).sqrt();
+    (trig::atan2(x.y, x.x), trig::atan2(x.z, level))
+}
+
+/// Point of the floor under the flat ankle of a foot that is rolled about its heel edge or its toe joint, and its heading.
+pub fn place(sole: &Sole, ankle: Vec3, rotation: Quat) -> (Vec3, f64) {
+    let (yaw, pitch) = heading(rotation);
+    let rolled = sole.stand(Vec3::zero(), yaw, pitch).ankle;
+    let mut p = ankle - rolled;
+    p.z = 0.0;
+    (p, yaw)
+}
+
+/// A foot this close to the floor carries the body if no other does, m.
+const NEAR_FLOOR: f64 = 0.03;
+
+/// Which feet carry the body in each sample: the planted ones, or, where none is and one stays near the floor, that one. (The preparation
+/// declares a foot free that its leg cannot hold in place exactly; that is no flight.)
+fn carried(body: &Body, clip: &Clip) -> Vec<[bool; 2]> {
+    let soles = [Sole::new(body, 0), Sole::new(body, 1)];
+    (0..clip.len())
+        .map(|i| {
+            let planted = clip.planted(i);
+            if planted != [false; 2] {
+                return planted;
+            }
+            let posture = clip.posture(i);
+            let poses = forward(body, posture);
+            let low = [(L_FOOT, L_TOES), (R_FOOT, R_TOES)].map(|(foot, toes)| {
+                let side = usize::from(foot == R_FOOT);
+                let height = |s: SegmentId, points: &[Vec3]| {
+                    let (at, q) = poses[s.index()];
+                    points
+                        .iter()
+                        .map(|p| at.z + q.rotate(*p).z)
+                        .fold(f64::INFINITY, f64::min)
+                };
+                height(foot, soles[side].foot_points()).min(height(toes, soles[side].toe_points()))
+            });
+            [
+                low[0] < NEAR_FLOOR && low[0] <= low[1],
+                low[1] < NEAR_FLOOR && low[1] < low[0],
+            ]
+        })
+        .collect()
+}
+
+impl StepPlan {
+    /// The plan of `clip` on `body`; `looped` if it repeats.
+    pub fn new(body: &Body, clip: &Clip, looped: bool) -> Self {
+        let (n, rate) = (clip.len(), clip.rate_hz());
+        let feet = [L_FOOT, R_FOOT];
+        let planted = carried(body, clip);
+        let stances = std::array::from_fn(|side| {
+            let sole = Sole::new(body, side);
+            let mut out = Vec::new();
+            let mut i = 0;
+            while i < n {
+                if !planted[i][side] {
+                    i += 1;
+                    continue;
+                }
+                let start = i;
+                while i < n && planted[i][side] {
+                    i += 1;
+                }
+                // The middle of a stance is its flattest part.
+                let (ankle, rotation) =
+                    forward(body, clip.posture((start + i - 1) / 2))[feet[side].index()];
+                let (place, yaw) = place(&sole, ankle, rotation);
+                // A sample speaks for the half-interval on either side of it.
+                out.push(Footfall {
+                    on: if start == 0 {
+                        0.0
+                    } else {
+                        (start as f64 - 0.5) / rate
+                    },
+                    off: if i == n {
+                        clip.duration()
+                    } else {
+                        (i as f64 - 0.5) / rate
+                    },
+                    place,
+                    yaw,
+                });
+            }
+            out
+        });
+        Self {
+            stances,
+            duration: clip.duration(),
+            round: looped.then(|| clip.advance()),
+        }
+    }
+
+    /// True if a foot leaves the floor anywhere.
+    pub fn steps(&self) -> bool {
+        self.stances
+            .iter()
+            .any(|s| s.len() != 1 || s[0].on > 0.0 || s[0].off < self.duration)
+    }
+
+    /// Round of a loop that time `t` falls into, and the time within it.
+    fn round_of(&self, t: f64) -> (f64, f64) {
+        if self.round.is_none() || self.duration <= 0.0 {
+            return (0.0, t);
+        }
+        let round = (t / self.duration).floor();
+        (round, t - round * self.duration)
+    }
+
+    fn unrolled(&self, f: Footfall, round: f64) -> Footfall {
+        let Some(advance) = self.round else { return f };
+        let moved = advance.power(round);
+        Footfall {
+            on: f.on + round * self.duration,
+            off: f.off + round * self.duration,
+            place: moved.point(f.place),
+            yaw: f.yaw + moved.yaw,
+        }
+    }
+
+    /// True if the stance over the seam goes on in the next round.
+    fn wraps(&self, side: usize) -> bool {
+        let s = &self.stances[side];
+        self.round.is_some()
+            && s.first().is_some_and(|f| f.on <= 0.0)
+            && s.last().is_some_and(|f| f.off >= self.duration)
+    }
+
+    /// Next touch-down of a foot (0 left, 1 right) after time `t` (s); `None` if it never lands again.
+    pub fn next(&self, side: usize, t: f64) -> Option<Footfall> {
+        let (round, local) = self.round_of(t);
+        let rounds = if self.round.is_some() { 2 } else { 1 };
+        for k in 0..rounds {
+            let first = usize::from(k > 0 && self.wraps(side));
+            let shift = f64::from(k) * self.duration;
+            for f in self.stances[side].iter().skip(first) {
+                if f.on + shift > local {
+                    return Some(self.unrolled(*f, round + f64::from(k)));
+                }
+            }
+        }
+        None
+    }
+
+    /// The stance that holds at time `t` (s).
+    pub fn current(&self, side: usize, t: f64) -> Option<Footfall> {
+        let (round, local) = self.round_of(t);
+        let end = self.duration;
+        let f = self.stances[side].iter().find(|f| {
+            (f.on <= local || f.on <= 0.0)
+                && (local < f.off || (f.off >= end && self.round.is_none()))
+        })?;
+        Some(self.unrolled(*f, round))
+    }
+
+    /// Last lift-off of a foot at or before time `t`, s; the beginning of the clip if there was none.
+    pub fn last_off(&self, side: usize, t: f64) -> f64 {
+        let (round, local) = self.round_of(t);
+        let s = &self.stances[side];
+        if let Some(f) = s.iter().rev().find(|f| f.off <= local) {
+            return f.off + round * self.duration;
+        }
+        match s.last() {
+            Some(f) if self.round.is_some() && !self.wraps(side) => {
+                f.off + (round - 1.0) * self.duration
+            }
+            _ => round * self.duration,
+        }
+    }
+}
