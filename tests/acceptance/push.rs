@@ -19,11 +19,13 @@ const fn vec3_const(x: f64, y: f64) -> Vec3 {
     Vec3 { x, y, z: 0.0 }
 }
 
-/// A figure that has stood for half a second.
-fn standing(kind: ControllerKind) -> Scene {
+/// A figure that has stood for half a second, with its feet where they are or allowed to step.
+fn standing(kind: ControllerKind, steps: bool) -> Scene {
     let body = man();
     let posture = authored(&body, "idle").posture(0).to_owned();
-    let mut scene = Scene::of(figure(&body, kind, still(posture)));
+    let mut setup = figure(&body, kind, still(posture));
+    setup.params.protective_steps = steps;
+    let mut scene = Scene::of(setup);
     scene.run(0.5, |_| ());
     scene
 }
@@ -49,8 +51,8 @@ struct Outcome {
     speed: f64,
 }
 
-fn push(kind: ControllerKind, direction: Vec3, impulse: f64) -> Outcome {
-    let mut scene = standing(kind);
+fn push(kind: ControllerKind, direction: Vec3, impulse: f64, steps: bool) -> Outcome {
+    let mut scene = standing(kind, steps);
     let start = scene.figure().report().unwrap().com;
     let now = scene.world.time();
     let what = Perturbation::Force {
@@ -79,7 +81,7 @@ fn push(kind: ControllerKind, direction: Vec3, impulse: f64) -> Outcome {
 }
 
 fn recovers(kind: ControllerKind, direction: Vec3, impulse: f64) {
-    let o = push(kind, direction, impulse);
+    let o = push(kind, direction, impulse, false);
     let text = format!(
         "{kind:?} pushed {impulse:.1} N·s: fell {}, moved {:.3} {:.3} {:.3} m, {:.4} m/s",
         o.fell, o.moved.x, o.moved.y, o.moved.z, o.speed
@@ -101,7 +103,7 @@ fn both_recover_from_light_pushes_forward() {
 #[test]
 fn modern_recovers_from_most_of_what_a_pendulum_can() {
     for (name, direction) in DIRECTIONS {
-        let bound = bound(&standing(ControllerKind::Modern), direction);
+        let bound = bound(&standing(ControllerKind::Modern, false), direction);
         println!("{name}: bound {bound:.1} N·s");
         recovers(ControllerKind::Modern, direction, 0.8 * bound);
     }
@@ -109,9 +111,9 @@ fn modern_recovers_from_most_of_what_a_pendulum_can() {
 
 fn falls(kind: ControllerKind) {
     for (name, direction) in DIRECTIONS {
-        let bound = bound(&standing(kind), direction);
+        let bound = bound(&standing(kind, false), direction);
         for share in [1.3, 2.0] {
-            let o = push(kind, direction, share * bound);
+            let o = push(kind, direction, share * bound, false);
             let text = format!(
                 "{kind:?} {name} {:.1} N·s ({share} of {bound:.1}): fell {}, moved {:.2} {:.2} {:.2} m",
                 share * bound,
@@ -137,4 +139,23 @@ fn modern_falls_the_way_it_is_pushed() {
 #[test]
 fn paper_falls_the_way_it_is_pushed() {
     falls(ControllerKind::Paper);
+}
+
+/// Beyond the bound a figure that may step does, and stands again; the same push fells one that may not.
+#[test]
+fn steps_catch_what_feet_in_place_cannot() {
+    for (name, direction, share) in [("forward", Vec3::X, 1.1), ("backward", -Vec3::X, 1.5)] {
+        let kind = ControllerKind::Modern;
+        let impulse = share * bound(&standing(kind, false), direction);
+        let (still, steps) = (
+            push(kind, direction, impulse, false),
+            push(kind, direction, impulse, true),
+        );
+        let text = format!(
+            "{name} {impulse:.1} N·s ({share} of the bound): in place fell {}, stepping fell {}, {:.4} m/s",
+            still.fell, steps.fell, steps.speed
+        );
+        println!("{text}");
+        assert!(still.fell && !steps.fell && steps.speed < 0.05, "{text}");
+    }
 }

@@ -78,6 +78,8 @@ pub struct ControlInput<'a> {
     pub effectors: &'a [Effector],
     /// Left and right foot: ankle and rotation of the foot, for feet that the motion swings.
     pub feet: &'a [(PointTarget, RotationTarget); 2],
+    /// What balance asks of the centre of mass; without it the tracking law's own demand holds.
+    pub balance: Option<Balance>,
     /// Least available torques, N·m (negative).
     pub lower: &'a [f64; DOF_COUNT],
     /// Largest available torques, N·m.
@@ -133,6 +135,25 @@ impl Default for Command {
             pivot: None,
         }
     }
+}
+
+/// What balance asks of the centre of mass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Balance {
+    /// Horizontal acceleration, m/s².
+    pub acceleration: [f64; 2],
+    /// Share of the usual weight that it has: less while a step takes care of it.
+    pub share: f64,
+}
+
+/// Gains of the modern controller's law for the centre of mass, 1/s² and 1/s.
+pub const COM_GAIN: (f64, f64) = (25.0, 10.0);
+
+/// Acceleration of the centre of mass at `com` moving with `velocity` that follows `target` over a tick of `dt` seconds, m/s².
+pub fn com_law(target: &PointTarget, com: Vec3, velocity: Vec3, dt: f64) -> Vec3 {
+    (target.next_velocity - target.now_velocity) * (1.0 / dt)
+        + (target.now - com) * COM_GAIN.0
+        + (target.now_velocity - velocity) * COM_GAIN.1
 }
 
 /// A tracking controller. It keeps its workspace and what it remembers of the last tick; nothing allocates.

@@ -5,7 +5,7 @@
 //! continuous function of the state, and the work is bounded.
 
 use super::tracking::{Law, initial_acceleration};
-use super::{Command, ControlInput, Controller, PointTarget};
+use super::{Command, ControlInput, Controller, PointTarget, com_law};
 use crate::sim::body::topology::{DOF_COUNT, L_FOOT, L_TOES, NV, R_FOOT, R_TOES, SEGMENT_COUNT};
 use crate::sim::contact::dense::{Dense, cholesky, solve_lower, solve_upper};
 use crate::sim::contact::rows::{CHAIN_WIDTH, PointRow, add_point_stiffness};
@@ -40,8 +40,6 @@ mod weight {
 const JOINT_WEIGHT: (f64, f64) = (0.05, 1.0);
 /// Friction the plan counts on; below the simulator's.
 const FRICTION_MARGIN: f64 = 0.7 / 0.9;
-/// Gains of the CoM law, 1/s² and 1/s.
-const COM_GAIN: (f64, f64) = (25.0, 10.0);
 /// Horizons of joints and rotations, and of swinging feet, as shares of the one that is set (0.1 s): 150/s² and 24/s, 400/s² and 40/s. Gait
 /// needs limbs that are on time; the continuous program stays free of chatter with them, unlike the paper's active set.
 const SHARPNESS: f64 = 0.41;
@@ -130,15 +128,17 @@ impl Modern {
         let hand_law = Law::new(input.params, input.dt);
         let swing_law = hand_law.sharpened(SWING_SHARPNESS);
         if input.params.track_com {
-            let c = input.com;
-            let ff = (c.next_velocity - c.now_velocity) * (1.0 / input.dt);
-            let a =
-                ff + (c.now - t.com) * COM_GAIN.0 + (c.now_velocity - t.com_velocity) * COM_GAIN.1
-                    - t.com_bias;
+            let mut a = com_law(input.com, t.com, t.com_velocity, input.dt);
+            let mut share = 1.0;
+            if let Some(balance) = input.balance {
+                [a.x, a.y] = balance.acceleration;
+                share = balance.share;
+            }
+            let a = a - t.com_bias;
             for (k, value) in [a.x, a.y, a.z].into_iter().enumerate() {
                 self.rows.push(TaskRow {
                     row: t.jc[k],
-                    weight: weight::COM[k],
+                    weight: if k < 2 { share } else { 1.0 } * weight::COM[k],
                     value,
                 });
             }

@@ -703,6 +703,7 @@ mod tests {
                 com: &self.com,
                 effectors: &self.effectors,
                 feet: &self.feet,
+                balance: None,
                 lower: &self.lower,
                 upper: &self.upper,
                 params: &self.params,

@@ -60,6 +60,11 @@ impl ClipPlayback {
 impl Drive {
     /// Desired motion at the start and the end of a tick from `t` to `t + dt`, s.
     pub fn targets(&self, t: f64, dt: f64) -> TargetPair {
+        self.pair(t, t + dt)
+    }
+
+    /// Desired motion at the world times `now` and `next`, s. What the caller sets is the same at all times.
+    pub fn pair(&self, now: f64, next: f64) -> TargetPair {
         match self {
             Self::Hold(posture) => {
                 let still = Target::still(*posture);
@@ -69,8 +74,8 @@ impl Drive {
                 }
             }
             Self::Clip(play) => TargetPair {
-                now: play.sample(t),
-                next: play.sample(t + dt),
+                now: play.sample(now),
+                next: play.sample(next),
             },
             Self::External(pair) => (**pair).clone(),
         }

@@ -75,6 +75,8 @@ pub struct ControlParams {
     pub track_hands: bool,
     /// Control the centre of mass.
     pub track_com: bool,
+    /// Step when the capture point has left the feet (modern controller).
+    pub protective_steps: bool,
 }
 
 impl Default for ControlParams {
@@ -90,6 +92,7 @@ impl Default for ControlParams {
             zmp_feasible: true,
             track_hands: true,
             track_com: true,
+            protective_steps: true,
         }
     }
 }

@@ -13,9 +13,11 @@ use super::torque_step::{
 use crate::sim::body::angles::anatomical_angles;
 use crate::sim::body::topology::{DOF_COUNT, L_FOOT, L_TOES, NV, R_FOOT, R_TOES, SEGMENT_COUNT};
 use crate::sim::body::{Body, Links, Posture, State};
-use crate::sim::control::{Command, ControlInput, Controller, Law, Modern, Paper, tracking};
+use crate::sim::control::{
+    Balance, Command, ControlInput, Controller, Law, Modern, Paper, tracking,
+};
 use crate::sim::dynamics::{Kinematics, Terms, center_of_mass};
-use crate::sim::gait::{Gait, StepPlan};
+use crate::sim::gait::{Gait, Led, StepPlan};
 use crate::sim::math::Vec3;
 use crate::sim::motion::{Target, TargetPair};
 use crate::sim::strength::Strength;
@@ -74,7 +76,7 @@ pub struct Figure {
     links: Links,
     disturbances: Disturbances,
     drive: Drive,
-    gait: Option<Box<Gait>>,
+    gait: Box<Gait>,
     target: TargetPair,
     terms: Terms,
     support: Support,
@@ -103,7 +105,7 @@ impl Figure {
             links: Links::new(&setup.body),
             disturbances: Disturbances::default(),
             drive: Drive::Hold(setup.state.posture),
-            gait: None,
+            gait: Box::new(Gait::new(&setup.body)),
             target: TargetPair {
                 now: still.clone(),
                 next: still,
@@ -162,17 +164,18 @@ impl Figure {
             .range(&angles, &rates, &scale, &mut lower, &mut upper);
         // 5. Control: accelerations and torques within strength.
         let mut tasks = self.tasks.points(&body, &self.links, &self.target);
-        if let Some(gait) = self.gait.as_mut().filter(|_| !self.fallen) {
-            gait.lead_feet(
-                &self.terms,
-                &tasks.com,
-                self.support.polygon(),
-                world.gravity,
-                dt,
-                &mut tasks.feet,
-            );
+        let mut balance = None;
+        if self.steps() {
+            let mut led = Led {
+                com: &mut tasks.com,
+                feet: &mut tasks.feet,
+                unplanned: self.setup.params.protective_steps,
+            };
+            balance = self
+                .gait
+                .lead(&self.terms, &self.support, world.gravity, dt, &mut led);
         }
-        let motors = self.control(world, &tasks, &lower, &upper);
+        let motors = self.control(world, &tasks, balance, (&lower, &upper));
         // 6. Simulate: motors, limits and contact move the body.
         let before = self.state;
         let input = StepInput {
@@ -202,16 +205,23 @@ impl Figure {
 
     /// Desired motion of the tick: as the drive has it, or as its steps come out.
     fn desired(&mut self, time: f64, dt: f64) -> TargetPair {
-        match (&self.drive, &mut self.gait) {
-            (Drive::Clip(play), Some(gait)) if !self.fallen => gait.targets(
-                time,
-                dt,
-                &self.terms,
-                |t| play.clip_time(t),
-                |t| play.sample(t),
-            ),
-            (drive, _) => drive.targets(time, dt),
+        if !self.steps() {
+            return self.drive.targets(time, dt);
         }
+        let drive = &self.drive;
+        let clip_time = |t: f64| match drive {
+            Drive::Clip(play) => play.clip_time(t),
+            _ => t,
+        };
+        self.gait
+            .targets(time, dt, &self.terms, clip_time, |now, next| {
+                drive.pair(now, next)
+            })
+    }
+
+    /// True if steps follow events: the modern controller, and a figure that is up.
+    fn steps(&self) -> bool {
+        !self.fallen && self.setup.controller == ControllerKind::Modern
     }
 
     /// Runs the controller in charge and turns its command into work for the motors.
@@ -219,8 +229,8 @@ impl Figure {
         &mut self,
         world: &TickContext,
         tasks: &TaskPoints,
-        lower: &[f64; DOF_COUNT],
-        upper: &[f64; DOF_COUNT],
+        balance: Option<Balance>,
+        (lower, upper): (&[f64; DOF_COUNT], &[f64; DOF_COUNT]),
     ) -> MotorCommand {
         let input = ControlInput {
             terms: &self.terms,
@@ -230,6 +240,7 @@ impl Figure {
             com: &tasks.com,
             effectors: &tasks.hands,
             feet: &tasks.feet,
+            balance,
             lower,
             upper,
             params: &self.setup.params,
@@ -392,6 +403,7 @@ impl Figure {
             self.fallen = false;
             self.modern.reset();
             self.paper.reset();
+            self.gait.reset();
         }
     }
 }
@@ -443,19 +455,18 @@ impl Figure {
     }
     /// Replaces the source of the desired motion from the next tick on.
     pub fn set_drive(&mut self, drive: Drive) {
-        self.gait = match &drive {
+        self.gait.follow(match &drive {
             Drive::Clip(play) => {
                 let plan = StepPlan::new(&self.setup.body, &play.clip, play.looped);
-                plan.steps()
-                    .then(|| Box::new(Gait::new(&self.setup.body, plan, play.speed, play.origin)))
+                Some((plan, play.speed, play.origin))
             }
             _ => None,
-        };
+        });
         self.drive = drive;
     }
-    /// The steps of the clip that plays, if its feet leave the floor.
-    pub fn gait(&self) -> Option<&Gait> {
-        self.gait.as_deref()
+    /// Its steps.
+    pub fn gait(&self) -> &Gait {
+        &self.gait
     }
     /// Scheduled perturbations.
     pub fn perturbations(&self) -> impl Iterator<Item = &Perturbation> {
@@ -475,9 +486,7 @@ impl Figure {
         self.last_good = state;
         self.fallen = false;
         self.frozen = false;
-        if let Some(gait) = &mut self.gait {
-            gait.reset();
-        }
+        self.gait.reset();
         self.com_acceleration = Vec3::zero();
         self.support.reset();
         self.paper.reset();

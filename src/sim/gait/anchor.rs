@@ -30,6 +30,31 @@ pub fn wrapped(angle: f64) -> f64 {
 }
 
 impl Anchor {
+    /// Maps a planned place and heading to a real one at once.
+    pub fn between(planned: (Vec3, f64), real: (Vec3, f64)) -> Self {
+        let yaw = wrapped(real.1 - planned.1);
+        let level = |p: Vec3| Vec3 { z: 0.0, ..p };
+        Self {
+            planned: level(planned.0),
+            at: level(real.0),
+            goal: level(real.0),
+            yaw,
+            yaw_goal: yaw,
+        }
+    }
+
+    /// What is mapped to `mapped` now goes to `real`; the heading stays.
+    pub fn pin(&mut self, mapped: Vec3, real: Vec3) {
+        let back = Quat::exp(Vec3::Z * -self.yaw).rotate(Vec3 {
+            x: mapped.x - self.at.x,
+            y: mapped.y - self.at.y,
+            z: 0.0,
+        });
+        self.planned += back;
+        self.at = Vec3 { z: 0.0, ..mapped };
+        self.goal = Vec3 { z: 0.0, ..real };
+    }
+
     /// Image of a planned point.
     pub fn point(&self, p: Vec3) -> Vec3 {
         let level = Vec3 {

@@ -1,12 +1,11 @@
 //! The capture point (divergent component of motion) and where to step so that the error it has is gone when the foot lands (WALKING §4).
 
 use crate::sim::body::topology::{L_FOOT, R_FOOT};
-use crate::sim::body::{Body, Links};
+use crate::sim::body::{Body, Links, Posture};
 use crate::sim::control::PointTarget;
 use crate::sim::dynamics::{Kinematics, Terms};
 use crate::sim::math::exp::exp;
 use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::Target;
 use crate::sim::support::Polygon;
 
 /// Gain k of `p* = p_ref + (1 + k) e`.
@@ -31,7 +30,9 @@ pub struct Capture {
     /// Part of it that the zero-moment point can take care of, m.
     handled: [f64; 2],
     omega: f64,
+    point: [f64; 2],
     inner: Polygon,
+    stance: Polygon,
     links: Option<Links>,
     kin: Kinematics<f64>,
 }
@@ -42,7 +43,9 @@ impl Default for Capture {
             error: [0.0; 2],
             handled: [0.0; 2],
             omega: 3.0,
+            point: [0.0; 2],
             inner: Polygon::with_capacity(64),
+            stance: Polygon::with_capacity(64),
             links: None,
             kin: Kinematics::default(),
         }
@@ -63,15 +66,15 @@ impl Capture {
         }
     }
 
-    /// Ankles and rotations of both feet of a target.
-    pub(super) fn feet(&mut self, target: &Target) -> [(Vec3, Quat); 2] {
+    /// Ankles and rotations of both feet of a posture.
+    pub(super) fn feet(&mut self, posture: &Posture) -> [(Vec3, Quat); 2] {
         let Some(links) = &self.links else {
             return [(Vec3::zero(), Quat::identity()); 2];
         };
-        self.kin.set_posture(links, &target.posture);
+        self.kin.set_posture(links, posture);
         [L_FOOT, R_FOOT].map(|s| {
             (
-                target.posture.root_position + self.kin.position[s.index()],
+                posture.root_position + self.kin.position[s.index()],
                 Quat::from_mat3(&self.kin.rotation[s.index()]),
             )
         })
@@ -93,6 +96,7 @@ impl Capture {
         let w2 = (gravity + ff.z).max(LEAST_LOAD) / height;
         let (c, r) = (terms.com, com.now);
         let (dc, dr) = (terms.com_velocity, com.now_velocity);
+        self.point = [c.x + dc.x / w, c.y + dc.y / w];
         self.error = [c.x - r.x + (dc.x - dr.x) / w, c.y - r.y + (dc.y - dr.y) / w];
         let planned = [r.x - ff.x / w2, r.y - ff.y / w2];
         let wanted = [
@@ -105,6 +109,53 @@ impl Capture {
             let e = self.error[k];
             self.handled[k] = (can[k] - planned[k]).clamp(e.min(0.0), e.max(0.0));
         }
+    }
+
+    /// The capture point ξ, m.
+    pub fn point(&self) -> [f64; 2] {
+        self.point
+    }
+
+    /// ω of the pendulum, 1/s.
+    pub fn omega(&self) -> f64 {
+        self.omega
+    }
+
+    /// The zero-moment point over the stance `points` that slows the capture point `xi` most.
+    pub(super) fn hold(
+        &mut self,
+        points: impl Iterator<Item = [f64; 2]>,
+        xi: [f64; 2],
+    ) -> [f64; 2] {
+        self.stance.set_hull(points);
+        self.inner.set_inset(&self.stance, INSET);
+        self.inner.closest(xi).map_or(xi, |c| c.point)
+    }
+
+    /// Horizontal acceleration with which the pendulum over the stance `points` falls slowest, m/s².
+    pub(super) fn slowest(
+        &mut self,
+        terms: &Terms,
+        points: impl Iterator<Item = [f64; 2]>,
+    ) -> [f64; 2] {
+        let p = self.hold(points, self.point);
+        let w2 = self.omega * self.omega;
+        [w2 * (terms.com.x - p[0]), w2 * (terms.com.y - p[1])]
+    }
+
+    /// The wanted acceleration `a` of the centre of mass with its zero-moment point brought back into the support: what lies beyond would only
+    /// turn the trunk. `None` without a support.
+    pub(super) fn feasible(
+        &self,
+        terms: &Terms,
+        a: Vec3,
+        polygon: &Polygon,
+        gravity: f64,
+    ) -> Option<[f64; 2]> {
+        let c = terms.com;
+        let w2 = (gravity + a.z).max(LEAST_LOAD) / c.z.max(0.1);
+        let p = polygon.closest([c.x - a.x / w2, c.y - a.y / w2])?.point;
+        Some([w2 * (c.x - p[0]), w2 * (c.y - p[1])])
     }
 
     /// Error that is left after `remaining` seconds of swing: a foothold displaced by it makes the error zero.

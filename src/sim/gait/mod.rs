@@ -5,18 +5,22 @@
 
 pub mod anchor;
 pub mod balance;
+pub mod catch;
 pub mod plan;
 
 pub use balance::Capture;
+pub use catch::Catch;
 pub use plan::{Footfall, StepPlan};
 
-use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
-use crate::sim::body::{Body, SegmentId};
-use crate::sim::control::{PointTarget, RotationTarget};
+use crate::sim::body::topology::{L_FOOT, L_TOES, NV, R_FOOT, R_TOES};
+use crate::sim::body::{Body, Posture, SegmentId};
+use crate::sim::control::{Balance, PointTarget, RotationTarget, com_law};
 use crate::sim::dynamics::Terms;
 use crate::sim::math::{Quat, Vec3};
+use crate::sim::motion::builtin::at_ease;
 use crate::sim::motion::foot_lock::Sole;
 use crate::sim::motion::{PlanarTransform, Target, TargetPair};
+use crate::sim::support::Support;
 use anchor::Anchor;
 
 const FOOT: [SegmentId; 2] = [L_FOOT, R_FOOT];
@@ -37,6 +41,12 @@ const CLEARANCE: f64 = 0.03;
 const CLEARANCE_RATE: f64 = 0.35;
 /// Share of its distance from home by which a foothold is pulled there, and the most, m.
 const HOME: (f64, f64) = (0.3, 0.04);
+/// Weight of the centre of mass while a step catches it: the trunk has to be stopped too, and the foot has to get there.
+const CATCH_SHARE: f64 = 0.3;
+/// Time in which a motion that ended turns into standing, s.
+const EASE: f64 = 0.6;
+/// A body slower than this, and a capture point closer to its place than this, is settled: m/s and m.
+const SETTLED: (f64, f64) = (0.1, 0.03);
 /// Slowest clip-time rate that counts as playing at all.
 const STILL: f64 = 1e-9;
 
@@ -68,11 +78,56 @@ pub struct Landing {
     pub off: Vec3,
 }
 
+/// What the gait may change in a tick.
+#[derive(Debug)]
+pub struct Led<'a> {
+    /// Desired centre of mass.
+    pub com: &'a mut PointTarget,
+    /// Desired ankles and rotations of the feet.
+    pub feet: &'a mut [(PointTarget, RotationTarget); 2],
+    /// Steps may be made that no clip planned.
+    pub unplanned: bool,
+}
+
+/// From posture `a` to posture `b`: the joints turn, the pelvis is already where `b` has it. `u` beyond 0…1 is clamped.
+fn eased(a: &Posture, b: &Posture, u: f64) -> Posture {
+    let u = u.clamp(0.0, 1.0);
+    let s = u * u * (3.0 - 2.0 * u);
+    let mut rates = [0.0; NV];
+    let way = a.joint_difference(b);
+    for (r, w) in rates[6..].iter_mut().zip(way) {
+        *r = s * w;
+    }
+    let mut out = *a;
+    out.integrate(&rates, 1.0);
+    out.root_position = b.root_position;
+    out.root_rotation = b.root_rotation;
+    out
+}
+
+/// Touching points of the foot that stands while `side` swings, on the floor: the swinging one carries nothing any more, even while it still touches.
+fn stance_points(support: &Support, side: usize) -> impl Iterator<Item = [f64; 2]> + '_ {
+    let stance = [FOOT[1 - side], TOES[1 - side]];
+    let points = support.points().iter();
+    points
+        .filter(move |p| stance.contains(&p.segment))
+        .map(|p| [p.position.x, p.position.y])
+}
+
 /// The steps of one figure. Remembers phase and footholds; nothing allocates in a tick.
 #[derive(Clone, Debug)]
 pub struct Gait {
-    plan: StepPlan,
     soles: [Sole; 2],
+    leg: f64,
+    ease: Posture,
+    /// Plan of the clip that plays, if its feet leave the floor.
+    plan: Option<StepPlan>,
+    speed: f64,
+    origin: PlanarTransform,
+    /// Last posture of a clip that ended in a step, and the time since, s.
+    ended: Option<(Posture, f64)>,
+    /// Speed of the pelvis over the floor as the motion last had it before it was over, m/s.
+    last_speed: f64,
     anchor: Anchor,
     feet: [Foot; 2],
     started: bool,
@@ -80,28 +135,52 @@ pub struct Gait {
     lag: f64,
     /// Clip time now, s.
     phase: f64,
-    speed: f64,
-    origin: PlanarTransform,
     capture: Capture,
     landing: Option<Landing>,
+    step: Option<Catch>,
+    /// Foot that is about to be brought back, or is.
+    tidying: Option<usize>,
+    /// Displacement of the desired centre of mass while feet are brought back, m.
+    lean: Vec3,
 }
 
 impl Gait {
-    /// Steps of a clip with `plan`, played at `speed` clip seconds per second from `origin`.
-    pub fn new(body: &Body, plan: StepPlan, speed: f64, origin: PlanarTransform) -> Self {
+    /// Steps of figures with this body, standing.
+    pub fn new(body: &Body) -> Self {
+        let leg =
+            body.joint_offset[L_FOOT.index()].norm() + body.joint_offset[L_FOOT.index() - 1].norm();
         Self {
-            plan,
             soles: [Sole::new(body, 0), Sole::new(body, 1)],
+            leg,
+            ease: at_ease(body),
+            plan: None,
+            speed: 1.0,
+            origin: PlanarTransform::default(),
+            ended: None,
+            last_speed: 0.0,
             anchor: Anchor::default(),
             feet: [Foot::default(); 2],
             started: false,
             lag: 0.0,
             phase: 0.0,
-            speed: speed.max(STILL),
-            origin,
             capture: Capture::new(body),
             landing: None,
+            step: None,
+            tidying: None,
+            lean: Vec3::zero(),
         }
+    }
+
+    /// Follows another motion from the next tick on: a clip with its plan, speed (clip seconds per second) and origin, or, without, one whose
+    /// feet stay where they are.
+    pub fn follow(&mut self, plan: Option<(StepPlan, f64, PlanarTransform)>) {
+        self.plan = None;
+        if let Some((plan, speed, origin)) = plan.filter(|(p, ..)| p.steps()) {
+            self.plan = Some(plan);
+            self.speed = speed.max(STILL);
+            self.origin = origin;
+        }
+        self.reset();
     }
 
     /// Forgets the past: the motion lies where it was planned.
@@ -110,6 +189,10 @@ impl Gait {
         self.feet = [Foot::default(); 2];
         self.started = false;
         self.lag = 0.0;
+        self.ended = None;
+        self.step = None;
+        self.tidying = None;
+        self.lean = Vec3::zero();
     }
 
     /// World time by which the clip is behind its schedule, s.
@@ -127,64 +210,120 @@ impl Gait {
         self.landing.as_ref()
     }
 
-    fn placed(&self, f: &Footfall) -> Footfall {
-        Footfall {
-            place: self.origin.point(f.place),
-            yaw: f.yaw + self.origin.yaw,
-            ..*f
-        }
+    /// The step under way that no clip planned.
+    pub fn unplanned(&self) -> Option<&Catch> {
+        self.step.as_ref()
     }
 
-    /// Desired motion of the tick that starts at world time `time`. `sample(t)` is the clip placed at its origin, at world time t, and
-    /// `clip_time(t)` the clip time then; `terms` are those of the present state.
+    /// Desired motion of the tick that starts at world time `time`.
+    ///
+    /// * `terms`: those of the present state; `clip_time`: clip time at a world time; `pair(now, next)`: the motion as planned, at two world times.
     pub fn targets(
         &mut self,
         time: f64,
         dt: f64,
         terms: &Terms,
         clip_time: impl Fn(f64) -> f64,
-        sample: impl Fn(f64) -> Target,
+        pair: impl Fn(f64, f64) -> TargetPair,
     ) -> TargetPair {
         self.landing = None;
+        self.anchor.settle(dt);
         self.phase = clip_time(time - self.lag);
-        if !self.started {
-            self.started = true;
-            for side in 0..2 {
-                self.feet[side].down = self.plan.current(side, self.phase).is_some();
-                self.feet[side].lifted = self.plan.last_off(side, self.phase);
+        let now = time - self.lag;
+        let over = self.plan.as_ref().is_some_and(|p| p.is_over(self.phase));
+        if self.ended.is_none() && over && self.last_speed > SETTLED.0 {
+            self.end(terms, &pair(now, now).now.posture);
+        }
+        let mut out;
+        let mut planted;
+        if let Some((from, since)) = &mut self.ended {
+            *since += dt;
+            let still = |t: f64| Target::still(eased(from, &self.ease, t / EASE));
+            out = TargetPair {
+                now: still(*since - dt),
+                next: still(*since),
+            };
+            planted = [true; 2];
+        } else if self.plan.is_some() {
+            let rate = self.schedule(terms, dt, || pair(now, now).now);
+            self.lag += (1.0 - rate) * dt;
+            out = pair(now, time + dt - self.lag);
+            planted = [self.feet[0].down, self.feet[1].down];
+        } else {
+            out = pair(time, time + dt);
+            planted = out.next.planted;
+        }
+        if self.anchor != Anchor::default() {
+            let place = self.anchor.transform();
+            place.apply_to(&mut out.now);
+            place.apply_to(&mut out.next);
+        }
+        if !over {
+            let v = &out.now.velocity;
+            self.last_speed = (v[3] * v[3] + v[4] * v[4]).sqrt();
+        }
+        if let Some(step) = &mut self.step {
+            step.since += dt;
+            planted[step.side] = false;
+        }
+        if self.ended.is_some() || self.plan.is_some() || self.step.is_some() {
+            out.now.planted = planted;
+            out.next.planted = planted;
+        }
+        out
+    }
+
+    /// The clip is over while its figure may still walk: it turns into standing. The last step is finished, and more are made if it takes them.
+    fn end(&mut self, terms: &Terms, last: &Posture) {
+        let now = self.places(terms);
+        let poses = self.capture.feet(&self.ease);
+        let home: catch::Places =
+            std::array::from_fn(|k| plan::place(&self.soles[k], poses[k].0, poses[k].1));
+        // It stands where the foot is that the body moves over, and looks where the feet look.
+        let xi = self.capture.point();
+        let far = |k: usize| (now[k].0.x - xi[0]).abs() + (now[k].0.y - xi[1]).abs();
+        let side = match [self.feet[0].down, self.feet[1].down] {
+            [true, false] => 0,
+            [false, true] => 1,
+            _ => usize::from(far(1) < far(0)),
+        };
+        let heading = now[0].1 + 0.5 * anchor::wrapped(now[1].1 - now[0].1);
+        let planned = home[0].1 + 0.5 * anchor::wrapped(home[1].1 - home[0].1);
+        self.anchor = Anchor::between((home[side].0, planned), (now[side].0, heading));
+        self.ended = Some((*last, 0.0));
+        for side in 0..2 {
+            if !self.feet[side].down {
+                let pose = terms.segment_position(FOOT[side].index());
+                self.step = Some(Catch::new(side, false, pose, now[side].1));
             }
         }
-        self.anchor.settle(dt);
-        let now_time = time - self.lag;
-        let rate = self.schedule(terms, dt, &sample, now_time);
-        self.lag += (1.0 - rate) * dt;
-        let place = self.anchor.transform();
-        let mut pair = TargetPair {
-            now: sample(now_time),
-            next: sample(time + dt - self.lag),
-        };
-        if self.anchor != Anchor::default() {
-            place.apply_to(&mut pair.now);
-            place.apply_to(&mut pair.next);
-        }
-        let planted = [self.feet[0].down, self.feet[1].down];
-        pair.now.planted = planted;
-        pair.next.planted = planted;
-        pair
+    }
+
+    /// Where the feet are.
+    fn places(&self, terms: &Terms) -> catch::Places {
+        std::array::from_fn(|k| {
+            let s = FOOT[k].index();
+            plan::place(
+                &self.soles[k],
+                terms.segment_position(s),
+                Quat::from_mat3(&terms.kin.rotation[s]),
+            )
+        })
     }
 
     /// Contact by events: lifts feet when planned, plants them when they touch. Returns the rate at which the plan goes on.
-    fn schedule(
-        &mut self,
-        terms: &Terms,
-        dt: f64,
-        sample: &impl Fn(f64) -> Target,
-        now_time: f64,
-    ) -> f64 {
+    fn schedule(&mut self, terms: &Terms, dt: f64, sample: impl Fn() -> Target) -> f64 {
         let mut rate = 1.0;
         let mut lifted = [false; 2];
+        if !self.started {
+            self.started = true;
+            for side in 0..2 {
+                self.feet[side].down = self.planned(side).is_some();
+                self.feet[side].lifted = self.last_off(side);
+            }
+        }
         for side in 0..2 {
-            let planned = self.plan.current(side, self.phase);
+            let planned = self.planned(side);
             let touches = self.lowest(terms, side) < TOUCH;
             let mut foot = self.feet[side];
             if foot.down {
@@ -194,8 +333,7 @@ impl Gait {
                     rate = 2.0;
                 } else {
                     let other = 1 - side;
-                    let waits =
-                        !self.feet[other].down && self.plan.current(other, self.phase).is_some();
+                    let waits = !self.feet[other].down && self.planned(other).is_some();
                     if !waits {
                         foot.down = false;
                         foot.lifted = self.phase;
@@ -215,7 +353,7 @@ impl Gait {
                     self.feet[side].late += dt;
                 }
             } else if touches
-                && let Some(f) = self.plan.next(side, self.phase)
+                && let Some(f) = self.next(side)
                 && (f.on - self.phase) / self.speed < EARLY
             {
                 self.land(terms, side, &f, (self.phase - f.on) / self.speed);
@@ -223,9 +361,9 @@ impl Gait {
             }
         }
         if lifted != [false; 2] {
-            let mut target = sample(now_time);
+            let mut target = sample();
             self.anchor.transform().apply_to(&mut target);
-            let poses = self.capture.feet(&target);
+            let poses = self.capture.feet(&target.posture);
             for side in 0..2 {
                 if lifted[side] {
                     self.feet[side].release =
@@ -271,55 +409,232 @@ impl Gait {
         low
     }
 
-    /// Leads the swinging feet to footholds that catch the body (step adaptation, WALKING §4), clear of the floor.
-    pub fn lead_feet(
+    /// Leads the swinging feet to footholds that catch the body, clear of the floor (step adaptation, WALKING §4), and decides on steps that
+    /// no clip planned. Returns what balance asks of the centre of mass.
+    pub fn lead(
         &mut self,
         terms: &Terms,
-        com: &PointTarget,
-        polygon: &crate::sim::support::Polygon,
+        support: &Support,
         gravity: f64,
         dt: f64,
-        feet: &mut [(PointTarget, RotationTarget); 2],
-    ) {
-        self.capture.update(terms, com, polygon, gravity, dt);
-        for side in 0..2 {
-            if self.feet[side].down {
-                if self.feet[side].early {
-                    self.lower_early(side, &mut feet[side]);
-                }
+        tasks: &mut Led<'_>,
+    ) -> Option<Balance> {
+        self.capture
+            .update(terms, tasks.com, support.polygon(), gravity, dt);
+        if self.plan.is_some() && self.ended.is_none() {
+            for side in 0..2 {
+                self.lead_planned(terms, side, dt, &mut tasks.feet[side]);
+            }
+        } else if tasks.unplanned {
+            self.catch(terms, support, dt, tasks);
+        }
+        self.keep_headings(terms, tasks.feet);
+        if let Some(step) = self.step.filter(|s| !s.tidy) {
+            // The centre of mass goes where the pendulum over the stance foot falls slowest.
+            return Some(Balance {
+                acceleration: self
+                    .capture
+                    .slowest(terms, stance_points(support, step.side)),
+                share: CATCH_SHARE,
+            });
+        }
+        let wanted = com_law(tasks.com, terms.com, terms.com_velocity, dt);
+        let acceleration = self
+            .capture
+            .feasible(terms, wanted, support.polygon(), gravity)?;
+        Some(Balance {
+            acceleration,
+            share: 1.0,
+        })
+    }
+
+    /// A standing foot keeps the heading it landed with: it could only be turned by scraping.
+    fn keep_headings(&self, terms: &Terms, feet: &mut [(PointTarget, RotationTarget); 2]) {
+        for (side, (_, target)) in feet.iter_mut().enumerate() {
+            let swings = self.step.is_some_and(|s| s.side == side)
+                || (self.plan.is_some() && self.ended.is_none() && !self.feet[side].down);
+            if swings {
                 continue;
             }
-            let next = self.plan.next(side, self.phase);
-            let current = self.plan.current(side, self.phase);
-            if let Some(f) = current.or(next) {
-                self.adapt(terms, side, &f, dt);
-            }
-            let foot = self.feet[side];
-            let since = (self.phase - foot.lifted).max(0.0) / self.speed;
-            let on = current.map_or_else(
-                || next.map_or(self.phase + self.speed, |f| f.on),
-                |_| self.phase,
-            );
-            let remaining = (on - self.phase).max(0.0) / self.speed;
-            let u = (since / (since + remaining).max(0.1) / SWING_SHARE).clamp(0.0, 1.0);
-            let s = u * u * u * (10.0 - 15.0 * u + 6.0 * u * u);
-            let kept = (1.0 - since / RELEASE).max(0.0);
-            let mut offset = foot.release * (kept * kept);
-            offset.x += s * foot.shift[0];
-            offset.y += s * foot.shift[1];
-            let wanted = CLEARANCE
-                .min(CLEARANCE_RATE * since)
-                .min(CLEARANCE_RATE * remaining);
-            offset.z += (wanted - self.lowest(terms, side)).clamp(0.0, CLEARANCE);
-            let target = &mut feet[side].0;
-            if foot.late > 0.0 {
-                offset.z -= LOWERING * foot.late;
-                target.now_velocity = Vec3::Z * -LOWERING;
-                target.next_velocity = Vec3::Z * -LOWERING;
-            }
-            target.now += offset;
-            target.next += offset;
+            let actual = Quat::from_mat3(&terms.kin.rotation[FOOT[side].index()]);
+            let off = plan::heading(actual).0 - plan::heading(target.now).0;
+            let turn = Quat::exp(Vec3::Z * anchor::wrapped(off));
+            target.now = turn * target.now;
+            target.next = turn * target.next;
         }
+    }
+
+    fn lead_planned(
+        &mut self,
+        terms: &Terms,
+        side: usize,
+        dt: f64,
+        target: &mut (PointTarget, RotationTarget),
+    ) {
+        if self.feet[side].down {
+            if self.feet[side].early {
+                self.lower_early(side, target);
+            }
+            return;
+        }
+        let (current, next) = (self.planned(side), self.next(side));
+        if let Some(f) = current.or(next) {
+            self.adapt(terms, side, &f, dt);
+        }
+        let foot = self.feet[side];
+        let since = (self.phase - foot.lifted).max(0.0) / self.speed;
+        let on = match (current, next) {
+            (Some(_), _) => self.phase,
+            (None, Some(f)) => f.on,
+            (None, None) => self.phase + self.speed,
+        };
+        let remaining = (on - self.phase).max(0.0) / self.speed;
+        let u = (since / (since + remaining).max(0.1) / SWING_SHARE).clamp(0.0, 1.0);
+        let s = u * u * u * (10.0 - 15.0 * u + 6.0 * u * u);
+        let kept = (1.0 - since / RELEASE).max(0.0);
+        let mut offset = foot.release * (kept * kept);
+        offset.x += s * foot.shift[0];
+        offset.y += s * foot.shift[1];
+        let wanted = CLEARANCE
+            .min(CLEARANCE_RATE * since)
+            .min(CLEARANCE_RATE * remaining);
+        offset.z += (wanted - self.lowest(terms, side)).clamp(0.0, CLEARANCE);
+        let target = &mut target.0;
+        if foot.late > 0.0 {
+            offset.z -= LOWERING * foot.late;
+            target.now_velocity = Vec3::Z * -LOWERING;
+            target.next_velocity = Vec3::Z * -LOWERING;
+        }
+        target.now += offset;
+        target.next += offset;
+    }
+
+    /// Steps that no clip planned: catches a body whose capture point has left its feet, then brings the feet back together.
+    fn catch(&mut self, terms: &Terms, support: &Support, dt: f64, tasks: &mut Led<'_>) {
+        let now = self.places(terms);
+        let home: catch::Places = std::array::from_fn(|k| {
+            let (p, r) = &tasks.feet[k];
+            plan::place(&self.soles[k], p.now, r.now)
+        });
+        let xi = self.capture.point();
+        let Some(nearest) = support.polygon().closest(xi) else {
+            return;
+        };
+        if self.step.is_none() {
+            self.decide(terms, support, &now, &home, (xi, nearest.margin));
+        }
+        // Lean over the foot that is going to stand alone, and back.
+        let leaning = self.tidying.map(|side| {
+            let (place, yaw) = now[1 - side];
+            place + Quat::exp(Vec3::Z * yaw).rotate(Vec3::X * catch::SOLE_MIDDLE) - tasks.com.now
+        });
+        let wanted = leaning.unwrap_or_default();
+        let way = Vec3 {
+            z: 0.0,
+            ..wanted - self.lean
+        };
+        let most = catch::LEAN_SPEED * dt;
+        let far = way.norm();
+        self.lean += if far > most { way * (most / far) } else { way };
+        tasks.com.now += self.lean;
+        tasks.com.next += self.lean;
+
+        let Some(step) = &mut self.step else { return };
+        let zmp = self.capture.hold(stance_points(support, step.side), xi);
+        step.aim(xi, zmp, self.capture.omega(), (&home, &now), self.leg);
+        step.lead(&self.soles[step.side], dt, &mut tasks.feet[step.side]);
+        let step = *step;
+        if step.overdue() || (step.may_land() && self.lowest(terms, step.side) < TOUCH) {
+            self.step = None;
+            self.tidying = None;
+            self.feet[step.side].down = true;
+            self.landing = Some(Landing {
+                side: step.side,
+                late: step.since - step.duration(),
+                off: now[step.side].0 - home[step.side].0,
+            });
+            if !step.tidy {
+                self.anchor.pin(home[step.side].0, now[step.side].0);
+            }
+        }
+    }
+
+    /// Begins a step if the body needs one.
+    fn decide(
+        &mut self,
+        terms: &Terms,
+        support: &Support,
+        now: &catch::Places,
+        home: &catch::Places,
+        (xi, margin): ([f64; 2], f64),
+    ) {
+        let on_feet = support
+            .points()
+            .iter()
+            .all(|p| FOOT.contains(&p.support) || TOES.contains(&p.support));
+        let start = |side: usize, tidy: bool| {
+            let ankle = terms.segment_position(FOOT[side].index());
+            Some(Catch::new(side, tidy, ankle, now[side].1))
+        };
+        if !on_feet || margin < -catch::HOPELESS {
+            return;
+        }
+        if margin < -catch::LOST {
+            // The foot that carries less swings.
+            let carried = |side: usize| {
+                support.load()[FOOT[side].index()] + support.load()[TOES[side].index()]
+            };
+            let side = usize::from(carried(1) <= carried(0));
+            self.tidying = None;
+            self.step = start(side, false);
+            return;
+        }
+        if let Some(side) = self.tidying {
+            let over = now[1 - side];
+            let stance = over.0 + Quat::exp(Vec3::Z * over.1).rotate(Vec3::X * catch::SOLE_MIDDLE);
+            let off = Vec3 {
+                x: xi[0] - stance.x,
+                y: xi[1] - stance.y,
+                z: 0.0,
+            };
+            if off.norm() < SETTLED.1 {
+                self.step = start(side, true);
+            }
+            return;
+        }
+        let e = self.capture.error;
+        let settled = terms.com_velocity.norm() < SETTLED.0
+            && (e[0] * e[0] + e[1] * e[1]).sqrt() < SETTLED.1
+            && self.lean.norm() < 1e-3;
+        if settled {
+            self.tidying = (0..2).find(|k| {
+                (now[*k].0 - home[*k].0).norm() > catch::UNTIDY.0
+                    || anchor::wrapped(now[*k].1 - home[*k].1).abs() > catch::UNTIDY.1
+            });
+        }
+    }
+
+    /// A foothold of the clip where its origin puts it.
+    fn placed(&self, f: &Footfall) -> Footfall {
+        Footfall {
+            place: self.origin.point(f.place),
+            yaw: f.yaw + self.origin.yaw,
+            ..*f
+        }
+    }
+
+    fn planned(&self, side: usize) -> Option<Footfall> {
+        self.plan.as_ref()?.current(side, self.phase)
+    }
+
+    fn next(&self, side: usize) -> Option<Footfall> {
+        self.plan.as_ref()?.next(side, self.phase)
+    }
+
+    fn last_off(&self, side: usize) -> f64 {
+        self.plan
+            .as_ref()
+            .map_or(0.0, |p| p.last_off(side, self.phase))
     }
 
     /// A foot that landed before its time stands where the plan still has it in the air.

@@ -136,6 +136,11 @@ impl StepPlan {
             .any(|s| s.len() != 1 || s[0].on > 0.0 || s[0].off < self.duration)
     }
 
+    /// True once a clip that does not repeat has played to its end.
+    pub fn is_over(&self, t: f64) -> bool {
+        self.round.is_none() && t >= self.duration
+    }
+
     /// Round of a loop that time `t` falls into, and the time within it.
     fn round_of(&self, t: f64) -> (f64, f64) {
         if self.round.is_none() || self.duration <= 0.0 {

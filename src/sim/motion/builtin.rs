@@ -49,5 +49,10 @@ pub fn builtin(body: &Body, name: &str) -> Option<Clip> {
     )
 }
 
+/// Standing at ease at the origin, feet side by side under the hips.
+pub fn at_ease(body: &Body) -> Posture {
+    shape::posture(body, &standing::stand(body, standing::HALF_STANCE))
+}
+
 #[cfg(test)]
 mod tests;

@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 /// See [`super::LIFT_GRASP`].
 pub const LIFT_GRASP: f64 = 1.7;
 /// Half the distance between the ankles, reference body, m.
-const HALF_STANCE: f64 = 0.11;
+pub const HALF_STANCE: f64 = 0.11;
 /// Arms hanging at ease, degrees.
 const HANGING: [(&str, f64); 8] = [
     ("l_shoulder_flexion", 2.0),
