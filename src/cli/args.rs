@@ -17,6 +17,12 @@ pub enum BodyKind {
     Man,
     /// Adult woman, of average size unless said otherwise.
     Woman,
+    /// Child; 8 years, of ordinary size for the age unless said otherwise. Up to 10 years boys and girls are alike.
+    Child,
+    /// Older man; 75 years, of ordinary size unless said otherwise.
+    OlderMan,
+    /// Older woman; 75 years, of ordinary size unless said otherwise.
+    OlderWoman,
 }
 
 /// Who the figure stands for.
@@ -25,13 +31,13 @@ pub struct BodyArgs {
     /// Body and strength tables.
     #[arg(long, value_enum, default_value_t)]
     pub body: BodyKind,
-    /// Age, years.
+    /// Age, years, 6 to 90.
     #[arg(long, value_name = "YEARS")]
     pub age: Option<f64>,
-    /// Stature, m.
+    /// Stature, m; ordinary for sex and age unless given.
     #[arg(long, value_name = "M")]
     pub height: Option<f64>,
-    /// Body mass, kg.
+    /// Body mass, kg; ordinary for sex and age unless given.
     #[arg(long, value_name = "KG")]
     pub mass: Option<f64>,
 }
@@ -42,18 +48,18 @@ impl BodyArgs {
     /// # Errors
     /// When the tables do not cover the profile; names the value and its range.
     pub fn build(&self) -> Result<Body> {
-        let standard = match self.body {
-            BodyKind::Man => Body::adult_man(),
-            BodyKind::Woman => Body::adult_woman(),
+        let (sex, age) = match self.body {
+            BodyKind::Man => (Sex::Male, 30.0),
+            BodyKind::Woman => (Sex::Female, 30.0),
+            BodyKind::Child => (Sex::Male, 8.0),
+            BodyKind::OlderMan => (Sex::Male, 75.0),
+            BodyKind::OlderWoman => (Sex::Female, 75.0),
         };
-        if self.age.is_none() && self.height.is_none() && self.mass.is_none() {
-            return Ok(standard);
-        }
+        let ordinary = Profile::ordinary(sex, self.age.unwrap_or(age));
         let profile = Profile {
-            age: self.age.unwrap_or(standard.profile.age),
-            height: self.height.unwrap_or(standard.profile.height),
-            mass: self.mass.unwrap_or(standard.profile.mass),
-            ..standard.profile
+            height: self.height.unwrap_or(ordinary.height),
+            mass: self.mass.unwrap_or(ordinary.mass),
+            ..ordinary
         };
         Body::humanoid(profile).context("no such body")
     }

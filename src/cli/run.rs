@@ -8,10 +8,11 @@ use crate::evaluate::table::{Torques, header, row};
 use crate::evaluate::{Metrics, RunReport, Tick};
 use crate::sim::body::topology::DOF_NAMES;
 use crate::sim::body::{Body, Posture, State};
-use crate::sim::figure::{ControlParams, StrengthScale};
+use crate::sim::figure::{ControlParams, FigureOptions, StrengthScale};
 use crate::sim::math::Vec3;
 use crate::sim::motion::retarget::RetargetOptions;
 use crate::sim::motion::{Clip, PlanarTransform, write_bvh};
+use crate::sim::strength::fatigue::MAX_TIME_SCALE;
 use crate::sim::world::{
     ClipPlayback, Drive, Figure, FigureEvent, FigureSetup, World, WorldParams,
 };
@@ -40,6 +41,18 @@ pub struct RunArgs {
     /// Factor on the strength of every joint, 0.01 to 100.
     #[arg(long, value_name = "F", default_value_t = 1.0)]
     pub strength: f64,
+    /// Percentile of strength among people of that sex, age and size, 5 to 95.
+    #[arg(long, value_name = "P", default_value_t = 50.0)]
+    pub percentile: f64,
+    /// Share of its strength that the figure is willing to use, 0 to 1.
+    #[arg(long, value_name = "E", default_value_t = 1.0)]
+    pub effort: f64,
+    /// Seconds of muscle fatigue per simulated second, 0 to 1000; 0: muscles never tire.
+    #[arg(long, value_name = "X", default_value_t = 0.0)]
+    pub fatigue: f64,
+    /// Help towards the desired pose of the pelvis, 0 to 1; reported, not physical.
+    #[arg(long, value_name = "A", default_value_t = 0.0)]
+    pub assist: f64,
     /// Load held by a segment, for example 3@r_hand or 3@r_hand@1..2.5 (repeatable).
     #[arg(long, value_name = "KG@SEGMENT[@T0..T1]")]
     pub load: Vec<LoadSpec>,
@@ -125,6 +138,10 @@ struct Document<'a> {
     controller: ControllerArg,
     stepper: StepperArg,
     strength: f64,
+    percentile: f64,
+    effort: f64,
+    fatigue_time_scale: f64,
+    assist: f64,
     substeps: u32,
     gravity_mps2: f64,
     loads: Vec<LoadEntry>,
@@ -205,6 +222,17 @@ fn check(args: &RunArgs) -> Result<()> {
         "--strength {}: outside 0.01…100",
         args.strength
     );
+    for (name, value, [low, high]) in [
+        ("--percentile", args.percentile, [5.0, 95.0]),
+        ("--effort", args.effort, [0.0, 1.0]),
+        ("--fatigue", args.fatigue, [0.0, MAX_TIME_SCALE]),
+        ("--assist", args.assist, [0.0, 1.0]),
+    ] {
+        ensure!(
+            (low..=high).contains(&value),
+            "{name} {value}: outside {low}…{high}"
+        );
+    }
     ensure!(
         (1e-3..=10.0).contains(&args.push_duration),
         "--push-duration {} s: outside 0.001…10",
@@ -340,11 +368,17 @@ fn simulate(
             body: Arc::clone(body),
             strength: StrengthScale {
                 all: args.strength,
+                percentile: args.percentile,
+                effort: args.effort,
                 ..StrengthScale::default()
             },
             controller: args.controller.into(),
             stepper: args.stepper.into(),
             params: ControlParams::default(),
+            options: FigureOptions {
+                fatigue_time_scale: args.fatigue,
+                assist: args.assist,
+            },
             state: State {
                 posture: start.posture,
                 velocity: start.velocity,
@@ -384,7 +418,7 @@ fn simulate(
             target: figure.target(),
             report,
             state: figure.state(),
-            strength: (figure.strength(), &figure.setup().strength),
+            strength: (figure.strength(), figure.muscles()),
             gravity: scenario.params.gravity,
         };
         metrics.observe(tick, us);
@@ -459,6 +493,10 @@ fn document<'a>(
         controller: args.controller,
         stepper: args.stepper,
         strength: args.strength,
+        percentile: args.percentile,
+        effort: args.effort,
+        fatigue_time_scale: args.fatigue,
+        assist: args.assist,
         substeps: args.substeps,
         gravity_mps2: scenario.params.gravity,
         loads: args

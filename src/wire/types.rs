@@ -1,7 +1,7 @@
 //! What requests and frames are about, as domain types: checked once at the edge, trusted afterwards.
 
 use crate::sim::body::{Body, NV, Posture, Profile, SegmentId, State};
-use crate::sim::figure::{ControllerKind, StepperKind, StrengthScale, TickReport};
+use crate::sim::figure::{ControllerKind, FigureOptions, StepperKind, StrengthScale, TickReport};
 use crate::sim::math::Vec3;
 use crate::sim::motion::Target;
 use std::sync::Arc;
@@ -123,6 +123,8 @@ pub struct FigureSettings {
     pub controller: ControllerKind,
     /// Stepper.
     pub stepper: StepperKind,
+    /// Fatigue and assist.
+    pub options: FigureOptions,
     /// Where it stands.
     pub place: Place,
 }
@@ -153,6 +155,10 @@ pub struct FigureUpdate {
     pub strength: Option<StrengthScale>,
     /// Controller.
     pub controller: Option<ControllerKind>,
+    /// Time scale of fatigue.
+    pub fatigue_time_scale: Option<f64>,
+    /// Assist.
+    pub assist: Option<f64>,
 }
 
 /// What disturbs a figure.

@@ -94,6 +94,15 @@ impl Default for ControlParams {
     }
 }
 
+/// What a figure can have beyond its controller; everything is off by default.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FigureOptions {
+    /// Seconds of muscle fatigue per simulated second, 0…1000; 0: muscles never tire.
+    pub fatigue_time_scale: f64,
+    /// Help towards the desired pose of the pelvis, 0…1: [`Assist`](super::assist::Assist). 0: none.
+    pub assist: f64,
+}
+
 /// A disturbance of one figure. Times are world seconds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Perturbation {

@@ -5,6 +5,7 @@
 //! the velocity is recomputed from the impulses of the last iterate, so that torques, contact forces and accelerations satisfy the
 //! equations of motion to rounding whatever residual the iteration stopped at.
 
+use super::assist::{Assist, Spring};
 use super::report::{Audit, ContactPoint, Flags, MAX_CONTACTS};
 use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT, SegmentId};
 use crate::sim::body::{Body, Links, State};
@@ -15,9 +16,9 @@ use crate::sim::contact::{
 };
 use crate::sim::dynamics::terms::AppliedForce;
 use crate::sim::dynamics::{MassMatrix, Terms, factor, solve};
-use crate::sim::figure::setup::StrengthScale;
 use crate::sim::math::Vec3;
-use crate::sim::strength::Strength;
+use crate::sim::motion::TargetPair;
+use crate::sim::strength::{MuscleScale, Strength};
 use multiversion::multiversion;
 
 /// Compliance of a contact, 1/kg: R of ALGORITHM §14.3.
@@ -47,8 +48,8 @@ pub struct StepInput<'a> {
     pub links: &'a Links,
     /// Its strength.
     pub strength: &'a Strength,
-    /// Scale of the strength.
-    pub scale: &'a StrengthScale,
+    /// Factors on the muscles.
+    pub scale: &'a MuscleScale,
     /// Terms of the state at the start of the tick, those the controller used.
     pub terms: &'a Terms,
     /// What the motors are asked to do.
@@ -59,6 +60,8 @@ pub struct StepInput<'a> {
     pub upper: &'a [f64; DOF_COUNT],
     /// Forces of perturbations, constant over the tick.
     pub applied: &'a [AppliedForce],
+    /// Help towards the desired pose of the pelvis, if it is on.
+    pub assist: Option<(&'a Assist, &'a TargetPair)>,
     /// Magnitude of gravity, m/s².
     pub gravity: f64,
     /// Length of the tick, s.
@@ -98,6 +101,8 @@ pub struct TickForces {
     pub torque: [f64; DOF_COUNT],
     /// Mean ligament torque, N·m.
     pub ligament_torque: [f64; DOF_COUNT],
+    /// Mean assist on the pelvis: moment about its origin, N·m, then force, N.
+    pub assist: [f64; 6],
     /// Mean contact force by segment and vertex; zero where nothing touched.
     pub contact: Vec<ContactPoint>,
     /// Largest relative violation of strength by any substep.
@@ -120,6 +125,10 @@ pub struct TorqueStepper {
     motors: Motors,
     newton: NewtonWorkspace,
     hessian: MassMatrix<f64>,
+    /// M with the springs of the assist on its first six diagonal entries.
+    assisted: MassMatrix<f64>,
+    /// Impulse of the assist in the current substep.
+    assist: [f64; 6],
     /// Sum of contact impulses over the tick by segment × 8 + vertex, N·s, and where the point was when it first touched.
     impulse: Box<[(Vec3, Vec3); MAX_CONTACTS]>,
     penetration: f64,
@@ -140,11 +149,14 @@ impl TorqueStepper {
             motors: Motors::default(),
             newton: NewtonWorkspace::default(),
             hessian: MassMatrix::default(),
+            assisted: MassMatrix::default(),
+            assist: [0.0; 6],
             impulse: Box::new([(Vec3::zero(), Vec3::zero()); MAX_CONTACTS]),
             penetration: 0.0,
             forces: TickForces {
                 torque: [0.0; DOF_COUNT],
                 ligament_torque: [0.0; DOF_COUNT],
+                assist: [0.0; 6],
                 contact: Vec::with_capacity(MAX_CONTACTS),
                 over_limit: 0.0,
                 iterations: 0,
@@ -156,6 +168,7 @@ impl TorqueStepper {
                     ligament_torque: [0.0; DOF_COUNT],
                     contacts: Vec::with_capacity(MAX_CONTACTS),
                     applied: Vec::with_capacity(64),
+                    assist: [0.0; 6],
                 },
             },
         }
@@ -187,6 +200,7 @@ impl Stepper for TorqueStepper {
         let f = &mut self.forces;
         f.torque.fill(0.0);
         f.ligament_torque.fill(0.0);
+        f.assist.fill(0.0);
         f.over_limit = 0.0;
         f.iterations = 0;
         f.flags = Flags::default();
@@ -213,7 +227,11 @@ impl Stepper for TorqueStepper {
                 self.motors.upper[j] = h * upper[j];
             }
             self.collect_contacts(body, h);
-            let outcome = self.solve_substep(h, state);
+            let spring = input.assist.map(|(assist, target)| {
+                let s = f64::from(i) / f64::from(substeps);
+                assist.spring(target, state, s, dt, h)
+            });
+            let outcome = self.solve_substep(h, state, spring.as_ref());
             self.account(h, dt, i + 1 == substeps, &lower, &upper, applied, outcome);
             let v = state.velocity;
             state.posture.integrate(&v, h);
@@ -284,7 +302,7 @@ impl TorqueStepper {
     }
 
     /// Solves for the velocity at the end of the substep, closes the step, writes it to `state.velocity`.
-    fn solve_substep(&mut self, h: f64, state: &mut State) -> Outcome {
+    fn solve_substep(&mut self, h: f64, state: &mut State, spring: Option<&Spring>) -> Outcome {
         let t = &self.terms;
         let mut momentum = [0.0; NV];
         t.mass_matrix.mul(&state.velocity, &mut momentum);
@@ -292,23 +310,16 @@ impl TorqueStepper {
             momentum[i] -= h * t.h[i]; // M v_free
         }
         let mut v = state.velocity;
-        let outcome = substep_kernel(
-            &t.mass_matrix,
-            &mut self.hessian,
-            &momentum,
-            &self.motors,
-            &self.limits,
-            &self.contacts,
-            &mut v,
-            &mut self.newton,
-        );
-        let outcome = if outcome.converged {
-            outcome
-        } else {
-            self.solve_softer(&momentum, &mut v, outcome)
+        self.assist = [0.0; 6];
+        let outcome = match spring {
+            None => self.solve_freely(&momentum, &mut v, false),
+            Some(spring) => self.solve_assisted(&momentum, spring, &mut v),
         };
         let t = &self.terms;
         let mut x = momentum;
+        for i in 0..6 {
+            x[i] += self.assist[i];
+        }
         for j in 0..DOF_COUNT {
             x[6 + j] += self.newton.motor[j] + self.newton.limit[j];
         }
@@ -323,9 +334,83 @@ impl TorqueStepper {
         outcome
     }
 
+    /// Solves for the velocity at the end of the substep; with `assisted`, for the matrix that carries the springs of the assist.
+    fn solve_freely(&mut self, momentum: &[f64; NV], v: &mut [f64; NV], assisted: bool) -> Outcome {
+        let matrix = if assisted {
+            &self.assisted
+        } else {
+            &self.terms.mass_matrix
+        };
+        let outcome = substep_kernel(
+            matrix,
+            &mut self.hessian,
+            momentum,
+            &self.motors,
+            &self.limits,
+            &self.contacts,
+            v,
+            &mut self.newton,
+        );
+        if outcome.converged {
+            outcome
+        } else {
+            self.solve_softer(momentum, v, outcome, assisted)
+        }
+    }
+
+    /// Solves with the springs of the assist; a part whose impulse exceeds its bound becomes a constant one at the bound, and the rest is
+    /// solved again. Leaves the impulse in [`Self::assist`].
+    fn solve_assisted(
+        &mut self,
+        momentum: &[f64; NV],
+        spring: &Spring,
+        v: &mut [f64; NV],
+    ) -> Outcome {
+        let mut fixed: [Option<Vec3>; 2] = [None; 2];
+        let mut total = Outcome::default();
+        loop {
+            self.assisted.rows = self.terms.mass_matrix.rows;
+            let mut b = *momentum;
+            for (k, constant) in fixed.iter().enumerate() {
+                let add = constant.unwrap_or(spring.rest[k] * spring.gain[k]);
+                for (i, x) in add.to_array().into_iter().enumerate() {
+                    b[3 * k + i] += x;
+                    if constant.is_none() {
+                        self.assisted.rows[3 * k + i][3 * k + i] += spring.gain[k];
+                    }
+                }
+            }
+            let outcome = self.solve_freely(&b, v, true);
+            total = Outcome {
+                iterations: total.iterations + outcome.iterations,
+                ..outcome
+            };
+            let root: [f64; 6] = std::array::from_fn(|i| v[i]);
+            let mut again = false;
+            for k in 0..2 {
+                let (impulse, cut) = spring.cut(k, &root);
+                if fixed[k].is_none() && cut {
+                    fixed[k] = Some(impulse);
+                    again = true;
+                }
+                let acts = fixed[k].unwrap_or(impulse).to_array();
+                self.assist[3 * k..3 * k + 3].copy_from_slice(&acts);
+            }
+            if !again {
+                return total;
+            }
+        }
+    }
+
     /// Second try of a substep whose stiff motors, limits and contacts kept Newton's method zigzagging: the same strength and friction with
     /// motors that saturate later. Closing an unconverged step would turn its residual into the speed of a light joint.
-    fn solve_softer(&mut self, momentum: &[f64; NV], v: &mut [f64; NV], first: Outcome) -> Outcome {
+    fn solve_softer(
+        &mut self,
+        momentum: &[f64; NV],
+        v: &mut [f64; NV],
+        first: Outcome,
+        assisted: bool,
+    ) -> Outcome {
         for j in 0..DOF_COUNT {
             // The same torque at the speed the joint has now, and a hundredth of the gain around it.
             let (m, now) = (&mut self.motors, self.terms.state.velocity[6 + j]);
@@ -333,9 +418,13 @@ impl TorqueStepper {
             m.gain[j] *= SOFTENING;
             m.rest[j] = now + torque / m.gain[j];
         }
-        let t = &self.terms;
+        let matrix = if assisted {
+            &self.assisted
+        } else {
+            &self.terms.mass_matrix
+        };
         let second = substep_kernel(
-            &t.mass_matrix,
+            matrix,
             &mut self.hessian,
             momentum,
             &self.motors,
@@ -376,6 +465,10 @@ impl TorqueStepper {
                 .max(tau / lower[j] - 1.0);
             f.audit.torque[j] = tau;
             f.audit.ligament_torque[j] = self.newton.limit[j] / h;
+        }
+        for i in 0..6 {
+            f.assist[i] += self.assist[i] / dt;
+            f.audit.assist[i] = self.assist[i] / h;
         }
         f.over_limit = f.over_limit.max(0.0);
         let root = self.terms.state.posture.root_position;
