@@ -92,6 +92,7 @@ impl Bench {
             params: &self.params,
             gravity: GRAVITY,
             dt: DT,
+            assist: [0.0; 2],
             kinematic: false,
         });
         command.torque[0]

@@ -2,7 +2,7 @@
 
 use crate::sim::body::topology::SEGMENT_NAMES;
 use crate::sim::body::{Body, Profile, SegmentId, Sex};
-use crate::sim::figure::{ControllerKind, Perturbation, StepperKind};
+use crate::sim::figure::{ControllerKind, HeldLoad, Perturbation, StepperKind};
 use crate::sim::math::Vec3;
 use anyhow::{Context, Result};
 use clap::ValueEnum;
@@ -70,6 +70,18 @@ pub fn sex_name(sex: Sex) -> &'static str {
     match sex {
         Sex::Male => "man",
         Sex::Female => "woman",
+    }
+}
+
+/// What people call someone of this sex and age, for headings.
+pub fn person_name(p: &Profile) -> &'static str {
+    match (p.sex, p.age) {
+        (_, a) if a <= 10.0 => "child",
+        (Sex::Male, a) if a < 18.0 => "boy",
+        (Sex::Female, a) if a < 18.0 => "girl",
+        (Sex::Male, a) if a >= 65.0 => "older man",
+        (Sex::Female, a) if a >= 65.0 => "older woman",
+        (sex, _) => sex_name(sex),
     }
 }
 
@@ -184,11 +196,13 @@ fn segment(text: &str) -> Result<SegmentId, SpecError> {
 /// Largest time an argument may name, s.
 const MAX_TIME: f64 = 1e6;
 
-/// `KG@SEGMENT[@T0..T1]`: a load held by a segment, from T0 to T1 seconds; either end may be left out.
+/// `KG@SEGMENT[+SEGMENT][@T0..T1]`: a load held by one or two segments, from T0 to T1 seconds; either end may be left out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadSpec {
     /// Carrying segment.
     pub segment: SegmentId,
+    /// Second carrying segment.
+    pub second: Option<SegmentId>,
     /// Mass, kg.
     pub mass_kg: f64,
     /// Picked up at, s.
@@ -198,17 +212,22 @@ pub struct LoadSpec {
 }
 
 impl LoadSpec {
-    const FORM: &'static str = "KG@SEGMENT[@T0..T1], for example 3@r_hand or 3@r_hand@1.0..2.5";
+    const FORM: &'static str =
+        "KG@SEGMENT[+SEGMENT][@T0..T1], for example 3@r_hand, 8@l_hand+r_hand or 3@r_hand@1.0..2.5";
 
-    /// The load at the segment's centre of mass.
-    pub fn perturbation(&self, body: &Body) -> Perturbation {
-        Perturbation::Load {
+    /// The load at the segment's centre of mass; `grip`: force at one hand beyond which it slips, N.
+    pub fn perturbation(&self, body: &Body, grip: f64) -> Perturbation {
+        let at = |s: SegmentId| body.segment(s).com;
+        Perturbation::Held(HeldLoad {
             segment: self.segment,
-            point: body.segment(self.segment).com,
+            point: at(self.segment),
             mass: self.mass_kg,
+            velocity: Vec3::zero(),
+            second: self.second.map(|s| (s, at(s))),
+            grip,
             from: self.from_s,
             to: self.to_s,
-        }
+        })
     }
 }
 
@@ -242,9 +261,18 @@ impl FromStr for LoadSpec {
                 });
             }
         }
+        let (name, second) = match name.split_once('+') {
+            Some((first, second)) => (first, Some(segment(second)?)),
+            None => (name, None),
+        };
+        let first = segment(name)?;
+        if second == Some(first) {
+            return Err(form());
+        }
         Ok(Self {
             mass_kg: number("mass (kg)", mass, 0.0, 500.0)?,
-            segment: segment(name)?,
+            segment: first,
+            second,
             from_s,
             to_s,
         })

@@ -1,6 +1,6 @@
 //! `sinew bodies`: degrees of freedom, limits and strength of a body.
 
-use super::args::{BodyArgs, sex_name};
+use super::args::{BodyArgs, person_name, sex_name};
 use crate::sim::body::topology::{DOF_NAMES, SEGMENT_NAMES};
 use crate::sim::body::{Body, DOF_COUNT};
 use crate::sim::strength::{MuscleScale, Provenance, Strength};
@@ -63,7 +63,7 @@ fn as_text(body: &Body, strength: &Strength, sources: bool) -> String {
     let p = body.profile;
     let mut out = format!(
         "{}, {} years, {:.2} m, {:.1} kg\n\n",
-        sex_name(p.sex),
+        person_name(&p),
         p.age,
         p.height,
         p.mass

@@ -1,13 +1,13 @@
 //! `sinew run`: a motion through the physics, offline, as fast as it goes; measured, drawn and written.
 
-use super::args::{BodyArgs, ControllerArg, LoadSpec, PushSpec, StepperArg, sex_name};
+use super::args::{BodyArgs, ControllerArg, LoadSpec, PushSpec, StepperArg, person_name, sex_name};
 use super::output::{extension, for_clip, write};
 use super::source::{Source, load};
 use crate::evaluate::strip::{Frame, StripOptions, View, draw, evenly_spaced, raster, svg};
 use crate::evaluate::table::{Torques, header, row};
 use crate::evaluate::{Metrics, RunReport, Tick};
 use crate::sim::body::topology::DOF_NAMES;
-use crate::sim::body::{Body, Posture, State};
+use crate::sim::body::{Body, Posture, SegmentId, State};
 use crate::sim::figure::{ControlParams, FigureOptions, StrengthScale};
 use crate::sim::math::Vec3;
 use crate::sim::motion::retarget::RetargetOptions;
@@ -53,9 +53,12 @@ pub struct RunArgs {
     /// Help towards the desired pose of the pelvis, 0 to 1; reported, not physical.
     #[arg(long, value_name = "A", default_value_t = 0.0)]
     pub assist: f64,
-    /// Load held by a segment, for example 3@r_hand or 3@r_hand@1..2.5 (repeatable).
-    #[arg(long, value_name = "KG@SEGMENT[@T0..T1]")]
+    /// Load held by one or two segments, for example 3@r_hand, 8@l_hand+r_hand or 3@r_hand@1..2.5 (repeatable).
+    #[arg(long, value_name = "KG@SEGMENT[+SEGMENT][@T0..T1]")]
     pub load: Vec<LoadSpec>,
+    /// Force at one hand beyond which a load slips, N; loads never slip unless given.
+    #[arg(long, value_name = "N", default_value_t = f64::INFINITY)]
+    pub grip: f64,
     /// Push on a segment, for example 20@chest@1.5:1,0,0 (N·s, start in s, world direction; repeatable).
     #[arg(long, value_name = "NS@SEGMENT@T:x,y,z", allow_hyphen_values = true)]
     pub push: Vec<PushSpec>,
@@ -163,6 +166,8 @@ struct BodyEntry {
 #[derive(Serialize)]
 struct LoadEntry {
     segment: &'static str,
+    /// `null`: one hand.
+    second_segment: Option<&'static str>,
     mass_kg: f64,
     from_s: f64,
     /// `null`: never put down.
@@ -226,6 +231,7 @@ fn check(args: &RunArgs) -> Result<()> {
         ("--percentile", args.percentile, [5.0, 95.0]),
         ("--effort", args.effort, [0.0, 1.0]),
         ("--fatigue", args.fatigue, [0.0, MAX_TIME_SCALE]),
+        ("--grip", args.grip, [0.0, f64::INFINITY]),
         ("--assist", args.assist, [0.0, 1.0]),
     ] {
         ensure!(
@@ -388,7 +394,7 @@ fn simulate(
         .context("no such figure")?;
     for load in &args.load {
         world
-            .perturb(key, load.perturbation(body))
+            .perturb(key, load.perturbation(body, args.grip))
             .context("--load")?;
     }
     for push in &args.push {
@@ -441,13 +447,17 @@ fn simulate(
 fn held_loads(scenario: &Scenario<'_>, time: f64) -> Vec<(usize, Vec3, f64)> {
     let held = |l: &&LoadSpec| l.from_s < time && time <= l.to_s && l.mass_kg > 0.0;
     let place = |l: &LoadSpec| {
-        (
-            l.segment.index(),
-            scenario.body.segment(l.segment).com,
-            l.mass_kg,
-        )
+        let load = l.perturbation(&scenario.body, f64::INFINITY).load();
+        let shares = load.into_iter().flat_map(|l| l.shares());
+        shares.map(|(s, p, kg)| (s.index(), p, kg))
     };
-    scenario.args.load.iter().filter(held).map(place).collect()
+    scenario
+        .args
+        .load
+        .iter()
+        .filter(held)
+        .flat_map(place)
+        .collect()
 }
 
 fn note(metrics: &mut Metrics, event: &FigureEvent) {
@@ -463,6 +473,7 @@ fn note(metrics: &mut Metrics, event: &FigureEvent) {
         E::GotUp => ("got_up", None, None, None),
         E::LoadTaken { segment, mass } => ("load_taken", Some(segment), None, Some(mass)),
         E::LoadDropped { segment, mass } => ("load_dropped", Some(segment), None, Some(mass)),
+        E::LoadSlipped { segment, mass } => ("load_slipped", Some(segment), None, Some(mass)),
         E::Quarantined => ("quarantined", None, None, None),
     };
     metrics.event(
@@ -504,6 +515,7 @@ fn document<'a>(
             .iter()
             .map(|l| LoadEntry {
                 segment: l.segment.name(),
+                second_segment: l.second.map(SegmentId::name),
                 mass_kg: l.mass_kg,
                 from_s: l.from_s,
                 to_s: Some(l.to_s).filter(|t| t.is_finite()),
@@ -533,7 +545,7 @@ fn write_strip(scenario: &Scenario<'_>, name: &str, frames: &[Frame], path: &Pat
     let profile = scenario.body.profile;
     let mut title = format!(
         "{name}: {}, {:.2} m, {:.0} kg, strength {}",
-        sex_name(profile.sex),
+        person_name(&profile),
         profile.height,
         profile.mass,
         args.strength

@@ -406,22 +406,29 @@ pub fn perturbation(body: &Body, what: &Disturbance, from: f64) -> Perturbation 
             segment,
             point,
             mass,
+            velocity,
+            second,
+            grip,
             duration,
         } => {
             use topology::{L_FOOT, L_HAND, L_TOES, R_FOOT, R_HAND, R_TOES};
-            let holds = [L_HAND, R_HAND, L_FOOT, R_FOOT, L_TOES, R_TOES].contains(&segment);
-            let at = if holds {
-                body.segment(segment).tip
-            } else {
-                com(segment)
+            let place = |s: SegmentId| {
+                if [L_HAND, R_HAND, L_FOOT, R_FOOT, L_TOES, R_TOES].contains(&s) {
+                    body.segment(s).tip
+                } else {
+                    com(s)
+                }
             };
-            Perturbation::Load {
+            Perturbation::Held(HeldLoad {
                 segment,
-                point: point.unwrap_or(at),
+                point: point.unwrap_or_else(|| place(segment)),
                 mass,
+                velocity,
+                second: second.map(|(s, p)| (s, p.unwrap_or_else(|| place(s)))),
+                grip,
                 from,
                 to: from + duration,
-            }
+            })
         }
         Disturbance::Force {
             segment,
@@ -451,6 +458,7 @@ pub fn event_kind(e: &FigureEvent) -> EventKind {
         FigureEvent::GotUp => EventKind::GotUp,
         FigureEvent::LoadTaken { segment, mass } => EventKind::LoadTaken(segment, mass),
         FigureEvent::LoadDropped { segment, mass } => EventKind::LoadDropped(segment, mass),
+        FigureEvent::LoadSlipped { segment, mass } => EventKind::LoadSlipped(segment, mass),
         FigureEvent::Quarantined => EventKind::Quarantined,
     }
 }
@@ -467,16 +475,9 @@ pub fn snapshot(figure: &Figure, start: f64, dt: f64, applied: (i64, i64)) -> Fi
         applied_source_ns: applied.1,
         loads: figure
             .perturbations()
-            .filter_map(|p| match *p {
-                Perturbation::Load {
-                    segment,
-                    point,
-                    mass,
-                    from,
-                    to,
-                } if from <= soon && soon < to => Some((segment, point, mass)),
-                _ => None,
-            })
+            .filter_map(Perturbation::load)
+            .filter(|l| l.from <= soon && soon < l.to)
+            .flat_map(|l| l.shares())
             .collect(),
     }
 }

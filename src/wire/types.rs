@@ -172,6 +172,12 @@ pub enum Disturbance {
         point: Option<Vec3>,
         /// Mass, kg.
         mass: f64,
+        /// Velocity before it is taken, world axes, m/s.
+        velocity: Vec3,
+        /// Second hand, with its point as for the first.
+        second: Option<(SegmentId, Option<Vec3>)>,
+        /// Force at one hand beyond which it is lost, N.
+        grip: f64,
         /// How long, s; infinite until cleared.
         duration: f64,
     },
@@ -452,6 +458,8 @@ pub enum EventKind {
     LoadTaken(SegmentId, f64),
     /// A load was dropped: segment, kg.
     LoadDropped(SegmentId, f64),
+    /// A load slipped from the hand: segment, kg.
+    LoadSlipped(SegmentId, f64),
     /// The figure is frozen at its last good state.
     Quarantined,
     /// A figure was added.

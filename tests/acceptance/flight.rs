@@ -140,6 +140,7 @@ fn limp(start: &State, rate_hz: f64) -> Limp {
             strength: &strength,
             scale: &scale,
             assist: None,
+            bar: None,
             terms: &terms,
             command: &command,
             lower: &lower,

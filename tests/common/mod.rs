@@ -169,7 +169,7 @@ impl Scene {
             target: figure.target(),
             report: figure.report().unwrap(),
             state: figure.state(),
-            strength: (figure.strength(), &figure.setup().strength),
+            strength: (figure.strength(), figure.muscles()),
             gravity: self.world.params().gravity,
         }
     }

@@ -78,6 +78,7 @@ pub struct Modern {
     motors: Motors,
     newton: NewtonWorkspace,
     rows: Vec<TaskRow>,
+    assist: [f64; 2],
     command: Command,
 }
 
@@ -114,6 +115,7 @@ impl Modern {
             motors: Motors::default(),
             newton: NewtonWorkspace::default(),
             rows: Vec::with_capacity(32),
+            assist: [0.0; 2],
             command: Command::default(),
         }
     }
@@ -336,6 +338,7 @@ impl Controller for Modern {
             self.motors.rest[j] =
                 self.last_torque[j].clamp(input.lower[j], input.upper[j]) / self.motors.gain[j];
         }
+        self.assist = input.assist;
         let outcome = kernel(self, t, &diagonal, &mut linear);
         if !self.price.iter().all(|x| x.is_finite()) {
             self.price = [0.0; NV];
@@ -467,6 +470,10 @@ fn kernel(c: &mut Modern, t: &Terms, diagonal: &[f64; NV], linear: &mut [f64; WI
             }
         }
         c.a[i..i + 3].copy_from_slice(&acc);
+    }
+    // Assist: forces on the pelvis at a price of their own add their compliance to the root's diagonal of the dual.
+    for i in 0..6 {
+        c.a[i][i] += c.assist[i / 3];
     }
     let mut lp = *linear;
     solve_lower(&c.p, &mut lp);

@@ -20,6 +20,8 @@ const MOST_FORCE: f64 = 2.0;
 const MOST_MOMENT: f64 = 0.5;
 /// Inertia about the pelvis over mass times stature squared.
 const INERTIA: f64 = 0.05;
+/// What a plan may use without regret at assist 1: half the largest force or moment costs this much.
+const PLANNED_COST: f64 = 10.0;
 /// Gravity that "weight" refers to, m/s².
 const GRAVITY: f64 = 9.81;
 
@@ -65,6 +67,12 @@ impl Assist {
                 share * STIFFNESS * p.mass,
             ],
         })
+    }
+
+    /// Compliance that a plan may count on: moment and force that [`PLANNED_COST`] buys, `½ f²/κ`.
+    pub fn planned(&self) -> [f64; 2] {
+        let per_cost = 0.125 / PLANNED_COST;
+        [self.most_moment, self.most_force].map(|most| per_cost * most * most)
     }
 
     /// The spring of a substep of `h` s that begins at share `s` of the tick of `dt` s.

@@ -14,7 +14,7 @@ pub use drive::{ClipPlayback, Drive};
 pub use events::FigureEvent;
 pub use report::{Audit, ContactPoint, Flags, TickReport};
 pub use setup::{
-    ControlParams, ControllerKind, FigureOptions, Metric, Perturbation, Priority, Share,
+    ControlParams, ControllerKind, FigureOptions, HeldLoad, Metric, Perturbation, Priority, Share,
     StepperKind, StrengthScale,
 };
 pub use step::{Figure, FigureSetup, TickContext};

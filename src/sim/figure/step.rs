@@ -162,6 +162,13 @@ impl Figure {
             self.disturbances.applied(),
             world.gravity,
         );
+        self.disturbances.check_grip(
+            time,
+            dt,
+            &self.terms,
+            world.gravity,
+            self.stepper.forces.bar,
+        );
         self.support
             .update(&self.terms, &body, self.com_acceleration, world.gravity);
         let angles = anatomical_angles(&self.state.posture);
@@ -187,6 +194,7 @@ impl Figure {
             lower: &lower,
             upper: &upper,
             applied: self.disturbances.applied(),
+            bar: self.disturbances.bar(),
             assist: assist.as_ref().map(|a| (a, &self.target)),
             gravity: world.gravity,
             dt,
@@ -225,6 +233,8 @@ impl Figure {
             params: &self.setup.params,
             gravity: world.gravity,
             dt: world.dt,
+            assist: Assist::new(&self.setup.body, self.setup.options.assist)
+                .map_or([0.0; 2], |a| a.planned()),
             kinematic: false,
         };
         let (command, saturation_speed) = match self.active_controller() {
@@ -580,7 +590,7 @@ fn empty_report(state: &State) -> TickReport {
             torque: z,
             ligament_torque: z,
             contacts: Vec::with_capacity(MAX_CONTACTS),
-            applied: Vec::with_capacity(super::loads::MAX_PERTURBATIONS),
+            applied: Vec::with_capacity(super::loads::MAX_PERTURBATIONS + 2),
             assist: [0.0; 6],
         },
     }

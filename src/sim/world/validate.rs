@@ -87,16 +87,16 @@ pub(super) fn setup(s: &FigureSetup) -> Result<(), WorldError> {
 
 pub(super) fn perturbation(p: &Perturbation) -> Result<(), WorldError> {
     let (from, to) = match p {
-        Perturbation::Load {
-            point,
-            mass,
-            from,
-            to,
-            ..
-        } => {
-            range("load.mass_kg", *mass, 0.0, 500.0)?;
-            vector("load.point_m", *point, 10.0)?;
-            (*from, *to)
+        Perturbation::Load { .. } | Perturbation::Held(_) => {
+            let l = p.load().expect("both kinds are loads");
+            range("load.mass_kg", l.mass, 0.0, 500.0)?;
+            vector("load.point_m", l.point, 10.0)?;
+            vector("load.velocity_mps", l.velocity, 100.0)?;
+            if let Some((_, point)) = l.second {
+                vector("load.second_point_m", point, 10.0)?;
+            }
+            range("load.grip_n", l.grip, 0.0, f64::INFINITY)?;
+            (l.from, l.to)
         }
         Perturbation::Force {
             point,

@@ -3530,6 +3530,20 @@ pub struct Load {
     /// How long it is carried, s, 0…86400. 0 or absent: until it is cleared.
     #[prost(double, tag = "4")]
     pub duration_s: f64,
+    /// Velocity of the load before it is taken, world axes, m/s, each component within ±100. Absent: at rest. Taking it is perfectly
+    /// inelastic: momentum is kept and the figure feels the jerk.
+    #[prost(message, optional, tag = "5")]
+    pub velocity_mps: ::core::option::Option<Vector3>,
+    /// Second carrying segment, for example `l_hand` when `segment` is `r_hand`. Each then carries half of the mass, and the two points keep
+    /// the distance they have when the load is taken. Empty: one hand.
+    #[prost(string, tag = "6")]
+    pub second_segment: ::prost::alloc::string::String,
+    /// Where at the second segment, as `point_m`.
+    #[prost(message, optional, tag = "7")]
+    pub second_point_m: ::core::option::Option<Vector3>,
+    /// Force at one hand beyond which the load slips, N, up to 1000000. 0 or absent: never.
+    #[prost(double, tag = "8")]
+    pub grip_n: f64,
 }
 /// A push: the force that gives this impulse over its duration.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -4670,6 +4684,8 @@ pub enum EventType {
     LoadTaken = 8,
     /// A load was dropped.
     LoadDropped = 9,
+    /// A load slipped from a hand: the force exceeded its grip.
+    LoadSlipped = 30,
     /// The figure's state became unusable; it is frozen at its last good one.
     Quarantined = 10,
     /// A figure was added.
@@ -4706,6 +4722,7 @@ impl EventType {
             Self::Fell => "EVENT_TYPE_FELL",
             Self::LoadTaken => "EVENT_TYPE_LOAD_TAKEN",
             Self::LoadDropped => "EVENT_TYPE_LOAD_DROPPED",
+            Self::LoadSlipped => "EVENT_TYPE_LOAD_SLIPPED",
             Self::Quarantined => "EVENT_TYPE_QUARANTINED",
             Self::FigureAdded => "EVENT_TYPE_FIGURE_ADDED",
             Self::FigureRemoved => "EVENT_TYPE_FIGURE_REMOVED",
@@ -4730,6 +4747,7 @@ impl EventType {
             "EVENT_TYPE_FELL" => Some(Self::Fell),
             "EVENT_TYPE_LOAD_TAKEN" => Some(Self::LoadTaken),
             "EVENT_TYPE_LOAD_DROPPED" => Some(Self::LoadDropped),
+            "EVENT_TYPE_LOAD_SLIPPED" => Some(Self::LoadSlipped),
             "EVENT_TYPE_QUARANTINED" => Some(Self::Quarantined),
             "EVENT_TYPE_FIGURE_ADDED" => Some(Self::FigureAdded),
             "EVENT_TYPE_FIGURE_REMOVED" => Some(Self::FigureRemoved),
