@@ -691,6 +691,7 @@ mod tests {
                 lower,
                 upper,
                 params: ControlParams::default(),
+                assist: [0.0; 2],
                 kinematic: false,
             }
         }
@@ -709,6 +710,7 @@ mod tests {
                 params: &self.params,
                 gravity: GRAVITY,
                 dt: DT,
+                assist: [0.0; 2],
                 kinematic: self.kinematic,
             }
         }
