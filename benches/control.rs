@@ -87,6 +87,7 @@ impl Bench {
             com: &tasks.com,
             effectors: &tasks.hands,
             feet: &tasks.feet,
+            balance: None,
             lower: &self.lower,
             upper: &self.upper,
             params: &self.params,

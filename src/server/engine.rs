@@ -8,7 +8,7 @@ use crate::sim::body::topology::{self, BONE_NAMES, SEGMENT_NAMES};
 use crate::sim::body::{Body, DOF_COUNT, Posture, SEGMENT_COUNT, SegmentId, State};
 use crate::sim::figure::loads::MAX_PERTURBATIONS;
 use crate::sim::figure::{
-    ControlParams, ControllerKind, FigureOptions, Perturbation, StrengthScale,
+    ControlParams, ControllerKind, FigureOptions, HeldLoad, Perturbation, StrengthScale,
 };
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::{Bvh, PlanarTransform, RetargetOptions, Target, UpAxis};

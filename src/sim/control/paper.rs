@@ -691,7 +691,6 @@ mod tests {
                 lower,
                 upper,
                 params: ControlParams::default(),
-                assist: [0.0; 2],
                 kinematic: false,
             }
         }

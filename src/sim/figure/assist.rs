@@ -58,7 +58,7 @@ impl Assist {
     pub fn new(body: &Body, share: f64) -> Option<Self> {
         let p = body.profile;
         let weight = p.mass * GRAVITY;
-        (share > 0.0).then(|| Self {
+        (share > 0.0).then_some(Self {
             share,
             most_force: share * MOST_FORCE * weight,
             most_moment: share * MOST_MOMENT * weight * p.height,

@@ -589,7 +589,7 @@ impl Figure {
         h.f64s(&p.hinge);
         h.f64s(&self.state.velocity);
         if let Some(fatigue) = &self.fatigue {
-            fatigue.hash(&mut h);
+            fatigue.add_to(&mut h);
         }
         h.finish()
     }

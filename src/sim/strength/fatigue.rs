@@ -178,7 +178,7 @@ impl Fatigue {
     }
 
     /// Adds the state to a hash.
-    pub fn hash(&self, h: &mut Fnv) {
+    pub fn add_to(&self, h: &mut Fnv) {
         h.f64s(&[self.time_scale]);
         for c in self.fibres.iter().flatten() {
             h.f64s(&[c.active, c.fatigued]);

@@ -234,6 +234,7 @@ pub struct Action {
 
 /// A muscle group by table.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(clippy::large_enum_variant)] // a few constants, never stored
 pub enum Group {
     /// Anderson 2007.
     Leg(Leg),
