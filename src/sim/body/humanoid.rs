@@ -795,7 +795,8 @@ mod tests {
     fn surfaces_are_closed_and_modest() {
         for (body, name) in sample() {
             let triangles: usize = body.segments.iter().map(|s| s.mesh.triangles.len()).sum();
-            assert!(triangles < 3000, "{triangles}");
+            // A body between two ages has the sections of both outlines.
+            assert!(triangles < 3200, "{name}: {triangles}");
             for (s, segment) in body.segments.iter().enumerate() {
                 assert_eq!(check(&segment.mesh), Ok(()), "{name} {}", SEGMENT_NAMES[s]);
                 let n = segment.contact_points.len();

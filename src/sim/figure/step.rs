@@ -244,9 +244,12 @@ impl Figure {
             })
     }
 
-    /// True if steps follow events: the modern controller, and a figure that is up.
+    /// True if steps follow events: the modern controller, and a figure that is up. Full assist pins the pelvis to its path, so the motion
+    /// keeps its clock and its place there.
     fn steps(&self) -> bool {
-        !self.fallen && self.setup.controller == ControllerKind::Modern
+        !self.fallen
+            && self.setup.controller == ControllerKind::Modern
+            && self.setup.options.assist < 1.0
     }
 
     /// Runs the controller in charge and turns its command into work for the motors.
