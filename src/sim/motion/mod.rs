@@ -7,6 +7,7 @@ pub mod bvh_write;
 mod chart;
 pub mod clip;
 pub mod contacts;
+pub mod ends;
 pub mod filter;
 pub mod foot_lock;
 pub mod leg_ik;
