@@ -16,6 +16,12 @@ use super::torque_step::{
 use crate::sim::body::angles::anatomical_angles;
 use crate::sim::body::topology::{DOF_COUNT, L_FOOT, L_TOES, NV, R_FOOT, R_TOES, SEGMENT_COUNT};
 use crate::sim::body::{Body, Links, Posture, State};
+use crate::sim::collide::island::{Articulated, Parts};
+use crate::sim::collide::shape::BodyShape;
+use crate::sim::collide::MAX_TOUCHES;
+use super::touches::{Contacting, Touches};
+use super::FigureKey;
+use crate::sim::contact::Outcome;
 use crate::sim::control::{
     Balance, Command, ControlInput, Controller, Law, Modern, Paper, tracking,
 };
@@ -100,6 +106,28 @@ pub struct Figure {
     report: TickReport,
     reported: bool,
     watcher: Watcher,
+    pending: Pending,
+    touches: Touches,
+    shape: Arc<BodyShape>,
+}
+
+/// What the stages of a tick hand on.
+#[derive(Debug)]
+struct Pending {
+    command: MotorCommand,
+    lower: [f64; DOF_COUNT],
+    upper: [f64; DOF_COUNT],
+    tasks: TaskPoints,
+    before: State,
+    angles: [f64; DOF_COUNT],
+    rates: [f64; DOF_COUNT],
+    assist: Option<Assist>,
+}
+
+impl Articulated for (FigureKey, Figure) {
+    fn parts(&mut self) -> Parts<'_> {
+        self.1.stepper.parts()
+    }
 }
 
 impl Figure {
@@ -137,12 +165,23 @@ impl Figure {
             report: empty_report(&setup.state),
             reported: false,
             watcher: Watcher::default(),
+            pending: Pending::new(&setup.state),
+            touches: Touches::default(),
+            shape: Arc::new(BodyShape::new(&setup.body)),
             setup,
         }
     }
 
     /// One tick. Allocates nothing.
     pub(crate) fn step(&mut self, world: &TickContext) {
+        if self.prepare(world) {
+            self.simulate(world);
+            self.finish(world);
+        }
+    }
+
+    /// Stages 1–5 of a tick: everything before the body moves. False for a frozen figure, whose tick ends here.
+    pub(crate) fn prepare(&mut self, world: &TickContext) -> bool {
         let (time, dt) = (world.tick as f64 * world.dt, world.dt);
         self.watcher.begin();
         // 1. Commands: loads, pushes.
@@ -157,7 +196,7 @@ impl Figure {
         );
         if self.frozen {
             self.report.flags = Flags::QUARANTINED;
-            return;
+            return false;
         }
         // 2. Dynamics of the state, desired motion, 3. supports, 4. strength.
         self.terms.compute(
@@ -183,7 +222,9 @@ impl Figure {
         let (mut lower, mut upper) = ([0.0; DOF_COUNT], [0.0; DOF_COUNT]);
         self.strength
             .range(&angles, &rates, scale, &mut lower, &mut upper);
-        // 5. Control: accelerations and torques within strength.
+        // 5. Control: accelerations and torques within strength. What the figure leans on is known to it.
+        let bias = self.terms.h;
+        self.touches.lean(&mut self.terms);
         let mut tasks = self.tasks.points(&body, &self.links, &self.target);
         let mut balance = None;
         if self.steps() {
@@ -196,33 +237,105 @@ impl Figure {
                 .gait
                 .lead(&self.terms, &self.support, world.gravity, dt, &mut led);
         }
-        let motors = self.control(world, &tasks, balance, (&lower, &upper));
-        // 6. Simulate: motors, limits and contact move the body.
-        let before = self.state;
-        let assist = Assist::new(&body, self.setup.options.assist);
+        let command = self.control(world, &tasks, balance, (&lower, &upper));
+        self.terms.h = bias;
+        self.pending = Pending {
+            command,
+            lower,
+            upper,
+            tasks,
+            before: self.state,
+            angles,
+            rates,
+            assist: Assist::new(&body, self.setup.options.assist),
+        };
+        true
+    }
+
+    /// Stage 6: motors, limits and ground move the body.
+    pub(crate) fn simulate(&mut self, world: &TickContext) {
+        match self.setup.stepper {
+            StepperKind::Torque => {
+                let (input, stepper, state) = self.stage(world);
+                stepper.step(&input, state);
+            }
+        }
+    }
+
+    /// What the stepper reads, the stepper, and the state it moves.
+    fn stage<'a>(
+        &'a mut self,
+        world: &TickContext,
+    ) -> (StepInput<'a>, &'a mut TorqueStepper, &'a mut State) {
+        let Self {
+            setup,
+            links,
+            strength,
+            muscles,
+            terms,
+            pending,
+            disturbances,
+            target,
+            stepper,
+            state,
+            ..
+        } = self;
         let input = StepInput {
-            body: &body,
-            links: &self.links,
-            strength: &self.strength,
-            scale: &self.muscles,
-            terms: &self.terms,
-            command: &motors,
-            lower: &lower,
-            upper: &upper,
-            applied: self.disturbances.applied(),
-            bar: self.disturbances.bar(),
-            assist: assist.as_ref().map(|a| (a, &self.target)),
+            body: &setup.body,
+            links,
+            strength,
+            scale: muscles,
+            terms,
+            command: &pending.command,
+            lower: &pending.lower,
+            upper: &pending.upper,
+            applied: disturbances.applied(),
+            bar: disturbances.bar(),
+            assist: pending.assist.as_ref().map(|a| (a, &*target)),
             gravity: world.gravity,
-            dt,
+            dt: world.dt,
             substeps: world.substeps,
         };
-        match self.setup.stepper {
-            StepperKind::Torque => self.stepper.step(&input, &mut self.state),
-        }
-        self.tire(&angles, &rates, dt);
-        // 7. Contain trouble, 8. report.
+        (input, stepper, state)
+    }
+
+    /// Stage 6 among others: starts the tick.
+    pub(crate) fn begin_substeps(&mut self) {
+        self.stepper.begin(&self.state);
+        self.touches.begin();
+    }
+    /// Stage 6 among others: substep `i` as if nothing but the ground were touched.
+    pub(crate) fn open_substep(&mut self, world: &TickContext, i: u32) {
+        let (input, stepper, state) = self.stage(world);
+        stepper.open_substep(&input, state, i);
+    }
+    /// Stage 6 among others: takes the impulse of an island in velocity components.
+    pub(crate) fn touch(&mut self, impulse: [f64; NV], outcome: Outcome) {
+        self.stepper.touch(impulse, outcome);
+    }
+    /// Stage 6 among others: one contact of the substep, with its impulse on this figure.
+    pub(crate) fn record(&mut self, what: &Contacting, h: f64, dt: f64) {
+        self.stepper.push(what.segment, what.position, what.impulse * (1.0 / h));
+        self.touches.add(&self.stepper.terms, what, dt);
+    }
+    /// Stage 6 among others: closes substep `i` and moves.
+    pub(crate) fn close_substep(&mut self, world: &TickContext, i: u32) {
+        let (input, stepper, state) = self.stage(world);
+        stepper.close_substep(&input, state, i);
+    }
+    /// Stage 6 among others: ends the tick.
+    pub(crate) fn end_substeps(&mut self, world: &TickContext) {
+        let (input, stepper, _) = self.stage(world);
+        stepper.end(&input);
+    }
+
+    /// Stages 7 and 8: contain trouble, report.
+    pub(crate) fn finish(&mut self, world: &TickContext) {
+        self.touches.end(&mut self.watcher);
+        let (angles, rates) = (self.pending.angles, self.pending.rates);
+        self.tire(&angles, &rates, world.dt);
         let frozen = self.contain();
-        self.fill_report(world, &before, &tasks, (&lower, &upper), frozen);
+        self.fill_report(world, frozen);
         self.judge_fall();
         self.watcher
             .observe(&self.report, &self.support, self.fallen);
@@ -378,17 +491,23 @@ impl Figure {
     fn fill_report(
         &mut self,
         world: &TickContext,
-        before: &State,
-        tasks: &TaskPoints,
-        range: (&[f64; DOF_COUNT], &[f64; DOF_COUNT]),
         frozen: bool,
     ) {
+        let Pending {
+            before,
+            tasks,
+            lower,
+            upper,
+            ..
+        } = &self.pending;
         let (r, f) = (&mut self.report, &self.stepper.forces);
+        r.touches.clear();
+        r.touches.extend(self.touches.list());
         r.torque = f.torque;
         r.ligament_torque = f.ligament_torque;
         r.assist = f.assist;
-        r.torque_lower = *range.0;
-        r.torque_upper = *range.1;
+        r.torque_lower = *lower;
+        r.torque_upper = *upper;
         r.over_limit = f.over_limit;
         for i in 0..NV {
             r.acceleration[i] = (self.state.velocity[i] - before.velocity[i]) / world.dt;
@@ -419,7 +538,7 @@ impl Figure {
         r.penetration = self.stepper.penetration();
         r.step_iterations = f.iterations;
         r.flags.set(f.flags);
-        if r.contacts.is_empty() {
+        if r.contacts.is_empty() && r.touches.is_empty() {
             r.flags.set(Flags::FLIGHT);
         }
         if self.fallen {
@@ -500,6 +619,22 @@ impl Figure {
     pub fn target(&self) -> &TargetPair {
         &self.target
     }
+    /// The shapes it collides with.
+    pub fn shape(&self) -> &BodyShape {
+        &self.shape
+    }
+    /// True while it is frozen after trouble.
+    pub(crate) fn is_frozen(&self) -> bool {
+        self.frozen
+    }
+    /// Where its segments are in the present substep.
+    pub(crate) fn substep_terms(&self) -> &Terms {
+        &self.stepper.terms
+    }
+    /// Where its segments were at the start of the tick.
+    pub(crate) fn tick_terms(&self) -> &Terms {
+        &self.terms
+    }
     /// Events of the last tick.
     pub fn events(&self) -> &[FigureEvent] {
         self.watcher.events()
@@ -548,6 +683,7 @@ impl Figure {
         self.gait.reset();
         self.com_acceleration = Vec3::zero();
         self.support.reset();
+        self.touches = Touches::default();
         self.paper.reset();
         self.modern.reset();
         self.fatigue = rested(&self.setup.options);
@@ -598,6 +734,26 @@ impl Figure {
     }
 }
 
+impl Pending {
+    fn new(state: &State) -> Self {
+        let z = [0.0; DOF_COUNT];
+        Self {
+            command: MotorCommand {
+                acceleration: z,
+                torque: z,
+                saturation_speed: 1.0,
+            },
+            lower: z,
+            upper: z,
+            tasks: TaskPoints::none(),
+            before: *state,
+            angles: z,
+            rates: z,
+            assist: None,
+        }
+    }
+}
+
 fn rested(options: &FigureOptions) -> Option<Box<Fatigue>> {
     let scale = options.fatigue_time_scale;
     (scale > 0.0).then(|| Box::new(Fatigue::rested(scale)))
@@ -625,6 +781,7 @@ fn empty_report(state: &State) -> TickReport {
         saturated: 0,
         saturated_secondary: 0,
         contacts: Vec::with_capacity(MAX_CONTACTS),
+        touches: Vec::with_capacity(MAX_TOUCHES),
         main_support: None,
         support_ratio: [0.0; SEGMENT_COUNT],
         support_polygon: Vec::with_capacity(MAX_CONTACTS),
@@ -644,7 +801,7 @@ fn empty_report(state: &State) -> TickReport {
             torque: z,
             ligament_torque: z,
             contacts: Vec::with_capacity(MAX_CONTACTS),
-            applied: Vec::with_capacity(super::loads::MAX_PERTURBATIONS + 2),
+            applied: Vec::with_capacity(super::report::MAX_APPLIED),
             assist: [0.0; 6],
         },
     }

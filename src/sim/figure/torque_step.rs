@@ -7,7 +7,7 @@
 
 use super::assist::{Assist, Spring};
 use super::loads::Bar;
-use super::report::{Audit, ContactPoint, Flags, MAX_CONTACTS};
+use super::report::{Audit, ContactPoint, Flags, MAX_CONTACTS, MAX_EXTERNAL};
 use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT, SegmentId};
 use crate::sim::body::{Body, Links, State};
 use crate::sim::collide::island::{Articulated, Parts};
@@ -213,6 +213,8 @@ pub struct TorqueStepper {
     row: Option<BarRow>,
     /// Impulse of other bodies in the current substep.
     external: Option<[f64; NV]>,
+    /// Its forces: segment, world point, world force, N.
+    external_forces: Vec<(SegmentId, Vec3, Vec3)>,
     /// Result of the last tick.
     pub forces: TickForces,
 }
@@ -243,6 +245,7 @@ impl TorqueStepper {
             outcome: Outcome::default(),
             row: None,
             external: None,
+            external_forces: Vec::with_capacity(super::report::MAX_APPLIED),
             forces: TickForces {
                 torque: [0.0; DOF_COUNT],
                 ligament_torque: [0.0; DOF_COUNT],
@@ -258,7 +261,7 @@ impl TorqueStepper {
                     torque: [0.0; DOF_COUNT],
                     ligament_torque: [0.0; DOF_COUNT],
                     contacts: Vec::with_capacity(MAX_CONTACTS),
-                    applied: Vec::with_capacity(super::loads::MAX_PERTURBATIONS + 2),
+                    applied: Vec::with_capacity(super::report::MAX_APPLIED),
                     assist: [0.0; 6],
                 },
             },
@@ -340,6 +343,7 @@ impl TorqueStepper {
         });
         self.row = input.bar.map(|bar| BarRow::new(bar, &self.terms, h));
         self.external = None;
+        self.external_forces.clear();
         self.solve_substep(h, state, spring.as_ref());
     }
 
@@ -350,6 +354,13 @@ impl TorqueStepper {
             iterations: self.outcome.iterations + outcome.iterations,
             ..outcome
         };
+    }
+
+    /// One of the forces that [`Self::touch`] summed up: segment, world point, world force (N).
+    pub(crate) fn push(&mut self, segment: SegmentId, at: Vec3, force: Vec3) {
+        if self.external_forces.len() < MAX_EXTERNAL {
+            self.external_forces.push((segment, at, force));
+        }
     }
 
     /// Closes substep `i` and moves.
@@ -692,6 +703,7 @@ impl TorqueStepper {
             f.audit
                 .applied
                 .extend(self.bar_forces.take().into_iter().flatten());
+            f.audit.applied.extend(&self.external_forces);
         }
         for (k, p) in self.contacts.points.iter().enumerate() {
             let impulse = self.newton.force[k];

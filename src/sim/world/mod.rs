@@ -2,7 +2,7 @@
 
 mod validate;
 
-pub use crate::sim::figure::{ClipPlayback, Drive, Figure, FigureEvent, FigureSetup};
+pub use crate::sim::figure::{ClipPlayback, Drive, Figure, FigureEvent, FigureKey, FigureSetup};
 
 use crate::sim::body::{SegmentId, State};
 use crate::sim::figure::loads::MAX_PERTURBATIONS;
@@ -37,10 +37,6 @@ impl Default for WorldParams {
         }
     }
 }
-
-/// Identity of a figure in a world; never used again after removal.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct FigureKey(pub u64);
 
 /// Why a world refuses something. Nothing has changed then.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
