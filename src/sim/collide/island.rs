@@ -95,6 +95,8 @@ pub struct Contact {
     pub gap: f64,
     /// Offset of the relative velocity in the frame, m/s; holds the velocity of a side without block too.
     pub c: Vec3,
+    /// Part of it that is the velocity of a side without block.
+    pub firm: Vec3,
     /// Friction coefficient.
     pub mu: f64,
     /// 1/R, kg.
@@ -112,6 +114,10 @@ impl Contact {
     pub fn world_impulse(&self) -> Vec3 {
         let (f, t) = (self.impulse, &self.frame);
         t[0] * f.x + t[1] * f.y + t[2] * f.z
+    }
+    /// Impulse times the relative velocity after the solve, J; a side without block counts with its own velocity.
+    pub fn work_after(&self) -> f64 {
+        self.impulse.dot(self.u + self.firm)
     }
     fn at(&self, u: Vec3) -> (Vec3, Region) {
         project((u + self.c) * -self.inverse_r, self.mu)
@@ -208,14 +214,16 @@ impl Island {
         k
     }
 
-    /// A contact. `visit` is called for each side that has a block and gives the velocity of the contact's point, world axes, for a unit of
+    /// A contact that pushes where the two approach faster than `approach` (m/s); `firm` is the velocity of a second side without block.
+    /// `visit` is called for each side that has a block and gives the velocity of the contact's point, world axes, for a unit of
     /// each velocity component of that body.
     pub fn add_contact(
         &mut self,
         block: [Option<usize>; 2],
         ends: [(usize, usize); 2],
         (position, normal, gap): (Vec3, Vec3, f64),
-        (c, mu, inverse_r): (Vec3, f64, f64),
+        (approach, firm, mu): (f64, Vec3, f64),
+        inverse_r: f64,
         mut visit: impl FnMut(usize, &mut dyn FnMut(usize, Vec3)),
     ) {
         let t = tangents(normal);
@@ -230,11 +238,12 @@ impl Island {
                 });
             }
         }
-        let local = Vec3 {
-            x: frame[0].dot(c),
-            y: frame[1].dot(c),
-            z: frame[2].dot(c),
+        let firm = Vec3 {
+            x: -frame[0].dot(firm),
+            y: -frame[1].dot(firm),
+            z: -frame[2].dot(firm),
         };
+        let local = firm + Vec3::Z * approach;
         self.contacts.push(Contact {
             block,
             ends,
@@ -242,6 +251,7 @@ impl Island {
             frame,
             gap,
             c: local,
+            firm,
             mu,
             inverse_r,
             impulse: Vec3::zero(),

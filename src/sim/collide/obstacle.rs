@@ -1,6 +1,7 @@
 //! Bodies of a world that are no figures.
 
 use super::shape::Capsule;
+use crate::sim::math::hash::Fnv;
 use crate::sim::math::vec3::vec3;
 use crate::sim::math::{Mat3, Quat, Vec3};
 
@@ -133,6 +134,8 @@ pub struct Obstacle {
     pub(crate) spin: Vec3,
     /// Mean force on it over the last tick, world axes, N.
     pub(crate) force: Vec3,
+    /// Who it is near in this tick.
+    pub(crate) cluster: usize,
 }
 
 /// A free body that turns faster is slowed down to this, rad/s.
@@ -146,6 +149,7 @@ impl Obstacle {
             setup,
             spin: Vec3::zero(),
             force: Vec3::zero(),
+            cluster: 0,
         };
         out.setup.rotation = out.setup.rotation.normalized();
         if out.setup.mobility == Mobility::Fixed {
@@ -198,9 +202,27 @@ impl Obstacle {
     pub(crate) fn inertia(&self) -> [Vec3; 3] {
         [Vec3::X, Vec3::Y, Vec3::Z].map(|e| self.inertia_times(e))
     }
+    /// Position and axes after `t` seconds at its present velocity.
+    pub(crate) fn pose_after(&self, t: f64) -> (Vec3, Mat3) {
+        let s = &self.setup;
+        if t == 0.0 || s.mobility == Mobility::Fixed {
+            return (s.position, self.axes());
+        }
+        let turned = Quat::exp(s.angular_velocity * t) * s.rotation;
+        (s.position + s.velocity * t, turned.normalized().to_mat3())
+    }
     /// Velocity of a world point that moves with it.
     pub(crate) fn point_velocity(&self, p: Vec3) -> Vec3 {
         self.setup.velocity + self.setup.angular_velocity.cross(p - self.setup.position)
+    }
+
+    /// Adds pose and momenta to a hash.
+    pub(crate) fn add_to(&self, h: &mut Fnv) {
+        let s = &self.setup;
+        h.f64s(&s.position.to_array());
+        h.f64s(&s.rotation.to_xyzw());
+        h.f64s(&s.velocity.to_array());
+        h.f64s(&self.spin.to_array());
     }
 
     /// Takes an impulse and a moment impulse about the centre.

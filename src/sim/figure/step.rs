@@ -109,6 +109,8 @@ pub struct Figure {
     pending: Pending,
     touches: Touches,
     shape: Arc<BodyShape>,
+    /// Who it is near in this tick.
+    pub(crate) cluster: usize,
 }
 
 /// What the stages of a tick hand on.
@@ -124,7 +126,7 @@ struct Pending {
     assist: Option<Assist>,
 }
 
-impl Articulated for (FigureKey, Figure) {
+impl Articulated for (FigureKey, Box<Figure>) {
     fn parts(&mut self) -> Parts<'_> {
         self.1.stepper.parts()
     }
@@ -168,15 +170,8 @@ impl Figure {
             pending: Pending::new(&setup.state),
             touches: Touches::default(),
             shape: Arc::new(BodyShape::new(&setup.body)),
+            cluster: 0,
             setup,
-        }
-    }
-
-    /// One tick. Allocates nothing.
-    pub(crate) fn step(&mut self, world: &TickContext) {
-        if self.prepare(world) {
-            self.simulate(world);
-            self.finish(world);
         }
     }
 
@@ -254,6 +249,7 @@ impl Figure {
 
     /// Stage 6: motors, limits and ground move the body.
     pub(crate) fn simulate(&mut self, world: &TickContext) {
+        self.touches.begin();
         match self.setup.stepper {
             StepperKind::Torque => {
                 let (input, stepper, state) = self.stage(world);
@@ -566,7 +562,8 @@ impl Figure {
             .report
             .contacts
             .iter()
-            .any(|c| !feet.contains(&c.segment));
+            .any(|c| !feet.contains(&c.segment))
+            || self.touches.list().any(|t| !feet.contains(&t.segment));
         if !self.fallen && height < FALLEN_HEIGHT && on_other {
             self.fallen = true;
         } else if self.fallen && height > RISEN_HEIGHT {
