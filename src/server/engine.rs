@@ -249,7 +249,10 @@ fn refused(prefix: &str, e: &WorldError) -> Fault {
             message: e.to_string(),
             retry: None,
         },
-        WorldError::UnknownFigure(_) => Fault::Internal(e.to_string()),
+        WorldError::UnknownFigure(_)
+        | WorldError::UnknownObstacle(_)
+        | WorldError::TooManyObstacles
+        | WorldError::FreePlane => Fault::Internal(e.to_string()),
     }
 }
 
@@ -260,7 +263,7 @@ pub fn new_world(s: &WorldSettings) -> Result<World, Fault> {
         substeps: s.substeps,
         gravity: s.gravity,
         friction: s.friction,
-        threads: 1,
+        ..WorldParams::default()
     })
     .map_err(|e| refused("world", &e))
 }

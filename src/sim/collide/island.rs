@@ -12,9 +12,7 @@ use crate::sim::contact::limits::LIMIT_STIFFNESS;
 use crate::sim::contact::newton::System;
 use crate::sim::contact::projection::{Region, derivative, project};
 use crate::sim::contact::rows::{CHAIN_WIDTH, add_point_stiffness};
-use crate::sim::contact::{
-    ContactRows, LimitRows, Motors, NewtonWorkspace, Outcome, SparseSystem,
-};
+use crate::sim::contact::{ContactRows, LimitRows, Motors, NewtonWorkspace, Outcome, SparseSystem};
 use crate::sim::dynamics::factor::{factor, solve};
 use crate::sim::dynamics::mass_matrix::{DEPTH, MassMatrix};
 use crate::sim::math::Vec3;
@@ -275,9 +273,7 @@ impl Island {
             }
         }
         self.velocities();
-        self.contacts
-            .iter()
-            .any(|c| c.at(c.u).1 != Region::Open)
+        self.contacts.iter().any(|c| c.at(c.u).1 != Region::Open)
     }
 
     fn velocities(&mut self) {
@@ -403,7 +399,8 @@ impl Island {
                         (p.newton.force[k], p.newton.region[k]) =
                             p.contacts.force(k, p.newton.velocity[k]);
                     }
-                    p.contacts.add_transposed(&p.newton.force, -1.0, &mut b.grad);
+                    p.contacts
+                        .add_transposed(&p.newton.force, -1.0, &mut b.grad);
                 }
                 Kind::Free(_) => {
                     for k in 0..6 {

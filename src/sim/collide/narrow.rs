@@ -88,6 +88,29 @@ pub fn capsules(a: &Capsule, b: &Capsule) -> Near {
     }
 }
 
+/// Two capsules: their nearest points, and where the ends of each are nearest to the other. A part that turns fast may hit with an end that
+/// is not the nearest point yet, and two limbs side by side touch at two places.
+pub fn capsule_points(a: &Capsule, b: &Capsule, mut emit: impl FnMut(Near)) {
+    emit(capsules(a, b));
+    let ball = |p: Vec3, r: f64| Capsule {
+        a: p,
+        b: p,
+        ra: r,
+        rb: r,
+    };
+    if (a.b - a.a).norm() > MERGE {
+        emit(capsules(&ball(a.a, a.ra), b));
+        emit(capsules(&ball(a.b, a.rb), b));
+    }
+    if (b.b - b.a).norm() > MERGE {
+        emit(capsules(a, &ball(b.a, b.ra)));
+        emit(capsules(a, &ball(b.b, b.rb)));
+    }
+}
+
+/// Points nearer to each other than this are one, m.
+pub const MERGE: f64 = 0.02;
+
 /// A ball (A) at a box (B); radius 0 is a point.
 pub fn ball_box(centre: Vec3, radius: f64, b: &PosedBox) -> Near {
     let p = b.axes.transpose_mul(centre - b.centre);

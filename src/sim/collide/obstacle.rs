@@ -80,8 +80,8 @@ impl Shape {
                 let (cylinder, ball) = (2.0 * l, 4.0 / 3.0 * r);
                 let total = cylinder + ball;
                 let (c, b) = (cylinder / total, ball / total);
-                let across = c * (r * r / 4.0 + l * l / 3.0)
-                    + b * (0.4 * r * r + l * l + 0.75 * l * r);
+                let across =
+                    c * (r * r / 4.0 + l * l / 3.0) + b * (0.4 * r * r + l * l + 0.75 * l * r);
                 let around = c * 0.5 * r * r + b * 0.4 * r * r;
                 vec3(across, across, around)
             }

@@ -50,14 +50,19 @@ impl BodyShape {
                     _ if s == PELVIS.index() || s == ABDOMEN.index() || s == CHEST.index() => {
                         trunk(mesh)
                     }
-                    _ if [L_FOOT, R_FOOT, L_TOES, R_TOES].iter().any(|f| f.index() == s) => {
+                    _ if [L_FOOT, R_FOOT, L_TOES, R_TOES]
+                        .iter()
+                        .any(|f| f.index() == s) =>
+                    {
                         vec![along(mesh, 0)]
                     }
                     _ => vec![along(mesh, 2)],
                 };
             }
             let points = segment.contact_points.iter().map(|p| (*p, 0.0));
-            let ends = out.capsules[s].iter().flat_map(|c| [(c.a, c.ra), (c.b, c.rb)]);
+            let ends = out.capsules[s]
+                .iter()
+                .flat_map(|c| [(c.a, c.ra), (c.b, c.rb)]);
             let all: Vec<(Vec3, f64)> = points.chain(ends).collect();
             let n = all.len().max(1) as f64;
             let centre = all.iter().fold(Vec3::zero(), |z, (p, _)| z + *p) * (1.0 / n);
@@ -176,7 +181,11 @@ mod tests {
                     .collect();
                 let out = d.iter().fold(0.0f64, |m, x| m.max(*x));
                 let deep = d.iter().fold(0.0f64, |m, x| m.max(-x));
-                println!("segment {s}: {:.0} mm out, {:.0} mm in", 1e3 * out, 1e3 * deep);
+                println!(
+                    "segment {s}: {:.0} mm out, {:.0} mm in",
+                    1e3 * out,
+                    1e3 * deep
+                );
                 assert!(out < 0.06 && deep < 0.05, "segment {s}: {out} {deep}");
             }
         }

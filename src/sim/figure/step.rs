@@ -1,5 +1,6 @@
 //! One tick of one figure (ALGORITHM §10): the list of stages is [`Figure::step`].
 
+use super::FigureKey;
 use super::assist::Assist;
 use super::drive::Drive;
 use super::events::{FigureEvent, Watcher};
@@ -13,14 +14,13 @@ use super::torque_step::{
     FALLEN_SPEED, FEED_FORWARD_SPEED, MODERN_SPEED, MOTORS_ALONE_SPEED, MotorCommand, StepInput,
     Stepper, TorqueStepper,
 };
+use super::touches::{Contacting, Touches};
 use crate::sim::body::angles::anatomical_angles;
 use crate::sim::body::topology::{DOF_COUNT, L_FOOT, L_TOES, NV, R_FOOT, R_TOES, SEGMENT_COUNT};
 use crate::sim::body::{Body, Links, Posture, State};
+use crate::sim::collide::MAX_TOUCHES;
 use crate::sim::collide::island::{Articulated, Parts};
 use crate::sim::collide::shape::BodyShape;
-use crate::sim::collide::MAX_TOUCHES;
-use super::touches::{Contacting, Touches};
-use super::FigureKey;
 use crate::sim::contact::Outcome;
 use crate::sim::control::{
     Balance, Command, ControlInput, Controller, Law, Modern, Paper, tracking,
@@ -111,6 +111,8 @@ pub struct Figure {
     shape: Arc<BodyShape>,
     /// Who it is near in this tick.
     pub(crate) cluster: usize,
+    /// Put where it is since the last tick.
+    pub(crate) is_new: bool,
 }
 
 /// What the stages of a tick hand on.
@@ -171,6 +173,7 @@ impl Figure {
             touches: Touches::default(),
             shape: Arc::new(BodyShape::new(&setup.body)),
             cluster: 0,
+            is_new: true,
             setup,
         }
     }
@@ -311,7 +314,8 @@ impl Figure {
     }
     /// Stage 6 among others: one contact of the substep, with its impulse on this figure.
     pub(crate) fn record(&mut self, what: &Contacting, h: f64, dt: f64) {
-        self.stepper.push(what.segment, what.position, what.impulse * (1.0 / h));
+        self.stepper
+            .push(what.segment, what.position, what.impulse * (1.0 / h));
         self.touches.add(&self.stepper.terms, what, dt);
     }
     /// Stage 6 among others: closes substep `i` and moves.
@@ -484,11 +488,7 @@ impl Figure {
         !good
     }
 
-    fn fill_report(
-        &mut self,
-        world: &TickContext,
-        frozen: bool,
-    ) {
+    fn fill_report(&mut self, world: &TickContext, frozen: bool) {
         let Pending {
             before,
             tasks,
@@ -674,6 +674,7 @@ impl Figure {
     /// Puts the figure into a state and forgets its past; loads stay.
     pub fn reset(&mut self, state: State) {
         self.state = state;
+        self.is_new = true;
         self.last_good = state;
         self.fallen = false;
         self.frozen = false;

@@ -663,13 +663,7 @@ impl TorqueStepper {
     }
 
     /// Adds a substep to the means of the tick, and keeps the last one.
-    fn account(
-        &mut self,
-        h: f64,
-        dt: f64,
-        last: bool,
-        applied: &[AppliedForce],
-    ) {
+    fn account(&mut self, h: f64, dt: f64, last: bool, applied: &[AppliedForce]) {
         let (f, outcome, [lower, upper]) = (&mut self.forces, self.outcome, &self.range);
         f.iterations += outcome.iterations;
         if !outcome.converged {

@@ -72,8 +72,7 @@ impl Touches {
         let force = c.impulse * (1.0 / dt);
         let weight = force.dot(c.normal).max(0.0);
         let s = c.segment.index();
-        let local = terms.kin.rotation[s]
-            .transpose_mul(c.position - terms.segment_position(s));
+        let local = terms.kin.rotation[s].transpose_mul(c.position - terms.segment_position(s));
         let found = self
             .now
             .iter_mut()

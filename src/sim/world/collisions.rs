@@ -1,12 +1,13 @@
 //! Stage 6 of a tick for everything that is near something else: who is near whom, what touches, and one solve for all that touch.
 
-use crate::sim::body::topology::{L_FOOT, L_TOES, NV, R_FOOT, R_TOES, SEGMENT_COUNT};
 use crate::sim::body::SegmentId;
+use crate::sim::body::topology::{L_FOOT, L_TOES, NV, R_FOOT, R_TOES, SEGMENT_COUNT};
 use crate::sim::collide::broad::{self, Bounds};
 use crate::sim::collide::island::{Island, MAX_CONTACTS};
 use crate::sim::collide::narrow::{self, Near, PosedBox};
 use crate::sim::collide::shape::Capsule;
 use crate::sim::collide::{Mobility, Obstacle, ObstacleKey, Other, Shape};
+use crate::sim::dynamics::Terms;
 use crate::sim::dynamics::jacobian::for_each_column;
 use crate::sim::figure::touches::Contacting;
 use crate::sim::figure::{Figure, FigureKey, TickContext};
@@ -17,6 +18,8 @@ use crate::sim::math::vec3::vec3;
 const NEARBY: f64 = 0.02;
 /// How much a body may exceed the way that its speed at the start of a tick predicts, m.
 const SLACK: f64 = 0.05;
+/// Figures that are put deeper into each other than this pass through each other until they have parted, m.
+const THROUGH: f64 = 0.03;
 /// Friction between two figures: skin and cloth.
 const FIGURE_FRICTION: f64 = 0.6;
 /// Compliance of a contact between bodies, 1/kg.
@@ -28,7 +31,7 @@ const SLOP: f64 = 1e-4;
 /// Fastest push-out, m/s.
 const RETURN_SPEED: f64 = 1.0;
 /// Most points between two figures' segments, and between a segment and a flat thing.
-const POINTS_ROUND: usize = 2;
+const POINTS_ROUND: usize = 3;
 const POINTS_FLAT: usize = 8;
 
 /// What the collisions of one tick came to.
@@ -101,6 +104,9 @@ pub(super) struct Cluster {
 pub(super) struct Neighbourhood {
     bounds: Vec<Bounds>,
     pairs: Vec<(usize, usize)>,
+    /// Figures that were put into each other: they do not meet before they have parted. In ascending order.
+    through: Vec<(FigureKey, FigureKey)>,
+    still_through: Vec<(FigureKey, FigureKey)>,
     parent: Vec<usize>,
     label: Vec<usize>,
     place: Vec<usize>,
@@ -137,8 +143,16 @@ fn figure_bounds(f: &Figure, body: usize, dt: f64) -> Bounds {
         let p = t.segment_position(s) + r;
         let speed = (t.kin.velocity[s] + t.kin.omega[s].cross(r)).norm();
         let reach = radius + SLACK + 1.5 * dt * speed;
-        low = vec3(low.x.min(p.x - reach), low.y.min(p.y - reach), low.z.min(p.z - reach));
-        high = vec3(high.x.max(p.x + reach), high.y.max(p.y + reach), high.z.max(p.z + reach));
+        low = vec3(
+            low.x.min(p.x - reach),
+            low.y.min(p.y - reach),
+            low.z.min(p.z - reach),
+        );
+        high = vec3(
+            high.x.max(p.x + reach),
+            high.y.max(p.y + reach),
+            high.z.max(p.z + reach),
+        );
     }
     Bounds {
         low,
@@ -155,7 +169,8 @@ fn obstacle_bounds(o: &Obstacle, body: usize, dt: f64) -> Bounds {
         Shape::Plane => vec3(f64::INFINITY, f64::INFINITY, f64::INFINITY),
         Shape::Box { half } => {
             let (a, w) = (o.axes(), s.angular_velocity.norm() * dt * half.norm());
-            let e = |r: Vec3| (r.x * half.x).abs() + (r.y * half.y).abs() + (r.z * half.z).abs() + w;
+            let e =
+                |r: Vec3| (r.x * half.x).abs() + (r.y * half.y).abs() + (r.z * half.z).abs() + w;
             vec3(
                 e(vec3(a.x.x, a.y.x, a.z.x)),
                 e(vec3(a.x.y, a.y.y, a.z.y)),
@@ -187,11 +202,12 @@ impl Neighbourhood {
         figures: &mut [(FigureKey, Box<Figure>)],
         obstacles: &mut [(ObstacleKey, Obstacle)],
         dt: f64,
+        on: bool,
     ) -> usize {
         self.report = CollisionReport::default();
         self.count = 0;
         let nf = figures.len();
-        if nf < 2 && obstacles.is_empty() {
+        if !on || (nf < 2 && obstacles.is_empty()) {
             return 0;
         }
         self.bounds.clear();
@@ -204,6 +220,7 @@ impl Neighbourhood {
             self.bounds.push(obstacle_bounds(o, nf + i, dt));
         }
         broad::pairs(&mut self.bounds, &mut self.pairs);
+        self.pass_through(figures);
         self.report.pairs = self.pairs.len() as u64;
         let total = nf + obstacles.len();
         let moves = |i: usize| i < nf || obstacles[i - nf].1.mass().is_some();
@@ -240,6 +257,36 @@ impl Neighbourhood {
         }
         self.sort(figures, obstacles);
         self.label[..nf].iter().filter(|l| **l != ALONE).count()
+    }
+
+    /// Leaves out the pairs of figures that were put into each other and have not parted since.
+    fn pass_through(&mut self, figures: &mut [(FigureKey, Box<Figure>)]) {
+        let Self {
+            pairs,
+            through,
+            still_through,
+            ..
+        } = self;
+        still_through.clear();
+        pairs.retain(|(i, j)| {
+            let (Some((ki, a)), Some((kj, b))) = (figures.get(*i), figures.get(*j)) else {
+                return true;
+            };
+            let known = through.binary_search(&(*ki, *kj)).is_ok();
+            let passes = if a.is_new || b.is_new {
+                overlap(a, b)
+            } else {
+                known
+            };
+            if passes {
+                still_through.push((*ki, *kj));
+            }
+            !passes
+        });
+        std::mem::swap(through, still_through);
+        for (_, f) in figures {
+            f.is_new = false;
+        }
     }
 
     fn sort(
@@ -466,24 +513,50 @@ impl Posed {
     }
 }
 
-/// The nearest few points of two parts.
-struct Best<const N: usize> {
-    list: [Option<Near>; N],
+/// The few points of two parts that will be nearest, or deepest, at the end of the substep.
+struct Best<'a, const N: usize> {
+    cast: &'a Cast<'a>,
+    who: [Who; 2],
+    part: [usize; 2],
+    h: f64,
+    /// Points with their gap now or at the end, whichever is less.
+    list: [Option<(Near, f64)>; N],
 }
 
-impl<const N: usize> Best<N> {
-    fn new() -> Self {
-        Self { list: [None; N] }
+impl<'a, const N: usize> Best<'a, N> {
+    fn new(cast: &'a Cast<'a>, who: [Who; 2], part: [usize; 2], h: f64) -> Self {
+        Self {
+            cast,
+            who,
+            part,
+            h,
+            list: [None; N],
+        }
     }
     fn push(&mut self, near: Near) {
-        let mut x = near;
+        let [a, b] = [0, 1].map(|k| self.cast.velocity(self.who[k], self.part[k], near.position));
+        let rate = (a - b).dot(near.normal);
+        let end = near.gap.min(near.gap + self.h * rate);
+        if near.gap >= NEARBY && end >= 0.0 {
+            return;
+        }
+        let twin = |o: &&mut Option<(Near, f64)>| {
+            o.is_some_and(|(o, _)| (o.position - near.position).norm() < narrow::MERGE)
+        };
+        if let Some(slot) = self.list.iter_mut().find(twin) {
+            if slot.is_some_and(|(_, e)| end < e) {
+                *slot = Some((near, end));
+            }
+            return;
+        }
+        let mut x = (near, end);
         for slot in &mut self.list {
             match slot {
                 None => {
                     *slot = Some(x);
                     return;
                 }
-                Some(old) if x.gap < old.gap => std::mem::swap(old, &mut x),
+                Some(old) if x.1 < old.1 => std::mem::swap(old, &mut x),
                 Some(_) => {}
             }
         }
@@ -499,7 +572,7 @@ fn is_foot(s: usize) -> bool {
 /// A round thing (A) at a shape (B).
 fn round_at(c: &Capsule, shape: &PosedShape, mut emit: impl FnMut(Near)) {
     match shape {
-        PosedShape::Round(o) => emit(narrow::capsules(c, o)),
+        PosedShape::Round(o) => narrow::capsule_points(c, o, emit),
         PosedShape::Box(b) => narrow::capsule_box(c, b, emit),
         PosedShape::Plane { origin, normal } => {
             emit(narrow::ball_plane(c.a, c.ra, *origin, *normal));
@@ -515,9 +588,7 @@ fn point_at(p: Vec3, shape: &PosedShape) -> Option<Near> {
     match shape {
         PosedShape::Round(_) => None,
         PosedShape::Box(b) => Some(narrow::ball_box(p, 0.0, b)),
-        PosedShape::Plane { origin, normal } => {
-            Some(narrow::ball_plane(p, 0.0, *origin, *normal))
-        }
+        PosedShape::Plane { origin, normal } => Some(narrow::ball_plane(p, 0.0, *origin, *normal)),
     }
 }
 
@@ -538,8 +609,21 @@ fn clearance(p: Vec3, radius: f64, shape: &PosedShape) -> f64 {
     }
 }
 
-fn posed(f: &Figure, s: usize, c: &Capsule) -> Capsule {
-    let t = f.substep_terms();
+/// True if two figures are deeper in each other than touching can explain.
+fn overlap(a: &Figure, b: &Figure) -> bool {
+    (0..SEGMENT_COUNT).any(|s| {
+        a.shape().capsules[s].iter().any(|c| {
+            let c = posed(a.tick_terms(), s, c);
+            (0..SEGMENT_COUNT).any(|t| {
+                b.shape().capsules[t]
+                    .iter()
+                    .any(|e| narrow::capsules(&c, &posed(b.tick_terms(), t, e)).gap < -THROUGH)
+            })
+        })
+    })
+}
+
+fn posed(t: &Terms, s: usize, c: &Capsule) -> Capsule {
     let (p, r) = (t.segment_position(s), t.segment_rotation(s));
     Capsule {
         a: p + r * c.a,
@@ -620,29 +704,16 @@ impl Cluster {
         }
     }
 
-    /// Keeps the points that are near or will be within the substep.
-    fn keep<const N: usize>(
-        &mut self,
-        cast: &Cast<'_>,
-        best: &Best<N>,
-        who: [Who; 2],
-        part: [usize; 2],
-        mu: f64,
-        h: f64,
-    ) {
-        for near in best.list.iter().flatten() {
-            let rate = (cast.velocity(who[0], part[0], near.position)
-                - cast.velocity(who[1], part[1], near.position))
-            .dot(near.normal);
-            if near.gap < NEARBY || near.gap + h * rate < 0.0 {
-                self.report.depth = self.report.depth.max(-near.gap);
-                self.candidates.push(Candidate {
-                    who,
-                    part,
-                    near: *near,
-                    mu,
-                });
-            }
+    /// Keeps the points that matter.
+    fn keep<const N: usize>(&mut self, best: &Best<'_, N>, mu: f64) {
+        for (near, _) in best.list.iter().flatten() {
+            self.report.depth = self.report.depth.max(-near.gap);
+            self.candidates.push(Candidate {
+                who: best.who,
+                part: best.part,
+                near: *near,
+                mu,
+            });
         }
     }
 
@@ -657,15 +728,16 @@ impl Cluster {
                 if d.dot(d) > reach * reach {
                     continue;
                 }
-                let mut best = Best::<POINTS_ROUND>::new();
+                let who = [Who::Figure(i), Who::Figure(j)];
+                let mut best = Best::<POINTS_ROUND>::new(cast, who, [s, t], h);
                 for c in &a.shape().capsules[s] {
-                    let c = posed(a, s, c);
+                    let c = posed(a.substep_terms(), s, c);
                     for e in &b.shape().capsules[t] {
-                        best.push(narrow::capsules(&c, &posed(b, t, e)));
+                        let e = posed(b.substep_terms(), t, e);
+                        narrow::capsule_points(&c, &e, |near| best.push(near));
                     }
                 }
-                let who = [Who::Figure(i), Who::Figure(j)];
-                self.keep(cast, &best, who, [s, t], FIGURE_FRICTION, h);
+                self.keep(&best, FIGURE_FRICTION);
             }
         }
     }
@@ -678,7 +750,8 @@ impl Cluster {
             if clearance(p, radius, &o.shape) > NEARBY + h * (speed + other) {
                 continue;
             }
-            let mut best = Best::<POINTS_FLAT>::new();
+            let who = [Who::Figure(i), b];
+            let mut best = Best::<POINTS_FLAT>::new(cast, who, [s, 0], h);
             if is_foot(s) {
                 // Soles are flat: their own points carry, as on the ground.
                 let t = f.substep_terms();
@@ -689,14 +762,16 @@ impl Cluster {
                 }
             }
             for c in &f.shape().capsules[s] {
-                round_at(&posed(f, s, c), &o.shape, |near| best.push(near));
+                round_at(&posed(f.substep_terms(), s, c), &o.shape, |near| {
+                    best.push(near)
+                });
             }
-            self.keep(cast, &best, [Who::Figure(i), b], [s, 0], o.friction, h);
+            self.keep(&best, o.friction);
         }
     }
 
     fn obstacles(&mut self, cast: &Cast<'_>, [(a, x), (b, y)]: [(Who, &Posed); 2], h: f64) {
-        let mut best = Best::<POINTS_FLAT>::new();
+        let mut best = Best::<POINTS_FLAT>::new(cast, [a, b], [0, 0], h);
         match (&x.shape, &y.shape) {
             (PosedShape::Round(c), other) => round_at(c, other, |near| best.push(near)),
             (other, PosedShape::Round(c)) => round_at(c, other, |near| best.push(near.flipped())),
@@ -714,7 +789,7 @@ impl Cluster {
             }
             (PosedShape::Plane { .. }, _) => {} // planes do not move
         }
-        self.keep(cast, &best, [a, b], [0, 0], x.friction.min(y.friction), h);
+        self.keep(&best, x.friction.min(y.friction));
     }
 
     /// Solves every island of bodies that are near each other, and lets the impulses act.
@@ -752,7 +827,11 @@ impl Cluster {
             let mut limit = f64::INFINITY;
             if count > MAX_CONTACTS {
                 self.before.clear();
-                let gaps = self.candidates.iter().filter(|c| mine(c)).map(|c| c.near.gap);
+                let gaps = self
+                    .candidates
+                    .iter()
+                    .filter(|c| mine(c))
+                    .map(|c| c.near.gap);
                 self.before.extend(gaps);
                 self.before.sort_unstable_by(f64::total_cmp);
                 limit = self.before[MAX_CONTACTS];

@@ -28,6 +28,8 @@ pub struct WorldParams {
     pub friction: f64,
     /// Threads that step the figures, 1…64. The result does not depend on it.
     pub threads: usize,
+    /// Figures and obstacles meet. Off: figures touch nothing but the ground.
+    pub collisions: bool,
 }
 
 impl Default for WorldParams {
@@ -38,6 +40,7 @@ impl Default for WorldParams {
             gravity: 9.81,
             friction: 0.9,
             threads: 1,
+            collisions: true,
         }
     }
 }
@@ -131,9 +134,12 @@ impl World {
         each(&mut self.figures, threads, |f| {
             f.prepare(&context);
         });
-        let gathered =
-            self.neighbourhood
-                .gather(&mut self.figures, &mut self.obstacles, context.dt);
+        let gathered = self.neighbourhood.gather(
+            &mut self.figures,
+            &mut self.obstacles,
+            context.dt,
+            self.params.collisions,
+        );
         let (near, alone) = self.figures.split_at_mut(gathered);
         each(alone, threads, |f| {
             if !f.is_frozen() {

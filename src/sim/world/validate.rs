@@ -2,8 +2,8 @@
 
 use super::{WorldError, WorldParams};
 use crate::sim::body::State;
-use crate::sim::figure::{ControlParams, FigureOptions, FigureSetup, Perturbation, StrengthScale};
 use crate::sim::collide::{Mobility, ObstacleSetup, Shape};
+use crate::sim::figure::{ControlParams, FigureOptions, FigureSetup, Perturbation, StrengthScale};
 use crate::sim::math::Vec3;
 
 /// Farthest from the world origin a figure may be put, m: beyond, positions lose the precision that contact needs.
