@@ -149,7 +149,9 @@ async fn demo(app: &Arc<App>) -> anyhow::Result<()> {
             }),
         )?;
         let built = app.bodies.get("figure.profile", &settings.body)?;
-        let clip = app.clips.prepared(clip_name, &settings.body.id, &built)?;
+        let clip = app
+            .clips
+            .prepared(clip_name, &settings.body.id, &built, true)?;
         let playback = Playback {
             speed: 1.0,
             looped: true,
