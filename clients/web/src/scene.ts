@@ -352,17 +352,24 @@ class Actor {
   }
 
   private showForces(frame: FigureFrame, shown: boolean): void {
+    // One arrow per segment that touches: the sum, at its centre of pressure.
     const position = numbers(frame.contacts?.position);
     const force = numbers(frame.contacts?.force);
-    const count = shown ? Math.min(MOST_ARROWS, Math.floor(force.length / 3)) : 0;
+    const sums = new Map<number, { force: THREE.Vector3; place: THREE.Vector3; weight: number }>();
+    frame.contacts?.segment.forEach((segment, i) => {
+      let sum = sums.get(segment);
+      if (!sum) sums.set(segment, (sum = { force: new THREE.Vector3(), place: new THREE.Vector3(), weight: 0 }));
+      scratchB.fromArray(force as number[], 3 * i);
+      const weight = scratchB.length();
+      sum.force.add(scratchB);
+      sum.place.addScaledVector(scratchA.fromArray(position as number[], 3 * i), weight);
+      sum.weight += weight;
+    });
+    const all = shown ? [...sums.values()].filter((x) => x.weight > 1) : [];
     this.arrows.forEach((a, i) => {
-      if (i >= count) {
-        a.visible = false;
-        return;
-      }
-      scratchA.set(position[3 * i], position[3 * i + 1], position[3 * i + 2]);
-      scratchB.set(force[3 * i], force[3 * i + 1], force[3 * i + 2]).multiplyScalar(METRES_PER_NEWTON);
-      point(a, scratchA, scratchB);
+      const sum = all[i];
+      if (sum) point(a, sum.place.divideScalar(sum.weight), sum.force.multiplyScalar(METRES_PER_NEWTON));
+      else a.visible = false;
     });
   }
 
@@ -536,9 +543,9 @@ export class Scene {
     const sphere = box.getBoundingSphere(new THREE.Sphere());
     const angle = THREE.MathUtils.degToRad(this.camera.fov / 2);
     const narrow = Math.min(angle, Math.atan(Math.tan(angle) * this.camera.aspect));
-    const distance = (sphere.radius * 0.98) / Math.sin(narrow);
+    const distance = (sphere.radius * 0.9) / Math.sin(narrow);
     this.orbit.target.copy(sphere.center).setZ(0.86);
-    this.camera.position.copy(this.orbit.target).addScaledVector(scratchA.set(0.84, -0.5, 0.24).normalize(), distance);
+    this.camera.position.copy(this.orbit.target).addScaledVector(scratchA.set(0.9, -0.36, 0.2).normalize(), distance);
     this.orbit.update();
   }
 
@@ -577,8 +584,8 @@ export class Scene {
     this.orbit.update();
   }
 
-  /** Draws one picture. */
-  render(frames: { before: Map<number, FigureFrame>; after: Map<number, FigureFrame>; share: number } | undefined, shown: Shown, chosen: Person | undefined): void {
+  /** Puts everything where one picture has it. */
+  prepare(frames: { before: Map<number, FigureFrame>; after: Map<number, FigureFrame>; share: number } | undefined, shown: Shown, chosen: Person | undefined): void {
     const centre = scratchB.set(0, 0, 0);
     let reach = 2;
     if (frames) {
@@ -595,7 +602,7 @@ export class Scene {
       reach = Math.max(2, box.getSize(scratchA).length() / 2 + 1.6);
     }
     this.sun.target.position.set(centre.x, centre.y, 0);
-    this.sun.position.set(centre.x + 3 + reach * 0.3, centre.y + 1 - reach * 0.9, 5 + reach);
+    this.sun.position.set(centre.x + 6 + reach, centre.y - 7 - reach, 8 + reach);
     const c = this.sun.shadow.camera;
     if (Math.abs(c.right - reach) > 0.2) {
       c.left = c.bottom = -reach;
@@ -604,6 +611,10 @@ export class Scene {
       c.updateProjectionMatrix();
     }
     this.orbit.update();
+  }
+
+  /** Draws what `prepare` made. */
+  draw3d(): void {
     this.renderer.render(this.scene, this.camera);
     this.drawn++;
   }
