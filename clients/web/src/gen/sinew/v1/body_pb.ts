@@ -12,7 +12,7 @@ import type { Message } from "@bufbuild/protobuf";
  * Describes the file sinew/v1/body.proto.
  */
 export const file_sinew_v1_body: GenFile = /*@__PURE__*/
-  fileDesc("ChNzaW5ldy92MS9ib2R5LnByb3RvEghzaW5ldy52MSJfCgtCb2R5UHJvZmlsZRIaCgNzZXgYASABKA4yDS5zaW5ldy52MS5TZXgSEQoJYWdlX3llYXJzGAIgASgBEhAKCGhlaWdodF9tGAMgASgBEg8KB21hc3Nfa2cYBCABKAEi6wEKB1NlZ21lbnQSDAoEbmFtZRgBIAEoCRIMCgRib25lGAIgASgJEg4KBnBhcmVudBgDIAEoBRIPCgdtYXNzX2tnGAQgASgBEiAKBWNvbV9tGAUgASgLMhEuc2luZXcudjEuVmVjdG9yMxIUCgxpbmVydGlhX2tnbTIYBiADKAESIAoFdGlwX20YByABKAsyES5zaW5ldy52MS5WZWN0b3IzEhgKEGNvbnRhY3RfcG9pbnRzX20YCCADKAESFwoPbWVzaF92ZXJ0aWNlc19tGAkgAygBEhYKDm1lc2hfdHJpYW5nbGVzGAogAygFIoMBCgVKb2ludBIMCgRuYW1lGAEgASgJEiEKBHR5cGUYAiABKA4yEy5zaW5ldy52MS5Kb2ludFR5cGUSIwoIb2Zmc2V0X20YAyABKAsyES5zaW5ldy52MS5WZWN0b3IzEhEKCWRvZl9zdGFydBgEIAEoBRIRCglkb2ZfY291bnQYBSABKAUigAEKA0RvZhIMCgRuYW1lGAEgASgJEg0KBWpvaW50GAIgASgFEh8KBGF4aXMYAyABKAsyES5zaW5ldy52MS5WZWN0b3IzEhEKCWxvd2VyX3JhZBgEIAEoARIRCgl1cHBlcl9yYWQYBSABKAESFQoNYXJtYXR1cmVfa2dtMhgGIAEoASK/AQoEQm9keRIMCgRuYW1lGAEgASgJEiYKB3Byb2ZpbGUYAiABKAsyFS5zaW5ldy52MS5Cb2R5UHJvZmlsZRIjCghzZWdtZW50cxgDIAMoCzIRLnNpbmV3LnYxLlNlZ21lbnQSHwoGam9pbnRzGAQgAygLMg8uc2luZXcudjEuSm9pbnQSGwoEZG9mcxgFIAMoCzINLnNpbmV3LnYxLkRvZhIeChZzdGFuZGluZ19yb290X2hlaWdodF9tGAYgASgBIjoKEUxpc3RCb2RpZXNSZXF1ZXN0EhEKCXBhZ2Vfc2l6ZRgBIAEoBRISCgpwYWdlX3Rva2VuGAIgASgJIk0KEkxpc3RCb2RpZXNSZXNwb25zZRIeCgZib2RpZXMYASADKAsyDi5zaW5ldy52MS5Cb2R5EhcKD25leHRfcGFnZV90b2tlbhgCIAEoCSI4Cg5HZXRCb2R5UmVxdWVzdBIMCgRuYW1lGAEgASgJEhgKEGluY2x1ZGVfZ2VvbWV0cnkYAiABKAgiLwoPR2V0Qm9keVJlc3BvbnNlEhwKBGJvZHkYASABKAsyDi5zaW5ldy52MS5Cb2R5IkkKEUV4cG9ydEJvZHlSZXF1ZXN0EgwKBG5hbWUYASABKAkSJgoGZm9ybWF0GAIgASgOMhYuc2luZXcudjEuRXhwb3J0Rm9ybWF0IjUKEkV4cG9ydEJvZHlSZXNwb25zZRIMCgR0ZXh0GAEgASgJEhEKCWZpbGVfbmFtZRgCIAEoCSo4CgNTZXgSEwoPU0VYX1VOU1BFQ0lGSUVEEAASDAoIU0VYX01BTEUQARIOCgpTRVhfRkVNQUxFEAIqZwoJSm9pbnRUeXBlEhoKFkpPSU5UX1RZUEVfVU5TUEVDSUZJRUQQABITCg9KT0lOVF9UWVBFX0ZSRUUQARITCg9KT0lOVF9UWVBFX0JBTEwQAhIUChBKT0lOVF9UWVBFX0hJTkdFEAMqXQoMRXhwb3J0Rm9ybWF0Eh0KGUVYUE9SVF9GT1JNQVRfVU5TUEVDSUZJRUQQABIWChJFWFBPUlRfRk9STUFUX01KQ0YQARIWChJFWFBPUlRfRk9STUFUX1VSREYQAjLfAQoLQm9keVNlcnZpY2USRwoKTGlzdEJvZGllcxIbLnNpbmV3LnYxLkxpc3RCb2RpZXNSZXF1ZXN0Ghwuc2luZXcudjEuTGlzdEJvZGllc1Jlc3BvbnNlEj4KB0dldEJvZHkSGC5zaW5ldy52MS5HZXRCb2R5UmVxdWVzdBoZLnNpbmV3LnYxLkdldEJvZHlSZXNwb25zZRJHCgpFeHBvcnRCb2R5Ehsuc2luZXcudjEuRXhwb3J0Qm9keVJlcXVlc3QaHC5zaW5ldy52MS5FeHBvcnRCb2R5UmVzcG9uc2ViBnByb3RvMw", [file_sinew_v1_types]);
+  fileDesc("ChNzaW5ldy92MS9ib2R5LnByb3RvEghzaW5ldy52MSJfCgtCb2R5UHJvZmlsZRIaCgNzZXgYASABKA4yDS5zaW5ldy52MS5TZXgSEQoJYWdlX3llYXJzGAIgASgBEhAKCGhlaWdodF9tGAMgASgBEg8KB21hc3Nfa2cYBCABKAEi6wEKB1NlZ21lbnQSDAoEbmFtZRgBIAEoCRIMCgRib25lGAIgASgJEg4KBnBhcmVudBgDIAEoBRIPCgdtYXNzX2tnGAQgASgBEiAKBWNvbV9tGAUgASgLMhEuc2luZXcudjEuVmVjdG9yMxIUCgxpbmVydGlhX2tnbTIYBiADKAESIAoFdGlwX20YByABKAsyES5zaW5ldy52MS5WZWN0b3IzEhgKEGNvbnRhY3RfcG9pbnRzX20YCCADKAESFwoPbWVzaF92ZXJ0aWNlc19tGAkgAygBEhYKDm1lc2hfdHJpYW5nbGVzGAogAygFIoMBCgVKb2ludBIMCgRuYW1lGAEgASgJEiEKBHR5cGUYAiABKA4yEy5zaW5ldy52MS5Kb2ludFR5cGUSIwoIb2Zmc2V0X20YAyABKAsyES5zaW5ldy52MS5WZWN0b3IzEhEKCWRvZl9zdGFydBgEIAEoBRIRCglkb2ZfY291bnQYBSABKAUigAEKA0RvZhIMCgRuYW1lGAEgASgJEg0KBWpvaW50GAIgASgFEh8KBGF4aXMYAyABKAsyES5zaW5ldy52MS5WZWN0b3IzEhEKCWxvd2VyX3JhZBgEIAEoARIRCgl1cHBlcl9yYWQYBSABKAESFQoNYXJtYXR1cmVfa2dtMhgGIAEoASLpAQoEQm9keRIMCgRuYW1lGAEgASgJEiYKB3Byb2ZpbGUYAiABKAsyFS5zaW5ldy52MS5Cb2R5UHJvZmlsZRIjCghzZWdtZW50cxgDIAMoCzIRLnNpbmV3LnYxLlNlZ21lbnQSHwoGam9pbnRzGAQgAygLMg8uc2luZXcudjEuSm9pbnQSGwoEZG9mcxgFIAMoCzINLnNpbmV3LnYxLkRvZhIeChZzdGFuZGluZ19yb290X2hlaWdodF9tGAYgASgBEigKCnByb3ZlbmFuY2UYByADKAsyFC5zaW5ldy52MS5Qcm92ZW5hbmNlIoQBCgpQcm92ZW5hbmNlEgwKBHBhcnQYASABKAkSDgoGYWN0aW9uGAIgASgJEhAKCHF1YW50aXR5GAMgASgJEg0KBXZhbHVlGAQgASgBEgwKBHVuaXQYBSABKAkSDgoGc291cmNlGAYgASgJEgsKA3RhZxgHIAEoCRIMCgRub3RlGAggASgJIjoKEUxpc3RCb2RpZXNSZXF1ZXN0EhEKCXBhZ2Vfc2l6ZRgBIAEoBRISCgpwYWdlX3Rva2VuGAIgASgJIk0KEkxpc3RCb2RpZXNSZXNwb25zZRIeCgZib2RpZXMYASADKAsyDi5zaW5ldy52MS5Cb2R5EhcKD25leHRfcGFnZV90b2tlbhgCIAEoCSJUCg5HZXRCb2R5UmVxdWVzdBIMCgRuYW1lGAEgASgJEhgKEGluY2x1ZGVfZ2VvbWV0cnkYAiABKAgSGgoSaW5jbHVkZV9wcm92ZW5hbmNlGAMgASgIIi8KD0dldEJvZHlSZXNwb25zZRIcCgRib2R5GAEgASgLMg4uc2luZXcudjEuQm9keSJJChFFeHBvcnRCb2R5UmVxdWVzdBIMCgRuYW1lGAEgASgJEiYKBmZvcm1hdBgCIAEoDjIWLnNpbmV3LnYxLkV4cG9ydEZvcm1hdCI1ChJFeHBvcnRCb2R5UmVzcG9uc2USDAoEdGV4dBgBIAEoCRIRCglmaWxlX25hbWUYAiABKAkqOAoDU2V4EhMKD1NFWF9VTlNQRUNJRklFRBAAEgwKCFNFWF9NQUxFEAESDgoKU0VYX0ZFTUFMRRACKmcKCUpvaW50VHlwZRIaChZKT0lOVF9UWVBFX1VOU1BFQ0lGSUVEEAASEwoPSk9JTlRfVFlQRV9GUkVFEAESEwoPSk9JTlRfVFlQRV9CQUxMEAISFAoQSk9JTlRfVFlQRV9ISU5HRRADKl0KDEV4cG9ydEZvcm1hdBIdChlFWFBPUlRfRk9STUFUX1VOU1BFQ0lGSUVEEAASFgoSRVhQT1JUX0ZPUk1BVF9NSkNGEAESFgoSRVhQT1JUX0ZPUk1BVF9VUkRGEAIy3wEKC0JvZHlTZXJ2aWNlEkcKCkxpc3RCb2RpZXMSGy5zaW5ldy52MS5MaXN0Qm9kaWVzUmVxdWVzdBocLnNpbmV3LnYxLkxpc3RCb2RpZXNSZXNwb25zZRI+CgdHZXRCb2R5Ehguc2luZXcudjEuR2V0Qm9keVJlcXVlc3QaGS5zaW5ldy52MS5HZXRCb2R5UmVzcG9uc2USRwoKRXhwb3J0Qm9keRIbLnNpbmV3LnYxLkV4cG9ydEJvZHlSZXF1ZXN0Ghwuc2luZXcudjEuRXhwb3J0Qm9keVJlc3BvbnNlYgZwcm90bzM", [file_sinew_v1_types]);
 
 /**
  * Who a body stands for.
@@ -21,28 +21,28 @@ export const file_sinew_v1_body: GenFile = /*@__PURE__*/
  */
 export type BodyProfile = Message<"sinew.v1.BodyProfile"> & {
   /**
-   * Tables to use. Required.
+   * Tables to use. Required. Up to 10 years both give the same body.
    *
    * @generated from field: sinew.v1.Sex sex = 1;
    */
   sex: Sex;
 
   /**
-   * Age, years. Range as the tables cover it; adults 18…90.
+   * Age, years, 6…90.
    *
    * @generated from field: double age_years = 2;
    */
   ageYears: number;
 
   /**
-   * Stature, m.
+   * Stature, m: 1.4…2.1 for adults, 0.8 to 1.25 times the ordinary for children. 0: ordinary for sex and age.
    *
    * @generated from field: double height_m = 3;
    */
   heightM: number;
 
   /**
-   * Body mass, kg.
+   * Body mass, kg: 35…180 for adults, 0.6 to 2.5 times the ordinary for children. 0: ordinary for sex and age.
    *
    * @generated from field: double mass_kg = 4;
    */
@@ -293,6 +293,13 @@ export type Body = Message<"sinew.v1.Body"> & {
    * @generated from field: double standing_root_height_m = 6;
    */
   standingRootHeightM: number;
+
+  /**
+   * Where its numbers come from: masses and lengths of segments, limits and strength of DOFs, fatigue. Only with `include_provenance`.
+   *
+   * @generated from field: repeated sinew.v1.Provenance provenance = 7;
+   */
+  provenance: Provenance[];
 };
 
 /**
@@ -301,6 +308,77 @@ export type Body = Message<"sinew.v1.Body"> & {
  */
 export const BodySchema: GenMessage<Body> = /*@__PURE__*/
   messageDesc(file_sinew_v1_body, 4);
+
+/**
+ * One number of a body or of its strength, with its origin.
+ *
+ * @generated from message sinew.v1.Provenance
+ */
+export type Provenance = Message<"sinew.v1.Provenance"> & {
+  /**
+   * Segment or DOF that it belongs to, by name.
+   *
+   * @generated from field: string part = 1;
+   */
+  part: string;
+
+  /**
+   * Muscle action, for example `knee extension`; the part's name where there is none.
+   *
+   * @generated from field: string action = 2;
+   */
+  action: string;
+
+  /**
+   * What is given, for example `isometric peak torque`.
+   *
+   * @generated from field: string quantity = 3;
+   */
+  quantity: string;
+
+  /**
+   * Value as used for this body.
+   *
+   * @generated from field: double value = 4;
+   */
+  value: number;
+
+  /**
+   * Unit of the value; `1` for ratios.
+   *
+   * @generated from field: string unit = 5;
+   */
+  unit: string;
+
+  /**
+   * Publication or reason.
+   *
+   * @generated from field: string source = 6;
+   */
+  source: string;
+
+  /**
+   * How far to trust it. S1: read in data that cite the publication. S2: read in the publication. S3: cross-check only. D: derived.
+   * R: estimate.
+   *
+   * @generated from field: string tag = 7;
+   */
+  tag: string;
+
+  /**
+   * What was done with it.
+   *
+   * @generated from field: string note = 8;
+   */
+  note: string;
+};
+
+/**
+ * Describes the message sinew.v1.Provenance.
+ * Use `create(ProvenanceSchema)` to create a new message.
+ */
+export const ProvenanceSchema: GenMessage<Provenance> = /*@__PURE__*/
+  messageDesc(file_sinew_v1_body, 5);
 
 /**
  * Asks for bodies.
@@ -328,7 +406,7 @@ export type ListBodiesRequest = Message<"sinew.v1.ListBodiesRequest"> & {
  * Use `create(ListBodiesRequestSchema)` to create a new message.
  */
 export const ListBodiesRequestSchema: GenMessage<ListBodiesRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_body, 5);
+  messageDesc(file_sinew_v1_body, 6);
 
 /**
  * A page of bodies.
@@ -356,7 +434,7 @@ export type ListBodiesResponse = Message<"sinew.v1.ListBodiesResponse"> & {
  * Use `create(ListBodiesResponseSchema)` to create a new message.
  */
 export const ListBodiesResponseSchema: GenMessage<ListBodiesResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_body, 6);
+  messageDesc(file_sinew_v1_body, 7);
 
 /**
  * Asks for one body.
@@ -377,6 +455,13 @@ export type GetBodyRequest = Message<"sinew.v1.GetBodyRequest"> & {
    * @generated from field: bool include_geometry = 2;
    */
   includeGeometry: boolean;
+
+  /**
+   * Also sends where the numbers come from. Default: false.
+   *
+   * @generated from field: bool include_provenance = 3;
+   */
+  includeProvenance: boolean;
 };
 
 /**
@@ -384,7 +469,7 @@ export type GetBodyRequest = Message<"sinew.v1.GetBodyRequest"> & {
  * Use `create(GetBodyRequestSchema)` to create a new message.
  */
 export const GetBodyRequestSchema: GenMessage<GetBodyRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_body, 7);
+  messageDesc(file_sinew_v1_body, 8);
 
 /**
  * One body.
@@ -405,7 +490,7 @@ export type GetBodyResponse = Message<"sinew.v1.GetBodyResponse"> & {
  * Use `create(GetBodyResponseSchema)` to create a new message.
  */
 export const GetBodyResponseSchema: GenMessage<GetBodyResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_body, 8);
+  messageDesc(file_sinew_v1_body, 9);
 
 /**
  * Asks for one body as text.
@@ -433,7 +518,7 @@ export type ExportBodyRequest = Message<"sinew.v1.ExportBodyRequest"> & {
  * Use `create(ExportBodyRequestSchema)` to create a new message.
  */
 export const ExportBodyRequestSchema: GenMessage<ExportBodyRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_body, 9);
+  messageDesc(file_sinew_v1_body, 10);
 
 /**
  * One body as text.
@@ -461,7 +546,7 @@ export type ExportBodyResponse = Message<"sinew.v1.ExportBodyResponse"> & {
  * Use `create(ExportBodyResponseSchema)` to create a new message.
  */
 export const ExportBodyResponseSchema: GenMessage<ExportBodyResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_body, 10);
+  messageDesc(file_sinew_v1_body, 11);
 
 /**
  * Which of the two sets of body and strength tables is used.
@@ -574,7 +659,7 @@ export const ExportFormatSchema: GenEnum<ExportFormat> = /*@__PURE__*/
 
 /**
  * Describes bodies. A body is immutable and follows from its profile, so its name says everything:
- * `bodies/adult-man`, `bodies/adult-woman`, or `bodies/{sex}-{age}y-{height}mm-{mass}g`, for example `bodies/female-25y-1680mm-61500g`.
+ * `bodies/adult-man`, `bodies/adult-woman`, `bodies/child`, `bodies/older-man`, `bodies/older-woman`, or `bodies/{sex}-{age}y-{height}mm-{mass}g`, for example `bodies/female-25y-1680mm-61500g`.
  *
  * @generated from service sinew.v1.BodyService
  */

@@ -16,7 +16,7 @@ import type { Message } from "@bufbuild/protobuf";
  * Describes the file sinew/v1/figure.proto.
  */
 export const file_sinew_v1_figure: GenFile = /*@__PURE__*/
-  fileDesc("ChVzaW5ldy92MS9maWd1cmUucHJvdG8SCHNpbmV3LnYxIkEKDVN0cmVuZ3RoU2NhbGUSCwoDYWxsGAEgASgBEiMKBGRvZnMYAiADKAsyFS5zaW5ldy52MS5Eb2ZTdHJlbmd0aCIqCgtEb2ZTdHJlbmd0aBILCgNkb2YYASABKAkSDgoGZmFjdG9yGAIgASgBIlMKC0NhcnJpZWRMb2FkEg8KB3NlZ21lbnQYASABKAUSIgoHcG9pbnRfbRgCIAEoCzIRLnNpbmV3LnYxLlZlY3RvcjMSDwoHbWFzc19rZxgDIAEoASK6AgoGRmlndXJlEgwKBG5hbWUYASABKAkSFAoMZGlzcGxheV9uYW1lGAIgASgJEgwKBGJvZHkYAyABKAkSJgoHcHJvZmlsZRgEIAEoCzIVLnNpbmV3LnYxLkJvZHlQcm9maWxlEikKCHN0cmVuZ3RoGAUgASgLMhcuc2luZXcudjEuU3RyZW5ndGhTY2FsZRIoCgpjb250cm9sbGVyGAYgASgOMhQuc2luZXcudjEuQ29udHJvbGxlchIiCgdzdGVwcGVyGAcgASgOMhEuc2luZXcudjEuU3RlcHBlchImCglwbGFjZW1lbnQYCCABKAsyEy5zaW5ldy52MS5QbGFjZW1lbnQSDAoEY2xpcBgJIAEoCRIRCglkcml2ZXJfaWQYCiABKAkSFAoMZmlndXJlX2luZGV4GAsgASgFIloKE0NyZWF0ZUZpZ3VyZVJlcXVlc3QSDgoGcGFyZW50GAEgASgJEhEKCWZpZ3VyZV9pZBgCIAEoCRIgCgZmaWd1cmUYAyABKAsyEC5zaW5ldy52MS5GaWd1cmUiOAoUQ3JlYXRlRmlndXJlUmVzcG9uc2USIAoGZmlndXJlGAEgASgLMhAuc2luZXcudjEuRmlndXJlIiAKEEdldEZpZ3VyZVJlcXVlc3QSDAoEbmFtZRgBIAEoCSI1ChFHZXRGaWd1cmVSZXNwb25zZRIgCgZmaWd1cmUYASABKAsyEC5zaW5ldy52MS5GaWd1cmUiSwoSTGlzdEZpZ3VyZXNSZXF1ZXN0Eg4KBnBhcmVudBgBIAEoCRIRCglwYWdlX3NpemUYAiABKAUSEgoKcGFnZV90b2tlbhgDIAEoCSJRChNMaXN0RmlndXJlc1Jlc3BvbnNlEiEKB2ZpZ3VyZXMYASADKAsyEC5zaW5ldy52MS5GaWd1cmUSFwoPbmV4dF9wYWdlX3Rva2VuGAIgASgJImgKE1VwZGF0ZUZpZ3VyZVJlcXVlc3QSIAoGZmlndXJlGAEgASgLMhAuc2luZXcudjEuRmlndXJlEi8KC3VwZGF0ZV9tYXNrGAIgASgLMhouZ29vZ2xlLnByb3RvYnVmLkZpZWxkTWFzayI4ChRVcGRhdGVGaWd1cmVSZXNwb25zZRIgCgZmaWd1cmUYASABKAsyEC5zaW5ldy52MS5GaWd1cmUiIwoTRGVsZXRlRmlndXJlUmVxdWVzdBIMCgRuYW1lGAEgASgJIhYKFERlbGV0ZUZpZ3VyZVJlc3BvbnNlIkoKElJlc2V0RmlndXJlUmVxdWVzdBIMCgRuYW1lGAEgASgJEiYKCXBsYWNlbWVudBgCIAEoCzITLnNpbmV3LnYxLlBsYWNlbWVudCI3ChNSZXNldEZpZ3VyZVJlc3BvbnNlEiAKBmZpZ3VyZRgBIAEoCzIQLnNpbmV3LnYxLkZpZ3VyZSpsCgpDb250cm9sbGVyEhoKFkNPTlRST0xMRVJfVU5TUEVDSUZJRUQQABIUChBDT05UUk9MTEVSX1BBUEVSEAESFQoRQ09OVFJPTExFUl9NT0RFUk4QAhIVChFDT05UUk9MTEVSX01PVE9SUxADKk0KB1N0ZXBwZXISFwoTU1RFUFBFUl9VTlNQRUNJRklFRBAAEhIKDlNURVBQRVJfVE9SUVVFEAESFQoRU1RFUFBFUl9LSU5FTUFUSUMQAjLaAwoNRmlndXJlU2VydmljZRJNCgxDcmVhdGVGaWd1cmUSHS5zaW5ldy52MS5DcmVhdGVGaWd1cmVSZXF1ZXN0Gh4uc2luZXcudjEuQ3JlYXRlRmlndXJlUmVzcG9uc2USRAoJR2V0RmlndXJlEhouc2luZXcudjEuR2V0RmlndXJlUmVxdWVzdBobLnNpbmV3LnYxLkdldEZpZ3VyZVJlc3BvbnNlEkoKC0xpc3RGaWd1cmVzEhwuc2luZXcudjEuTGlzdEZpZ3VyZXNSZXF1ZXN0Gh0uc2luZXcudjEuTGlzdEZpZ3VyZXNSZXNwb25zZRJNCgxVcGRhdGVGaWd1cmUSHS5zaW5ldy52MS5VcGRhdGVGaWd1cmVSZXF1ZXN0Gh4uc2luZXcudjEuVXBkYXRlRmlndXJlUmVzcG9uc2USTQoMRGVsZXRlRmlndXJlEh0uc2luZXcudjEuRGVsZXRlRmlndXJlUmVxdWVzdBoeLnNpbmV3LnYxLkRlbGV0ZUZpZ3VyZVJlc3BvbnNlEkoKC1Jlc2V0RmlndXJlEhwuc2luZXcudjEuUmVzZXRGaWd1cmVSZXF1ZXN0Gh0uc2luZXcudjEuUmVzZXRGaWd1cmVSZXNwb25zZWIGcHJvdG8z", [file_google_protobuf_field_mask, file_sinew_v1_body, file_sinew_v1_types]);
+  fileDesc("ChVzaW5ldy92MS9maWd1cmUucHJvdG8SCHNpbmV3LnYxInUKDVN0cmVuZ3RoU2NhbGUSCwoDYWxsGAEgASgBEiMKBGRvZnMYAiADKAsyFS5zaW5ldy52MS5Eb2ZTdHJlbmd0aBISCgpwZXJjZW50aWxlGAMgASgBEhMKBmVmZm9ydBgEIAEoAUgAiAEBQgkKB19lZmZvcnQiKgoLRG9mU3RyZW5ndGgSCwoDZG9mGAEgASgJEg4KBmZhY3RvchgCIAEoASJTCgtDYXJyaWVkTG9hZBIPCgdzZWdtZW50GAEgASgFEiIKB3BvaW50X20YAiABKAsyES5zaW5ldy52MS5WZWN0b3IzEg8KB21hc3Nfa2cYAyABKAEi5gIKBkZpZ3VyZRIMCgRuYW1lGAEgASgJEhQKDGRpc3BsYXlfbmFtZRgCIAEoCRIMCgRib2R5GAMgASgJEiYKB3Byb2ZpbGUYBCABKAsyFS5zaW5ldy52MS5Cb2R5UHJvZmlsZRIpCghzdHJlbmd0aBgFIAEoCzIXLnNpbmV3LnYxLlN0cmVuZ3RoU2NhbGUSKAoKY29udHJvbGxlchgGIAEoDjIULnNpbmV3LnYxLkNvbnRyb2xsZXISIgoHc3RlcHBlchgHIAEoDjIRLnNpbmV3LnYxLlN0ZXBwZXISJgoJcGxhY2VtZW50GAggASgLMhMuc2luZXcudjEuUGxhY2VtZW50EgwKBGNsaXAYCSABKAkSEQoJZHJpdmVyX2lkGAogASgJEhQKDGZpZ3VyZV9pbmRleBgLIAEoBRIaChJmYXRpZ3VlX3RpbWVfc2NhbGUYDiABKAESDgoGYXNzaXN0GA8gASgBIloKE0NyZWF0ZUZpZ3VyZVJlcXVlc3QSDgoGcGFyZW50GAEgASgJEhEKCWZpZ3VyZV9pZBgCIAEoCRIgCgZmaWd1cmUYAyABKAsyEC5zaW5ldy52MS5GaWd1cmUiOAoUQ3JlYXRlRmlndXJlUmVzcG9uc2USIAoGZmlndXJlGAEgASgLMhAuc2luZXcudjEuRmlndXJlIiAKEEdldEZpZ3VyZVJlcXVlc3QSDAoEbmFtZRgBIAEoCSI1ChFHZXRGaWd1cmVSZXNwb25zZRIgCgZmaWd1cmUYASABKAsyEC5zaW5ldy52MS5GaWd1cmUiSwoSTGlzdEZpZ3VyZXNSZXF1ZXN0Eg4KBnBhcmVudBgBIAEoCRIRCglwYWdlX3NpemUYAiABKAUSEgoKcGFnZV90b2tlbhgDIAEoCSJRChNMaXN0RmlndXJlc1Jlc3BvbnNlEiEKB2ZpZ3VyZXMYASADKAsyEC5zaW5ldy52MS5GaWd1cmUSFwoPbmV4dF9wYWdlX3Rva2VuGAIgASgJImgKE1VwZGF0ZUZpZ3VyZVJlcXVlc3QSIAoGZmlndXJlGAEgASgLMhAuc2luZXcudjEuRmlndXJlEi8KC3VwZGF0ZV9tYXNrGAIgASgLMhouZ29vZ2xlLnByb3RvYnVmLkZpZWxkTWFzayI4ChRVcGRhdGVGaWd1cmVSZXNwb25zZRIgCgZmaWd1cmUYASABKAsyEC5zaW5ldy52MS5GaWd1cmUiIwoTRGVsZXRlRmlndXJlUmVxdWVzdBIMCgRuYW1lGAEgASgJIhYKFERlbGV0ZUZpZ3VyZVJlc3BvbnNlIkoKElJlc2V0RmlndXJlUmVxdWVzdBIMCgRuYW1lGAEgASgJEiYKCXBsYWNlbWVudBgCIAEoCzITLnNpbmV3LnYxLlBsYWNlbWVudCI3ChNSZXNldEZpZ3VyZVJlc3BvbnNlEiAKBmZpZ3VyZRgBIAEoCzIQLnNpbmV3LnYxLkZpZ3VyZSpsCgpDb250cm9sbGVyEhoKFkNPTlRST0xMRVJfVU5TUEVDSUZJRUQQABIUChBDT05UUk9MTEVSX1BBUEVSEAESFQoRQ09OVFJPTExFUl9NT0RFUk4QAhIVChFDT05UUk9MTEVSX01PVE9SUxADKk0KB1N0ZXBwZXISFwoTU1RFUFBFUl9VTlNQRUNJRklFRBAAEhIKDlNURVBQRVJfVE9SUVVFEAESFQoRU1RFUFBFUl9LSU5FTUFUSUMQAjLaAwoNRmlndXJlU2VydmljZRJNCgxDcmVhdGVGaWd1cmUSHS5zaW5ldy52MS5DcmVhdGVGaWd1cmVSZXF1ZXN0Gh4uc2luZXcudjEuQ3JlYXRlRmlndXJlUmVzcG9uc2USRAoJR2V0RmlndXJlEhouc2luZXcudjEuR2V0RmlndXJlUmVxdWVzdBobLnNpbmV3LnYxLkdldEZpZ3VyZVJlc3BvbnNlEkoKC0xpc3RGaWd1cmVzEhwuc2luZXcudjEuTGlzdEZpZ3VyZXNSZXF1ZXN0Gh0uc2luZXcudjEuTGlzdEZpZ3VyZXNSZXNwb25zZRJNCgxVcGRhdGVGaWd1cmUSHS5zaW5ldy52MS5VcGRhdGVGaWd1cmVSZXF1ZXN0Gh4uc2luZXcudjEuVXBkYXRlRmlndXJlUmVzcG9uc2USTQoMRGVsZXRlRmlndXJlEh0uc2luZXcudjEuRGVsZXRlRmlndXJlUmVxdWVzdBoeLnNpbmV3LnYxLkRlbGV0ZUZpZ3VyZVJlc3BvbnNlEkoKC1Jlc2V0RmlndXJlEhwuc2luZXcudjEuUmVzZXRGaWd1cmVSZXF1ZXN0Gh0uc2luZXcudjEuUmVzZXRGaWd1cmVSZXNwb25zZWIGcHJvdG8z", [file_google_protobuf_field_mask, file_sinew_v1_body, file_sinew_v1_types]);
 
 /**
  * Scale of measured human strength.
@@ -37,6 +37,20 @@ export type StrengthScale = Message<"sinew.v1.StrengthScale"> & {
    * @generated from field: repeated sinew.v1.DofStrength dofs = 2;
    */
   dofs: DofStrength[];
+
+  /**
+   * Which person of that sex, age and size: percentile of strength, 5…95. 0 or absent: 50.
+   *
+   * @generated from field: double percentile = 3;
+   */
+  percentile: number;
+
+  /**
+   * Share of the strength that the figure is willing to use, 0…1; below 0.01 counts as 0.01. Absent: 1.
+   *
+   * @generated from field: optional double effort = 4;
+   */
+  effort?: number | undefined;
 };
 
 /**
@@ -191,6 +205,21 @@ export type Figure = Message<"sinew.v1.Figure"> & {
    * @generated from field: int32 figure_index = 11;
    */
   figureIndex: number;
+
+  /**
+   * Seconds of muscle fatigue per simulated second, 0…1000. 0: muscles never tire.
+   *
+   * @generated from field: double fatigue_time_scale = 14;
+   */
+  fatigueTimeScale: number;
+
+  /**
+   * Help towards the desired pose of the pelvis, 0…1: a bounded wrench that no body has, reported in every frame (`assist`). 1 holds the
+   * pelvis on its path. 0: none.
+   *
+   * @generated from field: double assist = 15;
+   */
+  assist: number;
 };
 
 /**
@@ -375,7 +404,7 @@ export type UpdateFigureRequest = Message<"sinew.v1.UpdateFigureRequest"> & {
   figure?: Figure | undefined;
 
   /**
-   * Which of `display_name`, `strength`, `controller` to take. Must not be empty.
+   * Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist` to take. Must not be empty.
    *
    * @generated from field: google.protobuf.FieldMask update_mask = 2;
    */
@@ -607,7 +636,7 @@ export const FigureService: GenService<{
     output: typeof ListFiguresResponseSchema;
   },
   /**
-   * Changes strength or controller.
+   * Changes strength, controller, fatigue or assist.
    *
    * @generated from rpc sinew.v1.FigureService.UpdateFigure
    */

@@ -12,7 +12,7 @@ import type { Message } from "@bufbuild/protobuf";
  * Describes the file sinew/v1/perturbation.proto.
  */
 export const file_sinew_v1_perturbation: GenFile = /*@__PURE__*/
-  fileDesc("ChtzaW5ldy92MS9wZXJ0dXJiYXRpb24ucHJvdG8SCHNpbmV3LnYxImAKBExvYWQSDwoHc2VnbWVudBgBIAEoCRIiCgdwb2ludF9tGAIgASgLMhEuc2luZXcudjEuVmVjdG9yMxIPCgdtYXNzX2tnGAMgASgBEhIKCmR1cmF0aW9uX3MYBCABKAEieQoHSW1wdWxzZRIPCgdzZWdtZW50GAEgASgJEiIKB3BvaW50X20YAiABKAsyES5zaW5ldy52MS5WZWN0b3IzEiUKCmltcHVsc2VfbnMYAyABKAsyES5zaW5ldy52MS5WZWN0b3IzEhIKCmR1cmF0aW9uX3MYBCABKAEidAoFRm9yY2USDwoHc2VnbWVudBgBIAEoCRIiCgdwb2ludF9tGAIgASgLMhEuc2luZXcudjEuVmVjdG9yMxIiCgdmb3JjZV9uGAMgASgLMhEuc2luZXcudjEuVmVjdG9yMxISCgpkdXJhdGlvbl9zGAQgASgBIqoBCgxQZXJ0dXJiYXRpb24SDgoGZmlndXJlGAEgASgJEhEKBHRpY2sYAiABKANIAYgBARIeCgRsb2FkGAMgASgLMg4uc2luZXcudjEuTG9hZEgAEiQKB2ltcHVsc2UYBCABKAsyES5zaW5ldy52MS5JbXB1bHNlSAASIAoFZm9yY2UYBSABKAsyDy5zaW5ldy52MS5Gb3JjZUgAQgYKBGtpbmRCBwoFX3RpY2sifgoZQXBwbHlQZXJ0dXJiYXRpb25zUmVxdWVzdBINCgV3b3JsZBgBIAEoCRIRCgljbGllbnRfaWQYAiABKAkSEAoIc2VxdWVuY2UYAyABKAMSLQoNcGVydHVyYmF0aW9ucxgEIAMoCzIWLnNpbmV3LnYxLlBlcnR1cmJhdGlvbiIqChpBcHBseVBlcnR1cmJhdGlvbnNSZXNwb25zZRIMCgR0aWNrGAEgASgDIisKGUNsZWFyUGVydHVyYmF0aW9uc1JlcXVlc3QSDgoGZmlndXJlGAEgASgJIioKGkNsZWFyUGVydHVyYmF0aW9uc1Jlc3BvbnNlEgwKBHRpY2sYASABKAMy1wEKE1BlcnR1cmJhdGlvblNlcnZpY2USXwoSQXBwbHlQZXJ0dXJiYXRpb25zEiMuc2luZXcudjEuQXBwbHlQZXJ0dXJiYXRpb25zUmVxdWVzdBokLnNpbmV3LnYxLkFwcGx5UGVydHVyYmF0aW9uc1Jlc3BvbnNlEl8KEkNsZWFyUGVydHVyYmF0aW9ucxIjLnNpbmV3LnYxLkNsZWFyUGVydHVyYmF0aW9uc1JlcXVlc3QaJC5zaW5ldy52MS5DbGVhclBlcnR1cmJhdGlvbnNSZXNwb25zZWIGcHJvdG8z", [file_sinew_v1_types]);
+  fileDesc("ChtzaW5ldy92MS9wZXJ0dXJiYXRpb24ucHJvdG8SCHNpbmV3LnYxItwBCgRMb2FkEg8KB3NlZ21lbnQYASABKAkSIgoHcG9pbnRfbRgCIAEoCzIRLnNpbmV3LnYxLlZlY3RvcjMSDwoHbWFzc19rZxgDIAEoARISCgpkdXJhdGlvbl9zGAQgASgBEicKDHZlbG9jaXR5X21wcxgFIAEoCzIRLnNpbmV3LnYxLlZlY3RvcjMSFgoOc2Vjb25kX3NlZ21lbnQYBiABKAkSKQoOc2Vjb25kX3BvaW50X20YByABKAsyES5zaW5ldy52MS5WZWN0b3IzEg4KBmdyaXBfbhgIIAEoASJ5CgdJbXB1bHNlEg8KB3NlZ21lbnQYASABKAkSIgoHcG9pbnRfbRgCIAEoCzIRLnNpbmV3LnYxLlZlY3RvcjMSJQoKaW1wdWxzZV9ucxgDIAEoCzIRLnNpbmV3LnYxLlZlY3RvcjMSEgoKZHVyYXRpb25fcxgEIAEoASJ0CgVGb3JjZRIPCgdzZWdtZW50GAEgASgJEiIKB3BvaW50X20YAiABKAsyES5zaW5ldy52MS5WZWN0b3IzEiIKB2ZvcmNlX24YAyABKAsyES5zaW5ldy52MS5WZWN0b3IzEhIKCmR1cmF0aW9uX3MYBCABKAEiqgEKDFBlcnR1cmJhdGlvbhIOCgZmaWd1cmUYASABKAkSEQoEdGljaxgCIAEoA0gBiAEBEh4KBGxvYWQYAyABKAsyDi5zaW5ldy52MS5Mb2FkSAASJAoHaW1wdWxzZRgEIAEoCzIRLnNpbmV3LnYxLkltcHVsc2VIABIgCgVmb3JjZRgFIAEoCzIPLnNpbmV3LnYxLkZvcmNlSABCBgoEa2luZEIHCgVfdGljayJ+ChlBcHBseVBlcnR1cmJhdGlvbnNSZXF1ZXN0Eg0KBXdvcmxkGAEgASgJEhEKCWNsaWVudF9pZBgCIAEoCRIQCghzZXF1ZW5jZRgDIAEoAxItCg1wZXJ0dXJiYXRpb25zGAQgAygLMhYuc2luZXcudjEuUGVydHVyYmF0aW9uIioKGkFwcGx5UGVydHVyYmF0aW9uc1Jlc3BvbnNlEgwKBHRpY2sYASABKAMiKwoZQ2xlYXJQZXJ0dXJiYXRpb25zUmVxdWVzdBIOCgZmaWd1cmUYASABKAkiKgoaQ2xlYXJQZXJ0dXJiYXRpb25zUmVzcG9uc2USDAoEdGljaxgBIAEoAzLXAQoTUGVydHVyYmF0aW9uU2VydmljZRJfChJBcHBseVBlcnR1cmJhdGlvbnMSIy5zaW5ldy52MS5BcHBseVBlcnR1cmJhdGlvbnNSZXF1ZXN0GiQuc2luZXcudjEuQXBwbHlQZXJ0dXJiYXRpb25zUmVzcG9uc2USXwoSQ2xlYXJQZXJ0dXJiYXRpb25zEiMuc2luZXcudjEuQ2xlYXJQZXJ0dXJiYXRpb25zUmVxdWVzdBokLnNpbmV3LnYxLkNsZWFyUGVydHVyYmF0aW9uc1Jlc3BvbnNlYgZwcm90bzM", [file_sinew_v1_types]);
 
 /**
  * A mass that a segment carries.
@@ -47,6 +47,36 @@ export type Load = Message<"sinew.v1.Load"> & {
    * @generated from field: double duration_s = 4;
    */
   durationS: number;
+
+  /**
+   * Velocity of the load before it is taken, world axes, m/s, each component within ±100. Absent: at rest. Taking it is perfectly
+   * inelastic: momentum is kept and the figure feels the jerk.
+   *
+   * @generated from field: sinew.v1.Vector3 velocity_mps = 5;
+   */
+  velocityMps?: Vector3 | undefined;
+
+  /**
+   * Second carrying segment, for example `l_hand` when `segment` is `r_hand`. Each then carries half of the mass, and the two points keep
+   * the distance they have when the load is taken. Empty: one hand.
+   *
+   * @generated from field: string second_segment = 6;
+   */
+  secondSegment: string;
+
+  /**
+   * Where at the second segment, as `point_m`.
+   *
+   * @generated from field: sinew.v1.Vector3 second_point_m = 7;
+   */
+  secondPointM?: Vector3 | undefined;
+
+  /**
+   * Force at one hand beyond which the load slips, N, up to 1000000. 0 or absent: never.
+   *
+   * @generated from field: double grip_n = 8;
+   */
+  gripN: number;
 };
 
 /**
