@@ -1,7 +1,7 @@
 import tseslint from "typescript-eslint";
 
 export default tseslint.config(
-  { ignores: ["dist", "src/gen", "node_modules"] },
+  { ignores: ["**/dist", "**/src/gen", "**/node_modules"] },
   ...tseslint.configs.recommended,
   {
     rules: {
@@ -11,5 +11,5 @@ export default tseslint.config(
       "no-console": "error",
     },
   },
-  { files: ["examples/**", "test/**"], rules: { "no-console": "off" } },
+  { files: ["**/examples/**", "**/test/**"], rules: { "no-console": "off" } },
 );
