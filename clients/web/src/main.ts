@@ -8,7 +8,7 @@ import type { Person } from "./model.js";
 import { el, Panel } from "./panel.js";
 import { Scene, type Shown } from "./scene.js";
 import { Session, type Phase } from "./session.js";
-import { asCommand, asPython, cast, controllerOf, read, write, type Address } from "./share.js";
+import { asCommand, asPython, cast, controllerOf, read, stepperOf, write, type Address } from "./share.js";
 import { short } from "./words.js";
 
 function get<T extends HTMLElement>(id: string, kind: new () => T): T {
@@ -172,7 +172,7 @@ async function makeWorld(from?: Address): Promise<void> {
     const { figure } = await session.api.figures.createFigure({
       parent: world.name,
       figureId: c.id,
-      figure: { body: `bodies/${c.body}`, controller: controllerOf(c.controller), strength: { all: c.strength }, placement: { xM: c.x, yM: c.y } },
+      figure: { body: `bodies/${c.body}`, controller: controllerOf(c.controller), strength: { all: c.strength }, stepper: stepperOf(c.stepper), assist: c.assist, placement: { xM: c.x, yM: c.y } },
     });
     if (figure && c.clip) await session.api.motion.playClip({ figure: figure.name, clip: `clips/${c.clip}`, loop: true, reset: true });
   }
@@ -311,7 +311,7 @@ async function rebuild(p: Person, change: { body?: string; stepper?: Stepper }):
   wantedFigure = p.name;
   const parent = f.name.slice(0, f.name.indexOf("/figures/"));
   await session.api.figures.deleteFigure({ name: f.name });
-  const figure = { body: change.body ? `bodies/${change.body}` : p.body.name, stepper: change.stepper ?? f.stepper, controller: f.controller, strength: f.strength, placement: f.placement };
+  const figure = { body: change.body ? `bodies/${change.body}` : p.body.name, stepper: change.stepper ?? f.stepper, controller: f.controller, strength: f.strength, assist: f.assist, fatigueTimeScale: f.fatigueTimeScale, placement: f.placement };
   let made;
   try {
     made = (await session.api.figures.createFigure({ parent, figureId: p.name, figure })).figure;
@@ -364,9 +364,9 @@ function copy(what: "python" | "cli" | "link"): void {
       ? `${location.origin}/#${here(true)}`
       : what === "cli"
         ? chosen
-          ? asCommand(chosen)
+          ? asCommand(chosen, session.motions)
           : ""
-        : asPython(location.host, [...session.people.values()], chosen);
+        : asPython(location.host, [...session.people.values()], chosen, session.motions);
   const shownText = (): void => show("Copy this", el("pre", { class: "copied", tabindex: "0" }, text));
   if (!navigator.clipboard) return shownText();
   navigator.clipboard.writeText(text).then(() => say(`Copied: ${text.split("\n")[0].slice(0, 60)}`), shownText);

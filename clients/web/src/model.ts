@@ -75,6 +75,14 @@ export class Person {
     return (this.frame?.status?.loads ?? []).reduce((sum, l) => sum + l.massKg, 0);
   }
 
+  /** What it carries: loads of equal mass at both hands are one crate. */
+  loads(): { massKg: number; segments: string[] }[] {
+    const loads = (this.frame?.status?.loads ?? []).map((l) => ({ massKg: l.massKg, segments: [this.body.segments[l.segment].name] }));
+    const [l, r] = ["l_hand", "r_hand"].map((hand) => loads.filter((x) => x.segments[0] === hand));
+    if (loads.length !== 2 || l.length !== 1 || r.length !== 1 || Math.abs(l[0].massKg - r[0].massKg) > 1e-9) return loads;
+    return [{ massKg: l[0].massKg + r[0].massKg, segments: ["l_hand", "r_hand"] }];
+  }
+
   segment(name: string): number {
     return this.body.segments.findIndex((s) => s.name === name);
   }

@@ -75,7 +75,6 @@ export class Panel {
   private readonly report = el("div", { id: "report", "aria-live": "polite" });
   private readonly plots: { figure: HTMLElement; name: HTMLElement; value: HTMLElement; canvas: HTMLCanvasElement }[] = [];
   private readonly dofs = el("select", { id: "plotted" });
-  private readonly assistRow: HTMLElement;
   private busiest: number[] = [];
   private busiestAt = 0;
 
@@ -108,6 +107,7 @@ export class Panel {
     this.controller.addEventListener("change", () => this.act((p) => this.change(p, { controller: Number(this.controller.value) }, "controller")));
     this.strength.addEventListener("input", () => (this.strengthOut.textContent = `${Math.round(Number(this.strength.value) * 100)} %`));
     this.strength.addEventListener("change", () => this.act((p) => this.change(p, { strength: { ...p.figure.strength, all: Number(this.strength.value) } }, "strength")));
+    this.assist.addEventListener("input", () => (this.assistOut.textContent = `${Math.round(Number(this.assist.value) * 100)} %`));
     this.assist.addEventListener("change", () => this.act((p) => this.change(p, { assist: Number(this.assist.value) }, "assist")));
     this.impulse.addEventListener("input", () => (this.impulseOut.textContent = `${this.impulse.value} N·s`));
     for (let i = 0; i < PLOTS; i++) {
@@ -138,14 +138,12 @@ export class Panel {
       });
       return el("label", {}, box, text);
     });
-    this.assistRow = row("Assist", this.assist, this.assistOut);
-    this.assistRow.hidden = true;
     root.append(
       section("Figures", this.figures, this.summary, el("div", { class: "buttons" }, stand, add, remove)),
       section("Motion", row("Plays", this.clip), el("div", { class: "buttons" }, open, this.file), this.report),
       section("Torque within its limits", row("Shown", this.dofs), ...this.plots.map((p) => p.figure)),
       section("Push", row("How hard", this.impulse, this.impulseOut), row("Direction", this.direction), row("Where", this.target), el("div", { class: "buttons" }, push)),
-      section("Body and control", row("Body", this.body), row("Strength", this.strength, this.strengthOut), row("Controller", this.controller), row("Stepper", this.stepper), this.assistRow),
+      section("Body and control", row("Body", this.body), row("Strength", this.strength, this.strengthOut), row("Controller", this.controller), row("Stepper", this.stepper), row("Assist", this.assist, this.assistOut)),
       section(
         "Show",
         el("div", { class: "checks" }, ...checks),
@@ -226,15 +224,12 @@ export class Panel {
     const strength = person?.figure.strength?.all || 1;
     if (document.activeElement !== this.strength) this.strength.value = String(strength);
     this.strengthOut.textContent = `${Math.round(strength * 100)} %`;
-    const assist = (person?.figure as { assist?: number } | undefined)?.assist;
-    this.assistRow.hidden = assist === undefined;
-    if (assist !== undefined) {
-      if (document.activeElement !== this.assist) this.assist.value = String(assist);
-      this.assistOut.textContent = `${Math.round(assist * 100)} %`;
-    }
+    const assist = person?.figure.assist ?? 0;
+    if (document.activeElement !== this.assist) this.assist.value = String(assist);
+    this.assistOut.textContent = `${Math.round(assist * 100)} %`;
     const dofs = person?.body.dofs ?? [];
     fill(this.dofs, [{ value: "", text: "what works hardest" }, ...dofs.map((d) => ({ value: d.name, text: dofWords(d.name) }))], this.dofs.value);
-    for (const c of [this.clip, this.body, this.controller, this.stepper, this.strength, this.dofs]) c.disabled = !person;
+    for (const c of [this.clip, this.body, this.controller, this.stepper, this.strength, this.assist, this.dofs]) c.disabled = !person;
     this.busiestAt = 0;
   }
 

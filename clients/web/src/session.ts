@@ -4,6 +4,7 @@ import { isConnectionLoss, message, numbers, type Sinew } from "./client.js";
 import type { Body } from "./gen/sinew/v1/body_pb.js";
 import type { WorldFrame } from "./gen/sinew/v1/frame_pb.js";
 import type { Event, Roster } from "./gen/sinew/v1/state_pb.js";
+import type { Clip } from "./gen/sinew/v1/motion_pb.js";
 import { WorldState, type World } from "./gen/sinew/v1/world_pb.js";
 import { Person, Playhead } from "./model.js";
 
@@ -26,6 +27,7 @@ export class Session {
   readonly playhead = new Playhead();
   world: World | undefined;
   worlds: World[] = [];
+  motions: Clip[] = [];
   clips: string[] = [];
   bodies: string[] = [];
   capabilities: string[] = [];
@@ -109,6 +111,7 @@ export class Session {
       this.api.bodies.listBodies({ pageSize: 1000 }),
     ]);
     this.worlds = worlds.worlds;
+    this.motions = clips.clips;
     this.clips = clips.clips.map((c) => c.name.slice("clips/".length));
     this.bodies = bodies.bodies.map((b) => b.name.slice("bodies/".length));
     this.capabilities = info.capabilities;
@@ -235,10 +238,7 @@ export class Session {
       people.map(async (p) => {
         await this.api.perturbations.clearPerturbations({ figure: p.figure.name });
         if (massKg <= 0) return;
-        const perturbations = ["l_hand", "r_hand"].map((segment) => ({
-          figure: p.name,
-          kind: { case: "load" as const, value: { segment, massKg: massKg / 2 } },
-        }));
+        const perturbations = [{ figure: p.name, kind: { case: "load" as const, value: { segment: "l_hand", secondSegment: "r_hand", massKg } } }];
         await this.api.perturbations.applyPerturbations({ world, perturbations });
       }),
     );

@@ -1,5 +1,6 @@
 // A scene as an address, as Python and as a command line.
-import { Controller, type Figure } from "./gen/sinew/v1/figure_pb.js";
+import { Controller, Stepper, type Figure } from "./gen/sinew/v1/figure_pb.js";
+import type { Clip } from "./gen/sinew/v1/motion_pb.js";
 import type { Person } from "./model.js";
 
 /** What an address says. */
@@ -21,6 +22,9 @@ export interface Cast {
   clip: string;
   x: number;
   y: number;
+  /** Empty: the usual one. */
+  stepper: string;
+  assist: number;
 }
 
 const id = (name: string): string => name.split("/").at(-1) ?? name;
@@ -39,6 +43,8 @@ export function cast(p: Person): Cast {
     clip: id(f.clip),
     x: rounded(f.placement?.xM ?? 0),
     y: rounded(f.placement?.yM ?? 0),
+    stepper: f.stepper === Stepper.KINEMATIC ? "kinematic" : "",
+    assist: rounded(f.assist),
   };
 }
 
@@ -49,7 +55,7 @@ export function write(a: Address): string {
   if (a.load !== undefined) q.set("load", String(a.load));
   if (a.hide.length) q.set("hide", a.hide.join("."));
   if (a.camera) q.set("camera", a.camera.join("_"));
-  for (const c of a.figures) q.append("f", [c.id, c.body, c.controller, c.strength, c.clip, c.x, c.y].join("~"));
+  for (const c of a.figures) q.append("f", [c.id, c.body, c.controller, c.strength, c.clip, c.x, c.y, c.stepper, c.assist || ""].join("~").replace(/~+$/, ""));
   return q.toString();
 }
 
@@ -64,10 +70,10 @@ export function read(text: string): Address {
   const load = q.has("load") ? Number(q.get("load")) : undefined;
   const camera = q.get("camera")?.split("_").map(Number);
   const figures = q.getAll("f").slice(0, 64).flatMap((text): Cast[] => {
-    const [id, body, controller, strength, clip, x, y] = text.split("~");
-    const [s, px, py] = [Number(strength), Number(x), Number(y)];
-    if (!NAME.test(id) || !body || ![s, px, py].every(Number.isFinite)) return [];
-    return [{ id, body, controller: controller ?? "", strength: s, clip: clip ?? "", x: px, y: py }];
+    const [id, body, controller, strength, clip, x, y, stepper, assist] = text.split("~");
+    const [s, px, py, help] = [Number(strength), Number(x), Number(y), Number(assist || 0)];
+    if (!NAME.test(id) || !body || ![s, px, py, help].every(Number.isFinite)) return [];
+    return [{ id, body, controller: controller ?? "", strength: s, clip: clip ?? "", x: px, y: py, stepper: stepper ?? "", assist: help }];
   });
   return {
     world: name("world"),
@@ -85,28 +91,53 @@ export function controllerOf(word: string): Controller {
   return typeof value === "number" ? value : Controller.UNSPECIFIED;
 }
 
+/** Stepper of a word of an address; the default when it is none. */
+export function stepperOf(word: string): Stepper {
+  return word === "kinematic" ? Stepper.KINEMATIC : Stepper.UNSPECIFIED;
+}
+
+/** `adult-man` or `female-25y-1680mm-61500g` as arguments of the command line. */
+function bodyArguments(body: string): string {
+  const [, sex, age, height, mass] = /^(male|female)-([\d.]+)y-(\d+)mm-(\d+)g$/.exec(body) ?? [];
+  if (!sex) return `--body ${body.replace(/^adult-/, "")}`;
+  return `--body ${sex === "male" ? "man" : "woman"} --age ${age} --height ${Number(height) / 1000} --mass ${Number(mass) / 1000}`;
+}
+
+/** The motion as the command line names it: a built-in one, or the file that was dropped here. */
+function motionArgument(clip: string, clips: Clip[]): string {
+  const known = clips.find((c) => id(c.name) === clip);
+  if (!clip || !known || known.builtin) return `builtin:${clip || "idle"}`;
+  const file = known.displayName || `${clip}.bvh`;
+  return /^[\w.-]+$/.test(file) ? file : `'${file.replaceAll("'", "'\\''")}'`;
+}
+
 /** The command line that runs one figure of the scene. */
-export function asCommand(p: Person): string {
+export function asCommand(p: Person, clips: Clip[]): string {
   const c = cast(p);
-  const parts = ["sinew run", c.clip || "idle", `--body ${c.body}`, `--controller ${c.controller}`];
+  const parts = [`sinew run ${motionArgument(c.clip, clips)} ${bodyArguments(c.body)} --controller ${c.controller}`];
+  if (c.stepper) parts.push(`--stepper ${c.stepper}`);
   if (c.strength !== 1) parts.push(`--strength ${c.strength}`);
-  for (const l of p.frame?.status?.loads ?? []) parts.push(`--load ${rounded(l.massKg)}@${p.body.segments[l.segment].name}`);
+  if (c.assist) parts.push(`--assist ${c.assist}`);
+  for (const l of p.loads()) parts.push(`--load ${rounded(l.massKg)}@${l.segments.join("+")}`);
   return parts.join(" ");
 }
 
 /** The Python script that makes the scene in a new world and plots the torques of one figure. */
-export function asPython(address: string, people: Person[], chosen: Person | undefined): string {
-  const lines = ["import sinew", "", `client = sinew.Client(${JSON.stringify(address)})`, "world = client.create_world()"];
+export function asPython(address: string, people: Person[], chosen: Person | undefined, clips: Clip[]): string {
+  const text = JSON.stringify;
+  const lines = ["import sinew", "", `with sinew.Client(${text(address)}) as client, client.create_world(paused=True) as world:`];
   for (const p of people) {
     const c = cast(p);
     const name = c.id.replaceAll("-", "_");
-    lines.push(
-      `${name} = world.add_figure(${JSON.stringify(c.id)}, body=${JSON.stringify(c.body)}, controller=${JSON.stringify(c.controller)}, strength=${c.strength}, at=(${c.x}, ${c.y}))`,
-    );
-    if (c.clip) lines.push(`${name}.play(${JSON.stringify(c.clip)}, loop=True)`);
-    for (const l of p.frame?.status?.loads ?? []) lines.push(`${name}.load(${rounded(l.massKg)}, ${JSON.stringify(p.body.segments[l.segment].name)})`);
+    const settings = [`body=${text(c.body)}`, `controller=${text(c.controller)}`, `position=(${c.x}, ${c.y})`];
+    if (c.strength !== 1) settings.push(`strength=${c.strength}`);
+    if (c.assist) settings.push(`assist=${c.assist}`);
+    lines.push(`    ${name} = world.add_figure(${text(c.id)}, ${settings.join(", ")})`);
+    if (c.clip) lines.push(`    ${name}.play(${text(c.clip)}, loop=True, reset=True, position=(${c.x}, ${c.y}))`);
+    for (const l of p.loads()) lines.push(`    ${name}.carry(${[rounded(l.massKg), ...l.segments.map((s) => text(s))].join(", ")})`);
   }
-  lines.push("recording = world.record(seconds=8)");
-  if (chosen) lines.push(`recording.plot_torques(${JSON.stringify(chosen.name)})`);
+  const longest = Math.max(4, ...people.map((p) => clips.find((k) => k.name === p.figure.clip)?.durationS ?? 0));
+  lines.push(`    recordings = world.record(${Math.min(60, Math.ceil(longest))}.0)`);
+  if (chosen) lines.push("", `recordings[${text(chosen.name)}].plot_torques().savefig("torques.png")`);
   return lines.join("\n") + "\n";
 }

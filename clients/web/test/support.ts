@@ -7,7 +7,7 @@ import { fileURLToPath } from "node:url";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const root = join(here, "../../..");
-const program = process.env.SINEW_BIN ?? join(root, "target/debug/sinew");
+export const program = process.env.SINEW_BIN ?? join(root, "target/debug/sinew");
 /** Where screenshots are kept, to be looked at. */
 export const SHOTS = join(here, "../test-results/shots");
 mkdirSync(SHOTS, { recursive: true });

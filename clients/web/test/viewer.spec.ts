@@ -186,18 +186,6 @@ test("everything can be done with the keyboard alone", async ({ page, server }) 
     expect(reached, id).toContain(id);
 });
 
-test("copies reproduce the scene", async ({ page, server, context }) => {
-  await server.start();
-  await context.grantPermissions(["clipboard-read", "clipboard-write"], { origin: server.url.slice(0, -1) });
-  await live(page, server.url);
-  await page.locator("#load-slider").fill("6");
-  await expect(page.locator("#summary")).toContainText("Carries 6 kg");
-  await page.locator("#copy-cli").click();
-  await expect.poll(() => page.evaluate(() => navigator.clipboard.readText())).toBe("sinew run crate --body adult-man --controller modern --load 3@l_hand --load 3@r_hand");
-  await page.locator("#copy-python").click();
-  await expect.poll(() => page.evaluate(() => navigator.clipboard.readText())).toContain(server.address);
-});
-
 for (const scheme of ["light", "dark"] as const)
   test(`axe finds nothing wrong (${scheme})`, async ({ page, server }) => {
     await server.start();
