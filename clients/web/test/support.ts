@@ -45,10 +45,15 @@ export class Server {
   }
 }
 
+/** Serves the page from this folder instead of from the server: for work on the page without building the server anew. */
+const pageFolder = process.env.SINEW_PAGE;
+
 /** Every request that leaves for another host, and every error of the page, fails the test. */
 export const test = base.extend<{ server: Server }>({
   server: async ({ page, context }, use) => {
     const server = new Server();
+    if (pageFolder)
+      for (const name of ["viewer.js", "viewer.css"]) await context.route(`**/${name}`, (r) => r.fulfill({ path: join(pageFolder, name), headers: { "content-type": name.endsWith("js") ? "text/javascript" : "text/css" } }));
     const foreign: string[] = [];
     const errors: string[] = [];
     context.on("request", (r) => {
