@@ -1,16 +1,20 @@
-"""Client of Sinew, a server of physically simulated human figures.
+"""Sinew from Python: physically simulated people, their motion and their joint torques as NumPy arrays.
 
     import sinew
-    with sinew.serve() as client:                       # or sinew.Client("host:7463")
-        recording = client.simulate("lift", disturbances=[sinew.Load(mass_kg=12, start_s=1.7)])
-    recording.plot_torques("torques.png")
 
-SI units; x forward, y left, z up; quaternions x, y, z, w. `sinew.aio` is the same for asyncio; `sinew.v1` has the messages.
+    with sinew.Client("127.0.0.1:7463") as client, client.create_world() as world:
+        anna = world.add_figure("anna", body="adult-woman")
+        anna.play("lift", reset=True)
+        anna.carry(6.0, "r_hand", start_s=1.7)
+        recording = anna.record(4.0)
+    recording.plot_torques().savefig("torques.png")
+
+`sinew.aio` has the same for asyncio, `sinew.v1` the messages and stubs as they are. SI units throughout; x forward, y left, z up;
+quaternions x, y, z, w.
 """
 
-from sinew.body import Body, Segment
-from sinew.calls import Feedback, ServerInfo
-from sinew.client import Client, Drive, Figure, World
+from sinew._client import Client, Clip, Drive, Events, Figure, Frames, ServerInfo, World
+from sinew.body import Body, Mesh
 from sinew.errors import (
     AbortedError,
     AlreadyExistsError,
@@ -24,44 +28,48 @@ from sinew.errors import (
     UnavailableError,
     UnimplementedError,
 )
-from sinew.frame import Audit, Balance, CarriedLoad, Contacts, Desired, Event, FigureFrame, Frame
-from sinew.motion import Clip, Motion
-from sinew.recording import Recording
-from sinew.serving import serve
-from sinew.values import Force, Load, Profile, Push, Strength
+from sinew.frames import Contact, Event, FigureState, Frame
+from sinew.local import serve
+from sinew.motion import Motion, Pose
+from sinew.recording import RECORDED, Recording, Recordings, Saturation
+from sinew.values import Controller, Disturbance, Encoding, Force, Load, Profile, Push, Strength
 
 __version__ = "0.1.0"
 
 __all__ = [
+    "RECORDED",
     "AbortedError",
     "AlreadyExistsError",
-    "Audit",
-    "Balance",
     "Body",
-    "CarriedLoad",
     "Client",
     "Clip",
-    "Contacts",
+    "Contact",
+    "Controller",
     "DeadlineError",
-    "Desired",
+    "Disturbance",
     "Drive",
+    "Encoding",
     "Event",
+    "Events",
     "ExpiredError",
-    "Feedback",
     "Figure",
-    "FigureFrame",
+    "FigureState",
     "Force",
     "Frame",
+    "Frames",
     "InvalidArgumentError",
     "LimitError",
     "Load",
+    "Mesh",
     "Motion",
     "NotFoundError",
+    "Pose",
     "PreconditionError",
     "Profile",
     "Push",
     "Recording",
-    "Segment",
+    "Recordings",
+    "Saturation",
     "ServerInfo",
     "SinewError",
     "Strength",
