@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from typing import Any, TypeVar
 
 from google.protobuf.field_mask_pb2 import FieldMask
 
@@ -18,8 +17,6 @@ OPTIONS = [
 ]
 VIEW = ("root_pose", "joint_angles", "torque", "status")
 
-T = TypeVar("T")
-
 
 def address(given: str) -> str:
     """Host and port of an address that may be written as a URL or without a port."""
@@ -31,29 +28,29 @@ def address(given: str) -> str:
 
 def controller(name: Controller) -> figure_pb2.Controller.ValueType:
     """A controller by name."""
-    return _choice(figure_pb2.Controller, "CONTROLLER_", name)
+    return figure_pb2.Controller.Value(_choice(figure_pb2.Controller.keys(), "CONTROLLER_", name))
 
 
 def encoding(name: Encoding) -> types_pb2.Encoding.ValueType:
     """An encoding by name."""
-    return _choice(types_pb2.Encoding, "ENCODING_", name)
+    return types_pb2.Encoding.Value(_choice(types_pb2.Encoding.keys(), "ENCODING_", name))
 
 
 def overrun(name: str) -> world_pb2.OverrunPolicy.ValueType:
     """An overrun policy by name."""
-    return _choice(world_pb2.OverrunPolicy, "OVERRUN_POLICY_", name)
+    return world_pb2.OverrunPolicy.Value(_choice(world_pb2.OverrunPolicy.keys(), "OVERRUN_POLICY_", name))
 
 
 def event_types(names: Iterable[str]) -> list[state_pb2.EventType.ValueType]:
     """Event types by name."""
-    return [_choice(state_pb2.EventType, "EVENT_TYPE_", n) for n in names]
+    return [state_pb2.EventType.Value(_choice(state_pb2.EventType.keys(), "EVENT_TYPE_", n)) for n in names]
 
 
-def _choice(enum: Any, prefix: str, name: str) -> Any:
-    known = [k.removeprefix(prefix).lower() for k in enum.keys() if not k.endswith("UNSPECIFIED")]
+def _choice(keys: Iterable[str], prefix: str, name: str) -> str:
+    known = [k.removeprefix(prefix).lower() for k in keys if not k.endswith("UNSPECIFIED")]
     if name not in known:
         raise ValueError(f"{name!r} is none of {', '.join(known)}")
-    return enum.Value(prefix + name.upper())
+    return prefix + name.upper()
 
 
 def view(

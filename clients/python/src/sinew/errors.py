@@ -6,9 +6,10 @@ Every refusal of the server becomes a `SinewError`; a refused request has change
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import grpc
-from google.protobuf.any_pb2 import Any
+from google.protobuf import any_pb2
 from google.rpc import error_details_pb2, status_pb2
 
 __all__ = [
@@ -119,9 +120,9 @@ _BY_CODE: Mapping[grpc.StatusCode, type[SinewError]] = {
 _DETAILS = "grpc-status-details-bin"
 
 
-def _details(error: grpc.RpcError) -> list[Any]:
+def _details(error: grpc.RpcError) -> list[any_pb2.Any]:
     """The `google.rpc` details that came with a refusal."""
-    metadata = error.trailing_metadata() or ()
+    metadata: Any = error.trailing_metadata() or ()
     for key, value in metadata:
         if key == _DETAILS:
             raw = value if isinstance(value, bytes) else value.encode("latin-1")

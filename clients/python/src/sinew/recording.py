@@ -158,7 +158,8 @@ class Recording:
     def utilisation(self) -> Floats:
         """Torque relative to what was available in its direction, (n, 39); 1 is the limit."""
         t = self.torque
-        return t / np.where(t >= 0, self.torque_upper, self.torque_lower)
+        out: Floats = t / np.where(t >= 0, self.torque_upper, self.torque_lower)
+        return out
 
     @property
     def saturated(self) -> NDArray[np.bool_]:
