@@ -39,7 +39,7 @@ def serve(*, arguments: Sequence[str] = ()) -> Iterator[Client]:
             yield client
         return
     process = subprocess.Popen(
-        [binary(), "serve", "--listen", "127.0.0.1:0", "--no-demo", *arguments],
+        [binary(), "serve", "--log", "warn", "--listen", "127.0.0.1:0", "--no-demo", *arguments],
         stdout=subprocess.PIPE,
         text=True,
     )
