@@ -44,6 +44,7 @@ def serve(*, arguments: Sequence[str] = ()) -> Iterator[Client]:
         text=True,
     )
     assert process.stdout is not None, "it was asked for"
+    reader: threading.Thread | None = None
     try:
         address = ""
         for line in process.stdout:
@@ -54,7 +55,8 @@ def serve(*, arguments: Sequence[str] = ()) -> Iterator[Client]:
         if not address:
             raise RuntimeError(f"the server ended with status {process.wait()} before it served")
         # Whoever does not read what a program prints stops it one day.
-        threading.Thread(target=process.stdout.read, name="sinew-serve", daemon=True).start()
+        reader = threading.Thread(target=process.stdout.read, name="sinew-serve", daemon=True)
+        reader.start()
         with Client(address) as client:
             yield client
     finally:
@@ -64,3 +66,6 @@ def serve(*, arguments: Sequence[str] = ()) -> Iterator[Client]:
         except subprocess.TimeoutExpired:
             process.kill()
             process.wait()
+        if reader is not None:
+            reader.join()
+        process.stdout.close()
