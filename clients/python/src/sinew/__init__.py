@@ -13,6 +13,7 @@
 quaternions x, y, z, w.
 """
 
+from sinew import aio
 from sinew._client import Client, Clip, Drive, Events, Figure, Frames, ServerInfo, World
 from sinew.body import Body, Mesh
 from sinew.errors import (
@@ -76,5 +77,6 @@ __all__ = [
     "UnavailableError",
     "UnimplementedError",
     "World",
+    "aio",
     "serve",
 ]

@@ -51,6 +51,8 @@ PathLike: TypeAlias = "str | os.PathLike[str]"
 
 # Ticks that are stepped before their frames are fetched; the server holds 64 unless told otherwise.
 _CHUNK = 16
+# Times that a figure is looked at until its drive is over.
+_RELEASE_TRIES = 200
 # A simulation may take its time.
 _LONG_S = 600.0
 
@@ -1009,8 +1011,22 @@ class Drive:
         return newest.feedback if newest is not None else motion_pb2.DriveFeedback()
 
     def close(self) -> None:
-        """Ends the drive; raises what ended it, if the server did."""
-        if self._duplex is not None:
-            duplex, self._duplex = self._duplex, None
-            duplex.close()
-            duplex.check()
+        """Ends the drive and waits until the figures are given back; raises what ended it, if the server did."""
+        if self._duplex is None:
+            return
+        duplex, self._duplex = self._duplex, None
+        duplex.close()
+        duplex.check()
+        newest = duplex.newest
+        driver = newest.feedback.driver_id if newest is not None else ""
+        for name in self._header.figures:
+            # They are given back at the start of the next tick, after whatever else comes before it.
+            request = figure_pb2.GetFigureRequest(name=f"{self._header.world}/figures/{name}")
+            for _ in range(_RELEASE_TRIES):
+                try:
+                    held = call(self._client.figures_stub.GetFigure, request, self._client.timeout_s)
+                except NotFoundError:
+                    break
+                if held.figure.driver_id != driver:
+                    break
+                pause(0.005)

@@ -50,7 +50,7 @@ class Saturation:
     end_s: float
 
 
-@dataclass
+@dataclass(repr=False, eq=False)
 class Recording:
     """What one figure did. Rows of all arrays are ticks; a quantity that was not recorded raises `AttributeError`."""
 
@@ -64,18 +64,21 @@ class Recording:
     """Ticks, (n,)."""
     time_s: Floats
     """World time, s, (n,)."""
-    messages: Sequence[frame_pb2.FigureFrame] = field(repr=False)
+    messages: Sequence[frame_pb2.FigureFrame]
     """The frames as they came."""
-    events: list[Event] = field(default_factory=list, repr=False)
+    events: list[Event] = field(default_factory=list)
     """What happened, where the call returns events (`Client.simulate`)."""
-    summary: simulation_pb2.SimulationSummary | None = field(default=None, repr=False)
+    summary: simulation_pb2.SimulationSummary | None = field(default=None)
     """Figures of merit (`Client.simulate`)."""
-    report: types_pb2.RetargetReport | None = field(default=None, repr=False)
+    report: types_pb2.RetargetReport | None = field(default=None)
     """How a motion capture file was understood (`Client.simulate` of a file)."""
-    _cache: dict[str, Floats] = field(default_factory=dict, repr=False)
+    _cache: dict[str, Floats] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(self.time_s)
+
+    def __repr__(self) -> str:
+        return f"Recording({self.figure!r}, {self.body.name!r}, {len(self)} ticks at {self.rate_hz:g} Hz)"
 
     @property
     def duration_s(self) -> float:
