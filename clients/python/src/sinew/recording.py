@@ -183,7 +183,7 @@ class Recording:
     @property
     def joint_error_deg(self) -> Floats:
         """Root mean square of the joint errors at the start of each tick, degrees, (n,)."""
-        return np.degrees(np.array([s.joint_rms_rad for s in self._status()]))
+        return np.array([np.degrees(s.joint_rms_rad) for s in self._status()], dtype=np.float64)
 
     @property
     def com(self) -> Floats:

@@ -81,12 +81,12 @@ def strip(recordings: Mapping[str, Recording], count: int, *, view: str, title: 
     rows = [_Row(r, count, view) for r in recordings.values()]
     step = max(row.step for row in rows)
     spans = [row.span for row in rows]
-    inch = 1.25  # inches per metre
+    inch = 1.5  # inches per metre
     heights = [high - low for low, high in spans]
     panels = max(len(row.instants) for row in rows)
     names = len(rows) > 1
     width = max(panels * step * inch + 0.3, 6.5)
-    gap, head, foot = 0.30, 0.62, 0.42
+    gap, head, foot = 0.26, 0.36, 0.42
     height = sum(h * inch + gap for h in heights) + head + foot
     drawing = Drawing(figsize=(width, height), facecolor=PAPER)
     top = height - head
@@ -225,7 +225,9 @@ class _Row:
             normals /= np.maximum(size, 1e-12)[:, None]
             seen = (normals @ near > 0) & (size > 0)
             lamp = self.camera.axes.T @ _LAMP
-            light = 0.62 + 0.38 * np.clip(normals[seen] @ lamp, 0, 1) if not ghost else np.ones(int(seen.sum()))
+            # The mean normal of a face's corners: a round limb looks round, whatever its triangles.
+            smooth = _normals(points, triangles)[triangles[seen]].mean(axis=1)
+            light = 0.70 + 0.36 * np.clip(smooth @ lamp, -0.3, 1) if not ghost else np.ones(int(seen.sum()))
             corners.append(flat(faces[seen]))
             depth.append((faces[seen] - centre).mean(axis=1) @ near)
             base = np.array([int(colour[k : k + 2], 16) / 255 for k in (1, 3, 5)])
@@ -282,6 +284,17 @@ class _Row:
 def _skin(body: Body, segment: int, pose: Floats) -> Floats:
     """World vertices of one segment."""
     out: Floats = pose[:3] + body.meshes[segment].vertices @ matrix(pose[3:]).T
+    return out
+
+
+def _normals(points: Floats, triangles: NDArray[np.int32]) -> Floats:
+    """Unit normals of the vertices, faces weighted by area."""
+    faces = points[triangles]
+    normals = np.cross(faces[:, 1] - faces[:, 0], faces[:, 2] - faces[:, 0])
+    out = np.zeros_like(points)
+    for corner in range(3):
+        np.add.at(out, triangles[:, corner], normals)
+    out /= np.maximum(np.linalg.norm(out, axis=1), 1e-12)[:, None]
     return out
 
 
