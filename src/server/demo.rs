@@ -10,6 +10,8 @@ use std::sync::Arc;
 
 /// The built-in motion that everyone plays.
 const MOTION: &str = "crate";
+/// What the crate weighs at first, kg: everyone can lift it.
+const CRATE_KG: f64 = 4.0;
 /// Name, body and place to the left, m.
 const PEOPLE: [(&str, &str, f64); 3] = [
     ("man", "adult-man", 1.25),
@@ -54,6 +56,15 @@ pub async fn create(app: &Arc<App>) -> Result<Vec<&'static str>, BoxError> {
                 ..Place::default()
             }),
         };
+        let crate_in_hands = convert::perturbation::batch(&[pb::Perturbation {
+            figure: name.to_owned(),
+            kind: Some(pb::perturbation::Kind::Load(pb::Load {
+                segment: "l_hand".to_owned(),
+                second_segment: "r_hand".to_owned(),
+                mass_kg: CRATE_KG,
+                ..Default::default()
+            })),
+        }])?;
         let origin = Origin {
             client: "demo".into(),
             sequence: 0,
@@ -61,7 +72,8 @@ pub async fn create(app: &Arc<App>) -> Result<Vec<&'static str>, BoxError> {
         world
             .call(origin, move |s| {
                 s.create_figure(Some(name.to_owned()), settings, built)?;
-                s.play(name, MOTION, clip, playback)
+                s.play(name, MOTION, clip, playback)?;
+                s.perturb(&crate_in_hands)
             })
             .await?;
         present.push(name);

@@ -207,7 +207,10 @@ async function carry(): Promise<void> {
     while (wantedLoad !== undefined) {
       const mass = wantedLoad;
       wantedLoad = undefined;
-      await session.carry([...session.people.values()], mass);
+      // Who lies there tries again: a load that was too much is no reason to miss the next one.
+      const people = [...session.people.values()];
+      for (const p of people) if (session.says(p, "FALLEN")) await session.standUp(p);
+      await session.carry(people, mass);
       remember();
     }
   } catch (error) {
@@ -352,6 +355,8 @@ function remember(): void {
 canvas.addEventListener("pointerup", remember);
 canvas.addEventListener("wheel", remember, { passive: true });
 addEventListener("hashchange", () => {
+  // The skip link's target is a place on the page, not a scene.
+  if (location.hash && !location.hash.includes("=")) return;
   address = read(location.hash);
   wantedFigure = address.figure;
   reproduced = false;
@@ -545,7 +550,7 @@ function label(): void {
       tags.delete(key);
     }
   for (const p of people) {
-    const visible = people.length <= FEW || p === chosen;
+    const visible = p === chosen || (people.length <= FEW && !pushLabel);
     tag(p.name, p.name, p === chosen ? "chosen" : "", visible ? scene?.label(p) : undefined);
   }
   tag("\u0000push", pushLabel?.text ?? "", "impulse", pushLabel && { x: pushLabel.x, y: pushLabel.y - 16 });

@@ -75,11 +75,19 @@ export class Person {
     return (this.frame?.status?.loads ?? []).reduce((sum, l) => sum + l.massKg, 0);
   }
 
+  /** Whether its hands are where a crate is held, in a motion that lifts one. */
+  holdsCrate(): boolean {
+    const poses = numbers(this.frame?.segmentTransforms);
+    if (this.figure.clip !== "clips/crate" || !poses.length) return false;
+    const [l, r] = [this.segment("l_hand") * POSE, this.segment("r_hand") * POSE];
+    return Math.hypot(poses[l] - poses[r], poses[l + 1] - poses[r + 1], poses[l + 2] - poses[r + 2]) < 0.5;
+  }
+
   /** What it carries: loads of equal mass at both hands are one crate. */
   loads(): { massKg: number; segments: string[] }[] {
     const loads = (this.frame?.status?.loads ?? []).map((l) => ({ massKg: l.massKg, segments: [this.body.segments[l.segment].name] }));
     const [l, r] = ["l_hand", "r_hand"].map((hand) => loads.filter((x) => x.segments[0] === hand));
-    if (loads.length !== 2 || l.length !== 1 || r.length !== 1 || Math.abs(l[0].massKg - r[0].massKg) > 1e-9) return loads;
+    if (!this.holdsCrate() || loads.length !== 2 || l.length !== 1 || r.length !== 1 || Math.abs(l[0].massKg - r[0].massKg) > 1e-9) return loads;
     return [{ massKg: l[0].massKg + r[0].massKg, segments: ["l_hand", "r_hand"] }];
   }
 

@@ -53,6 +53,7 @@ export interface Wishes {
   add: () => void;
   open: (file: File) => void;
   copy: (what: "python" | "cli" | "link") => void;
+  /** What is shown, or what the address says of a figure, has changed. */
   shown: () => void;
 }
 
@@ -190,6 +191,7 @@ export class Panel {
     const { figure } = await this.session.api.figures.updateFigure({ figure: { ...p.figure, ...change }, updateMask: { paths: [path] } });
     if (figure) p.figure = figure;
     this.lists(p);
+    this.wishes.shown();
   }
 
   /** Brings what can be chosen up to date. */
@@ -228,7 +230,7 @@ export class Panel {
     if (document.activeElement !== this.assist) this.assist.value = String(assist);
     this.assistOut.textContent = `${Math.round(assist * 100)} %`;
     const dofs = person?.body.dofs ?? [];
-    fill(this.dofs, [{ value: "", text: "what works hardest" }, ...dofs.map((d) => ({ value: d.name, text: dofWords(d.name) }))], this.dofs.value);
+    fill(this.dofs, [{ value: "", text: "hardest working" }, ...dofs.map((d) => ({ value: d.name, text: dofWords(d.name) }))], this.dofs.value);
     for (const c of [this.clip, this.body, this.controller, this.stepper, this.strength, this.assist, this.dofs]) c.disabled = !person;
     this.busiestAt = 0;
   }
@@ -240,12 +242,12 @@ export class Panel {
     const margin = balance?.marginM;
     const flag = (name: string): boolean => ((p.flags >> flagNames.indexOf(name)) & 1) === 1 && flagNames.includes(name);
     const stand = flag("FALLEN") ? "has fallen" : flag("BALANCE_LOST") ? "is losing balance" : flag("FLIGHT") ? "is in the air" : "stands";
-    const where = margin === undefined ? "" : margin >= 0 ? `, ${(margin * 100).toFixed(0)} cm inside its support` : `, ${(-margin * 100).toFixed(0)} cm outside its support`;
+    const where = margin === undefined || flag("FALLEN") ? "" : margin >= 0 ? `, ${(margin * 100).toFixed(0)} cm inside its support` : `, ${(-margin * 100).toFixed(0)} cm outside its support`;
     const load = p.loadKg();
     const rms = ((p.frame?.status?.jointRmsRad ?? 0) * 180) / Math.PI;
     return (
       `${p.name} ${stand}${where}. ${load > 0 ? `Carries ${short(load)} kg. ` : ""}` +
-      `Hardest: ${dofWords(p.body.dofs[hardest]?.name ?? "")}, ${Math.round(100 * p.used[hardest])} % of its strength. ` +
+      `Hardest: ${dofWords(p.body.dofs[hardest]?.name ?? "")}, ${Math.round(100 * p.used[hardest])} % of its strength. ` +
       `Off the desired motion by ${rms.toFixed(1)}°.`
     );
   }
@@ -278,7 +280,7 @@ export class Panel {
       const s = p.history.at(-1);
       if (!s) return;
       const limit = s.torque[dof] < 0 ? s.limits[dof] : s.limits[p.body.dofs.length + dof];
-      view.value.textContent = `${s.torque[dof].toFixed(0)} of ${limit.toFixed(0)} N·m`;
+      view.value.textContent = `${Math.round(s.torque[dof]) || 0} of ${Math.round(limit) || 0} N·m`;
       view.canvas.setAttribute("aria-label", plotText(p, dof));
     });
   }

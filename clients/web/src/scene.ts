@@ -15,13 +15,13 @@ export interface Shown {
 
 /** Colours of the two themes. */
 const LOOKS = {
-  light: { sky: 0xe9edf0, ground: 0xdfe4e8, line: "#c3ccd3", body: 0xb9c4cc, ghost: 0x2f7d9d, sun: 2.4, fill: 1.5 },
-  dark: { sky: 0x14191e, ground: 0x1b2228, line: "#2d3841", body: 0x8d9aa4, ghost: 0x6cc3e0, sun: 2.0, fill: 0.9 },
+  light: { sky: 0xe9edf0, ground: 0xfafbfc, line: "#d2d9de", body: 0xb9c4cc, ghost: 0x2f7d9d, sun: 2.4, fill: 1.7 },
+  dark: { sky: 0x171d22, ground: 0x39424a, line: "#4c5862", body: 0x98a5af, ghost: 0x6cc3e0, sun: 1.7, fill: 1.1 },
 };
 /** Blue, vermilion, yellow and green of Okabe and Ito: told apart with any colour vision. */
 export const HUES = { com: 0x0072b2, zmp: 0xd55e00, force: 0x009e73, push: 0xcc79a7, support: 0x56b4e9 };
 /** Length of an arrow, m per N. */
-const METRES_PER_NEWTON = 0.5 / 700;
+const METRES_PER_NEWTON = 1 / 700;
 const MOST_ARROWS = 16;
 const MOST_SEGMENTS = 18;
 /** Sides of the crate, m. */
@@ -174,7 +174,7 @@ function arrow(colour: number): THREE.Group {
   group.visible = false;
   return group;
 }
-const arrowShaft = new THREE.CylinderGeometry(0.008, 0.008, 1, 8).translate(0, 0.5, 0);
+const arrowShaft = new THREE.CylinderGeometry(0.01, 0.01, 1, 8).translate(0, 0.5, 0);
 const arrowHead = new THREE.ConeGeometry(0.024, 0.06, 12).translate(0, 0.03, 0);
 const UP = new THREE.Vector3(0, 1, 0);
 
@@ -197,6 +197,7 @@ class Actor {
   private readonly ghost: Solid;
   private readonly effort: Effort;
   private readonly crate: THREE.Group;
+  private readonly weights: THREE.Mesh[] = [];
   private readonly polygon = new THREE.Mesh(
     new THREE.BufferGeometry(),
     new THREE.MeshBasicMaterial({ color: HUES.support, transparent: true, opacity: 0.35, depthWrite: false, side: THREE.DoubleSide }),
@@ -225,11 +226,16 @@ class Actor {
     this.ghost.mesh.renderOrder = 2;
     this.hands = [person.segment("l_hand"), person.segment("r_hand")];
     this.crate = makeCrate();
+    for (let i = 0; i < MOST_WEIGHTS; i++) {
+      const weight = new THREE.Mesh(weightShape, weightMaterial);
+      weight.castShadow = true;
+      this.weights.push(weight);
+    }
     this.polygon.renderOrder = 1;
     this.com.renderOrder = 4;
     (this.com.material as THREE.Material).depthTest = false;
     for (let i = 0; i < MOST_ARROWS; i++) this.arrows.push(arrow(HUES.force));
-    this.group.add(this.solid.mesh, this.ghost.mesh, this.crate, this.polygon, this.outline, this.com, this.plumb, this.zmp, ...this.arrows);
+    this.group.add(this.solid.mesh, this.ghost.mesh, this.crate, ...this.weights, this.polygon, this.outline, this.com, this.plumb, this.zmp, ...this.arrows);
     this.group.traverse((o) => {
       if (o instanceof THREE.Mesh || o instanceof THREE.Line) o.frustumCulled = false;
     });
@@ -247,7 +253,7 @@ class Actor {
     this.solid.place();
     this.tint(shown.effort, chosen);
     this.showGhost(before, after, share, shown.ghost);
-    this.showCrate(after);
+    this.showLoads(after);
     this.showSupport(after, shown.support);
     this.showForces(after, shown.forces);
   }
@@ -282,34 +288,35 @@ class Actor {
     this.ghost.place();
   }
 
-  private showCrate(frame: FigureFrame): void {
-    const [l, r] = this.hands;
+  private showLoads(frame: FigureFrame): void {
     const loads = frame.status?.loads ?? [];
-    const at = (segment: number): number => loads.filter((x) => x.segment === segment).reduce((sum, x) => sum + x.massKg, 0);
-    const both = at(l) > 0 && at(r) > 0;
-    const carried = both || at(l) > 0 || at(r) > 0;
-    this.crate.visible = carried;
-    if (!carried) return;
-    const grip = (segment: number, out: THREE.Vector3): THREE.Vector3 => {
-      const load = loads.find((x) => x.segment === segment);
-      const p = load?.pointM;
+    const place = (i: number, out: THREE.Vector3): THREE.Vector3 => {
+      const { segment, pointM: p } = loads[i];
       const o = segment * POSE;
       scratchQ.fromArray(this.solid.poses, o + 3);
       return out.set(p?.x ?? 0, p?.y ?? 0, p?.z ?? 0).applyQuaternion(scratchQ).add(scratchC.fromArray(this.solid.poses, o));
     };
-    const left = grip(both || at(l) > 0 ? l : r, scratchA);
-    const right = grip(both || at(r) > 0 ? r : l, scratchB);
+    const [l, r] = this.hands.map((hand) => loads.findIndex((x) => x.segment === hand));
+    const crate = l >= 0 && r >= 0 && loads.length === 2 && this.person.holdsCrate();
+    this.crate.visible = crate;
+    this.weights.forEach((weight, i) => {
+      weight.visible = !crate && i < loads.length && loads[i].massKg > 0;
+      if (!weight.visible) return;
+      place(i, weight.position);
+      weight.scale.setScalar(Math.cbrt(loads[i].massKg / IRON));
+    });
+    if (!crate) return;
+    const left = place(l, scratchA);
+    const right = place(r, scratchB);
     this.crate.position.copy(left).add(right).multiplyScalar(0.5);
     const across = left.clone().sub(right);
-    if (across.lengthSq() < 1e-6) across.set(0, 1, 0);
     const width = across.length();
-    across.normalize();
-    const up = new THREE.Vector3(0, 0, 1).addScaledVector(across, -across.z).normalize();
-    if (up.lengthSq() < 0.5) up.set(1, 0, 0);
-    const ahead = new THREE.Vector3().crossVectors(across, up);
-    this.crate.quaternion.setFromRotationMatrix(new THREE.Matrix4().makeBasis(ahead, across, up));
-    this.crate.scale.set(both ? 1 : 0.55, both ? Math.min(1.6, Math.max(0.5, (width - 0.06) / CRATE[1])) : 0.4, both ? 1 : 0.7);
-    if (!both) this.crate.position.z -= 0.06;
+    across.divideScalar(width || 1);
+    const up = new THREE.Vector3(0, 0, 1).addScaledVector(across, -across.z);
+    if (up.lengthSq() < 0.01) up.set(1, 0, 0).addScaledVector(across, -across.x);
+    up.normalize();
+    this.crate.quaternion.setFromRotationMatrix(new THREE.Matrix4().makeBasis(new THREE.Vector3().crossVectors(across, up), across, up));
+    this.crate.scale.set(1, Math.max(0.4, (width - 0.06) / CRATE[1]), 1);
   }
 
   private showSupport(frame: FigureFrame, shown: boolean): void {
@@ -387,6 +394,11 @@ class Actor {
   }
 }
 
+/** Mass of a ball of iron of 1 m radius, kg: loads that are no crate are drawn as iron balls. */
+const IRON = 32_000;
+const MOST_WEIGHTS = 8;
+const weightShape = new THREE.SphereGeometry(1, 24, 16);
+const weightMaterial = new THREE.MeshStandardMaterial({ color: 0x3a434a, roughness: 0.45, metalness: 0.3 });
 const comShape = new THREE.SphereGeometry(0.028, 16, 12);
 const zmpShape = new THREE.RingGeometry(0.022, 0.04, 24);
 
@@ -487,7 +499,7 @@ export class Scene {
   theme(dark: boolean): void {
     this.look = dark ? LOOKS.dark : LOOKS.light;
     this.scene.background = new THREE.Color(this.look.sky);
-    this.scene.fog = new THREE.Fog(this.look.sky, 9, 34);
+    this.scene.fog = new THREE.Fog(this.look.sky, 14, 48);
     this.sun.intensity = this.look.sun;
     this.fill.intensity = this.look.fill;
     const tile = document.createElement("canvas");
@@ -543,7 +555,7 @@ export class Scene {
     const sphere = box.getBoundingSphere(new THREE.Sphere());
     const angle = THREE.MathUtils.degToRad(this.camera.fov / 2);
     const narrow = Math.min(angle, Math.atan(Math.tan(angle) * this.camera.aspect));
-    const distance = (sphere.radius * 0.9) / Math.sin(narrow);
+    const distance = (sphere.radius * 0.85) / Math.sin(narrow);
     this.orbit.target.copy(sphere.center).setZ(0.86);
     this.camera.position.copy(this.orbit.target).addScaledVector(scratchA.set(0.9, -0.36, 0.2).normalize(), distance);
     this.orbit.update();

@@ -230,7 +230,13 @@ export class Session {
     this.changed("world");
   }
 
-  /** Puts a crate of this mass into both hands of each figure, in place of what it carries. */
+  /** Whether the newest frame of a figure has this flag. */
+  says(p: Person, flag: string): boolean {
+    const bit = this.flagNames.indexOf(flag);
+    return bit >= 0 && ((p.flags >>> bit) & 1) === 1;
+  }
+
+  /** Gives each figure this mass in place of what it carries: as a crate if it lifts one, else half of it in each hand. */
   async carry(people: Person[], massKg: number): Promise<void> {
     if (!this.world) return;
     const world = this.world.name;
@@ -238,7 +244,10 @@ export class Session {
       people.map(async (p) => {
         await this.api.perturbations.clearPerturbations({ figure: p.figure.name });
         if (massKg <= 0) return;
-        const perturbations = [{ figure: p.name, kind: { case: "load" as const, value: { segment: "l_hand", secondSegment: "r_hand", massKg } } }];
+        const load = (value: { segment: string; secondSegment?: string; massKg: number }): object => ({ figure: p.name, kind: { case: "load" as const, value } });
+        const perturbations = p.holdsCrate()
+          ? [load({ segment: "l_hand", secondSegment: "r_hand", massKg })]
+          : [load({ segment: "l_hand", massKg: massKg / 2 }), load({ segment: "r_hand", massKg: massKg / 2 })];
         await this.api.perturbations.applyPerturbations({ world, perturbations });
       }),
     );

@@ -54,6 +54,9 @@ test("the load slider changes the motion, and the limit of strength is said", as
   await expect.poll(() => page.url()).toContain("load=20");
   await page.locator("#load-slider").fill("0");
   await expect(page.locator("#summary")).not.toContainText("Carries");
+  // The child, who fell, tries again.
+  await page.locator("#figures button", { hasText: "child" }).click();
+  await expect(page.locator("#summary")).toContainText("child stands");
 });
 
 test("a push fells the figure, and it stands up again", async ({ page, server }) => {
@@ -148,7 +151,7 @@ test("everything can be done with the keyboard alone", async ({ page, server }) 
   await expect(page.locator("#figures [aria-pressed=true]")).toHaveText("woman");
   await page.keyboard.press("l");
   await page.keyboard.press("l");
-  await expect(page.locator("#summary")).toContainText("Carries 2 kg");
+  await expect(page.locator("#summary")).toContainText("Carries 6 kg");
   await page.keyboard.press(" ");
   await expect(page.locator("#pause")).toHaveText("Go on");
   await page.waitForTimeout(400);
