@@ -64,6 +64,7 @@ pub async fn create(app: &Arc<App>) -> Result<Vec<&'static str>, BoxError> {
                 mass_kg: CRATE_KG,
                 ..Default::default()
             })),
+            ..Default::default()
         }])?;
         let origin = Origin {
             client: "demo".into(),
