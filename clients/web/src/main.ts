@@ -241,8 +241,15 @@ async function play(p: Person, clip: string): Promise<void> {
   if (!clip) return;
   await session.api.motion.playClip({ figure: p.figure.name, clip: `clips/${clip}`, loop: true });
   await session.refresh();
+  await takeAgain(p);
   say(`${p.name} plays ${clip}`);
   remember();
+}
+
+/** The same load as the motion that begins wants it: a crate, or free hands. */
+async function takeAgain(p: Person): Promise<void> {
+  const load = p.loadKg();
+  if (load > 0) await session.carry([p], load);
 }
 
 /** A valid last part of a name that is not taken. */
@@ -264,6 +271,7 @@ async function openFile(file: File): Promise<void> {
     await session.lists();
     await session.api.motion.playClip({ figure: p.figure.name, clip: clip?.name ?? "", loop: true, reset: true });
     await session.refresh();
+    await takeAgain(p);
     panel.showReport(file.name, clip?.report);
     say(`${p.name} plays ${file.name}`);
     remember();
@@ -562,9 +570,13 @@ let cost = 0;
 let wordsAt = 0;
 let plotsAt = 0;
 let reframed = 0;
+/** A picture that took longer than this (s) is drawn in software: then half of the time is left to others. */
+const SLOW_S = 0.04;
+let notBefore = 0;
 function picture(): void {
   requestAnimationFrame(picture);
   const t = now();
+  if (t < notBefore) return;
   const pair = session.playhead.at(t, session.paused ? 1 : (session.world?.speed ?? 1));
   scene?.prepare(pair && { before: indexed(pair.before), after: indexed(pair.after), share: pair.share }, shown, chosen);
   if (pair && reframed !== session.people.size) {
@@ -585,6 +597,8 @@ function picture(): void {
   }
   const script = (now() - t) * 1000;
   scene?.draw3d();
+  const took = now() - t;
+  if (took > SLOW_S) notBefore = t + 2 * Math.min(took, 0.5);
   scripted += 0.05 * (script - scripted);
   cost += 0.05 * ((now() - t) * 1000 - cost);
   document.body.dataset.script = scripted.toFixed(2);

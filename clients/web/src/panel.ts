@@ -298,7 +298,7 @@ export class Panel {
       `a person of ${r.statureM.toFixed(2)} m, up is ${r.upAxis}, ${r.sourceRateHz.toFixed(0)} frames per second`,
       `feet slide ${(r.footSlideBeforeM * 100).toFixed(1)} cm as recorded, ${(r.footSlideAfterM * 100).toFixed(1)} cm as prepared`,
     ];
-    if (r.clamped.length) facts.push(`${r.clamped.length} angles went beyond the body's limits`);
+    if (r.clamped.length) facts.push(`${r.clamped.length} ${r.clamped.length === 1 ? "angle" : "angles"} went beyond the body's limits`);
     const map = el("details", {}, el("summary", {}, "Bones"), el("ul", {}, ...r.mapped.map((m) => el("li", {}, `${m.bone}: ${m.joints.join(", ")}`))));
     this.report.replaceChildren(
       el("div", { class: "report" }, el("strong", {}, `${file} plays`), el("ul", {}, ...facts.map((f) => el("li", {}, f)), ...r.warnings.map((w) => el("li", {}, w))), map),
