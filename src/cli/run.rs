@@ -32,7 +32,7 @@ const MAX_DURATION: f64 = 86_400.0;
 /// Runs motions through the physics and reports how well the figure followed.
 #[derive(Clone, Debug, clap::Args)]
 pub struct RunArgs {
-    /// Motions: BVH files or builtin:NAME (idle, lift, squat, wave, step, walk). Each gets a world of its own.
+    /// Motions: BVH files or builtin:NAME (idle, lift, crate, squat, wave, step, walk). Each gets a world of its own.
     #[arg(required = true, value_name = "CLIP")]
     pub clips: Vec<String>,
     /// Who the figure stands for.
