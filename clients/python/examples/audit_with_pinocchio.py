@@ -9,6 +9,9 @@
 # over all contacts and pushes. Nothing of the right side is computed by the simulator that is checked except the forces themselves.
 
 # %%
+import tempfile
+from pathlib import Path
+
 import matplotlib.pyplot as plt
 import numpy as np
 import pinocchio as pin
@@ -38,7 +41,10 @@ body = recording.body
 # So $u = T v$, and $\dot u = T \dot v + \dot T v$.
 
 # %%
-model = pin.buildModelFromMJCF(mjcf)
+with tempfile.TemporaryDirectory() as folder:
+    file = Path(folder) / "body.mjcf"
+    file.write_text(mjcf)
+    model = pin.buildModelFromMJCF(str(file))
 data = model.createData()
 frames = [model.getFrameId(name, pin.FrameType.BODY) for name in body.segments]
 axis = np.array([[d.axis.x, d.axis.y, d.axis.z] for d in body.message.dofs])
