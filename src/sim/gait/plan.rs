@@ -31,6 +31,8 @@ pub struct StepPlan {
     duration: f64,
     /// Displacement of one round, if the clip repeats.
     round: Option<PlanarTransform>,
+    /// The way into a clip that repeats, with its first round.
+    lead: Option<Box<StepPlan>>,
 }
 
 /// Heading and pitch (toe-up positive) of a foot without its roll, rad. Platform-independent, since it feeds the tick.
@@ -137,19 +139,27 @@ impl StepPlan {
             begin,
             duration,
             round: looped.then(|| clip.advance()),
+            lead: (looped && clip.lead_in() > 0.0).then(|| Box::new(Self::new(body, clip, false))),
         }
     }
 
     /// True if a foot leaves the floor anywhere.
     pub fn steps(&self) -> bool {
-        self.stances
-            .iter()
-            .any(|s| s.len() != 1 || s[0].on > self.begin || s[0].off < self.duration)
+        self.lead.as_ref().is_some_and(|l| l.steps())
+            || self
+                .stances
+                .iter()
+                .any(|s| s.len() != 1 || s[0].on > self.begin || s[0].off < self.duration)
     }
 
     /// True once a clip that does not repeat has played to its end.
     pub fn is_over(&self, t: f64) -> bool {
         self.round.is_none() && t >= self.duration
+    }
+
+    /// The plan that holds before a repeating clip begins.
+    fn lead_at(&self, t: f64) -> Option<&Self> {
+        self.lead.as_deref().filter(|_| t < 0.0)
     }
 
     /// Round of a loop that time `t` falls into, and the time within it.
@@ -182,6 +192,13 @@ impl StepPlan {
 
     /// Next touch-down of a foot (0 left, 1 right) after time `t` (s); `None` if it never lands again.
     pub fn next(&self, side: usize, t: f64) -> Option<Footfall> {
+        if let Some(lead) = self.lead_at(t) {
+            let first = |f: &Footfall| f.on < self.duration;
+            return lead
+                .next(side, t)
+                .filter(first)
+                .or_else(|| self.next(side, 0.0));
+        }
         let (round, local) = self.round_of(t);
         let rounds = if self.round.is_some() { 2 } else { 1 };
         for k in 0..rounds {
@@ -198,6 +215,9 @@ impl StepPlan {
 
     /// The stance that holds at time `t` (s).
     pub fn current(&self, side: usize, t: f64) -> Option<Footfall> {
+        if let Some(lead) = self.lead_at(t) {
+            return lead.current(side, t);
+        }
         let (round, local) = self.round_of(t);
         let end = self.duration;
         let f = self.stances[side].iter().find(|f| {
@@ -209,6 +229,9 @@ impl StepPlan {
 
     /// Last lift-off of a foot at or before time `t`, s; the beginning of the clip if there was none.
     pub fn last_off(&self, side: usize, t: f64) -> f64 {
+        if let Some(lead) = self.lead_at(t) {
+            return lead.last_off(side, t);
+        }
         let (round, local) = self.round_of(t);
         let s = &self.stances[side];
         if let Some(f) = s.iter().rev().find(|f| f.off <= local) {

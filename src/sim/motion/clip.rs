@@ -316,12 +316,15 @@ impl Clip {
     ///
     /// Each round starts where the last one ended: displacement along the ground and change of heading are carried over. Towards the end
     /// of a round the remaining difference to the start (posture, velocity, acceleration) is blended in, so that the seam is as
-    /// smooth as the clip. A time that is no number counts as 0.
+    /// smooth as the clip. A time that is no number counts as 0. A clip with a lead-in comes from there instead of from earlier rounds.
     pub fn sample_looped(&self, t: f64) -> Target {
         let Some(seam) = &self.seam else {
             return self.rest(self.lead_in);
         };
         let t = if t.is_finite() { t } else { 0.0 };
+        if t < 0.0 && self.lead_in > 0 {
+            return self.sample(t);
+        }
         let period = self.duration();
         let round = (t / period).floor();
         let local = (t - round * period).clamp(0.0, period);

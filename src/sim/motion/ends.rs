@@ -57,6 +57,8 @@ const DECAY: f64 = 0.2;
 const FASTEST: f64 = 4.0;
 /// Time in which trunk and arms come to ease, s.
 const EASE: f64 = 1.0;
+/// Joints this close to where they shall be are there, rad.
+const ALIKE: f64 = 0.03;
 /// Height of the ankle's arc, m. Clearance proper is the preparation's business.
 const ARC: f64 = 0.05;
 /// How long the motion goes on after the feet have come to rest, s.
@@ -218,14 +220,47 @@ impl Feet<'_> {
     }
 }
 
+/// How it stands in the end. Places from the middle between the ankles, headings against that of the whole.
+struct Stand {
+    posture: Posture,
+    home: [Vec3; 2],
+    yaw: [f64; 2],
+    mass: Vec3,
+    pelvis: Vec3,
+    heading: f64,
+}
+
+impl Stand {
+    fn of(body: &Body, posture: &Posture) -> Self {
+        let poses = forward(body, posture);
+        let feet = FOOT.map(|s| poses[s]);
+        let yaws = feet.map(|f| yaw_pitch(f.1).0);
+        let pelvis = yaw_pitch(posture.root_rotation).0;
+        let heading = pelvis + 0.25 * (turn(pelvis, yaws[0]) + turn(pelvis, yaws[1]));
+        let middle = (feet[0].0 + feet[1].0) * 0.5;
+        let local = |p: Vec3| {
+            let d = turned(-heading, p - middle);
+            Vec3 { z: p.z, ..d }
+        };
+        Self {
+            posture: *posture,
+            home: feet.map(|f| Vec3 {
+                z: 0.0,
+                ..local(f.0)
+            }),
+            yaw: yaws.map(|y| turn(heading, y)),
+            mass: local(center_of_mass(body, &poses)),
+            pelvis: local(posture.root_position),
+            heading,
+        }
+    }
+}
+
 /// The pendulum on its way to a stand: footsteps, and the path of its mass.
 struct Stop<'a> {
     from: &'a State,
     feet: Feet<'a>,
-    /// Places of the feet at ease, from the middle between them.
-    home: [Vec3; 2],
-    /// Where the mass is at ease, from the middle between the feet.
-    rest: Vec3,
+    stand: &'a Stand,
     leg: f64,
     omega: f64,
     dt: f64,
@@ -237,6 +272,11 @@ struct Stop<'a> {
 impl Stop<'_> {
     fn now(&self) -> f64 {
         (self.path.len() - 1) as f64 * self.dt
+    }
+
+    /// Heading that a foot gets.
+    fn yaw(&self, side: usize) -> f64 {
+        self.from.heading + self.stand.yaw[side]
     }
 
     fn mass(&self) -> Vec3 {
@@ -295,7 +335,7 @@ impl Stop<'_> {
             place,
         });
         self.feet.place[side] = place;
-        self.feet.yaw[side] = self.from.heading;
+        self.feet.yaw[side] = self.yaw(side);
     }
 
     /// When and where foot `side` should land to catch the body: as soon as it gets there without hurry.
@@ -330,7 +370,7 @@ impl Stop<'_> {
             soles: self.feet.soles,
         };
         feet.place[side] = place;
-        feet.yaw[side] = self.from.heading;
+        feet.yaw[side] = self.yaw(side);
         let inside = margin(&feet.support([true; 2]), flat(landing(time)));
         (time, place, inside)
     }
@@ -341,7 +381,7 @@ impl Stop<'_> {
         let stance = self.feet.place[1 - side];
         let local = turned(-heading, wanted - stance);
         let outward = if side == 0 { 1.0 } else { -1.0 };
-        let apart = (self.home[0].y - self.home[1].y).abs();
+        let apart = (self.stand.home[0].y - self.stand.home[1].y).abs();
         let (far, wide) = (LONGEST.0 * self.leg, LONGEST.1 * self.leg);
         let mut place = Vec3 {
             x: (local.x - SOLE_MIDDLE).clamp(-far, far),
@@ -360,7 +400,10 @@ impl Stop<'_> {
 
     /// Where foot `side` belongs beside the other one.
     fn beside(&self, side: usize) -> Vec3 {
-        let d = turned(self.from.heading, self.home[side] - self.home[1 - side]);
+        let d = turned(
+            self.from.heading,
+            self.stand.home[side] - self.stand.home[1 - side],
+        );
         Vec3 {
             z: 0.0,
             ..self.feet.place[1 - side] + d
@@ -369,7 +412,7 @@ impl Stop<'_> {
 
     fn is_home(&self, side: usize) -> bool {
         (self.feet.place[side] - self.beside(side)).norm() < HOME.0
-            && turn(self.feet.yaw[side], self.from.heading).abs() < HOME.1
+            && turn(self.feet.yaw[side], self.yaw(side)).abs() < HOME.1
     }
 
     fn is_caught(&self) -> bool {
@@ -383,7 +426,7 @@ impl Stop<'_> {
         if down == [false; 2] {
             // A body in the air comes down first, on the lower foot, as far ahead as the leg reaches.
             let fall = from.velocity.z;
-            let drop = (from.com.z - (self.rest.z - 0.03)).max(0.0);
+            let drop = (from.com.z - (self.stand.mass.z - 0.03)).max(0.0);
             let time = ((fall + (fall * fall + 2.0 * GRAVITY * drop).sqrt()) / GRAVITY)
                 .clamp(2.0 * self.dt, LONGEST_FLIGHT);
             let velocity = Vec3 {
@@ -399,7 +442,7 @@ impl Stop<'_> {
             let c = self.mass();
             let reach = (self.capture - c).norm().min(0.5 * LONGEST.0 * self.leg);
             let ahead = (self.capture - c).normalized_or(Vec3::X) * reach;
-            let place = c + ahead + turned(from.heading, Vec3::Y * self.home[side].y);
+            let place = c + ahead + turned(from.heading, Vec3::Y * self.stand.home[side].y);
             self.steps.push(Step {
                 side,
                 off: 0.0,
@@ -407,7 +450,7 @@ impl Stop<'_> {
                 place,
             });
             self.feet.place[side] = place;
-            self.feet.yaw[side] = from.heading;
+            self.feet.yaw[side] = self.yaw(side);
             down[side] = true;
         }
         // The foot in the air lands where it catches; with both down, the one farther from the capture point goes first.
@@ -446,7 +489,9 @@ impl Stop<'_> {
         for _ in 0..2 {
             let far = |s: usize| (self.feet.middle(s) - self.capture).norm();
             let side = usize::from(far(1) > far(0));
-            if self.is_home(side) && turn(self.feet.yaw[1 - side], from.heading).abs() < HOME.1 {
+            if self.is_home(side)
+                && turn(self.feet.yaw[1 - side], self.yaw(1 - side)).abs() < HOME.1
+            {
                 break;
             }
             let side = if self.is_home(side) { 1 - side } else { side };
@@ -458,31 +503,30 @@ impl Stop<'_> {
         let middle = (self.feet.place[0] + self.feet.place[1]) * 0.5;
         self.lean(Vec3 {
             z: 0.0,
-            ..middle + turned(from.heading, self.rest)
+            ..middle + turned(from.heading, self.stand.mass)
         });
         self.both(REST);
         self.is_caught()
     }
 }
 
-/// Samples after the last one of `draft`, from its motion to standing at ease; `None` if it stands already, or does not walk at all.
-fn tail(body: &Body, draft: &Draft) -> Option<Draft> {
+/// Samples after the last one of `draft`, from its motion to standing as `goal` does, or at ease. `None` if it stands like that already, or at
+/// all if there is no goal, if it does not walk, or if no steps are found that stop it.
+fn tail(body: &Body, draft: &Draft, goal: Option<&Posture>) -> Option<Draft> {
     let rate = draft.rate_hz;
     if draft.postures.len() < 3 {
         return None;
     }
     let soles = [Sole::new(body, 0), Sole::new(body, 1)];
     let from = State::of(body, draft, &soles);
-    let ease = at_ease(body);
-    let poses = forward(body, &ease);
-    let ease_com = center_of_mass(body, &poses);
-    let omega = (GRAVITY / (0.5 * (from.com.z + ease_com.z)).max(0.3)).sqrt();
-    let upright = UPRIGHT * body.standing_root_height();
-    if from.posture.root_position.z < upright || from.stands(&soles, omega) {
+    let stand = Stand::of(body, goal.unwrap_or(&at_ease(body)));
+    let omega = (GRAVITY / (0.5 * (from.com.z + stand.mass.z)).max(0.3)).sqrt();
+    if from.posture.root_position.z < UPRIGHT * body.standing_root_height() {
         return None;
     }
-    let between = (poses[FOOT[0]].0 + poses[FOOT[1]].0) * 0.5;
-    let leg = poses[FOOT[0] - 2].0.z - soles[0].ankle_height;
+    if from.stands(&soles, omega) && goal.is_none_or(|g| alike(&from.posture, g)) {
+        return None;
+    }
     let ground = |v: Vec3| Vec3 { z: 0.0, ..v };
     let mut stop = Stop {
         from: &from,
@@ -491,12 +535,8 @@ fn tail(body: &Body, draft: &Draft) -> Option<Draft> {
             yaw: from.yaw,
             soles: &soles,
         },
-        home: [0, 1].map(|s: usize| ground(poses[FOOT[s]].0 - between)),
-        rest: Vec3 {
-            z: ease_com.z,
-            ..ease_com - between
-        },
-        leg,
+        stand: &stand,
+        leg: leg_length(body),
         omega,
         dt: 1.0 / rate,
         capture: ground(from.com + from.velocity * (1.0 / omega)),
@@ -507,12 +547,12 @@ fn tail(body: &Body, draft: &Draft) -> Option<Draft> {
     if !stands {
         return None;
     }
-    let goal = Quat::exp(Vec3::Z * from.heading) * ease.root_rotation;
+    let upright = Quat::exp(Vec3::Z * (from.heading - stand.heading)) * stand.posture.root_rotation;
     // The zero-moment point of the pendulum jumps from foot to foot; a body's does not.
     let mut path = stop.path;
     low_pass_points(&mut path, 4.0, rate);
     let offset = ground(from.posture.root_position - from.com);
-    let ease_offset = turned(from.heading, ground(ease.root_position - ease_com));
+    let end_offset = turned(from.heading, ground(stand.pelvis - stand.mass));
     let mut out = Draft::empty(rate);
     let last = draft.postures.len() - 1;
     for i in 1..path.len() {
@@ -524,18 +564,18 @@ fn tail(body: &Body, draft: &Draft) -> Option<Draft> {
         rates[3..6].fill(0.0);
         p.integrate(&rates, DECAY * (1.0 - (-t / DECAY).exp()));
         let mut way = [0.0; NV];
-        let spin = (goal * p.root_rotation.conjugate()).log() * s;
+        let spin = (upright * p.root_rotation.conjugate()).log() * s;
         way[..3].copy_from_slice(&spin.to_array());
-        for (w, d) in way[6..].iter_mut().zip(p.joint_difference(&ease)) {
+        for (w, d) in way[6..].iter_mut().zip(p.joint_difference(&stand.posture)) {
             *w = s * d;
         }
         p.integrate(&way, 1.0);
-        let at = path[i] + offset * (1.0 - s) + ease_offset * s;
+        let at = path[i] + offset * (1.0 - s) + end_offset * s;
         p.root_position = Vec3 {
             z: min_jerk(
                 from.posture.root_position.z,
                 from.velocity.z,
-                ease.root_position.z,
+                stand.pelvis.z,
                 EASE,
                 t,
             ),
@@ -543,7 +583,8 @@ fn tail(body: &Body, draft: &Draft) -> Option<Draft> {
         };
         let mut label = [true; 2];
         for side in 0..2 {
-            let (ankle, foot, down) = swing(&from, &stop.steps, &soles[side], side, t);
+            let yaw = from.heading + stand.yaw[side];
+            let (ankle, foot, down) = swing(&from, &stop.steps, &soles[side], (side, yaw), t);
             out.ankle[side].push(ankle);
             out.foot[side].push(foot);
             label[side] = down;
@@ -557,9 +598,25 @@ fn tail(body: &Body, draft: &Draft) -> Option<Draft> {
     Some(out)
 }
 
+/// Length of a leg from hip to ankle, m.
+fn leg_length(body: &Body) -> f64 {
+    body.joint_offset[FOOT[0]].norm() + body.joint_offset[FOOT[0] - 1].norm()
+}
+
+/// True if nothing worth a movement is between two postures.
+fn alike(a: &Posture, b: &Posture) -> bool {
+    a.joint_difference(b).iter().all(|e| e.abs() < ALIKE)
+}
+
 /// Ankle and rotation of a foot `t` seconds into the end, and whether it is down.
-fn swing(from: &State, steps: &[Step], sole: &Sole, side: usize, t: f64) -> (Vec3, Quat, bool) {
-    let flat = Quat::exp(Vec3::Z * from.heading);
+fn swing(
+    from: &State,
+    steps: &[Step],
+    sole: &Sole,
+    (side, yaw): (usize, f64),
+    t: f64,
+) -> (Vec3, Quat, bool) {
+    let flat = Quat::exp(Vec3::Z * yaw);
     let mut ankle = from.ankle[side];
     let mut rotation = from.foot[side];
     let mut velocity = if from.down[side] {
@@ -645,11 +702,21 @@ impl Draft {
         }
     }
 
+    /// Continues a draft of whole postures so that it ends standing like `goal`, wherever that is. Returns how many samples it took.
+    pub fn end_like(&mut self, body: &Body, goal: &Posture) -> usize {
+        let Some(after) = tail(body, self, Some(goal)) else {
+            return 0;
+        };
+        let count = after.postures.len();
+        self.append(after);
+        count
+    }
+
     /// Continues a draft of whole postures to a stand and lets it begin from one, where it does not stand, sit or lie anyway. Returns how
     /// many samples came before and after.
     pub fn add_ends(&mut self, body: &Body) -> (usize, usize) {
-        let after = tail(body, self);
-        let before = tail(body, &self.clone().reversed()).map(Self::reversed);
+        let after = tail(body, self, None);
+        let before = tail(body, &self.clone().reversed(), None).map(Self::reversed);
         let count = |d: &Option<Self>| d.as_ref().map_or(0, |d| d.postures.len());
         let counts = (count(&before), count(&after));
         let mut all = before.unwrap_or_else(|| Self::empty(self.rate_hz));
