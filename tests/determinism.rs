@@ -90,7 +90,7 @@ impl Actor {
     /// Puts figure and motion elsewhere.
     fn shift(&mut self, by: Vec3) {
         let p = &mut self.setup.state.posture.root_position;
-        *p = *p + by;
+        *p += by;
         if let Drive::Clip(play) = &mut self.drive {
             (play.origin.x, play.origin.y) = (play.origin.x + by.x, play.origin.y + by.y);
         }

@@ -3,17 +3,17 @@
 //! Method: a ball thrown at a figure, two figures pushed into each other, one falling onto another, two that dance; books of momentum and of
 //! the work of contacts by the tick, overlaps, and the hashes of bystanders.
 
-use crate::common::{Scene, authored, bent, figure, man, play, recorded_with, still};
-use crate::{integrals, vec3};
+use crate::common::{authored, figure, man, play, recorded_with, still};
+use crate::vec3;
 use sinew::evaluate::audit;
-use sinew::sim::body::topology::{CHEST, HEAD};
+use sinew::sim::body::topology::CHEST;
 use sinew::sim::body::{Body, State};
-use sinew::sim::collide::{Mobility, ObstacleKey, ObstacleSetup, Other, Shape};
+use sinew::sim::collide::{MAX_OBSTACLES, Mobility, ObstacleSetup, Other, Shape};
 use sinew::sim::figure::{ControllerKind, FigureEvent, Flags, Perturbation};
 use sinew::sim::math::{Quat, Vec3};
 use sinew::sim::motion::Clip;
 use sinew::sim::motion::retarget::RetargetOptions;
-use sinew::sim::world::{Drive, FigureKey, FigureSetup, World, WorldParams};
+use sinew::sim::world::{FigureKey, FigureSetup, World, WorldError, WorldParams};
 use std::sync::Arc;
 
 /// An obstacle at rest.
@@ -61,7 +61,7 @@ struct Meter {
     switches: u64,
     /// Largest sum of all forces between bodies over the largest of them.
     unbalanced: f64,
-    /// Largest overlap in the last 0.2 s … end.
+    /// Largest overlap, and the largest later than 0.2 s after the first touch, m.
     depth: f64,
     late_depth: f64,
     /// Work of contacts, J, and the largest gain of one tick.
@@ -75,7 +75,35 @@ struct Meter {
     first: Option<u64>,
 }
 
+/// Largest work that the return from overlaps of a fraction of a millimetre may add in a tick, J.
+const RETURN_WORK: f64 = 0.02;
+
 impl Meter {
+    /// What every scene must keep, and what it came to, on one line.
+    fn judge(&self, what: &str, rate: f64) {
+        let text = format!(
+            "{what}: touched {} ticks, {:.1} switches/s, unbalanced {:.1e}, equations {:.1e}, overlap {:.2} mm, after 0.2 s {:.2} mm, work of \
+             contacts {:.1} J, largest gain {:.4} J, {} of {} islands cut short, {:.1} iterations each, top joint speed {:.0} rad/s",
+            self.touched,
+            self.switches as f64 * rate / self.ticks as f64,
+            self.unbalanced,
+            self.residual,
+            1e3 * self.depth,
+            1e3 * self.late_depth,
+            self.work,
+            self.gain,
+            self.unfinished,
+            self.islands,
+            self.iterations as f64 / self.islands.max(1) as f64,
+            self.speed
+        );
+        println!("{text}");
+        assert!(self.touched > 0, "{text}");
+        assert!(self.unbalanced < 1e-9 && self.residual < 1e-9, "{text}");
+        assert!(self.late_depth < 0.01, "{text}");
+        assert!(self.gain < RETURN_WORK && self.work <= 0.0, "{text}");
+    }
+
     fn observe(&mut self, world: &World) {
         self.ticks += 1;
         let c = world.collisions();
@@ -85,20 +113,6 @@ impl Meter {
             assert!(r.over_limit <= 1e-9, "torques stay within strength");
             assert!(!r.flags.has(Flags::QUARANTINED));
             for t in &r.touches {
-                if t.depth > 0.008 && std::env::var_os("DIAG").is_some() {
-                    println!(
-                        "  tick {} {} at {:?} depth {:.1} mm force {:.0} n {:.2?}",
-                        world.tick(),
-                        t.segment.name(),
-                        match t.other {
-                            Other::Figure(_, s) => s.name(),
-                            _ => "obstacle",
-                        },
-                        1e3 * t.depth,
-                        t.force.norm(),
-                        t.normal.to_array()
-                    );
-                }
                 touching = true;
                 most = most.max(t.force.norm());
                 let free = match t.other {
@@ -143,6 +157,7 @@ impl Meter {
     }
 }
 
+/// A ball of 5 kg at 5 m/s from three sides, for every controller. Books of the ball: its momentum changes by what it is pushed and by gravity.
 #[test]
 fn a_ball_hits_a_figure() {
     let body = man();
@@ -157,66 +172,74 @@ fn a_ball_hits_a_figure() {
                 .add_figure(stander(&body, kind, 0.0, 0.0, 0.0))
                 .unwrap();
             let start = vec3(0.0, 0.0, 1.35) + from * 0.9;
-            let b = world
-                .add_obstacle(ball(start, from * -5.0 + Vec3::Z * 0.6))
-                .unwrap();
+            let thrown = ball(start, from * -5.0 + Vec3::Z * 0.6);
+            let b = world.add_obstacle(thrown).unwrap();
             let mut m = Meter::default();
             for _ in 0..180 {
+                let before = world.obstacle(b).unwrap().setup().velocity;
                 world.step();
                 m.observe(&world);
+                let o = world.obstacle(b).unwrap();
+                let (dv, dt) = (o.setup().velocity - before, world.dt());
+                let want = (o.force() - Vec3::Z * (5.0 * crate::GRAVITY)) * dt;
+                assert!(
+                    (dv * 5.0 - want).norm() < 1e-6 * 25.0,
+                    "momentum of the ball"
+                );
             }
-            let f = world.figure(key).unwrap();
+            let fell = world.figure(key).unwrap().is_fallen();
+            m.judge(&format!("{kind:?} {name}, fell {fell}"), 60.0);
             let o = world.obstacle(b).unwrap().setup();
-            println!(
-                "{kind:?} {name}: fell {} ball {:?} {:?}",
-                f.is_fallen(),
-                o.position,
-                m
+            assert!(
+                (o.position.z - 0.12).abs() < 0.005,
+                "the ball lies on the ground"
             );
         }
     }
 }
 
-#[test]
-fn two_figures_pushed_into_each_other() {
+fn push(world: &mut World, key: FigureKey, newtons: f64, from: f64) {
+    let what = Perturbation::Force {
+        segment: CHEST,
+        point: vec3(0.0, 0.0, 0.1),
+        force: vec3(newtons, 0.0, 0.0),
+        from,
+        to: from + 0.1,
+    };
+    world.perturb(key, what).unwrap();
+}
+
+/// Face to face, each pushed towards the other with 60 N·s.
+fn face_to_face(kind: ControllerKind, threads: usize) -> World {
     let body = man();
+    let mut world = World::new(WorldParams {
+        threads,
+        ..WorldParams::default()
+    })
+    .unwrap();
+    let half_turn = std::f64::consts::PI;
+    for (x, yaw, newtons) in [(-0.35, 0.0, 600.0), (0.35, half_turn, -600.0)] {
+        let key = world.add_figure(stander(&body, kind, x, 0.0, yaw)).unwrap();
+        push(&mut world, key, newtons, 0.2);
+    }
+    world
+}
+
+#[test]
+fn two_figures_are_pushed_into_each_other() {
     for kind in [
         ControllerKind::Modern,
         ControllerKind::Paper,
         ControllerKind::Motors,
     ] {
-        let mut world = World::new(WorldParams::default()).unwrap();
-        let a = world
-            .add_figure(stander(&body, kind, -0.35, 0.0, 0.0))
-            .unwrap();
-        let b = world
-            .add_figure(stander(&body, kind, 0.35, 0.0, 3.141592653589793))
-            .unwrap();
-        for (k, s) in [(a, 1.0), (b, -1.0)] {
-            world
-                .perturb(
-                    k,
-                    Perturbation::Force {
-                        segment: CHEST,
-                        point: vec3(0.0, 0.0, 0.1),
-                        force: vec3(s * 600.0, 0.0, 0.0),
-                        from: 0.2,
-                        to: 0.3,
-                    },
-                )
-                .unwrap();
-        }
+        let mut world = face_to_face(kind, 1);
         let mut m = Meter::default();
         for _ in 0..240 {
             world.step();
             m.observe(&world);
         }
-        println!(
-            "{kind:?}: fell {} {} {:?}",
-            world.figure(a).unwrap().is_fallen(),
-            world.figure(b).unwrap().is_fallen(),
-            m
-        );
+        let fell: Vec<bool> = world.figures().map(|(_, f)| f.is_fallen()).collect();
+        m.judge(&format!("{kind:?}, fell {fell:?}"), 60.0);
     }
 }
 
@@ -225,35 +248,19 @@ fn a_figure_falls_onto_another() {
     let body = man();
     for kind in [ControllerKind::Modern, ControllerKind::Motors] {
         let mut world = World::new(WorldParams::default()).unwrap();
-        let a = world
-            .add_figure(stander(&body, kind, -0.45, 0.05, 0.0))
-            .unwrap();
-        let b = world
+        let setup = stander(&body, kind, -0.45, 0.05, 0.0);
+        let a = world.add_figure(setup).unwrap();
+        world
             .add_figure(stander(&body, kind, 0.45, 0.0, 0.0))
             .unwrap();
-        world
-            .perturb(
-                a,
-                Perturbation::Force {
-                    segment: CHEST,
-                    point: vec3(0.0, 0.0, 0.1),
-                    force: vec3(1000.0, 0.0, 0.0),
-                    from: 0.1,
-                    to: 0.2,
-                },
-            )
-            .unwrap();
+        push(&mut world, a, 1000.0, 0.1);
         let mut m = Meter::default();
         for _ in 0..300 {
             world.step();
             m.observe(&world);
         }
-        println!(
-            "{kind:?}: fell {} {} {:?}",
-            world.figure(a).unwrap().is_fallen(),
-            world.figure(b).unwrap().is_fallen(),
-            m
-        );
+        let fell: Vec<bool> = world.figures().map(|(_, f)| f.is_fallen()).collect();
+        m.judge(&format!("{kind:?}, fell {fell:?}"), 60.0);
     }
 }
 
@@ -267,43 +274,151 @@ fn dancing(body: &Body, name: &str) -> Arc<Clip> {
 }
 
 #[test]
-fn salsa() {
+fn a_couple_dances_salsa() {
     let body = man();
     let mut world = World::new(WorldParams::default()).unwrap();
-    let mut keys = Vec::new();
     for name in ["salsa-a", "salsa-b"] {
         let clip = dancing(&body, name);
         let first = clip.sample(0.0);
-        println!("{name} starts at {:?}", first.posture.root_position);
         let state = State {
             posture: first.posture,
             velocity: first.velocity,
         };
-        let k = world
-            .add_figure(figure(&body, ControllerKind::Modern, state))
-            .unwrap();
-        world.figure_mut(k).unwrap().set_drive(play(&clip));
-        keys.push(k);
+        let setup = figure(&body, ControllerKind::Modern, state);
+        let key = world.add_figure(setup).unwrap();
+        world.figure_mut(key).unwrap().set_drive(play(&clip));
     }
     let mut m = Meter::default();
-    for i in 0..600 {
+    for _ in 0..600 {
         world.step();
         m.observe(&world);
-        if i % 60 == 0 {
-            let c: Vec<_> = keys
-                .iter()
-                .map(|k| world.figure(*k).unwrap().report().unwrap().com)
-                .collect();
-            println!(
-                "{i} {:.2} {:.2} apart {:.2} {} {} {}",
-                c[0].z,
-                c[1].z,
-                (c[0] - c[1]).norm(),
-                m.depth,
-                m.unfinished,
-                m.switches
-            );
+    }
+    let fell: Vec<bool> = world.figures().map(|(_, f)| f.is_fallen()).collect();
+    m.judge(&format!("salsa, fell {fell:?}"), 60.0);
+}
+
+/// Someone within arm's length of a collision, and someone out of reach, have the bits that they have alone. The number of threads changes
+/// nothing.
+#[test]
+fn bystanders_and_threads_do_not_matter() {
+    let body = man();
+    let kind = ControllerKind::Modern;
+    let places = [(0.0, 1.3), (0.0, 30.0)];
+    let alone: Vec<Vec<u64>> = places
+        .iter()
+        .map(|(x, y)| {
+            let mut world = World::new(WorldParams::default()).unwrap();
+            let key = world.add_figure(stander(&body, kind, *x, *y, 0.0)).unwrap();
+            (0..90)
+                .map(|_| {
+                    world.step();
+                    world.figure(key).unwrap().state_hash()
+                })
+                .collect()
+        })
+        .collect();
+    let mut hashes: Vec<Vec<u64>> = Vec::new();
+    for threads in [1, 2, 7] {
+        let mut world = face_to_face(kind, threads);
+        let keys: Vec<FigureKey> = places
+            .iter()
+            .map(|(x, y)| world.add_figure(stander(&body, kind, *x, *y, 0.0)).unwrap())
+            .collect();
+        let mut met = 0;
+        let mut all = Vec::new();
+        for i in 0..90 {
+            world.step();
+            met += world.collisions().contacts;
+            for (key, want) in keys.iter().zip(&alone) {
+                assert_eq!(world.figure(*key).unwrap().state_hash(), want[i]);
+            }
+            all.push(world.state_hash());
+        }
+        assert!(met > 0, "the other two have met");
+        hashes.push(all);
+    }
+    assert!(hashes.iter().all(|h| *h == hashes[0]));
+}
+
+/// A tower of a ball-shaped, a box-shaped and a long thing comes to rest and stays.
+#[test]
+fn things_come_to_rest() {
+    let mut world = World::new(WorldParams::default()).unwrap();
+    let half = vec3(0.3, 0.3, 0.2);
+    let free = Mobility::Free(20.0);
+    let low = obstacle(Shape::Box { half }, free, vec3(0.0, 0.0, 0.25));
+    let high = obstacle(
+        Shape::Box { half: half * 0.5 },
+        Mobility::Free(3.0),
+        vec3(0.05, 0.02, 0.6),
+    );
+    let log = ObstacleSetup {
+        rotation: Quat::exp(vec3(0.3, 1.2, 0.0)),
+        ..obstacle(
+            Shape::Capsule {
+                radius: 0.1,
+                half_length: 0.4,
+            },
+            Mobility::Free(10.0),
+            vec3(2.0, 0.0, 0.7),
+        )
+    };
+    let keys = [low, high, log].map(|o| world.add_obstacle(o).unwrap());
+    for _ in 0..300 {
+        world.step();
+    }
+    for (key, z) in keys.into_iter().zip([0.2, 0.5, 0.1]) {
+        let s = world.obstacle(key).unwrap().setup();
+        let text = format!("{:?} {:?}", s.position, s.velocity);
+        assert!((s.position.z - z).abs() < 2e-3, "{text}");
+        assert!(s.velocity.norm() < 0.02, "{text}");
+    }
+}
+
+/// What is wrong with an obstacle is named, and nothing has changed.
+#[test]
+fn bad_obstacles_are_refused() {
+    let mut world = World::new(WorldParams::default()).unwrap();
+    let good = || ball(vec3(0.0, 0.0, 1.0), Vec3::zero());
+    let key = world.add_obstacle(good()).unwrap();
+    let before = world.state_hash();
+    let edits: [(&str, fn(&mut ObstacleSetup, f64)); 7] = [
+        ("obstacle.position_m", |o, x| o.position.y = x),
+        ("obstacle.rotation", |o, x| o.rotation.w = x),
+        ("obstacle.velocity_mps", |o, x| o.velocity.z = x),
+        ("obstacle.angular_velocity_radps", |o, x| {
+            o.angular_velocity.x = x
+        }),
+        ("obstacle.friction", |o, x| o.friction = x),
+        ("obstacle.mass_kg", |o, x| o.mobility = Mobility::Free(x)),
+        ("obstacle.sphere.radius_m", |o, x| {
+            o.shape = Shape::Sphere { radius: x }
+        }),
+    ];
+    for (field, edit) in edits {
+        for x in [f64::NAN, f64::INFINITY, -1e9, 1e9] {
+            let mut o = good();
+            edit(&mut o, x);
+            for refused in [
+                world.add_obstacle(o.clone()).map(drop),
+                world.update_obstacle(key, o),
+            ] {
+                match refused {
+                    Err(WorldError::Range { field: f, .. }) => assert_eq!(f, field),
+                    other => panic!("{field} {x}: {other:?}"),
+                }
+            }
         }
     }
-    println!("{:?}", m);
+    let plane = obstacle(Shape::Plane, Mobility::Free(1.0), Vec3::zero());
+    assert_eq!(world.add_obstacle(plane), Err(WorldError::FreePlane));
+    assert_eq!(world.state_hash(), before);
+    for _ in 1..MAX_OBSTACLES {
+        world.add_obstacle(good()).unwrap();
+    }
+    let full = world.add_obstacle(good());
+    assert_eq!(full, Err(WorldError::TooManyObstacles));
+    assert!(world.remove_obstacle(key) && !world.remove_obstacle(key));
+    let gone = world.update_obstacle(key, good());
+    assert_eq!(gone, Err(WorldError::UnknownObstacle(key)));
 }

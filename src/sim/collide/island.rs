@@ -17,8 +17,6 @@ use crate::sim::dynamics::factor::{factor, solve};
 use crate::sim::dynamics::mass_matrix::{DEPTH, MassMatrix};
 use crate::sim::math::Vec3;
 
-/// Most contacts between bodies in one island; beyond, the shallowest are left out.
-pub const MAX_CONTACTS: usize = 160;
 /// Most Newton iterations of one island.
 const MAX_ITERATIONS: u32 = 60;
 /// Most evaluations of one line search.

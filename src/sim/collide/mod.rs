@@ -4,6 +4,7 @@
 //! * [`obstacle`]: bodies that are no figures: fixed, led, or free.
 //! * [`broad`]: who may meet whom within a tick.
 //! * [`narrow`]: where two shapes are nearest.
+//! * [`touch`]: what a body says about what it touches.
 //! * [`island`]: one convex problem for all bodies that touch each other.
 
 pub mod broad;
@@ -11,37 +12,7 @@ pub mod island;
 pub mod narrow;
 pub mod obstacle;
 pub mod shape;
+pub mod touch;
 
-pub use obstacle::{MAX_OBSTACLES, Mobility, Obstacle, ObstacleKey, ObstacleSetup, Shape};
-
-use crate::sim::body::SegmentId;
-use crate::sim::math::Vec3;
-
-/// What a body touches.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Other {
-    /// A segment of another figure, by the number of its key.
-    Figure(u64, SegmentId),
-    /// An obstacle.
-    Obstacle(ObstacleKey),
-}
-
-/// One pair of parts that touched during a tick, as one of the two sees it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Touch {
-    /// Own segment.
-    pub segment: SegmentId,
-    /// What it touches.
-    pub other: Other,
-    /// Where, world, m: mean of the touching points by their normal impulse.
-    pub position: Vec3,
-    /// Mean force over the tick on this body, world axes, N.
-    pub force: Vec3,
-    /// Unit vector from the other body to this one, world axes.
-    pub normal: Vec3,
-    /// Deepest overlap of the two at the start of any substep, m; 0 if they only meet.
-    pub depth: f64,
-}
-
-/// Most pairs of parts that one figure reports in a tick.
-pub const MAX_TOUCHES: usize = 64;
+pub use obstacle::{MAX_OBSTACLES, Mobility, Obstacle, ObstacleSetup, Shape};
+pub use touch::{MAX_TOUCHES, ObstacleKey, Other, Touch};

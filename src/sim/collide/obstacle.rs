@@ -8,10 +8,6 @@ use crate::sim::math::{Mat3, Quat, Vec3};
 /// Most obstacles of one world.
 pub const MAX_OBSTACLES: usize = 256;
 
-/// Identity of an obstacle in a world; never used again after removal.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct ObstacleKey(pub u64);
-
 /// Shape of an obstacle in its own frame, whose origin is its centre of mass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {

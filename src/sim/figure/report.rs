@@ -1,16 +1,11 @@
 //! What one tick of one figure did: enough to check it from outside.
 
 use crate::sim::body::{DOF_COUNT, NV, SEGMENT_COUNT, SegmentId, State};
-use crate::sim::collide::Touch;
+use crate::sim::collide::touch::Touch;
 use crate::sim::math::Vec3;
 
 /// Most contact points one figure can have at once: 8 per segment.
 pub const MAX_CONTACTS: usize = 8 * SEGMENT_COUNT;
-
-/// Most forces of other bodies in the audit of one figure.
-pub const MAX_EXTERNAL: usize = crate::sim::collide::island::MAX_CONTACTS;
-/// Most applied forces in an audit: perturbations, a bar, other bodies.
-pub const MAX_APPLIED: usize = super::loads::MAX_PERTURBATIONS + 2 + MAX_EXTERNAL;
 
 /// One touching point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -150,7 +145,7 @@ pub struct TickReport {
     pub saturated_secondary: u64,
     /// Touching points with their mean force.
     pub contacts: Vec<ContactPoint>,
-    /// Parts that touch other figures and obstacles, by segment, then by what is touched; at most [`MAX_TOUCHES`](crate::sim::collide::MAX_TOUCHES).
+    /// Parts that touch other figures and obstacles, by segment, then by what is touched; at most [`MAX_TOUCHES`](crate::sim::collide::touch::MAX_TOUCHES).
     pub touches: Vec<Touch>,
     /// Main supporting segment, if any.
     pub main_support: Option<SegmentId>,

@@ -799,7 +799,7 @@ fn empty_report(state: &State) -> TickReport {
             torque: z,
             ligament_torque: z,
             contacts: Vec::with_capacity(MAX_CONTACTS),
-            applied: Vec::with_capacity(super::report::MAX_APPLIED),
+            applied: Vec::with_capacity(super::loads::MAX_APPLIED),
             assist: [0.0; 6],
         },
     }

@@ -6,8 +6,8 @@
 //! equations of motion to rounding whatever residual the iteration stopped at.
 
 use super::assist::{Assist, Spring};
-use super::loads::Bar;
-use super::report::{Audit, ContactPoint, Flags, MAX_CONTACTS, MAX_EXTERNAL};
+use super::loads::{Bar, MAX_EXTERNAL};
+use super::report::{Audit, ContactPoint, Flags, MAX_CONTACTS};
 use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT, SegmentId};
 use crate::sim::body::{Body, Links, State};
 use crate::sim::collide::island::{Articulated, Parts};
@@ -245,7 +245,7 @@ impl TorqueStepper {
             outcome: Outcome::default(),
             row: None,
             external: None,
-            external_forces: Vec::with_capacity(super::report::MAX_APPLIED),
+            external_forces: Vec::with_capacity(super::loads::MAX_APPLIED),
             forces: TickForces {
                 torque: [0.0; DOF_COUNT],
                 ligament_torque: [0.0; DOF_COUNT],
@@ -261,7 +261,7 @@ impl TorqueStepper {
                     torque: [0.0; DOF_COUNT],
                     ligament_torque: [0.0; DOF_COUNT],
                     contacts: Vec::with_capacity(MAX_CONTACTS),
-                    applied: Vec::with_capacity(super::report::MAX_APPLIED),
+                    applied: Vec::with_capacity(super::loads::MAX_APPLIED),
                     assist: [0.0; 6],
                 },
             },

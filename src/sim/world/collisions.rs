@@ -3,9 +3,10 @@
 use crate::sim::body::SegmentId;
 use crate::sim::body::topology::{L_FOOT, L_TOES, NV, R_FOOT, R_TOES, SEGMENT_COUNT};
 use crate::sim::collide::broad::{self, Bounds};
-use crate::sim::collide::island::{Island, MAX_CONTACTS};
+use crate::sim::collide::island::Island;
 use crate::sim::collide::narrow::{self, Near, PosedBox};
 use crate::sim::collide::shape::Capsule;
+use crate::sim::collide::touch::MAX_ISLAND_CONTACTS as MAX_CONTACTS;
 use crate::sim::collide::{Mobility, Obstacle, ObstacleKey, Other, Shape};
 use crate::sim::dynamics::Terms;
 use crate::sim::dynamics::jacobian::for_each_column;
