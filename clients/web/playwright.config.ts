@@ -3,8 +3,8 @@ import { defineConfig } from "@playwright/test";
 export default defineConfig({
   testDir: "test",
   outputDir: "test-results",
-  timeout: 40_000,
-  expect: { timeout: 15_000 },
+  timeout: 90_000,
+  expect: { timeout: 25_000 },
   fullyParallel: false,
   workers: 1,
   retries: process.env.CI ? 1 : 0,

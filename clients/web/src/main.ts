@@ -352,6 +352,8 @@ function remember(): void {
 canvas.addEventListener("pointerup", remember);
 canvas.addEventListener("wheel", remember, { passive: true });
 addEventListener("hashchange", () => {
+  // The skip link's target is a place on the page, not a scene.
+  if (location.hash && !location.hash.includes("=")) return;
   address = read(location.hash);
   wantedFigure = address.figure;
   reproduced = false;

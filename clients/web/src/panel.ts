@@ -233,7 +233,7 @@ export class Panel {
       this.assistOut.textContent = `${Math.round(assist * 100)} %`;
     }
     const dofs = person?.body.dofs ?? [];
-    fill(this.dofs, [{ value: "", text: "what works hardest" }, ...dofs.map((d) => ({ value: d.name, text: dofWords(d.name) }))], this.dofs.value);
+    fill(this.dofs, [{ value: "", text: "the hardest at work" }, ...dofs.map((d) => ({ value: d.name, text: dofWords(d.name) }))], this.dofs.value);
     for (const c of [this.clip, this.body, this.controller, this.stepper, this.strength, this.dofs]) c.disabled = !person;
     this.busiestAt = 0;
   }
