@@ -11,7 +11,7 @@ use crate::sim::body::{Body, Posture, SegmentId, State};
 use crate::sim::figure::{ControlParams, FigureOptions, StrengthScale};
 use crate::sim::math::Vec3;
 use crate::sim::motion::retarget::RetargetOptions;
-use crate::sim::motion::{Clip, PlanarTransform, write_bvh};
+use crate::sim::motion::{Clip, PlanarTransform, cycle, write_bvh};
 use crate::sim::strength::fatigue::MAX_TIME_SCALE;
 use crate::sim::world::{
     ClipPlayback, Drive, Figure, FigureEvent, FigureSetup, World, WorldParams,
@@ -333,7 +333,9 @@ fn run_one(
     } else {
         Vec::new()
     };
-    let (report, frames) = simulate(scenario, &source.clip, ticks, &shown, |figure, time| {
+    let repeats = args.looped.then(|| cycle(&scenario.body, clip)).flatten();
+    let played = repeats.as_ref().unwrap_or(clip);
+    let (report, frames) = simulate(scenario, played, ticks, &shown, |figure, time| {
         bar.inc(1);
         if let Some(csv) = &mut csv {
             csv.row(time, figure)?;

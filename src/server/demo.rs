@@ -45,7 +45,9 @@ pub async fn create(app: &Arc<App>) -> Result<Vec<&'static str>, BoxError> {
             }),
         )?;
         let built = app.bodies.get("figure.profile", &settings.body)?;
-        let clip = app.clips.prepared(MOTION, &settings.body.id, &built)?;
+        let clip = app
+            .clips
+            .prepared(MOTION, &settings.body.id, &built, true)?;
         let playback = Playback {
             speed: 1.0,
             looped: true,
