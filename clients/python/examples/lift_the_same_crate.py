@@ -39,8 +39,7 @@ strip = recordings.strip(6, title=f"The same {CRATE_KG:g} kg")
 
 # %%
 plot = recordings.plot_torques(
-    ["trunk_flexion" if "trunk_flexion" in recordings["man"].body.dofs else recordings["man"].hardest(1)[0],
-     "r_shoulder_flexion", "r_elbow_flexion", "r_knee_flexion"],
+    ["waist_flexion", "r_shoulder_flexion", "r_elbow_flexion", "r_knee_flexion"],
     title=f"Torques with {CRATE_KG:g} kg",
 )
 

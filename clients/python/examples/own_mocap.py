@@ -10,8 +10,7 @@ from pathlib import Path
 
 import sinew
 
-folder = Path(os.environ.get("SINEW_MOCAP_DIR", "../../../../shared/mocap"))
-path = Path(os.environ.get("SINEW_BVH", folder / "wave.bvh"))
+path = Path(os.environ.get("SINEW_BVH", "my-capture.bvh"))
 SECONDS = float(os.environ.get("SINEW_EXAMPLE_S", "5"))
 
 # %% [markdown]

@@ -78,6 +78,8 @@ def test_what_was_not_recorded_says_how_to_get_it(server: sinew.Client) -> None:
     r = server.simulate("idle", duration_s=0.1, fields=["status"])
     with pytest.raises(AttributeError, match="fields="):
         _ = r.torque
+    bare = server.simulate("idle", duration_s=0.1, fields=["torque", "torque_limits"])
+    assert len(bare.plot_torques().axes) == 4
     none = server.simulate("idle", duration_s=0.1, fields=[])
     assert len(none) == 0 and none.summary is not None and none.summary.tick_count == 6
     with pytest.raises(ValueError, match="no frames"):

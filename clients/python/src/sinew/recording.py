@@ -247,10 +247,14 @@ class Recording:
 
     def hardest(self, count: int = 4) -> list[str]:
         """The degrees of freedom that came closest to their limits, hardest first: by time at the limit, then by share of it."""
-        # Ticks after a fall say nothing about the task.
-        stand = np.ones(len(self), dtype=np.bool_) if self.fallen.all() else ~self.fallen
+        stand = np.ones(len(self), dtype=np.bool_)
+        score = np.zeros(len(self.body.dofs))
+        if self.has("status"):
+            # Ticks after a fall say nothing about the task.
+            stand = stand if self.fallen.all() else ~self.fallen
+            score += self.saturated[stand].sum(axis=0)
         share = np.nan_to_num(self.utilisation[stand], nan=0.0, posinf=0.0, neginf=0.0)
-        score = self.saturated[stand].sum(axis=0) + np.clip(np.percentile(share, 98, axis=0), 0, 1)
+        score += np.clip(np.percentile(share, 98, axis=0), 0, 1)
         return [self.body.dofs[i] for i in np.argsort(-score, kind="stable")[:count]]
 
     def plot_torques(self, dofs: Sequence[str] | None = None, *, title: str | None = None) -> Drawing:

@@ -40,8 +40,8 @@ NEAR_LIMIT = "#e0a100"
 _NEAR = 0.8
 # A force of the body's weight is drawn this long, m; impacts are many times that and end at the second number.
 _WEIGHT_LENGTH, _LONGEST = 0.45, 1.0
-# After a fall the desired motion goes on alone; a ghost farther off is left out, m.
-_GHOST_RANGE = 1.5
+# After a fall the desired motion goes on alone; a ghost farther off would stand in the next panel, m.
+_GHOST_RANGE = 0.5
 # Azimuth and elevation of the eye, degrees, relative to the heading of the figure in its first frame.
 _VIEWS = {"three-quarter": (-38.0, 14.0), "side": (-90.0, 9.0), "front": (0.0, 9.0)}
 _LAMP = np.array([-0.35, 0.55, 0.75]) / np.linalg.norm([-0.35, 0.55, 0.75])
