@@ -97,12 +97,15 @@ pub enum StepperArg {
     /// Torques drive rigid-body dynamics with ground contact.
     #[default]
     Torque,
+    /// The controller's accelerations are applied as they are (for the paper's controller).
+    Kinematic,
 }
 
 impl From<StepperArg> for StepperKind {
     fn from(arg: StepperArg) -> Self {
         match arg {
             StepperArg::Torque => Self::Torque,
+            StepperArg::Kinematic => Self::Kinematic,
         }
     }
 }

@@ -297,11 +297,12 @@ pub fn retune(
 }
 
 /// Names of the controllers and steppers that work in this build.
-pub const CAPABILITIES: [&str; 4] = [
+pub const CAPABILITIES: [&str; 5] = [
     "CONTROLLER_PAPER",
     "CONTROLLER_MODERN",
     "CONTROLLER_MOTORS",
     "STEPPER_TORQUE",
+    "STEPPER_KINEMATIC",
 ];
 
 /// Adds a figure, standing still at its place.

@@ -16,6 +16,7 @@ mod common;
 mod containment;
 mod fall;
 mod flight;
+mod lift;
 mod load;
 mod push;
 mod stand;

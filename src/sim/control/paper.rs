@@ -149,6 +149,11 @@ impl Paper {
         Self::default()
     }
 
+    /// The last decision.
+    pub fn command(&self) -> &Command {
+        &self.command
+    }
+
     /// The maps of the last pass, for steppers and checks.
     pub fn map(&self) -> &SupportMap {
         &self.map

@@ -2,6 +2,7 @@
 
 pub mod drive;
 pub mod events;
+pub mod kinematic_step;
 pub mod loads;
 pub mod report;
 pub mod setup;

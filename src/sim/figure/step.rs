@@ -2,6 +2,7 @@
 
 use super::drive::Drive;
 use super::events::{FigureEvent, Watcher};
+use super::kinematic_step::{Decision, KinematicStepper, SPEED_CAP, other_part_arrives};
 use super::loads::Disturbances;
 use super::report::{Audit, Flags, MAX_CONTACTS, TickReport};
 use super::setup::{ControlParams, ControllerKind, Perturbation, StepperKind, StrengthScale};
@@ -63,6 +64,8 @@ const FALLEN_HEIGHT: f64 = 0.45;
 /// A fallen figure relaxes: share of its strength, and time constant of its demand, s (ALGORITHM §12).
 const FALLEN_STRENGTH: f64 = 0.3;
 const FALLEN_HORIZON: f64 = 0.3;
+/// Torques give back to prescribed accelerations after the figure has stood this long on flat feet with strength to spare, s.
+const CALM_TIME: f64 = 0.5;
 /// It stands again when its CoM is above this share of the standing height.
 const RISEN_HEIGHT: f64 = 0.6;
 
@@ -85,6 +88,13 @@ pub struct Figure {
     modern: Box<Modern>,
     motors: Command,
     stepper: TorqueStepper,
+    kinematic: Box<KinematicStepper>,
+    /// Torques move the figure though accelerations should: for how long it has been calm since, s.
+    handed_over: Option<f64>,
+    /// The decision of the tick tips over an edge or a vertex.
+    tips: bool,
+    /// Accelerations moved the figure in the last tick.
+    prescribed: bool,
     com_acceleration: Vec3,
     standing_com_height: f64,
     fallen: bool,
@@ -117,6 +127,10 @@ impl Figure {
             modern: Box::new(Modern::new(friction)),
             motors: Command::default(),
             stepper: TorqueStepper::new(friction),
+            kinematic: Box::new(KinematicStepper::new(friction)),
+            handed_over: None,
+            tips: false,
+            prescribed: false,
             com_acceleration: Vec3::zero(),
             standing_com_height: standing_com_height(&setup.body),
             fallen: false,
@@ -175,7 +189,9 @@ impl Figure {
                 .gait
                 .lead(&self.terms, &self.support, world.gravity, dt, &mut led);
         }
+        self.prescribed = self.prescribes();
         let motors = self.control(world, &tasks, balance, (&lower, &upper));
+        self.judge_hand_over(dt);
         // 6. Simulate: motors, limits and contact move the body.
         let before = self.state;
         let input = StepInput {
@@ -192,8 +208,19 @@ impl Figure {
             dt,
             substeps: world.substeps,
         };
-        match self.setup.stepper {
-            StepperKind::Torque => self.stepper.step(&input, &mut self.state),
+        if self.prescribed {
+            let decision = Decision {
+                command: match self.setup.controller {
+                    ControllerKind::Modern => self.modern.command(),
+                    _ => self.paper.command(),
+                },
+                support: &self.support,
+                planted: self.target.next.planted,
+            };
+            self.kinematic.step(&input, &decision, &mut self.state);
+        } else {
+            self.kinematic.reset();
+            self.stepper.step(&input, &mut self.state);
         }
         // 7. Contain trouble, 8. report.
         let frozen = self.contain();
@@ -246,7 +273,7 @@ impl Figure {
             params: &self.setup.params,
             gravity: world.gravity,
             dt: world.dt,
-            kinematic: false,
+            kinematic: self.prescribed,
         };
         let (command, saturation_speed) = match self.active_controller() {
             ControllerKind::Paper => (self.paper.control(&input), FEED_FORWARD_SPEED),
@@ -290,6 +317,7 @@ impl Figure {
         self.report.saturated_secondary = command.saturated_secondary;
         self.report.control_iterations = command.iterations;
         self.report.flags = command.flags;
+        self.tips = command.pivot.is_some();
         out
     }
 
@@ -299,6 +327,38 @@ impl Figure {
             ControllerKind::Motors
         } else {
             self.setup.controller
+        }
+    }
+
+    /// True if accelerations are to be applied as they are.
+    fn prescribes(&self) -> bool {
+        self.setup.stepper == StepperKind::Kinematic
+            && self.active_controller() != ControllerKind::Motors
+            && self.handed_over.is_none()
+    }
+
+    /// Prescribed accelerations on a tilting support create energy once joints saturate, and they know nothing of parts other than feet:
+    /// there torques take over (ALGORITHM §6), until the figure has stood calmly for a while. The state is the same for both.
+    fn judge_hand_over(&mut self, dt: f64) {
+        let r = &self.report;
+        let feet = [L_FOOT, L_TOES, R_FOOT, R_TOES];
+        if self.prescribed && self.setup.params.hand_over {
+            let saturated = (r.saturated | r.saturated_secondary) != 0;
+            let arrives = other_part_arrives(&self.setup.body, &self.terms, dt);
+            let fast = self.state.velocity[6..].iter().any(|v| v.abs() > SPEED_CAP);
+            if arrives || fast || (self.tips && saturated) || r.flags.has(Flags::OVERLOAD) {
+                self.prescribed = false;
+                self.handed_over = Some(0.0);
+            }
+        } else if let Some(calm) = self.handed_over {
+            let points = self.support.points();
+            let flat = points.len() >= 3 && points.iter().all(|p| feet.contains(&p.segment));
+            let stands = flat && !self.tips && !self.fallen && r.saturated == 0;
+            self.handed_over = match calm + dt {
+                t if !stands && t > 0.0 => Some(0.0),
+                t if t > CALM_TIME => None,
+                t => Some(t),
+            };
         }
     }
 
@@ -333,7 +393,12 @@ impl Figure {
         range: (&[f64; DOF_COUNT], &[f64; DOF_COUNT]),
         frozen: bool,
     ) {
-        let (r, f) = (&mut self.report, &self.stepper.forces);
+        let (f, penetration) = if self.prescribed {
+            (&self.kinematic.forces, self.kinematic.penetration())
+        } else {
+            (&self.stepper.forces, self.stepper.penetration())
+        };
+        let r = &mut self.report;
         r.torque = f.torque;
         r.ligament_torque = f.ligament_torque;
         r.torque_lower = *range.0;
@@ -365,7 +430,7 @@ impl Figure {
         r.com_velocity = self.terms.com_velocity;
         r.com_desired = tasks.com.now;
         r.joint_error = before.posture.joint_difference(&self.target.now.posture);
-        r.penetration = self.stepper.penetration();
+        r.penetration = penetration;
         r.step_iterations = f.iterations;
         r.flags.set(f.flags);
         if r.contacts.is_empty() {
@@ -373,6 +438,9 @@ impl Figure {
         }
         if self.fallen {
             r.flags.set(Flags::FALLEN);
+        }
+        if self.handed_over.is_some() {
+            r.flags.set(Flags::HANDED_OVER);
         }
         if frozen {
             r.flags.set(Flags::QUARANTINED);
@@ -491,6 +559,8 @@ impl Figure {
         self.support.reset();
         self.paper.reset();
         self.modern.reset();
+        self.kinematic.reset();
+        self.handed_over = None;
     }
     /// Changes the scale of its strength.
     pub fn set_strength(&mut self, scale: StrengthScale) {

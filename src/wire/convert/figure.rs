@@ -24,7 +24,7 @@ pub fn controller(field: &str, value: i32) -> Result<ControllerKind, Fault> {
 pub fn stepper(field: &str, value: i32) -> Result<StepperKind, Fault> {
     match pb::Stepper::try_from(value) {
         Ok(pb::Stepper::Unspecified | pb::Stepper::Torque) => Ok(StepperKind::Torque),
-        Ok(pb::Stepper::Kinematic) => Err(Fault::Unimplemented("STEPPER_KINEMATIC".into())),
+        Ok(pb::Stepper::Kinematic) => Ok(StepperKind::Kinematic),
         Err(_) => Err(Fault::invalid(field, format!("{value} is not a stepper"))),
     }
 }
@@ -133,6 +133,7 @@ pub fn figure_out(f: &FigureInfo) -> pb::Figure {
         .into(),
         stepper: match s.stepper {
             StepperKind::Torque => pb::Stepper::Torque,
+            StepperKind::Kinematic => pb::Stepper::Kinematic,
         }
         .into(),
         placement: Some(place_out(s.place)),
