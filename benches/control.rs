@@ -13,7 +13,7 @@ use sinew::sim::figure::tasks::TaskWorkspace;
 use sinew::sim::math::Vec3;
 use sinew::sim::motion::TargetPair;
 use sinew::sim::motion::builtin::builtin;
-use sinew::sim::strength::{Strength, StrengthScale};
+use sinew::sim::strength::{MuscleScale, Strength};
 use sinew::sim::support::Support;
 use std::hint::black_box;
 
@@ -25,7 +25,7 @@ struct Bench {
     body: Body,
     links: Links,
     strength: Strength,
-    scale: StrengthScale,
+    scale: MuscleScale,
     params: ControlParams,
     state: State,
     target: TargetPair,
@@ -49,7 +49,7 @@ impl Bench {
         Self {
             links: Links::new(&body),
             strength: Strength::for_body(&body),
-            scale: StrengthScale::default(),
+            scale: MuscleScale::default(),
             params: ControlParams::default(),
             state,
             target: TargetPair { now, next },
@@ -87,11 +87,13 @@ impl Bench {
             com: &tasks.com,
             effectors: &tasks.hands,
             feet: &tasks.feet,
+            balance: None,
             lower: &self.lower,
             upper: &self.upper,
             params: &self.params,
             gravity: GRAVITY,
             dt: DT,
+            assist: [0.0; 2],
             kinematic: false,
         });
         command.torque[0]

@@ -3,7 +3,9 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use sinew::sim::body::{Body, State};
-use sinew::sim::figure::{ControlParams, ControllerKind, StepperKind, StrengthScale};
+use sinew::sim::figure::{
+    ControlParams, ControllerKind, FigureOptions, StepperKind, StrengthScale,
+};
 use sinew::sim::motion::PlanarTransform;
 use sinew::sim::motion::builtin::builtin;
 use sinew::sim::world::{ClipPlayback, Drive, FigureSetup, World, WorldParams};
@@ -24,6 +26,7 @@ fn world(controller: ControllerKind, count: usize) -> World {
                 controller,
                 stepper: StepperKind::Torque,
                 params: ControlParams::default(),
+                options: FigureOptions::default(),
                 state: State {
                     posture: start.posture,
                     velocity: start.velocity,

@@ -6,7 +6,9 @@ use sinew::sim::dynamics::lanes::rnea_x8;
 use sinew::sim::dynamics::{
     CompositeInertia, Kinematics, MassMatrix, RneaWorkspace, Terms, crba, factor, rnea, solve,
 };
-use sinew::sim::figure::{ControlParams, ControllerKind, StepperKind, StrengthScale};
+use sinew::sim::figure::{
+    ControlParams, ControllerKind, FigureOptions, StepperKind, StrengthScale,
+};
 use sinew::sim::math::{F64x8, Lane};
 use sinew::sim::motion::PlanarTransform;
 use sinew::sim::motion::builtin::builtin;
@@ -38,6 +40,7 @@ fn squatting(controller: ControllerKind) -> World {
             controller,
             stepper: StepperKind::Torque,
             params: ControlParams::default(),
+            options: FigureOptions::default(),
             state: State {
                 posture: start.posture,
                 velocity: start.velocity,

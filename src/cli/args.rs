@@ -2,7 +2,7 @@
 
 use crate::sim::body::topology::SEGMENT_NAMES;
 use crate::sim::body::{Body, Profile, SegmentId, Sex};
-use crate::sim::figure::{ControllerKind, Perturbation, StepperKind};
+use crate::sim::figure::{ControllerKind, HeldLoad, Perturbation, StepperKind};
 use crate::sim::math::Vec3;
 use anyhow::{Context, Result};
 use clap::ValueEnum;
@@ -17,6 +17,12 @@ pub enum BodyKind {
     Man,
     /// Adult woman, of average size unless said otherwise.
     Woman,
+    /// Child; 8 years, of ordinary size for the age unless said otherwise. Up to 10 years boys and girls are alike.
+    Child,
+    /// Older man; 75 years, of ordinary size unless said otherwise.
+    OlderMan,
+    /// Older woman; 75 years, of ordinary size unless said otherwise.
+    OlderWoman,
 }
 
 /// Who the figure stands for.
@@ -25,13 +31,13 @@ pub struct BodyArgs {
     /// Body and strength tables.
     #[arg(long, value_enum, default_value_t)]
     pub body: BodyKind,
-    /// Age, years.
+    /// Age, years, 6 to 90.
     #[arg(long, value_name = "YEARS")]
     pub age: Option<f64>,
-    /// Stature, m.
+    /// Stature, m; ordinary for sex and age unless given.
     #[arg(long, value_name = "M")]
     pub height: Option<f64>,
-    /// Body mass, kg.
+    /// Body mass, kg; ordinary for sex and age unless given.
     #[arg(long, value_name = "KG")]
     pub mass: Option<f64>,
 }
@@ -42,18 +48,18 @@ impl BodyArgs {
     /// # Errors
     /// When the tables do not cover the profile; names the value and its range.
     pub fn build(&self) -> Result<Body> {
-        let standard = match self.body {
-            BodyKind::Man => Body::adult_man(),
-            BodyKind::Woman => Body::adult_woman(),
+        let (sex, age) = match self.body {
+            BodyKind::Man => (Sex::Male, 30.0),
+            BodyKind::Woman => (Sex::Female, 30.0),
+            BodyKind::Child => (Sex::Male, 8.0),
+            BodyKind::OlderMan => (Sex::Male, 75.0),
+            BodyKind::OlderWoman => (Sex::Female, 75.0),
         };
-        if self.age.is_none() && self.height.is_none() && self.mass.is_none() {
-            return Ok(standard);
-        }
+        let ordinary = Profile::ordinary(sex, self.age.unwrap_or(age));
         let profile = Profile {
-            age: self.age.unwrap_or(standard.profile.age),
-            height: self.height.unwrap_or(standard.profile.height),
-            mass: self.mass.unwrap_or(standard.profile.mass),
-            ..standard.profile
+            height: self.height.unwrap_or(ordinary.height),
+            mass: self.mass.unwrap_or(ordinary.mass),
+            ..ordinary
         };
         Body::humanoid(profile).context("no such body")
     }
@@ -64,6 +70,18 @@ pub fn sex_name(sex: Sex) -> &'static str {
     match sex {
         Sex::Male => "man",
         Sex::Female => "woman",
+    }
+}
+
+/// What people call someone of this sex and age, for headings.
+pub fn person_name(p: &Profile) -> &'static str {
+    match (p.sex, p.age) {
+        (_, a) if a <= 10.0 => "child",
+        (Sex::Male, a) if a < 18.0 => "boy",
+        (Sex::Female, a) if a < 18.0 => "girl",
+        (Sex::Male, a) if a >= 65.0 => "older man",
+        (Sex::Female, a) if a >= 65.0 => "older woman",
+        (sex, _) => sex_name(sex),
     }
 }
 
@@ -181,11 +199,13 @@ fn segment(text: &str) -> Result<SegmentId, SpecError> {
 /// Largest time an argument may name, s.
 const MAX_TIME: f64 = 1e6;
 
-/// `KG@SEGMENT[@T0..T1]`: a load held by a segment, from T0 to T1 seconds; either end may be left out.
+/// `KG@SEGMENT[+SEGMENT][@T0..T1]`: a load held by one or two segments, from T0 to T1 seconds; either end may be left out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadSpec {
     /// Carrying segment.
     pub segment: SegmentId,
+    /// Second carrying segment.
+    pub second: Option<SegmentId>,
     /// Mass, kg.
     pub mass_kg: f64,
     /// Picked up at, s.
@@ -195,17 +215,22 @@ pub struct LoadSpec {
 }
 
 impl LoadSpec {
-    const FORM: &'static str = "KG@SEGMENT[@T0..T1], for example 3@r_hand or 3@r_hand@1.0..2.5";
+    const FORM: &'static str =
+        "KG@SEGMENT[+SEGMENT][@T0..T1], for example 3@r_hand, 8@l_hand+r_hand or 3@r_hand@1.0..2.5";
 
-    /// The load at the segment's centre of mass.
-    pub fn perturbation(&self, body: &Body) -> Perturbation {
-        Perturbation::Load {
+    /// The load at the segment's centre of mass; `grip`: force at one hand beyond which it slips, N.
+    pub fn perturbation(&self, body: &Body, grip: f64) -> Perturbation {
+        let at = |s: SegmentId| body.segment(s).com;
+        Perturbation::Held(HeldLoad {
             segment: self.segment,
-            point: body.segment(self.segment).com,
+            point: at(self.segment),
             mass: self.mass_kg,
+            velocity: Vec3::zero(),
+            second: self.second.map(|s| (s, at(s))),
+            grip,
             from: self.from_s,
             to: self.to_s,
-        }
+        })
     }
 }
 
@@ -239,9 +264,18 @@ impl FromStr for LoadSpec {
                 });
             }
         }
+        let (name, second) = match name.split_once('+') {
+            Some((first, second)) => (first, Some(segment(second)?)),
+            None => (name, None),
+        };
+        let first = segment(name)?;
+        if second == Some(first) {
+            return Err(form());
+        }
         Ok(Self {
             mass_kg: number("mass (kg)", mass, 0.0, 500.0)?,
-            segment: segment(name)?,
+            segment: first,
+            second,
             from_s,
             to_s,
         })

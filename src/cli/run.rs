@@ -1,17 +1,18 @@
 //! `sinew run`: a motion through the physics, offline, as fast as it goes; measured, drawn and written.
 
-use super::args::{BodyArgs, ControllerArg, LoadSpec, PushSpec, StepperArg, sex_name};
+use super::args::{BodyArgs, ControllerArg, LoadSpec, PushSpec, StepperArg, person_name, sex_name};
 use super::output::{extension, for_clip, write};
 use super::source::{Source, load};
 use crate::evaluate::strip::{Frame, StripOptions, View, draw, evenly_spaced, raster, svg};
 use crate::evaluate::table::{Torques, header, row};
 use crate::evaluate::{Metrics, RunReport, Tick};
 use crate::sim::body::topology::DOF_NAMES;
-use crate::sim::body::{Body, Posture, State};
-use crate::sim::figure::{ControlParams, StrengthScale};
+use crate::sim::body::{Body, Posture, SegmentId, State};
+use crate::sim::figure::{ControlParams, FigureOptions, StrengthScale};
 use crate::sim::math::Vec3;
 use crate::sim::motion::retarget::RetargetOptions;
 use crate::sim::motion::{Clip, PlanarTransform, write_bvh};
+use crate::sim::strength::fatigue::MAX_TIME_SCALE;
 use crate::sim::world::{
     ClipPlayback, Drive, Figure, FigureEvent, FigureSetup, World, WorldParams,
 };
@@ -40,9 +41,24 @@ pub struct RunArgs {
     /// Factor on the strength of every joint, 0.01 to 100.
     #[arg(long, value_name = "F", default_value_t = 1.0)]
     pub strength: f64,
-    /// Load held by a segment, for example 3@r_hand or 3@r_hand@1..2.5 (repeatable).
-    #[arg(long, value_name = "KG@SEGMENT[@T0..T1]")]
+    /// Percentile of strength among people of that sex, age and size, 5 to 95.
+    #[arg(long, value_name = "P", default_value_t = 50.0)]
+    pub percentile: f64,
+    /// Share of its strength that the figure is willing to use, 0 to 1.
+    #[arg(long, value_name = "E", default_value_t = 1.0)]
+    pub effort: f64,
+    /// Seconds of muscle fatigue per simulated second, 0 to 1000; 0: muscles never tire.
+    #[arg(long, value_name = "X", default_value_t = 0.0)]
+    pub fatigue: f64,
+    /// Help towards the desired pose of the pelvis, 0 to 1; reported, not physical.
+    #[arg(long, value_name = "A", default_value_t = 0.0)]
+    pub assist: f64,
+    /// Load held by one or two segments, for example 3@r_hand, 8@l_hand+r_hand or 3@r_hand@1..2.5 (repeatable).
+    #[arg(long, value_name = "KG@SEGMENT[+SEGMENT][@T0..T1]")]
     pub load: Vec<LoadSpec>,
+    /// Force at one hand beyond which a load slips, N; loads never slip unless given.
+    #[arg(long, value_name = "N", default_value_t = f64::INFINITY)]
+    pub grip: f64,
     /// Push on a segment, for example 20@chest@1.5:1,0,0 (N·s, start in s, world direction; repeatable).
     #[arg(long, value_name = "NS@SEGMENT@T:x,y,z", allow_hyphen_values = true)]
     pub push: Vec<PushSpec>,
@@ -125,6 +141,10 @@ struct Document<'a> {
     controller: ControllerArg,
     stepper: StepperArg,
     strength: f64,
+    percentile: f64,
+    effort: f64,
+    fatigue_time_scale: f64,
+    assist: f64,
     substeps: u32,
     gravity_mps2: f64,
     loads: Vec<LoadEntry>,
@@ -146,6 +166,8 @@ struct BodyEntry {
 #[derive(Serialize)]
 struct LoadEntry {
     segment: &'static str,
+    /// `null`: one hand.
+    second_segment: Option<&'static str>,
     mass_kg: f64,
     from_s: f64,
     /// `null`: never put down.
@@ -205,6 +227,18 @@ fn check(args: &RunArgs) -> Result<()> {
         "--strength {}: outside 0.01…100",
         args.strength
     );
+    for (name, value, [low, high]) in [
+        ("--percentile", args.percentile, [5.0, 95.0]),
+        ("--effort", args.effort, [0.0, 1.0]),
+        ("--fatigue", args.fatigue, [0.0, MAX_TIME_SCALE]),
+        ("--grip", args.grip, [0.0, f64::INFINITY]),
+        ("--assist", args.assist, [0.0, 1.0]),
+    ] {
+        ensure!(
+            (low..=high).contains(&value),
+            "{name} {value}: outside {low}…{high}"
+        );
+    }
     ensure!(
         (1e-3..=10.0).contains(&args.push_duration),
         "--push-duration {} s: outside 0.001…10",
@@ -340,11 +374,17 @@ fn simulate(
             body: Arc::clone(body),
             strength: StrengthScale {
                 all: args.strength,
+                percentile: args.percentile,
+                effort: args.effort,
                 ..StrengthScale::default()
             },
             controller: args.controller.into(),
             stepper: args.stepper.into(),
             params: ControlParams::default(),
+            options: FigureOptions {
+                fatigue_time_scale: args.fatigue,
+                assist: args.assist,
+            },
             state: State {
                 posture: start.posture,
                 velocity: start.velocity,
@@ -354,7 +394,7 @@ fn simulate(
         .context("no such figure")?;
     for load in &args.load {
         world
-            .perturb(key, load.perturbation(body))
+            .perturb(key, load.perturbation(body, args.grip))
             .context("--load")?;
     }
     for push in &args.push {
@@ -384,7 +424,7 @@ fn simulate(
             target: figure.target(),
             report,
             state: figure.state(),
-            strength: (figure.strength(), &figure.setup().strength),
+            strength: (figure.strength(), figure.muscles()),
             gravity: scenario.params.gravity,
         };
         metrics.observe(tick, us);
@@ -407,13 +447,17 @@ fn simulate(
 fn held_loads(scenario: &Scenario<'_>, time: f64) -> Vec<(usize, Vec3, f64)> {
     let held = |l: &&LoadSpec| l.from_s < time && time <= l.to_s && l.mass_kg > 0.0;
     let place = |l: &LoadSpec| {
-        (
-            l.segment.index(),
-            scenario.body.segment(l.segment).com,
-            l.mass_kg,
-        )
+        let load = l.perturbation(&scenario.body, f64::INFINITY).load();
+        let shares = load.into_iter().flat_map(|l| l.shares());
+        shares.map(|(s, p, kg)| (s.index(), p, kg))
     };
-    scenario.args.load.iter().filter(held).map(place).collect()
+    scenario
+        .args
+        .load
+        .iter()
+        .filter(held)
+        .flat_map(place)
+        .collect()
 }
 
 fn note(metrics: &mut Metrics, event: &FigureEvent) {
@@ -429,6 +473,7 @@ fn note(metrics: &mut Metrics, event: &FigureEvent) {
         E::GotUp => ("got_up", None, None, None),
         E::LoadTaken { segment, mass } => ("load_taken", Some(segment), None, Some(mass)),
         E::LoadDropped { segment, mass } => ("load_dropped", Some(segment), None, Some(mass)),
+        E::LoadSlipped { segment, mass } => ("load_slipped", Some(segment), None, Some(mass)),
         E::Quarantined => ("quarantined", None, None, None),
     };
     metrics.event(
@@ -459,6 +504,10 @@ fn document<'a>(
         controller: args.controller,
         stepper: args.stepper,
         strength: args.strength,
+        percentile: args.percentile,
+        effort: args.effort,
+        fatigue_time_scale: args.fatigue,
+        assist: args.assist,
         substeps: args.substeps,
         gravity_mps2: scenario.params.gravity,
         loads: args
@@ -466,6 +515,7 @@ fn document<'a>(
             .iter()
             .map(|l| LoadEntry {
                 segment: l.segment.name(),
+                second_segment: l.second.map(SegmentId::name),
                 mass_kg: l.mass_kg,
                 from_s: l.from_s,
                 to_s: Some(l.to_s).filter(|t| t.is_finite()),
@@ -495,7 +545,7 @@ fn write_strip(scenario: &Scenario<'_>, name: &str, frames: &[Frame], path: &Pat
     let profile = scenario.body.profile;
     let mut title = format!(
         "{name}: {}, {:.2} m, {:.0} kg, strength {}",
-        sex_name(profile.sex),
+        person_name(&profile),
         profile.height,
         profile.mass,
         args.strength

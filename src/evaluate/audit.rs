@@ -18,9 +18,9 @@ pub struct AuditResult {
     pub residual: [f64; NV],
     /// Length of the residual relative to the lengths of what it is made of: `|r| / (|M v̇ + h| + |Sᵀτ| + |ΣJᵀf|)`; NaN if any part is.
     pub relative: f64,
-    /// Force on the pelvis that neither contacts nor perturbations explain, N.
+    /// Force on the pelvis that neither contacts nor perturbations nor assist explain, N.
     pub root_force: f64,
-    /// Moment on the pelvis (about its origin) that neither contacts nor perturbations explain, N·m.
+    /// Moment on the pelvis (about its origin) that neither contacts nor perturbations nor assist explain, N·m.
     pub root_moment: f64,
 }
 
@@ -38,7 +38,10 @@ pub fn audit(links: &Links, sample: &Audit, gravity: f64) -> AuditResult {
     for (segment, point, force) in &sample.applied {
         wrench[segment.index()].add(*point, *force, pivot);
     }
-    let external = project(&wrench, &poses, pivot);
+    let mut external = project(&wrench, &poses, pivot);
+    for (e, a) in external.iter_mut().zip(&sample.assist) {
+        *e += a;
+    }
     let mut actuation = [0.0; NV];
     for d in 0..DOF_COUNT {
         actuation[6 + d] = sample.torque[d] + sample.ligament_torque[d];
@@ -321,6 +324,7 @@ mod tests {
             ligament_torque: ligament,
             contacts,
             applied,
+            assist: [0.0; 6],
         }
     }
 
@@ -403,6 +407,7 @@ mod tests {
             ligament_torque: [0.0; DOF_COUNT],
             contacts: Vec::new(),
             applied: Vec::new(),
+            assist: [0.0; 6],
         };
         assert_eq!(audit(&links, &sample, 0.0).relative, 0.0);
     }

@@ -6,10 +6,10 @@ use super::report::{MAX_EVENTS, RunEvent, RunReport};
 use crate::sim::body::angles::anatomical_angles;
 use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::body::{Body, DOF_COUNT, Links, Posture, SEGMENT_COUNT, State};
-use crate::sim::figure::{Flags, StrengthScale, TickReport};
+use crate::sim::figure::{Flags, TickReport};
 use crate::sim::math::Vec3;
 use crate::sim::motion::TargetPair;
-use crate::sim::strength::Strength;
+use crate::sim::strength::{MuscleScale, Strength};
 
 /// A foot contact point carries weight above this force, N.
 const CARRIES_N: f64 = 5.0;
@@ -30,7 +30,7 @@ pub struct Tick<'a> {
     /// Its state after the tick.
     pub state: &'a State,
     /// Its strength, and the factors on it.
-    pub strength: (&'a Strength, &'a StrengthScale),
+    pub strength: (&'a Strength, &'a MuscleScale),
     /// Gravity, m/s², positive downwards.
     pub gravity: f64,
 }
@@ -76,6 +76,10 @@ pub struct Metrics {
     slip_speed: f64,
     slip_samples: u64,
     penetration: f64,
+    assist: [f64; 2],
+    assist_sum: f64,
+    root_error: f64,
+    remaining: f64,
     margin: Option<f64>,
     before: Posture,
     events: Vec<RunEvent>,
@@ -106,6 +110,10 @@ impl Metrics {
             slip_speed: 0.0,
             slip_samples: 0,
             penetration: 0.0,
+            assist: [0.0; 2],
+            assist_sum: 0.0,
+            root_error: 0.0,
+            remaining: 1.0,
             margin: None,
             before: *start,
             events: Vec::new(),
@@ -142,6 +150,13 @@ impl Metrics {
         }
         self.observe_torques(&tick);
         self.penetration = self.penetration.max(report.penetration);
+        let size = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let (moment, force) = report.assist.split_at(3);
+        self.assist[0] = self.assist[0].max(size(moment));
+        self.assist[1] = self.assist[1].max(size(force));
+        self.assist_sum += size(force);
+        let left = report.remaining.iter().flatten();
+        self.remaining = left.fold(self.remaining, |m, r| m.min(*r));
         let found = audit(tick.links, &report.audit, tick.gravity);
         self.residual = self.residual.max(found.relative);
         self.root_force = self.root_force.max(found.root_force);
@@ -198,6 +213,7 @@ impl Metrics {
         let actual = segment_poses(&tick.links.offset, &tick.state.posture);
         let desired = segment_poses(&tick.links.offset, &tick.target.next.posture);
         let shift = desired[0].position - actual[0].position;
+        self.root_error = self.root_error.max(shift.norm());
         for s in 0..SEGMENT_COUNT {
             let off = desired[s].position - actual[s].position;
             self.global_distance += off.norm() / SEGMENT_COUNT as f64;
@@ -241,6 +257,11 @@ impl Metrics {
             dynamics_residual_max: self.residual,
             root_wrench_unexplained_max_n: self.root_force,
             root_wrench_unexplained_max_nm: self.root_moment,
+            assist_max_n: self.assist[1],
+            assist_max_nm: self.assist[0],
+            assist_mean_n: self.assist_sum / self.ticks.max(1) as f64,
+            root_error_max_mm: 1e3 * self.root_error,
+            remaining_strength_min: self.remaining,
             foot_slip_mm_per_s: 1e3 * self.slip_speed / self.slip_samples.max(1) as f64,
             penetration_max_mm: 1e3 * self.penetration,
             margin_min_m: self.margin,
@@ -287,6 +308,8 @@ fn is_finite(tick: &Tick<'_>) -> bool {
         .all(|v| all(*v))
         && all(&r.acceleration)
         && all(&a.acceleration)
+        && all(&r.assist)
+        && all(&a.assist)
         && all(&[r.over_limit, r.penetration, r.margin.unwrap_or(0.0)])
         && r.contacts
             .iter()

@@ -59,6 +59,16 @@ pub struct RunReport {
     pub root_wrench_unexplained_max_n: f64,
     /// Largest moment on the pelvis that no contact or perturbation explains, N·m.
     pub root_wrench_unexplained_max_nm: f64,
+    /// Largest mean force of the assist on the pelvis in a tick, N; 0 when it is off.
+    pub assist_max_n: f64,
+    /// Largest mean moment of the assist, N·m.
+    pub assist_max_nm: f64,
+    /// Mean over all ticks of the assist's force, N.
+    pub assist_mean_n: f64,
+    /// Largest distance of the pelvis from its desired place, mm.
+    pub root_error_max_mm: f64,
+    /// Least strength that fatigue left any muscle, share of the rested; 1 when it is off.
+    pub remaining_strength_min: f64,
     /// Mean horizontal speed of foot contact points that carry more than 5 N, mm/s; 0 when no foot ever does.
     pub foot_slip_mm_per_s: f64,
     /// Deepest contact point below a surface, mm.

@@ -3,12 +3,16 @@
 //! Everything else of the server goes through the types and functions that are named here, so that the seam between clock and physics
 //! is one file.
 
+use crate::sim::body::provenance::Provenance;
 use crate::sim::body::topology::{self, BONE_NAMES, SEGMENT_NAMES};
-use crate::sim::body::{Body, DOF_COUNT, Posture, SegmentId, State};
+use crate::sim::body::{Body, DOF_COUNT, Posture, SEGMENT_COUNT, SegmentId, State};
 use crate::sim::figure::loads::MAX_PERTURBATIONS;
-use crate::sim::figure::{ControlParams, ControllerKind, Perturbation, StrengthScale};
+use crate::sim::figure::{
+    ControlParams, ControllerKind, FigureOptions, HeldLoad, Perturbation, StrengthScale,
+};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::{Bvh, PlanarTransform, RetargetOptions, Target, UpAxis};
+use crate::sim::strength::Strength;
 use crate::sim::world::{FigureSetup, WorldError, WorldParams};
 use crate::wire::status::Fault;
 use crate::wire::types::{
@@ -296,6 +300,31 @@ pub fn retune(
         .map_err(|e| refused("figure", &e))
 }
 
+/// Changes fatigue and assist.
+pub fn set_options(world: &mut World, key: FigureKey, options: FigureOptions) -> Result<(), Fault> {
+    world
+        .set_figure_options(key, options)
+        .map_err(|e| refused("figure", &e))
+}
+
+/// Where the numbers of a body and of its strength come from, by segment or DOF.
+pub fn provenance(body: &Body) -> Vec<(&'static str, Provenance)> {
+    let strength = Strength::for_body(body);
+    let segments = (0..SEGMENT_COUNT).flat_map(|s| {
+        body.segment_provenance(s)
+            .into_iter()
+            .map(move |p| (SEGMENT_NAMES[s], p))
+    });
+    let dofs = (0..DOF_COUNT).flat_map(|d| {
+        let name = topology::DOF_NAMES[d];
+        body.limit_provenance(d)
+            .into_iter()
+            .chain(strength.provenance(d).iter().cloned())
+            .map(move |p| (name, p))
+    });
+    segments.chain(dofs).collect()
+}
+
 /// Names of the controllers and steppers that work in this build.
 pub const CAPABILITIES: [&str; 5] = [
     "CONTROLLER_PAPER",
@@ -323,6 +352,7 @@ pub fn add_figure(
             controller: s.controller,
             stepper: s.stepper,
             params: ControlParams::default(),
+            options: s.options,
             state,
             name: id.to_owned(),
         })
@@ -377,22 +407,29 @@ pub fn perturbation(body: &Body, what: &Disturbance, from: f64) -> Perturbation 
             segment,
             point,
             mass,
+            velocity,
+            second,
+            grip,
             duration,
         } => {
             use topology::{L_FOOT, L_HAND, L_TOES, R_FOOT, R_HAND, R_TOES};
-            let holds = [L_HAND, R_HAND, L_FOOT, R_FOOT, L_TOES, R_TOES].contains(&segment);
-            let at = if holds {
-                body.segment(segment).tip
-            } else {
-                com(segment)
+            let place = |s: SegmentId| {
+                if [L_HAND, R_HAND, L_FOOT, R_FOOT, L_TOES, R_TOES].contains(&s) {
+                    body.segment(s).tip
+                } else {
+                    com(s)
+                }
             };
-            Perturbation::Load {
+            Perturbation::Held(HeldLoad {
                 segment,
-                point: point.unwrap_or(at),
+                point: point.unwrap_or_else(|| place(segment)),
                 mass,
+                velocity,
+                second: second.map(|(s, p)| (s, p.unwrap_or_else(|| place(s)))),
+                grip,
                 from,
                 to: from + duration,
-            }
+            })
         }
         Disturbance::Force {
             segment,
@@ -422,6 +459,7 @@ pub fn event_kind(e: &FigureEvent) -> EventKind {
         FigureEvent::GotUp => EventKind::GotUp,
         FigureEvent::LoadTaken { segment, mass } => EventKind::LoadTaken(segment, mass),
         FigureEvent::LoadDropped { segment, mass } => EventKind::LoadDropped(segment, mass),
+        FigureEvent::LoadSlipped { segment, mass } => EventKind::LoadSlipped(segment, mass),
         FigureEvent::Quarantined => EventKind::Quarantined,
     }
 }
@@ -438,16 +476,9 @@ pub fn snapshot(figure: &Figure, start: f64, dt: f64, applied: (i64, i64)) -> Fi
         applied_source_ns: applied.1,
         loads: figure
             .perturbations()
-            .filter_map(|p| match *p {
-                Perturbation::Load {
-                    segment,
-                    point,
-                    mass,
-                    from,
-                    to,
-                } if from <= soon && soon < to => Some((segment, point, mass)),
-                _ => None,
-            })
+            .filter_map(Perturbation::load)
+            .filter(|l| l.from <= soon && soon < l.to)
+            .flat_map(|l| l.shares())
             .collect(),
     }
 }

@@ -43,7 +43,7 @@ impl Bodies {
         let mut held = locked(&self.held);
         if held.len() >= self.most {
             // Figures keep theirs; one that nobody uses is built again when it is asked for.
-            held.retain(|id, b| Arc::strong_count(b) > 1 || NAMED.iter().any(|(n, _)| n == id));
+            held.retain(|id, b| Arc::strong_count(b) > 1 || NAMED.iter().any(|n| n.0 == id));
         }
         if held.len() < self.most {
             held.insert(body.id.clone(), built.clone());
@@ -55,7 +55,7 @@ impl Bodies {
     pub fn list(&self) -> Vec<BodyRef> {
         let mut out: BTreeMap<String, BodyRef> = NAMED
             .iter()
-            .filter_map(|(id, _)| by_id(id))
+            .filter_map(|n| by_id(n.0))
             .map(|b| (b.id.clone(), b))
             .collect();
         for (id, body) in locked(&self.held).iter() {

@@ -11,7 +11,7 @@ use crate::sim::math::Vec3;
 use prost::bytes::Bytes;
 
 /// Names of the fields of a figure's frame that a view can choose, by bit of [`Fields`].
-pub const FIELD_NAMES: [&str; 15] = [
+pub const FIELD_NAMES: [&str; 17] = [
     "root_pose",
     "joint_angles",
     "joint_rotations",
@@ -27,6 +27,8 @@ pub const FIELD_NAMES: [&str; 15] = [
     "status",
     "audit",
     "positions",
+    "fatigue",
+    "assist",
 ];
 
 impl Fields {
@@ -176,6 +178,9 @@ fn audit(
         }),
         loads: loads(carried),
         gravity_mps2: gravity,
+        assist: (a.assist != [0.0; 6])
+            .then(|| numbers(format, &a.assist))
+            .flatten(),
     }
 }
 
@@ -246,6 +251,14 @@ pub fn figure_frame(
     }
     if fields.has("status") {
         out.status = Some(status(r, &f.loads));
+    }
+    if fields.has("fatigue") {
+        let side = |k: usize| r.remaining.iter().map(move |left| left[k]);
+        let values: Vec<f64> = side(0).chain(side(1)).collect();
+        out.fatigue = numbers(format, &values);
+    }
+    if fields.has("assist") {
+        out.assist = numbers(format, &r.assist);
     }
     if fields.has("audit") {
         out.audit = Some(audit(format, &r.audit, &f.loads, gravity));

@@ -1,7 +1,7 @@
 //! What requests and frames are about, as domain types: checked once at the edge, trusted afterwards.
 
 use crate::sim::body::{Body, NV, Posture, Profile, SegmentId, State};
-use crate::sim::figure::{ControllerKind, StepperKind, StrengthScale, TickReport};
+use crate::sim::figure::{ControllerKind, FigureOptions, StepperKind, StrengthScale, TickReport};
 use crate::sim::math::Vec3;
 use crate::sim::motion::Target;
 use std::sync::Arc;
@@ -123,6 +123,8 @@ pub struct FigureSettings {
     pub controller: ControllerKind,
     /// Stepper.
     pub stepper: StepperKind,
+    /// Fatigue and assist.
+    pub options: FigureOptions,
     /// Where it stands.
     pub place: Place,
 }
@@ -153,6 +155,10 @@ pub struct FigureUpdate {
     pub strength: Option<StrengthScale>,
     /// Controller.
     pub controller: Option<ControllerKind>,
+    /// Time scale of fatigue.
+    pub fatigue_time_scale: Option<f64>,
+    /// Assist.
+    pub assist: Option<f64>,
 }
 
 /// What disturbs a figure.
@@ -166,6 +172,12 @@ pub enum Disturbance {
         point: Option<Vec3>,
         /// Mass, kg.
         mass: f64,
+        /// Velocity before it is taken, world axes, m/s.
+        velocity: Vec3,
+        /// Second hand, with its point as for the first.
+        second: Option<(SegmentId, Option<Vec3>)>,
+        /// Force at one hand beyond which it is lost, N.
+        grip: f64,
         /// How long, s; infinite until cleared.
         duration: f64,
     },
@@ -446,6 +458,8 @@ pub enum EventKind {
     LoadTaken(SegmentId, f64),
     /// A load was dropped: segment, kg.
     LoadDropped(SegmentId, f64),
+    /// A load slipped from the hand: segment, kg.
+    LoadSlipped(SegmentId, f64),
     /// The figure is frozen at its last good state.
     Quarantined,
     /// A figure was added.

@@ -208,7 +208,11 @@ fn prescribed_accelerations_turn_a_stiff_figure_about_its_edge() {
             });
             let text = format!(
                 "{rate_hz} Hz {name}: {fell:?} s, pendulum {want:.4} s, bent {:.2}°, energy {:+.2e}…{:+.2e}, moved {:.2} {:.2}, handed over {handed:?}, residual {residual:.2e}",
-                bent.to_degrees(), energy.0, energy.1, moved.x, moved.y
+                bent.to_degrees(),
+                energy.0,
+                energy.1,
+                moved.x,
+                moved.y
             );
             println!("{text}");
         }

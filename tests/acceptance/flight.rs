@@ -113,7 +113,8 @@ fn limp(start: &State, rate_hz: f64) -> Limp {
     let scale = StrengthScale {
         all: 1e-12,
         ..StrengthScale::default()
-    };
+    }
+    .muscles(1.0);
     let (mut stepper, mut terms) = (TorqueStepper::new(0.9), Terms::default());
     let command = MotorCommand {
         acceleration: [0.0; DOF_COUNT],
@@ -138,6 +139,8 @@ fn limp(start: &State, rate_hz: f64) -> Limp {
             links: &links,
             strength: &strength,
             scale: &scale,
+            assist: None,
+            bar: None,
             terms: &terms,
             command: &command,
             lower: &lower,

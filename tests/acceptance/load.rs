@@ -6,9 +6,9 @@ use crate::{GRAVITY, integrals};
 use sinew::evaluate::audit::inertial_forces;
 use sinew::evaluate::pose::segment_poses;
 use sinew::sim::body::angles::{anatomical_angles, set_anatomical_angles};
-use sinew::sim::body::topology::{DOF_NAMES, R_FOREARM, R_HAND, R_UPPER_ARM};
+use sinew::sim::body::topology::{DOF_NAMES, L_HAND, R_FOREARM, R_HAND, R_UPPER_ARM};
 use sinew::sim::body::{NV, Posture};
-use sinew::sim::figure::{ControllerKind, FigureEvent, Perturbation};
+use sinew::sim::figure::{ControllerKind, FigureEvent, HeldLoad, Perturbation};
 use sinew::sim::math::Vec3;
 use sinew::sim::world::WorldParams;
 
@@ -203,4 +203,173 @@ fn a_dropped_load_is_forgotten() {
         );
         assert!(moved.norm() < 2e-3, "{kind:?}: {} m", moved.norm());
     }
+}
+
+fn held(mass: f64) -> HeldLoad {
+    HeldLoad {
+        segment: R_HAND,
+        point: GRIP,
+        mass,
+        velocity: Vec3::zero(),
+        second: None,
+        grip: f64::INFINITY,
+        from: 0.01,
+        to: f64::INFINITY,
+    }
+}
+
+/// A 2 kg ball flies into one hand or between both: what the ball had, the figure has afterwards.
+#[test]
+fn a_flying_load_gives_its_momentum_to_who_catches_it() {
+    for second in [None, Some((L_HAND, GRIP))] {
+        let body = man();
+        let mut state = still(bent(&body, 0.4));
+        state.posture.root_position.z += 2.0;
+        state.velocity[..6].copy_from_slice(&[0.5, 1.0, 2.0, 1.5, 0.4, 0.2]);
+        let params = WorldParams {
+            rate_hz: 1000.0,
+            substeps: 16,
+            gravity: 0.0,
+            ..WorldParams::default()
+        };
+        // Weak muscles and a slow ball: the tick also integrates the motion after the catch, and that conserves momentum only to the order of
+        // the step.
+        let mut setup = figure(&body, ControllerKind::Motors, state);
+        setup.strength.all = 0.1;
+        let mut scene = Scene::with(params, setup);
+        let velocity = Vec3 {
+            x: -2.0,
+            y: 0.4,
+            z: -0.7,
+        };
+        let load = HeldLoad {
+            velocity,
+            second,
+            ..held(2.0)
+        };
+        scene
+            .world
+            .perturb(scene.key, Perturbation::Held(load))
+            .unwrap();
+        let momenta = |s: &Scene| {
+            let f = s.figure();
+            let i = integrals(f.links(), f.state());
+            let l = i.momentum.angular + i.com.cross(i.momentum.linear);
+            (i.momentum.linear, l)
+        };
+        loop {
+            let before = momenta(&scene);
+            let posture = scene.figure().state().posture;
+            scene.world.step();
+            assert!(scene.world.time() < 0.05);
+            let taken = |e: &FigureEvent| matches!(e, FigureEvent::LoadTaken { .. });
+            if !scene.figure().events().iter().any(taken) {
+                continue;
+            }
+            let poses = segment_poses(&body.joint_offset, &posture);
+            let (mut p, mut l) = before;
+            for (segment, point, kg) in load.shares() {
+                p += velocity * kg;
+                l += poses[segment.index()].point(point).cross(velocity * kg);
+            }
+            let after = momenta(&scene);
+            let (dp, dl) = (
+                (after.0 - p).norm() / p.norm(),
+                (after.1 - l).norm() / l.norm(),
+            );
+            println!("caught: momentum {dp:.1e}, angular momentum {dl:.1e}");
+            assert!(dp < 1e-6 && dl < 1e-6, "{dp:e} {dl:e}");
+            break;
+        }
+    }
+}
+
+#[test]
+fn two_hands_keep_their_distance_on_one_load_and_share_it() {
+    for kind in [ControllerKind::Modern, ControllerKind::Paper] {
+        let body = man();
+        let clip = authored(&body, "squat");
+        let mut scene = Scene::playing(&body, kind, &clip);
+        let load = HeldLoad {
+            second: Some((L_HAND, GRIP)),
+            from: f64::NEG_INFINITY,
+            ..held(6.0)
+        };
+        scene
+            .world
+            .perturb(scene.key, Perturbation::Held(load))
+            .unwrap();
+        // One hand is pulled away: the other has to follow.
+        let pull = Perturbation::Force {
+            segment: L_HAND,
+            point: GRIP,
+            force: Vec3::Y * 60.0,
+            from: 1.0,
+            to: 2.0,
+        };
+        scene.world.perturb(scene.key, pull).unwrap();
+        let span = |s: &Scene| {
+            let f = s.figure();
+            let poses = segment_poses(&f.links().offset, &f.state().posture);
+            (poses[L_HAND.index()].point(GRIP) - poses[R_HAND.index()].point(GRIP)).norm()
+        };
+        let first = span(&scene);
+        let (mut off, mut pulled, mut residual) = (0.0f64, 0.0f64, 0.0f64);
+        scene.run(clip.duration(), |s| {
+            let r = s.figure().report().unwrap();
+            off = off.max((span(s) - first).abs());
+            let bar = r.audit.applied.iter().filter(|a| a.0 == R_HAND);
+            pulled = bar.fold(pulled, |m, a| m.max(a.2.norm()));
+            let found = sinew::evaluate::audit::audit(s.figure().links(), &r.audit, GRAVITY);
+            residual = residual.max(found.relative);
+        });
+        println!(
+            "{kind:?}: distance kept to {:.4} mm, bar pulls {pulled:.1} N",
+            1e3 * off
+        );
+        assert!(!scene.figure().is_fallen());
+        assert!(off < 1e-3, "{kind:?}: {off} m");
+        assert!(pulled > 10.0, "the pull reaches the other hand: {pulled} N");
+        assert!(residual < 1e-9, "{residual}");
+        assert!((scene.figure().links().total_mass() - 81.0).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn a_load_beyond_the_grip_slips_and_one_below_stays() {
+    let run = |grip: f64| {
+        let body = man();
+        let mut scene = Scene::of(figure(
+            &body,
+            ControllerKind::Modern,
+            still(forearm_level()),
+        ));
+        let load = HeldLoad {
+            grip,
+            from: f64::NEG_INFINITY,
+            ..held(5.0)
+        };
+        scene
+            .world
+            .perturb(scene.key, Perturbation::Held(load))
+            .unwrap();
+        let mut slipped = None;
+        scene.run(1.0, |s| {
+            let lost = |e: &FigureEvent| matches!(e, FigureEvent::LoadSlipped { mass: 5.0, .. });
+            if s.figure().events().iter().any(lost) {
+                slipped = Some(s.world.time());
+            }
+        });
+        (slipped, scene.figure().links().total_mass())
+    };
+    let (slipped, mass) = run(35.0);
+    assert!(
+        slipped.is_some_and(|t| t < 0.2) && (mass - 75.0).abs() < 1e-9,
+        "{slipped:?}"
+    );
+    let (slipped, mass) = run(80.0);
+    assert!(
+        slipped.is_none() && (mass - 80.0).abs() < 1e-9,
+        "{slipped:?}"
+    );
 }

@@ -5,6 +5,8 @@
 //! * `fall`: a stiff figure is a physical pendulum.
 //! * `flight`: the parabola and the momenta of a thrown figure; a limp one gains no energy.
 //! * `load`: a held load is inertia.
+//! * `people`: ages, sizes, fatigue, percentiles.
+//! * `assist`: the wrench that no body has, and its honesty.
 //! * `containment`: bad input is refused, a figure that runs away harms nobody.
 //!
 //! Everything is seeded or constant; nothing is timed.
@@ -13,11 +15,13 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod assist;
 mod containment;
 mod fall;
 mod flight;
 mod lift;
 mod load;
+mod people;
 mod push;
 mod stand;
 

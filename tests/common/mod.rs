@@ -6,7 +6,9 @@ use sinew::evaluate::{Metrics, RunReport, Tick};
 use sinew::sim::body::angles::set_anatomical_angles;
 use sinew::sim::body::topology::{DOF_NAMES, L_FOOT, R_FOOT};
 use sinew::sim::body::{Body, DOF_COUNT, Posture, State};
-use sinew::sim::figure::{ControlParams, ControllerKind, StepperKind, StrengthScale};
+use sinew::sim::figure::{
+    ControlParams, ControllerKind, FigureOptions, StepperKind, StrengthScale,
+};
 use sinew::sim::motion::builtin::builtin;
 use sinew::sim::motion::retarget::{RetargetOptions, retarget};
 use sinew::sim::motion::{Bvh, Clip, PlanarTransform};
@@ -76,6 +78,7 @@ pub fn figure(body: &Arc<Body>, controller: ControllerKind, state: State) -> Fig
         controller,
         stepper: StepperKind::Torque,
         params: ControlParams::default(),
+        options: FigureOptions::default(),
         state,
     }
 }
@@ -166,7 +169,7 @@ impl Scene {
             target: figure.target(),
             report: figure.report().unwrap(),
             state: figure.state(),
-            strength: (figure.strength(), &figure.setup().strength),
+            strength: (figure.strength(), figure.muscles()),
             gravity: self.world.params().gravity,
         }
     }

@@ -130,6 +130,7 @@ async fn bad_requests_name_the_field_and_change_nothing() {
                 dof: dof.into(),
                 factor,
             }],
+            ..Default::default()
         }),
         ..Default::default()
     };

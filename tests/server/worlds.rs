@@ -153,6 +153,7 @@ async fn figures_come_change_and_go() {
                         dof: "r_elbow_flexion".into(),
                         factor: 0.5,
                     }],
+                    ..Default::default()
                 }),
                 placement: Some(pb::Placement {
                     x_m: 2.0,
@@ -174,6 +175,7 @@ async fn figures_come_change_and_go() {
         .get_body(pb::GetBodyRequest {
             name: made.body.clone(),
             include_geometry: true,
+            ..Default::default()
         })
         .await
         .unwrap()

@@ -5,13 +5,14 @@ use crate::sim::body::NV;
 use crate::sim::body::topology::R_HAND;
 use crate::sim::figure::{Audit, ContactPoint};
 use crate::sim::motion::Target;
+use crate::sim::strength::MuscleScale;
 
 /// A figure at rest in the zero pose that reports nothing unusual; tests change what they are about.
 struct Stand {
     body: Body,
     links: Links,
     strength: Strength,
-    scale: StrengthScale,
+    scale: MuscleScale,
     target: TargetPair,
     report: TickReport,
     state: State,
@@ -25,7 +26,7 @@ impl Stand {
         Self {
             links: Links::new(&body),
             strength: Strength::for_body(&body),
-            scale: StrengthScale::default(),
+            scale: MuscleScale::default(),
             target: TargetPair {
                 now: still.clone(),
                 next: still,
@@ -33,6 +34,8 @@ impl Stand {
             report: TickReport {
                 torque: zero,
                 ligament_torque: zero,
+                assist: [0.0; 6],
+                remaining: [[1.0; 2]; DOF_COUNT],
                 torque_lower: [-1.0; DOF_COUNT],
                 torque_upper: [1.0; DOF_COUNT],
                 over_limit: 0.0,
@@ -60,6 +63,7 @@ impl Stand {
                     ligament_torque: zero,
                     contacts: Vec::new(),
                     applied: Vec::new(),
+                    assist: [0.0; 6],
                 },
             },
             state: State::default(),
@@ -181,7 +185,7 @@ fn utilisation_is_measured_against_the_strength_of_the_body() {
     let mut stand = Stand::new();
     let zero = [0.0; DOF_COUNT];
     let (mut lower, mut upper) = (zero, zero);
-    stand.scale.all = 0.5;
+    stand.scale = MuscleScale([[0.5; 2]; DOF_COUNT]);
     stand
         .strength
         .range(&zero, &zero, &stand.scale, &mut lower, &mut upper);

@@ -38,8 +38,12 @@ impl BodyService for Api {
             let r = request.get_ref();
             let reference = body::by_name("name", &r.name)?;
             let built = self.body("name", &reference).await?;
+            let mut description = body::describe(&reference.id, &built, r.include_geometry);
+            if r.include_provenance {
+                description.provenance = body::provenance_out(engine::provenance(&built));
+            }
             Ok(pb::GetBodyResponse {
-                body: Some(body::describe(&reference.id, &built, r.include_geometry)),
+                body: Some(description),
             })
         };
         answer(result.await)

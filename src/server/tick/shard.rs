@@ -352,6 +352,13 @@ impl Shard {
             m.settings.controller = controller;
             m.settings.strength = strength;
         }
+        if u.fatigue_time_scale.is_some() || u.assist.is_some() {
+            let mut options = m.settings.options;
+            options.fatigue_time_scale = u.fatigue_time_scale.unwrap_or(options.fatigue_time_scale);
+            options.assist = u.assist.unwrap_or(options.assist);
+            engine::set_options(&mut self.world, m.key, options)?;
+            m.settings.options = options;
+        }
         if let Some(name) = u.display_name {
             m.settings.display_name = name;
         }

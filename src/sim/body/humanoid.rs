@@ -1,12 +1,17 @@
-//! Bodies of adult men and women from stature, mass, sex and age.
+//! Bodies of men, women and children from stature, mass, sex and age.
 //!
-//! Lengths and mass fractions are those of de Leva 1996 (adjusted Zatsiorsky–Seluyanov means), scaled by stature; centre of mass
+//! Lengths and mass fractions are those of de Leva 1996 (adjusted Zatsiorsky–Seluyanov means), scaled by stature and changed with age as
+//! [`super::age`] says; centre of mass
 //! and inertia come from the surface of each segment (paper §3.1, [`super::geometry`]), drawn in [`super::shape`]. The right side is
 //! the mirror image of the left to the last bit.
 
+use super::age::{
+    ARM_CHANGE, LEG_CHANGE, LimitChange, MassFractions, Proportions, height_range, male_share,
+    mass_range, mix,
+};
 use super::geometry::{mass_properties, mirrored};
 use super::model::{Body, BodyError, Mesh, Profile, Segment, Sex};
-use super::shape::{self, FootSize, extremes};
+use super::shape::{self, FootSize, TrunkSize, extremes};
 use super::topology::{self as t, DOF_COUNT, SEGMENT_COUNT};
 use crate::sim::math::Vec3;
 use crate::sim::math::vec3::vec3;
@@ -14,14 +19,14 @@ use crate::sim::math::vec3::vec3;
 /// Reflected inertia on every joint DOF, kg·m²: keeps toes and wrists at their torque limit from accelerating at 10⁴ rad/s² (ALGORITHM §2).
 pub const ARMATURE: f64 = 0.02;
 
-/// Ages the strength and body tables cover, years.
-pub const AGE_RANGE: [f64; 2] = [18.0, 90.0];
-/// Statures accepted, m.
+pub use super::age::AGE_RANGE;
+/// Statures accepted for adults, m; see [`height_range`] for children.
 pub const HEIGHT_RANGE: [f64; 2] = [1.4, 2.1];
-/// Body masses accepted, kg.
+/// Body masses accepted for adults, kg; see [`mass_range`] for children.
 pub const MASS_RANGE: [f64; 2] = [35.0, 180.0];
 
 /// Lengths (mm) and mass fractions (%) at the reference stature.
+#[derive(Clone, Copy)]
 struct Table {
     /// Stature of the sample, mm.
     stature: f64,
@@ -42,8 +47,7 @@ struct Table {
     shoulder: [f64; 2],
     /// Hip centre to the side.
     hip: f64,
-    /// Pelvis, abdomen, chest, head, upper arm, forearm, hand, thigh, shank, foot with toes.
-    mass: [f64; 10],
+    mass: MassFractions,
 }
 
 /// Trunk, limb lengths and masses: de Leva 1996. Neck and ankle heights close the stature; shoulder and hip widths are ours.
@@ -60,9 +64,12 @@ const MAN: Table = Table {
     ankle_height: 78.5,
     shoulder: [40.0, 185.0],
     hip: 88.0,
-    mass: [
-        11.17, 16.33, 15.96, 6.94, 2.71, 1.62, 0.61, 14.16, 4.33, 1.37,
-    ],
+    mass: MassFractions {
+        row: "man (de Leva 1996)",
+        percent: [
+            11.17, 16.33, 15.96, 6.94, 2.71, 1.62, 0.61, 14.16, 4.33, 1.37,
+        ],
+    },
 };
 const WOMAN: Table = Table {
     stature: 1735.0,
@@ -77,10 +84,68 @@ const WOMAN: Table = Table {
     ankle_height: 72.0,
     shoulder: [31.0, 168.0],
     hip: 86.0,
-    mass: [
-        12.47, 14.65, 15.45, 6.68, 2.55, 1.38, 0.56, 14.78, 4.81, 1.29,
-    ],
+    mass: MassFractions {
+        row: "woman (de Leva 1996)",
+        percent: [
+            12.47, 14.65, 15.45, 6.68, 2.55, 1.38, 0.56, 14.78, 4.81, 1.29,
+        ],
+    },
 };
+
+impl Table {
+    /// The adult's table at `male` = 1 or 0; between them lengths as shares of the stature are mixed.
+    fn adult(male: f64) -> Self {
+        if male >= 1.0 {
+            return MAN;
+        }
+        if male <= 0.0 {
+            return WOMAN;
+        }
+        let stature = mix(male, MAN.stature, WOMAN.stature);
+        let m = |a: f64, b: f64| stature * mix(male, a / MAN.stature, b / WOMAN.stature);
+        let m3 = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|i| m(a[i], b[i]));
+        let (a, b) = (&MAN, &WOMAN);
+        Self {
+            stature,
+            trunk: m3(a.trunk, b.trunk),
+            neck: m(a.neck, b.neck),
+            upper_arm: m(a.upper_arm, b.upper_arm),
+            forearm: m(a.forearm, b.forearm),
+            hand: m(a.hand, b.hand),
+            thigh: m(a.thigh, b.thigh),
+            shank: m(a.shank, b.shank),
+            foot: m(a.foot, b.foot),
+            ankle_height: m(a.ankle_height, b.ankle_height),
+            shoulder: [
+                m(a.shoulder[0], b.shoulder[0]),
+                m(a.shoulder[1], b.shoulder[1]),
+            ],
+            hip: m(a.hip, b.hip),
+            mass: MassFractions {
+                row: "adult (de Leva 1996)",
+                percent: std::array::from_fn(|i| mix(male, a.mass.percent[i], b.mass.percent[i])),
+            },
+        }
+    }
+
+    /// The table of a growing body.
+    fn grown_to(self, p: Proportions) -> Self {
+        Self {
+            trunk: self.trunk.map(|l| l * p.trunk),
+            neck: self.neck * p.trunk,
+            upper_arm: self.upper_arm * p.arm,
+            forearm: self.forearm * p.arm,
+            hand: self.hand * p.arm,
+            thigh: self.thigh * p.leg,
+            shank: self.shank * p.leg,
+            ankle_height: self.ankle_height * p.leg,
+            foot: self.foot * p.foot,
+            shoulder: [self.shoulder[0] * p.trunk, self.shoulder[1] * p.width],
+            hip: self.hip * p.width,
+            ..self
+        }
+    }
+}
 
 /// Heel to ankle centre over foot length, heel to MTP joint over foot length, and the share of the foot's mass in front of the latter.
 const HEEL_SHARE: f64 = 0.213;
@@ -178,24 +243,49 @@ fn within(field: &'static str, value: f64, range: [f64; 2]) -> Result<(), BodyEr
 }
 
 impl Body {
-    /// The body of an adult of the given sex, age, stature and mass.
+    /// The body of a person of the given sex, age, stature and mass.
     ///
-    /// Proportions of de Leva 1996 for the sex; age changes strength, not shape. Segment masses add to `profile.mass`; the top of the head
+    /// Proportions of de Leva 1996 for the sex; children have shorter limbs, a larger head and Jensen's mass fractions, older people those
+    /// of Pavol 2002, and ranges of motion follow age ([`super::age`]). Segment masses add to `profile.mass`; the top of the head
     /// is at `profile.height` over the soles in the zero pose. Builds surfaces: about a millisecond, allocates.
     ///
     /// # Errors
-    /// [`BodyError::Profile`] naming `age_years` (18…90), `height_m` (1.4…2.1) or `mass_kg` (35…180); NaN counts as outside.
+    /// [`BodyError::Profile`] naming `age_years` (6…90), `height_m` (adults 1.4…2.1) or `mass_kg` (adults 35…180; children by age); NaN
+    /// counts as outside.
     pub fn humanoid(profile: Profile) -> Result<Self, BodyError> {
+        Self::build(profile, None)
+    }
+
+    /// The same with mass fractions of one's own, for example measured ones.
+    ///
+    /// # Errors
+    /// As [`Self::humanoid`], and [`BodyError::Fractions`] naming a row whose shares are not positive or do not add to 100 ± 1 %.
+    pub fn with_mass_fractions(
+        profile: Profile,
+        fractions: &MassFractions,
+    ) -> Result<Self, BodyError> {
+        Self::build(profile, Some(fractions))
+    }
+
+    fn build(profile: Profile, fractions: Option<&MassFractions>) -> Result<Self, BodyError> {
         within("age_years", profile.age, AGE_RANGE)?;
-        within("height_m", profile.height, HEIGHT_RANGE)?;
-        within("mass_kg", profile.mass, MASS_RANGE)?;
-        let table = match profile.sex {
-            Sex::Male => &MAN,
-            Sex::Female => &WOMAN,
+        within("height_m", profile.height, height_range(profile.age))?;
+        within("mass_kg", profile.mass, mass_range(profile.age))?;
+        let male = male_share(profile.sex, profile.age);
+        let mut table = Table::adult(male);
+        table.mass = match fractions {
+            Some(own) => *own,
+            None => MassFractions::of(profile.sex, profile.age, &table.mass),
         };
-        let body = assemble(profile, table);
+        table.mass.check()?;
+        let body = assemble(profile, male, &table);
         body.validate()?;
         Ok(body)
+    }
+
+    /// A boy of eight: 1.28 m, 26 kg. Up to ten years boys and girls are alike here.
+    pub fn child() -> Self {
+        Self::humanoid(Profile::ordinary(Sex::Male, 8.0)).expect("a child lies within the tables")
     }
 
     /// The average man: 30 years, 1.75 m, 75 kg.
@@ -221,12 +311,17 @@ impl Body {
     }
 }
 
-fn assemble(profile: Profile, table: &Table) -> Body {
+fn assemble(profile: Profile, male: f64, adult: &Table) -> Body {
+    let growth = Proportions::at(profile.age);
+    let table = &adult.grown_to(growth);
     let scale = profile.height / (table.stature * 1e-3);
     let m = |mm: f64| mm * 1e-3 * scale;
     // The printed fractions add to 100 % within rounding; sides count twice.
-    let sum: f64 = table.mass[..4].iter().sum::<f64>() + 2.0 * table.mass[4..].iter().sum::<f64>();
-    let mass = table.mass.map(|percent| percent / sum * profile.mass);
+    let sum = table.mass.sum();
+    let mass = table
+        .mass
+        .percent
+        .map(|percent| percent / sum * profile.mass);
     let [lower_trunk, middle_trunk, upper_trunk] = table.trunk.map(m);
     let neck_z = upper_trunk + m(table.neck);
     let (thigh, shank, foot) = (m(table.thigh), m(table.shank), m(table.foot));
@@ -240,10 +335,15 @@ fn assemble(profile: Profile, table: &Table) -> Body {
         ball_height: m(BALL_HEIGHT),
         toes: (1.0 - BALL_SHARE) * foot,
     };
-    let sex = profile.sex;
+    let trunk = |part: usize| TrunkSize {
+        male,
+        scale: [&MAN, &WOMAN].map(|t| profile.height / (t.stature * 1e-3)),
+        drawn: [&MAN, &WOMAN].map(|t| t.trunk[part]),
+        length: [lower_trunk, middle_trunk, upper_trunk][part],
+    };
 
     let pelvis = {
-        let mesh = shape::pelvis(sex, scale, mass[0]);
+        let mesh = shape::pelvis(trunk(0), mass[0]);
         let points = extremes(
             &mesh,
             &[
@@ -258,12 +358,12 @@ fn assemble(profile: Profile, table: &Table) -> Body {
         symmetric(segment(mesh, mass[0], points, vec3(0.0, 0.0, lower_trunk)))
     };
     let abdomen = {
-        let mesh = shape::abdomen(sex, scale, mass[1]);
+        let mesh = shape::abdomen(trunk(1), mass[1]);
         let points = extremes(&mesh, &AROUND);
         symmetric(segment(mesh, mass[1], points, vec3(0.0, 0.0, middle_trunk)))
     };
     let chest = {
-        let mesh = shape::chest(sex, scale, mass[2]);
+        let mesh = shape::chest(trunk(2), mass[2]);
         let points = extremes(
             &mesh,
             &[
@@ -283,7 +383,7 @@ fn assemble(profile: Profile, table: &Table) -> Body {
         ))
     };
     let head = {
-        let mesh = shape::head(scale, head, mass[3]);
+        let mesh = shape::head(scale * growth.head_width, head, mass[3]);
         let points = extremes(
             &mesh,
             &[
@@ -426,14 +526,37 @@ fn assemble(profile: Profile, table: &Table) -> Body {
         .chain(&LEG_LIMITS)
         .map(|deg| deg.map(f64::to_radians))
         .collect();
+    let limit = |d: usize, upper: bool| {
+        let first = limits[d][usize::from(upper)];
+        limit_changes(d)
+            .filter(|c| c.upper == upper)
+            .fold(first, |l, c| l + c.at(profile.age))
+    };
+    // Reflected inertia goes with the body, as strength does, while it grows.
+    let size = profile.mass * profile.height * profile.height / REFERENCE_SIZE;
+    let grown = super::age::smooth(AGE_RANGE[0], super::age::GROWN, profile.age);
+    let armature = ARMATURE * mix(grown, 1.0, size.min(1.0));
     Body {
         profile,
         segments,
         joint_offset,
-        lower: std::array::from_fn(|d| limits[d][0]),
-        upper: std::array::from_fn(|d| limits[d][1]),
-        armature: [ARMATURE; DOF_COUNT],
+        lower: std::array::from_fn(|d| limit(d, false)),
+        upper: std::array::from_fn(|d| limit(d, true)),
+        armature: [armature; DOF_COUNT],
     }
+}
+
+/// Mass times stature squared of the reference man, kg·m².
+const REFERENCE_SIZE: f64 = 75.0 * 1.75 * 1.75;
+
+/// How the limits of DOF `d` change with age.
+pub(super) fn limit_changes(d: usize) -> impl Iterator<Item = &'static LimitChange> {
+    let (table, dof): (&'static [LimitChange], usize) = match d {
+        0..9 => (&[], 0),
+        9..23 => (&ARM_CHANGE, (d - 9) % 7),
+        _ => (&LEG_CHANGE, (d - 23) % 8),
+    };
+    table.iter().filter(move |c| c.dof == dof)
 }
 
 /// Back, front, left, right.
@@ -672,7 +795,8 @@ mod tests {
     fn surfaces_are_closed_and_modest() {
         for (body, name) in sample() {
             let triangles: usize = body.segments.iter().map(|s| s.mesh.triangles.len()).sum();
-            assert!(triangles < 3000, "{triangles}");
+            // A body between two ages has the sections of both outlines.
+            assert!(triangles < 3200, "{name}: {triangles}");
             for (s, segment) in body.segments.iter().enumerate() {
                 assert_eq!(check(&segment.mesh), Ok(()), "{name} {}", SEGMENT_NAMES[s]);
                 let n = segment.contact_points.len();
@@ -732,7 +856,7 @@ mod tests {
     fn profiles_outside_the_tables_are_refused_by_name() {
         let good = Body::adult_man().profile;
         let cases = [
-            (Profile { age: 17.9, ..good }, "age_years"),
+            (Profile { age: 5.9, ..good }, "age_years"),
             (
                 Profile {
                     age: f64::NAN,
@@ -771,7 +895,85 @@ mod tests {
         }
     }
 
-    /// Both averages and the corners of the accepted range.
+    #[test]
+    fn children_have_large_heads_short_legs_and_adult_density() {
+        let share = |b: &Body| {
+            let head = b.segment(t::HEAD).tip.z / b.profile.height;
+            (head, b.standing_root_height() / b.profile.height)
+        };
+        let child = Body::humanoid(Profile::ordinary(Sex::Female, 6.0)).unwrap();
+        let (head, legs) = share(&child);
+        assert!((0.165..0.18).contains(&head), "{head}");
+        assert!((0.47..0.51).contains(&legs), "{legs}");
+        assert!(share(&Body::adult_man()).0 < 0.145);
+        let mass = child.segment(t::HEAD).mass / child.profile.mass;
+        assert!((mass - 0.182).abs() < 0.001, "{mass}");
+        for age in [6.0, 8.0, 12.0, 15.0, 75.0, 90.0] {
+            for sex in [Sex::Male, Sex::Female] {
+                let b = Body::humanoid(Profile::ordinary(sex, age)).unwrap();
+                let total: f64 = b.segments.iter().map(|s| volume(&s.mesh)).sum();
+                let density = b.profile.mass / total;
+                assert!((960.0..1090.0).contains(&density), "{age}: {density}");
+                let com = com_height(&b) / b.profile.height;
+                assert!((0.52..0.6).contains(&com), "{age}: {com}");
+            }
+        }
+        // A girl of nine and a boy of nine weigh the same everywhere.
+        let [boy, girl] = [Sex::Male, Sex::Female]
+            .map(|sex| Body::humanoid(Profile::ordinary(sex, 9.0)).unwrap());
+        for (a, b) in boy.segments.iter().zip(&girl.segments) {
+            assert!((a.mass - b.mass).abs() < 1e-12 && (a.tip - b.tip).norm() < 2e-3);
+        }
+    }
+
+    #[test]
+    fn bodies_change_continuously_with_age() {
+        for sex in [Sex::Male, Sex::Female] {
+            let at = |age| {
+                Body::humanoid(Profile {
+                    sex,
+                    age,
+                    height: 1.45,
+                    mass: 40.0,
+                })
+            };
+            for edge in [8.0, 10.0, 12.0, 15.0, 18.0, 20.0, 44.0, 50.0, 67.0, 73.0] {
+                let (a, b) = (at(edge - 1e-7).unwrap(), at(edge + 1e-7).unwrap());
+                for s in 0..SEGMENT_COUNT {
+                    let (p, q) = (&a.segments[s], &b.segments[s]);
+                    assert!(
+                        (p.mass - q.mass).abs() < 1e-5,
+                        "{edge} {}",
+                        SEGMENT_NAMES[s]
+                    );
+                    assert!((p.com - q.com).norm() < 1e-3, "{edge} {}", SEGMENT_NAMES[s]);
+                    assert!((p.inertia.xx / q.inertia.xx - 1.0).abs() < 1e-2);
+                    assert!((a.joint_offset[s] - b.joint_offset[s]).norm() < 1e-6);
+                }
+                for d in 0..DOF_COUNT {
+                    assert!((a.upper[d] - b.upper[d]).abs() < 1e-6);
+                    assert!((a.lower[d] - b.lower[d]).abs() < 1e-6);
+                    assert!((a.armature[d] - b.armature[d]).abs() < 1e-8);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn every_number_of_a_body_says_where_it_comes_from() {
+        for age in [8.0, 30.0, 75.0] {
+            let b = Body::humanoid(Profile::ordinary(Sex::Female, age)).unwrap();
+            let all = (0..SEGMENT_COUNT)
+                .flat_map(|s| b.segment_provenance(s))
+                .chain((0..DOF_COUNT).flat_map(|d| b.limit_provenance(d)));
+            for p in all {
+                let told = [p.action, p.quantity, p.unit, p.source, p.tag, p.note];
+                assert!(told.iter().all(|t| !t.is_empty()) && p.value.is_finite());
+            }
+        }
+    }
+
+    /// Both averages, all ages and the corners of the accepted range.
     fn sample() -> Vec<(Body, String)> {
         let mut out = vec![
             (Body::adult_man(), "man".to_string()),
@@ -789,6 +991,10 @@ mod tests {
                     let body = Body::humanoid(profile).unwrap();
                     out.push((body, format!("{sex:?} {height} m {mass} kg")));
                 }
+            }
+            for age in [6.0, 9.0, 11.5, 14.0, 17.0, 19.0, 65.0, 80.0] {
+                let body = Body::humanoid(Profile::ordinary(sex, age)).unwrap();
+                out.push((body, format!("{sex:?} {age} y")));
             }
         }
         out

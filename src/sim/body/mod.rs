@@ -1,11 +1,13 @@
 //! The articulated body: tree, segments, limits, mass and shape, and the positions and velocities of one figure.
 
+pub mod age;
 pub mod angles;
 pub mod export;
 pub mod geometry;
 pub mod humanoid;
 pub mod links;
 pub mod model;
+pub mod provenance;
 mod shape;
 pub mod state;
 pub mod topology;

@@ -107,6 +107,16 @@ pub enum BodyError {
         /// Declared body mass.
         mass: f64,
     },
+    /// Mass fractions must be positive and add to 100 %.
+    #[error(
+        "mass fractions of {row:?} add to {sum:.2} %, expected 100 ± 1 with every one positive"
+    )]
+    Fractions {
+        /// Name of the row.
+        row: &'static str,
+        /// Their sum, limbs counted twice.
+        sum: f64,
+    },
     /// Limits must be finite and ordered.
     #[error("{dof}: limits {lower}…{upper} rad are not an interval")]
     Limits {

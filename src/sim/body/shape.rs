@@ -6,7 +6,7 @@
 //! makes a heavy body stout. Head, hands and feet hardly grow with fat: their girth is bounded and their density gives way.
 
 use super::geometry::{Section, append, extreme, loft, volume};
-use super::model::{Mesh, Sex};
+use super::model::Mesh;
 use crate::sim::math::Vec3;
 use crate::sim::math::vec3::vec3;
 
@@ -17,13 +17,13 @@ use crate::sim::math::vec3::vec3;
 type Row = [f64; 5];
 
 /// The outline of a segment along z: a pole, rows, a pole; poles as `[z, x]`.
-struct Outline {
+struct Outline<'a> {
     first: [f64; 2],
-    rows: &'static [Row],
+    rows: &'a [Row],
     last: [f64; 2],
 }
 
-const PELVIS_MAN: Outline = Outline {
+const PELVIS_MAN: Outline<'static> = Outline {
     first: [-84.0, -4.0],
     rows: &[
         [-78.0, 44.0, 44.0, -4.0, 0.0],
@@ -36,7 +36,7 @@ const PELVIS_MAN: Outline = Outline {
     ],
     last: [166.0, 0.0],
 };
-const PELVIS_WOMAN: Outline = Outline {
+const PELVIS_WOMAN: Outline<'static> = Outline {
     first: [-56.0, -6.0],
     rows: &[
         [-50.0, 36.0, 34.0, -6.0, 0.0],
@@ -49,7 +49,7 @@ const PELVIS_WOMAN: Outline = Outline {
     ],
     last: [191.0, 0.0],
 };
-const ABDOMEN_MAN: Outline = Outline {
+const ABDOMEN_MAN: Outline<'static> = Outline {
     first: [-12.0, 0.0],
     rows: &[
         [-4.0, 88.0, 132.0, 0.0, 0.1],
@@ -61,7 +61,7 @@ const ABDOMEN_MAN: Outline = Outline {
     ],
     last: [232.0, 0.0],
 };
-const ABDOMEN_WOMAN: Outline = Outline {
+const ABDOMEN_WOMAN: Outline<'static> = Outline {
     first: [-10.0, 0.0],
     rows: &[
         [-3.0, 86.0, 124.0, 0.0, 0.1],
@@ -72,7 +72,7 @@ const ABDOMEN_WOMAN: Outline = Outline {
     ],
     last: [218.0, 0.0],
 };
-const CHEST_MAN: Outline = Outline {
+const CHEST_MAN: Outline<'static> = Outline {
     first: [-6.0, 0.0],
     rows: &[
         [2.0, 98.0, 150.0, 0.0, 0.1],
@@ -85,7 +85,7 @@ const CHEST_MAN: Outline = Outline {
     ],
     last: [216.0, -8.0],
 };
-const CHEST_WOMAN: Outline = Outline {
+const CHEST_WOMAN: Outline<'static> = Outline {
     first: [-6.0, 0.0],
     rows: &[
         [2.0, 88.0, 130.0, 0.0, 0.1],
@@ -98,7 +98,7 @@ const CHEST_WOMAN: Outline = Outline {
     ],
     last: [234.0, -8.0],
 };
-const HEAD: Outline = Outline {
+const HEAD: Outline<'static> = Outline {
     first: [-16.0, 4.0],
     rows: &[
         [-6.0, 58.0, 58.0, 4.0, 0.0],
@@ -112,7 +112,7 @@ const HEAD: Outline = Outline {
     ],
     last: [242.9, 11.0],
 };
-const THIGH: Outline = Outline {
+const THIGH: Outline<'static> = Outline {
     first: [0.175, -4.0],
     rows: &[
         [0.14, 48.0, 40.0, -4.0, 0.0],
@@ -125,7 +125,7 @@ const THIGH: Outline = Outline {
     ],
     last: [-1.065, 2.0],
 };
-const SHANK: Outline = Outline {
+const SHANK: Outline<'static> = Outline {
     first: [0.055, 4.0],
     rows: &[
         [0.035, 38.0, 37.0, 4.0, 0.0],
@@ -138,7 +138,7 @@ const SHANK: Outline = Outline {
     ],
     last: [-1.04, 0.0],
 };
-const UPPER_ARM: Outline = Outline {
+const UPPER_ARM: Outline<'static> = Outline {
     first: [0.085, 0.0],
     rows: &[
         [0.06, 24.0, 22.0, 0.0, 0.0],
@@ -150,7 +150,7 @@ const UPPER_ARM: Outline = Outline {
     ],
     last: [-1.05, 0.0],
 };
-const FOREARM: Outline = Outline {
+const FOREARM: Outline<'static> = Outline {
     first: [0.08, -2.0],
     rows: &[
         [0.05, 26.0, 26.0, -2.0, 0.0],
@@ -162,7 +162,7 @@ const FOREARM: Outline = Outline {
     ],
     last: [-1.05, 0.0],
 };
-const HAND: Outline = Outline {
+const HAND: Outline<'static> = Outline {
     first: [0.06, 0.0],
     rows: &[
         [0.02, 20.0, 14.0, 0.0, 0.0],
@@ -213,7 +213,7 @@ const FOOT_SIDES: usize = 16;
 const TOE_SIDES: usize = 8;
 
 /// Surface of an outline: z in units of `length` (m), cross-sections in mm × `width`, shifts of the centre in mm × `shift`.
-fn surface(o: &Outline, length: f64, width: f64, shift: f64, sides: usize) -> Mesh {
+fn surface(o: &Outline<'_>, length: f64, width: f64, shift: f64, sides: usize) -> Mesh {
     let sections: Vec<Section> = o
         .rows
         .iter()
@@ -234,37 +234,96 @@ fn girth(fill: Fill, mass: f64, mesh_of: &dyn Fn(f64) -> Mesh) -> f64 {
     g.clamp(fill.girth[0], fill.girth[1])
 }
 
-/// Trunk part: `scale` is stature over the reference stature.
-pub(super) fn pelvis(sex: Sex, scale: f64, mass: f64) -> Mesh {
-    trunk(
-        pick(sex, &PELVIS_MAN, &PELVIS_WOMAN),
-        FILL_PELVIS,
-        scale,
-        mass,
-    )
-}
-pub(super) fn abdomen(sex: Sex, scale: f64, mass: f64) -> Mesh {
-    trunk(
-        pick(sex, &ABDOMEN_MAN, &ABDOMEN_WOMAN),
-        FILL_ABDOMEN,
-        scale,
-        mass,
-    )
-}
-pub(super) fn chest(sex: Sex, scale: f64, mass: f64) -> Mesh {
-    trunk(pick(sex, &CHEST_MAN, &CHEST_WOMAN), FILL_CHEST, scale, mass)
+/// How a part of the trunk is drawn.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct TrunkSize {
+    /// 1 draws the man's outline, 0 the woman's, values between them a growing body.
+    pub male: f64,
+    /// Stature over the reference stature of the man and of the woman.
+    pub scale: [f64; 2],
+    /// Length of the part in the outlines of the man and of the woman, mm.
+    pub drawn: [f64; 2],
+    /// Its length in this body, m.
+    pub length: f64,
 }
 
-fn pick(sex: Sex, man: &'static Outline, woman: &'static Outline) -> &'static Outline {
-    match sex {
-        Sex::Male => man,
-        Sex::Female => woman,
+pub(super) fn pelvis(size: TrunkSize, mass: f64) -> Mesh {
+    trunk(size, [&PELVIS_MAN, &PELVIS_WOMAN], FILL_PELVIS, mass)
+}
+pub(super) fn abdomen(size: TrunkSize, mass: f64) -> Mesh {
+    trunk(size, [&ABDOMEN_MAN, &ABDOMEN_WOMAN], FILL_ABDOMEN, mass)
+}
+pub(super) fn chest(size: TrunkSize, mass: f64) -> Mesh {
+    trunk(size, [&CHEST_MAN, &CHEST_WOMAN], FILL_CHEST, mass)
+}
+
+fn trunk(size: TrunkSize, outlines: [&Outline<'_>; 2], fill: Fill, mass: f64) -> Mesh {
+    for (k, whole) in [(0, size.male >= 1.0), (1, size.male <= 0.0)] {
+        if whole {
+            let w = size.scale[k];
+            let stretch = size.length / (MM * w * size.drawn[k]);
+            // An adult's part has the drawn length to rounding; it is drawn exactly.
+            let z = if (stretch - 1.0).abs() < 1e-12 {
+                MM * w
+            } else {
+                MM * w * stretch
+            };
+            let mesh_of = |g: f64| surface(outlines[k], z, g * w, w, TRUNK_SIDES);
+            return mesh_of(girth(fill, mass, &mesh_of));
+        }
     }
+    // Both outlines at the heights of the rows of either, as shares of their heights; then everything is mixed.
+    let share = |o: &Outline<'_>, z: f64| (z - o.first[0]) / (o.last[0] - o.first[0]);
+    let mut at: Vec<f64> = outlines
+        .iter()
+        .flat_map(|o| o.rows.iter().map(|r| share(o, r[0])))
+        .collect();
+    at.sort_by(f64::total_cmp);
+    at.dedup_by(|a, b| *a - *b < LEAST_SPACING);
+    let mix = |v: [f64; 2]| v[1] + size.male * (v[0] - v[1]);
+    // z as a share of the part's length, lengths across in mm of the body that is drawn.
+    let z = |k: usize, z: f64| z / size.drawn[k];
+    let pole = |of: fn(&Outline<'_>) -> [f64; 2]| {
+        let p = [0, 1].map(|k| of(outlines[k]));
+        [
+            mix([z(0, p[0][0]), z(1, p[1][0])]),
+            mix([p[0][1] * size.scale[0], p[1][1] * size.scale[1]]),
+        ]
+    };
+    let rows: Vec<Row> = at
+        .iter()
+        .map(|t| {
+            let both: [Row; 2] = [0, 1].map(|k| {
+                let o = outlines[k];
+                let height = o.first[0] + t * (o.last[0] - o.first[0]);
+                let [_, depth, width, centre, square] = row_at(o.rows, height);
+                let w = size.scale[k];
+                [z(k, height), depth * w, width * w, centre * w, square]
+            });
+            std::array::from_fn(|i| mix([both[0][i], both[1][i]]))
+        })
+        .collect();
+    let mixed = Outline {
+        first: pole(|o| o.first),
+        rows: &rows,
+        last: pole(|o| o.last),
+    };
+    let mesh_of = |g: f64| surface(&mixed, size.length, g, 1.0, TRUNK_SIDES);
+    mesh_of(girth(fill, mass, &mesh_of))
 }
 
-fn trunk(o: &'static Outline, fill: Fill, scale: f64, mass: f64) -> Mesh {
-    let mesh_of = |g: f64| surface(o, MM * scale, g * scale, scale, TRUNK_SIDES);
-    mesh_of(girth(fill, mass, &mesh_of))
+/// Rows of a mixed outline closer than this share of its height become one.
+const LEAST_SPACING: f64 = 0.06;
+
+/// The cross-section of an outline at height `z`, mm; that of the nearest row beyond its ends.
+fn row_at(rows: &[Row], z: f64) -> Row {
+    let above = rows.partition_point(|r| r[0] < z);
+    if above == 0 || above == rows.len() {
+        return rows[above.min(rows.len() - 1)];
+    }
+    let (a, b) = (&rows[above - 1], &rows[above]);
+    let t = (z - a[0]) / (b[0] - a[0]);
+    std::array::from_fn(|k| a[k] + t * (b[k] - a[k]))
 }
 
 /// Head and neck, from the neck joint to the vertex at `length` (m), with a nose that shows where the figure looks.
@@ -289,7 +348,7 @@ pub(super) fn head(scale: f64, length: f64, mass: f64) -> Mesh {
     mesh_of(girth(FILL_HEAD, mass, &mesh_of))
 }
 
-fn limb(o: &'static Outline, fill: Fill, scale: f64, length: f64, mass: f64) -> Mesh {
+fn limb(o: &Outline<'_>, fill: Fill, scale: f64, length: f64, mass: f64) -> Mesh {
     let mesh_of = |g: f64| surface(o, length, g * scale, scale, LIMB_SIDES);
     mesh_of(girth(fill, mass, &mesh_of))
 }

@@ -90,6 +90,8 @@ pub struct ControlInput<'a> {
     pub gravity: f64,
     /// Length of the tick, s.
     pub dt: f64,
+    /// Compliance with which a plan may count on the assist, [N²·m², N²] per unit of cost: moment and force on the pelvis; zeros without assist.
+    pub assist: [f64; 2],
     /// True if the accelerations are applied as they are. Planted feet are then kept in place by the controller, and overload is answered
     /// with accelerations that the clipped torques give; strength-limited motors settle both by themselves.
     pub kinematic: bool,

@@ -81,6 +81,7 @@ pub struct Modern {
     motors: Motors,
     newton: NewtonWorkspace,
     rows: Vec<TaskRow>,
+    assist: [f64; 2],
     command: Command,
 }
 
@@ -122,6 +123,7 @@ impl Modern {
             motors: Motors::default(),
             newton: NewtonWorkspace::default(),
             rows: Vec::with_capacity(32),
+            assist: [0.0; 2],
             command: Command::default(),
         }
     }
@@ -355,6 +357,7 @@ impl Controller for Modern {
             self.motors.rest[j] =
                 self.last_torque[j].clamp(input.lower[j], input.upper[j]) / self.motors.gain[j];
         }
+        self.assist = input.assist;
         let outcome = kernel(self, t, &diagonal, &mut linear);
         if !outcome.converged {
             // An iterate that got nowhere is no place to start the next tick from.
@@ -487,6 +490,10 @@ fn kernel(c: &mut Modern, t: &Terms, diagonal: &[f64; NV], linear: &mut [f64; WI
             }
         }
         c.a[i..i + 3].copy_from_slice(&acc);
+    }
+    // Assist: forces on the pelvis at a price of their own add their compliance to the root's diagonal of the dual.
+    for i in 0..6 {
+        c.a[i][i] += c.assist[i / 3];
     }
     let mut lp = *linear;
     solve_lower(&c.p, &mut lp);

@@ -714,6 +714,7 @@ mod tests {
                 params: &self.params,
                 gravity: GRAVITY,
                 dt: DT,
+                assist: [0.0; 2],
                 kinematic: self.kinematic,
             }
         }

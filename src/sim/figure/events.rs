@@ -50,6 +50,13 @@ pub enum FigureEvent {
         /// kg.
         mass: f64,
     },
+    /// A load slipped from a hand: more than its grip.
+    LoadSlipped {
+        /// Carrying segment.
+        segment: SegmentId,
+        /// kg.
+        mass: f64,
+    },
     /// The state turned non-finite or ran away; the figure is frozen at its last good state.
     Quarantined,
 }

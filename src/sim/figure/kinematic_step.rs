@@ -94,6 +94,8 @@ impl KinematicStepper {
             forces: TickForces {
                 torque: [0.0; DOF_COUNT],
                 ligament_torque: [0.0; DOF_COUNT],
+                assist: [0.0; 6],
+                bar: Vec3::zero(),
                 contact: Vec::with_capacity(2 * MAX_CONTACTS),
                 over_limit: 0.0,
                 iterations: 0,
@@ -220,8 +222,8 @@ impl KinematicStepper {
         self.kin.set_state(input.links, state);
         let p = &mut state.posture;
         let at = p.root_position + self.kin.position[s];
-        let turn = (wanted.rotation * Quat::from_mat3(&self.kin.rotation[s]).conjugate())
-            .normalized();
+        let turn =
+            (wanted.rotation * Quat::from_mat3(&self.kin.rotation[s]).conjugate()).normalized();
         let arm = turn.rotate(p.root_position - at);
         p.root_position = wanted.position + arm;
         p.root_rotation = (turn * p.root_rotation).normalized();
@@ -255,7 +257,10 @@ impl KinematicStepper {
             }
             out
         };
-        let (z0, z1) = (heights(&mut self.kin, before), heights(&mut self.kin, after));
+        let (z0, z1) = (
+            heights(&mut self.kin, before),
+            heights(&mut self.kin, after),
+        );
         let mut first = None;
         for (a, b) in z0.iter().flatten().zip(z1.iter().flatten()) {
             if *b < 0.0 && (a - b) > IMPACT_SPEED * input.dt {
@@ -274,7 +279,11 @@ impl KinematicStepper {
         let terms = &self.terms;
         self.contacts.clear();
         for (s, segment) in input.body.segments.iter().enumerate() {
-            for (vertex, local) in segment.contact_points.iter().enumerate().take(POINTS_PER_SEGMENT)
+            for (vertex, local) in segment
+                .contact_points
+                .iter()
+                .enumerate()
+                .take(POINTS_PER_SEGMENT)
             {
                 if terms.point_world(s, *local).z < IMPACT_HEIGHT {
                     let slot = self.contacts.slot(&terms.kin, s);
@@ -364,9 +373,7 @@ impl KinematicStepper {
         let total = |about: Vec3| shift(&wrench, about - root);
         let ratio = decision.support.ratio();
         if !command.flags.has(Flags::FLIGHT)
-            && self
-                .sharing
-                .set_unilateral(points, ratio, &mut out, total)
+            && self.sharing.set_unilateral(points, ratio, &mut out, total)
         {
             let y = self.sharing.multiplier(&total(self.sharing.reference));
             for (p, _) in points.iter().zip(out).filter(|(_, out)| !out) {
@@ -412,15 +419,13 @@ impl KinematicStepper {
 /// True if a part other than a foot touches the floor or reaches it within the tick at its present velocity.
 pub fn other_part_arrives(body: &Body, terms: &Terms, dt: f64) -> bool {
     let feet = [L_FOOT, L_TOES, R_FOOT, R_TOES].map(SegmentId::index);
-    (0..SEGMENT_COUNT)
-        .filter(|s| !feet.contains(s))
-        .any(|s| {
-            let points = &body.segments[s].contact_points;
-            points.iter().take(POINTS_PER_SEGMENT).any(|p| {
-                let z = terms.point_world(s, *p).z;
-                z + 2.0 * dt * terms.point_velocity(s, *p).z.min(0.0) < IMPACT_HEIGHT
-            })
+    (0..SEGMENT_COUNT).filter(|s| !feet.contains(s)).any(|s| {
+        let points = &body.segments[s].contact_points;
+        points.iter().take(POINTS_PER_SEGMENT).any(|p| {
+            let z = terms.point_world(s, *p).z;
+            z + 2.0 * dt * terms.point_velocity(s, *p).z.min(0.0) < IMPACT_HEIGHT
         })
+    })
 }
 
 /// The acceleration that leads from a state to a velocity in `dt`.
@@ -429,12 +434,7 @@ fn input_acceleration(start: &State, velocity: &[f64; NV], dt: f64) -> [f64; NV]
 }
 
 /// A foot that holds is laid flat on the floor, little by little: contact has a tolerance of some millimetres, standing has not.
-fn settle(
-    input: &StepInput<'_>,
-    main: SegmentId,
-    position: Vec3,
-    rotation: Quat,
-) -> (Vec3, Quat) {
+fn settle(input: &StepInput<'_>, main: SegmentId, position: Vec3, rotation: Quat) -> (Vec3, Quat) {
     if main != L_FOOT && main != R_FOOT {
         return (position, rotation);
     }

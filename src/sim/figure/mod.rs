@@ -1,5 +1,6 @@
 //! One figure, one tick. The loop is [`Figure::step`](step::Figure).
 
+pub mod assist;
 pub mod drive;
 pub mod events;
 pub mod kinematic_step;
@@ -14,7 +15,7 @@ pub use drive::{ClipPlayback, Drive};
 pub use events::FigureEvent;
 pub use report::{Audit, ContactPoint, Flags, TickReport};
 pub use setup::{
-    ControlParams, ControllerKind, Metric, Perturbation, Priority, Share, StepperKind,
-    StrengthScale,
+    ControlParams, ControllerKind, FigureOptions, HeldLoad, Metric, Perturbation, Priority, Share,
+    StepperKind, StrengthScale,
 };
 pub use step::{Figure, FigureSetup, TickContext};

@@ -70,7 +70,7 @@ impl Flags {
 }
 
 /// The last substep as it was solved. It satisfies the equations of motion to rounding:
-/// `M v̇ + h = Sᵀτ + Σ Jᵀ f`, with `h` from Coriolis forces and gravity.
+/// `M v̇ + h = Sᵀτ + Σ Jᵀ f + assist`, with `h` from Coriolis forces and gravity.
 #[derive(Debug, PartialEq)]
 pub struct Audit {
     /// State at the start of the substep.
@@ -86,6 +86,8 @@ pub struct Audit {
     pub contacts: Vec<ContactPoint>,
     /// Forces of perturbations: segment, world point, world force (N).
     pub applied: Vec<(SegmentId, Vec3, Vec3)>,
+    /// Assist on the pelvis: moment about its origin (N·m), then force (N), world axes.
+    pub assist: [f64; 6],
 }
 
 impl Audit {
@@ -96,6 +98,7 @@ impl Audit {
             acceleration: [0.0; NV],
             torque: [0.0; DOF_COUNT],
             ligament_torque: [0.0; DOF_COUNT],
+            assist: [0.0; 6],
             contacts: Vec::with_capacity(MAX_CONTACTS),
             applied: Vec::with_capacity(super::loads::MAX_PERTURBATIONS),
         }
@@ -111,6 +114,7 @@ impl Clone for Audit {
             ligament_torque: self.ligament_torque,
             contacts: self.contacts.clone(),
             applied: self.applied.clone(),
+            assist: self.assist,
         }
     }
 
@@ -123,6 +127,7 @@ impl Clone for Audit {
             ligament_torque,
             contacts,
             applied,
+            assist,
         } = other;
         self.state = *state;
         self.acceleration = *acceleration;
@@ -130,6 +135,7 @@ impl Clone for Audit {
         self.ligament_torque = *ligament_torque;
         self.contacts.clone_from(contacts);
         self.applied.clone_from(applied);
+        self.assist = *assist;
     }
 }
 
@@ -140,6 +146,10 @@ pub struct TickReport {
     pub torque: [f64; DOF_COUNT],
     /// Ligament torque (joint limits), N·m.
     pub ligament_torque: [f64; DOF_COUNT],
+    /// Assist on the pelvis: moment about its origin (N·m), then force (N), world axes; zero unless it is on.
+    pub assist: [f64; 6],
+    /// What fatigue has left of the strength at the end of the tick, positive and negative direction of each DOF; 1 when it is off.
+    pub remaining: [[f64; 2]; DOF_COUNT],
     /// Least available torque at the start of the tick, N·m (negative).
     pub torque_lower: [f64; DOF_COUNT],
     /// Largest available torque at the start of the tick, N·m.

@@ -120,6 +120,15 @@ impl ControlParams {
     }
 }
 
+/// What a figure can have beyond its controller; everything is off by default.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FigureOptions {
+    /// Seconds of muscle fatigue per simulated second, 0…1000; 0: muscles never tire.
+    pub fatigue_time_scale: f64,
+    /// Help towards the desired pose of the pelvis, 0…1: [`Assist`](super::assist::Assist). 0: none.
+    pub assist: f64,
+}
+
 /// A disturbance of one figure. Times are world seconds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Perturbation {
@@ -149,4 +158,85 @@ pub enum Perturbation {
         /// Ends at, s.
         to: f64,
     },
+    /// A load with all that can matter: see [`HeldLoad`].
+    Held(HeldLoad),
+}
+
+/// A load that may come flying, be held in two hands, and slip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HeldLoad {
+    /// Carrying segment.
+    pub segment: SegmentId,
+    /// Where, segment frame, m.
+    pub point: Vec3,
+    /// Mass, kg, 0…500. In two hands each carries half of it.
+    pub mass: f64,
+    /// Velocity of the load before it is taken, world axes, m/s. Taking it is perfectly inelastic.
+    pub velocity: Vec3,
+    /// Second hand (or other segment) with its point. From then on the two points keep their distance: the load is a rigid bar between
+    /// them, free to turn in either.
+    pub second: Option<(SegmentId, Vec3)>,
+    /// Force at one hand beyond which the load is lost, N; `f64::INFINITY` = never.
+    pub grip: f64,
+    /// Picked up at, s.
+    pub from: f64,
+    /// Dropped at, s; `f64::INFINITY` = never.
+    pub to: f64,
+}
+
+impl HeldLoad {
+    /// What each point carries: segment, point (segment frame, m), mass (kg).
+    pub fn shares(&self) -> impl Iterator<Item = (SegmentId, Vec3, f64)> + use<> {
+        let each = if self.second.is_some() { 0.5 } else { 1.0 } * self.mass;
+        [Some((self.segment, self.point)), self.second]
+            .into_iter()
+            .flatten()
+            .map(move |(s, p)| (s, p, each))
+    }
+}
+
+impl Perturbation {
+    /// The load, if it is one.
+    pub fn load(&self) -> Option<HeldLoad> {
+        match *self {
+            Self::Load {
+                segment,
+                point,
+                mass,
+                from,
+                to,
+            } => Some(HeldLoad {
+                segment,
+                point,
+                mass,
+                velocity: Vec3::zero(),
+                second: None,
+                grip: f64::INFINITY,
+                from,
+                to,
+            }),
+            Self::Held(load) => Some(load),
+            Self::Force { .. } => None,
+        }
+    }
+
+    fn end(&mut self) -> &mut f64 {
+        match self {
+            Self::Load { to, .. } | Self::Force { to, .. } => to,
+            Self::Held(load) => &mut load.to,
+        }
+    }
+
+    /// When it ends, s.
+    pub fn ends(&self) -> f64 {
+        match self {
+            Self::Load { to, .. } | Self::Force { to, .. } => *to,
+            Self::Held(load) => load.to,
+        }
+    }
+
+    /// Lets it end at `time`, s.
+    pub fn end_at(&mut self, time: f64) {
+        *self.end() = time;
+    }
 }

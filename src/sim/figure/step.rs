@@ -1,11 +1,14 @@
 //! One tick of one figure (ALGORITHM §10): the list of stages is [`Figure::step`].
 
+use super::assist::Assist;
 use super::drive::Drive;
 use super::events::{FigureEvent, Watcher};
 use super::kinematic_step::{Decision, KinematicStepper, SPEED_CAP, other_part_arrives};
 use super::loads::Disturbances;
 use super::report::{Audit, Flags, MAX_CONTACTS, TickReport};
-use super::setup::{ControlParams, ControllerKind, Perturbation, StepperKind, StrengthScale};
+use super::setup::{
+    ControlParams, ControllerKind, FigureOptions, Perturbation, StepperKind, StrengthScale,
+};
 use super::tasks::{TaskPoints, TaskWorkspace};
 use super::torque_step::{
     FALLEN_SPEED, FEED_FORWARD_SPEED, MODERN_SPEED, MOTORS_ALONE_SPEED, MotorCommand, StepInput,
@@ -21,7 +24,8 @@ use crate::sim::dynamics::{Kinematics, Terms, center_of_mass};
 use crate::sim::gait::{Gait, Led, StepPlan};
 use crate::sim::math::Vec3;
 use crate::sim::motion::{Target, TargetPair};
-use crate::sim::strength::Strength;
+use crate::sim::strength::fatigue::Fatigue;
+use crate::sim::strength::{MuscleScale, Strength};
 use crate::sim::support::Support;
 use std::sync::Arc;
 
@@ -40,6 +44,8 @@ pub struct FigureSetup {
     pub stepper: StepperKind,
     /// Choices and gains.
     pub params: ControlParams,
+    /// Fatigue and assist.
+    pub options: FigureOptions,
     /// Where it starts.
     pub state: State,
 }
@@ -77,6 +83,8 @@ pub struct Figure {
     state: State,
     last_good: State,
     links: Links,
+    muscles: MuscleScale,
+    fatigue: Option<Box<Fatigue>>,
     disturbances: Disturbances,
     drive: Drive,
     gait: Box<Gait>,
@@ -109,7 +117,12 @@ impl Figure {
     pub(crate) fn new(setup: FigureSetup, friction: f64) -> Self {
         let still = Target::still(setup.state.posture);
         Self {
-            strength: Arc::new(Strength::for_body(&setup.body)),
+            strength: Arc::new(Strength::at_percentile(
+                &setup.body,
+                setup.strength.percentile,
+            )),
+            muscles: setup.strength.muscles(1.0),
+            fatigue: rested(&setup.options),
             state: setup.state,
             last_good: setup.state,
             links: Links::new(&setup.body),
@@ -168,14 +181,22 @@ impl Figure {
             world.gravity,
         );
         self.target = self.desired(time, dt);
+        self.disturbances.check_grip(
+            time,
+            dt,
+            &self.terms,
+            world.gravity,
+            self.stepper.forces.bar,
+        );
         self.support
             .update(&self.terms, &body, self.com_acceleration, world.gravity);
         let angles = anatomical_angles(&self.state.posture);
         let rates: [f64; DOF_COUNT] = std::array::from_fn(|j| self.state.velocity[6 + j]);
-        let scale = self.available_strength();
+        self.muscles = self.available_strength();
+        let scale = &self.muscles;
         let (mut lower, mut upper) = ([0.0; DOF_COUNT], [0.0; DOF_COUNT]);
         self.strength
-            .range(&angles, &rates, &scale, &mut lower, &mut upper);
+            .range(&angles, &rates, scale, &mut lower, &mut upper);
         // 5. Control: accelerations and torques within strength.
         let mut tasks = self.tasks.points(&body, &self.links, &self.target);
         let mut balance = None;
@@ -194,16 +215,19 @@ impl Figure {
         self.judge_hand_over(dt);
         // 6. Simulate: motors, limits and contact move the body.
         let before = self.state;
+        let assist = Assist::new(&body, self.setup.options.assist);
         let input = StepInput {
             body: &body,
             links: &self.links,
             strength: &self.strength,
-            scale: &scale,
+            scale: &self.muscles,
             terms: &self.terms,
             command: &motors,
             lower: &lower,
             upper: &upper,
             applied: self.disturbances.applied(),
+            bar: self.disturbances.bar(),
+            assist: assist.as_ref().map(|a| (a, &self.target)),
             gravity: world.gravity,
             dt,
             substeps: world.substeps,
@@ -222,6 +246,7 @@ impl Figure {
             self.kinematic.reset();
             self.stepper.step(&input, &mut self.state);
         }
+        self.tire(&angles, &rates, dt);
         // 7. Contain trouble, 8. report.
         let frozen = self.contain();
         self.fill_report(world, &before, &tasks, (&lower, &upper), frozen);
@@ -246,9 +271,12 @@ impl Figure {
             })
     }
 
-    /// True if steps follow events: the modern controller, and a figure that is up.
+    /// True if steps follow events: the modern controller, and a figure that is up. Full assist pins the pelvis to its path, so the motion
+    /// keeps its clock and its place there.
     fn steps(&self) -> bool {
-        !self.fallen && self.setup.controller == ControllerKind::Modern
+        !self.fallen
+            && self.setup.controller == ControllerKind::Modern
+            && self.setup.options.assist < 1.0
     }
 
     /// Runs the controller in charge and turns its command into work for the motors.
@@ -273,6 +301,8 @@ impl Figure {
             params: &self.setup.params,
             gravity: world.gravity,
             dt: world.dt,
+            assist: Assist::new(&self.setup.body, self.setup.options.assist)
+                .map_or([0.0; 2], |a| a.planned()),
             kinematic: self.prescribed,
         };
         let (command, saturation_speed) = match self.active_controller() {
@@ -330,9 +360,11 @@ impl Figure {
         }
     }
 
-    /// True if accelerations are to be applied as they are.
+    /// True if accelerations are to be applied as they are. A load held in two hands and the assist act by forces, which need torques.
     fn prescribes(&self) -> bool {
         self.setup.stepper == StepperKind::Kinematic
+            && self.setup.options.assist == 0.0
+            && self.disturbances.bar().is_none()
             && self.active_controller() != ControllerKind::Motors
             && self.handed_over.is_none()
     }
@@ -362,13 +394,38 @@ impl Figure {
         }
     }
 
-    /// A fallen figure relaxes.
-    fn available_strength(&self) -> StrengthScale {
-        let mut scale = self.setup.strength.clone();
-        if self.fallen {
-            scale.all *= FALLEN_STRENGTH;
+    /// Factors on the muscles: a fallen figure relaxes, a tired one has less.
+    fn available_strength(&self) -> MuscleScale {
+        let fallen = if self.fallen { FALLEN_STRENGTH } else { 1.0 };
+        let mut out = self.setup.strength.muscles(fallen);
+        if let Some(fatigue) = &self.fatigue {
+            for (scale, left) in out.0.iter_mut().zip(fatigue.remaining()) {
+                scale[0] *= left[0];
+                scale[1] *= left[1];
+            }
         }
-        scale
+        out
+    }
+
+    /// Fatigue of a tick: loads are torques over what the rested person could give at full effort.
+    fn tire(&mut self, angles: &[f64; DOF_COUNT], rates: &[f64; DOF_COUNT], dt: f64) {
+        let Some(fatigue) = &mut self.fatigue else {
+            return;
+        };
+        let rested = StrengthScale {
+            effort: 1.0,
+            ..self.setup.strength.clone()
+        };
+        let (mut lower, mut upper) = ([0.0; DOF_COUNT], [0.0; DOF_COUNT]);
+        self.strength
+            .range(angles, rates, &rested.muscles(1.0), &mut lower, &mut upper);
+        let torque = if self.prescribed {
+            &self.kinematic.forces.torque
+        } else {
+            &self.stepper.forces.torque
+        };
+        fatigue.step(torque, &lower, &upper, dt);
+        self.report.remaining = fatigue.remaining();
     }
 
     /// Freezes a figure whose state is not finite or runs away at its last good state; the world goes on.
@@ -401,6 +458,7 @@ impl Figure {
         let r = &mut self.report;
         r.torque = f.torque;
         r.ligament_torque = f.ligament_torque;
+        r.assist = f.assist;
         r.torque_lower = *range.0;
         r.torque_upper = *range.1;
         r.over_limit = f.over_limit;
@@ -493,6 +551,14 @@ impl Figure {
     pub fn strength(&self) -> &Strength {
         &self.strength
     }
+    /// Factors on its muscles in the last tick: scale, effort, fatigue, and relaxation of a fallen figure.
+    pub fn muscles(&self) -> &MuscleScale {
+        &self.muscles
+    }
+    /// Fatigue, if it is on.
+    pub fn fatigue(&self) -> Option<&Fatigue> {
+        self.fatigue.as_deref()
+    }
     /// State after the last tick.
     pub fn state(&self) -> &State {
         &self.state
@@ -561,10 +627,26 @@ impl Figure {
         self.modern.reset();
         self.kinematic.reset();
         self.handed_over = None;
+        self.fatigue = rested(&self.setup.options);
+        self.report.remaining = [[1.0; 2]; DOF_COUNT];
     }
-    /// Changes the scale of its strength.
+    /// Changes the scale of its strength. Another percentile makes new curves: about 20 µs, allocates.
     pub fn set_strength(&mut self, scale: StrengthScale) {
+        if scale.percentile != self.setup.strength.percentile {
+            self.strength = Arc::new(Strength::at_percentile(&self.setup.body, scale.percentile));
+        }
         self.setup.strength = scale;
+    }
+    /// Changes fatigue and assist. Fatigue that goes on keeps its state; turned off it is forgotten.
+    pub fn set_options(&mut self, options: FigureOptions) {
+        match (&mut self.fatigue, options.fatigue_time_scale > 0.0) {
+            (Some(fatigue), true) => fatigue.time_scale = options.fatigue_time_scale,
+            (fatigue, _) => {
+                *fatigue = rested(&options);
+                self.report.remaining = [[1.0; 2]; DOF_COUNT];
+            }
+        }
+        self.setup.options = options;
     }
     /// Changes controller and gains.
     pub fn set_controller(&mut self, controller: ControllerKind, params: ControlParams) {
@@ -586,8 +668,16 @@ impl Figure {
         }
         h.f64s(&p.hinge);
         h.f64s(&self.state.velocity);
+        if let Some(fatigue) = &self.fatigue {
+            fatigue.add_to(&mut h);
+        }
         h.finish()
     }
+}
+
+fn rested(options: &FigureOptions) -> Option<Box<Fatigue>> {
+    let scale = options.fatigue_time_scale;
+    (scale > 0.0).then(|| Box::new(Fatigue::rested(scale)))
 }
 
 /// Height of the centre of mass over the soles in the zero pose, m.
@@ -603,6 +693,8 @@ fn empty_report(state: &State) -> TickReport {
     TickReport {
         torque: z,
         ligament_torque: z,
+        assist: [0.0; 6],
+        remaining: [[1.0; 2]; DOF_COUNT],
         torque_lower: z,
         torque_upper: z,
         over_limit: 0.0,
@@ -629,7 +721,8 @@ fn empty_report(state: &State) -> TickReport {
             torque: z,
             ligament_torque: z,
             contacts: Vec::with_capacity(MAX_CONTACTS),
-            applied: Vec::with_capacity(super::loads::MAX_PERTURBATIONS),
+            applied: Vec::with_capacity(super::loads::MAX_PERTURBATIONS + 2),
+            assist: [0.0; 6],
         },
     }
 }

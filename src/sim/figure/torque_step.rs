@@ -5,6 +5,8 @@
 //! the velocity is recomputed from the impulses of the last iterate, so that torques, contact forces and accelerations satisfy the
 //! equations of motion to rounding whatever residual the iteration stopped at.
 
+use super::assist::{Assist, Spring};
+use super::loads::Bar;
 use super::report::{Audit, ContactPoint, Flags, MAX_CONTACTS};
 use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT, SegmentId};
 use crate::sim::body::{Body, Links, State};
@@ -13,11 +15,12 @@ use crate::sim::contact::{
     ContactRows, LimitRows, Motors, NewtonWorkspace, Outcome, SparseSystem, collect_limits,
     minimise,
 };
+use crate::sim::dynamics::jacobian::for_each_column;
 use crate::sim::dynamics::terms::AppliedForce;
 use crate::sim::dynamics::{MassMatrix, Terms, factor, solve};
-use crate::sim::figure::setup::StrengthScale;
 use crate::sim::math::Vec3;
-use crate::sim::strength::Strength;
+use crate::sim::motion::TargetPair;
+use crate::sim::strength::{MuscleScale, Strength};
 use multiversion::multiversion;
 
 /// Compliance of a contact, 1/kg: R of ALGORITHM §14.3.
@@ -47,8 +50,8 @@ pub struct StepInput<'a> {
     pub links: &'a Links,
     /// Its strength.
     pub strength: &'a Strength,
-    /// Scale of the strength.
-    pub scale: &'a StrengthScale,
+    /// Factors on the muscles.
+    pub scale: &'a MuscleScale,
     /// Terms of the state at the start of the tick, those the controller used.
     pub terms: &'a Terms,
     /// What the motors are asked to do.
@@ -59,6 +62,10 @@ pub struct StepInput<'a> {
     pub upper: &'a [f64; DOF_COUNT],
     /// Forces of perturbations, constant over the tick.
     pub applied: &'a [AppliedForce],
+    /// A bar between two points of the body, if two hands hold one load.
+    pub bar: Option<&'a Bar>,
+    /// Help towards the desired pose of the pelvis, if it is on.
+    pub assist: Option<(&'a Assist, &'a TargetPair)>,
     /// Magnitude of gravity, m/s².
     pub gravity: f64,
     /// Length of the tick, s.
@@ -93,6 +100,62 @@ pub const FEED_FORWARD_SPEED: f64 = 1.0;
 /// With the modern controller's: legs that give a little when a foot lands, rad/s.
 pub const MODERN_SPEED: f64 = 3.0;
 
+/// The bar as a row of the solve.
+#[derive(Clone, Copy, Debug)]
+struct BarRow {
+    /// Segments and world points of its ends.
+    ends: [(SegmentId, Vec3); 2],
+    /// Unit vector from the first end to the second, world axes.
+    direction: Vec3,
+    /// Derivative of its length by the velocity.
+    row: [f64; NV],
+    /// Rate of its length that takes an error back, m/s.
+    wanted: f64,
+}
+
+impl BarRow {
+    fn new(bar: &Bar, terms: &Terms, h: f64) -> Self {
+        let ends = bar.ends.map(|(s, p)| (s, terms.point_world(s.index(), p)));
+        let span = ends[1].1 - ends[0].1;
+        let length = span.norm();
+        let direction = if length > 1e-6 {
+            span * (1.0 / length)
+        } else {
+            Vec3::Y
+        };
+        let mut row = [0.0; NV];
+        let root = terms.state.posture.root_position;
+        for (sign, (s, p)) in [-1.0, 1.0].into_iter().zip(ends) {
+            for_each_column(&terms.kin, s.index(), p - root, |i, _, v| {
+                row[i] += sign * v.dot(direction)
+            });
+        }
+        Self {
+            ends,
+            direction,
+            row,
+            wanted: (BAR_RETURN * (bar.length - length) / h).clamp(-BAR_SPEED, BAR_SPEED),
+        }
+    }
+
+    fn rate(&self, v: &[f64; NV]) -> f64 {
+        self.row.iter().zip(v).map(|(a, b)| a * b).sum()
+    }
+
+    fn add(&self, impulse: f64, x: &mut [f64; NV]) {
+        for (x, r) in x.iter_mut().zip(&self.row) {
+            *x += impulse * r;
+        }
+    }
+}
+
+/// Share of an error of the bar's length that is taken back per substep, and how fast at most, m/s.
+const BAR_RETURN: f64 = 0.3;
+const BAR_SPEED: f64 = 0.5;
+/// Most solves for the impulse of a bar, and the rate of its length that is left, m/s.
+const BAR_ITERATIONS: u32 = 6;
+const BAR_TOLERANCE: f64 = 1e-6;
+
 /// Means over a tick and the last substep.
 #[derive(Clone, Debug)]
 pub struct TickForces {
@@ -100,6 +163,10 @@ pub struct TickForces {
     pub torque: [f64; DOF_COUNT],
     /// Mean ligament torque, N·m.
     pub ligament_torque: [f64; DOF_COUNT],
+    /// Mean assist on the pelvis: moment about its origin, N·m, then force, N.
+    pub assist: [f64; 6],
+    /// Mean force of the bar on its second end, N; the first end feels the opposite.
+    pub bar: Vec3,
     /// Mean contact force by segment and vertex; zero where nothing touched.
     pub contact: Vec<ContactPoint>,
     /// Largest relative violation of strength by any substep.
@@ -122,6 +189,13 @@ pub struct TorqueStepper {
     motors: Motors,
     newton: NewtonWorkspace,
     hessian: MassMatrix<f64>,
+    /// M with the springs of the assist on its first six diagonal entries.
+    assisted: MassMatrix<f64>,
+    /// Impulse of the assist in the current substep.
+    assist: [f64; 6],
+    /// Impulse along the bar, N·s; positive pushes its ends apart.
+    bar_impulse: f64,
+    bar_forces: Option<[(SegmentId, Vec3, Vec3); 2]>,
     /// Sum of contact impulses over the tick by segment × 8 + vertex, N·s, and where the point was when it first touched.
     impulse: Box<[(Vec3, Vec3); MAX_CONTACTS]>,
     penetration: f64,
@@ -142,11 +216,17 @@ impl TorqueStepper {
             motors: Motors::default(),
             newton: NewtonWorkspace::default(),
             hessian: MassMatrix::default(),
+            assisted: MassMatrix::default(),
+            assist: [0.0; 6],
+            bar_impulse: 0.0,
+            bar_forces: None,
             impulse: Box::new([(Vec3::zero(), Vec3::zero()); MAX_CONTACTS]),
             penetration: 0.0,
             forces: TickForces {
                 torque: [0.0; DOF_COUNT],
                 ligament_torque: [0.0; DOF_COUNT],
+                assist: [0.0; 6],
+                bar: Vec3::zero(),
                 contact: Vec::with_capacity(MAX_CONTACTS),
                 over_limit: 0.0,
                 iterations: 0,
@@ -157,7 +237,8 @@ impl TorqueStepper {
                     torque: [0.0; DOF_COUNT],
                     ligament_torque: [0.0; DOF_COUNT],
                     contacts: Vec::with_capacity(MAX_CONTACTS),
-                    applied: Vec::with_capacity(64),
+                    applied: Vec::with_capacity(super::loads::MAX_PERTURBATIONS + 2),
+                    assist: [0.0; 6],
                 },
             },
         }
@@ -189,6 +270,8 @@ impl Stepper for TorqueStepper {
         let f = &mut self.forces;
         f.torque.fill(0.0);
         f.ligament_torque.fill(0.0);
+        f.assist.fill(0.0);
+        f.bar = Vec3::zero();
         f.over_limit = 0.0;
         f.iterations = 0;
         f.flags = Flags::default();
@@ -215,7 +298,15 @@ impl Stepper for TorqueStepper {
                 self.motors.upper[j] = h * upper[j];
             }
             self.collect_contacts(body, h);
-            let outcome = self.solve_substep(h, state);
+            let spring = input.assist.map(|(assist, target)| {
+                let s = f64::from(i) / f64::from(substeps);
+                assist.spring(target, state, s, dt, h)
+            });
+            let row = input.bar.map(|bar| BarRow::new(bar, &self.terms, h));
+            let outcome = self.solve_substep(h, state, spring.as_ref(), row.as_ref());
+            if let Some(row) = &row {
+                self.account_bar(row, h, dt, i + 1 == substeps);
+            }
             self.account(h, dt, i + 1 == substeps, &lower, &upper, applied, outcome);
             let v = state.velocity;
             state.posture.integrate(&v, h);
@@ -286,7 +377,13 @@ impl TorqueStepper {
     }
 
     /// Solves for the velocity at the end of the substep, closes the step, writes it to `state.velocity`.
-    fn solve_substep(&mut self, h: f64, state: &mut State) -> Outcome {
+    fn solve_substep(
+        &mut self,
+        h: f64,
+        state: &mut State,
+        spring: Option<&Spring>,
+        bar: Option<&BarRow>,
+    ) -> Outcome {
         let t = &self.terms;
         let mut momentum = [0.0; NV];
         t.mass_matrix.mul(&state.velocity, &mut momentum);
@@ -294,23 +391,21 @@ impl TorqueStepper {
             momentum[i] -= h * t.h[i]; // M v_free
         }
         let mut v = state.velocity;
-        let outcome = substep_kernel(
-            &t.mass_matrix,
-            &mut self.hessian,
-            &momentum,
-            &self.motors,
-            &self.limits,
-            &self.contacts,
-            &mut v,
-            &mut self.newton,
-        );
-        let outcome = if outcome.converged {
-            outcome
-        } else {
-            self.solve_softer(&momentum, &mut v, outcome)
+        self.assist = [0.0; 6];
+        let outcome = match bar {
+            None => self.solve_with(&momentum, spring, &mut v),
+            Some(bar) => self.solve_barred(&momentum, spring, bar, &mut v),
         };
         let t = &self.terms;
         let mut x = momentum;
+        for i in 0..6 {
+            x[i] += self.assist[i];
+        }
+        if let Some(bar) = bar {
+            bar.add(self.bar_impulse, &mut x);
+        } else {
+            self.bar_impulse = 0.0;
+        }
         for j in 0..DOF_COUNT {
             x[6 + j] += self.newton.motor[j] + self.newton.limit[j];
         }
@@ -325,9 +420,148 @@ impl TorqueStepper {
         outcome
     }
 
+    /// Solves with or without assist.
+    fn solve_with(
+        &mut self,
+        momentum: &[f64; NV],
+        spring: Option<&Spring>,
+        v: &mut [f64; NV],
+    ) -> Outcome {
+        match spring {
+            None => self.solve_freely(momentum, v, false),
+            Some(spring) => self.solve_assisted(momentum, spring, v),
+        }
+    }
+
+    /// Solves with a bar: one unknown impulse along it, found by Newton and secant steps on the rate of its length, which grows with the
+    /// impulse. Leaves the impulse in [`Self::bar_impulse`]; it is the next substep's first guess.
+    fn solve_barred(
+        &mut self,
+        momentum: &[f64; NV],
+        spring: Option<&Spring>,
+        bar: &BarRow,
+        v: &mut [f64; NV],
+    ) -> Outcome {
+        let mut total = Outcome::default();
+        let mut before: Option<(f64, f64)> = None;
+        let mut slope = 0.0;
+        for _ in 0..BAR_ITERATIONS {
+            let mut b = *momentum;
+            bar.add(self.bar_impulse, &mut b);
+            let outcome = self.solve_with(&b, spring, v);
+            total = Outcome {
+                iterations: total.iterations + outcome.iterations,
+                ..outcome
+            };
+            let off = bar.rate(v) - bar.wanted;
+            if off.abs() < BAR_TOLERANCE {
+                break;
+            }
+            let secant = before
+                .map(|(p, o)| (off - o) / (self.bar_impulse - p))
+                .filter(|s| s.is_finite() && *s > 0.1 * slope && *s < 10.0 * slope);
+            slope = secant.unwrap_or_else(|| {
+                // The last matrix that was factored: motors, limits and contacts as they stood then.
+                let mut x = [0.0; NV];
+                bar.add(1.0, &mut x);
+                solve(&self.hessian, &mut x);
+                bar.rate(&x).max(1e-4)
+            });
+            before = Some((self.bar_impulse, off));
+            self.bar_impulse -= off / slope;
+        }
+        total
+    }
+
+    /// Adds the bar's forces to the means, and to the audit of the last substep.
+    fn account_bar(&mut self, row: &BarRow, h: f64, dt: f64, last: bool) {
+        self.forces.bar += row.direction * (self.bar_impulse / dt);
+        if last {
+            let force = row.direction * (self.bar_impulse / h);
+            self.bar_forces = Some([
+                (row.ends[0].0, row.ends[0].1, force * -1.0),
+                (row.ends[1].0, row.ends[1].1, force),
+            ]);
+        }
+    }
+
+    /// Solves for the velocity at the end of the substep; with `assisted`, for the matrix that carries the springs of the assist.
+    fn solve_freely(&mut self, momentum: &[f64; NV], v: &mut [f64; NV], assisted: bool) -> Outcome {
+        let matrix = if assisted {
+            &self.assisted
+        } else {
+            &self.terms.mass_matrix
+        };
+        let outcome = substep_kernel(
+            matrix,
+            &mut self.hessian,
+            momentum,
+            &self.motors,
+            &self.limits,
+            &self.contacts,
+            v,
+            &mut self.newton,
+        );
+        if outcome.converged {
+            outcome
+        } else {
+            self.solve_softer(momentum, v, outcome, assisted)
+        }
+    }
+
+    /// Solves with the springs of the assist; a part whose impulse exceeds its bound becomes a constant one at the bound, and the rest is
+    /// solved again. Leaves the impulse in [`Self::assist`].
+    fn solve_assisted(
+        &mut self,
+        momentum: &[f64; NV],
+        spring: &Spring,
+        v: &mut [f64; NV],
+    ) -> Outcome {
+        let mut fixed: [Option<Vec3>; 2] = [None; 2];
+        let mut total = Outcome::default();
+        loop {
+            self.assisted.rows = self.terms.mass_matrix.rows;
+            let mut b = *momentum;
+            for (k, constant) in fixed.iter().enumerate() {
+                let add = constant.unwrap_or(spring.rest[k] * spring.gain[k]);
+                for (i, x) in add.to_array().into_iter().enumerate() {
+                    b[3 * k + i] += x;
+                    if constant.is_none() {
+                        self.assisted.rows[3 * k + i][3 * k + i] += spring.gain[k];
+                    }
+                }
+            }
+            let outcome = self.solve_freely(&b, v, true);
+            total = Outcome {
+                iterations: total.iterations + outcome.iterations,
+                ..outcome
+            };
+            let root: [f64; 6] = std::array::from_fn(|i| v[i]);
+            let mut again = false;
+            for k in 0..2 {
+                let (impulse, cut) = spring.cut(k, &root);
+                if fixed[k].is_none() && cut {
+                    fixed[k] = Some(impulse);
+                    again = true;
+                }
+                let acts = fixed[k].unwrap_or(impulse).to_array();
+                self.assist[3 * k..3 * k + 3].copy_from_slice(&acts);
+            }
+            if !again {
+                return total;
+            }
+        }
+    }
+
     /// Second try of a substep whose stiff motors, limits and contacts kept Newton's method zigzagging: the same strength and friction with
     /// motors that saturate later. Closing an unconverged step would turn its residual into the speed of a light joint.
-    fn solve_softer(&mut self, momentum: &[f64; NV], v: &mut [f64; NV], first: Outcome) -> Outcome {
+    fn solve_softer(
+        &mut self,
+        momentum: &[f64; NV],
+        v: &mut [f64; NV],
+        first: Outcome,
+        assisted: bool,
+    ) -> Outcome {
         for j in 0..DOF_COUNT {
             // The same torque at the speed the joint has now, and a hundredth of the gain around it.
             let (m, now) = (&mut self.motors, self.terms.state.velocity[6 + j]);
@@ -335,9 +569,13 @@ impl TorqueStepper {
             m.gain[j] *= SOFTENING;
             m.rest[j] = now + torque / m.gain[j];
         }
-        let t = &self.terms;
+        let matrix = if assisted {
+            &self.assisted
+        } else {
+            &self.terms.mass_matrix
+        };
         let second = substep_kernel(
-            &t.mass_matrix,
+            matrix,
             &mut self.hessian,
             momentum,
             &self.motors,
@@ -379,6 +617,10 @@ impl TorqueStepper {
             f.audit.torque[j] = tau;
             f.audit.ligament_torque[j] = self.newton.limit[j] / h;
         }
+        for i in 0..6 {
+            f.assist[i] += self.assist[i] / dt;
+            f.audit.assist[i] = self.assist[i] / h;
+        }
         f.over_limit = f.over_limit.max(0.0);
         let root = self.terms.state.posture.root_position;
         if last {
@@ -389,6 +631,9 @@ impl TorqueStepper {
                     .applied
                     .push((*s, self.terms.point_world(s.index(), *p), *force));
             }
+            f.audit
+                .applied
+                .extend(self.bar_forces.take().into_iter().flatten());
         }
         for (k, p) in self.contacts.points.iter().enumerate() {
             let impulse = self.newton.force[k];

@@ -4,11 +4,13 @@
 //! origin, [`curve`] the shapes.
 
 pub mod curve;
+pub mod fatigue;
 pub mod tables;
 
 #[cfg(test)]
 mod tests;
 
+use crate::sim::body::age::{male_share, mix, smooth};
 use crate::sim::body::{Body, DOF_COUNT, Sex};
 use crate::sim::math::exp::{exp, ln};
 use curve::{AngleFactor, Muscle, VelocityFactor};
@@ -32,35 +34,45 @@ pub struct StrengthScale {
     pub all: f64,
     /// Factor per DOF, 0.01…100.
     pub dof: [f64; DOF_COUNT],
+    /// Which person of that sex, age and size: percentile of strength, 5…95; 50 is the average.
+    pub percentile: f64,
+    /// Share of its strength that it is willing to use, 0…1; below [`LEAST_EFFORT`] counts as that.
+    pub effort: f64,
 }
+
+/// No muscle goes quite dead, and limits stay on both sides of zero.
+pub const LEAST_EFFORT: f64 = 0.01;
 
 impl Default for StrengthScale {
     fn default() -> Self {
         Self {
             all: 1.0,
             dof: [1.0; DOF_COUNT],
+            percentile: 50.0,
+            effort: 1.0,
         }
     }
 }
 
-/// Where one number of a DOF's strength comes from.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Provenance {
-    /// The action it belongs to, for example `knee extension`.
-    pub action: &'static str,
-    /// What is given.
-    pub quantity: &'static str,
-    /// Value as used for this body.
-    pub value: f64,
-    /// Unit of the value.
-    pub unit: &'static str,
-    /// Publication or reason.
-    pub source: &'static str,
-    /// S1 read in data citing the publication; S2 read in the publication; S3 cross-check; D derived; R estimate.
-    pub tag: &'static str,
-    /// What was done with it.
-    pub note: &'static str,
+impl StrengthScale {
+    /// Factors on the muscles of each direction, with a further factor on all. The percentile is not among them: it shapes [`Strength`].
+    pub fn muscles(&self, further: f64) -> MuscleScale {
+        let (all, effort) = (self.all * further, self.effort.max(LEAST_EFFORT));
+        MuscleScale(std::array::from_fn(|d| [all * self.dof[d] * effort; 2]))
+    }
 }
+
+/// Factors on the muscles of each DOF for its positive and its negative direction, > 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MuscleScale(pub [[f64; 2]; DOF_COUNT]);
+
+impl Default for MuscleScale {
+    fn default() -> Self {
+        Self([[1.0; 2]; DOF_COUNT])
+    }
+}
+
+pub use crate::sim::body::provenance::Provenance;
 
 /// One side of a DOF's passive tissue: `amplitude · exp(steepness · x)`, x the angle beyond `onset`, up to `cap`, then linear to twice that.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,11 +123,16 @@ pub struct Strength {
 }
 
 impl Strength {
-    /// Strength of the person that `body.profile` describes: the tables, scaled by sex, mass · g · height and age.
+    /// Strength of the average person that `body.profile` describes: the tables, scaled by sex, mass · g · height and age.
     ///
-    /// Ages beyond 18…90 years count as the nearest of them. Allocates; offline.
+    /// Ages beyond 6…90 years count as the nearest of them. Allocates; offline.
     pub fn for_body(body: &Body) -> Self {
-        let person = Person::of(body);
+        Self::at_percentile(body, 50.0)
+    }
+
+    /// Strength of a person as strong as `percentile` of those of that sex, age and size; clamped to 5…95. Allocates; offline.
+    pub fn at_percentile(body: &Body, percentile: f64) -> Self {
+        let person = Person::of(body, percentile);
         let (groups, tissues) = (in_dof_order(&tables::TRUNK, &tables::ARM, &tables::LEG), {
             in_dof_order(
                 &tables::TRUNK_TISSUE,
@@ -134,7 +151,19 @@ impl Strength {
             ]
         });
         let provenance = (0..DOF_COUNT)
-            .map(|d| person.provenance(&groups[d], &muscle[d], &tissues[d], &tissue[d]))
+            .map(|d| {
+                let mut all = person.provenance(&groups[d], &muscle[d], &tissues[d], &tissue[d]);
+                let row = fatigue::fatigue_row(d);
+                for (quantity, value, unit) in [
+                    ("fatigue coefficient F", row.fatigue, "1/s"),
+                    ("recovery coefficient R", row.recovery, "1/s"),
+                    ("rest multiplier r", row.rest, "1"),
+                ] {
+                    let origin = fatigue::FATIGUE_ORIGIN;
+                    all.push(Provenance::new(row.joint, quantity, value, unit, origin));
+                }
+                all
+            })
             .collect();
         Self {
             muscle,
@@ -159,19 +188,19 @@ impl Strength {
         &self,
         angles: &[f64; DOF_COUNT],
         rates: &[f64; DOF_COUNT],
-        scale: &StrengthScale,
+        scale: &MuscleScale,
         lower: &mut [f64; DOF_COUNT],
         upper: &mut [f64; DOF_COUNT],
     ) {
         for d in 0..DOF_COUNT {
             let (theta, rate) = (angles[d], rates[d]);
             let [plus, minus] = &self.muscle[d];
-            let s = scale.all * scale.dof[d];
+            let [scale_plus, scale_minus] = scale.0[d];
             let into_upper = 1.0 - (self.upper[d] - theta) * PER_ZONE;
             let into_lower = 1.0 - (theta - self.lower[d]) * PER_ZONE;
-            upper[d] = s * plus.torque(theta, rate)
+            upper[d] = scale_plus * plus.torque(theta, rate)
                 + LIGAMENT_FACTOR * minus.peak * into_lower.clamp(0.0, 1.0);
-            lower[d] = -(s * minus.torque(theta, -rate)
+            lower[d] = -(scale_minus * minus.torque(theta, -rate)
                 + LIGAMENT_FACTOR * plus.peak * into_upper.clamp(0.0, 1.0));
         }
     }
@@ -244,50 +273,90 @@ fn between(start: f64, full: f64, cap: f64) -> Passive {
 /// What the tables are scaled by.
 struct Person {
     sex: Sex,
+    /// Share of the men's tables: 1 or 0 for adults.
+    male: f64,
     age: f64,
     /// mass · g · height, N·m.
     mgh: f64,
-    /// The same of the body the levels refer to, N·m.
-    reference_mgh: f64,
+    /// Standard deviations from the average person.
+    deviations: f64,
 }
 
 impl Person {
-    fn of(body: &Body) -> Self {
+    fn of(body: &Body, percentile: f64) -> Self {
         let p = body.profile;
-        let (height, mass) = tables::reference_body(p.sex);
+        let age = p.age.clamp(6.0, 90.0);
         Self {
             sex: p.sex,
-            age: p.age.clamp(18.0, 90.0),
+            male: male_share(p.sex, age),
+            age,
             mgh: p.mass * tables::NORMALISING_GRAVITY * p.height,
-            reference_mgh: mass * tables::NORMALISING_GRAVITY * height,
+            deviations: deviations(percentile),
         }
     }
 
-    fn table(&self) -> usize {
-        match self.sex {
-            Sex::Male => 0,
-            Sex::Female => 1,
-        }
+    /// A number of the men's and of the women's table, mixed for a child.
+    fn mixed(&self, of: impl Fn(usize) -> f64) -> f64 {
+        mix(self.male, of(0), of(1))
     }
 
     fn age_factor(&self) -> f64 {
-        tables::age_factor(self.sex, self.age)
+        tables::age_factor(self.sex, self.age) * tables::child_factor(self.age)
+    }
+
+    /// Strength of the percentile over the average in one group.
+    fn percentile_factor(&self, group: &Group) -> f64 {
+        let z = self.deviations;
+        if z == 0.0 {
+            return 1.0;
+        }
+        match group {
+            Group::Leg(leg) => {
+                let variation = self.mixed(|t| {
+                    let (rows, sd) = (
+                        &tables::ANDERSON[*leg as usize][t],
+                        &tables::ANDERSON_DEVIATION[*leg as usize][t],
+                    );
+                    by_age(std::array::from_fn(|g| sd[g] / rows[g].c1), self.age)
+                });
+                1.0 + variation * z.clamp(-tables::MOST_DEVIATIONS, tables::MOST_DEVIATIONS)
+            }
+            Group::Other(a) => {
+                let side = usize::from(z > 0.0);
+                let end = self.mixed(|t| a.spread[t][side]);
+                exp(ln(end) * z.abs() / FIVE_PERCENT)
+            }
+        }
+    }
+
+    fn row(&self, leg: Leg, age: f64) -> AndersonRow {
+        let [m, f] = [0, 1].map(|t| at_age(&tables::ANDERSON[leg as usize][t], age));
+        let c = |of: fn(&AndersonRow) -> f64| mix(self.male, of(&m), of(&f));
+        AndersonRow {
+            c1: c(|r| r.c1),
+            c2: c(|r| r.c2),
+            c3: c(|r| r.c3),
+            c4: c(|r| r.c4),
+            c5: c(|r| r.c5),
+            c6: c(|r| r.c6),
+        }
     }
 
     fn muscle(&self, group: &Group) -> Muscle {
-        match group {
+        let mut muscle = match group {
             Group::Leg(leg) => {
-                let rows = &tables::ANDERSON[*leg as usize][self.table()];
-                let mut muscle = anderson(*leg, &at_age(rows, self.age), self.mgh);
+                let mut muscle = anderson(*leg, &self.row(*leg, self.age), self.mgh);
                 // C1 follows its own posture, so the level is carried over at one that everybody reaches.
-                let young = anderson(*leg, &rows[0], self.mgh);
+                let young = anderson(*leg, &self.row(*leg, 0.0), self.mgh);
                 let at = leg.reference_angle();
                 let level = young.peak * young.angle.at(at) * self.age_factor();
                 muscle.peak = level / muscle.angle.at(at);
                 muscle
             }
             Group::Other(a) => self.other(a),
-        }
+        };
+        muscle.peak *= self.percentile_factor(group);
+        muscle
     }
 
     fn other(&self, a: &Action) -> Muscle {
@@ -296,7 +365,11 @@ impl Person {
             peak,
             narrowness: 1.0 / deviation,
         };
-        let level = a.level[self.table()] * self.mgh / self.reference_mgh * self.age_factor();
+        let level = self.mixed(|t| {
+            let (height, mass) = tables::reference_body([Sex::Male, Sex::Female][t]);
+            let reference = mass * tables::NORMALISING_GRAVITY * height;
+            a.level[t] * self.mgh / reference * self.age_factor()
+        });
         let [fastest, at_half, eccentric] = a.hill;
         Muscle {
             peak: level / angle.at(a.at.to_radians()),
@@ -314,15 +387,7 @@ impl Person {
     ) -> Vec<Provenance> {
         let mut out = Vec::new();
         let mut add = |action, quantity, value: f64, unit, origin: Origin| {
-            out.push(Provenance {
-                action,
-                quantity,
-                value,
-                unit,
-                source: origin.source,
-                tag: origin.tag,
-                note: origin.note,
-            });
+            out.push(Provenance::new(action, quantity, value, unit, origin));
         };
         for (group, muscle) in groups.iter().zip(muscles) {
             let (name, level, shape, speed) = match group {
@@ -344,6 +409,17 @@ impl Person {
                 AngleFactor::Cosine { peak, .. } | AngleFactor::Bell { peak, .. } => peak,
             };
             add(name, "isometric peak torque", muscle.peak, "N·m", level);
+            if self.deviations != 0.0 {
+                let factor = self.percentile_factor(group);
+                let origin = tables::PERCENTILE_ORIGIN;
+                add(
+                    name,
+                    "factor of the strength percentile",
+                    factor,
+                    "1",
+                    origin,
+                );
+            }
             add(name, "angle of the peak", peak.to_degrees(), "deg", shape);
             let share = muscle.velocity.at(5.0);
             add(name, "share of it at 5 rad/s shortening", share, "1", speed);
@@ -360,13 +436,12 @@ impl Person {
             Group::Leg(leg) => leg.name(),
             Group::Other(a) => a.name,
         };
-        add(
-            name,
-            "age factor",
-            self.age_factor(),
-            "1",
-            tables::AGE_ORIGIN,
-        );
+        let origin = if self.age < 18.0 {
+            tables::CHILD_ORIGIN
+        } else {
+            tables::AGE_ORIGIN
+        };
+        add(name, "age factor", self.age_factor(), "1", origin);
         let ends = [
             "passive torque at the lower onset",
             "passive torque at the upper onset",
@@ -402,18 +477,36 @@ fn anderson(leg: Leg, row: &AndersonRow, mgh: f64) -> Muscle {
     }
 }
 
-/// Row at an age between the groups: smoothstep between their middle ages, so that nothing jumps at a birthday.
-fn at_age(rows: &[AndersonRow; 3], age: f64) -> AndersonRow {
+/// Standard normal quantile of 95 %.
+const FIVE_PERCENT: f64 = 1.644_853_626_951_472_2;
+
+/// Standard deviations from the mean at a percentile of a normal distribution, clamped to 5…95; 0 at 50.
+///
+/// The series of the inverse error function to the ninth order, with a term that makes it exact at the ends; off by less than 0.01 between.
+fn deviations(percentile: f64) -> f64 {
+    let x = (percentile.clamp(5.0, 95.0) - 50.0) / 45.0;
+    let series = |x: f64| {
+        // √2·erf⁻¹(0.9 x)
+        let u = 2.506_628_274_631_000_5 * 0.45 * x;
+        let u2 = u * u;
+        u * (1.0
+            + u2 * (1.0 / 6.0
+                + u2 * (7.0 / 120.0 + u2 * (127.0 / 5040.0 + u2 * (4369.0 / 362_880.0)))))
+    };
+    let x4 = x * x * x * x;
+    series(x) + (FIVE_PERCENT - series(1.0)) * x * x4 * x4 * x4
+}
+
+/// Values of the three groups of [`tables::ANDERSON`] at an age between them: smoothstep between their middle ages.
+fn by_age(v: [f64; 3], age: f64) -> f64 {
     let [young, middle, senior] = tables::ANDERSON_AGE;
-    let smooth = |from: f64, to: f64| {
-        let x = ((age - from) / (to - from)).clamp(0.0, 1.0);
-        x * x * (3.0 - 2.0 * x)
-    };
-    let (a, b) = (smooth(young, middle), smooth(middle, senior));
-    let mix = |of: fn(&AndersonRow) -> f64| {
-        let [y, m, s] = [of(&rows[0]), of(&rows[1]), of(&rows[2])];
-        y + a * (m - y) + b * (s - m)
-    };
+    let (a, b) = (smooth(young, middle, age), smooth(middle, senior, age));
+    v[0] + a * (v[1] - v[0]) + b * (v[2] - v[1])
+}
+
+/// Row at an age between the groups, so that nothing jumps at a birthday.
+fn at_age(rows: &[AndersonRow; 3], age: f64) -> AndersonRow {
+    let mix = |of: fn(&AndersonRow) -> f64| by_age([0, 1, 2].map(|g| of(&rows[g])), age);
     AndersonRow {
         c1: mix(|r| r.c1),
         c2: mix(|r| r.c2),

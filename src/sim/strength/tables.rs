@@ -6,6 +6,7 @@
 //! with mass · g · height. Population averages for animation and planning, not for clinical or ergonomic decisions.
 
 use crate::sim::body::Sex;
+use crate::sim::body::age::polyline;
 
 /// Gravity of the normalisation mass · g · height, m/s²; that of the people who were measured, whatever the world's is.
 pub const NORMALISING_GRAVITY: f64 = 9.81;
@@ -17,16 +18,7 @@ pub const fn reference_body(sex: Sex) -> (f64, f64) {
     }
 }
 
-/// Where a number comes from and how far to trust it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Origin {
-    /// Publication or reason.
-    pub source: &'static str,
-    /// S1 read in data that cite the publication; S2 read in the publication or an excerpt; S3 cross-check only; D derived; R estimate.
-    pub tag: &'static str,
-    /// What was done with it.
-    pub note: &'static str,
-}
+pub use crate::sim::body::age::Origin;
 
 /// Coefficients of Anderson 2007: level over m·g·h, angle (1/rad, rad), velocity (rad/s), eccentric (s/rad).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -99,6 +91,25 @@ impl Leg {
         }
     }
 }
+
+/// Standard deviation of C1 between people, `[group][man, woman][18–25, 55–65, >65]`, order of [`ANDERSON`]. The oldest groups are six
+/// people: their spread is an accident.
+pub const ANDERSON_DEVIATION: [[[f64; 3]; 2]; 6] = [
+    [[0.025, 0.02, 0.025], [0.033, 0.016, 0.008]],
+    [[0.049, 0.043, 0.039], [0.047, 0.032, 0.003]],
+    [[0.015, 0.017, 0.022], [0.015, 0.015, 0.005]],
+    [[0.04, 0.031, 0.017], [0.028, 0.016, 0.018]],
+    [[0.005, 0.005, 0.002], [0.006, 0.002, 0.003]],
+    [[0.022, 0.029, 0.035], [0.034, 0.026, 0.006]],
+];
+/// Percentiles lie at most this many standard deviations from the mean.
+pub const MOST_DEVIATIONS: f64 = 2.0;
+/// Origin of the percentile factor.
+pub const PERCENTILE_ORIGIN: Origin = Origin {
+    source: "standard deviations of Anderson 2007; 5th and 95th percentiles of Stobbe 1982; a coefficient of variation of 0.25 elsewhere",
+    tag: "S1 (legs), R",
+    note: "the same percentile in every group; normal or piecewise log-normal between the given ones",
+};
 
 /// Middle age of the three groups of [`ANDERSON`], years (18–25, 55–65, over 65).
 pub const ANDERSON_AGE: [f64; 3] = [21.5, 60.0, 70.0];
@@ -213,6 +224,8 @@ pub struct Action {
     pub bell: [f64; 2],
     /// Hill curve: fastest (rad/s), factor at half of it, eccentric plateau.
     pub hill: [f64; 3],
+    /// The level's 5th and 95th percentile over its median, men and women.
+    pub spread: [[f64; 2]; 2],
     /// Origin of the level.
     pub level_origin: Origin,
     /// Origin of the shapes.
@@ -221,6 +234,7 @@ pub struct Action {
 
 /// A muscle group by table.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(clippy::large_enum_variant)] // a few constants, never stored
 pub enum Group {
     /// Anderson 2007.
     Leg(Leg),
@@ -284,9 +298,27 @@ const fn action(
         at,
         bell,
         hill,
+        spread: USUAL_SPREAD,
         level_origin,
         shape_origin,
     })
+}
+
+/// Spread where none was measured: a coefficient of variation of a quarter, as the measured groups have.
+const USUAL_SPREAD: [[f64; 2]; 2] = [[0.59, 1.41]; 2];
+
+/// 5th, 50th and 95th percentile of men and of women.
+const fn spread(group: Group, man: [f64; 3], woman: [f64; 3]) -> Group {
+    match group {
+        Group::Other(a) => Group::Other(Action {
+            spread: [
+                [man[0] / man[1], man[2] / man[1]],
+                [woman[0] / woman[1], woman[2] / woman[1]],
+            ],
+            ..a
+        }),
+        Group::Leg(_) => group,
+    }
 }
 
 /// Share of the waist's strength that the thorax joint has: the same muscles on a shorter lever.
@@ -308,32 +340,44 @@ const fn thorax(waist: Group, name: &'static str) -> Group {
 }
 
 /// Lumbar extension peaks far into flexion in the gymnast set; two joints share the bend, and the level is known upright only.
-const TRUNK_FLEXION: Group = action(
-    "trunk flexion",
-    [143.0, 75.0],
-    0.0,
-    [0.0, 120.0],
-    [19.2, 0.15, 1.1],
-    STOBBE,
-    GYMNAST,
+const TRUNK_FLEXION: Group = spread(
+    action(
+        "trunk flexion",
+        [143.0, 75.0],
+        0.0,
+        [0.0, 120.0],
+        [19.2, 0.15, 1.1],
+        STOBBE,
+        GYMNAST,
+    ),
+    [75.0, 143.0, 216.0],
+    [49.0, 75.0, 161.0],
 );
-const TRUNK_EXTENSION: Group = action(
-    "trunk extension",
-    [234.0, 184.0],
-    0.0,
-    [30.0, 45.0],
-    [8.0, 0.15, 1.1],
-    STOBBE,
-    GYMNAST,
+const TRUNK_EXTENSION: Group = spread(
+    action(
+        "trunk extension",
+        [234.0, 184.0],
+        0.0,
+        [30.0, 45.0],
+        [8.0, 0.15, 1.1],
+        STOBBE,
+        GYMNAST,
+    ),
+    [164.0, 234.0, 503.0],
+    [71.0, 184.0, 371.0],
 );
-const TRUNK_LATERAL: Group = action(
-    "trunk lateral bend",
-    [159.0, 94.0],
-    0.0,
-    [0.0, 60.0],
-    [10.0, 0.2, 1.2],
-    STOBBE,
-    ESTIMATE,
+const TRUNK_LATERAL: Group = spread(
+    action(
+        "trunk lateral bend",
+        [159.0, 94.0],
+        0.0,
+        [0.0, 60.0],
+        [10.0, 0.2, 1.2],
+        STOBBE,
+        ESTIMATE,
+    ),
+    [95.0, 159.0, 261.0],
+    [50.0, 94.0, 162.0],
 );
 const TRUNK_ROTATION: Group = action(
     "trunk rotation",
@@ -427,63 +471,87 @@ pub const ARM: [[Group; 2]; 7] = [
         ),
     ],
     [
-        action(
-            "shoulder abduction",
-            [71.0, 37.0],
-            90.0,
-            [60.0, 80.0],
-            [18.0, 0.22, 1.23],
-            STOBBE,
-            ESTIMATE,
+        spread(
+            action(
+                "shoulder abduction",
+                [71.0, 37.0],
+                90.0,
+                [60.0, 80.0],
+                [18.0, 0.22, 1.23],
+                STOBBE,
+                ESTIMATE,
+            ),
+            [43.0, 71.0, 101.0],
+            [15.0, 37.0, 57.0],
         ),
-        action(
-            "shoulder adduction",
-            [67.0, 30.0],
-            90.0,
-            [80.0, 90.0],
-            [18.0, 0.22, 1.23],
-            STOBBE,
-            ESTIMATE,
-        ),
-    ],
-    [
-        action(
-            "shoulder internal rotation",
-            [52.0, 21.0],
-            0.0,
-            [68.0, 161.0],
-            [19.5, 0.29, 1.28],
-            STOBBE,
-            GYMNAST,
-        ),
-        action(
-            "shoulder external rotation",
-            [33.0, 19.0],
-            0.0,
-            [38.0, 114.0],
-            [18.0, 0.23, 1.36],
-            STOBBE,
-            GYMNAST,
+        spread(
+            action(
+                "shoulder adduction",
+                [67.0, 30.0],
+                90.0,
+                [80.0, 90.0],
+                [18.0, 0.22, 1.23],
+                STOBBE,
+                ESTIMATE,
+            ),
+            [35.0, 67.0, 115.0],
+            [13.0, 30.0, 54.0],
         ),
     ],
     [
-        action(
-            "elbow flexion",
-            [77.0, 41.0],
-            90.0,
-            [19.0, 207.0],
-            [18.1, 0.19, 1.37],
-            STOBBE,
-            GYMNAST,
+        spread(
+            action(
+                "shoulder internal rotation",
+                [52.0, 21.0],
+                0.0,
+                [68.0, 161.0],
+                [19.5, 0.29, 1.28],
+                STOBBE,
+                GYMNAST,
+            ),
+            [28.0, 52.0, 83.0],
+            [9.0, 21.0, 33.0],
         ),
-        action(
-            "elbow extension",
-            [46.0, 27.0],
-            110.0,
-            [94.0, 75.0],
-            [18.4, 0.19, 1.32],
-            STOBBE,
-            GYMNAST,
+        spread(
+            action(
+                "shoulder external rotation",
+                [33.0, 19.0],
+                0.0,
+                [38.0, 114.0],
+                [18.0, 0.23, 1.36],
+                STOBBE,
+                GYMNAST,
+            ),
+            [23.0, 33.0, 51.0],
+            [13.0, 19.0, 28.0],
+        ),
+    ],
+    [
+        spread(
+            action(
+                "elbow flexion",
+                [77.0, 41.0],
+                90.0,
+                [19.0, 207.0],
+                [18.1, 0.19, 1.37],
+                STOBBE,
+                GYMNAST,
+            ),
+            [42.0, 77.0, 111.0],
+            [16.0, 41.0, 55.0],
+        ),
+        spread(
+            action(
+                "elbow extension",
+                [46.0, 27.0],
+                110.0,
+                [94.0, 75.0],
+                [18.4, 0.19, 1.32],
+                STOBBE,
+                GYMNAST,
+            ),
+            [31.0, 46.0, 67.0],
+            [9.0, 27.0, 39.0],
         ),
     ],
     [
@@ -661,6 +729,21 @@ pub const LEG: [[Group; 2]; 8] = [
         ),
     ],
 ];
+
+/// Share of an adult's strength per mass · g · height that a child has.
+const CHILD: [(f64, [f64; 1]); 3] = [(6.0, [0.9]), (12.0, [0.97]), (18.0, [1.0])];
+
+/// Strength per mass · g · height at `age` (years) relative to an adult: 1 from 18 years.
+pub fn child_factor(age: f64) -> f64 {
+    polyline(&CHILD, age)[0]
+}
+
+/// Origin of the child's factor.
+pub const CHILD_ORIGIN: Origin = Origin {
+    source: "Hogrel 2012 (96 children, 5–17 y) against adult coefficients times own mass · g · height",
+    tag: "D",
+    note: "0.90 at 6 y, 0.97 at 12 y, 1 from 18 y; sexes alike to 10 y",
+};
 
 /// Origin of the age trend.
 pub const AGE_ORIGIN: Origin = Origin {

@@ -6,7 +6,9 @@ pub use crate::sim::figure::{ClipPlayback, Drive, Figure, FigureEvent, FigureSet
 
 use crate::sim::body::{SegmentId, State};
 use crate::sim::figure::loads::MAX_PERTURBATIONS;
-use crate::sim::figure::{ControlParams, ControllerKind, Perturbation, StrengthScale, TickContext};
+use crate::sim::figure::{
+    ControlParams, ControllerKind, FigureOptions, Perturbation, StrengthScale, TickContext,
+};
 use crate::sim::math::hash::Fnv;
 
 /// Fixed properties of a world.
@@ -224,6 +226,22 @@ impl World {
         let figure = self.figure_mut(key).ok_or(WorldError::UnknownFigure(key))?;
         figure.set_strength(strength);
         figure.set_controller(controller, params);
+        Ok(())
+    }
+
+    /// Changes fatigue and assist of a figure from the next tick on.
+    ///
+    /// # Errors
+    /// Unknown figure or a number out of range.
+    pub fn set_figure_options(
+        &mut self,
+        key: FigureKey,
+        options: FigureOptions,
+    ) -> Result<(), WorldError> {
+        validate::options(&options)?;
+        self.figure_mut(key)
+            .ok_or(WorldError::UnknownFigure(key))?
+            .set_options(options);
         Ok(())
     }
 

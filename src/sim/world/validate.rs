@@ -2,7 +2,7 @@
 
 use super::{WorldError, WorldParams};
 use crate::sim::body::State;
-use crate::sim::figure::{ControlParams, FigureSetup, Perturbation, StrengthScale};
+use crate::sim::figure::{ControlParams, FigureOptions, FigureSetup, Perturbation, StrengthScale};
 use crate::sim::math::Vec3;
 
 /// Farthest from the world origin a figure may be put, m: beyond, positions lose the precision that contact needs.
@@ -56,7 +56,18 @@ pub(super) fn strength(s: &StrengthScale) -> Result<(), WorldError> {
     for f in s.dof {
         range("strength.dof", f, 0.01, 100.0)?;
     }
-    Ok(())
+    range("strength.percentile", s.percentile, 5.0, 95.0)?;
+    range("strength.effort", s.effort, 0.0, 1.0)
+}
+
+pub(super) fn options(o: &FigureOptions) -> Result<(), WorldError> {
+    range(
+        "fatigue_time_scale",
+        o.fatigue_time_scale,
+        0.0,
+        crate::sim::strength::fatigue::MAX_TIME_SCALE,
+    )?;
+    range("assist", o.assist, 0.0, 1.0)
 }
 
 pub(super) fn control(c: &ControlParams) -> Result<(), WorldError> {
@@ -70,21 +81,22 @@ pub(super) fn control(c: &ControlParams) -> Result<(), WorldError> {
 pub(super) fn setup(s: &FigureSetup) -> Result<(), WorldError> {
     strength(&s.strength)?;
     control(&s.params)?;
+    options(&s.options)?;
     state(&s.state)
 }
 
 pub(super) fn perturbation(p: &Perturbation) -> Result<(), WorldError> {
     let (from, to) = match p {
-        Perturbation::Load {
-            point,
-            mass,
-            from,
-            to,
-            ..
-        } => {
-            range("load.mass_kg", *mass, 0.0, 500.0)?;
-            vector("load.point_m", *point, 10.0)?;
-            (*from, *to)
+        Perturbation::Load { .. } | Perturbation::Held(_) => {
+            let l = p.load().expect("both kinds are loads");
+            range("load.mass_kg", l.mass, 0.0, 500.0)?;
+            vector("load.point_m", l.point, 10.0)?;
+            vector("load.velocity_mps", l.velocity, 100.0)?;
+            if let Some((_, point)) = l.second {
+                vector("load.second_point_m", point, 10.0)?;
+            }
+            range("load.grip_n", l.grip, 0.0, f64::INFINITY)?;
+            (l.from, l.to)
         }
         Perturbation::Force {
             point,

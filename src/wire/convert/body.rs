@@ -4,6 +4,7 @@ use super::super::pb;
 use super::super::status::Fault;
 use super::super::types::BodyRef;
 use super::{clip_text, vector_out};
+use crate::sim::body::provenance::Provenance;
 use crate::sim::body::topology::{
     BONE_NAMES, DOF_AXIS, DOF_LEN, DOF_NAMES, DOF_SEGMENT, DOF_START, JOINT, JOINT_NAMES, Joint,
     PARENT, SEGMENT_NAMES,
@@ -11,26 +12,13 @@ use crate::sim::body::topology::{
 use crate::sim::body::{Body, DOF_COUNT, Profile, SEGMENT_COUNT, Sex};
 use crate::sim::math::Vec3;
 
-/// Bodies that have names of their own.
-pub const NAMED: [(&str, Profile); 2] = [
-    (
-        "adult-man",
-        Profile {
-            sex: Sex::Male,
-            age: 30.0,
-            height: 1.75,
-            mass: 75.0,
-        },
-    ),
-    (
-        "adult-woman",
-        Profile {
-            sex: Sex::Female,
-            age: 30.0,
-            height: 1.63,
-            mass: 62.0,
-        },
-    ),
+/// Bodies that have names of their own, with sex and age; their size is the ordinary one.
+pub const NAMED: [(&str, Sex, f64); 5] = [
+    ("adult-man", Sex::Male, 30.0),
+    ("adult-woman", Sex::Female, 30.0),
+    ("child", Sex::Male, 8.0),
+    ("older-man", Sex::Male, 75.0),
+    ("older-woman", Sex::Female, 75.0),
 ];
 
 /// The name that says a profile: `{sex}-{age}y-{height}mm-{mass}g`.
@@ -74,8 +62,8 @@ fn profile_of_id(id: &str) -> Option<Profile> {
 pub fn by_id(id: &str) -> Option<BodyRef> {
     let profile = NAMED
         .iter()
-        .find(|(name, _)| *name == id)
-        .map(|(_, p)| *p)
+        .find(|(name, ..)| *name == id)
+        .map(|(_, sex, age)| Profile::ordinary(*sex, *age))
         .or_else(|| profile_of_id(id))?;
     Some(BodyRef {
         id: id.to_owned(),
@@ -115,12 +103,19 @@ pub fn reference(
                 }
             };
             let at = |part: &str| format!("{profile_field}.{part}");
+            let age =
+                (super::within(&at("age_years"), p.age_years, 0.0, 150.0)? * 10.0).round() / 10.0;
+            let ordinary = Profile::ordinary(sex, age);
+            let size = |part: &str, value, usual, least, most| {
+                super::or_default(&at(part), value, usual, least, most)
+            };
+            let height = size("height_m", p.height_m, ordinary.height, 0.3, 3.0)?;
+            let mass = size("mass_kg", p.mass_kg, ordinary.mass, 1.0, 500.0)?;
             let profile = Profile {
                 sex,
-                age: (super::within(&at("age_years"), p.age_years, 0.0, 150.0)? * 10.0).round()
-                    / 10.0,
-                height: (super::within(&at("height_m"), p.height_m, 0.3, 3.0)? * 1e3).round() / 1e3,
-                mass: (super::within(&at("mass_kg"), p.mass_kg, 1.0, 500.0)? * 1e3).round() / 1e3,
+                age,
+                height: (height * 1e3).round() / 1e3,
+                mass: (mass * 1e3).round() / 1e3,
             };
             Ok(BodyRef {
                 id: profile_id(&profile),
@@ -213,7 +208,24 @@ pub fn describe(id: &str, body: &Body, geometry: bool) -> pb::Body {
         joints: (0..SEGMENT_COUNT).map(joint).collect(),
         dofs: (0..DOF_COUNT).map(dof).collect(),
         standing_root_height_m: body.standing_root_height(),
+        provenance: Vec::new(),
     }
+}
+
+/// Numbers with their origin, each with the name of its segment or DOF.
+pub fn provenance_out(list: Vec<(&'static str, Provenance)>) -> Vec<pb::Provenance> {
+    list.into_iter()
+        .map(|(part, p)| pb::Provenance {
+            part: part.into(),
+            action: p.action.into(),
+            quantity: p.quantity.into(),
+            value: p.value,
+            unit: p.unit.into(),
+            source: p.source.into(),
+            tag: p.tag.into(),
+            note: p.note.into(),
+        })
+        .collect()
 }
 
 /// Which text form is asked for.

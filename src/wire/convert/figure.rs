@@ -5,7 +5,8 @@ use super::super::status::Fault;
 use super::super::types::{FigureInfo, FigureSettings, FigureUpdate};
 use super::{body, clip_text, display_name, or_default, place, place_out, within};
 use crate::sim::body::topology::DOF_NAMES;
-use crate::sim::figure::{ControllerKind, StepperKind, StrengthScale};
+use crate::sim::figure::{ControllerKind, FigureOptions, StepperKind, StrengthScale};
+use crate::sim::strength::fatigue::MAX_TIME_SCALE;
 
 /// Controller of a request.
 pub fn controller(field: &str, value: i32) -> Result<ControllerKind, Fault> {
@@ -34,6 +35,16 @@ pub fn strength(field: &str, s: Option<&pb::StrengthScale>) -> Result<StrengthSc
     let mut out = StrengthScale::default();
     let Some(s) = s else { return Ok(out) };
     out.all = or_default(&format!("{field}.all"), s.all, 1.0, 0.01, 100.0)?;
+    out.percentile = or_default(
+        &format!("{field}.percentile"),
+        s.percentile,
+        50.0,
+        5.0,
+        95.0,
+    )?;
+    if let Some(effort) = s.effort {
+        out.effort = within(&format!("{field}.effort"), effort, 0.0, 1.0)?;
+    }
     for (i, d) in s.dofs.iter().enumerate() {
         let at = |part: &str| format!("{field}.dofs[{i}].{part}");
         let dof = DOF_NAMES.iter().position(|n| *n == d.dof).ok_or_else(|| {
@@ -50,6 +61,10 @@ pub fn strength(field: &str, s: Option<&pb::StrengthScale>) -> Result<StrengthSc
     Ok(out)
 }
 
+fn time_scale(field: &str, value: f64) -> Result<f64, Fault> {
+    within(field, value, 0.0, MAX_TIME_SCALE)
+}
+
 /// Settings of a new figure; `field` is where the message stands in the request.
 pub fn settings(field: &str, f: Option<&pb::Figure>) -> Result<FigureSettings, Fault> {
     let none = pb::Figure::default();
@@ -61,6 +76,10 @@ pub fn settings(field: &str, f: Option<&pb::Figure>) -> Result<FigureSettings, F
         strength: strength(&at("strength"), f.strength.as_ref())?,
         controller: controller(&at("controller"), f.controller)?,
         stepper: stepper(&at("stepper"), f.stepper)?,
+        options: FigureOptions {
+            fatigue_time_scale: time_scale(&at("fatigue_time_scale"), f.fatigue_time_scale)?,
+            assist: within(&at("assist"), f.assist, 0.0, 1.0)?,
+        },
         place: f
             .placement
             .map(|p| place(&at("placement"), p))
@@ -89,11 +108,16 @@ pub fn update(
             }
             "strength" => out.strength = Some(strength("figure.strength", f.strength.as_ref())?),
             "controller" => out.controller = Some(controller("figure.controller", f.controller)?),
+            "fatigue_time_scale" => {
+                let value = time_scale("figure.fatigue_time_scale", f.fatigue_time_scale)?;
+                out.fatigue_time_scale = Some(value);
+            }
+            "assist" => out.assist = Some(within("figure.assist", f.assist, 0.0, 1.0)?),
             other => {
                 return Err(Fault::invalid(
                     format!("update_mask.paths[{i}]"),
                     format!(
-                        "must be display_name, strength or controller, got {:?}",
+                        "must be display_name, strength, controller, fatigue_time_scale or assist, got {:?}",
                         clip_text(other)
                     ),
                 ));
@@ -113,6 +137,8 @@ pub fn figure_out(f: &FigureInfo) -> pb::Figure {
         profile: Some(body::profile_out(&s.body.profile)),
         strength: Some(pb::StrengthScale {
             all: s.strength.all,
+            percentile: s.strength.percentile,
+            effort: Some(s.strength.effort),
             dofs: s
                 .strength
                 .dof
@@ -144,5 +170,7 @@ pub fn figure_out(f: &FigureInfo) -> pb::Figure {
             .unwrap_or_default(),
         driver_id: f.driver.clone().unwrap_or_default(),
         figure_index: f.index,
+        fatigue_time_scale: s.options.fatigue_time_scale,
+        assist: s.options.assist,
     }
 }

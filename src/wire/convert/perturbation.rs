@@ -5,6 +5,7 @@ use super::super::status::Fault;
 use super::super::types::{Disturbance, FigureDisturbance};
 use super::{clip_text, or_default, vector, within};
 use crate::sim::body::SegmentId;
+use crate::sim::math::Vec3;
 
 /// Most disturbances in one request.
 pub const MAX_BATCH: usize = 64;
@@ -27,6 +28,36 @@ fn lasting(field: &str, value: f64) -> Result<f64, Fault> {
     or_default(field, value, f64::INFINITY, 0.0, DAY)
 }
 
+/// The second hand of a load.
+fn second_hand(
+    at: &dyn Fn(&str) -> String,
+    l: &pb::Load,
+) -> Result<Option<(SegmentId, Option<Vec3>)>, Fault> {
+    let point = l
+        .second_point_m
+        .map(|p| vector(&at("second_point_m"), p, 2.0))
+        .transpose()?;
+    if l.second_segment.is_empty() {
+        return match point {
+            None => Ok(None),
+            Some(_) => Err(Fault::invalid(
+                at("second_point_m"),
+                "must be absent without second_segment",
+            )),
+        };
+    }
+    if l.second_segment == l.segment {
+        return Err(Fault::invalid(
+            at("second_segment"),
+            "must differ from segment",
+        ));
+    }
+    Ok(Some((
+        segment(&at("second_segment"), &l.second_segment)?,
+        point,
+    )))
+}
+
 /// What disturbs a figure; `field` is where the message stands in the request.
 pub fn disturbance(field: &str, p: &pb::Perturbation) -> Result<Disturbance, Fault> {
     use pb::perturbation::Kind;
@@ -42,6 +73,13 @@ pub fn disturbance(field: &str, p: &pb::Perturbation) -> Result<Disturbance, Fau
                 segment: segment(&at("segment"), &l.segment)?,
                 point: point(&at("point_m"), l.point_m)?,
                 mass: within(&at("mass_kg"), l.mass_kg, 0.0, 500.0)?,
+                velocity: l
+                    .velocity_mps
+                    .map(|v| vector(&at("velocity_mps"), v, 100.0))
+                    .transpose()?
+                    .unwrap_or_default(),
+                second: second_hand(&at, l)?,
+                grip: or_default(&at("grip_n"), l.grip_n, f64::INFINITY, 0.0, 1e6)?,
                 duration: lasting(&at("duration_s"), l.duration_s)?,
             })
         }

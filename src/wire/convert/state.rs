@@ -106,6 +106,7 @@ fn event_type(kind: &EventKind) -> pb::EventType {
         EventKind::GotUp => pb::EventType::GotUp,
         EventKind::LoadTaken(..) => pb::EventType::LoadTaken,
         EventKind::LoadDropped(..) => pb::EventType::LoadDropped,
+        EventKind::LoadSlipped(..) => pb::EventType::LoadSlipped,
         EventKind::Quarantined => pb::EventType::Quarantined,
         EventKind::FigureAdded => pb::EventType::FigureAdded,
         EventKind::FigureRemoved => pb::EventType::FigureRemoved,
@@ -137,7 +138,9 @@ pub fn event_out(e: &WorldEvent) -> pb::Event {
         EventKind::Saturated(d) | EventKind::Relieved(d) => {
             out.dof = DOF_NAMES.get(*d).copied().unwrap_or_default().into();
         }
-        EventKind::LoadTaken(s, m) | EventKind::LoadDropped(s, m) => {
+        EventKind::LoadTaken(s, m)
+        | EventKind::LoadDropped(s, m)
+        | EventKind::LoadSlipped(s, m) => {
             out.segment = s.name().into();
             out.mass_kg = *m;
         }

@@ -199,16 +199,16 @@ impl Encoding {
 /// Who a body stands for.
 #[derive(Clone, Copy, PartialEq, ::prost::Message)]
 pub struct BodyProfile {
-    /// Tables to use. Required.
+    /// Tables to use. Required. Up to 10 years both give the same body.
     #[prost(enumeration = "Sex", tag = "1")]
     pub sex: i32,
-    /// Age, years. Range as the tables cover it; adults 18…90.
+    /// Age, years, 6…90.
     #[prost(double, tag = "2")]
     pub age_years: f64,
-    /// Stature, m.
+    /// Stature, m: 1.4…2.1 for adults, 0.8 to 1.25 times the ordinary for children. 0: ordinary for sex and age.
     #[prost(double, tag = "3")]
     pub height_m: f64,
-    /// Body mass, kg.
+    /// Body mass, kg: 35…180 for adults, 0.6 to 2.5 times the ordinary for children. 0: ordinary for sex and age.
     #[prost(double, tag = "4")]
     pub mass_kg: f64,
 }
@@ -309,6 +309,38 @@ pub struct Body {
     /// Height of the pelvis origin (midpoint of the hip centres) over the soles in the zero pose, m.
     #[prost(double, tag = "6")]
     pub standing_root_height_m: f64,
+    /// Where its numbers come from: masses and lengths of segments, limits and strength of DOFs, fatigue. Only with `include_provenance`.
+    #[prost(message, repeated, tag = "7")]
+    pub provenance: ::prost::alloc::vec::Vec<Provenance>,
+}
+/// One number of a body or of its strength, with its origin.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct Provenance {
+    /// Segment or DOF that it belongs to, by name.
+    #[prost(string, tag = "1")]
+    pub part: ::prost::alloc::string::String,
+    /// Muscle action, for example `knee extension`; the part's name where there is none.
+    #[prost(string, tag = "2")]
+    pub action: ::prost::alloc::string::String,
+    /// What is given, for example `isometric peak torque`.
+    #[prost(string, tag = "3")]
+    pub quantity: ::prost::alloc::string::String,
+    /// Value as used for this body.
+    #[prost(double, tag = "4")]
+    pub value: f64,
+    /// Unit of the value; `1` for ratios.
+    #[prost(string, tag = "5")]
+    pub unit: ::prost::alloc::string::String,
+    /// Publication or reason.
+    #[prost(string, tag = "6")]
+    pub source: ::prost::alloc::string::String,
+    /// How far to trust it. S1: read in data that cite the publication. S2: read in the publication. S3: cross-check only. D: derived.
+    /// R: estimate.
+    #[prost(string, tag = "7")]
+    pub tag: ::prost::alloc::string::String,
+    /// What was done with it.
+    #[prost(string, tag = "8")]
+    pub note: ::prost::alloc::string::String,
 }
 /// Asks for bodies.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
@@ -339,6 +371,9 @@ pub struct GetBodyRequest {
     /// Also sends the surface meshes. Default: false.
     #[prost(bool, tag = "2")]
     pub include_geometry: bool,
+    /// Also sends where the numbers come from. Default: false.
+    #[prost(bool, tag = "3")]
+    pub include_provenance: bool,
 }
 /// One body.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -482,7 +517,7 @@ pub mod body_service_client {
     use tonic::codegen::*;
     use tonic::codegen::http::Uri;
     /// Describes bodies. A body is immutable and follows from its profile, so its name says everything:
-    /// `bodies/adult-man`, `bodies/adult-woman`, or `bodies/{sex}-{age}y-{height}mm-{mass}g`, for example `bodies/female-25y-1680mm-61500g`.
+    /// `bodies/adult-man`, `bodies/adult-woman`, `bodies/child`, `bodies/older-man`, `bodies/older-woman`, or `bodies/{sex}-{age}y-{height}mm-{mass}g`, for example `bodies/female-25y-1680mm-61500g`.
     #[derive(Debug, Clone)]
     pub struct BodyServiceClient<T> {
         inner: tonic::client::Grpc<T>,
@@ -676,7 +711,7 @@ pub mod body_service_server {
         >;
     }
     /// Describes bodies. A body is immutable and follows from its profile, so its name says everything:
-    /// `bodies/adult-man`, `bodies/adult-woman`, or `bodies/{sex}-{age}y-{height}mm-{mass}g`, for example `bodies/female-25y-1680mm-61500g`.
+    /// `bodies/adult-man`, `bodies/adult-woman`, `bodies/child`, `bodies/older-man`, `bodies/older-woman`, or `bodies/{sex}-{age}y-{height}mm-{mass}g`, for example `bodies/female-25y-1680mm-61500g`.
     #[derive(Debug)]
     pub struct BodyServiceServer<T> {
         inner: Arc<T>,
@@ -937,6 +972,12 @@ pub struct StrengthScale {
     /// Further factors for single DOFs.
     #[prost(message, repeated, tag = "2")]
     pub dofs: ::prost::alloc::vec::Vec<DofStrength>,
+    /// Which person of that sex, age and size: percentile of strength, 5…95. 0 or absent: 50.
+    #[prost(double, tag = "3")]
+    pub percentile: f64,
+    /// Share of the strength that the figure is willing to use, 0…1; below 0.01 counts as 0.01. Absent: 1.
+    #[prost(double, optional, tag = "4")]
+    pub effort: ::core::option::Option<f64>,
 }
 /// Strength factor of one DOF.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -997,6 +1038,13 @@ pub struct Figure {
     /// Index by which frames refer to it: position in the roster. Output only.
     #[prost(int32, tag = "11")]
     pub figure_index: i32,
+    /// Seconds of muscle fatigue per simulated second, 0…1000. 0: muscles never tire.
+    #[prost(double, tag = "14")]
+    pub fatigue_time_scale: f64,
+    /// Help towards the desired pose of the pelvis, 0…1: a bounded wrench that no body has, reported in every frame (`assist`). 1 holds the
+    /// pelvis on its path. 0: none.
+    #[prost(double, tag = "15")]
+    pub assist: f64,
 }
 /// Adds a figure.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -1061,7 +1109,7 @@ pub struct UpdateFigureRequest {
     /// The figure, by `name`, with new values.
     #[prost(message, optional, tag = "1")]
     pub figure: ::core::option::Option<Figure>,
-    /// Which of `display_name`, `strength`, `controller` to take. Must not be empty.
+    /// Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist` to take. Must not be empty.
     #[prost(message, optional, tag = "2")]
     pub update_mask: ::core::option::Option<::prost_types::FieldMask>,
 }
@@ -1336,7 +1384,7 @@ pub mod figure_service_client {
                 .insert(GrpcMethod::new("sinew.v1.FigureService", "ListFigures"));
             self.inner.unary(req, path, codec).await
         }
-        /// Changes strength or controller.
+        /// Changes strength, controller, fatigue or assist.
         pub async fn update_figure(
             &mut self,
             request: impl tonic::IntoRequest<super::UpdateFigureRequest>,
@@ -1450,7 +1498,7 @@ pub mod figure_service_server {
             tonic::Response<super::ListFiguresResponse>,
             tonic::Status,
         >;
-        /// Changes strength or controller.
+        /// Changes strength, controller, fatigue or assist.
         async fn update_figure(
             &self,
             request: tonic::Request<super::UpdateFigureRequest>,
@@ -1948,6 +1996,12 @@ pub struct FigureFrame {
     /// hinges: 55 numbers, the state's own coordinates.
     #[prost(message, optional, tag = "18")]
     pub positions: ::core::option::Option<Numbers>,
+    /// What fatigue has left of the strength, 0.01…1: 39 for the positive, then 39 for the negative direction. 1 while fatigue is off.
+    #[prost(message, optional, tag = "21")]
+    pub fatigue: ::core::option::Option<Numbers>,
+    /// Mean assist on the pelvis over the tick, world axes: moment about the pelvis origin (3, N·m), then force (3, N). Zero while it is off.
+    #[prost(message, optional, tag = "22")]
+    pub assist: ::core::option::Option<Numbers>,
 }
 /// Touching points, one entry each in every list.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -2038,8 +2092,8 @@ pub struct Status {
     #[prost(message, repeated, tag = "9")]
     pub loads: ::prost::alloc::vec::Vec<CarriedLoad>,
 }
-/// The last substep of the tick as it was solved: `M v̇ + h = Sᵀ (torque + ligament_torque) + Σ Jᵀ f`, with M and h of the body with its
-/// loads and gravity along −z, holds to rounding in ENCODING_DOUBLE.
+/// The last substep of the tick as it was solved: `M v̇ + h = Sᵀ (torque + ligament_torque) + Σ Jᵀ f + assist`, with M and h of the body with
+/// its loads and gravity along −z, holds to rounding in ENCODING_DOUBLE.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Audit {
     /// State at the start of the substep, as `FigureFrame.positions`: 55 numbers.
@@ -2069,6 +2123,9 @@ pub struct Audit {
     /// Gravity, m/s², along −z.
     #[prost(double, tag = "9")]
     pub gravity_mps2: f64,
+    /// Assist, dual to the first six numbers of `velocity`: moment about the pelvis origin (N·m), then force (N). Absent when it is off.
+    #[prost(message, optional, tag = "12")]
+    pub assist: ::core::option::Option<Numbers>,
 }
 /// Forces of perturbations, one entry each in every list.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -3473,6 +3530,20 @@ pub struct Load {
     /// How long it is carried, s, 0…86400. 0 or absent: until it is cleared.
     #[prost(double, tag = "4")]
     pub duration_s: f64,
+    /// Velocity of the load before it is taken, world axes, m/s, each component within ±100. Absent: at rest. Taking it is perfectly
+    /// inelastic: momentum is kept and the figure feels the jerk.
+    #[prost(message, optional, tag = "5")]
+    pub velocity_mps: ::core::option::Option<Vector3>,
+    /// Second carrying segment, for example `l_hand` when `segment` is `r_hand`. Each then carries half of the mass, and the two points keep
+    /// the distance they have when the load is taken. Empty: one hand.
+    #[prost(string, tag = "6")]
+    pub second_segment: ::prost::alloc::string::String,
+    /// Where at the second segment, as `point_m`.
+    #[prost(message, optional, tag = "7")]
+    pub second_point_m: ::core::option::Option<Vector3>,
+    /// Force at one hand beyond which the load slips, N, up to 1000000. 0 or absent: never.
+    #[prost(double, tag = "8")]
+    pub grip_n: f64,
 }
 /// A push: the force that gives this impulse over its duration.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -4613,6 +4684,8 @@ pub enum EventType {
     LoadTaken = 8,
     /// A load was dropped.
     LoadDropped = 9,
+    /// A load slipped from a hand: the force exceeded its grip.
+    LoadSlipped = 30,
     /// The figure's state became unusable; it is frozen at its last good one.
     Quarantined = 10,
     /// A figure was added.
@@ -4649,6 +4722,7 @@ impl EventType {
             Self::Fell => "EVENT_TYPE_FELL",
             Self::LoadTaken => "EVENT_TYPE_LOAD_TAKEN",
             Self::LoadDropped => "EVENT_TYPE_LOAD_DROPPED",
+            Self::LoadSlipped => "EVENT_TYPE_LOAD_SLIPPED",
             Self::Quarantined => "EVENT_TYPE_QUARANTINED",
             Self::FigureAdded => "EVENT_TYPE_FIGURE_ADDED",
             Self::FigureRemoved => "EVENT_TYPE_FIGURE_REMOVED",
@@ -4673,6 +4747,7 @@ impl EventType {
             "EVENT_TYPE_FELL" => Some(Self::Fell),
             "EVENT_TYPE_LOAD_TAKEN" => Some(Self::LoadTaken),
             "EVENT_TYPE_LOAD_DROPPED" => Some(Self::LoadDropped),
+            "EVENT_TYPE_LOAD_SLIPPED" => Some(Self::LoadSlipped),
             "EVENT_TYPE_QUARANTINED" => Some(Self::Quarantined),
             "EVENT_TYPE_FIGURE_ADDED" => Some(Self::FigureAdded),
             "EVENT_TYPE_FIGURE_REMOVED" => Some(Self::FigureRemoved),

@@ -1,0 +1,115 @@
+//! Help that physics does not give: a bounded wrench on the pelvis towards its desired pose, off unless asked for and always reported.
+//!
+//! An implicit spring on the velocity of the pelvis, solved together with motors, joint limits and contacts (docs/adr/0011): its impulse over a
+//! substep is `κ (v* − v⁺)`, where v* brings the pelvis back to the desired pose, and it is cut in norm. Force and moment, and their
+//! bounds, grow with the figure's `assist` (0…1); at 1 they hold the pelvis on its path within millimetres whatever the legs do.
+
+use crate::sim::body::{Body, State};
+use crate::sim::math::Vec3;
+use crate::sim::motion::TargetPair;
+
+/// κ of the force over the body mass at assist 1.
+const STIFFNESS: f64 = 50.0;
+/// Part of a pose error that is taken back per substep.
+const RETURN: f64 = 0.5;
+/// Fastest way back to the desired pose, m/s and rad/s.
+const RETURN_SPEED: f64 = 1.5;
+const RETURN_RATE: f64 = 3.0;
+/// Largest force over the body's weight, and moment over weight times stature, at assist 1.
+const MOST_FORCE: f64 = 2.0;
+const MOST_MOMENT: f64 = 0.5;
+/// Inertia about the pelvis over mass times stature squared.
+const INERTIA: f64 = 0.05;
+/// What a plan may use without regret at assist 1: half the largest force or moment costs this much.
+const PLANNED_COST: f64 = 10.0;
+/// Gravity that "weight" refers to, m/s².
+const GRAVITY: f64 = 9.81;
+
+/// What an assisted figure is given in one tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Assist {
+    /// Share, 0…1.
+    pub share: f64,
+    /// Largest force, N.
+    pub most_force: f64,
+    /// Largest moment about the pelvis origin, N·m.
+    pub most_moment: f64,
+    stiffness: [f64; 2],
+}
+
+/// The spring of one substep. Index 0: moment and angular velocity, index 1: force and velocity of the pelvis origin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spring {
+    /// κ, N·m·s and kg.
+    pub gain: [f64; 2],
+    /// v*, rad/s and m/s.
+    pub rest: [Vec3; 2],
+    /// Largest impulse, N·m·s and N·s.
+    pub most: [f64; 2],
+}
+
+fn capped(v: Vec3, most: f64) -> Vec3 {
+    let n = v.norm();
+    if n > most { v * (most / n) } else { v }
+}
+
+impl Assist {
+    /// The help a body gets at `share`; `None` at 0.
+    pub fn new(body: &Body, share: f64) -> Option<Self> {
+        let p = body.profile;
+        let weight = p.mass * GRAVITY;
+        (share > 0.0).then_some(Self {
+            share,
+            most_force: share * MOST_FORCE * weight,
+            most_moment: share * MOST_MOMENT * weight * p.height,
+            stiffness: [
+                share * STIFFNESS * INERTIA * p.mass * p.height * p.height,
+                share * STIFFNESS * p.mass,
+            ],
+        })
+    }
+
+    /// Compliance that a plan may count on: moment and force that [`PLANNED_COST`] buys, `½ f²/κ`.
+    pub fn planned(&self) -> [f64; 2] {
+        let per_cost = 0.125 / PLANNED_COST;
+        [self.most_moment, self.most_force].map(|most| per_cost * most * most)
+    }
+
+    /// The spring of a substep of `h` s that begins at share `s` of the tick of `dt` s.
+    pub fn spring(&self, target: &TargetPair, state: &State, s: f64, dt: f64, h: f64) -> Spring {
+        let (from, to) = (&target.now.posture, &target.next.posture);
+        let path = to.root_position - from.root_position;
+        let turn = (to.root_rotation * from.root_rotation.conjugate()).log();
+        let wanted = from.root_position + path * s;
+        let wanted_rotation = crate::sim::math::Quat::exp(turn * s) * from.root_rotation;
+        let off = wanted - state.posture.root_position;
+        let off_rotation = (wanted_rotation * state.posture.root_rotation.conjugate()).log();
+        Spring {
+            gain: self.stiffness,
+            rest: [
+                turn * (1.0 / dt) + capped(off_rotation * (RETURN / h), RETURN_RATE),
+                path * (1.0 / dt) + capped(off * (RETURN / h), RETURN_SPEED),
+            ],
+            most: [self.most_moment * h, self.most_force * h],
+        }
+    }
+}
+
+impl Spring {
+    /// Impulse of part `k` at the velocity `v` of the pelvis, uncut.
+    pub fn impulse(&self, k: usize, v: &[f64; 6]) -> Vec3 {
+        let now = Vec3 {
+            x: v[3 * k],
+            y: v[3 * k + 1],
+            z: v[3 * k + 2],
+        };
+        (self.rest[k] - now) * self.gain[k]
+    }
+
+    /// The same, cut to the bound, and whether it was.
+    pub fn cut(&self, k: usize, v: &[f64; 6]) -> (Vec3, bool) {
+        let p = self.impulse(k, v);
+        let bounded = capped(p, self.most[k]);
+        (bounded, bounded != p)
+    }
+}
