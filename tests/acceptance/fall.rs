@@ -17,7 +17,7 @@ const LOW: f64 = 0.5;
 const MIN_EDGE: f64 = 0.05;
 
 /// Edge of the support that faces `direction` most: a point on it and its outward normal.
-fn edge_towards(body: &Body, posture: &Posture, direction: Vec3) -> (Vec3, Vec3) {
+pub fn edge_towards(body: &Body, posture: &Posture, direction: Vec3) -> (Vec3, Vec3) {
     let poses = segment_poses(&body.joint_offset, posture);
     let soles: Vec<Vec3> = [L_FOOT, L_TOES, R_FOOT, R_TOES]
         .iter()
@@ -46,7 +46,7 @@ fn edge_towards(body: &Body, posture: &Posture, direction: Vec3) -> (Vec3, Vec3)
 }
 
 /// A posture turned about an edge on the floor until its centre of mass is 3° beyond it.
-fn leaning(body: &Body, posture: &Posture, pivot: Vec3, normal: Vec3) -> State {
+pub fn leaning(body: &Body, posture: &Posture, pivot: Vec3, normal: Vec3) -> State {
     let com = integrals(&Links::new(body), &still(*posture)).com;
     let angle = (pivot - com).dot(normal).atan2(com.z) + 3f64.to_radians();
     let turn = Quat::from_axis_angle(Vec3::Z.cross(normal), angle);
@@ -57,7 +57,7 @@ fn leaning(body: &Body, posture: &Posture, pivot: Vec3, normal: Vec3) -> State {
 }
 
 /// Seconds until the rigid figure's centre of mass is at [`LOW`].
-fn pendulum_time(body: &Body, state: &State, pivot: Vec3, axis: Vec3) -> f64 {
+pub fn pendulum_time(body: &Body, state: &State, pivot: Vec3, axis: Vec3) -> f64 {
     let links = Links::new(body);
     let poses = segment_poses(&links.offset, &state.posture);
     let mut inertia = 0.0;

@@ -17,6 +17,7 @@ mod common;
 
 mod assist;
 mod containment;
+mod dbg;
 mod fall;
 mod flight;
 mod lift;

@@ -17,7 +17,7 @@ use crate::sim::figure::report::MAX_CONTACTS;
 use crate::sim::figure::{ControlParams, Flags, Metric, Share};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::support::zmp::LEAST_NORMAL_FORCE;
-use crate::sim::support::{Pivot, Polygon, Sharing, pivot, zmp};
+use crate::sim::support::{Pivot, Polygon, Sharing, pivot, unblocked_pivot, zmp};
 
 /// Overload: more members of K and L together than this (0.6 n).
 const OVERLOAD_ENTER: u32 = 23;
@@ -29,6 +29,8 @@ const PIVOT_REACH: f64 = 0.012;
 const ROTATION_LENGTH: f64 = 0.3;
 /// Horizon of the ZMP-feasible centre-of-mass law if the joints have none, s: gains 25 and 10.
 const COM_HORIZON: f64 = 0.1;
+/// A support that turns faster than this is tipping, rad/s (ALGORITHM §6).
+const AT_REST: f64 = 1e-3;
 /// Part of a pose error of a planted foot that is taken back per step (kinematic loops).
 const LOOP_RETURN: f64 = 0.2;
 /// Clamped torques beyond this relative excess are worth a flag.
@@ -233,6 +235,25 @@ impl Paper {
         }
     }
 
+    /// Where a support under prescribed accelerations tips, if it does. One that tips already can do nothing for the balance any more, so
+    /// that what counts is where the joints alone, holding their posture, would put the zero-moment point. The map is that of rest.
+    fn tipping(
+        &self,
+        input: &ControlInput<'_>,
+        main: SegmentId,
+        decided: Option<Pivot>,
+        initial: &Row,
+    ) -> Option<Pivot> {
+        let (terms, polygon) = (input.terms, input.support.polygon());
+        let tilted = !polygon.has_area() || terms.kin.omega[main.index()].norm() > AT_REST;
+        if decided.is_none() && !tilted {
+            return None;
+        }
+        let (force, moment) = self.map.ground_wrench_world(terms, initial);
+        let point = zmp(force, moment)?;
+        unblocked_pivot(terms, polygon, main, (point, force, moment), input.dt).or(decided)
+    }
+
     /// With the ZMP-feasible demand, θ̈_initial gets the centre-of-mass part of (12) before strength is looked at. Without saturation the
     /// result is the same. With it, (7)–(11) would otherwise act on a demand whose zero-moment point may be far outside the foot:
     /// ankle and toes saturate, and the least change spreads over the whole body.
@@ -434,7 +455,8 @@ impl Paper {
         if params.track_com && matches!(mode, Mode::Rest(_)) {
             self.push_com(input, law, qdd);
         }
-        if params.track_hands {
+        // A tipping figure turns as a whole: hands held at their place in the world would bend it.
+        if params.track_hands && !matches!(mode, Mode::Tilt(..)) {
             for e in input.effectors.iter().take(2) {
                 self.push_effector(input, law, qdd, e, matches!(mode, Mode::Flight));
             }
@@ -569,6 +591,9 @@ impl Controller for Paper {
                     point = zmp(force, moment);
                     margin = point.and_then(|z| support.margin(z));
                     tips_about = point.and_then(|z| pivot(support.polygon(), z));
+                    if input.kinematic {
+                        tips_about = self.tipping(input, main, tips_about, &initial);
+                    }
                     match tips_about {
                         Some(p) => {
                             flags.set(Flags::TIPPING);
