@@ -235,23 +235,10 @@ impl Paper {
         }
     }
 
-    /// Where a support under prescribed accelerations tips, if it does. One that tips already can do nothing for the balance any more, so
-    /// that what counts is where the joints alone, holding their posture, would put the zero-moment point. The map is that of rest.
-    fn tipping(
-        &self,
-        input: &ControlInput<'_>,
-        main: SegmentId,
-        decided: Option<Pivot>,
-        initial: &Row,
-    ) -> Option<Pivot> {
-        let (terms, polygon) = (input.terms, input.support.polygon());
-        let tilted = !polygon.has_area() || terms.kin.omega[main.index()].norm() > AT_REST;
-        if decided.is_none() && !tilted {
-            return None;
-        }
-        let (force, moment) = self.map.ground_wrench_world(terms, initial);
-        let point = zmp(force, moment)?;
-        unblocked_pivot(terms, polygon, main, (point, force, moment), input.dt).or(decided)
+    /// True if a support under prescribed accelerations tips already: what it stands on has no area, or it turns.
+    fn tilted(input: &ControlInput<'_>, main: SegmentId) -> bool {
+        let spin = input.terms.kin.omega[main.index()].norm();
+        input.kinematic && (!input.support.polygon().has_area() || spin > AT_REST)
     }
 
     /// With the ZMP-feasible demand, θ̈_initial gets the centre-of-mass part of (12) before strength is looked at. Without saturation the
@@ -583,22 +570,39 @@ impl Controller for Paper {
             Some(main) => {
                 let first = self.pass(input, &law, &initial, Mode::Rest(main));
                 // Decide with the support at rest: when it tips, the zero-moment point lies on the pivot by construction.
-                let (force, moment) = self.map.ground_wrench_world(terms, &first.qdd);
+                // One that tips already can do nothing for the balance any more: what counts there is where the joints alone, holding
+                // their posture, would put it.
+                let tilted = Self::tilted(input, main);
+                let qdd = if tilted { &initial } else { &first.qdd };
+                let (force, moment) = self.map.ground_wrench_world(terms, qdd);
                 if force.z <= LEAST_NORMAL_FORCE {
                     flags.set(Flags::FLIGHT);
                     self.pass(input, &law, &initial, Mode::Flight)
                 } else {
                     point = zmp(force, moment);
                     margin = point.and_then(|z| support.margin(z));
-                    tips_about = point.and_then(|z| pivot(support.polygon(), z));
-                    if input.kinematic {
-                        tips_about = self.tipping(input, main, tips_about, &initial);
-                    }
+                    tips_about = point.and_then(|z| {
+                        if input.kinematic {
+                            let at_rest = (z, force, moment);
+                            unblocked_pivot(terms, support.polygon(), main, at_rest, input.dt)
+                        } else {
+                            pivot(support.polygon(), z)
+                        }
+                    });
                     match tips_about {
                         Some(p) => {
                             flags.set(Flags::TIPPING);
                             if input.params.tilt {
-                                self.pass(input, &law, &initial, Mode::Tilt(main, p))
+                                let tilting = self.pass(input, &law, &initial, Mode::Tilt(main, p));
+                                let (f, _) = self.map.ground_wrench_world(terms, &tilting.qdd);
+                                if input.kinematic && f.z <= LEAST_NORMAL_FORCE {
+                                    // The floor cannot pull: the edge leaves it.
+                                    flags.set(Flags::FLIGHT);
+                                    tips_about = None;
+                                    self.pass(input, &law, &initial, Mode::Flight)
+                                } else {
+                                    tilting
+                                }
                             } else {
                                 first
                             }
