@@ -31,6 +31,8 @@ const ROTATION_LENGTH: f64 = 0.3;
 const COM_HORIZON: f64 = 0.1;
 /// A support that turns faster than this is tipping, rad/s (ALGORITHM §6).
 const AT_REST: f64 = 1e-3;
+/// The same where torques move the figure: feet that stand tremble a little.
+const TURNING: f64 = 0.05;
 /// Part of a pose error of a planted foot that is taken back per step (kinematic loops).
 const LOOP_RETURN: f64 = 0.2;
 /// Clamped torques beyond this relative excess are worth a flag.
@@ -180,12 +182,17 @@ impl Paper {
 
         let tau0 = self.map.torque(&initial);
         let held = &self.held[..self.held_count];
+        // Ankles and toes of a tipping foot give way; to help them, the least change in W = I would bend the whole body.
+        let metric = match mode {
+            Mode::Tilt(..) => Metric::Torque,
+            _ => params.metric,
+        };
         let mut first = self.limits.solve(
             &self.map.h,
             &tau0,
             input.lower,
             input.upper,
-            params.metric,
+            metric,
             held,
             OVERLOAD_ENTER as usize,
         );
@@ -238,7 +245,7 @@ impl Paper {
     /// True if a support under prescribed accelerations tips already: what it stands on has no area, or it turns.
     fn tilted(input: &ControlInput<'_>, main: SegmentId) -> bool {
         let spin = input.terms.kin.omega[main.index()].norm();
-        input.kinematic && (!input.support.polygon().has_area() || spin > AT_REST)
+        !input.support.polygon().has_area() || spin > if input.kinematic { AT_REST } else { TURNING }
     }
 
     /// With the ZMP-feasible demand, θ̈_initial gets the centre-of-mass part of (12) before strength is looked at. Without saturation the
