@@ -128,6 +128,11 @@ fn lift(mass: f64, kind: ControllerKind, stepper: StepperKind, rate_hz: f64) -> 
     scene.run(5.5, |s| {
         let r = s.figure().report().unwrap();
         out.over = out.over.max(r.over_limit);
+        if out.fell.is_none() && (r.over_limit > 1e-6 || (0..39).any(|j| s.figure().state().velocity[6+j].abs() > 20.0)) {
+            let fast = (0..39).max_by(|a,b| s.figure().state().velocity[6+a].abs().total_cmp(&s.figure().state().velocity[6+b].abs())).unwrap();
+            let w = (0..39).max_by(|a,b| (r.torque[*a]/r.torque_upper[*a]).max(r.torque[*a]/r.torque_lower[*a]).total_cmp(&(r.torque[*b]/r.torque_upper[*b]).max(r.torque[*b]/r.torque_lower[*b]))).unwrap();
+            println!("   t {:.3} over {:.2e} {} flags {:x} sat {:x} {:x} fast {} {:.1} main {:?} contacts {} com.z {:.2}", s.world.time(), r.over_limit, DOF_NAMES[w], r.flags.0, r.saturated, r.saturated_secondary, DOF_NAMES[fast], s.figure().state().velocity[6+fast], r.main_support.map(|m| m.name()), r.contacts.len(), r.com.z);
+        }
         if out.fell.is_some() {
             return;
         }
