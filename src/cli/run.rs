@@ -83,6 +83,9 @@ pub struct RunArgs {
     /// Repeat the motion until --duration is over.
     #[arg(long = "loop", requires = "duration")]
     pub looped: bool,
+    /// Begin and end standing, with the steps that it takes before the first frame and after the last one.
+    #[arg(long, conflicts_with = "looped")]
+    pub standing: bool,
     /// Writes the measures as JSON (a list for several clips).
     #[arg(long, value_name = "FILE.json")]
     pub report: Option<PathBuf>,
@@ -306,7 +309,13 @@ fn run_one(
     bars: &MultiProgress,
 ) -> Result<serde_json::Value> {
     let args = scenario.args;
-    let duration = args.duration.unwrap_or_else(|| source.clip.duration());
+    let clip = &source.clip;
+    let ends = if args.standing {
+        clip.lead_in() + clip.lead_out()
+    } else {
+        0.0
+    };
+    let duration = args.duration.unwrap_or_else(|| clip.duration() + ends);
     let ticks = ((duration * args.rate).round() as u64).max(1);
     let mut csv = None;
     let mut postures = None;
@@ -368,7 +377,8 @@ fn simulate(
     let args = scenario.args;
     let body = &scenario.body;
     let mut world = World::new(scenario.params).context("no such world")?;
-    let start = clip.sample(0.0);
+    let first = if args.standing { -clip.lead_in() } else { 0.0 };
+    let start = clip.sample(first);
     let key = world
         .add_figure(FigureSetup {
             body: Arc::clone(body),
@@ -405,7 +415,7 @@ fn simulate(
     let figure = world.figure_mut(key).expect("the figure was just added");
     figure.set_drive(Drive::Clip(ClipPlayback {
         clip: Arc::new(clip.clone()),
-        start: 0.0,
+        start: -first,
         speed: 1.0,
         looped: args.looped,
         origin: PlanarTransform::default(),
