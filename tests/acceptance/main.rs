@@ -19,6 +19,7 @@ mod assist;
 mod containment;
 mod fall;
 mod flight;
+mod jump;
 mod lift;
 mod load;
 mod people;

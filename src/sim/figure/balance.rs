@@ -113,3 +113,73 @@ impl BalanceWatch {
             .set_hull(soles.chain(others).map(|p| [p.x, p.y]));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::body::topology::SEGMENT_COUNT;
+    use crate::sim::math::Vec3;
+    use crate::sim::support::testing::{GRAVITY, mannequin, standing, terms};
+
+    const DT: f64 = 1.0 / 60.0;
+
+    /// Standing, with the whole body moving at `speed` to the front.
+    fn moving(speed: f64) -> (Body, Terms, Support) {
+        let body = mannequin();
+        let mut state = standing(&body);
+        state.velocity[3] = speed;
+        let t = terms(&body, &state);
+        let mut support = Support::default();
+        support.update(&t, &body, Vec3::zero(), GRAVITY);
+        (body, t, support)
+    }
+
+    fn lost_after(watch: &mut BalanceWatch, speed: f64, reach: Reach) -> bool {
+        let (body, t, support) = moving(speed);
+        watch.observe(&body, &t, &support, (GRAVITY, DT), (reach, 1.0));
+        watch.lost()
+    }
+
+    #[test]
+    fn the_capture_point_decides_and_steps_reach_farther() {
+        // How fast the body may be so that the capture point is so far outside the toes.
+        let (body, t, _) = moving(0.0);
+        let front = (0..SEGMENT_COUNT)
+            .flat_map(|s| {
+                let points = &body.segments[s].contact_points;
+                points.iter().map(move |p| (s, *p))
+            })
+            .map(|(s, p)| t.point_world(s, p))
+            .filter(|p| p.z < 0.02)
+            .fold(f64::MIN, |m, p| m.max(p.x));
+        let speed = |outside: f64| (front + outside - t.com.x) * (GRAVITY / t.com.z).sqrt();
+        for (reach, length) in [
+            (Reach::Body, 0.04),
+            (Reach::Paper, 0.15),
+            (Reach::Step, 0.6),
+        ] {
+            let mut watch = BalanceWatch::default();
+            assert!(!lost_after(&mut watch, speed(length - 1e-3), reach));
+            assert!(lost_after(&mut watch, speed(length + 1e-3), reach));
+            // Found only after a while inside.
+            let mut ticks = 0;
+            while lost_after(&mut watch, 0.0, reach) {
+                ticks += 1;
+                assert!(ticks < 20, "found within a third of a second");
+            }
+            assert!(ticks >= 16);
+        }
+    }
+
+    #[test]
+    fn nothing_is_lost_in_the_air() {
+        let (body, mut t, mut support) = moving(5.0);
+        t.com_velocity.x = 5.0;
+        let mut state = standing(&body);
+        state.posture.root_position.z += 1.0;
+        support.update(&terms(&body, &state), &body, Vec3::zero(), GRAVITY);
+        let mut watch = BalanceWatch::default();
+        watch.observe(&body, &t, &support, (GRAVITY, DT), (Reach::Body, 1.0));
+        assert!(!watch.lost());
+    }
+}
