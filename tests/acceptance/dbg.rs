@@ -1,5 +1,5 @@
-use crate::fall::*;
 use crate::common::*;
+use crate::fall::*;
 use crate::*;
 use sinew::sim::figure::*;
 #[test]
@@ -7,7 +7,12 @@ fn dbg() {
     let body = man();
     let posture = authored(&body, "idle").posture(0).to_owned();
     let d = std::env::var("DIR").unwrap_or("x".into());
-    let dir = match d.as_str() { "x" => vec3(1.,0.,0.), "-x" => vec3(-1.,0.,0.), "y" => vec3(0.,1.,0.), _ => vec3(0.,-1.,0.)};
+    let dir = match d.as_str() {
+        "x" => vec3(1., 0., 0.),
+        "-x" => vec3(-1., 0., 0.),
+        "y" => vec3(0., 1., 0.),
+        _ => vec3(0., -1., 0.),
+    };
     let (pivot, direction) = edge_towards(&body, &posture, dir);
     let state = leaning(&body, &posture, pivot, direction);
     let mut setup = figure(&body, ControllerKind::Paper, state);
