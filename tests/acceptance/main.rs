@@ -17,7 +17,6 @@ mod common;
 
 mod assist;
 mod containment;
-mod dbg;
 mod fall;
 mod flight;
 mod lift;

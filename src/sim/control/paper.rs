@@ -31,6 +31,8 @@ const ROTATION_LENGTH: f64 = 0.3;
 const COM_HORIZON: f64 = 0.1;
 /// A support that turns faster than this is tipping, rad/s (ALGORITHM §6).
 const AT_REST: f64 = 1e-3;
+/// The same where torques move the figure: feet that stand tremble a little.
+const TURNING: f64 = 0.05;
 /// Part of a pose error of a planted foot that is taken back per step (kinematic loops).
 const LOOP_RETURN: f64 = 0.2;
 /// Clamped torques beyond this relative excess are worth a flag.
@@ -111,6 +113,7 @@ pub struct Paper {
     anchors: [Option<(Vec3, Quat)>; 2],
     previous: Option<Row>,
     overload: bool,
+    left_out: Option<[bool; MAX_CONTACTS]>,
     command: Command,
 }
 
@@ -132,6 +135,7 @@ impl Default for Paper {
             anchors: [None; 2],
             previous: None,
             overload: false,
+            left_out: None,
             command: Command::default(),
         }
     }
@@ -154,6 +158,11 @@ impl Paper {
     /// The last decision.
     pub fn command(&self) -> &Command {
         &self.command
+    }
+
+    /// Touching points that carry nothing in the last decision, by index; `None` unless it balances several supports.
+    pub fn left_out(&self) -> Option<&[bool; MAX_CONTACTS]> {
+        self.left_out.as_ref()
     }
 
     /// The maps of the last pass, for steppers and checks.
@@ -180,12 +189,17 @@ impl Paper {
 
         let tau0 = self.map.torque(&initial);
         let held = &self.held[..self.held_count];
+        // Ankles and toes of a tipping foot give way; to help them, the least change in W = I would bend the whole body.
+        let metric = match mode {
+            Mode::Tilt(..) => Metric::Torque,
+            _ => params.metric,
+        };
         let mut first = self.limits.solve(
             &self.map.h,
             &tau0,
             input.lower,
             input.upper,
-            params.metric,
+            metric,
             held,
             OVERLOAD_ENTER as usize,
         );
@@ -238,7 +252,8 @@ impl Paper {
     /// True if a support under prescribed accelerations tips already: what it stands on has no area, or it turns.
     fn tilted(input: &ControlInput<'_>, main: SegmentId) -> bool {
         let spin = input.terms.kin.omega[main.index()].norm();
-        input.kinematic && (!input.support.polygon().has_area() || spin > AT_REST)
+        !input.support.polygon().has_area()
+            || spin > if input.kinematic { AT_REST } else { TURNING }
     }
 
     /// With the ZMP-feasible demand, θ̈_initial gets the centre-of-mass part of (12) before strength is looked at. Without saturation the
@@ -306,6 +321,7 @@ impl Paper {
 
     /// Lets contacts other than those of S carry their share of the ground reaction (ALGORITHM §5).
     fn share(&mut self, input: &ControlInput<'_>, initial: &Row, mode: Mode) {
+        self.left_out = None;
         let (terms, support) = (input.terms, input.support);
         let (main, tilt) = match mode {
             Mode::Rest(s) => (s, None),
@@ -336,6 +352,7 @@ impl Paper {
                     return;
                 }
                 self.map.add_sharing(terms, &self.sharing, main);
+                self.left_out = Some(out);
             }
             Share::Paper => {
                 // The reaction of the last step, at the point of each polygon closest to its zero-moment point.

@@ -49,6 +49,10 @@ pub struct Decision<'a> {
     pub support: &'a Support,
     /// Which feet the desired motion keeps on the floor.
     pub planted: [bool; 2],
+    /// Touching points that carry nothing by the controller's decision, by index, if it has decided.
+    pub left_out: Option<&'a [bool; MAX_CONTACTS]>,
+    /// Torques are the controller's, whatever the ground forces found here say: its sharing has no point forces (ratios (2)).
+    pub as_commanded: bool,
 }
 
 /// Applies accelerations; remembers where the support stands.
@@ -366,13 +370,17 @@ impl KinematicStepper {
             _ => true,
         };
         let any = points.iter().any(holds);
-        let mut out = [false; MAX_CONTACTS];
-        for (o, p) in out.iter_mut().zip(points) {
-            *o = (any && !holds(p))
-                || command
-                    .pivot
-                    .is_some_and(|t| t.distance(p.position) >= PIVOT_REACH);
-        }
+        let mut out = match decision.left_out {
+            Some(out) => *out,
+            None => std::array::from_fn(|i| {
+                points.get(i).is_some_and(|p| {
+                    let far = command
+                        .pivot
+                        .is_some_and(|t| t.distance(p.position) >= PIVOT_REACH);
+                    (any && !holds(p)) || far
+                })
+            }),
+        };
         let f = &mut self.forces;
         f.audit.contacts.clear();
         let root = t.state.posture.root_position;
@@ -403,7 +411,11 @@ impl KinematicStepper {
                 f.contact.push(contact);
             }
         }
-        f.torque.copy_from_slice(&r[6..]);
+        if decision.as_commanded {
+            f.torque = command.torque;
+        } else {
+            f.torque.copy_from_slice(&r[6..]);
+        }
         f.audit.torque = f.torque;
         f.audit.state = *state;
         f.audit.acceleration = command.acceleration;

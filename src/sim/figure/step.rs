@@ -7,7 +7,7 @@ use super::kinematic_step::{Decision, KinematicStepper, SPEED_CAP, other_part_ar
 use super::loads::Disturbances;
 use super::report::{Audit, Flags, MAX_CONTACTS, TickReport};
 use super::setup::{
-    ControlParams, ControllerKind, FigureOptions, Perturbation, StepperKind, StrengthScale,
+    ControlParams, ControllerKind, FigureOptions, Perturbation, Share, StepperKind, StrengthScale,
 };
 use super::tasks::{TaskPoints, TaskWorkspace};
 use super::torque_step::{
@@ -233,11 +233,15 @@ impl Figure {
             substeps: world.substeps,
         };
         if self.prescribed {
+            let paper = self.setup.controller == ControllerKind::Paper;
             let decision = Decision {
-                command: match self.setup.controller {
-                    ControllerKind::Modern => self.modern.command(),
-                    _ => self.paper.command(),
+                command: if paper {
+                    self.paper.command()
+                } else {
+                    self.modern.command()
                 },
+                left_out: self.paper.left_out().filter(|_| paper),
+                as_commanded: paper && self.setup.params.share == Share::Paper,
                 support: &self.support,
                 planted: self.target.next.planted,
             };
