@@ -237,7 +237,12 @@ impl Paper {
                 } else {
                     OVERLOAD_ENTER
                 };
-        if self.overload {
+        // Motors clip what a tipping figure cannot have: to spread it would bend a body that only falls.
+        let clip = match mode {
+            Mode::Tilt(..) => !input.kinematic && first.set != 0 && !input.support.polygon().has_area(),
+            _ => false,
+        };
+        if self.overload || clip {
             (qdd, first) = self.overloaded(input, law, &initial, &tau0, mode);
             second = Outcome::default();
         }

@@ -387,9 +387,13 @@ impl KinematicStepper {
         let wrench: [f64; 6] = std::array::from_fn(|k| r[k]);
         let total = |about: Vec3| shift(&wrench, about - root);
         let ratio = decision.support.ratio();
-        if !command.flags.has(Flags::FLIGHT)
-            && self.sharing.set_unilateral(points, ratio, &mut out, total)
-        {
+        let shares = !command.flags.has(Flags::FLIGHT)
+            && if decision.left_out.is_some() {
+                self.sharing.set_balanced(points, ratio, &out)
+            } else {
+                self.sharing.set_unilateral(points, ratio, &mut out, total)
+            };
+        if shares {
             let y = self.sharing.multiplier(&total(self.sharing.reference));
             for (p, _) in points.iter().zip(out).filter(|(_, out)| !out) {
                 let force = self.sharing.point_force(p, ratio, &y);
