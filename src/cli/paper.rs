@@ -504,11 +504,14 @@ fn pushes(page: &mut Page, body: &Arc<Body>) -> Result<()> {
         ],
         &rows,
     );
-    for (share, what) in [(0.9, "recovered"), (1.5, "felled")] {
+    let bound = recovered(body, &Pair::modern(), DIRECTIONS[0].1);
+    let share = bound.impulse / bound.bound;
+    for (share, what) in [(share, "recovered"), (1.5, "felled")] {
         let p = push(body, &Pair::modern(), DIRECTIONS[0].1, share, PANELS);
         let title = format!(
-            "{:.0} N·s forward ({share} of the bound), modern",
-            p.impulse
+            "{:.0} N·s forward ({:.0} % of the bound), modern",
+            p.impulse,
+            100.0 * share
         );
         page.strip(&format!("push-{what}"), body, &p.record, View::Side, &title)?;
         let title = format!("balance, {:.0} N·s forward", p.impulse);

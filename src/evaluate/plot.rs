@@ -17,6 +17,7 @@ const HEIGHT: f64 = 240.0;
 const LEFT: f64 = 58.0;
 const RIGHT: f64 = 12.0;
 const TOP: f64 = 44.0;
+const LEGEND_LINE: f64 = 15.0;
 const BOTTOM: f64 = 34.0;
 /// More points than this say nothing more at this size.
 const MOST_POINTS: usize = 400;
@@ -121,8 +122,8 @@ impl Plot {
         );
         let x = Axis::new(extent(xs), 0.0, LEFT, WIDTH - RIGHT);
         let y = match self.range {
-            Some(r) => Axis::new(r, 0.0, HEIGHT - BOTTOM, TOP),
-            None => Axis::new(extent(ys), 0.05, HEIGHT - BOTTOM, TOP),
+            Some(r) => Axis::new(r, 0.0, HEIGHT - BOTTOM, self.top()),
+            None => Axis::new(extent(ys), 0.05, HEIGHT - BOTTOM, self.top()),
         };
         let mut out = String::new();
         self.write(&mut out, &x, &y)
@@ -130,14 +131,29 @@ impl Plot {
         out
     }
 
+    /// Upper end of the axes: below the lines of the legend.
+    fn top(&self) -> f64 {
+        let labels = self.bands.iter().map(|b| &b.label);
+        let labels = labels.chain(self.curves.iter().map(|c| &c.label));
+        let (mut at, mut top) = (LEFT, TOP);
+        for long in labels.filter(|l| !l.is_empty()).map(|l| room(l)) {
+            if at > LEFT && at + long > WIDTH {
+                (at, top) = (LEFT, top + LEGEND_LINE);
+            }
+            at += long;
+        }
+        top
+    }
+
     fn write(&self, out: &mut String, x: &Axis, y: &Axis) -> std::fmt::Result {
         writeln!(
             out,
-            r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" width="{WIDTH}" height="{HEIGHT}" font-family="system-ui, sans-serif" font-size="11" fill="#33373d"><rect width="100%" height="100%" fill="#fbfbf9"/><clipPath id="c"><rect x="{LEFT}" y="{TOP}" width="{}" height="{}"/></clipPath>"##,
+            r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" width="{WIDTH}" height="{HEIGHT}" font-family="system-ui, sans-serif" font-size="11" fill="#33373d"><rect width="100%" height="100%" fill="#fbfbf9"/><clipPath id="c"><rect x="{LEFT}" y="{}" width="{}" height="{}"/></clipPath>"##,
+            self.top(),
             WIDTH - LEFT - RIGHT,
-            HEIGHT - TOP - BOTTOM
+            HEIGHT - self.top() - BOTTOM
         )?;
-        let (top, bottom) = (TOP, HEIGHT - BOTTOM);
+        let (top, bottom) = (self.top(), HEIGHT - BOTTOM);
         for v in x.ticks(8) {
             let at = x.at(v);
             writeln!(
@@ -205,7 +221,7 @@ impl Plot {
     }
 
     fn write_legend(&self, out: &mut String) -> std::fmt::Result {
-        let mut at = LEFT;
+        let (mut at, mut line) = (LEFT, 30.0);
         let bands = self
             .bands
             .iter()
@@ -219,16 +235,26 @@ impl Plot {
             (&c.label, css(c.colour), 2.0, dash)
         });
         for (label, colour, width, dash) in bands.chain(curves).filter(|(l, ..)| !l.is_empty()) {
+            let long = room(label);
+            if at > LEFT && at + long > WIDTH {
+                (at, line) = (LEFT, line + LEGEND_LINE);
+            }
             writeln!(
                 out,
-                r#"<path d="M{at:.0} 30h18" stroke="{colour}" stroke-width="{width}"{dash}/><text x="{:.0}" y="34">{}</text>"#,
+                r#"<path d="M{at:.0} {line}h18" stroke="{colour}" stroke-width="{width}"{dash}/><text x="{:.0}" y="{}">{}</text>"#,
                 at + 23.0,
+                line + 4.0,
                 escaped(label)
             )?;
-            at += 35.0 + 6.0 * label.chars().count() as f64;
+            at += long;
         }
         Ok(())
     }
+}
+
+/// Pixels that a label takes in the legend, at most.
+fn room(label: &str) -> f64 {
+    35.0 + 6.0 * label.chars().count() as f64
 }
 
 /// A scale from values to pixels.
