@@ -220,9 +220,7 @@ fn lift_row(pair: &Pair, l: &Lift) -> Vec<String> {
     vec![
         format!("{} kg", l.mass),
         pair.name.into(),
-        l.record
-            .fell_s
-            .map_or_else(|| "stands".into(), |t| format!("falls, {t:.1} s")),
+        l.record.result(),
         format!("{:.2}", l.record.rms_deg()),
         format!("{:.2}", l.arm_saturated_s),
         format!("{:.1}", l.helpers_deg),
@@ -437,7 +435,7 @@ fn falls(page: &mut Page, body: &Arc<Body>) -> Result<()> {
         };
         for (pair, strength, f) in &strips {
             if *strength == 20.0 && pair.starts_with("paper") {
-                let title = format!("{name}, {pair}, ×{strength}");
+                let title = format!("{name}, {pair}, {strength} times human strength");
                 page.strip(&format!("fall-{name}-stiff"), body, &f.record, view, &title)?;
             } else if *strength == 1.0 && pair.ends_with("torque") {
                 let title = format!("{name}, {pair}, human strength");

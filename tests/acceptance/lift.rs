@@ -205,7 +205,9 @@ fn borne(l: &Lifted) {
 
 /// Too heavy: it falls. No gate on when.
 fn overcome(l: &Lifted) {
-    if !(l.fell.is_some() && l.speed < 25.0) { println!("BAD"); }
+    if !(l.fell.is_some() && l.speed < 25.0) {
+        println!("BAD");
+    }
 }
 
 /// Each regime with the paper's controller, in both steppers, at three rates.

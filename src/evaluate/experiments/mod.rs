@@ -143,12 +143,14 @@ pub struct Record {
     pub frames: Vec<Frame>,
     /// First tick with the centre of mass below 45 % of its height when the run began, s.
     pub fell_s: Option<f64>,
+    /// When the state ran away and the figure was frozen, s. Samples end there.
+    pub frozen_s: Option<f64>,
     /// Largest violation of strength, relative to the limit.
     pub over_limit: f64,
 }
 
 /// A centre of mass below this share of that at the start counts as a fall.
-const FELL: f64 = 0.55;
+const FELL: f64 = 0.45;
 
 /// Runs for `seconds` and keeps `panels` evenly spaced frames; `loads` are what the figure carries at a time (segment, point, kg).
 fn record(
@@ -181,7 +183,10 @@ fn record(
                 })
         };
         let rates = &figure.state().velocity[6..];
-        out.samples.push(Sample {
+        if r.flags.has(Flags::QUARANTINED) {
+            out.frozen_s.get_or_insert(time_s);
+        }
+        let sample = Sample {
             time_s,
             com: r.com,
             com_desired: r.com_desired,
@@ -196,7 +201,10 @@ fn record(
             saturated: r.saturated,
             flags: r.flags,
             speed: rates.iter().fold(0.0, |m, v| m.max(v.abs())),
-        });
+        };
+        if out.frozen_s.is_none() {
+            out.samples.push(sample);
+        }
         if shown.binary_search(&n).is_ok() {
             let tick = Tick {
                 body: figure.body(),
@@ -228,6 +236,15 @@ impl Record {
     /// Largest joint speed, rad/s.
     pub fn top_speed(&self) -> f64 {
         self.samples.iter().fold(0.0, |m, s| m.max(s.speed))
+    }
+
+    /// What became of the figure, in a word or two.
+    pub fn result(&self) -> String {
+        match (self.frozen_s, self.fell_s) {
+            (Some(f), t) if t.is_none_or(|t| f <= t) => format!("runs away, frozen at {f:.1} s"),
+            (_, Some(t)) => format!("falls, {t:.1} s"),
+            _ => "stands".into(),
+        }
     }
 
     /// Joint error over the whole run, rms, degrees.

@@ -239,7 +239,9 @@ impl Paper {
                 };
         // Motors clip what a tipping figure cannot have: to spread it would bend a body that only falls.
         let clip = match mode {
-            Mode::Tilt(..) => !input.kinematic && first.set != 0 && !input.support.polygon().has_area(),
+            Mode::Tilt(..) => {
+                !input.kinematic && first.set != 0 && !input.support.polygon().has_area()
+            }
             _ => false,
         };
         if self.overload || clip {
