@@ -128,11 +128,6 @@ fn lift(mass: f64, kind: ControllerKind, stepper: StepperKind, rate_hz: f64) -> 
     scene.run(8.0, |s| {
         let r = s.figure().report().unwrap();
         out.over = out.over.max(r.over_limit);
-        if out.fell.is_none() && (r.over_limit > 1e-6 || (0..39).any(|j| s.figure().state().velocity[6+j].abs() > 20.0)) {
-            let fast = (0..39).max_by(|a,b| s.figure().state().velocity[6+a].abs().total_cmp(&s.figure().state().velocity[6+b].abs())).unwrap();
-            let w = (0..39).max_by(|a,b| (r.torque[*a]/r.torque_upper[*a]).max(r.torque[*a]/r.torque_lower[*a]).total_cmp(&(r.torque[*b]/r.torque_upper[*b]).max(r.torque[*b]/r.torque_lower[*b]))).unwrap();
-            println!("   t {:.3} over {:.2e} {} flags {:x} sat {:x} {:x} fast {} {:.1} main {:?} contacts {} com.z {:.2}", s.world.time(), r.over_limit, DOF_NAMES[w], r.flags.0, r.saturated, r.saturated_secondary, DOF_NAMES[fast], s.figure().state().velocity[6+fast], r.main_support.map(|m| m.name()), r.contacts.len(), r.com.z);
-        }
         if out.fell.is_some() {
             return;
         }
@@ -205,9 +200,7 @@ fn borne(l: &Lifted) {
 
 /// Too heavy: it falls. No gate on when.
 fn overcome(l: &Lifted) {
-    if !(l.fell.is_some() && l.speed < 25.0) {
-        println!("BAD");
-    }
+    assert!(l.fell.is_some() && l.speed < 25.0, "{}", l.text);
 }
 
 /// Each regime with the paper's controller, in both steppers, at three rates.

@@ -31,8 +31,6 @@ const ROTATION_LENGTH: f64 = 0.3;
 const COM_HORIZON: f64 = 0.1;
 /// A support that turns faster than this is tipping, rad/s (ALGORITHM §6).
 const AT_REST: f64 = 1e-3;
-/// The same where torques move the figure: feet that stand tremble a little.
-const TURNING: f64 = 0.05;
 /// Part of a pose error of a planted foot that is taken back per step (kinematic loops).
 const LOOP_RETURN: f64 = 0.2;
 /// Clamped torques beyond this relative excess are worth a flag.
@@ -259,8 +257,7 @@ impl Paper {
     /// True if a support under prescribed accelerations tips already: what it stands on has no area, or it turns.
     fn tilted(input: &ControlInput<'_>, main: SegmentId) -> bool {
         let spin = input.terms.kin.omega[main.index()].norm();
-        !input.support.polygon().has_area()
-            || spin > if input.kinematic { AT_REST } else { TURNING }
+        !input.support.polygon().has_area() || (input.kinematic && spin > AT_REST)
     }
 
     /// With the ZMP-feasible demand, θ̈_initial gets the centre-of-mass part of (12) before strength is looked at. Without saturation the

@@ -140,7 +140,7 @@ impl Watcher {
                 });
             }
         }
-        let balanced = !report.flags.has(Flags::TIPPING);
+        let balanced = !report.flags.has(Flags::BALANCE_LOST);
         if balanced != self.balanced {
             self.balanced = balanced;
             self.push(if balanced {

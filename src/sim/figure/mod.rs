@@ -1,6 +1,7 @@
 //! One figure, one tick. The loop is [`Figure::step`](step::Figure).
 
 pub mod assist;
+pub mod balance;
 pub mod drive;
 pub mod events;
 pub mod kinematic_step;

@@ -78,7 +78,8 @@ pub struct ControlParams {
     pub track_hands: bool,
     /// Control the centre of mass.
     pub track_com: bool,
-    /// Let torques move a figure with the kinematic stepper while prescribed accelerations cannot go on (ALGORITHM §6).
+    /// Hand over what cannot go on: to torques, while the kinematic stepper's prescribed accelerations cannot (ALGORITHM §6); to motors
+    /// alone, while balance is lost (ALGORITHM §14.3).
     pub hand_over: bool,
     /// Step when the capture point has left the feet (modern controller).
     pub protective_steps: bool,

@@ -1,6 +1,7 @@
 //! One tick of one figure (ALGORITHM §10): the list of stages is [`Figure::step`].
 
 use super::assist::Assist;
+use super::balance::BalanceWatch;
 use super::drive::Drive;
 use super::events::{FigureEvent, Watcher};
 use super::kinematic_step::{Decision, KinematicStepper, SPEED_CAP, other_part_arrives};
@@ -105,6 +106,7 @@ pub struct Figure {
     prescribed: bool,
     com_acceleration: Vec3,
     standing_com_height: f64,
+    balance: BalanceWatch,
     fallen: bool,
     frozen: bool,
     report: TickReport,
@@ -146,6 +148,7 @@ impl Figure {
             prescribed: false,
             com_acceleration: Vec3::zero(),
             standing_com_height: standing_com_height(&setup.body),
+            balance: BalanceWatch::default(),
             fallen: false,
             frozen: false,
             report: empty_report(&setup.state),
@@ -190,6 +193,7 @@ impl Figure {
         );
         self.support
             .update(&self.terms, &body, self.com_acceleration, world.gravity);
+        self.watch_balance(world);
         let angles = anatomical_angles(&self.state.posture);
         let rates: [f64; DOF_COUNT] = std::array::from_fn(|j| self.state.velocity[6 + j]);
         self.muscles = self.available_strength();
@@ -279,6 +283,7 @@ impl Figure {
     /// keeps its clock and its place there.
     fn steps(&self) -> bool {
         !self.fallen
+            && !self.balance.lost()
             && self.setup.controller == ControllerKind::Modern
             && self.setup.options.assist < 1.0
     }
@@ -355,9 +360,40 @@ impl Figure {
         out
     }
 
-    /// The chosen controller, or motors alone once the figure lies on the ground.
+    /// Is balance lost? Full assist holds the pelvis, so there is none to lose; and prescribed accelerations fall by themselves.
+    fn watch_balance(&mut self, world: &TickContext) {
+        let s = &self.setup;
+        let falls = s.stepper == StepperKind::Kinematic && self.handed_over.is_none();
+        let motors = s.controller == ControllerKind::Motors;
+        if falls || motors || !s.params.hand_over || s.options.assist > 0.0 {
+            self.balance.reset();
+            return;
+        }
+        let steps = s.controller == ControllerKind::Modern && s.params.protective_steps;
+        let height = self.terms.com.z / self.standing_com_height;
+        let before = self.balance.lost();
+        self.balance.observe(
+            &s.body,
+            &self.terms,
+            &self.support,
+            (world.gravity, world.dt),
+            (steps, height),
+        );
+        if before && !self.balance.lost() {
+            self.start_afresh();
+        }
+    }
+
+    /// Controllers and steps forget what they knew of a figure that has fallen or stumbled since.
+    fn start_afresh(&mut self) {
+        self.modern.reset();
+        self.paper.reset();
+        self.gait.reset();
+    }
+
+    /// The chosen controller, or motors alone once balance is lost or the figure lies on the ground.
     fn active_controller(&self) -> ControllerKind {
-        if self.fallen {
+        if self.fallen || self.balance.lost() {
             ControllerKind::Motors
         } else {
             self.setup.controller
@@ -389,7 +425,8 @@ impl Figure {
         } else if let Some(calm) = self.handed_over {
             let points = self.support.points();
             let flat = points.len() >= 3 && points.iter().all(|p| feet.contains(&p.segment));
-            let stands = flat && !self.tips && !self.fallen && r.saturated == 0;
+            let upright = !self.fallen && !self.balance.lost();
+            let stands = flat && upright && !self.tips && r.saturated == 0;
             self.handed_over = match calm + dt {
                 t if !stands && t > 0.0 => Some(0.0),
                 t if t > CALM_TIME => None,
@@ -501,6 +538,9 @@ impl Figure {
         if self.fallen {
             r.flags.set(Flags::FALLEN);
         }
+        if self.balance.lost() {
+            r.flags.set(Flags::BALANCE_LOST);
+        }
         if self.handed_over.is_some() {
             r.flags.set(Flags::HANDED_OVER);
         }
@@ -531,9 +571,7 @@ impl Figure {
             self.fallen = true;
         } else if self.fallen && height > RISEN_HEIGHT {
             self.fallen = false;
-            self.modern.reset();
-            self.paper.reset();
-            self.gait.reset();
+            self.start_afresh();
         }
     }
 }
@@ -631,6 +669,7 @@ impl Figure {
         self.modern.reset();
         self.kinematic.reset();
         self.handed_over = None;
+        self.balance.reset();
         self.fatigue = rested(&self.setup.options);
         self.report.remaining = [[1.0; 2]; DOF_COUNT];
     }
