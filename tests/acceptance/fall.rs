@@ -179,6 +179,8 @@ struct Fall {
     moved: (f64, f64),
     /// Torques took over at, s.
     handed: Option<f64>,
+    /// Balance was given up at, s.
+    lost: Option<f64>,
     /// Largest relative residual of the equations of motion.
     residual: f64,
     text: String,
@@ -206,6 +208,7 @@ fn fall(
     let pendulum = pendulum_time(&body, &state, pivot, Vec3::Z.cross(direction));
     let mut setup = figure(&body, kind, state);
     setup.stepper = stepper;
+    setup.params.protective_steps = false;
     setup.strength.all = strength;
     set_toes(&mut setup, toes);
     let params = WorldParams {
@@ -214,7 +217,8 @@ fn fall(
     };
     let mut scene = Scene::with(params, setup);
     let start = integrals(scene.figure().links(), &state);
-    let (mut time, mut bent, mut handed, mut residual) = (None, 0.0f64, None, 0.0f64);
+    let (mut time, mut bent, mut residual) = (None, 0.0f64, 0.0f64);
+    let (mut handed, mut lost) = (None, None);
     let (mut energy, mut moved) = ((0.0f64, 0.0f64), Vec3::zero());
     scene.run(2.5, |s| {
         if time.is_some() {
@@ -224,6 +228,9 @@ fn fall(
         let r = s.figure().report().unwrap();
         if r.flags.has(Flags::HANDED_OVER) && handed.is_none() {
             handed = Some(s.world.time());
+        }
+        if r.flags.has(Flags::BALANCE_LOST) && lost.is_none() {
+            lost = Some(s.world.time());
         }
         let gain = (now.energy - start.energy) / start.energy;
         energy = (energy.0.min(gain), energy.1.max(gain));
@@ -252,6 +259,7 @@ fn fall(
         energy,
         moved: (along, across),
         handed,
+        lost,
         residual,
         text,
     }
@@ -325,6 +333,29 @@ fn the_papers_controller_with_torques_falls_like_a_pendulum() {
                 "{}",
                 f.text
             );
+        }
+    }
+}
+
+/// The modern controller, told not to step, sees that balance is lost and leaves the figure to its motors in the first tick; one that was
+/// pushed over falls the same way.
+#[test]
+fn modern_hands_over_to_motors_alone_and_falls_like_a_pendulum() {
+    for rate_hz in [30.0, 60.0, 120.0] {
+        for direction in DIRECTIONS {
+            let stepper = StepperKind::Torque;
+            let f = fall(
+                direction,
+                ControllerKind::Modern,
+                stepper,
+                (1.0, 4.0),
+                rate_hz,
+            );
+            let (late, tick) = (f.time - f.pendulum, 1.0 / rate_hz);
+            assert!(late > -tick && late < 2.0 * tick, "{}", f.text);
+            assert!(f.bent < 3f64.to_radians(), "{}", f.text);
+            assert!(f.energy.1 <= 1e-9 && f.residual < 1e-9, "{}", f.text);
+            assert!(f.lost == Some(tick), "{}: lost at {:?}", f.text, f.lost);
         }
     }
 }

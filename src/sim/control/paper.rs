@@ -189,7 +189,7 @@ impl Paper {
         let held = &self.held[..self.held_count];
         // Ankles and toes of a tipping foot give way; to help them, the least change in W = I would bend the whole body.
         let metric = match mode {
-            Mode::Tilt(..) => Metric::Torque,
+            Mode::Tilt(..) if std::env::var("XX").is_ok() => Metric::Torque,
             _ => params.metric,
         };
         let mut first = self.limits.solve(

@@ -7,14 +7,31 @@ use crate::sim::body::{Body, SegmentId};
 use crate::sim::dynamics::Terms;
 use crate::sim::support::{Polygon, Support};
 
-/// The capture point may leave what the feet can cover by this much: arms and trunk bring it back, m.
-const REACH: f64 = 0.04;
-/// Farther than this no step catches the body, m.
-const STEP_REACH: f64 = 0.6;
-/// A body this low (share of its standing height) does not step any more, and the capture point may be off by that much, m.
-const LOW: (f64, f64) = (0.7, 0.15);
+/// A body this low (share of its standing height) does not step any more.
+const LOW: f64 = 0.7;
 /// Balance is found again once the capture point has been inside for this long, s.
 const FOUND_TIME: f64 = 0.3;
+
+/// What brings the capture point back from where, m.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reach {
+    /// Arms and trunk; a controller that does all it can.
+    Body,
+    /// The paper's controller, which keeps trying on an edge of its feet.
+    Paper,
+    /// Steps.
+    Step,
+}
+
+impl Reach {
+    fn length(self, height: f64) -> f64 {
+        match self {
+            Self::Body => 0.04,
+            Self::Step if height > LOW => 0.6,
+            Self::Paper | Self::Step => 0.15,
+        }
+    }
+}
 
 /// Watches the capture point.
 #[derive(Clone, Debug)]
@@ -47,7 +64,7 @@ impl BalanceWatch {
 
     /// Looks at the state in `terms`, at the start of a tick of `dt` seconds. Allocates nothing.
     ///
-    /// * `steps`: the figure may step, so that only what no step can catch is lost.
+    /// * `reach`: what may bring it back.
     /// * `height`: of the centre of mass, as a share of the standing one.
     pub fn observe(
         &mut self,
@@ -55,7 +72,7 @@ impl BalanceWatch {
         terms: &Terms,
         support: &Support,
         (gravity, dt): (f64, f64),
-        (steps, height): (bool, f64),
+        (reach, height): (Reach, f64),
     ) {
         if support.points().is_empty() || gravity <= 0.0 {
             return; // Flight: nothing to lose balance over.
@@ -65,12 +82,7 @@ impl BalanceWatch {
         let capture = [c.x + v.x * time, c.y + v.y * time];
         self.cover(body, terms, support);
         let outside = self.polygon.closest(capture).map_or(0.0, |c| -c.margin);
-        let allowed = match (steps, height < LOW.0) {
-            (false, _) => REACH,
-            (true, false) => STEP_REACH,
-            (true, true) => LOW.1,
-        };
-        if outside > allowed {
+        if outside > reach.length(height) {
             (self.lost, self.inside) = (true, 0.0);
         } else if self.lost {
             self.inside = if outside > 0.0 { 0.0 } else { self.inside + dt };

@@ -1,7 +1,7 @@
 //! One tick of one figure (ALGORITHM §10): the list of stages is [`Figure::step`].
 
 use super::assist::Assist;
-use super::balance::BalanceWatch;
+use super::balance::{BalanceWatch, Reach};
 use super::drive::Drive;
 use super::events::{FigureEvent, Watcher};
 use super::kinematic_step::{Decision, KinematicStepper, SPEED_CAP, other_part_arrives};
@@ -369,7 +369,12 @@ impl Figure {
             self.balance.reset();
             return;
         }
-        let steps = s.controller == ControllerKind::Modern && s.params.protective_steps;
+        let modern = s.controller == ControllerKind::Modern;
+        let reach = match s.params.protective_steps {
+            true if modern => Reach::Step,
+            false if modern => Reach::Body,
+            _ => Reach::Paper,
+        };
         let height = self.terms.com.z / self.standing_com_height;
         let before = self.balance.lost();
         self.balance.observe(
@@ -377,7 +382,7 @@ impl Figure {
             &self.terms,
             &self.support,
             (world.gravity, world.dt),
-            (steps, height),
+            (reach, height),
         );
         if before && !self.balance.lost() {
             self.start_afresh();
