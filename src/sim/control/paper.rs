@@ -187,17 +187,12 @@ impl Paper {
 
         let tau0 = self.map.torque(&initial);
         let held = &self.held[..self.held_count];
-        // Ankles and toes of a tipping foot give way; to help them, the least change in W = I would bend the whole body.
-        let metric = match mode {
-            Mode::Tilt(..) if std::env::var("XX").is_ok() => Metric::Torque,
-            _ => params.metric,
-        };
         let mut first = self.limits.solve(
             &self.map.h,
             &tau0,
             input.lower,
             input.upper,
-            metric,
+            params.metric,
             held,
             OVERLOAD_ENTER as usize,
         );

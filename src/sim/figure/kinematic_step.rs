@@ -104,7 +104,7 @@ impl KinematicStepper {
                 over_limit: 0.0,
                 iterations: 0,
                 flags: Flags::default(),
-                audit: Audit::with_capacity(),
+                audit: Audit::with_capacity(super::loads::MAX_PERTURBATIONS),
             },
         }
     }

@@ -91,8 +91,8 @@ pub struct Audit {
 }
 
 impl Audit {
-    /// An empty one with room for every contact and every perturbation.
-    pub fn with_capacity() -> Self {
+    /// An empty one with room for every contact and so many applied forces.
+    pub fn with_capacity(applied: usize) -> Self {
         Self {
             state: State::default(),
             acceleration: [0.0; NV],
@@ -100,7 +100,7 @@ impl Audit {
             ligament_torque: [0.0; DOF_COUNT],
             assist: [0.0; 6],
             contacts: Vec::with_capacity(MAX_CONTACTS),
-            applied: Vec::with_capacity(super::loads::MAX_PERTURBATIONS),
+            applied: Vec::with_capacity(applied),
         }
     }
 }

@@ -1,8 +1,7 @@
 //! When and where the feet of a clip stand: the stances of both feet, in order, also over the seam of a loop.
 
-use crate::sim::body::Body;
-use crate::sim::body::SegmentId;
 use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
+use crate::sim::body::{Body, Posture, SegmentId};
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::Clip;
 use crate::sim::motion::clip::PlanarTransform;
@@ -26,9 +25,14 @@ pub struct Footfall {
 #[derive(Clone, Debug)]
 pub struct StepPlan {
     stances: [Vec<Footfall>; 2],
+    /// When the motion begins to move, s: 0, or before that if it has a lead-in.
+    begin: f64,
+    /// When it is over, s: with its lead-out.
     duration: f64,
     /// Displacement of one round, if the clip repeats.
     round: Option<PlanarTransform>,
+    /// The way into a clip that repeats, with its first round.
+    lead: Option<Box<StepPlan>>,
 }
 
 /// Heading and pitch (toe-up positive) of a foot without its roll, rad. Platform-independent, since it feeds the tick.
@@ -52,15 +56,14 @@ const NEAR_FLOOR: f64 = 0.03;
 
 /// Which feet carry the body in each sample: the planted ones, or, where none is and one stays near the floor, that one. (The preparation
 /// declares a foot free that its leg cannot hold in place exactly; that is no flight.)
-fn carried(body: &Body, clip: &Clip) -> Vec<[bool; 2]> {
+fn carried(body: &Body, samples: &[(&Posture, [bool; 2])]) -> Vec<[bool; 2]> {
     let soles = [Sole::new(body, 0), Sole::new(body, 1)];
-    (0..clip.len())
-        .map(|i| {
-            let planted = clip.planted(i);
+    samples
+        .iter()
+        .map(|&(posture, planted)| {
             if planted != [false; 2] {
                 return planted;
             }
-            let posture = clip.posture(i);
             let poses = forward(body, posture);
             let low = [(L_FOOT, L_TOES), (R_FOOT, R_TOES)].map(|(foot, toes)| {
                 let side = usize::from(foot == R_FOOT);
@@ -84,9 +87,18 @@ fn carried(body: &Body, clip: &Clip) -> Vec<[bool; 2]> {
 impl StepPlan {
     /// The plan of `clip` on `body`; `looped` if it repeats.
     pub fn new(body: &Body, clip: &Clip, looped: bool) -> Self {
-        let (n, rate) = (clip.len(), clip.rate_hz());
+        let rate = clip.rate_hz();
         let feet = [L_FOOT, R_FOOT];
-        let planted = carried(body, clip);
+        // A round of a loop has neither a lead-in nor a lead-out.
+        let (skipped, begin, duration) = if looped {
+            let lead_in = (clip.lead_in() * rate).round() as usize;
+            (lead_in, 0.0, clip.duration())
+        } else {
+            (0, -clip.lead_in(), clip.duration() + clip.lead_out())
+        };
+        let n = ((duration - begin) * rate).round() as usize + 1;
+        let samples: Vec<_> = clip.samples().skip(skipped).take(n).collect();
+        let planted = carried(body, &samples);
         let stances = std::array::from_fn(|side| {
             let sole = Sole::new(body, side);
             let mut out = Vec::new();
@@ -102,19 +114,19 @@ impl StepPlan {
                 }
                 // The middle of a stance is its flattest part.
                 let (ankle, rotation) =
-                    forward(body, clip.posture((start + i - 1) / 2))[feet[side].index()];
+                    forward(body, samples[(start + i - 1) / 2].0)[feet[side].index()];
                 let (place, yaw) = place(&sole, ankle, rotation);
                 // A sample speaks for the half-interval on either side of it.
                 out.push(Footfall {
                     on: if start == 0 {
-                        0.0
+                        begin
                     } else {
-                        (start as f64 - 0.5) / rate
+                        begin + (start as f64 - 0.5) / rate
                     },
                     off: if i == n {
-                        clip.duration()
+                        duration
                     } else {
-                        (i as f64 - 0.5) / rate
+                        begin + (i as f64 - 0.5) / rate
                     },
                     place,
                     yaw,
@@ -124,21 +136,30 @@ impl StepPlan {
         });
         Self {
             stances,
-            duration: clip.duration(),
+            begin,
+            duration,
             round: looped.then(|| clip.advance()),
+            lead: (looped && clip.lead_in() > 0.0).then(|| Box::new(Self::new(body, clip, false))),
         }
     }
 
     /// True if a foot leaves the floor anywhere.
     pub fn steps(&self) -> bool {
-        self.stances
-            .iter()
-            .any(|s| s.len() != 1 || s[0].on > 0.0 || s[0].off < self.duration)
+        self.lead.as_ref().is_some_and(|l| l.steps())
+            || self
+                .stances
+                .iter()
+                .any(|s| s.len() != 1 || s[0].on > self.begin || s[0].off < self.duration)
     }
 
     /// True once a clip that does not repeat has played to its end.
     pub fn is_over(&self, t: f64) -> bool {
         self.round.is_none() && t >= self.duration
+    }
+
+    /// The plan that holds before a repeating clip begins.
+    fn lead_at(&self, t: f64) -> Option<&Self> {
+        self.lead.as_deref().filter(|_| t < 0.0)
     }
 
     /// Round of a loop that time `t` falls into, and the time within it.
@@ -171,6 +192,13 @@ impl StepPlan {
 
     /// Next touch-down of a foot (0 left, 1 right) after time `t` (s); `None` if it never lands again.
     pub fn next(&self, side: usize, t: f64) -> Option<Footfall> {
+        if let Some(lead) = self.lead_at(t) {
+            let first = |f: &Footfall| f.on < self.duration;
+            return lead
+                .next(side, t)
+                .filter(first)
+                .or_else(|| self.next(side, 0.0));
+        }
         let (round, local) = self.round_of(t);
         let rounds = if self.round.is_some() { 2 } else { 1 };
         for k in 0..rounds {
@@ -187,10 +215,13 @@ impl StepPlan {
 
     /// The stance that holds at time `t` (s).
     pub fn current(&self, side: usize, t: f64) -> Option<Footfall> {
+        if let Some(lead) = self.lead_at(t) {
+            return lead.current(side, t);
+        }
         let (round, local) = self.round_of(t);
         let end = self.duration;
         let f = self.stances[side].iter().find(|f| {
-            (f.on <= local || f.on <= 0.0)
+            (f.on <= local || f.on <= self.begin)
                 && (local < f.off || (f.off >= end && self.round.is_none()))
         })?;
         Some(self.unrolled(*f, round))
@@ -198,6 +229,9 @@ impl StepPlan {
 
     /// Last lift-off of a foot at or before time `t`, s; the beginning of the clip if there was none.
     pub fn last_off(&self, side: usize, t: f64) -> f64 {
+        if let Some(lead) = self.lead_at(t) {
+            return lead.last_off(side, t);
+        }
         let (round, local) = self.round_of(t);
         let s = &self.stances[side];
         if let Some(f) = s.iter().rev().find(|f| f.off <= local) {
@@ -207,7 +241,7 @@ impl StepPlan {
             Some(f) if self.round.is_some() && !self.wraps(side) => {
                 f.off + (round - 1.0) * self.duration
             }
-            _ => round * self.duration,
+            _ => self.begin + round * self.duration,
         }
     }
 }

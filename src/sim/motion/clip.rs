@@ -173,7 +173,10 @@ struct Seam {
 pub struct Clip {
     name: String,
     rate_hz: f64,
+    /// All samples: those of the lead-in, the motion itself, the lead-out.
     knots: Vec<Knot>,
+    lead_in: usize,
+    lead_out: usize,
     seam: Option<Box<Seam>>,
 }
 
@@ -230,10 +233,22 @@ impl Clip {
             name: name.to_owned(),
             rate_hz,
             knots,
+            lead_in: 0,
+            lead_out: 0,
             seam: None,
         };
         clip.seam = clip.make_seam();
         Ok(clip)
+    }
+
+    /// Declares the first `lead_in` and the last `lead_out` samples to be the way into the motion and out of it ([`super::ends`]): times count
+    /// from the first sample between them, and repetition leaves them out. At least one sample stays between.
+    pub fn with_ends(mut self, lead_in: usize, lead_out: usize) -> Self {
+        let most = self.knots.len() - 1;
+        self.lead_in = lead_in.min(most);
+        self.lead_out = lead_out.min(most - self.lead_in);
+        self.seam = self.make_seam();
+        self
     }
 
     /// Name.
@@ -244,22 +259,34 @@ impl Clip {
     pub fn rate_hz(&self) -> f64 {
         self.rate_hz
     }
-    /// Number of samples, at least 1.
+    /// Number of samples without lead-in and lead-out, at least 1.
     #[allow(clippy::len_without_is_empty)] // never empty
     pub fn len(&self) -> usize {
-        self.knots.len()
+        self.knots.len() - self.lead_in - self.lead_out
     }
-    /// Time of the last sample, s; 0 for a single posture.
+    /// Time of the last sample before the lead-out, s; 0 for a single posture.
     pub fn duration(&self) -> f64 {
-        (self.knots.len() - 1) as f64 / self.rate_hz
+        (self.len() - 1) as f64 / self.rate_hz
+    }
+    /// Length of the way into the motion, s: it plays at negative times.
+    pub fn lead_in(&self) -> f64 {
+        self.lead_in as f64 / self.rate_hz
+    }
+    /// Length of the way out of the motion, s: it plays after [`Self::duration`].
+    pub fn lead_out(&self) -> f64 {
+        self.lead_out as f64 / self.rate_hz
     }
     /// Posture of sample `i`. Panics if there is none.
     pub fn posture(&self, i: usize) -> &Posture {
-        &self.knots[i].posture
+        &self.knots[self.lead_in + i].posture
     }
     /// Which feet (left, right) are planted at sample `i`. Panics if there is none.
     pub fn planted(&self, i: usize) -> [bool; 2] {
-        self.knots[i].planted
+        self.knots[self.lead_in + i].planted
+    }
+    /// All samples with lead-in and lead-out, in order: posture and planted feet. The first one is that of time −[`Self::lead_in`].
+    pub fn samples(&self) -> impl ExactSizeIterator<Item = (&Posture, [bool; 2])> {
+        self.knots.iter().map(|k| (&k.posture, k.planted))
     }
 
     /// Displacement along the ground and change of heading of one round of [`Self::sample_looped`].
@@ -271,14 +298,14 @@ impl Clip {
 
     /// The motion at time `t` (s).
     ///
-    /// Before 0 and from the end on it stands still in the first or last posture (also for a time that is no number).
-    /// In between, posture, velocity and acceleration are continuous. A recording that starts or ends in full motion
-    /// has its true velocity up to its ends, so there it stops at once.
+    /// Lead-in and lead-out included; before them and after them it stands still in the first or last posture (also for a time that is no
+    /// number). In between, posture, velocity and acceleration are continuous. A recording without them that starts or ends in
+    /// full motion has its true velocity up to its ends, so there it stops at once.
     pub fn sample(&self, t: f64) -> Target {
         let last = self.knots.len() - 1;
-        if t >= self.duration() {
+        if t >= self.duration() + self.lead_out() {
             self.rest(last)
-        } else if t >= 0.0 {
+        } else if t >= -self.lead_in() {
             self.inside(t)
         } else {
             self.rest(0)
@@ -289,12 +316,15 @@ impl Clip {
     ///
     /// Each round starts where the last one ended: displacement along the ground and change of heading are carried over. Towards the end
     /// of a round the remaining difference to the start (posture, velocity, acceleration) is blended in, so that the seam is as
-    /// smooth as the clip. A time that is no number counts as 0.
+    /// smooth as the clip. A time that is no number counts as 0. A clip with a lead-in comes from there instead of from earlier rounds.
     pub fn sample_looped(&self, t: f64) -> Target {
         let Some(seam) = &self.seam else {
-            return self.rest(0);
+            return self.rest(self.lead_in);
         };
         let t = if t.is_finite() { t } else { 0.0 };
+        if t < 0.0 && self.lead_in > 0 {
+            return self.sample(t);
+        }
         let period = self.duration();
         let round = (t / period).floor();
         let local = (t - round * period).clamp(0.0, period);
@@ -315,9 +345,9 @@ impl Clip {
         }
     }
 
-    /// Sample at 0 ≤ t ≤ duration.
+    /// Sample at −lead-in ≤ t ≤ duration + lead-out.
     fn inside(&self, t: f64) -> Target {
-        let position = t * self.rate_hz;
+        let position = (t * self.rate_hz + self.lead_in as f64).max(0.0);
         let i = (position.floor() as usize).min(self.knots.len().saturating_sub(2));
         let Some(b) = self.knots.get(i + 1) else {
             return self.rest(i);
@@ -375,8 +405,8 @@ impl Clip {
     }
 
     fn make_seam(&self) -> Option<Box<Seam>> {
-        let last = self.knots.len().checked_sub(2)? + 1;
-        let (first, end) = (&self.knots[0], &self.knots[last]);
+        let last = self.lead_in + self.len().checked_sub(2)? + 1;
+        let (first, end) = (&self.knots[self.lead_in], &self.knots[last]);
         // Heading and place of the end, seen from the start.
         let turned = end.posture.root_rotation * first.posture.root_rotation.conjugate();
         let yaw = 2.0 * trig::atan2(turned.z, turned.w);

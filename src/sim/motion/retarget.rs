@@ -14,7 +14,7 @@ use super::filter::{
     resample_points, resample_rotations, speeds,
 };
 use super::foot_lock::{Sole, turn};
-use super::prepare::{Draft, PrepareOptions, ZmpOutside, prepare};
+use super::prepare::{Draft, PrepareOptions, Prepared, ZmpOutside, prepare};
 use super::skeleton_map::{MapError, SideMap, SkeletonMap, map_skeleton};
 use crate::sim::body::topology::{
     BALL_COUNT, DOF_COUNT, DOF_NAMES, HINGE_COUNT, JOINT, Joint, L_FOOT, L_FOREARM, L_HAND,
@@ -79,6 +79,8 @@ pub struct RetargetOptions {
     pub balance: bool,
     /// Cut-off of the zero-phase low-pass, Hz.
     pub cutoff_hz: f64,
+    /// Let the motion begin and end standing, with steps before its first and after its last frame where it takes them.
+    pub ends: bool,
     /// Keep the file's place and heading (x forward = the file's z where y is up). Otherwise the clip starts at the origin facing +x.
     pub keep_origin: bool,
 }
@@ -95,6 +97,7 @@ impl Default for RetargetOptions {
             floor: true,
             lock_feet: true,
             balance: true,
+            ends: true,
             cutoff_hz: 6.0,
             keep_origin: false,
         }
@@ -523,14 +526,16 @@ pub fn retarget(
         p.root_rotation = renormalised(p.root_rotation);
     }
     let phases = phases(&draft.label, rate);
-    let prepared = prepare(
-        body,
-        &draft,
-        PrepareOptions {
-            lock_feet: options.lock_feet && options.floor,
-            balance: options.balance,
-        },
-    );
+    let how = PrepareOptions {
+        lock_feet: options.lock_feet && options.floor,
+        balance: options.balance,
+    };
+    let prepared = prepare(body, &draft, how);
+    let (postures, planted, lead_in, lead_out) = if options.ends && how.lock_feet {
+        with_ends(body, &draft, &prepared, how)
+    } else {
+        (prepared.postures, prepared.planted, 0, 0)
+    };
 
     let mut report = RetargetReport {
         mapped: mapped_bones(bvh, &map),
@@ -572,8 +577,35 @@ pub fn retarget(
         warnings,
     };
     report.note_warnings(calibration.from_rest);
-    let clip = Clip::from_postures(&options.name, rate, prepared.postures, prepared.planted)?;
+    let clip =
+        Clip::from_postures(&options.name, rate, postures, planted)?.with_ends(lead_in, lead_out);
     Ok(Retargeted { clip, report })
+}
+
+/// Postures and planted feet with the way into the motion and out of it, and the lengths of both in samples.
+fn with_ends(
+    body: &Body,
+    draft: &Draft,
+    prepared: &Prepared,
+    how: PrepareOptions,
+) -> (Vec<Posture>, Vec<[bool; 2]>, usize, usize) {
+    let mut whole = Draft::of_postures(
+        body,
+        draft.rate_hz,
+        prepared.postures.clone(),
+        draft.label.clone(),
+    );
+    let (before, after) = whole.add_ends(body);
+    if (before, after) == (0, 0) {
+        return (
+            prepared.postures.clone(),
+            prepared.planted.clone(),
+            before,
+            after,
+        );
+    }
+    let whole = prepare(body, &whole, how);
+    (whole.postures, whole.planted, before, after)
 }
 
 impl RetargetReport {
