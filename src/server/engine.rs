@@ -288,15 +288,16 @@ pub fn reset(world: &mut World, key: FigureKey, mut state: State) -> Result<(), 
         .map_err(|e| refused("figure", &e))
 }
 
-/// Changes strength and controller.
+/// Changes strength, controller and its choices.
 pub fn retune(
     world: &mut World,
     key: FigureKey,
     strength: StrengthScale,
     controller: ControllerKind,
+    params: ControlParams,
 ) -> Result<(), Fault> {
     world
-        .retune_figure(key, strength, controller, ControlParams::default())
+        .retune_figure(key, strength, controller, params)
         .map_err(|e| refused("figure", &e))
 }
 
@@ -351,7 +352,7 @@ pub fn add_figure(
             strength: s.strength.clone(),
             controller: s.controller,
             stepper: s.stepper,
-            params: ControlParams::default(),
+            params: s.params.clone(),
             options: s.options,
             state,
             name: id.to_owned(),
