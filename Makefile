@@ -9,7 +9,7 @@ SINEW_MOCAP_DIR ?= $(abspath $(ROOT)/../shared/mocap)
 export SINEW_MOCAP_DIR PYTHON
 
 .DEFAULT_GOAL := help
-.PHONY: help run test ci setup lint physics rust oracle load fmt
+.PHONY: help run test ci setup lint physics rust oracle python viewer load fmt
 
 help: ## what there is
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(ROOT)/Makefile
@@ -17,7 +17,7 @@ help: ## what there is
 run: ## the demo server
 	cd $(ROOT) && $(CARGO) run --release
 
-test: setup lint physics rust load oracle ## every test; installs what they need into .venv and .tools
+test: setup lint physics rust load oracle python viewer ## every test; installs what they need
 
 ci: test ## what CI runs
 
@@ -40,6 +40,15 @@ load: ## load test against a live server, where there is one
 oracle: setup ## comparison with Pinocchio and MuJoCo, and the server seen from Python
 	cd $(ROOT) && $(CARGO) build --locked --bins --examples
 	cd $(ROOT) && .venv/bin/python -m pytest tests/oracle
+
+viewer: ## the viewer in a real browser, the TypeScript client, and that the bundle is what its source builds
+	$(ROOT)/clients/web/setup.sh
+	cd $(ROOT) && $(CARGO) build --locked --bins
+	cd $(ROOT)/clients/web && npm run --silent typecheck && npm run --silent lint && npm run --silent check && npm test --silent
+
+python: setup ## the Python package: types, tests, examples, wheel; vectors of tests/conformance
+	cd $(ROOT) && $(CARGO) build --locked --bins --example client
+	cd $(ROOT)/clients/python && $(ROOT)/.venv/bin/python -m pytest
 
 fmt: ## format everything
 	cd $(ROOT) && $(CARGO) fmt

@@ -5,6 +5,7 @@ set -eu
 
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
 requirements="$root/tests/oracle/requirements.txt"
+client="$root/clients/python"
 venv="$root/.venv"
 stamp="$venv/.requirements"
 
@@ -14,7 +15,9 @@ if ! command -v "$python" >/dev/null 2>&1; then
     exit 1
 fi
 
-if [ -x "$venv/bin/python" ] && cmp -s "$requirements" "$stamp"; then
+wanted() { cat "$requirements" "$client/requirements-dev.txt" "$client/pyproject.toml"; }
+
+if [ -x "$venv/bin/python" ] && wanted | cmp -s - "$stamp"; then
     exit 0
 fi
 
@@ -26,6 +29,9 @@ if ! [ -x "$venv/bin/python" ]; then
     fi
 fi
 
-echo "setup: installing the Python packages of tests/oracle/requirements.txt into .venv"
-"$venv/bin/python" -m pip install --quiet --disable-pip-version-check --requirement "$requirements"
-cp "$requirements" "$stamp"
+echo "setup: installing the Python packages of the tests and the package sinew into .venv"
+"$venv/bin/python" -m pip install --quiet --disable-pip-version-check \
+    --requirement "$requirements" --requirement "$client/requirements-dev.txt"
+# In place, so that tests see what is edited.
+"$venv/bin/python" -m pip install --quiet --disable-pip-version-check --no-build-isolation --editable "$client"
+wanted >"$stamp"

@@ -3,7 +3,7 @@
 use super::{explain, world_resource};
 use crate::client::Client;
 use crate::server::engine;
-use crate::sim::motion::Bvh;
+use crate::sim::motion::{Bvh, cycle};
 use crate::wire::convert::{self, motion::figure_motion};
 use crate::wire::frame::values;
 use crate::wire::pb;
@@ -82,6 +82,10 @@ async fn push(args: &Args) -> anyhow::Result<()> {
     for warning in &report.warnings {
         eprintln!("{path}: {warning}");
     }
+    let clip = match args.looped.then(|| cycle(&body, &clip)).flatten() {
+        Some(repeats) => repeats,
+        None => clip,
+    };
     let start = engine::place_of(clip.posture(0));
     let created = existing.is_none();
     let place = if created {

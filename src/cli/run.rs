@@ -14,7 +14,7 @@ use crate::sim::body::{Body, Posture, SegmentId, State};
 use crate::sim::figure::{FigureOptions, StrengthScale};
 use crate::sim::math::Vec3;
 use crate::sim::motion::retarget::RetargetOptions;
-use crate::sim::motion::{Clip, PlanarTransform, write_bvh};
+use crate::sim::motion::{Clip, PlanarTransform, cycle, write_bvh};
 use crate::sim::strength::fatigue::MAX_TIME_SCALE;
 use crate::sim::world::{
     ClipPlayback, Drive, Figure, FigureEvent, FigureSetup, World, WorldParams,
@@ -35,7 +35,7 @@ const MAX_DURATION: f64 = 86_400.0;
 /// Runs motions through the physics and reports how well the figure followed.
 #[derive(Clone, Debug, clap::Args)]
 pub struct RunArgs {
-    /// Motions: BVH files or builtin:NAME (idle, lift, squat, wave, step, walk). Each gets a world of its own.
+    /// Motions: BVH files or builtin:NAME (idle, lift, crate, squat, wave, step, walk). Each gets a world of its own.
     #[arg(required = true, value_name = "CLIP")]
     pub clips: Vec<String>,
     /// Who the figure stands for.
@@ -372,7 +372,9 @@ fn run_one(
     } else {
         Vec::new()
     };
-    let (report, frames) = simulate(scenario, &source.clip, ticks, &shown, |figure, time| {
+    let repeats = args.looped.then(|| cycle(&scenario.body, clip)).flatten();
+    let played = repeats.as_ref().unwrap_or(clip);
+    let (report, frames) = simulate(scenario, played, ticks, &shown, |figure, time| {
         bar.inc(1);
         if let Some(csv) = &mut csv {
             csv.row(time, figure)?;

@@ -2,11 +2,7 @@
 
 use crate::server::api::App;
 use crate::server::config::Config;
-use crate::server::tick::command::Origin;
 use crate::server::{self, telemetry};
-use crate::wire::convert;
-use crate::wire::pb;
-use crate::wire::types::{Place, Playback};
 use anyhow::Context as _;
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -33,6 +29,9 @@ pub struct Args {
     /// Do not create the demo world
     #[arg(long)]
     no_demo: bool,
+    /// Do not serve the viewer; the status page is at `/` then
+    #[arg(long)]
+    no_viewer: bool,
 }
 
 fn pair(text: &str) -> Result<(String, String), String> {
@@ -50,6 +49,9 @@ impl Args {
         }
         if self.insecure_bind_any {
             flag("insecure_bind_any", "true".to_owned());
+        }
+        if self.no_viewer {
+            flag("viewer", "false".to_owned());
         }
         if let Some(log) = &self.log {
             flag("log", log.clone());
@@ -88,11 +90,17 @@ pub fn run(args: &Args) -> anyhow::Result<()> {
         let (stop, stopping) = tokio::sync::watch::channel(false);
         let app = Arc::new(App::new(Arc::new(config), stopping)?);
         if !args.no_demo {
-            demo(&app).await?;
+            let people = server::demo::create(&app)
+                .await
+                .map_err(|e| anyhow::anyhow!(e))?;
+            tracing::info!("the world `demo` has {}", people.join(", "));
         }
         println!("Sinew serves at http://{address} (gRPC, gRPC-Web, status page; Ctrl-C ends it)");
+        if app.config.viewer {
+            println!("Open it in a browser to see and disturb its figures: http://{address}/");
+        }
         if !args.no_demo {
-            println!("The world `demo` has three figures with built-in motions. Watch them:");
+            println!("In the world `demo` people lift the same crate. In the terminal:");
             println!("  sinew watch {address} demo");
         }
         server::serve(app, listener, interrupted(), stop)
@@ -120,52 +128,4 @@ async fn interrupted() {
     }
     #[cfg(not(unix))]
     let _ = interrupt.await;
-}
-
-/// A world with three figures that play built-in motions.
-async fn demo(app: &Arc<App>) -> anyhow::Result<()> {
-    let world = app
-        .worlds
-        .create(Some("demo".into()), convert::world::settings(None)?, false)?;
-    let origin = || Origin {
-        client: "demo".into(),
-        sequence: 0,
-    };
-    for (name, body, clip_name, y) in [
-        ("man", "bodies/adult-man", "squat", 0.0),
-        ("woman", "bodies/adult-woman", "wave", 1.5),
-        ("stepper", "bodies/adult-man", "step", -1.5),
-    ] {
-        let settings = convert::figure::settings(
-            "figure",
-            Some(&pb::Figure {
-                body: body.into(),
-                controller: pb::Controller::Modern.into(),
-                placement: Some(pb::Placement {
-                    y_m: y,
-                    ..Default::default()
-                }),
-                ..Default::default()
-            }),
-        )?;
-        let built = app.bodies.get("figure.profile", &settings.body)?;
-        let clip = app.clips.prepared(clip_name, &settings.body.id, &built)?;
-        let playback = Playback {
-            speed: 1.0,
-            looped: true,
-            start: None,
-            reset: true,
-            place: Some(Place {
-                y,
-                ..Place::default()
-            }),
-        };
-        world
-            .call(origin(), move |s| {
-                s.create_figure(Some(name.to_owned()), settings, built)?;
-                s.play(name, clip_name, clip, playback)
-            })
-            .await?;
-    }
-    Ok(())
 }

@@ -148,6 +148,8 @@ settings! {
     listen: addr = "127.0.0.1:7463", (), ();
     /// Allows an address that other machines can reach. There is no authentication: whoever reaches the port may do everything.
     insecure_bind_any: flag = false, (), ();
+    /// Serves the viewer at `/`; without it the status page is there.
+    viewer: flag = true, (), ();
     /// Which messages are logged, as `level` or `target=level` lists.
     log: text = "info", (), ();
     /// Logs as JSON lines.

@@ -360,12 +360,19 @@ pub fn add_figure(
         .map_err(|e| refused("figure", &e))
 }
 
-/// Where a clip has to be moved so that it begins at a place.
-pub fn playback(clip: Arc<Clip>, start: f64, speed: f64, looped: bool, at: Place) -> ClipPlayback {
-    let origin = placing(place_of(clip.posture(0)), at);
+/// A clip that begins at a place at world time `start`; with its lead-in, which then is what begins there, if it is played from standing.
+pub fn playback(
+    clip: Arc<Clip>,
+    start: f64,
+    speed: f64,
+    looped: bool,
+    (at, standing): (Place, bool),
+) -> ClipPlayback {
+    let lead = if standing { clip.lead_in() } else { 0.0 };
+    let origin = placing(place_of(&clip.sample(-lead).posture), at);
     ClipPlayback {
         clip,
-        start,
+        start: start + lead / speed,
         speed,
         looped,
         origin,

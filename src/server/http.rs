@@ -1,7 +1,8 @@
-//! Plain HTTP on the same port: the status page and the metrics.
+//! Plain HTTP on the same port: the viewer, the status page and the metrics.
 
 use super::api::App;
 use super::telemetry;
+use super::viewer;
 use axum::Router;
 use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, header};
@@ -42,10 +43,15 @@ pub(super) fn cors() -> tower_http::cors::CorsLayer {
 
 /// The pages.
 pub(super) fn router(app: Arc<App>) -> Router {
-    Router::new()
-        .route("/", get(status_page))
-        .route("/metrics", get(metrics_page))
-        .with_state(app)
+    let pages = Router::new()
+        .route("/status", get(status_page))
+        .route("/metrics", get(metrics_page));
+    let pages = if app.config.viewer {
+        pages.merge(viewer::router())
+    } else {
+        pages.route("/", get(status_page))
+    };
+    pages.with_state(app)
 }
 
 /// What is neither page nor service. gRPC callers get a gRPC answer.

@@ -3,6 +3,7 @@
 use super::config::Config;
 use super::engine::{self, BUILTIN_NAMES, Clip};
 use crate::sim::body::{Body, Posture};
+use crate::sim::motion::cycle;
 use crate::wire::convert::body::{NAMED, by_id};
 use crate::wire::status::Fault;
 use crate::wire::types::{BodyRef, ClipInfo, MotionSource};
@@ -77,7 +78,7 @@ struct Stored {
     source: Option<MotionSource>,
     bytes: u64,
     /// Prepared for bodies by the last parts of their names.
-    prepared: Mutex<HashMap<String, Arc<Clip>>>,
+    prepared: Mutex<HashMap<(String, bool), Arc<Clip>>>,
 }
 
 /// Clips by the last parts of their names.
@@ -116,7 +117,7 @@ impl Clips {
                 report: None,
                 created: None,
             };
-            let prepared = HashMap::from([(reference.id.clone(), Arc::new(clip))]);
+            let prepared = HashMap::from([((reference.id.clone(), false), Arc::new(clip))]);
             held.insert(
                 name.to_owned(),
                 Arc::new(Stored {
@@ -219,7 +220,10 @@ impl Clips {
             info: info.clone(),
             source: Some(source),
             bytes,
-            prepared: Mutex::new(HashMap::from([(reference.id.clone(), Arc::new(clip))])),
+            prepared: Mutex::new(HashMap::from([(
+                (reference.id.clone(), false),
+                Arc::new(clip),
+            )])),
         };
         held.insert(id, Arc::new(stored));
         metrics::gauge!("sinew_clips").set(held.len() as f64);
@@ -270,32 +274,51 @@ impl Clips {
         }
     }
 
-    /// A clip prepared for a body. Slow the first time: not on an async thread.
+    /// A clip prepared for a body, and for repetition if it `repeats`. Slow the first time: not on an async thread.
     ///
     /// # Errors
     /// There is none of that name, or it cannot be prepared for this body.
-    pub fn prepared(&self, id: &str, body_id: &str, body: &Body) -> Result<Arc<Clip>, Fault> {
+    pub fn prepared(
+        &self,
+        id: &str,
+        body_id: &str,
+        body: &Body,
+        repeats: bool,
+    ) -> Result<Arc<Clip>, Fault> {
         let stored = self.stored(id)?;
-        if let Some(clip) = locked(&stored.prepared).get(body_id) {
+        let key = (body_id.to_owned(), repeats);
+        if let Some(clip) = locked(&stored.prepared).get(&key) {
             return Ok(clip.clone());
+        }
+        if repeats {
+            let once = self.prepared(id, body_id, body, false)?;
+            let clip = cycle(body, &once).map_or(once, Arc::new);
+            return Ok(stored.keep(key, clip));
         }
         let clip = match &stored.source {
             None => engine::builtin(body, id)
                 .ok_or_else(|| Fault::not_found("clip", format!("clips/{id}")))?,
             Some(source) => engine::prepare(source_field(source), id, source, body)?.0,
         };
-        let clip = Arc::new(clip);
-        let mut prepared = locked(&stored.prepared);
-        if prepared.len() < MAX_PREPARED {
-            prepared.insert(body_id.to_owned(), clip.clone());
-        }
-        Ok(clip)
+        Ok(stored.keep(key, Arc::new(clip)))
     }
 
     /// A clip that is already prepared for a body.
-    pub fn ready(&self, id: &str, body_id: &str) -> Option<Arc<Clip>> {
+    pub fn ready(&self, id: &str, body_id: &str, repeats: bool) -> Option<Arc<Clip>> {
         let stored = self.stored(id).ok()?;
-        locked(&stored.prepared).get(body_id).cloned()
+        locked(&stored.prepared)
+            .get(&(body_id.to_owned(), repeats))
+            .cloned()
+    }
+}
+
+impl Stored {
+    fn keep(&self, key: (String, bool), clip: Arc<Clip>) -> Arc<Clip> {
+        let mut prepared = locked(&self.prepared);
+        if prepared.len() < MAX_PREPARED {
+            prepared.insert(key, clip.clone());
+        }
+        clip
     }
 }
 

@@ -1,10 +1,11 @@
 //! Everything that touches the network or the clock.
 //!
-//! [`run`] serves one port: gRPC, gRPC-Web, reflection, health, a status page and metrics. Each world has a thread of its own that runs
+//! [`run`] serves one port: gRPC, gRPC-Web, reflection, health, the viewer, a status page and metrics. Each world has a thread of its own that runs
 //! [`tick::run`]; services send it commands and read what it publishes.
 
 pub mod api;
 pub mod config;
+pub mod demo;
 pub mod engine;
 pub mod fanout;
 pub mod ingest;
@@ -17,6 +18,7 @@ pub mod worlds;
 
 mod connections;
 mod http;
+mod viewer;
 
 use crate::wire::DESCRIPTOR_SET;
 use api::App;

@@ -116,7 +116,11 @@ pub fn run(
     let figure = world.figure_mut(key).expect("it was just added");
     let state = engine::first_state(&clip, place);
     figure.set_drive(Drive::Clip(engine::playback(
-        clip, 0.0, 1.0, s.looped, place,
+        clip,
+        0.0,
+        1.0,
+        s.looped,
+        (place, false),
     )));
     engine::reset(&mut world, key, state)?;
     for (from, what) in &s.disturbances {

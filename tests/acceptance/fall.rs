@@ -337,8 +337,7 @@ fn the_papers_controller_with_torques_falls_like_a_pendulum() {
     }
 }
 
-/// The modern controller, told not to step, sees that balance is lost and leaves the figure to its motors in the first tick; one that was
-/// pushed over falls the same way.
+/// The modern controller, told not to step, sees that balance is lost and leaves the figure to its motors in the first tick.
 #[test]
 fn modern_hands_over_to_motors_alone_and_falls_like_a_pendulum() {
     for rate_hz in [30.0, 60.0, 120.0] {

@@ -8,7 +8,6 @@ import json
 import os
 import re
 import subprocess
-import sys
 import threading
 import time
 from pathlib import Path
@@ -26,24 +25,14 @@ RESIDUAL = 1e-9
 
 
 @pytest.fixture(scope="module")
-def stubs(tmp_path_factory):
-    """Python modules generated from the protos, as any user would."""
-    out = tmp_path_factory.mktemp("stubs")
-    protos = sorted((ROOT / "proto" / "sinew" / "v1").glob("*.proto"))
-    assert protos
-    subprocess.run(
-        [sys.executable, "-m", "grpc_tools.protoc", f"-I{ROOT / 'proto'}", f"--python_out={out}", f"--grpc_python_out={out}"]
-        + [str(p) for p in protos],
-        check=True,
-    )
-    sys.path.insert(0, str(out))
+def stubs():
+    """Stubs of the Python package, which are those of the protos (clients/python/tests/test_generated.py)."""
     from sinew.v1 import body_pb2, body_pb2_grpc, state_pb2, state_pb2_grpc, types_pb2
 
     class Stubs:
         body, body_grpc, state, state_grpc, types = body_pb2, body_pb2_grpc, state_pb2, state_pb2_grpc, types_pb2
 
-    yield Stubs
-    sys.path.remove(str(out))
+    return Stubs
 
 
 @pytest.fixture(scope="module")

@@ -359,8 +359,23 @@ async fn one_port_has_pages_metrics_health_reflection_and_grpc_web() {
     server.figure(&world, "a").await;
     server.step(&world, 1).await;
     let get = |path: &str| format!("GET {path} HTTP/1.1\r\nhost: x\r\nconnection: close\r\n\r\n");
-    let page = http(server.address, &get("/")).await;
+    let page = http(server.address, &get("/status")).await;
     assert!(page.starts_with("HTTP/1.1 200") && page.contains("worlds/shown"));
+    let viewer = http(server.address, &get("/")).await;
+    assert!(
+        viewer.starts_with("HTTP/1.1 200")
+            && viewer.contains("content-security-policy: default-src 'none'; script-src 'self'")
+    );
+    for (file, kind) in [
+        ("/viewer.js", "text/javascript"),
+        ("/viewer.css", "text/css"),
+    ] {
+        assert!(
+            http(server.address, &get(file))
+                .await
+                .contains(&format!("content-type: {kind}"))
+        );
+    }
     let metrics = http(server.address, &get("/metrics")).await;
     assert!(metrics.contains("sinew_ticks_total"), "{metrics}");
     assert!(

@@ -94,12 +94,13 @@ impl MotionService for Api {
             let (body_id, body) = handle
                 .call(origin(&request), move |s| s.body_of(&name))
                 .await?;
-            let clip = match self.clips.ready(&clip_id, &body_id) {
+            let clip = match self.clips.ready(&clip_id, &body_id, playback.looped) {
                 Some(clip) => clip,
                 None => {
                     let (app, id) = (self.0.clone(), clip_id.clone());
+                    let repeats = playback.looped;
                     self.workers
-                        .run(move |_| app.clips.prepared(&id, &body_id, &body))
+                        .run(move |_| app.clips.prepared(&id, &body_id, &body, repeats))
                         .await?
                 }
             };

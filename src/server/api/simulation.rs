@@ -3,6 +3,7 @@
 use super::{Api, answer};
 use crate::server::engine;
 use crate::server::simulate::{self, Limits};
+use crate::sim::motion::cycle;
 use crate::wire::convert::simulation::{self, Source};
 use crate::wire::pb::{self, simulation_service_server::SimulationService};
 use std::sync::Arc;
@@ -33,10 +34,15 @@ impl SimulationService for Api {
                     let body_id = settings.figure.body.id.clone();
                     let body = app.bodies.get("figure.profile", &settings.figure.body)?;
                     let (clip, report) = match source {
-                        Source::Clip(id) => (app.clips.prepared(&id, &body_id, &body)?, None),
+                        Source::Clip(id) => {
+                            let looped = settings.looped;
+                            (app.clips.prepared(&id, &body_id, &body, looped)?, None)
+                        }
                         Source::File(file) => {
                             let (clip, report) = engine::prepare("bvh", "upload", &file, &body)?;
-                            (Arc::new(clip), report)
+                            let clip = Arc::new(clip);
+                            let repeats = settings.looped.then(|| cycle(&body, &clip)).flatten();
+                            (repeats.map_or(clip, Arc::new), report)
                         }
                     };
                     let out = simulate::run(&settings, &body, clip, limits, cancelled)?;

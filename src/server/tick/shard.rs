@@ -495,7 +495,7 @@ impl Shard {
         let i = self.member(figure)?;
         self.not_driven(figure)?;
         let now = self.world.time();
-        let start = p.start.unwrap_or(now);
+        let begin = p.start.unwrap_or(now);
         let m = &mut self.members[i];
         let f = self
             .world
@@ -505,9 +505,10 @@ impl Shard {
             .place
             .unwrap_or_else(|| engine::place_of(&f.state().posture));
         let state = engine::first_state(&clip, place);
-        f.set_drive(Motion::Clip(engine::playback(
-            clip, start, p.speed, p.looped, place,
-        )));
+        // A figure that is put into the clip is in motion at once; one that stands comes into it by the clip's lead-in.
+        let playback = engine::playback(clip, begin, p.speed, p.looped, (place, !p.reset));
+        let start = playback.start;
+        f.set_drive(Motion::Clip(playback));
         if p.reset {
             engine::reset(&mut self.world, m.key, state)?;
             self.changed = true;

@@ -13,7 +13,7 @@ use super::clip::Clip;
 use crate::sim::body::{Body, Posture};
 
 /// Names that [`builtin`] knows.
-pub const BUILTIN_NAMES: [&str; 6] = ["idle", "lift", "squat", "wave", "step", "walk"];
+pub const BUILTIN_NAMES: [&str; 7] = ["idle", "lift", "crate", "squat", "wave", "step", "walk"];
 
 /// Samples per second of every built-in motion.
 pub const RATE: f64 = 120.0;
@@ -25,6 +25,7 @@ pub const LIFT_GRASP: f64 = standing::LIFT_GRASP;
 ///
 /// * `idle` (8 s, loops): breathing and a slight shift of weight.
 /// * `lift` (4 s): semi-squat, right hand to an object half a metre up, grasp ([`LIFT_GRASP`]), raise it in front to shoulder height.
+/// * `crate` (7.6 s, loops): both hands hold a crate at the waist, set it low, raise it to the chest, and take it back.
 /// * `squat` (5 s): down with the arms forward, and up.
 /// * `wave` (5 s): the right arm waves beside the head.
 /// * `step` (8.4 s, loops): steps on the spot.
@@ -35,6 +36,7 @@ pub fn builtin(body: &Body, name: &str) -> Option<Clip> {
     let (postures, planted): (Vec<Posture>, Vec<[bool; 2]>) = match name {
         "idle" => standing::idle(body),
         "lift" => standing::lift(body),
+        "crate" => standing::lift_crate(body),
         "squat" => standing::squat(body),
         "wave" => standing::wave(body),
         "step" => gait::step(body),

@@ -2484,23 +2484,25 @@ pub struct PlayClipRequest {
     /// Playback speed, 0.1…4. 0 or absent: 1.
     #[prost(double, tag = "3")]
     pub speed: f64,
-    /// Repeats, carrying the displacement of the root over. Default: false.
+    /// Repeats, carrying the displacement of the root over. A walk repeats its best cycle; a motion whose end is not like its beginning is
+    /// led back to it by steps. Default: false.
     #[prost(bool, tag = "4")]
     pub r#loop: bool,
     /// World time at which the clip starts, s. Absent: at the next tick.
     #[prost(double, optional, tag = "5")]
     pub start_time_s: ::core::option::Option<f64>,
-    /// Puts the figure into the clip's first posture and velocity before it starts. Default: false, it moves there by itself.
+    /// Puts the figure into the clip's first posture and velocity before it starts. Default: false, it comes into it from standing, by steps of
+    /// its own if the recording begins in motion. Without `loop` it ends standing in the same way.
     #[prost(bool, tag = "6")]
     pub reset: bool,
-    /// Where the clip begins. Absent: where the figure is.
+    /// Where the clip begins, with the steps that lead into it. Absent: where the figure is.
     #[prost(message, optional, tag = "7")]
     pub placement: ::core::option::Option<Placement>,
 }
 /// The clip plays.
 #[derive(Clone, Copy, PartialEq, ::prost::Message)]
 pub struct PlayClipResponse {
-    /// World time at which it starts, s.
+    /// World time at which its first frame plays, s: later than asked for by the length of the steps that lead into it.
     #[prost(double, tag = "1")]
     pub start_time_s: f64,
 }

@@ -2,7 +2,7 @@
 
 use super::RATE;
 use super::shape::{COM_AHEAD, Measures, Plan, posture, ramp, reach_right, set};
-use crate::sim::body::topology::DOF_COUNT;
+use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::Vec3;
 use std::f64::consts::TAU;
@@ -123,6 +123,57 @@ pub fn lift(body: &Body) -> (Vec<Posture>, Vec<[bool; 2]>) {
             stand.mix(&low, ramp(t, 0.2, REACHED))
         } else {
             low.mix(&high, ramp(t, LIFT_GRASP, RAISED))
+        }
+    })
+}
+
+/// Both hands at `target` and its mirror image.
+fn reach_both(body: &Body, plan: &mut Plan, target: Vec3) {
+    // The left arm moves the centre of mass, and with it the pelvis and the right hand: a few rounds settle it.
+    for _ in 0..4 {
+        reach_right(body, plan, target, -Vec3::Y);
+        for (d, name) in DOF_NAMES.iter().enumerate() {
+            let arm = name.strip_prefix("r_").filter(|n| {
+                n.starts_with("shoulder") || n.starts_with("elbow") || n.starts_with("wrist")
+            });
+            if let Some(arm) = arm {
+                plan.angles[super::shape::dof(&format!("l_{arm}"))] = plan.angles[d];
+            }
+        }
+    }
+}
+
+pub fn lift_crate(body: &Body) -> (Vec<Posture>, Vec<[bool; 2]>) {
+    let scale = Measures::of(body).scale;
+    let at = |x: f64, z: f64| Vec3::from_array([x, -0.19, z]) * scale;
+    let stand = stand(body, 0.14);
+
+    let mut waist = stand;
+    reach_both(body, &mut waist, at(0.34, 0.98));
+
+    let mut low = stand;
+    low.height = 0.72;
+    low.pelvis.y = 32f64.to_radians();
+    set(
+        &mut low.angles,
+        &[
+            ("waist_flexion", 24.0),
+            ("thorax_flexion", 13.0),
+            ("neck_flexion", -20.0),
+        ],
+    );
+    reach_both(body, &mut low, at(0.42, 0.48));
+
+    let mut high = stand;
+    reach_both(body, &mut high, at(0.48, 1.24));
+
+    planted(body, 7.6, |t| {
+        if t < 2.5 {
+            waist.mix(&low, ramp(t, 0.5, 2.1))
+        } else if t < 5.3 {
+            low.mix(&high, ramp(t, 2.5, 4.3))
+        } else {
+            high.mix(&waist, ramp(t, 5.3, 6.9))
         }
     })
 }

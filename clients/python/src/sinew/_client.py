@@ -1,0 +1,1032 @@
+"""The client for plain calls, made from `_async_client.py` by `clients/python/tools/unasync.py`: do not edit."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from types import TracebackType
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from typing_extensions import Self
+
+from sinew import _requests as requests
+from sinew._sync_support import Duplex, Stream, call, call_all, open_channel, pause
+from sinew._progress import Progress
+from sinew.body import Body
+from sinew.errors import NotFoundError
+from sinew.frames import Event, FigureState, Frame
+from sinew.frames import frame as to_frame
+from sinew.motion import Motion, Pose, bvh_source, is_file
+from sinew.recording import RECORDED, Recording, Recordings, collect
+from sinew.v1 import (
+    body_pb2,
+    body_pb2_grpc,
+    figure_pb2,
+    figure_pb2_grpc,
+    frame_pb2,
+    motion_pb2,
+    motion_pb2_grpc,
+    perturbation_pb2,
+    perturbation_pb2_grpc,
+    server_pb2,
+    server_pb2_grpc,
+    simulation_pb2,
+    simulation_pb2_grpc,
+    state_pb2,
+    state_pb2_grpc,
+    types_pb2,
+    world_pb2,
+    world_pb2_grpc,
+)
+from sinew.values import Controller, Disturbance, Encoding, Force, Load, Profile, Push, Strength, Vector, last, resource
+
+__all__ = ["Client", "Clip", "Drive", "Events", "Figure", "Frames", "ServerInfo", "World"]
+
+PathLike: TypeAlias = "str | os.PathLike[str]"
+
+# Ticks that are stepped before their frames are fetched; the server holds 64 unless told otherwise.
+_CHUNK = 16
+# Times that a figure is looked at until its drive is over.
+_RELEASE_TRIES = 200
+# A simulation may take its time.
+_LONG_S = 600.0
+
+
+@dataclass(frozen=True)
+class ServerInfo:
+    """What a server is and can do."""
+
+    version: str
+    flags: tuple[str, ...]
+    """Names of the status flags, by bit."""
+    view_fields: tuple[str, ...]
+    """Fields that a view can ask for."""
+    builtin_clips: tuple[str, ...]
+    capabilities: tuple[str, ...]
+    limits: Mapping[str, int]
+
+
+class Client:
+    """A connection to one server. Use it in a `with` block, or `close` it.
+
+    `address` is host and port, or the URL that the server prints. Calls raise `sinew.SinewError`; unary calls give up after
+    `timeout_s`.
+    """
+
+    def __init__(self, address: str = f"127.0.0.1:{requests.PORT}", *, timeout_s: float = 60.0) -> None:
+        self.address = requests.address(address)
+        self.timeout_s = timeout_s
+        self._channel = open_channel(self.address, requests.OPTIONS)
+        self.worlds_stub = world_pb2_grpc.WorldServiceStub(self._channel)
+        self.figures_stub = figure_pb2_grpc.FigureServiceStub(self._channel)
+        self.bodies_stub = body_pb2_grpc.BodyServiceStub(self._channel)
+        self.motions_stub = motion_pb2_grpc.MotionServiceStub(self._channel)
+        self.perturbations_stub = perturbation_pb2_grpc.PerturbationServiceStub(self._channel)
+        self.states_stub = state_pb2_grpc.StateServiceStub(self._channel)
+        self.simulations_stub = simulation_pb2_grpc.SimulationServiceStub(self._channel)
+        self.server_stub = server_pb2_grpc.ServerServiceStub(self._channel)
+        self._bodies: dict[str, Body] = {}
+
+    def __repr__(self) -> str:
+        return f"Client({self.address!r})"
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Ends the connection."""
+        self._channel.close()
+
+    def info(self) -> ServerInfo:
+        """Version, capabilities and limits."""
+        r = call(self.server_stub.GetServerInfo, server_pb2.GetServerInfoRequest(), self.timeout_s)
+        return ServerInfo(
+            version=r.version,
+            flags=tuple(r.flag_names),
+            view_fields=tuple(r.view_fields),
+            builtin_clips=tuple(last(n) for n in r.builtin_clips),
+            capabilities=tuple(r.capabilities),
+            limits={x.name: x.value for x in r.limits},
+        )
+
+    # Bodies.
+
+    def bodies(self) -> list[str]:
+        """Names of the named bodies and of those in use."""
+        out: list[str] = []
+        token = ""
+        while True:
+            request = body_pb2.ListBodiesRequest(page_size=1000, page_token=token)
+            r = call(self.bodies_stub.ListBodies, request, self.timeout_s)
+            out.extend(last(b.name) for b in r.bodies)
+            token = r.next_page_token
+            if not token:
+                return out
+
+    def body(self, name: str) -> Body:
+        """One body with its surfaces. Bodies never change; each is fetched once."""
+        full = resource("bodies", name)
+        if full not in self._bodies:
+            request = body_pb2.GetBodyRequest(name=full, include_geometry=True)
+            r = call(self.bodies_stub.GetBody, request, self.timeout_s)
+            self._bodies[full] = Body(r.body)
+        return self._bodies[full]
+
+    def export_body(self, name: str, form: str = "mjcf") -> str:
+        """One body as text for another simulator: `mjcf` (exact) or `urdf` (ball joints as three hinges)."""
+        chosen = {"mjcf": body_pb2.EXPORT_FORMAT_MJCF, "urdf": body_pb2.EXPORT_FORMAT_URDF}
+        if form not in chosen:
+            raise ValueError(f"{form!r} is none of mjcf, urdf")
+        request = body_pb2.ExportBodyRequest(name=resource("bodies", name), format=chosen[form])
+        return (call(self.bodies_stub.ExportBody, request, self.timeout_s)).text
+
+    # Clips.
+
+    def clips(self) -> list[Clip]:
+        """All clips, built-in ones included, without their reports."""
+        out: list[Clip] = []
+        token = ""
+        while True:
+            request = motion_pb2.ListClipsRequest(page_size=1000, page_token=token)
+            r = call(self.motions_stub.ListClips, request, self.timeout_s)
+            out.extend(Clip(self, c) for c in r.clips)
+            token = r.next_page_token
+            if not token:
+                return out
+
+    def clip(self, name: str) -> Clip:
+        """One clip."""
+        request = motion_pb2.GetClipRequest(name=resource("clips", name))
+        return Clip(self, (call(self.motions_stub.GetClip, request, self.timeout_s)).clip)
+
+    def upload_bvh(
+        self,
+        source: PathLike | bytes,
+        *,
+        name: str = "",
+        body: str = "adult-man",
+        unit_m: float | None = None,
+        up_axis: str = "",
+        rate_hz: float | None = None,
+        fit_floor: bool = True,
+        lock_feet: bool = True,
+        cutoff_hz: float = 6.0,
+    ) -> Clip:
+        """Stores a BVH file (path or bytes) as a clip; `Clip.report` says how it was understood.
+
+        Unit and up axis are guessed unless given; `rate_hz` replaces the file's frame time.
+        """
+        bvh = bvh_source(
+            source,
+            unit_m=unit_m,
+            up_axis=up_axis,
+            rate_hz=rate_hz,
+            fit_floor=fit_floor,
+            lock_feet=lock_feet,
+            cutoff_hz=cutoff_hz,
+        )
+        display = "" if isinstance(source, bytes) else Path(source).name[:64]
+        request = motion_pb2.CreateClipRequest(
+            clip_id=name, display_name=display, body=resource("bodies", body), bvh=bvh
+        )
+        return Clip(self, (call(self.motions_stub.CreateClip, request, self.timeout_s)).clip)
+
+    def upload_motion(self, motion: Motion, *, name: str = "", body: str = "adult-man") -> Clip:
+        """Stores arrays as a clip."""
+        frames = [motion.pose(i).message() for i in range(len(motion))]
+        request = motion_pb2.CreateClipRequest(
+            clip_id=name,
+            body=resource("bodies", body),
+            frames=motion_pb2.FrameSource(rate_hz=motion.rate_hz, frames=frames),
+        )
+        return Clip(self, (call(self.motions_stub.CreateClip, request, self.timeout_s)).clip)
+
+    # Worlds.
+
+    def create_world(
+        self,
+        name: str = "",
+        *,
+        paused: bool = True,
+        rate_hz: float = 60.0,
+        substeps: int = 2,
+        gravity: float = 9.81,
+        friction: float = 0.9,
+        speed: float = 1.0,
+        overrun: str = "skip",
+        display_name: str = "",
+        replace: bool = False,
+    ) -> World:
+        """Creates a world. Here it is paused unless told otherwise: `record` and `step` then move it as fast as it computes, and
+        equal inputs give equal bits. `paused=False` starts its clock. `replace` deletes a world that has the name already.
+        """
+        if replace and name:
+            try:
+                World(self, resource("worlds", name), rate_hz).delete()
+            except NotFoundError:
+                pass
+        settings = world_pb2.World(
+            display_name=display_name,
+            rate_hz=rate_hz,
+            substeps=substeps,
+            gravity_mps2=gravity,
+            friction=friction,
+            speed=speed,
+            overrun_policy=requests.overrun(overrun),
+        )
+        request = world_pb2.CreateWorldRequest(world_id=name, world=settings, paused=paused)
+        w = (call(self.worlds_stub.CreateWorld, request, self.timeout_s)).world
+        return World(self, w.name, w.rate_hz)
+
+    def world(self, name: str) -> World:
+        """A world that is there."""
+        request = world_pb2.GetWorldRequest(name=resource("worlds", name))
+        w = (call(self.worlds_stub.GetWorld, request, self.timeout_s)).world
+        return World(self, w.name, w.rate_hz)
+
+    def worlds(self) -> list[World]:
+        """All worlds, by name."""
+        out: list[World] = []
+        token = ""
+        while True:
+            request = world_pb2.ListWorldsRequest(page_size=1000, page_token=token)
+            r = call(self.worlds_stub.ListWorlds, request, self.timeout_s)
+            out.extend(World(self, w.name, w.rate_hz) for w in r.worlds)
+            token = r.next_page_token
+            if not token:
+                return out
+
+    # Without a world.
+
+    def simulate(
+        self,
+        source: str | Clip | PathLike | bytes,
+        *,
+        body: str | Profile = "adult-man",
+        disturbances: Iterable[Disturbance] = (),
+        strength: float | Strength = 1.0,
+        controller: Controller = "modern",
+        fatigue_time_scale: float = 0.0,
+        assist: float = 0.0,
+        duration_s: float = 0.0,
+        loop: bool = False,
+        rate_hz: float = 60.0,
+        substeps: int = 2,
+        fields: Sequence[str] = RECORDED,
+        encoding: Encoding = "double",
+        rate_divisor: int = 1,
+    ) -> Recording:
+        """One clip (name, `Clip`), or one BVH file (path ending in `.bvh`, or bytes), tracked by one figure, faster than real time.
+
+        `disturbances` begin at their `start_s`. `duration_s` 0: the length of the clip. With `fields=()` the recording has
+        no frames, only `summary` and `events`.
+        """
+        figure = requests.figure(
+            body=body, strength=strength, choice=controller, fatigue_time_scale=fatigue_time_scale, assist=assist
+        )
+        request = simulation_pb2.SimulateClipRequest(
+            figure=figure,
+            rate_hz=rate_hz,
+            substeps=substeps,
+            duration_s=duration_s,
+            loop=loop,
+            perturbations=requests.timed(disturbances),
+        )
+        if isinstance(source, bytes) or is_file(source):
+            request.bvh.CopyFrom(bvh_source(source))  # type: ignore[arg-type]
+            named = "file"
+        else:
+            named = source.name if isinstance(source, Clip) else str(source)
+            request.clip = resource("clips", named)
+        if fields:
+            request.view.CopyFrom(requests.view(fields, numbers=encoding, rate_divisor=rate_divisor))
+        r = call(self.simulations_stub.SimulateClip, request, max(self.timeout_s, _LONG_S))
+        described = self._body_of(body)
+        recordings = collect(r.frames, {0: (last(named), described)}, rate_hz)
+        if recordings:
+            out = next(iter(recordings.values()))
+        else:
+            none = np.zeros(0)
+            out = Recording(last(named), described, rate_hz, none.astype(np.int64), none, [])
+        out.events = [Event.of(e) for e in r.events]
+        out.summary = r.summary
+        out.report = r.report if r.HasField("report") else None
+        return out
+
+    def _body_of(self, body: str | Profile) -> Body:
+        if isinstance(body, str):
+            return self.body(body)
+        p = body.message()
+        if not (p.height_m and p.mass_kg):
+            # The server knows what is ordinary and says so in the body it makes.
+            world = self.create_world(rate_hz=60.0)
+            try:
+                return (world.add_figure(body=body)).body()
+            finally:
+                world.delete()
+        sex = "male" if p.sex == body_pb2.SEX_MALE else "female"
+        return self.body(f"{sex}-{p.age_years:g}y-{p.height_m * 1e3:.0f}mm-{p.mass_kg * 1e3:.0f}g")
+
+    def _learn(self, roster: state_pb2.Roster) -> None:
+        for entry in roster.figures:
+            self.body(entry.body)
+
+
+class Clip:
+    """A stored desired motion."""
+
+    def __init__(self, client: Client, message: motion_pb2.Clip) -> None:
+        self._client = client
+        self.message = message
+        """As the server described it."""
+
+    def __repr__(self) -> str:
+        return f"Clip({self.name!r}, {self.duration_s:.2f} s at {self.rate_hz:g} Hz)"
+
+    @property
+    def name(self) -> str:
+        """Last part of its resource name."""
+        return last(self.message.name)
+
+    @property
+    def body(self) -> str:
+        """Name of the body it was prepared for; on others it is prepared anew."""
+        return last(self.message.body)
+
+    @property
+    def rate_hz(self) -> float:
+        """Frames per second."""
+        return self.message.rate_hz
+
+    @property
+    def duration_s(self) -> float:
+        """Length, s."""
+        return self.message.duration_s
+
+    @property
+    def report(self) -> types_pb2.RetargetReport | None:
+        """How a BVH file was understood; `None` for other clips."""
+        return self.message.report if self.message.HasField("report") else None
+
+    def motion(self, *, body: str | Profile = "adult-man", rate_hz: float = 60.0) -> Motion:
+        """The motion as arrays, as it is asked of a figure with this body: retargeted, smoothed, feet planted."""
+        # What a figure is asked to do does not depend on whether it can.
+        recording = self._client.simulate(
+            self, body=body, controller="motors", rate_hz=rate_hz, fields=("desired",)
+        )
+        return Motion(recording.desired_joint_angles, recording.desired_root_pose, rate_hz)
+
+    def delete(self) -> None:
+        """Forgets it. Figures that play it go on."""
+        call(
+            self._client.motions_stub.DeleteClip,
+            motion_pb2.DeleteClipRequest(name=self.message.name),
+            self._client.timeout_s,
+        )
+
+
+class World:
+    """One shared scene with a clock of its own. In a `with` block it is deleted at the end."""
+
+    def __init__(self, client: Client, name: str, rate_hz: float) -> None:
+        self.client = client
+        self.resource = name
+        """Resource name, `worlds/{world}`."""
+        self.rate_hz = rate_hz
+        """Ticks per second of world time."""
+
+    def __repr__(self) -> str:
+        return f"World({self.name!r}, {self.rate_hz:g} Hz)"
+
+    @property
+    def name(self) -> str:
+        """Last part of its resource name."""
+        return last(self.resource)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
+        try:
+            self.delete()
+        except NotFoundError:
+            pass
+
+    def get(self) -> world_pb2.World:
+        """State, tick, settings, as they are now."""
+        request = world_pb2.GetWorldRequest(name=self.resource)
+        return (call(self.client.worlds_stub.GetWorld, request, self.client.timeout_s)).world
+
+    def delete(self) -> None:
+        """Ends the world."""
+        request = world_pb2.DeleteWorldRequest(name=self.resource)
+        call(self.client.worlds_stub.DeleteWorld, request, self.client.timeout_s)
+
+    def pause(self) -> None:
+        """Stops the clock."""
+        request = world_pb2.PauseWorldRequest(name=self.resource)
+        call(self.client.worlds_stub.PauseWorld, request, self.client.timeout_s)
+
+    def resume(self) -> None:
+        """Starts the clock."""
+        request = world_pb2.ResumeWorldRequest(name=self.resource)
+        call(self.client.worlds_stub.ResumeWorld, request, self.client.timeout_s)
+
+    def set_speed(self, speed: float) -> None:
+        """World seconds per wall second, 0.01 to 10."""
+        request = world_pb2.SetWorldSpeedRequest(name=self.resource, speed=speed)
+        call(self.client.worlds_stub.SetWorldSpeed, request, self.client.timeout_s)
+
+    def step(self, tick_count: int = 1) -> int:
+        """Advances a paused world by ticks, as fast as they compute; returns the tick it is at."""
+        request = world_pb2.StepWorldRequest(name=self.resource, tick_count=tick_count)
+        return (call(self.client.worlds_stub.StepWorld, request, max(self.client.timeout_s, _LONG_S))).tick
+
+    # Figures.
+
+    def add_figure(
+        self,
+        name: str = "",
+        *,
+        body: str | Profile = "adult-man",
+        strength: float | Strength = 1.0,
+        controller: Controller = "modern",
+        position: tuple[float, float] = (0.0, 0.0),
+        yaw: float = 0.0,
+        fatigue_time_scale: float = 0.0,
+        assist: float = 0.0,
+        display_name: str = "",
+    ) -> Figure:
+        """Adds a figure, standing still at `position` (m) and heading `yaw` (rad, 0 looks along x)."""
+        settings = requests.figure(
+            body=body,
+            strength=strength,
+            choice=controller,
+            position=position,
+            yaw=yaw,
+            fatigue_time_scale=fatigue_time_scale,
+            assist=assist,
+            display_name=display_name,
+        )
+        request = figure_pb2.CreateFigureRequest(parent=self.resource, figure_id=name, figure=settings)
+        f = (call(self.client.figures_stub.CreateFigure, request, self.client.timeout_s)).figure
+        return Figure(self, f)
+
+    def figure(self, name: str) -> Figure:
+        """A figure that is there."""
+        request = figure_pb2.GetFigureRequest(name=f"{self.resource}/figures/{last(name)}")
+        return Figure(self, (call(self.client.figures_stub.GetFigure, request, self.client.timeout_s)).figure)
+
+    def figures(self) -> list[Figure]:
+        """All figures, in the order of their creation."""
+        out: list[Figure] = []
+        token = ""
+        while True:
+            request = figure_pb2.ListFiguresRequest(parent=self.resource, page_size=1000, page_token=token)
+            r = call(self.client.figures_stub.ListFigures, request, self.client.timeout_s)
+            out.extend(Figure(self, f) for f in r.figures)
+            token = r.next_page_token
+            if not token:
+                return out
+
+    def apply(self, disturbances: Mapping[str, Disturbance | Sequence[Disturbance]]) -> int:
+        """Disturbs figures by name: all of it or, if anything is wrong, nothing. `start_s` counts from now.
+
+        Returns the tick at whose start the request was taken.
+        """
+        now: int | None = None
+        batch = []
+        for name, given in disturbances.items():
+            for what in given if isinstance(given, Sequence) else [given]:
+                tick = None
+                if what.start_s > 0:
+                    if now is None:
+                        now = (self.get()).tick
+                    tick = now + round(what.start_s * self.rate_hz)
+                batch.append(requests.perturbation(what, name, tick))
+        request = perturbation_pb2.ApplyPerturbationsRequest(world=self.resource, perturbations=batch)
+        return (call(self.client.perturbations_stub.ApplyPerturbations, request, self.client.timeout_s)).tick
+
+    # Frames.
+
+    def frame(
+        self, *, tick: int | None = None, fields: Sequence[str] = RECORDED, encoding: Encoding = "double"
+    ) -> Frame:
+        """One frame: the latest, or one that is still held."""
+        request = state_pb2.GetWorldFrameRequest(
+            world=self.resource, tick=tick, view=requests.view(fields, numbers=encoding)
+        )
+        r = call(self.client.states_stub.GetWorldFrame, request, self.client.timeout_s)
+        self.client._learn(r.roster)
+        return to_frame(r.frame, r.roster, self.client._bodies)
+
+    def frames(
+        self,
+        *,
+        figures: Iterable[str] = (),
+        fields: Sequence[str] = requests.VIEW,
+        encoding: Encoding = "float",
+        rate_divisor: int = 1,
+        resume_tick: int | None = None,
+    ) -> Frames:
+        """Frames as they come; iterate over it. A slow reader gets the latest, never a backlog.
+
+        `rate_divisor` n sends one frame for every n ticks; `resume_tick` continues after a tick while the next ones are held.
+        """
+        view = requests.view(fields, figures=figures, numbers=encoding, rate_divisor=rate_divisor)
+        request = state_pb2.WatchWorldRequest(world=self.resource, view=view, resume_tick=resume_tick)
+        return Frames(self.client, Stream(self.client.states_stub.WatchWorld, request))
+
+    def events(self, *, figures: Iterable[str] = (), types: Iterable[str] = ()) -> Events:
+        """Events as they come; iterate over it. `types` are names as in `Event.type`; all if empty."""
+        request = state_pb2.WatchEventsRequest(
+            world=self.resource, figures=list(figures), types=requests.event_types(types)
+        )
+        return Events(Stream(self.client.states_stub.WatchEvents, request))
+
+    def record(
+        self,
+        duration_s: float,
+        *,
+        figures: Iterable[str] = (),
+        fields: Sequence[str] = RECORDED,
+        encoding: Encoding = "double",
+        progress: bool | None = None,
+    ) -> Recordings:
+        """What happens in the next `duration_s` seconds of world time, by figure.
+
+        A paused world is stepped through them without a gap; a running one is watched as it goes. `progress` shows a bar;
+        `None`: if someone looks.
+        """
+        ticks = max(round(duration_s * self.rate_hz), 1)
+        view = requests.view(fields, figures=figures, numbers=encoding)
+        state = self.get()
+        frames: list[frame_pb2.WorldFrame] = []
+        roster = state_pb2.Roster()
+        with Progress(ticks / self.rate_hz, self.name, "s", progress) as bar:
+            if state.state == world_pb2.WORLD_STATE_PAUSED:
+                done = 0
+                while done < ticks:
+                    chunk = min(_CHUNK, ticks - done)
+                    reached = self.step(chunk)
+                    wanted = [
+                        state_pb2.GetWorldFrameRequest(world=self.resource, tick=t, view=view)
+                        for t in range(reached - chunk + 1, reached + 1)
+                    ]
+                    got = call_all(self.client.states_stub.GetWorldFrame, wanted, self.client.timeout_s)
+                    frames.extend(r.frame for r in got)
+                    roster.MergeFrom(got[-1].roster)
+                    done += chunk
+                    bar.add(chunk / self.rate_hz)
+            else:
+                request = state_pb2.WatchWorldRequest(world=self.resource, view=view)
+                with Stream(self.client.states_stub.WatchWorld, request) as stream:
+                    for message in stream:
+                        if message.HasField("roster"):
+                            roster.MergeFrom(message.roster)
+                            continue
+                        if frames:
+                            bar.add((message.frame.tick - frames[-1].tick) / self.rate_hz)
+                        frames.append(message.frame)
+                        if message.frame.tick - frames[0].tick >= ticks - 1:
+                            break
+        self.client._learn(roster)
+        names = {e.figure_index: (e.figure, self.client._bodies[e.body]) for e in roster.figures}
+        return collect(frames, names, self.rate_hz)
+
+    def drive(
+        self,
+        *figures: str,
+        rate_hz: float = 60.0,
+        driver_id: str = "",
+        playout_delay_ms: float | None = None,
+        hold: bool = False,
+        grace_ms: float | None = None,
+        reset: bool = False,
+    ) -> Drive:
+        """Drives figures (by name) live: `with world.drive("a", "b") as drive: drive.send_all({"a": Pose(...), ...})`.
+
+        `playout_delay_ms` `None` adapts to the jitter of the connection. `hold` stays in the last posture at once when motion is
+        late, instead of continuing its velocity for a moment. `reset` begins in the first posture that comes.
+        """
+        header = motion_pb2.DriveHeader(
+            world=self.resource,
+            figures=[last(f) for f in figures],
+            driver_id=driver_id,
+            nominal_rate_hz=rate_hz,
+            playout_delay_ms=playout_delay_ms,
+            underrun=motion_pb2.UNDERRUN_HOLD if hold else motion_pb2.UNDERRUN_EXTRAPOLATE,
+            grace_ms=grace_ms,
+            reset=reset,
+        )
+        return Drive(self.client, header)
+
+
+class Figure:
+    """One articulated body in a world."""
+
+    def __init__(self, world: World, message: figure_pb2.Figure) -> None:
+        self.world = world
+        self.message = message
+        """As the server described it when this object was made."""
+        self._asked = -1
+
+    def __repr__(self) -> str:
+        return f"Figure({self.name!r}, body={last(self.message.body)!r})"
+
+    @property
+    def name(self) -> str:
+        """Last part of its resource name."""
+        return last(self.message.name)
+
+    @property
+    def _client(self) -> Client:
+        return self.world.client
+
+    def body(self) -> Body:
+        """Its body: names, order, limits, shapes."""
+        return self._client.body(self.message.body)
+
+    def get(self) -> figure_pb2.Figure:
+        """Settings, clip and driver, as they are now."""
+        request = figure_pb2.GetFigureRequest(name=self.message.name)
+        return (call(self._client.figures_stub.GetFigure, request, self._client.timeout_s)).figure
+
+    def delete(self) -> None:
+        """Removes it."""
+        request = figure_pb2.DeleteFigureRequest(name=self.message.name)
+        call(self._client.figures_stub.DeleteFigure, request, self._client.timeout_s)
+
+    def reset(self, *, position: tuple[float, float] | None = None, yaw: float | None = None) -> None:
+        """Puts it back: standing still, without loads; where it was created unless told otherwise."""
+        request = figure_pb2.ResetFigureRequest(
+            name=self.message.name, placement=requests.placement(position, yaw)
+        )
+        call(self._client.figures_stub.ResetFigure, request, self._client.timeout_s)
+
+    def update(
+        self,
+        *,
+        strength: float | Strength | None = None,
+        controller: Controller | None = None,
+        fatigue_time_scale: float | None = None,
+        assist: float | None = None,
+        display_name: str | None = None,
+    ) -> None:
+        """Changes what is given."""
+        given = {
+            "strength": strength,
+            "controller": controller,
+            "fatigue_time_scale": fatigue_time_scale,
+            "assist": assist,
+            "display_name": display_name,
+        }
+        settings = requests.figure(
+            strength=strength,
+            choice=controller,
+            fatigue_time_scale=fatigue_time_scale,
+            assist=assist,
+            display_name=display_name,
+        )
+        settings.name = self.message.name
+        request = figure_pb2.UpdateFigureRequest(figure=settings)
+        request.update_mask.paths.extend(k for k, v in given.items() if v is not None)
+        self.message = (call(self._client.figures_stub.UpdateFigure, request, self._client.timeout_s)).figure
+
+    # Motion.
+
+    def play(
+        self,
+        clip: str | Clip,
+        *,
+        speed: float = 1.0,
+        loop: bool = False,
+        reset: bool = False,
+        start_s: float | None = None,
+        position: tuple[float, float] | None = None,
+        yaw: float | None = None,
+    ) -> float:
+        """Plays a clip from the next tick on, or from world time `start_s`; returns when it starts, s.
+
+        `reset` puts the figure into the first posture; otherwise it moves there by itself. It begins where the figure is, unless
+        `position` and `yaw` are given.
+        """
+        named = clip.name if isinstance(clip, Clip) else clip
+        request = motion_pb2.PlayClipRequest(
+            figure=self.message.name,
+            clip=resource("clips", named),
+            speed=speed,
+            loop=loop,
+            start_time_s=start_s,
+            reset=reset,
+            placement=requests.placement(position, yaw),
+        )
+        return (call(self._client.motions_stub.PlayClip, request, self._client.timeout_s)).start_time_s
+
+    def stop(self) -> None:
+        """Holds the posture that is asked of it now."""
+        request = motion_pb2.StopClipRequest(figure=self.message.name)
+        call(self._client.motions_stub.StopClip, request, self._client.timeout_s)
+
+    def ask(self, pose: Pose | ArrayLike) -> None:
+        """Asks for one posture now: a `Pose`, or 39 joint angles in rad. For control loops over a paused world:
+        `figure.ask(...)`, `world.step()`, look, again. For streams in real time use `drive`.
+        """
+        wanted = pose if isinstance(pose, Pose) else Pose(angles=pose)
+        now = (self.world.get()).tick
+        # One frame per tick and none before the last.
+        sequence = max(now, self._asked + 1)
+        request = motion_pb2.PushMotionRequest(
+            header=motion_pb2.DriveHeader(
+                world=self.world.resource,
+                figures=[self.name],
+                driver_id=f"ask-{self.name}"[:64],
+                nominal_rate_hz=self.world.rate_hz,
+                playout_delay_ms=0.0,
+                grace_ms=60_000.0,
+            ),
+            batch=motion_pb2.MotionBatch(
+                frames=[
+                    motion_pb2.MotionFrame(
+                        sequence=sequence,
+                        source_time_ns=round(sequence * 1e9 / self.world.rate_hz),
+                        figures=[wanted.message(self.name)],
+                    )
+                ]
+            ),
+        )
+        call(self._client.motions_stub.PushMotion, request, self._client.timeout_s)
+        self._asked = sequence
+
+    def drive(
+        self,
+        *,
+        rate_hz: float = 60.0,
+        driver_id: str = "",
+        playout_delay_ms: float | None = None,
+        hold: bool = False,
+        grace_ms: float | None = None,
+        reset: bool = False,
+    ) -> Drive:
+        """Drives it live: `with figure.drive() as drive: drive.send(angles)`; settings as in `World.drive`."""
+        return self.world.drive(
+            self.name,
+            rate_hz=rate_hz,
+            driver_id=driver_id,
+            playout_delay_ms=playout_delay_ms,
+            hold=hold,
+            grace_ms=grace_ms,
+            reset=reset,
+        )
+
+    def stream(
+        self,
+        source: Motion | Clip | PathLike,
+        *,
+        reset: bool = True,
+        progress: bool | None = None,
+    ) -> motion_pb2.DriveFeedback:
+        """Streams a motion live at its own pace, as a capture system would: arrays, a clip, or a BVH file.
+
+        Returns when the last frame is sent, with the last feedback. The world must run.
+        """
+        motion = self._motion(source)
+        with self.drive(rate_hz=motion.rate_hz, reset=reset) as drive:
+            began = time.monotonic()
+            with Progress(motion.duration_s, self.name, "s", progress) as bar:
+                for i in range(len(motion)):
+                    t = i / motion.rate_hz
+                    pause(max(began + t - time.monotonic(), 0.0))
+                    drive.send(motion.pose(i), time_s=t)
+                    bar.add(1 / motion.rate_hz if i else 0.0)
+            feedback = drive.feedback
+        return feedback
+
+    def _motion(self, source: Motion | Clip | PathLike) -> Motion:
+        if isinstance(source, Motion):
+            return source
+        body = last(self.message.body)
+        if isinstance(source, Clip):
+            return source.motion(body=body)
+        if not is_file(source):
+            return (self._client.clip(str(source))).motion(body=body)
+        clip = self._client.upload_bvh(source, body=body)
+        try:
+            return clip.motion(body=body)
+        finally:
+            clip.delete()
+
+    # Disturbances.
+
+    def apply(self, *disturbances: Disturbance) -> int:
+        """Loads, pushes and forces; `start_s` of each counts from now. All of it or, if anything is wrong, nothing."""
+        return self.world.apply({self.name: disturbances})
+
+    def carry(
+        self,
+        mass_kg: float,
+        segment: str = "r_hand",
+        second_segment: str = "",
+        *,
+        start_s: float = 0.0,
+        duration_s: float = 0.0,
+        grip_n: float = 0.0,
+    ) -> int:
+        """Gives it a load in one hand, or in two; until `clear` unless `duration_s` says otherwise."""
+        return self.apply(
+            Load(
+                mass_kg=mass_kg,
+                segment=segment,
+                second_segment=second_segment,
+                start_s=start_s,
+                duration_s=duration_s,
+                grip_n=grip_n,
+            )
+        )
+
+    def push(
+        self, impulse_ns: Vector, segment: str = "chest", *, start_s: float = 0.0, duration_s: float = 0.1
+    ) -> int:
+        """Pushes it: an impulse in N·s, world axes, over `duration_s`."""
+        return self.apply(
+            Push(impulse_ns=impulse_ns, segment=segment, start_s=start_s, duration_s=duration_s)
+        )
+
+    def pull(
+        self, force_n: Vector, segment: str = "pelvis", *, start_s: float = 0.0, duration_s: float = 0.0
+    ) -> int:
+        """A constant force in N, world axes; until `clear` unless `duration_s` says otherwise."""
+        return self.apply(Force(force_n=force_n, segment=segment, start_s=start_s, duration_s=duration_s))
+
+    def clear(self) -> None:
+        """Takes all loads and forces off it."""
+        request = perturbation_pb2.ClearPerturbationsRequest(figure=self.message.name)
+        call(self._client.perturbations_stub.ClearPerturbations, request, self._client.timeout_s)
+
+    # What it does.
+
+    def state(self, *, fields: Sequence[str] = RECORDED, encoding: Encoding = "double") -> FigureState:
+        """It after the latest tick."""
+        view = requests.view(fields, figures=[self.name], numbers=encoding)
+        request = state_pb2.GetWorldFrameRequest(world=self.world.resource, view=view)
+        r = call(self._client.states_stub.GetWorldFrame, request, self._client.timeout_s)
+        self._client._learn(r.roster)
+        return to_frame(r.frame, r.roster, self._client._bodies)[self.name]
+
+    def record(
+        self,
+        duration_s: float,
+        *,
+        fields: Sequence[str] = RECORDED,
+        encoding: Encoding = "double",
+        progress: bool | None = None,
+    ) -> Recording:
+        """What it does in the next `duration_s` seconds of world time, as `World.record`."""
+        all_of_it = self.world.record(
+            duration_s, figures=[self.name], fields=fields, encoding=encoding, progress=progress
+        )
+        return all_of_it[self.name]
+
+
+class Frames:
+    """Frames of a world as they come. Leaving its `with` block, or `close`, ends the stream."""
+
+    def __init__(
+        self, client: Client, stream: Stream[state_pb2.WatchWorldRequest, state_pb2.WatchWorldResponse]
+    ) -> None:
+        self._client = client
+        self._stream = stream
+        self._roster = state_pb2.Roster()
+
+    def __iter__(self) -> Self:
+        return self
+
+    def __next__(self) -> Frame:
+        while True:
+            message = self._stream.__next__()
+            if message.HasField("frame"):
+                return to_frame(message.frame, self._roster, self._client._bodies)
+            self._client._learn(message.roster)
+            self._roster = message.roster
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Ends the stream."""
+        self._stream.close()
+
+
+class Events:
+    """Events of a world as they come. Leaving its `with` block, or `close`, ends the stream."""
+
+    def __init__(self, stream: Stream[state_pb2.WatchEventsRequest, state_pb2.WatchEventsResponse]) -> None:
+        self._stream = stream
+        self._waiting: list[Event] = []
+        self._began = False
+        self.missed_count = 0
+        """Messages that this reader was too slow for, so far."""
+
+    def _more(self) -> None:
+        message = self._stream.__next__()
+        self._began = True
+        self.missed_count = message.missed_count
+        self._waiting.extend(Event.of(e) for e in message.events)
+
+    def __iter__(self) -> Self:
+        return self
+
+    def __next__(self) -> Event:
+        while not self._waiting:
+            self._more()
+        return self._waiting.pop(0)
+
+    def __enter__(self) -> Self:
+        # The first message says that the watch has begun: nothing that happens from here on is missed.
+        if not self._began:
+            self._more()
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Ends the stream."""
+        self._stream.close()
+
+
+class Drive:
+    """Live desired motion for one or more figures; open it with `with`. Ending it gives the figures back."""
+
+    def __init__(self, client: Client, header: motion_pb2.DriveHeader) -> None:
+        self._client = client
+        self._header = header
+        self._duplex: Duplex[motion_pb2.DriveFiguresRequest, motion_pb2.DriveFiguresResponse] | None = None
+        self._sequence = 0
+        self._began = 0.0
+
+    def __enter__(self) -> Self:
+        self._duplex = Duplex(self._client.motions_stub.DriveFigures)
+        self._duplex.send(motion_pb2.DriveFiguresRequest(header=self._header))
+        self._duplex.first(self._client.timeout_s)
+        self._began = time.monotonic()
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
+        self.close()
+
+    def send(self, pose: Pose | ArrayLike, *, time_s: float | None = None) -> None:
+        """One instant of the only figure: a `Pose`, or 39 joint angles in rad. `time_s` is when it was captured; now if `None`."""
+        wanted = pose if isinstance(pose, Pose) else Pose(angles=pose)
+        self.send_all({self._header.figures[0]: wanted}, time_s=time_s)
+
+    def send_all(self, poses: Mapping[str, Pose], *, time_s: float | None = None) -> None:
+        """One instant of several figures, by name."""
+        if self._duplex is None:
+            raise RuntimeError("open the drive with `with`")
+        t = time.monotonic() - self._began if time_s is None else time_s
+        frame = motion_pb2.MotionFrame(
+            sequence=self._sequence,
+            source_time_ns=round(t * 1e9),
+            figures=[p.message(last(name)) for name, p in poses.items()],
+        )
+        self._sequence += 1
+        self._duplex.send(motion_pb2.DriveFiguresRequest(batch=motion_pb2.MotionBatch(frames=[frame])))
+
+    @property
+    def feedback(self) -> motion_pb2.DriveFeedback:
+        """The newest state of the drive: buffers, delays, counts."""
+        newest = self._duplex.newest if self._duplex is not None else None
+        return newest.feedback if newest is not None else motion_pb2.DriveFeedback()
+
+    def close(self) -> None:
+        """Ends the drive and waits until the figures are given back; raises what ended it, if the server did."""
+        if self._duplex is None:
+            return
+        duplex, self._duplex = self._duplex, None
+        duplex.close()
+        duplex.check()
+        newest = duplex.newest
+        driver = newest.feedback.driver_id if newest is not None else ""
+        for name in self._header.figures:
+            # They are given back at the start of the next tick, after whatever else comes before it.
+            request = figure_pb2.GetFigureRequest(name=f"{self._header.world}/figures/{name}")
+            for _ in range(_RELEASE_TRIES):
+                try:
+                    held = call(self._client.figures_stub.GetFigure, request, self._client.timeout_s)
+                except NotFoundError:
+                    break
+                if held.figure.driver_id != driver:
+                    break
+                pause(0.005)

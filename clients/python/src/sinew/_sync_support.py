@@ -1,0 +1,163 @@
+"""What differs between the two clients, for plain calls; `_async_support` has the same names for asyncio."""
+
+from __future__ import annotations
+
+import queue
+import threading
+import time
+from collections.abc import Iterator, Sequence
+from types import TracebackType
+from typing import Generic, TypeVar
+
+import grpc
+from typing_extensions import Self
+
+from sinew.errors import from_rpc
+
+Request = TypeVar("Request")
+Response = TypeVar("Response")
+
+Channel = grpc.Channel
+
+
+def open_channel(address: str, options: list[tuple[str, int]]) -> Channel:
+    """A channel without encryption."""
+    return grpc.insecure_channel(address, options=options)
+
+
+def call(method: grpc.UnaryUnaryMultiCallable[Request, Response], request: Request, timeout_s: float) -> Response:
+    """One call; refusals become exceptions of `sinew.errors`."""
+    try:
+        return method(request, timeout=timeout_s)
+    except grpc.RpcError as e:
+        raise from_rpc(e) from None
+
+
+def call_all(
+    method: grpc.UnaryUnaryMultiCallable[Request, Response], requests: Sequence[Request], timeout_s: float
+) -> list[Response]:
+    """Calls in flight together; answers in order."""
+    flying = [method.future(r, timeout=timeout_s) for r in requests]
+    try:
+        return [f.result() for f in flying]
+    except grpc.RpcError as e:
+        for f in flying:
+            f.cancel()
+        raise from_rpc(e) from None
+
+
+def pause(seconds: float) -> None:
+    """Waits."""
+    time.sleep(seconds)
+
+
+class Stream(Generic[Request, Response]):
+    """Messages of a server stream. Iterate over it; leaving its `with` block, or `close`, ends the stream."""
+
+    def __init__(
+        self,
+        method: grpc.UnaryStreamMultiCallable[Request, Response],
+        request: Request,
+    ) -> None:
+        self._call = method(request)
+
+    def __iter__(self) -> Self:
+        return self
+
+    def __next__(self) -> Response:
+        try:
+            return next(self._call)
+        except grpc.RpcError as e:
+            raise from_rpc(e) from None
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Ends the stream."""
+        self._call.cancel()
+
+    def __del__(self) -> None:
+        self.close()
+
+
+class Duplex(Generic[Request, Response]):
+    """A stream in both directions; what comes back is kept, newest only."""
+
+    # A driver that is faster than its connection waits here instead of filling memory.
+    _DEPTH = 256
+
+    def __init__(self, method: grpc.StreamStreamMultiCallable[Request, Response]) -> None:
+        self._out: queue.Queue[Request | None] = queue.Queue(maxsize=self._DEPTH)
+        self._newest: Response | None = None
+        self._failure: BaseException | None = None
+        self._came = threading.Event()
+        self._over = threading.Event()
+        self._call = method(self._requests())
+        self._reader = threading.Thread(target=self._read, name="sinew-drive", daemon=True)
+        self._reader.start()
+
+    def _requests(self) -> Iterator[Request]:
+        while (request := self._out.get()) is not None:
+            yield request
+
+    def _read(self) -> None:
+        try:
+            for message in self._call:
+                self._newest = message
+                self._came.set()
+        except grpc.RpcError as e:
+            self._failure = from_rpc(e)
+        finally:
+            self._over.set()
+            self._came.set()
+
+    def first(self, timeout_s: float) -> Response | None:
+        """Waits for the first answer."""
+        if not self._came.wait(timeout_s):
+            raise TimeoutError("the server did not answer the header of the drive")
+        self.check()
+        return self._newest
+
+    def check(self) -> None:
+        """Raises what ended the stream, if anything did."""
+        if self._failure is not None:
+            raise self._failure
+
+    @property
+    def newest(self) -> Response | None:
+        """The newest answer."""
+        return self._newest
+
+    def send(self, request: Request) -> None:
+        """Sends one message; raises if the server has ended the stream."""
+        while True:
+            self.check()
+            if self._over.is_set():
+                raise ConnectionError("the server has ended the drive")
+            try:
+                self._out.put(request, timeout=0.1)
+                return
+            except queue.Full:
+                continue
+
+    def close(self) -> None:
+        """Ends the stream in order and waits until the server has."""
+        while not self._over.is_set():
+            try:
+                self._out.put(None, timeout=0.1)
+                break
+            except queue.Full:
+                continue
+        if not self._over.wait(5.0):
+            self._call.cancel()
+        else:
+            # The thread that feeds requests still waits if the server ended first.
+            try:
+                self._out.put_nowait(None)
+            except queue.Full:
+                pass
+        self._reader.join()

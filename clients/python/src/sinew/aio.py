@@ -1,0 +1,11 @@
+"""The client for asyncio: the same classes and methods as in `sinew`, awaited.
+
+    async with sinew.aio.Client() as client, await client.create_world() as world:
+        anna = await world.add_figure("anna")
+        await anna.play("wave")
+        async with world.frames() as frames: ...
+"""
+
+from sinew._async_client import Client, Clip, Drive, Events, Figure, Frames, ServerInfo, World
+
+__all__ = ["Client", "Clip", "Drive", "Events", "Figure", "Frames", "ServerInfo", "World"]

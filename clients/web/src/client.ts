@@ -1,0 +1,98 @@
+// The TypeScript client: typed calls over gRPC-Web, and numbers of frames as arrays. Works in browsers and in Node.
+import { BinaryReader, WireType } from "@bufbuild/protobuf/wire";
+import { Code, ConnectError, createClient, type Client, type Transport } from "@connectrpc/connect";
+import { createGrpcWebTransport } from "@connectrpc/connect-web";
+import { BodyService } from "./gen/sinew/v1/body_pb.js";
+import { FigureService } from "./gen/sinew/v1/figure_pb.js";
+import { MotionService } from "./gen/sinew/v1/motion_pb.js";
+import { PerturbationService } from "./gen/sinew/v1/perturbation_pb.js";
+import { ServerService } from "./gen/sinew/v1/server_pb.js";
+import { SimulationService } from "./gen/sinew/v1/simulation_pb.js";
+import { StateService } from "./gen/sinew/v1/state_pb.js";
+import type { Numbers } from "./gen/sinew/v1/types_pb.js";
+import { WorldService } from "./gen/sinew/v1/world_pb.js";
+
+/** Every service of one server. */
+export class Sinew {
+  readonly bodies: Client<typeof BodyService>;
+  readonly figures: Client<typeof FigureService>;
+  readonly motion: Client<typeof MotionService>;
+  readonly perturbations: Client<typeof PerturbationService>;
+  readonly server: Client<typeof ServerService>;
+  readonly simulations: Client<typeof SimulationService>;
+  readonly state: Client<typeof StateService>;
+  readonly worlds: Client<typeof WorldService>;
+
+  /** `address`: for example `http://127.0.0.1:7463`; in a page that the server gave, `location.origin`. */
+  constructor(address: string, transport: Transport = createGrpcWebTransport({ baseUrl: address })) {
+    this.bodies = createClient(BodyService, transport);
+    this.figures = createClient(FigureService, transport);
+    this.motion = createClient(MotionService, transport);
+    this.perturbations = createClient(PerturbationService, transport);
+    this.server = createClient(ServerService, transport);
+    this.simulations = createClient(SimulationService, transport);
+    this.state = createClient(StateService, transport);
+    this.worlds = createClient(WorldService, transport);
+  }
+}
+
+/** The numbers of a packed array, whatever their encoding; empty when the field is absent. */
+export function numbers(packed: Numbers | undefined): ArrayLike<number> {
+  if (!packed) return [];
+  if (packed.f32.length) return packed.f32;
+  if (packed.f64.length) return packed.f64;
+  const view = new DataView(packed.i16.buffer, packed.i16.byteOffset, packed.i16.byteLength);
+  return Array.from({ length: packed.i16.byteLength >> 1 }, (_, i) => view.getInt16(2 * i, true) * packed.scale);
+}
+
+/** Whether trying again may help: the server is away, starting or shutting down. */
+export function isConnectionLoss(error: unknown): boolean {
+  if (!(error instanceof ConnectError)) return error instanceof TypeError;
+  return [Code.Unavailable, Code.Unknown, Code.Aborted, Code.Internal, Code.Canceled, Code.DeadlineExceeded].includes(error.code);
+}
+
+/** What a person should read about an error. */
+export function message(error: unknown): string {
+  if (error instanceof ConnectError) return error.rawMessage || Code[error.code];
+  return error instanceof Error ? error.message : String(error);
+}
+
+/** What the server says about an error beside its words. */
+export interface Details {
+  /** For programs, for example `INVALID_FIELD`. */
+  reason?: string;
+  /** The part of the request that was wrong, for example `world.rate_hz`. */
+  field?: string;
+  /** Name of the resource that is missing, taken or full. */
+  resource?: string;
+}
+
+/** Members of a message that are text or messages themselves, by number; the first of each. */
+function members(bytes: Uint8Array): Map<number, Uint8Array> {
+  const found = new Map<number, Uint8Array>();
+  const reader = new BinaryReader(bytes);
+  while (reader.pos < reader.len) {
+    const [number, type] = reader.tag();
+    if (type !== WireType.LengthDelimited) reader.skip(type, number);
+    else {
+      const value = reader.bytes();
+      if (!found.has(number)) found.set(number, value);
+    }
+  }
+  return found;
+}
+
+/** The details of an error: of `google.rpc`, ErrorInfo, the first violation of BadRequest, and ResourceInfo. */
+export function details(error: unknown): Details {
+  const out: Details = {};
+  if (!(error instanceof ConnectError)) return out;
+  const text = (bytes: Uint8Array | undefined): string | undefined => bytes && new TextDecoder().decode(bytes);
+  for (const d of error.details) {
+    if (!("type" in d)) continue;
+    const found = members(d.value as Uint8Array);
+    if (d.type === "google.rpc.ErrorInfo") out.reason = text(found.get(1));
+    if (d.type === "google.rpc.BadRequest") out.field = text(members(found.get(1) ?? new Uint8Array()).get(1));
+    if (d.type === "google.rpc.ResourceInfo") out.resource = text(found.get(2));
+  }
+  return out;
+}

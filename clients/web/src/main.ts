@@ -1,0 +1,617 @@
+// The viewer: puts session, scene and panel together.
+import "./viewer.css";
+import { Captions } from "./captions.js";
+import { message, Sinew } from "./client.js";
+import type { FigureFrame, WorldFrame } from "./gen/sinew/v1/frame_pb.js";
+import type { Stepper } from "./gen/sinew/v1/figure_pb.js";
+import type { Person } from "./model.js";
+import { el, Panel } from "./panel.js";
+import { Scene, type Shown } from "./scene.js";
+import { Session, type Phase } from "./session.js";
+import { asCommand, asPython, cast, controllerOf, read, stepperOf, write, type Address } from "./share.js";
+import { short } from "./words.js";
+
+function get<T extends HTMLElement>(id: string, kind: new () => T): T {
+  const found = document.getElementById(id);
+  if (!(found instanceof kind)) throw new Error(`the page has no ${id}`);
+  return found;
+}
+
+const [bar, stage, canvas] = [get("bar", HTMLElement), get("stage", HTMLElement), get("view", HTMLCanvasElement)];
+const [pauseButton, stepButton, speed] = [get("pause", HTMLButtonElement), get("step", HTMLButtonElement), get("speed", HTMLSelectElement)];
+const [slider, sliderValue] = [get("load-slider", HTMLInputElement), get("load-value", HTMLOutputElement)];
+const [state, dialog, labels] = [get("state", HTMLElement), get("dialog", HTMLDialogElement), get("labels", HTMLElement)];
+const worldChoice = get("world", HTMLSelectElement);
+const panelToggle = get("panel-toggle", HTMLButtonElement);
+
+let address: Address = read(location.hash);
+const shown: Shown = { ghost: true, forces: true, support: true, effort: true };
+for (const key of address.hide) if (key in shown) shown[key as keyof Shown] = false;
+
+let chosen: Person | undefined;
+let wantedFigure = address.figure;
+let lastFrame: WorldFrame | undefined;
+const now = (): number => performance.now() / 1000;
+
+const captions = new Captions(get("captions", HTMLElement));
+const say = (text: string, grave = false): void => captions.say(text, now(), grave);
+const attempt = (what: Promise<unknown>): void => void what.catch((error: unknown) => say(message(error), true));
+
+const session = new Session(
+  new Sinew(location.origin),
+  (what) => {
+    if (what === "phase") showPhase(session.phase);
+    if (what === "roster") roster();
+    if (what === "world") worldChanged();
+    if (what === "lists") listsChanged();
+  },
+  (event) => captions.event(event, now()),
+  (frame) => (lastFrame = frame),
+);
+
+let scene: Scene | undefined;
+let pushLabel: { text: string; x: number; y: number } | undefined;
+try {
+  scene = new Scene(canvas, {
+    choose: (p) => choose(p),
+    pushing: (push, x, y) => (pushLabel = push ? { text: `${push.impulse.length().toFixed(0)} N·s`, x, y } : undefined),
+    push: ({ person, segment, local, impulse }) => {
+      const size = impulse.length();
+      attempt(
+        session.api.perturbations
+          .applyPerturbations({
+            world: session.world?.name ?? "",
+            perturbations: [
+              {
+                figure: person.name,
+                kind: { case: "impulse", value: { segment, pointM: { x: local.x, y: local.y, z: local.z }, impulseNs: { x: impulse.x, y: impulse.y, z: impulse.z }, durationS: 0.1 } },
+              },
+            ],
+          })
+          .then(() => say(`${person.name} is pushed with ${size.toFixed(0)} N·s`)),
+      );
+    },
+  });
+} catch {
+  // The panel, the words and the controls work without a picture.
+  canvas.hidden = true;
+  stage.append(el("section", { class: "plain" }, el("h2", {}, "No picture"), el("p", {}, "This browser gives no WebGL. The controls and the words beside work all the same.")));
+}
+
+const panel = new Panel(
+  get("controls", HTMLElement),
+  session,
+  {
+    choose,
+    say,
+    play: (clip) => chosen && attempt(play(chosen, clip)),
+    rebuild: (change) => chosen && attempt(rebuild(chosen, change)),
+    add: () => attempt(addFigure()),
+    open: (file) => attempt(openFile(file)),
+    copy,
+    shown: remember,
+  },
+  shown,
+);
+
+// ── What is chosen ──────────────────────────────────────────────────────────────────────────────────────────────────
+
+function choose(person: Person | undefined): void {
+  chosen = person;
+  wantedFigure = person?.name ?? "";
+  panel.lists(person);
+  remember();
+}
+
+function roster(): void {
+  scene?.populate(session.people.values());
+  chosen = session.person(wantedFigure) ?? [...session.people.values()][0];
+  panel.lists(chosen);
+  get("load", HTMLElement).hidden = !session.people.size;
+  reproduce();
+}
+
+function listsChanged(): void {
+  const names = session.worlds.map((w) => w.name.slice("worlds/".length));
+  worldChoice.replaceChildren(...names.map((n) => el("option", { value: n }, n)));
+  worldChoice.hidden = names.length < 2;
+  panel.lists(chosen);
+}
+
+function worldChanged(): void {
+  const name = session.world?.name.slice("worlds/".length) ?? "";
+  worldChoice.value = name;
+  pauseButton.textContent = session.paused ? "Go on" : "Pause";
+  pauseButton.setAttribute("aria-pressed", String(session.paused));
+  const s = String(session.world?.speed ?? 1);
+  if ([...speed.options].some((o) => o.value === s)) speed.value = s;
+  remember();
+}
+
+// ── States ──────────────────────────────────────────────────────────────────────────────────────────────────────────
+
+function showPhase(phase: Phase): void {
+  state.dataset.kind = phase.kind;
+  state.hidden = phase.kind === "live";
+  document.body.dataset.phase = phase.kind;
+  const words: Record<Phase["kind"], [string, string]> = {
+    connecting: ["Connecting", "Waiting for the first frame."],
+    live: ["", ""],
+    empty: session.world ? ["Nobody is here yet", "This world has no figures. Add one, or drop a BVH file on the page."] : ["No world yet", "The server runs and holds no world. Make one, or let a client make it: it will show up here."],
+    reconnecting: ["Connection lost", "The viewer goes on by itself as soon as the server is back."],
+    error: ["This does not work", phase.kind === "error" ? phase.text : ""],
+  };
+  const [title, text] = words[phase.kind];
+  for (const [id, words] of [["state-title", title], ["state-text", text]] as const) {
+    const at = get(id, HTMLElement);
+    if (at.textContent !== words) at.textContent = words;
+  }
+  const actions: HTMLElement[] = [];
+  const action = (label: string, what: () => void): void => {
+    const b = el("button", { type: "button", class: actions.length ? "" : "main" }, label);
+    b.addEventListener("click", what);
+    actions.push(b);
+  };
+  if (phase.kind === "empty" && session.world) action("Add a figure", () => attempt(addFigure()));
+  if (phase.kind === "empty" && !session.world) action("Make a world", () => attempt(makeWorld()));
+  if (phase.kind === "error") {
+    if (address.figures.length && address.world) action("Make it from this link", () => attempt(makeWorld(address)));
+    for (const w of session.worlds.slice(0, 4)) {
+      const name = w.name.slice("worlds/".length);
+      action(`Show “${name}”`, () => session.show(name));
+    }
+    action("Try again", () => session.show(address.world));
+  }
+  // An empty server is asked again and again: buttons that are the same stay, with focus and press.
+  const place = get("state-actions", HTMLElement);
+  const same = (list: Iterable<Element>): string => [...list].map((b) => b.textContent).join("\n");
+  if (same(place.children) !== same(actions)) place.replaceChildren(...actions);
+  for (const b of [pauseButton, stepButton, speed]) b.disabled = phase.kind !== "live" && !(phase.kind === "empty" && session.world);
+  if (phase.kind === "live") reproduce();
+}
+
+async function makeWorld(from?: Address): Promise<void> {
+  const { world } = await session.api.worlds.createWorld({ worldId: from?.world ?? "" });
+  if (!world) return;
+  for (const c of from?.figures ?? []) {
+    const { figure } = await session.api.figures.createFigure({
+      parent: world.name,
+      figureId: c.id,
+      figure: { body: `bodies/${c.body}`, controller: controllerOf(c.controller), strength: { all: c.strength }, stepper: stepperOf(c.stepper), assist: c.assist, placement: { xM: c.x, yM: c.y } },
+    });
+    if (figure && c.clip) await session.api.motion.playClip({ figure: figure.name, clip: `clips/${c.clip}`, loop: true, reset: true });
+  }
+  session.show(world.name.slice("worlds/".length));
+}
+
+/** Brings the load of the address about, once. */
+let reproduced = false;
+function reproduce(): void {
+  if (reproduced || session.phase.kind !== "live" || !session.people.size) return;
+  reproduced = true;
+  if (scene) scene.place = address.camera;
+  if (address.load !== undefined && address.load !== slider.valueAsNumber) {
+    slider.value = String(address.load);
+    loadChanged();
+  } else readLoad();
+}
+
+// ── Load ────────────────────────────────────────────────────────────────────────────────────────────────────────────
+
+let carrying: Promise<void> | undefined;
+let wantedLoad: number | undefined;
+
+function loadChanged(): void {
+  wantedLoad = slider.valueAsNumber;
+  showLoad(wantedLoad);
+  carrying ??= carry().finally(() => (carrying = undefined));
+}
+
+async function carry(): Promise<void> {
+  try {
+    while (wantedLoad !== undefined) {
+      const mass = wantedLoad;
+      wantedLoad = undefined;
+      // Who lies there tries again: a load that was too much is no reason to miss the next one.
+      const people = [...session.people.values()];
+      for (const p of people) if (session.says(p, "FALLEN")) await session.standUp(p);
+      await session.carry(people, mass);
+      remember();
+    }
+  } catch (error) {
+    say(message(error), true);
+  }
+}
+
+function showLoad(mass: number): void {
+  sliderValue.textContent = `${short(mass)} kg`;
+  slider.setAttribute("aria-valuetext", `${mass} kilograms in both hands of everyone`);
+}
+
+/** Takes over a load that another viewer set. */
+function readLoad(): void {
+  if (carrying || document.activeElement === slider) return;
+  const loads = [...session.people.values()].filter((p) => p.frame).map((p) => p.loadKg());
+  if (!loads.length) return;
+  const mass = Math.max(...loads);
+  if (Math.abs(mass - slider.valueAsNumber) > 0.01 && mass <= 20) slider.value = String(mass);
+  showLoad(mass);
+}
+
+slider.addEventListener("input", loadChanged);
+
+// ── Motion ──────────────────────────────────────────────────────────────────────────────────────────────────────────
+
+async function play(p: Person, clip: string): Promise<void> {
+  if (!clip) return;
+  await session.api.motion.playClip({ figure: p.figure.name, clip: `clips/${clip}`, loop: true });
+  await session.refresh();
+  await takeAgain(p);
+  say(`${p.name} plays ${clip}`);
+  remember();
+}
+
+/** The same load as the motion that begins wants it: a crate, or free hands. */
+async function takeAgain(p: Person): Promise<void> {
+  const load = p.loadKg();
+  if (load > 0) await session.carry([p], load);
+}
+
+/** A valid last part of a name that is not taken. */
+function fresh(base: string, taken: string[]): string {
+  const clean = base.toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^[^a-z]+|-+$/g, "").slice(0, 48) || "motion";
+  if (!taken.includes(clean)) return clean;
+  for (let n = 2; ; n++) if (!taken.includes(`${clean}-${n}`)) return `${clean}-${n}`;
+}
+
+async function openFile(file: File): Promise<void> {
+  if (!chosen) await addFigure();
+  const p = chosen;
+  if (!p) return;
+  say(`Reading ${file.name}`);
+  try {
+    const clipId = fresh(file.name.replace(/\.bvh$/i, ""), session.clips);
+    const data = new Uint8Array(await file.arrayBuffer());
+    const { clip } = await session.api.motion.createClip({ clipId, displayName: file.name.slice(0, 100), body: p.body.name, source: { case: "bvh", value: { data } } });
+    await session.lists();
+    await session.api.motion.playClip({ figure: p.figure.name, clip: clip?.name ?? "", loop: true, reset: true });
+    await session.refresh();
+    await takeAgain(p);
+    panel.showReport(file.name, clip?.report);
+    say(`${p.name} plays ${file.name}`);
+    remember();
+  } catch (error) {
+    panel.showReport(file.name, undefined, message(error));
+    say(`${file.name}: ${message(error)}`, true);
+  }
+}
+
+const drop = get("drop", HTMLElement);
+let dragDepth = 0;
+addEventListener("dragenter", (e) => {
+  if (!e.dataTransfer?.types.includes("Files")) return;
+  dragDepth++;
+  drop.hidden = false;
+});
+addEventListener("dragleave", () => {
+  dragDepth = Math.max(0, dragDepth - 1);
+  if (!dragDepth) drop.hidden = true;
+});
+addEventListener("dragover", (e) => e.preventDefault());
+addEventListener("drop", (e) => {
+  e.preventDefault();
+  dragDepth = 0;
+  drop.hidden = true;
+  const [file] = e.dataTransfer?.files ?? [];
+  if (file) attempt(openFile(file));
+});
+
+// ── Figures ─────────────────────────────────────────────────────────────────────────────────────────────────────────
+
+async function addFigure(): Promise<void> {
+  const people = [...session.people.values()];
+  if (!session.world) return makeWorld();
+  const y = people.length ? Math.min(...people.map((p) => p.figure.placement?.yM ?? 0)) - 1.2 : 0;
+  const id = fresh("figure", people.map((p) => p.name));
+  wantedFigure = id;
+  const { figure } = await session.api.figures.createFigure({ parent: session.world.name, figureId: id, figure: { body: chosen?.body.name ?? "bodies/adult-man", placement: { yM: y } } });
+  if (figure) await session.api.motion.playClip({ figure: figure.name, clip: "clips/idle", loop: true, reset: true });
+  await until(() => chosen?.name === id);
+  await session.refresh();
+}
+
+/** Body and stepper are fixed at creation: the figure is made anew in its place, doing the same. */
+async function rebuild(p: Person, change: { body?: string; stepper?: Stepper }): Promise<void> {
+  const f = p.figure;
+  const load = p.loadKg();
+  wantedFigure = p.name;
+  const parent = f.name.slice(0, f.name.indexOf("/figures/"));
+  await session.api.figures.deleteFigure({ name: f.name });
+  const figure = { body: change.body ? `bodies/${change.body}` : p.body.name, stepper: change.stepper ?? f.stepper, controller: f.controller, strength: f.strength, assist: f.assist, fatigueTimeScale: f.fatigueTimeScale, placement: f.placement };
+  let made;
+  try {
+    made = (await session.api.figures.createFigure({ parent, figureId: p.name, figure })).figure;
+  } catch (error) {
+    say(message(error), true);
+    made = (await session.api.figures.createFigure({ parent, figureId: p.name, figure: { ...figure, body: p.body.name, stepper: f.stepper } })).figure;
+  }
+  if (made && f.clip) await session.api.motion.playClip({ figure: made.name, clip: f.clip, loop: true, reset: true });
+  await until(() => chosen !== p && chosen?.name === p.name);
+  if (chosen && load > 0) await session.carry([chosen], load);
+  await session.refresh();
+  remember();
+}
+
+async function until(condition: () => boolean): Promise<void> {
+  for (let n = 0; n < 100 && !condition(); n++) await new Promise((done) => setTimeout(done, 30));
+}
+
+// ── Address and copies ──────────────────────────────────────────────────────────────────────────────────────────────
+
+function here(full: boolean): string {
+  return write({
+    world: session.world?.name.slice("worlds/".length) ?? address.world,
+    figure: chosen?.name ?? "",
+    load: slider.valueAsNumber || undefined,
+    hide: Object.entries(shown).flatMap(([key, on]) => (on ? [] : [key])),
+    camera: scene?.place,
+    figures: full ? [...session.people.values()].map(cast) : [],
+  });
+}
+
+let remembering = 0;
+function remember(): void {
+  if (session.phase.kind !== "live") return;
+  clearTimeout(remembering);
+  remembering = window.setTimeout(() => history.replaceState(null, "", `#${here(session.people.size <= 8)}`), 150);
+}
+canvas.addEventListener("pointerup", remember);
+canvas.addEventListener("wheel", remember, { passive: true });
+addEventListener("hashchange", () => {
+  // The skip link's target is a place on the page, not a scene.
+  if (location.hash && !location.hash.includes("=")) return;
+  address = read(location.hash);
+  wantedFigure = address.figure;
+  reproduced = false;
+  session.show(address.world);
+});
+
+function copy(what: "python" | "cli" | "link"): void {
+  const text =
+    what === "link"
+      ? `${location.origin}/#${here(true)}`
+      : what === "cli"
+        ? chosen
+          ? asCommand(chosen, session.motions)
+          : ""
+        : asPython(location.host, [...session.people.values()], chosen, session.motions);
+  const shownText = (): void => show("Copy this", el("pre", { class: "copied", tabindex: "0" }, text));
+  if (!navigator.clipboard) return shownText();
+  navigator.clipboard.writeText(text).then(() => say(`Copied: ${text.split("\n")[0].slice(0, 60)}`), shownText);
+}
+
+// ── Bar, keys ───────────────────────────────────────────────────────────────────────────────────────────────────────
+
+pauseButton.addEventListener("click", () => attempt(session.setPaused(!session.paused)));
+stepButton.addEventListener("click", () => attempt(session.step()));
+speed.addEventListener("change", () => attempt(session.setSpeed(Number(speed.value))));
+worldChoice.addEventListener("change", () => {
+  reproduced = true;
+  session.show(worldChoice.value);
+});
+
+function openPanel(open: boolean): void {
+  document.body.classList.toggle("closed", !open);
+  panelToggle.setAttribute("aria-expanded", String(open));
+}
+panelToggle.addEventListener("click", () => openPanel(document.body.classList.contains("closed")));
+if (innerWidth <= 900) openPanel(false);
+
+const prefersDark = matchMedia("(prefers-color-scheme: dark)");
+function theme(dark: boolean): void {
+  document.documentElement.dataset.theme = dark ? "dark" : "light";
+  scene?.theme(dark);
+}
+function stored(): string | null {
+  try {
+    return localStorage.getItem("sinew-theme");
+  } catch {
+    return null;
+  }
+}
+theme(stored() ? stored() === "dark" : prefersDark.matches);
+prefersDark.addEventListener("change", () => stored() ?? theme(prefersDark.matches));
+get("theme", HTMLButtonElement).addEventListener("click", () => {
+  const dark = document.documentElement.dataset.theme !== "dark";
+  theme(dark);
+  try {
+    localStorage.setItem("sinew-theme", dark ? "dark" : "light");
+  } catch {
+    // Then it holds for this visit.
+  }
+});
+
+function show(title: string, ...content: HTMLElement[]): void {
+  get("dialog-title", HTMLElement).textContent = title;
+  get("dialog-body", HTMLElement).replaceChildren(...content);
+  dialog.showModal();
+}
+
+const KEYS: [string, string][] = [
+  ["Space", "pause, go on"],
+  [".", "one tick"],
+  ["[  ]", "choose a figure"],
+  ["L  K", "more load, less load"],
+  ["P", "push the chosen figure as set in the panel"],
+  ["R", "let the chosen figure stand up"],
+  ["S", "slow motion"],
+  ["← → ↑ ↓", "turn the view (with the scene focused)"],
+  ["+  −", "nearer, farther"],
+  ["F", "see everyone"],
+  ["G  E  C  B", "desired motion, effort, contact forces, support"],
+  ["Esc", "give up a push being drawn"],
+];
+get("help", HTMLButtonElement).addEventListener("click", keys);
+function keys(): void {
+  const table = el("table", {}, ...KEYS.map(([key, text]) => el("tr", {}, el("td", {}, ...key.split("  ").flatMap((k) => [el("kbd", {}, k), " "])), el("td", {}, text))));
+  show("Keys", table, el("p", {}, "Drag on a figure to push it. Drag elsewhere to turn the view; two fingers or the wheel to come nearer. Drop a BVH file anywhere."));
+}
+
+function toggle(key: keyof Shown): void {
+  document.getElementById(`show-${key}`)?.click();
+}
+
+function nudge(by: number): void {
+  slider.valueAsNumber += by;
+  loadChanged();
+}
+
+addEventListener("keydown", (e) => {
+  if (e.ctrlKey || e.metaKey || e.altKey || dialog.open) return;
+  const at = e.target instanceof HTMLElement ? e.target : document.body;
+  const typing = at.matches("input:not([type=checkbox]):not([type=range]), select, textarea");
+  if (e.key === "Escape") scene?.release(false);
+  if (typing) return;
+  const people = [...session.people.values()];
+  const next = (by: number): void => {
+    if (people.length) choose(people[(people.indexOf(chosen as Person) + by + people.length) % people.length]);
+  };
+  const inScene = at === canvas;
+  const done = (what: () => void): void => {
+    e.preventDefault();
+    what();
+  };
+  if (e.key === " " && !at.matches("button, summary, a, input")) return done(() => pauseButton.click());
+  if (inScene) {
+    const turns: Record<string, [number, number, number]> = {
+      ArrowLeft: [-0.12, 0, 1],
+      ArrowRight: [0.12, 0, 1],
+      ArrowUp: [0, 0.08, 1],
+      ArrowDown: [0, -0.08, 1],
+    };
+    const turn = turns[e.key];
+    if (turn)
+      return done(() => {
+        scene?.turn(...turn);
+        remember();
+      });
+  }
+  const actions: Record<string, () => void> = {
+    ".": () => stepButton.click(),
+    "[": () => next(-1),
+    "]": () => next(1),
+    l: () => nudge(1),
+    k: () => nudge(-1),
+    p: () => attempt(panel.push()),
+    r: () => chosen && attempt(session.standUp(chosen)),
+    s: () => {
+      speed.value = speed.value === "1" ? "0.25" : "1";
+      attempt(session.setSpeed(Number(speed.value)));
+    },
+    "+": () => scene?.turn(0, 0, 0.88),
+    "=": () => scene?.turn(0, 0, 0.88),
+    "-": () => scene?.turn(0, 0, 1.14),
+    f: () => scene?.recentre(),
+    g: () => toggle("ghost"),
+    e: () => toggle("effort"),
+    c: () => toggle("forces"),
+    b: () => toggle("support"),
+    "?": keys,
+  };
+  const action = actions[e.key.length === 1 ? e.key.toLowerCase() : e.key];
+  if (action) done(action);
+});
+
+// ── Every picture ───────────────────────────────────────────────────────────────────────────────────────────────────
+
+const byFrame = new WeakMap<WorldFrame, Map<number, FigureFrame>>();
+function indexed(frame: WorldFrame): Map<number, FigureFrame> {
+  let map = byFrame.get(frame);
+  if (!map) {
+    map = new Map(frame.figures.map((f) => [f.figureIndex, f]));
+    byFrame.set(frame, map);
+  }
+  return map;
+}
+
+const tags = new Map<string, HTMLSpanElement>();
+function tag(key: string, text: string, kind: string, place: { x: number; y: number } | undefined): void {
+  let span = tags.get(key);
+  if (!place) {
+    if (span) span.hidden = true;
+    return;
+  }
+  if (!span) {
+    span = el("span");
+    tags.set(key, span);
+    labels.append(span);
+  }
+  span.hidden = false;
+  if (span.textContent !== text) span.textContent = text;
+  if (span.className !== kind) span.className = kind;
+  span.style.transform = `translate(${place.x.toFixed(1)}px, ${place.y.toFixed(1)}px) translate(-50%, -100%)`;
+}
+
+/** Names above heads: all in a small company, only the chosen one's in a crowd. */
+const FEW = 6;
+function label(): void {
+  const people = session.phase.kind === "live" || session.phase.kind === "reconnecting" ? [...session.people.values()] : [];
+  const present = new Set(people.map((p) => p.name));
+  for (const [key, span] of tags)
+    if (key !== "\u0000push" && !present.has(key)) {
+      span.remove();
+      tags.delete(key);
+    }
+  for (const p of people) {
+    const visible = p === chosen || (people.length <= FEW && !pushLabel);
+    tag(p.name, p.name, p === chosen ? "chosen" : "", visible ? scene?.label(p) : undefined);
+  }
+  tag("\u0000push", pushLabel?.text ?? "", "impulse", pushLabel && { x: pushLabel.x, y: pushLabel.y - 16 });
+}
+
+/** Time that a picture takes, ms, smoothed: the page's own part, and with the renderer. Tests read them. */
+let scripted = 0;
+let cost = 0;
+let wordsAt = 0;
+let plotsAt = 0;
+let reframed = 0;
+/** A picture that took longer than this (s) is drawn in software: then half of the time is left to others. */
+const SLOW_S = 0.04;
+let notBefore = 0;
+function picture(): void {
+  requestAnimationFrame(picture);
+  const t = now();
+  if (t < notBefore) return;
+  const pair = session.playhead.at(t, session.paused ? 1 : (session.world?.speed ?? 1));
+  scene?.prepare(pair && { before: indexed(pair.before), after: indexed(pair.after), share: pair.share }, shown, chosen);
+  if (pair && reframed !== session.people.size) {
+    reframed = session.people.size;
+    scene?.frameAllOnce();
+  }
+  label();
+  if (t - plotsAt > 0.066) {
+    plotsAt = t;
+    const words = t - wordsAt > 0.25;
+    if (words) wordsAt = t;
+    panel.update(t, words);
+    if (words) readLoad();
+    captions.update(session.people.values(), lastFrame?.timeS ?? 0, t);
+    const time = lastFrame ? `${lastFrame.timeS.toFixed(1)} s` : "";
+    const clock = get("clock", HTMLOutputElement);
+    if (clock.textContent !== time) clock.textContent = time;
+  }
+  const script = (now() - t) * 1000;
+  scene?.draw3d();
+  const took = now() - t;
+  if (took > SLOW_S) notBefore = t + 2 * Math.min(took, 0.5);
+  scripted += 0.05 * (script - scripted);
+  cost += 0.05 * ((now() - t) * 1000 - cost);
+  document.body.dataset.script = scripted.toFixed(2);
+  document.body.dataset.drawn = String(scene?.drawn ?? 0);
+  document.body.dataset.cost = cost.toFixed(2);
+}
+
+bar.dataset.ready = "true";
+showPhase(session.phase);
+session.show(address.world);
+requestAnimationFrame(picture);

@@ -1,0 +1,307 @@
+// The controls beside the scene: all that the pointer can do in the scene can be done here, too.
+import { message } from "./client.js";
+import { Controller, Stepper } from "./gen/sinew/v1/figure_pb.js";
+import type { RetargetReport } from "./gen/sinew/v1/types_pb.js";
+import type { Person } from "./model.js";
+import { busiest, plot, PLOTS, plotText } from "./plots.js";
+import type { Shown } from "./scene.js";
+import type { Session } from "./session.js";
+import { dof as dofWords, short } from "./words.js";
+
+type Child = Node | string;
+
+/** An element with attributes and children. */
+export function el<K extends keyof HTMLElementTagNameMap>(tag: K, attributes: Record<string, string> = {}, ...children: Child[]): HTMLElementTagNameMap[K] {
+  const e = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) e.setAttribute(name, value);
+  e.append(...children);
+  return e;
+}
+
+const button = (text: string, attributes: Record<string, string> = {}): HTMLButtonElement => el("button", { type: "button", ...attributes }, text);
+const section = (title: string, ...children: Child[]): HTMLElement => el("section", {}, el("h2", {}, title), ...children);
+
+let serial = 0;
+function row(label: string, control: HTMLElement, output?: HTMLOutputElement): HTMLElement {
+  control.id ||= `control-${++serial}`;
+  return el("div", { class: output ? "row three" : "row" }, el("label", { for: control.id }, label), control, ...(output ? [output] : []));
+}
+
+function fill(select: HTMLSelectElement, values: { value: string; text: string }[], chosen: string): void {
+  const key = JSON.stringify(values);
+  if (select.dataset.key !== key) {
+    select.dataset.key = key;
+    select.replaceChildren(...values.map((v) => el("option", { value: v.value }, v.text)));
+  }
+  if (document.activeElement !== select) select.value = chosen;
+}
+
+const DIRECTIONS: [string, string, [number, number]][] = [
+  ["front", "from the front", [-1, 0]],
+  ["back", "from behind", [1, 0]],
+  ["left", "from the left", [0, -1]],
+  ["right", "from the right", [0, 1]],
+];
+const plain = (name: string): string => name.replaceAll("-", " ");
+
+/** What the panel asks of the page. */
+export interface Wishes {
+  choose: (p: Person) => void;
+  say: (text: string, grave?: boolean) => void;
+  play: (clip: string) => void;
+  rebuild: (change: { body?: string; stepper?: Stepper }) => void;
+  add: () => void;
+  open: (file: File) => void;
+  copy: (what: "python" | "cli" | "link") => void;
+  /** What is shown, or what the address says of a figure, has changed. */
+  shown: () => void;
+}
+
+export class Panel {
+  private readonly figures = el("div", { id: "figures", role: "group", "aria-label": "Figures" });
+  private readonly summary = el("p", { id: "summary" });
+  private readonly clip = el("select", { id: "clip" });
+  private readonly body = el("select", { id: "body" });
+  private readonly controller = el("select", { id: "controller" });
+  private readonly stepper = el("select", { id: "stepper" });
+  private readonly strength = el("input", { id: "strength", type: "range", min: "0.2", max: "2", step: "0.05", value: "1" });
+  private readonly strengthOut = el("output", { for: "strength" });
+  private readonly assist = el("input", { id: "assist", type: "range", min: "0", max: "1", step: "0.05", value: "0" });
+  private readonly assistOut = el("output", { for: "assist" });
+  private readonly impulse = el("input", { id: "impulse", type: "range", min: "5", max: "150", step: "5", value: "30" });
+  private readonly impulseOut = el("output", { for: "impulse" }, "30 N·s");
+  private readonly direction = el("select", { id: "direction" });
+  private readonly target = el("select", { id: "target" });
+  private readonly file = el("input", { type: "file", accept: ".bvh", class: "hidden", tabindex: "-1", "aria-label": "BVH file" });
+  private readonly report = el("div", { id: "report", "aria-live": "polite" });
+  private readonly plots: { figure: HTMLElement; name: HTMLElement; value: HTMLElement; canvas: HTMLCanvasElement }[] = [];
+  private readonly dofs = el("select", { id: "plotted" });
+  private busiest: number[] = [];
+  private busiestAt = 0;
+
+  constructor(
+    root: HTMLElement,
+    private readonly session: Session,
+    private readonly wishes: Wishes,
+    private readonly shown: Shown,
+  ) {
+    fill(this.direction, DIRECTIONS.map(([value, text]) => ({ value, text })), "front");
+    fill(this.target, ["chest", "pelvis", "head", "r_hand", "l_foot"].map((value) => ({ value, text: dofWords(value) })), "chest");
+    const open = button("Open BVH…", { id: "open" });
+    open.addEventListener("click", () => this.file.click());
+    this.file.addEventListener("change", () => {
+      const [file] = this.file.files ?? [];
+      if (file) this.wishes.open(file);
+      this.file.value = "";
+    });
+    const push = button("Push", { id: "push", class: "main" });
+    push.addEventListener("click", () => this.act(() => this.push()));
+    const stand = button("Stand up", { id: "stand" });
+    stand.addEventListener("click", () => this.act((p) => this.session.standUp(p)));
+    const add = button("Add figure", { id: "add" });
+    add.addEventListener("click", () => this.wishes.add());
+    const remove = button("Remove", { id: "remove" });
+    remove.addEventListener("click", () => this.act(async (p) => void (await this.session.api.figures.deleteFigure({ name: p.figure.name }))));
+    this.clip.addEventListener("change", () => this.wishes.play(this.clip.value));
+    this.body.addEventListener("change", () => this.wishes.rebuild({ body: this.body.value }));
+    this.stepper.addEventListener("change", () => this.wishes.rebuild({ stepper: Number(this.stepper.value) }));
+    this.controller.addEventListener("change", () => this.act((p) => this.change(p, { controller: Number(this.controller.value) }, "controller")));
+    this.strength.addEventListener("input", () => (this.strengthOut.textContent = `${Math.round(Number(this.strength.value) * 100)} %`));
+    this.strength.addEventListener("change", () => this.act((p) => this.change(p, { strength: { ...p.figure.strength, all: Number(this.strength.value) } }, "strength")));
+    this.assist.addEventListener("input", () => (this.assistOut.textContent = `${Math.round(Number(this.assist.value) * 100)} %`));
+    this.assist.addEventListener("change", () => this.act((p) => this.change(p, { assist: Number(this.assist.value) }, "assist")));
+    this.impulse.addEventListener("input", () => (this.impulseOut.textContent = `${this.impulse.value} N·s`));
+    for (let i = 0; i < PLOTS; i++) {
+      const canvas = el("canvas", { role: "img", tabindex: "-1" });
+      const name = el("span");
+      const value = el("span");
+      const figure = el("figure", { class: "plot" }, el("figcaption", {}, name, value), canvas);
+      this.plots.push({ figure, name, value, canvas });
+    }
+    const copies = (["python", "cli", "link"] as const).map((what) => {
+      const b = button({ python: "Copy as Python", cli: "Copy as CLI", link: "Copy link" }[what], { id: `copy-${what}` });
+      b.addEventListener("click", () => this.wishes.copy(what));
+      return b;
+    });
+    const checks = (
+      [
+        ["ghost", "Desired motion"],
+        ["effort", "Effort"],
+        ["forces", "Contact forces"],
+        ["support", "Support and balance"],
+      ] as const
+    ).map(([key, text]) => {
+      const box = el("input", { type: "checkbox", id: `show-${key}` });
+      box.checked = this.shown[key];
+      box.addEventListener("change", () => {
+        this.shown[key] = box.checked;
+        this.wishes.shown();
+      });
+      return el("label", {}, box, text);
+    });
+    root.append(
+      section("Figures", this.figures, this.summary, el("div", { class: "buttons" }, stand, add, remove)),
+      section("Motion", row("Plays", this.clip), el("div", { class: "buttons" }, open, this.file), this.report),
+      section("Torque within its limits", row("Shown", this.dofs), ...this.plots.map((p) => p.figure)),
+      section("Push", row("How hard", this.impulse, this.impulseOut), row("Direction", this.direction), row("Where", this.target), el("div", { class: "buttons" }, push)),
+      section("Body and control", row("Body", this.body), row("Strength", this.strength, this.strengthOut), row("Controller", this.controller), row("Stepper", this.stepper), row("Assist", this.assist, this.assistOut)),
+      section(
+        "Show",
+        el("div", { class: "checks" }, ...checks),
+        el(
+          "ul",
+          { class: "key", "aria-label": "Marks" },
+          ...[
+            ["com", "centre of mass"],
+            ["zmp", "zero-moment point"],
+            ["area", "support"],
+            ["force", "contact force"],
+            ["limit", "at the limit of strength"],
+          ].map(([c, text]) => el("li", {}, el("i", { class: c }), text)),
+        ),
+      ),
+      section("Take it with you", el("div", { class: "buttons" }, ...copies)),
+    );
+  }
+
+  private person: Person | undefined;
+
+  private act(what: (p: Person) => Promise<void>): void {
+    const p = this.person;
+    if (!p) return this.wishes.say("Choose a figure first.");
+    what(p).catch((error: unknown) => this.wishes.say(message(error), true));
+  }
+
+  /** Pushes the chosen figure as the controls say. */
+  push(p = this.person): Promise<void> {
+    if (!p || !this.session.world) return Promise.resolve();
+    const size = Number(this.impulse.value);
+    const [x, y] = DIRECTIONS.find(([d]) => d === this.direction.value)?.[2] ?? [1, 0];
+    const yaw = p.figure.placement?.yawRad ?? 0;
+    const impulse = { x: size * (x * Math.cos(yaw) - y * Math.sin(yaw)), y: size * (x * Math.sin(yaw) + y * Math.cos(yaw)), z: 0 };
+    return this.session.api.perturbations
+      .applyPerturbations({
+        world: this.session.world.name,
+        perturbations: [{ figure: p.name, kind: { case: "impulse", value: { segment: this.target.value, impulseNs: impulse, durationS: 0.1 } } }],
+      })
+      .then(() => this.wishes.say(`${p.name} is pushed ${this.direction.selectedOptions[0]?.text ?? ""}, ${size} N·s`));
+  }
+
+  private async change(p: Person, change: object, path: string): Promise<void> {
+    const { figure } = await this.session.api.figures.updateFigure({ figure: { ...p.figure, ...change }, updateMask: { paths: [path] } });
+    if (figure) p.figure = figure;
+    this.lists(p);
+    this.wishes.shown();
+  }
+
+  /** Brings what can be chosen up to date. */
+  lists(person: Person | undefined): void {
+    this.person = person;
+    const people = [...this.session.people.values()];
+    const focused = document.activeElement instanceof HTMLElement ? document.activeElement.dataset.figure : undefined;
+    this.figures.replaceChildren(
+      ...people.map((p) => {
+        const b = button(p.name, { "aria-pressed": String(p === person), "data-figure": p.name });
+        b.addEventListener("click", () => this.wishes.choose(p));
+        return b;
+      }),
+    );
+    if (focused) [...this.figures.children].find((b): b is HTMLElement => b instanceof HTMLElement && b.dataset.figure === focused)?.focus();
+    const same = (v: string): { value: string; text: string } => ({ value: v, text: plain(v) });
+    const clip = person?.figure.clip.slice("clips/".length) ?? "";
+    fill(this.clip, [...(clip ? [] : [{ value: "", text: person?.figure.driverId ? "driven live" : "holds still" }]), ...this.session.clips.map(same)], clip);
+    fill(this.body, [...new Set([...this.session.bodies, ...(person ? [person.body.name.slice("bodies/".length)] : [])])].map(same), person?.body.name.slice("bodies/".length) ?? "");
+    const can = (name: string): boolean => !this.session.capabilities.length || this.session.capabilities.includes(name);
+    const controllers: [Controller, string, string][] = [
+      [Controller.MODERN, "modern", "CONTROLLER_MODERN"],
+      [Controller.PAPER, "paper 2000", "CONTROLLER_PAPER"],
+      [Controller.MOTORS, "motors only", "CONTROLLER_MOTORS"],
+    ];
+    fill(this.controller, controllers.filter((c) => can(c[2])).map(([v, text]) => ({ value: String(v), text })), String(person?.figure.controller || Controller.MODERN));
+    const steppers: [Stepper, string, string][] = [
+      [Stepper.TORQUE, "torque", "STEPPER_TORQUE"],
+      [Stepper.KINEMATIC, "kinematic", "STEPPER_KINEMATIC"],
+    ];
+    fill(this.stepper, steppers.filter((c) => can(c[2])).map(([v, text]) => ({ value: String(v), text })), String(person?.figure.stepper || Stepper.TORQUE));
+    const strength = person?.figure.strength?.all || 1;
+    if (document.activeElement !== this.strength) this.strength.value = String(strength);
+    this.strengthOut.textContent = `${Math.round(strength * 100)} %`;
+    const assist = person?.figure.assist ?? 0;
+    if (document.activeElement !== this.assist) this.assist.value = String(assist);
+    this.assistOut.textContent = `${Math.round(assist * 100)} %`;
+    const dofs = person?.body.dofs ?? [];
+    fill(this.dofs, [{ value: "", text: "hardest working" }, ...dofs.map((d) => ({ value: d.name, text: dofWords(d.name) }))], this.dofs.value);
+    for (const c of [this.clip, this.body, this.controller, this.stepper, this.strength, this.assist, this.dofs]) c.disabled = !person;
+    this.busiestAt = 0;
+  }
+
+  /** The chosen figure in words. */
+  static words(p: Person, flagNames: string[]): string {
+    const hardest = p.hardest();
+    const balance = p.frame?.balance;
+    const margin = balance?.marginM;
+    const flag = (name: string): boolean => ((p.flags >> flagNames.indexOf(name)) & 1) === 1 && flagNames.includes(name);
+    const stand = flag("FALLEN") ? "has fallen" : flag("BALANCE_LOST") ? "is losing balance" : flag("FLIGHT") ? "is in the air" : "stands";
+    const where = margin === undefined || flag("FALLEN") ? "" : margin >= 0 ? `, ${(margin * 100).toFixed(0)} cm inside its support` : `, ${(-margin * 100).toFixed(0)} cm outside its support`;
+    const load = p.loadKg();
+    const rms = ((p.frame?.status?.jointRmsRad ?? 0) * 180) / Math.PI;
+    return (
+      `${p.name} ${stand}${where}. ${load > 0 ? `Carries ${short(load)} kg. ` : ""}` +
+      `Hardest: ${dofWords(p.body.dofs[hardest]?.name ?? "")}, ${Math.round(100 * p.used[hardest])} % of its strength. ` +
+      `Off the desired motion by ${rms.toFixed(1)}°.`
+    );
+  }
+
+  /** Words and plots, a few times a second. */
+  update(now: number, words: boolean): void {
+    const p = this.person;
+    if (words) {
+      if (!p) this.summary.textContent = this.session.people.size ? "Choose a figure." : "";
+      else {
+        const used = p.used[p.hardest()] ?? 0;
+        const bar = el("i", used > 0.995 ? { class: "hot" } : {});
+        bar.style.width = `${Math.round(used * 100)}%`;
+        this.summary.replaceChildren(Panel.words(p, this.session.flagNames), el("span", { class: "meter", "aria-hidden": "true" }, bar));
+      }
+    }
+    if (p && now - this.busiestAt > 3) {
+      this.busiest = busiest(p);
+      this.busiestAt = now;
+    }
+    const one = p && this.dofs.value ? p.body.dofs.findIndex((d) => d.name === this.dofs.value) : -1;
+    const wanted = one >= 0 ? [one] : this.busiest;
+    this.plots.forEach((view, i) => {
+      const dof = wanted[i];
+      view.figure.hidden = !p || dof === undefined || !p.history.length;
+      if (!p || dof === undefined) return;
+      plot(view.canvas, p, dof);
+      if (!words) return;
+      view.name.textContent = dofWords(p.body.dofs[dof].name);
+      const s = p.history.at(-1);
+      if (!s) return;
+      const limit = s.torque[dof] < 0 ? s.limits[dof] : s.limits[p.body.dofs.length + dof];
+      view.value.textContent = `${Math.round(s.torque[dof]) || 0} of ${Math.round(limit) || 0} N·m`;
+      view.canvas.setAttribute("aria-label", plotText(p, dof));
+    });
+  }
+
+  /** How a file was understood, or why it was not. */
+  showReport(file: string, outcome: RetargetReport | undefined, error?: string): void {
+    if (error !== undefined) {
+      this.report.replaceChildren(el("div", { class: "report bad", role: "alert" }, el("strong", {}, `${file} cannot be used`), el("p", {}, error)));
+      return;
+    }
+    const r = outcome;
+    if (!r) return;
+    const facts = [
+      `${r.mapped.length} bones found${r.byStructure ? " by the shape of the skeleton" : ""}${r.missingBones.length ? `, ${r.missingBones.length} without a counterpart` : ""}`,
+      `a person of ${r.statureM.toFixed(2)} m, up is ${r.upAxis}, ${r.sourceRateHz.toFixed(0)} frames per second`,
+      `feet slide ${(r.footSlideBeforeM * 100).toFixed(1)} cm as recorded, ${(r.footSlideAfterM * 100).toFixed(1)} cm as prepared`,
+    ];
+    if (r.clamped.length) facts.push(`${r.clamped.length} ${r.clamped.length === 1 ? "angle" : "angles"} went beyond the body's limits`);
+    const map = el("details", {}, el("summary", {}, "Bones"), el("ul", {}, ...r.mapped.map((m) => el("li", {}, `${m.bone}: ${m.joints.join(", ")}`))));
+    this.report.replaceChildren(
+      el("div", { class: "report" }, el("strong", {}, `${file} plays`), el("ul", {}, ...facts.map((f) => el("li", {}, f)), ...r.warnings.map((w) => el("li", {}, w))), map),
+    );
+  }
+}

@@ -1,0 +1,697 @@
+// The three-dimensional view: figures, what they should do, what they stand on, and the forces on them.
+import * as THREE from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { numbers } from "./client.js";
+import type { FigureFrame } from "./gen/sinew/v1/frame_pb.js";
+import { forward, mixPoses, POSE, type Person } from "./model.js";
+
+/** What is shown besides the figures. */
+export interface Shown {
+  ghost: boolean;
+  forces: boolean;
+  support: boolean;
+  effort: boolean;
+}
+
+/** Colours of the two themes. */
+const LOOKS = {
+  light: { sky: 0xe9edf0, ground: 0xfafbfc, line: "#d2d9de", body: 0xb9c4cc, ghost: 0x2f7d9d, sun: 2.4, fill: 1.7 },
+  dark: { sky: 0x171d22, ground: 0x39424a, line: "#4c5862", body: 0x98a5af, ghost: 0x6cc3e0, sun: 1.7, fill: 1.1 },
+};
+/** Blue, vermilion, yellow and green of Okabe and Ito: told apart with any colour vision. */
+export const HUES = { com: 0x0072b2, zmp: 0xd55e00, force: 0x009e73, push: 0xcc79a7, support: 0x56b4e9 };
+/** Length of an arrow, m per N. */
+const METRES_PER_NEWTON = 1 / 700;
+const MOST_ARROWS = 16;
+const MOST_SEGMENTS = 18;
+/** Sides of the crate, m. */
+const CRATE = [0.3, 0.3, 0.22] as const;
+
+interface Effort {
+  used: { value: Float32Array };
+  atLimit: { value: Float32Array };
+  shown: { value: number };
+  chosen: { value: number };
+}
+
+/** Tints each segment by the torque used of the torque available, and draws stripes over it at the limit. */
+function effortMaterial(colour: number): { material: THREE.MeshStandardMaterial; effort: Effort } {
+  const effort: Effort = {
+    used: { value: new Float32Array(MOST_SEGMENTS) },
+    atLimit: { value: new Float32Array(MOST_SEGMENTS) },
+    shown: { value: 1 },
+    chosen: { value: 0 },
+  };
+  const material = new THREE.MeshStandardMaterial({ color: colour, roughness: 0.62, metalness: 0 });
+  material.onBeforeCompile = (shader) => {
+    shader.uniforms.uUsed = effort.used;
+    shader.uniforms.uAtLimit = effort.atLimit;
+    shader.uniforms.uShown = effort.shown;
+    shader.uniforms.uChosen = effort.chosen;
+    shader.vertexShader = shader.vertexShader
+      .replace(
+        "#include <common>",
+        `#include <common>
+attribute float segment;
+uniform float uUsed[${MOST_SEGMENTS}];
+uniform float uAtLimit[${MOST_SEGMENTS}];
+varying float vUsed;
+varying float vAtLimit;
+varying vec3 vPlace;`,
+      )
+      .replace(
+        "#include <begin_vertex>",
+        `#include <begin_vertex>
+int index = int(segment + 0.5);
+vUsed = uUsed[index];
+vAtLimit = uAtLimit[index];
+vPlace = position;`,
+      );
+    shader.fragmentShader = shader.fragmentShader
+      .replace(
+        "#include <common>",
+        `#include <common>
+uniform float uShown;
+uniform float uChosen;
+varying float vUsed;
+varying float vAtLimit;
+varying vec3 vPlace;`,
+      )
+      .replace(
+        "#include <color_fragment>",
+        `#include <color_fragment>
+vec3 warm = mix(vec3(0.87, 0.52, 0.05), vec3(0.62, 0.09, 0.0), smoothstep(0.6, 1.0, vUsed));
+diffuseColor.rgb = mix(diffuseColor.rgb, warm, uShown * smoothstep(0.2, 0.75, vUsed));
+float stripe = step(0.5, fract((vPlace.x + vPlace.y + vPlace.z) * 22.0));
+diffuseColor.rgb = mix(diffuseColor.rgb, vec3(1.0, 0.86, 0.55), uShown * vAtLimit * stripe);`,
+      )
+      .replace(
+        "#include <opaque_fragment>",
+        `float rim = pow(1.0 - saturate(dot(normalize(vViewPosition), normal)), 2.5);
+outgoingLight += uChosen * rim * vec3(0.15, 0.5, 0.7);
+#include <opaque_fragment>`,
+      );
+  };
+  return { material, effort };
+}
+
+/** One closed surface for all segments, each vertex bound to its segment. */
+function surface(person: Person): THREE.BufferGeometry {
+  const position: number[] = [];
+  const index: number[] = [];
+  const segment: number[] = [];
+  person.body.segments.forEach((s, i) => {
+    const start = position.length / 3;
+    for (const v of s.meshVerticesM) position.push(v);
+    for (const t of s.meshTriangles) index.push(start + t);
+    for (let k = 0; k < s.meshVerticesM.length / 3; k++) segment.push(i);
+  });
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.Float32BufferAttribute(position, 3));
+  geometry.setIndex(index);
+  geometry.computeVertexNormals();
+  geometry.setAttribute("segment", new THREE.Float32BufferAttribute(segment, 1));
+  const four = new Uint16Array(segment.length * 4);
+  const weight = new Float32Array(segment.length * 4);
+  segment.forEach((s, i) => {
+    four[4 * i] = s;
+    weight[4 * i] = 1;
+  });
+  geometry.setAttribute("skinIndex", new THREE.Uint16BufferAttribute(four, 4));
+  geometry.setAttribute("skinWeight", new THREE.Float32BufferAttribute(weight, 4));
+  geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), 1e4);
+  return geometry;
+}
+
+/** A skinned surface whose bones are set from poses. */
+class Solid {
+  readonly mesh: THREE.SkinnedMesh;
+  private readonly bones: THREE.Bone[];
+  readonly poses: Float32Array;
+
+  constructor(geometry: THREE.BufferGeometry, material: THREE.Material, segments: number) {
+    this.bones = Array.from({ length: segments }, () => {
+      const bone = new THREE.Bone();
+      bone.matrixAutoUpdate = false;
+      bone.matrixWorldAutoUpdate = false;
+      return bone;
+    });
+    this.poses = new Float32Array(segments * POSE);
+    this.mesh = new THREE.SkinnedMesh(geometry, material);
+    this.mesh.frustumCulled = false;
+    this.mesh.bind(new THREE.Skeleton(this.bones, this.bones.map(() => new THREE.Matrix4())), new THREE.Matrix4());
+  }
+
+  place(): void {
+    const [position, rotation, one] = [scratchA, scratchQ, scratchOne];
+    this.bones.forEach((bone, i) => {
+      const o = i * POSE;
+      position.set(this.poses[o], this.poses[o + 1], this.poses[o + 2]);
+      rotation.set(this.poses[o + 3], this.poses[o + 4], this.poses[o + 5], this.poses[o + 6]);
+      bone.matrixWorld.compose(position, rotation, one);
+    });
+  }
+
+  dispose(): void {
+    this.mesh.skeleton.dispose();
+    (this.mesh.material as THREE.Material).dispose();
+  }
+}
+
+const scratchA = new THREE.Vector3();
+const scratchB = new THREE.Vector3();
+const scratchC = new THREE.Vector3();
+const scratchQ = new THREE.Quaternion();
+const scratchOne = new THREE.Vector3(1, 1, 1);
+
+/** A solid arrow of variable length along its own y. */
+function arrow(colour: number): THREE.Group {
+  const group = new THREE.Group();
+  const material = new THREE.MeshBasicMaterial({ color: colour });
+  const shaft = new THREE.Mesh(arrowShaft, material);
+  const head = new THREE.Mesh(arrowHead, material);
+  group.add(shaft, head);
+  group.visible = false;
+  return group;
+}
+const arrowShaft = new THREE.CylinderGeometry(0.01, 0.01, 1, 8).translate(0, 0.5, 0);
+const arrowHead = new THREE.ConeGeometry(0.024, 0.06, 12).translate(0, 0.03, 0);
+const UP = new THREE.Vector3(0, 1, 0);
+
+function point(arrowGroup: THREE.Group, from: THREE.Vector3, along: THREE.Vector3): void {
+  const length = along.length();
+  arrowGroup.visible = length > 0.01;
+  if (!arrowGroup.visible) return;
+  const [shaft, head] = arrowGroup.children;
+  const shaftLength = Math.max(0.001, length - 0.06);
+  shaft.scale.set(1, shaftLength, 1);
+  head.position.y = shaftLength;
+  arrowGroup.position.copy(from);
+  arrowGroup.quaternion.setFromUnitVectors(UP, scratchC.copy(along).divideScalar(length));
+}
+
+/** One figure in the scene. */
+class Actor {
+  readonly group = new THREE.Group();
+  readonly solid: Solid;
+  private readonly ghost: Solid;
+  private readonly effort: Effort;
+  private readonly crate: THREE.Group;
+  private readonly weights: THREE.Mesh[] = [];
+  private readonly polygon = new THREE.Mesh(
+    new THREE.BufferGeometry(),
+    new THREE.MeshBasicMaterial({ color: HUES.support, transparent: true, opacity: 0.35, depthWrite: false, side: THREE.DoubleSide }),
+  );
+  private readonly outline = new THREE.LineLoop(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: HUES.support }));
+  private readonly com = new THREE.Mesh(comShape, new THREE.MeshBasicMaterial({ color: HUES.com }));
+  private readonly plumb = new THREE.Line(new THREE.BufferGeometry().setFromPoints([new THREE.Vector3(), new THREE.Vector3()]), new THREE.LineBasicMaterial({ color: HUES.com, transparent: true, opacity: 0.6 }));
+  private readonly zmp = new THREE.Mesh(zmpShape, new THREE.MeshBasicMaterial({ color: HUES.zmp, side: THREE.DoubleSide }));
+  private readonly arrows: THREE.Group[] = [];
+  private readonly hands: [number, number];
+
+  constructor(readonly person: Person, look: (typeof LOOKS)["light"]) {
+    const geometry = surface(person);
+    const count = person.body.segments.length;
+    const { material, effort } = effortMaterial(look.body);
+    this.effort = effort;
+    this.solid = new Solid(geometry, material, count);
+    this.solid.mesh.castShadow = true;
+    this.solid.mesh.receiveShadow = true;
+    this.solid.mesh.userData.person = person;
+    this.ghost = new Solid(
+      geometry,
+      new THREE.MeshBasicMaterial({ color: look.ghost, transparent: true, opacity: 0.2, depthWrite: false }),
+      count,
+    );
+    this.ghost.mesh.renderOrder = 2;
+    this.hands = [person.segment("l_hand"), person.segment("r_hand")];
+    this.crate = makeCrate();
+    for (let i = 0; i < MOST_WEIGHTS; i++) {
+      const weight = new THREE.Mesh(weightShape, weightMaterial);
+      weight.castShadow = true;
+      this.weights.push(weight);
+    }
+    this.polygon.renderOrder = 1;
+    this.com.renderOrder = 4;
+    (this.com.material as THREE.Material).depthTest = false;
+    for (let i = 0; i < MOST_ARROWS; i++) this.arrows.push(arrow(HUES.force));
+    this.group.add(this.solid.mesh, this.ghost.mesh, this.crate, ...this.weights, this.polygon, this.outline, this.com, this.plumb, this.zmp, ...this.arrows);
+    this.group.traverse((o) => {
+      if (o instanceof THREE.Mesh || o instanceof THREE.Line) o.frustumCulled = false;
+    });
+  }
+
+  repaint(look: (typeof LOOKS)["light"]): void {
+    (this.solid.mesh.material as THREE.MeshStandardMaterial).color.set(look.body);
+    (this.ghost.mesh.material as THREE.MeshBasicMaterial).color.set(look.ghost);
+  }
+
+  update(before: FigureFrame, after: FigureFrame, share: number, shown: Shown, chosen: boolean): void {
+    const to = numbers(after.segmentTransforms);
+    if (to.length !== this.solid.poses.length) return;
+    mixPoses(numbers(before.segmentTransforms), to, share, this.solid.poses);
+    this.solid.place();
+    this.tint(shown.effort, chosen);
+    this.showGhost(before, after, share, shown.ghost);
+    this.showLoads(after);
+    this.showSupport(after, shown.support);
+    this.showForces(after, shown.forces);
+  }
+
+  private tint(shown: boolean, chosen: boolean): void {
+    const { used, atLimit } = this.effort;
+    used.value.fill(0);
+    atLimit.value.fill(0);
+    this.person.body.dofs.forEach((d, i) => {
+      used.value[d.joint] = Math.max(used.value[d.joint], this.person.used[i]);
+      if (!Number.isNaN(this.person.limitSince[i])) atLimit.value[d.joint] = 1;
+    });
+    this.effort.shown.value = shown ? 1 : 0;
+    this.effort.chosen.value = chosen ? 1 : 0;
+  }
+
+  private readonly wanted = [new Float32Array(POSE * MOST_SEGMENTS), new Float32Array(POSE * MOST_SEGMENTS)];
+
+  private showGhost(before: FigureFrame, after: FigureFrame, share: number, shown: boolean): void {
+    const [a, b] = [before.desired ?? after.desired, after.desired];
+    const rotations = numbers(b?.jointRotations);
+    this.ghost.mesh.visible = shown && rotations.length === 4 * (this.person.body.segments.length - 1);
+    if (!this.ghost.mesh.visible || !a || !b) return;
+    forward(this.person.body, numbers(a.rootPose), numbers(a.jointRotations), this.wanted[0]);
+    forward(this.person.body, numbers(b.rootPose), rotations, this.wanted[1]);
+    mixPoses(this.wanted[0], this.wanted[1], share, this.ghost.poses);
+    // Where both are the same there is nothing to show.
+    let off = 0;
+    for (let i = 0; i < this.ghost.poses.length; i += POSE)
+      for (let k = 0; k < 3; k++) off = Math.max(off, Math.abs(this.ghost.poses[i + k] - this.solid.poses[i + k]));
+    (this.ghost.mesh.material as THREE.Material).opacity = 0.1 + 0.22 * Math.min(1, off / 0.08);
+    this.ghost.place();
+  }
+
+  private showLoads(frame: FigureFrame): void {
+    const loads = frame.status?.loads ?? [];
+    const place = (i: number, out: THREE.Vector3): THREE.Vector3 => {
+      const { segment, pointM: p } = loads[i];
+      const o = segment * POSE;
+      scratchQ.fromArray(this.solid.poses, o + 3);
+      return out.set(p?.x ?? 0, p?.y ?? 0, p?.z ?? 0).applyQuaternion(scratchQ).add(scratchC.fromArray(this.solid.poses, o));
+    };
+    const [l, r] = this.hands.map((hand) => loads.findIndex((x) => x.segment === hand));
+    const crate = l >= 0 && r >= 0 && loads.length === 2 && this.person.holdsCrate();
+    this.crate.visible = crate;
+    this.weights.forEach((weight, i) => {
+      weight.visible = !crate && i < loads.length && loads[i].massKg > 0;
+      if (!weight.visible) return;
+      place(i, weight.position);
+      weight.scale.setScalar(Math.cbrt(loads[i].massKg / IRON));
+    });
+    if (!crate) return;
+    const left = place(l, scratchA);
+    const right = place(r, scratchB);
+    this.crate.position.copy(left).add(right).multiplyScalar(0.5);
+    const across = left.clone().sub(right);
+    const width = across.length();
+    across.divideScalar(width || 1);
+    const up = new THREE.Vector3(0, 0, 1).addScaledVector(across, -across.z);
+    if (up.lengthSq() < 0.01) up.set(1, 0, 0).addScaledVector(across, -across.x);
+    up.normalize();
+    this.crate.quaternion.setFromRotationMatrix(new THREE.Matrix4().makeBasis(new THREE.Vector3().crossVectors(across, up), across, up));
+    this.crate.scale.set(1, Math.max(0.4, (width - 0.06) / CRATE[1]), 1);
+  }
+
+  private showSupport(frame: FigureFrame, shown: boolean): void {
+    const balance = frame.balance;
+    const corners = numbers(balance?.polygon);
+    const zmp = numbers(balance?.zmp);
+    const com = numbers(balance?.com);
+    this.polygon.visible = this.outline.visible = shown && corners.length >= 6;
+    if (this.polygon.visible) {
+      const count = corners.length / 2;
+      const position = new Float32Array(3 * count);
+      const index: number[] = [];
+      for (let i = 0; i < count; i++) {
+        position.set([corners[2 * i], corners[2 * i + 1], 0.004], 3 * i);
+        if (i >= 2) index.push(0, i - 1, i);
+      }
+      for (const shape of [this.polygon, this.outline]) {
+        const kept = shape.geometry.getAttribute("position") as THREE.BufferAttribute | undefined;
+        if (kept?.count === count) {
+          kept.array.set(position);
+          kept.needsUpdate = true;
+        } else {
+          shape.geometry.dispose();
+          shape.geometry = new THREE.BufferGeometry();
+          shape.geometry.setAttribute("position", new THREE.BufferAttribute(position.slice(), 3));
+          if (shape === this.polygon) shape.geometry.setIndex(index);
+        }
+      }
+    }
+    this.zmp.visible = shown && zmp.length === 3;
+    if (this.zmp.visible) this.zmp.position.set(zmp[0], zmp[1], 0.008);
+    this.com.visible = this.plumb.visible = shown && com.length === 3;
+    if (this.com.visible) {
+      this.com.position.set(com[0], com[1], com[2]);
+      const line = this.plumb.geometry.getAttribute("position") as THREE.BufferAttribute;
+      line.setXYZ(0, com[0], com[1], com[2]);
+      line.setXYZ(1, com[0], com[1], 0.005);
+      line.needsUpdate = true;
+    }
+  }
+
+  private showForces(frame: FigureFrame, shown: boolean): void {
+    // One arrow per segment that touches: the sum, at its centre of pressure.
+    const position = numbers(frame.contacts?.position);
+    const force = numbers(frame.contacts?.force);
+    const sums = new Map<number, { force: THREE.Vector3; place: THREE.Vector3; weight: number }>();
+    frame.contacts?.segment.forEach((segment, i) => {
+      let sum = sums.get(segment);
+      if (!sum) sums.set(segment, (sum = { force: new THREE.Vector3(), place: new THREE.Vector3(), weight: 0 }));
+      scratchB.fromArray(force as number[], 3 * i);
+      const weight = scratchB.length();
+      sum.force.add(scratchB);
+      sum.place.addScaledVector(scratchA.fromArray(position as number[], 3 * i), weight);
+      sum.weight += weight;
+    });
+    const all = shown ? [...sums.values()].filter((x) => x.weight > 1) : [];
+    this.arrows.forEach((a, i) => {
+      const sum = all[i];
+      if (sum) point(a, sum.place.divideScalar(sum.weight), sum.force.multiplyScalar(METRES_PER_NEWTON));
+      else a.visible = false;
+    });
+  }
+
+  /** Above the head, world. */
+  top(out: THREE.Vector3): THREE.Vector3 {
+    const head = Math.max(0, this.person.segment("head"));
+    const o = head * POSE;
+    return out.set(this.solid.poses[o], this.solid.poses[o + 1], this.solid.poses[o + 2] + 0.3);
+  }
+
+  dispose(): void {
+    this.solid.mesh.geometry.dispose();
+    this.solid.dispose();
+    this.ghost.dispose();
+  }
+}
+
+/** Mass of a ball of iron of 1 m radius, kg: loads that are no crate are drawn as iron balls. */
+const IRON = 32_000;
+const MOST_WEIGHTS = 8;
+const weightShape = new THREE.SphereGeometry(1, 24, 16);
+const weightMaterial = new THREE.MeshStandardMaterial({ color: 0x3a434a, roughness: 0.45, metalness: 0.3 });
+const comShape = new THREE.SphereGeometry(0.028, 16, 12);
+const zmpShape = new THREE.RingGeometry(0.022, 0.04, 24);
+
+function makeCrate(): THREE.Group {
+  const group = new THREE.Group();
+  const box = new THREE.Mesh(new THREE.BoxGeometry(...CRATE), new THREE.MeshStandardMaterial({ color: 0xb98b54, roughness: 0.8 }));
+  box.castShadow = true;
+  box.receiveShadow = true;
+  const slat = new THREE.MeshStandardMaterial({ color: 0x8a6336, roughness: 0.8 });
+  group.add(box);
+  for (const z of [-0.5, 0.5])
+    for (const x of [-0.5, 0.5]) {
+      const edge = new THREE.Mesh(new THREE.BoxGeometry(0.03, CRATE[1] * 1.02, 0.03), slat);
+      edge.position.set(x * CRATE[0], 0, z * CRATE[2]);
+      edge.castShadow = true;
+      group.add(edge);
+    }
+  return group;
+}
+
+/** A push being drawn. */
+export interface Push {
+  person: Person;
+  segment: string;
+  /** Where, segment frame, m. */
+  local: THREE.Vector3;
+  /** World, N·s. */
+  impulse: THREE.Vector3;
+}
+
+/** Impulse per metre drawn, N·s. */
+const IMPULSE_PER_METRE = 80;
+const MOST_IMPULSE = 200;
+/** Metres drawn below which a press only chooses. */
+const LEAST_DRAWN = 0.04;
+
+export class Scene {
+  private readonly renderer: THREE.WebGLRenderer;
+  private readonly scene = new THREE.Scene();
+  readonly camera = new THREE.PerspectiveCamera(36, 1, 0.05, 200);
+  private readonly orbit: OrbitControls;
+  private readonly actors = new Map<number, Actor>();
+  private readonly sun = new THREE.DirectionalLight(0xffffff, 2.4);
+  private readonly fill = new THREE.HemisphereLight(0xffffff, 0x8a949c, 1.4);
+  private readonly ground: THREE.Mesh<THREE.PlaneGeometry, THREE.MeshStandardMaterial>;
+  private readonly pushArrow = arrow(HUES.push);
+  private look = LOOKS.light;
+  private push: { from: THREE.Vector3; plane: THREE.Plane; drawn: Push } | undefined;
+  private readonly ray = new THREE.Raycaster();
+  private moved = false;
+  /** Frames drawn. */
+  drawn = 0;
+
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly on: { choose: (person: Person | undefined) => void; pushing: (push: Push | undefined, x: number, y: number) => void; push: (push: Push) => void },
+  ) {
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = THREE.PCFShadowMap;
+    this.renderer.toneMapping = THREE.NeutralToneMapping;
+    this.camera.up.set(0, 0, 1);
+    this.camera.position.set(4.4, -2.7, 1.9);
+    this.orbit = new OrbitControls(this.camera, canvas);
+    this.orbit.target.set(0.15, 0, 0.85);
+    this.orbit.maxPolarAngle = Math.PI * 0.495;
+    this.orbit.minDistance = 0.8;
+    this.orbit.maxDistance = 40;
+    this.orbit.enableDamping = true;
+    this.orbit.dampingFactor = 0.12;
+    this.orbit.addEventListener("start", () => (this.moved = true));
+    this.sun.castShadow = true;
+    this.sun.shadow.mapSize.set(2048, 2048);
+    this.sun.shadow.radius = 5;
+    this.sun.shadow.bias = -0.0004;
+    this.sun.shadow.normalBias = 0.015;
+    this.ground = new THREE.Mesh(new THREE.PlaneGeometry(160, 160), new THREE.MeshStandardMaterial({ roughness: 1 }));
+    this.ground.receiveShadow = true;
+    this.scene.add(this.sun, this.sun.target, this.fill, this.ground, this.pushArrow);
+    canvas.addEventListener("pointerdown", (e) => this.press(e), { capture: true });
+    canvas.addEventListener("pointermove", (e) => this.draw(e));
+    canvas.addEventListener("pointerup", () => this.release(true));
+    canvas.addEventListener("pointercancel", () => this.release(false));
+    new ResizeObserver(() => this.resize()).observe(canvas.parentElement ?? canvas);
+    this.resize();
+  }
+
+  private resize(): void {
+    const { clientWidth: w, clientHeight: h } = this.canvas.parentElement ?? this.canvas;
+    if (!w || !h) return;
+    this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
+    this.renderer.setSize(w, h, false);
+    this.camera.aspect = w / h;
+    this.camera.updateProjectionMatrix();
+    if (!this.moved) this.frameAll();
+  }
+
+  theme(dark: boolean): void {
+    this.look = dark ? LOOKS.dark : LOOKS.light;
+    this.scene.background = new THREE.Color(this.look.sky);
+    this.scene.fog = new THREE.Fog(this.look.sky, 14, 48);
+    this.sun.intensity = this.look.sun;
+    this.fill.intensity = this.look.fill;
+    const tile = document.createElement("canvas");
+    tile.width = tile.height = 256;
+    const ink = tile.getContext("2d");
+    if (ink) {
+      ink.fillStyle = "#" + new THREE.Color(this.look.ground).getHexString();
+      ink.fillRect(0, 0, 256, 256);
+      ink.strokeStyle = this.look.line;
+      ink.lineWidth = 2;
+      ink.strokeRect(0, 0, 256, 256);
+    }
+    const texture = new THREE.CanvasTexture(tile);
+    texture.wrapS = texture.wrapT = THREE.RepeatWrapping;
+    texture.repeat.set(160, 160);
+    texture.anisotropy = 8;
+    texture.colorSpace = THREE.SRGBColorSpace;
+    this.ground.material.map?.dispose();
+    this.ground.material.map = texture;
+    this.ground.material.needsUpdate = true;
+    for (const a of this.actors.values()) a.repaint(this.look);
+  }
+
+  /** Shows these people and no others. */
+  populate(people: Iterable<Person>): void {
+    const wanted = new Map([...people].map((p) => [p.index, p]));
+    for (const [index, actor] of this.actors) {
+      if (wanted.get(index) === actor.person) continue;
+      this.scene.remove(actor.group);
+      actor.dispose();
+      this.actors.delete(index);
+    }
+    for (const [index, person] of wanted) {
+      if (this.actors.has(index)) continue;
+      const actor = new Actor(person, this.look);
+      this.actors.set(index, actor);
+      this.scene.add(actor.group);
+    }
+    if (!this.moved) this.frameAll();
+  }
+
+  /** Puts the camera where everyone is seen. */
+  frameAll(): void {
+    const box = new THREE.Box3();
+    for (const a of this.actors.values()) {
+      const place = a.person.figure.placement;
+      const x = a.solid.poses[0] || place?.xM || 0;
+      const y = a.solid.poses[1] || place?.yM || 0;
+      box.expandByPoint(scratchA.set(x - 0.3, y - 0.45, 0));
+      box.expandByPoint(scratchA.set(x + 0.75, y + 0.45, 1.8));
+    }
+    if (box.isEmpty()) return;
+    const sphere = box.getBoundingSphere(new THREE.Sphere());
+    const angle = THREE.MathUtils.degToRad(this.camera.fov / 2);
+    const narrow = Math.min(angle, Math.atan(Math.tan(angle) * this.camera.aspect));
+    const distance = (sphere.radius * 0.85) / Math.sin(narrow);
+    this.orbit.target.copy(sphere.center).setZ(0.86);
+    this.camera.position.copy(this.orbit.target).addScaledVector(scratchA.set(0.9, -0.36, 0.2).normalize(), distance);
+    this.orbit.update();
+  }
+
+  /** As `frameAll`, unless the camera was moved by hand. */
+  frameAllOnce(): void {
+    if (!this.moved) this.frameAll();
+  }
+
+  recentre(): void {
+    this.moved = false;
+    this.frameAll();
+  }
+
+  /** Turns (rad) and nears (factor) the camera, for keys. */
+  turn(sideways: number, upward: number, nearer: number): void {
+    this.moved = true;
+    const offset = this.camera.position.clone().sub(this.orbit.target);
+    offset.applyAxisAngle(scratchA.set(0, 0, 1), sideways);
+    const axis = scratchA.set(-offset.y, offset.x, 0).normalize();
+    const lifted = offset.clone().applyAxisAngle(axis, -upward);
+    if (lifted.z > 0.1 && lifted.z / lifted.length() < 0.995) offset.copy(lifted);
+    offset.setLength(THREE.MathUtils.clamp(offset.length() * nearer, this.orbit.minDistance, this.orbit.maxDistance));
+    this.camera.position.copy(this.orbit.target).add(offset);
+  }
+
+  /** Camera as six numbers for the address. */
+  get place(): number[] | undefined {
+    return this.moved ? [...this.camera.position.toArray(), ...this.orbit.target.toArray()].map((v) => Number(v.toFixed(2))) : undefined;
+  }
+
+  set place(six: number[] | undefined) {
+    if (six?.length !== 6 || !six.every(Number.isFinite)) return;
+    this.moved = true;
+    this.camera.position.fromArray(six);
+    this.orbit.target.fromArray(six, 3);
+    this.orbit.update();
+  }
+
+  /** Puts everything where one picture has it. */
+  prepare(frames: { before: Map<number, FigureFrame>; after: Map<number, FigureFrame>; share: number } | undefined, shown: Shown, chosen: Person | undefined): void {
+    const centre = scratchB.set(0, 0, 0);
+    let reach = 2;
+    if (frames) {
+      for (const [index, actor] of this.actors) {
+        const after = frames.after.get(index);
+        actor.group.visible = !!after;
+        if (after) actor.update(frames.before.get(index) ?? after, after, frames.share, shown, actor.person === chosen);
+      }
+    }
+    const box = new THREE.Box3();
+    for (const a of this.actors.values()) box.expandByPoint(scratchA.fromArray(a.solid.poses));
+    if (!box.isEmpty()) {
+      box.getCenter(centre);
+      reach = Math.max(2, box.getSize(scratchA).length() / 2 + 1.6);
+    }
+    this.sun.target.position.set(centre.x, centre.y, 0);
+    this.sun.position.set(centre.x + 6 + reach, centre.y - 7 - reach, 8 + reach);
+    const c = this.sun.shadow.camera;
+    if (Math.abs(c.right - reach) > 0.2) {
+      c.left = c.bottom = -reach;
+      c.right = c.top = reach;
+      c.far = 30 + 3 * reach;
+      c.updateProjectionMatrix();
+    }
+    this.orbit.update();
+  }
+
+  /** Draws what `prepare` made. */
+  draw3d(): void {
+    this.renderer.render(this.scene, this.camera);
+    this.drawn++;
+  }
+
+  /** Pixel above a figure's head, or nothing when it is behind the camera. */
+  label(person: Person): { x: number; y: number } | undefined {
+    const actor = this.actors.get(person.index);
+    if (!actor) return undefined;
+    const p = actor.top(scratchA).project(this.camera);
+    if (p.z > 1 || Math.abs(p.x) > 1 || Math.abs(p.y) > 1) return undefined;
+    return { x: ((p.x + 1) / 2) * this.canvas.clientWidth, y: ((1 - p.y) / 2) * this.canvas.clientHeight };
+  }
+
+  private aim(e: PointerEvent): void {
+    const box = this.canvas.getBoundingClientRect();
+    this.ray.setFromCamera(new THREE.Vector2(((e.clientX - box.left) / box.width) * 2 - 1, 1 - ((e.clientY - box.top) / box.height) * 2), this.camera);
+  }
+
+  private press(e: PointerEvent): void {
+    if (e.button !== 0 || !e.isPrimary) return;
+    this.aim(e);
+    const solids = [...this.actors.values()].filter((a) => a.group.visible).map((a) => a.solid.mesh);
+    for (const m of solids) m.boundingSphere = new THREE.Sphere(new THREE.Vector3(), 1e4);
+    const hit = this.ray.intersectObjects(solids, false)[0];
+    if (!hit?.face) return;
+    const person = hit.object.userData.person as Person;
+    const segment = (hit.object as THREE.Mesh).geometry.getAttribute("segment").getX(hit.face.a);
+    const actor = this.actors.get(person.index);
+    if (!actor) return;
+    const o = segment * POSE;
+    const local = hit.point.clone().sub(scratchA.fromArray(actor.solid.poses, o));
+    local.applyQuaternion(scratchQ.fromArray(actor.solid.poses, o + 3).conjugate());
+    const normal = this.camera.getWorldDirection(new THREE.Vector3());
+    this.push = {
+      from: hit.point.clone(),
+      plane: new THREE.Plane().setFromNormalAndCoplanarPoint(normal, hit.point),
+      drawn: { person, segment: person.body.segments[segment].name, local, impulse: new THREE.Vector3() },
+    };
+    this.orbit.enabled = false;
+    this.canvas.setPointerCapture(e.pointerId);
+    this.on.choose(person);
+  }
+
+  private draw(e: PointerEvent): void {
+    if (!this.push) return;
+    this.aim(e);
+    const to = this.ray.ray.intersectPlane(this.push.plane, scratchA);
+    if (!to) return;
+    const along = to.clone().sub(this.push.from);
+    const size = along.length();
+    if (size > MOST_IMPULSE / IMPULSE_PER_METRE) along.setLength(MOST_IMPULSE / IMPULSE_PER_METRE);
+    this.push.drawn.impulse.copy(along).multiplyScalar(size < LEAST_DRAWN ? 0 : IMPULSE_PER_METRE);
+    point(this.pushArrow, this.push.from, along);
+    const box = this.canvas.getBoundingClientRect();
+    this.on.pushing(this.push.drawn, e.clientX - box.left, e.clientY - box.top);
+  }
+
+  /** Ends the push that is being drawn. */
+  release(apply: boolean): void {
+    const push = this.push;
+    this.push = undefined;
+    this.orbit.enabled = true;
+    this.pushArrow.visible = false;
+    if (!push) return;
+    this.on.pushing(undefined, 0, 0);
+    if (apply && push.drawn.impulse.lengthSq() > 0) this.on.push(push.drawn);
+  }
+}

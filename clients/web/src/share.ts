@@ -1,0 +1,143 @@
+// A scene as an address, as Python and as a command line.
+import { Controller, Stepper, type Figure } from "./gen/sinew/v1/figure_pb.js";
+import type { Clip } from "./gen/sinew/v1/motion_pb.js";
+import type { Person } from "./model.js";
+
+/** What an address says. */
+export interface Address {
+  world: string;
+  figure: string;
+  load: number | undefined;
+  hide: string[];
+  camera: number[] | undefined;
+  figures: Cast[];
+}
+
+/** One figure of an address. */
+export interface Cast {
+  id: string;
+  body: string;
+  controller: string;
+  strength: number;
+  clip: string;
+  x: number;
+  y: number;
+  /** Empty: the usual one. */
+  stepper: string;
+  assist: number;
+}
+
+const id = (name: string): string => name.split("/").at(-1) ?? name;
+const controllerName = (c: Controller): string => (Controller[c] ?? "MODERN").toLowerCase();
+const strengthOf = (f: Figure): number => f.strength?.all || 1;
+const rounded = (v: number): number => Number(v.toFixed(3));
+
+/** A figure as an address keeps it. */
+export function cast(p: Person): Cast {
+  const f = p.figure;
+  return {
+    id: p.name,
+    body: id(p.body.name),
+    controller: controllerName(f.controller),
+    strength: rounded(strengthOf(f)),
+    clip: id(f.clip),
+    x: rounded(f.placement?.xM ?? 0),
+    y: rounded(f.placement?.yM ?? 0),
+    stepper: f.stepper === Stepper.KINEMATIC ? "kinematic" : "",
+    assist: rounded(f.assist),
+  };
+}
+
+export function write(a: Address): string {
+  const q = new URLSearchParams();
+  if (a.world) q.set("world", a.world);
+  if (a.figure) q.set("figure", a.figure);
+  if (a.load !== undefined) q.set("load", String(a.load));
+  if (a.hide.length) q.set("hide", a.hide.join("."));
+  if (a.camera) q.set("camera", a.camera.join("_"));
+  for (const c of a.figures) q.append("f", [c.id, c.body, c.controller, c.strength, c.clip, c.x, c.y, c.stepper, c.assist || ""].join("~").replace(/~+$/, ""));
+  return q.toString();
+}
+
+const NAME = /^[a-z][a-z0-9-]{0,62}$/;
+
+export function read(text: string): Address {
+  const q = new URLSearchParams(text.replace(/^#/, ""));
+  const name = (key: string): string => {
+    const value = q.get(key) ?? "";
+    return NAME.test(value) ? value : "";
+  };
+  const load = q.has("load") ? Number(q.get("load")) : undefined;
+  const camera = q.get("camera")?.split("_").map(Number);
+  const figures = q.getAll("f").slice(0, 64).flatMap((text): Cast[] => {
+    const [id, body, controller, strength, clip, x, y, stepper, assist] = text.split("~");
+    const [s, px, py, help] = [Number(strength), Number(x), Number(y), Number(assist || 0)];
+    if (!NAME.test(id) || !body || ![s, px, py, help].every(Number.isFinite)) return [];
+    return [{ id, body, controller: controller ?? "", strength: s, clip: clip ?? "", x: px, y: py, stepper: stepper ?? "", assist: help }];
+  });
+  return {
+    world: name("world"),
+    figure: name("figure"),
+    load: load !== undefined && load >= 0 && load <= 20 ? load : undefined,
+    hide: (q.get("hide") ?? "").split(".").filter(Boolean),
+    camera: camera?.every(Number.isFinite) ? camera : undefined,
+    figures,
+  };
+}
+
+/** Controller of a word of an address; the default when it is none. */
+export function controllerOf(word: string): Controller {
+  const value = (Controller as unknown as Record<string, number | string>)[word.toUpperCase()];
+  return typeof value === "number" ? value : Controller.UNSPECIFIED;
+}
+
+/** Stepper of a word of an address; the default when it is none. */
+export function stepperOf(word: string): Stepper {
+  return word === "kinematic" ? Stepper.KINEMATIC : Stepper.UNSPECIFIED;
+}
+
+/** `adult-man` or `female-25y-1680mm-61500g` as arguments of the command line. */
+function bodyArguments(body: string): string {
+  const [, sex, age, height, mass] = /^(male|female)-([\d.]+)y-(\d+)mm-(\d+)g$/.exec(body) ?? [];
+  if (!sex) return `--body ${body.replace(/^adult-/, "")}`;
+  return `--body ${sex === "male" ? "man" : "woman"} --age ${age} --height ${Number(height) / 1000} --mass ${Number(mass) / 1000}`;
+}
+
+/** The motion as the command line names it: a built-in one, or the file that was dropped here. */
+function motionArgument(clip: string, clips: Clip[]): string {
+  const known = clips.find((c) => id(c.name) === clip);
+  if (!clip || !known || known.builtin) return `builtin:${clip || "idle"}`;
+  const file = known.displayName || `${clip}.bvh`;
+  return /^[\w.-]+$/.test(file) ? file : `'${file.replaceAll("'", "'\\''")}'`;
+}
+
+/** The command line that runs one figure of the scene. */
+export function asCommand(p: Person, clips: Clip[]): string {
+  const c = cast(p);
+  const parts = [`sinew run ${motionArgument(c.clip, clips)} ${bodyArguments(c.body)} --controller ${c.controller}`];
+  if (c.stepper) parts.push(`--stepper ${c.stepper}`);
+  if (c.strength !== 1) parts.push(`--strength ${c.strength}`);
+  if (c.assist) parts.push(`--assist ${c.assist}`);
+  for (const l of p.loads()) parts.push(`--load ${rounded(l.massKg)}@${l.segments.join("+")}`);
+  return parts.join(" ");
+}
+
+/** The Python script that makes the scene in a new world and plots the torques of one figure. */
+export function asPython(address: string, people: Person[], chosen: Person | undefined, clips: Clip[]): string {
+  const text = JSON.stringify;
+  const lines = ["import sinew", "", `with sinew.Client(${text(address)}) as client, client.create_world(paused=True) as world:`];
+  for (const p of people) {
+    const c = cast(p);
+    const name = c.id.replaceAll("-", "_");
+    const settings = [`body=${text(c.body)}`, `controller=${text(c.controller)}`, `position=(${c.x}, ${c.y})`];
+    if (c.strength !== 1) settings.push(`strength=${c.strength}`);
+    if (c.assist) settings.push(`assist=${c.assist}`);
+    lines.push(`    ${name} = world.add_figure(${text(c.id)}, ${settings.join(", ")})`);
+    if (c.clip) lines.push(`    ${name}.play(${text(c.clip)}, loop=True, reset=True, position=(${c.x}, ${c.y}))`);
+    for (const l of p.loads()) lines.push(`    ${name}.carry(${[rounded(l.massKg), ...l.segments.map((s) => text(s))].join(", ")})`);
+  }
+  const longest = Math.max(4, ...people.map((p) => clips.find((k) => k.name === p.figure.clip)?.durationS ?? 0));
+  lines.push(`    recordings = world.record(${Math.min(60, Math.ceil(longest))}.0)`);
+  if (chosen) lines.push("", `recordings[${text(chosen.name)}].plot_torques().savefig("torques.png")`);
+  return lines.join("\n") + "\n";
+}

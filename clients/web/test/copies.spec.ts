@@ -1,0 +1,38 @@
+// What can be copied from the page does what the page shows.
+import { execFile } from "node:child_process";
+import { promisify } from "node:util";
+import { expect, live, program, test } from "./support.js";
+
+const run = promisify(execFile);
+
+test("copies reproduce the scene", async ({ page, server, context }) => {
+  await server.start();
+  await context.grantPermissions(["clipboard-read", "clipboard-write"], { origin: server.url.slice(0, -1) });
+  await live(page, server.url);
+  const copied = (): Promise<string> => page.evaluate(() => navigator.clipboard.readText());
+  await page.locator("#load-slider").fill("6");
+  await expect(page.locator("#summary")).toContainText("Carries 6 kg");
+  await page.locator("#assist").fill("0.5");
+  await expect(page.locator("#assist")).toHaveValue("0.5");
+  await expect.poll(() => page.url()).toContain("0.5");
+
+  await page.locator("#copy-cli").click();
+  await expect.poll(copied).toBe("sinew run builtin:crate --body man --controller modern --assist 0.5 --load 6@l_hand+r_hand");
+  const [, ...words] = (await copied()).split(" ");
+  const { stdout } = await run(program, [...words, "--duration", "0.5"]);
+  expect(stdout).not.toBe("");
+
+  await page.locator("#copy-python").click();
+  await expect.poll(copied).toContain(`sinew.Client("${server.address}")`);
+  const script = await copied();
+  expect(script).toContain('man.carry(6, "l_hand", "r_hand")');
+  await run("python3", ["-c", "import ast, sys; ast.parse(sys.argv[1])", script]);
+  console.log(script);
+
+  await page.locator("#copy-link").click();
+  await expect.poll(copied).toContain(`${server.url}#`);
+  const link = await copied();
+  await page.goto("about:blank");
+  await page.goto(link);
+  await expect(page.locator("#summary")).toContainText("Carries 6 kg");
+});

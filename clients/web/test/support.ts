@@ -1,0 +1,93 @@
+// A server of its own for each test, and what tests ask of the page.
+import { test as base, expect, type Page } from "@playwright/test";
+import { spawn, type ChildProcess } from "node:child_process";
+import { mkdirSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const root = join(here, "../../..");
+export const program = process.env.SINEW_BIN ?? join(root, "target/debug/sinew");
+/** Where screenshots are kept, to be looked at. */
+export const SHOTS = join(here, "../shots");
+mkdirSync(SHOTS, { recursive: true });
+
+export class Server {
+  address = "";
+  private process: ChildProcess | undefined;
+
+  async start(...args: string[]): Promise<void> {
+    const port = this.address ? this.address.split(":")[1] : "0";
+    const child = spawn(program, ["serve", "--listen", `127.0.0.1:${port}`, "--log", "warn", ...args], { stdio: ["ignore", "pipe", "inherit"] });
+    this.process = child;
+    this.address = await new Promise<string>((done, failed) => {
+      let said = "";
+      child.stdout.on("data", (text) => {
+        said += String(text);
+        const found = /http:\/\/(127\.0\.0\.1:\d+)/.exec(said);
+        if (found) done(found[1]);
+      });
+      child.on("exit", (code) => failed(new Error(`the server ended with ${code}: ${said}`)));
+    });
+  }
+
+  async stop(): Promise<void> {
+    const child = this.process;
+    this.process = undefined;
+    if (!child || child.exitCode !== null) return;
+    const ended = new Promise((done) => child.once("exit", done));
+    child.kill("SIGTERM");
+    await ended;
+  }
+
+  get url(): string {
+    return `http://${this.address}/`;
+  }
+}
+
+/** Serves the page from this folder instead of from the server: for work on the page without building the server anew. */
+const pageFolder = process.env.SINEW_PAGE;
+
+/** Every request that leaves for another host, and every error of the page, fails the test. */
+export const test = base.extend<{ server: Server }>({
+  server: async ({ page, context }, use) => {
+    const server = new Server();
+    if (pageFolder)
+      for (const name of ["viewer.js", "viewer.css"]) await context.route(`**/${name}`, (r) => r.fulfill({ path: join(pageFolder, name), headers: { "content-type": name.endsWith("js") ? "text/javascript" : "text/css" } }));
+    const foreign: string[] = [];
+    const errors: string[] = [];
+    context.on("request", (r) => {
+      const url = new URL(r.url());
+      if (!["data:", "blob:"].includes(url.protocol) && url.host !== server.address) foreign.push(r.url());
+    });
+    page.on("pageerror", (e) => errors.push(e.stack ?? e.message));
+    page.on("console", (m) => {
+      if (m.type() === "error" && /Content Security Policy|WebGL|THREE/.test(m.text())) errors.push(m.text());
+    });
+    await use(server);
+    await server.stop();
+    expect(foreign, "requests to other hosts").toEqual([]);
+    expect(errors, "errors of the page").toEqual([]);
+  },
+});
+export { expect };
+
+export async function live(page: Page, url: string): Promise<void> {
+  await page.goto(url);
+  await expect(page.locator("body")).toHaveAttribute("data-phase", "live");
+  await expect.poll(async () => Number(await page.locator("body").getAttribute("data-drawn"))).toBeGreaterThan(2);
+}
+
+export async function shot(page: Page, name: string): Promise<void> {
+  await page.screenshot({ path: join(SHOTS, `${name}.png`) });
+}
+
+/** How far the chosen figure is from the desired motion, degrees, as the summary says. */
+export async function off(page: Page): Promise<number> {
+  const text = await page.locator("#summary").innerText();
+  return Number(/by ([\d.]+)°/.exec(text)?.[1]);
+}
+
+/** A call over gRPC-Web from the test's own side. */
+export { Sinew } from "../src/client.js";
+export const mocap = process.env.SINEW_MOCAP_DIR ?? join(root, "../shared/mocap");

@@ -1,0 +1,85 @@
+//! The demo world: people of different build lift the same crate.
+
+use super::BoxError;
+use super::api::App;
+use super::tick::command::Origin;
+use crate::wire::convert;
+use crate::wire::pb;
+use crate::wire::types::{Place, Playback};
+use std::sync::Arc;
+
+/// The built-in motion that everyone plays.
+const MOTION: &str = "crate";
+/// What the crate weighs at first, kg: everyone can lift it.
+const CRATE_KG: f64 = 4.0;
+/// Name, body and place to the left, m.
+const PEOPLE: [(&str, &str, f64); 3] = [
+    ("man", "adult-man", 1.25),
+    ("woman", "adult-woman", 0.0),
+    ("child", "child", -1.15),
+];
+
+/// Creates the world `demo` and returns who is in it: those of the man, the woman and the child that this build has bodies for.
+///
+/// # Errors
+/// The world is there already, or a limit of the configuration is too small for it.
+pub async fn create(app: &Arc<App>) -> Result<Vec<&'static str>, BoxError> {
+    let world = app
+        .worlds
+        .create(Some("demo".into()), convert::world::settings(None)?, false)?;
+    let mut present = Vec::new();
+    for (name, body, y) in PEOPLE {
+        if convert::body::by_id(body).is_none() {
+            continue;
+        }
+        let settings = convert::figure::settings(
+            "figure",
+            Some(&pb::Figure {
+                body: format!("bodies/{body}"),
+                controller: pb::Controller::Modern.into(),
+                placement: Some(pb::Placement {
+                    y_m: y,
+                    ..Default::default()
+                }),
+                ..Default::default()
+            }),
+        )?;
+        let built = app.bodies.get("figure.profile", &settings.body)?;
+        let clip = app
+            .clips
+            .prepared(MOTION, &settings.body.id, &built, true)?;
+        let playback = Playback {
+            speed: 1.0,
+            looped: true,
+            start: None,
+            reset: true,
+            place: Some(Place {
+                y,
+                ..Place::default()
+            }),
+        };
+        let crate_in_hands = convert::perturbation::batch(&[pb::Perturbation {
+            figure: name.to_owned(),
+            kind: Some(pb::perturbation::Kind::Load(pb::Load {
+                segment: "l_hand".to_owned(),
+                second_segment: "r_hand".to_owned(),
+                mass_kg: CRATE_KG,
+                ..Default::default()
+            })),
+            ..Default::default()
+        }])?;
+        let origin = Origin {
+            client: "demo".into(),
+            sequence: 0,
+        };
+        world
+            .call(origin, move |s| {
+                s.create_figure(Some(name.to_owned()), settings, built)?;
+                s.play(name, MOTION, clip, playback)?;
+                s.perturb(&crate_in_hands)
+            })
+            .await?;
+        present.push(name);
+    }
+    Ok(present)
+}
