@@ -302,7 +302,7 @@ fn wrong_arguments_are_told_apart() {
         (&["run"][..], "CLIP"),
         (
             &["run", "builtin:fly"],
-            "no built-in motion is called \"fly\"; there are idle, lift, squat, wave, step, walk",
+            "no built-in motion is called \"fly\"; there are idle, lift, crate, squat, wave, step, walk",
         ),
         (&["run", "wave"], "did you mean builtin:wave?"),
         (&["run", "no/such.bvh"], "cannot read no/such.bvh"),

@@ -1,0 +1,125 @@
+//! Goal: recorded walks start from standing, go on for as long as they repeat, and come to a stand, in torque simulation at the strength of a
+//! person and without any help.
+//! Method: clips from the motion capture folder, retargeted as they come, 60 Hz with two substeps, the modern controller.
+#![allow(clippy::unwrap_used)]
+
+use sinew::sim::body::{Body, State};
+use sinew::sim::figure::{
+    ControlParams, ControllerKind, FigureOptions, FigureSetup, Flags, StepperKind, StrengthScale,
+};
+use sinew::sim::motion::{Bvh, Clip, PlanarTransform, RetargetOptions, cycle, retarget};
+use sinew::sim::world::{ClipPlayback, Drive, World, WorldParams};
+use std::sync::Arc;
+
+const RATE: f64 = 60.0;
+
+fn clip(body: &Body, name: &str) -> Clip {
+    let folder = std::env::var("SINEW_MOCAP_DIR")
+        .unwrap_or_else(|_| concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/mocap").into());
+    let path = format!("{folder}/{name}.bvh");
+    let bytes = std::fs::read(&path).unwrap_or_else(|e| panic!("{path}: {e}"));
+    let bvh = Bvh::parse(&bytes).unwrap();
+    retarget(&bvh, body, &RetargetOptions::default())
+        .unwrap()
+        .clip
+}
+
+/// Root mean square of the joint errors, degrees, and largest error of the capture point, m.
+fn walk(body: &Arc<Body>, name: &str, clip: Clip, looped: bool, seconds: f64) -> (f64, f64) {
+    let lead = clip.lead_in();
+    let from = if looped { lead + 1.0 } else { 0.0 };
+    let start = clip.sample(-lead);
+    let mut world = World::new(WorldParams::default()).unwrap();
+    let key = world
+        .add_figure(FigureSetup {
+            name: name.into(),
+            body: Arc::clone(body),
+            strength: StrengthScale::default(),
+            controller: ControllerKind::Modern,
+            stepper: StepperKind::Torque,
+            params: ControlParams::default(),
+            options: FigureOptions::default(),
+            state: State {
+                posture: start.posture,
+                velocity: start.velocity,
+            },
+        })
+        .unwrap();
+    let figure = world.figure_mut(key).unwrap();
+    figure.set_drive(Drive::Clip(ClipPlayback {
+        clip: Arc::new(clip),
+        start: lead,
+        speed: 1.0,
+        looped,
+        origin: PlanarTransform::default(),
+    }));
+    let (mut sum, mut count, mut capture) = (0.0, 0, 0.0f64);
+    for tick in 0..(seconds * RATE) as usize {
+        world.step();
+        let figure = world.figure(key).unwrap();
+        let r = figure.report().unwrap();
+        assert!(
+            !figure.is_fallen(),
+            "{name} falls at {:.2} s",
+            tick as f64 / RATE
+        );
+        assert!(r.over_limit <= 1e-9 && !r.flags.has(Flags::QUARANTINED));
+        sum += r.joint_error.iter().map(|e| e * e).sum::<f64>();
+        count += r.joint_error.len();
+        let e = figure.gait().capture().error;
+        // The way in is a start from standing; the bound is that of steady walking.
+        if tick as f64 / RATE > from {
+            capture = capture.max(e[0].hypot(e[1]));
+        }
+    }
+    let rms = (sum / f64::from(count as u32)).sqrt().to_degrees();
+    println!(
+        "{name}: {seconds:.1} s, joints {rms:.2} deg rms, capture point within {:.0} mm",
+        1e3 * capture
+    );
+    (rms, capture)
+}
+
+#[test]
+fn walks_start_from_standing_and_stop() {
+    let body = Arc::new(Body::adult_man());
+    for name in ["walk", "turn", "walk-around", "salsa-a", "hit"] {
+        let clip = clip(&body, name);
+        let seconds = clip.lead_in() + clip.duration() + clip.lead_out() + 1.0;
+        let (first, last) = (
+            clip.sample(-clip.lead_in()).posture,
+            clip.sample(seconds).posture,
+        );
+        assert!(first.root_position.z > 0.8 && last.root_position.z > 0.8);
+        let (rms, capture) = walk(&body, name, clip, false, seconds);
+        assert!(rms < 4.0 && capture < 0.2, "{name}: {rms} deg, {capture} m");
+    }
+}
+
+#[test]
+fn a_walk_repeats_for_a_minute() {
+    let body = Arc::new(Body::adult_man());
+    let walk_cycle = cycle(&body, &clip(&body, "walk")).expect("a walk has a cycle");
+    assert!(walk_cycle.duration() > 1.0 && walk_cycle.advance().x > 1.0);
+    let (rms, capture) = walk(&body, "walk", walk_cycle, true, 60.0);
+    assert!(rms < 4.0, "{rms} deg");
+    assert!(capture < 0.06, "{capture} m");
+}
+
+#[test]
+fn a_motion_without_a_cycle_comes_back_to_its_beginning() {
+    let body = Arc::new(Body::adult_man());
+    let wave = clip(&body, "wave");
+    let repeats = cycle(&body, &wave).expect("it ends otherwise than it begins");
+    let (first, end) = (
+        repeats.sample_looped(0.0),
+        repeats.sample_looped(repeats.duration() - 1e-6),
+    );
+    let off = first.posture.joint_difference(&end.posture);
+    assert!(
+        off.iter().all(|e| e.abs() < 0.02),
+        "the seam closes: {off:?}"
+    );
+    let (rms, _) = walk(&body, "wave", repeats, true, 30.0);
+    assert!(rms < 4.0, "{rms} deg");
+}
