@@ -66,6 +66,8 @@ impl BalanceWatch {
     ///
     /// * `reach`: what may bring it back.
     /// * `height`: of the centre of mass, as a share of the standing one.
+    /// * `off`: distance of the capture point from where the motion has it, m, while that motion walks: who walks falls from foot to foot, and has
+    ///   lost nothing as long as it falls where the next foot is going to be.
     pub fn observe(
         &mut self,
         body: &Body,
@@ -73,6 +75,7 @@ impl BalanceWatch {
         support: &Support,
         (gravity, dt): (f64, f64),
         (reach, height): (Reach, f64),
+        off: Option<f64>,
     ) {
         if support.points().is_empty() || gravity <= 0.0 {
             return; // Flight: nothing to lose balance over.
@@ -82,7 +85,7 @@ impl BalanceWatch {
         let capture = [c.x + v.x * time, c.y + v.y * time];
         self.cover(body, terms, support);
         let outside = self.polygon.closest(capture).map_or(0.0, |c| -c.margin);
-        if outside > reach.length(height) {
+        if outside.min(off.unwrap_or(f64::INFINITY)) > reach.length(height) {
             (self.lost, self.inside) = (true, 0.0);
         } else if self.lost {
             self.inside = if outside > 0.0 { 0.0 } else { self.inside + dt };
@@ -136,7 +139,7 @@ mod tests {
 
     fn lost_after(watch: &mut BalanceWatch, speed: f64, reach: Reach) -> bool {
         let (body, t, support) = moving(speed);
-        watch.observe(&body, &t, &support, (GRAVITY, DT), (reach, 1.0));
+        watch.observe(&body, &t, &support, (GRAVITY, DT), (reach, 1.0), None);
         watch.lost()
     }
 
@@ -172,6 +175,18 @@ mod tests {
     }
 
     #[test]
+    fn who_falls_where_the_motion_goes_has_lost_nothing() {
+        let (body, t, support) = moving(5.0);
+        let lost = |off: f64| {
+            let mut watch = BalanceWatch::default();
+            let reach = (Reach::Step, 1.0);
+            watch.observe(&body, &t, &support, (GRAVITY, DT), reach, Some(off));
+            watch.lost()
+        };
+        assert!(!lost(0.0) && !lost(0.59) && lost(0.61));
+    }
+
+    #[test]
     fn nothing_is_lost_in_the_air() {
         let (body, mut t, mut support) = moving(5.0);
         t.com_velocity.x = 5.0;
@@ -179,7 +194,7 @@ mod tests {
         state.posture.root_position.z += 1.0;
         support.update(&terms(&body, &state), &body, Vec3::zero(), GRAVITY);
         let mut watch = BalanceWatch::default();
-        watch.observe(&body, &t, &support, (GRAVITY, DT), (Reach::Body, 1.0));
+        watch.observe(&body, &t, &support, (GRAVITY, DT), (Reach::Body, 1.0), None);
         assert!(!watch.lost());
     }
 }

@@ -377,12 +377,14 @@ impl Figure {
         };
         let height = self.terms.com.z / self.standing_com_height;
         let before = self.balance.lost();
+        let off = self.gait.off_plan().filter(|_| self.steps());
         self.balance.observe(
             &s.body,
             &self.terms,
             &self.support,
             (world.gravity, world.dt),
             (reach, height),
+            off,
         );
         if before && !self.balance.lost() {
             self.start_afresh();
