@@ -288,15 +288,16 @@ pub fn reset(world: &mut World, key: FigureKey, mut state: State) -> Result<(), 
         .map_err(|e| refused("figure", &e))
 }
 
-/// Changes strength and controller.
+/// Changes strength, controller and its choices.
 pub fn retune(
     world: &mut World,
     key: FigureKey,
     strength: StrengthScale,
     controller: ControllerKind,
+    params: ControlParams,
 ) -> Result<(), Fault> {
     world
-        .retune_figure(key, strength, controller, ControlParams::default())
+        .retune_figure(key, strength, controller, params)
         .map_err(|e| refused("figure", &e))
 }
 
@@ -326,11 +327,12 @@ pub fn provenance(body: &Body) -> Vec<(&'static str, Provenance)> {
 }
 
 /// Names of the controllers and steppers that work in this build.
-pub const CAPABILITIES: [&str; 4] = [
+pub const CAPABILITIES: [&str; 5] = [
     "CONTROLLER_PAPER",
     "CONTROLLER_MODERN",
     "CONTROLLER_MOTORS",
     "STEPPER_TORQUE",
+    "STEPPER_KINEMATIC",
 ];
 
 /// Adds a figure, standing still at its place.
@@ -350,7 +352,7 @@ pub fn add_figure(
             strength: s.strength.clone(),
             controller: s.controller,
             stepper: s.stepper,
-            params: ControlParams::default(),
+            params: s.params.clone(),
             options: s.options,
             state,
             name: id.to_owned(),

@@ -1,7 +1,9 @@
 //! What requests and frames are about, as domain types: checked once at the edge, trusted afterwards.
 
 use crate::sim::body::{Body, NV, Posture, Profile, SegmentId, State};
-use crate::sim::figure::{ControllerKind, FigureOptions, StepperKind, StrengthScale, TickReport};
+use crate::sim::figure::{
+    ControlParams, ControllerKind, FigureOptions, StepperKind, StrengthScale, TickReport,
+};
 use crate::sim::math::Vec3;
 use crate::sim::motion::Target;
 use std::sync::Arc;
@@ -123,6 +125,8 @@ pub struct FigureSettings {
     pub controller: ControllerKind,
     /// Stepper.
     pub stepper: StepperKind,
+    /// Choices of the paper's controller.
+    pub params: ControlParams,
     /// Fatigue and assist.
     pub options: FigureOptions,
     /// Where it stands.
@@ -155,6 +159,8 @@ pub struct FigureUpdate {
     pub strength: Option<StrengthScale>,
     /// Controller.
     pub controller: Option<ControllerKind>,
+    /// Choices of the paper's controller.
+    pub params: Option<ControlParams>,
     /// Time scale of fatigue.
     pub fatigue_time_scale: Option<f64>,
     /// Assist.

@@ -963,6 +963,46 @@ pub mod body_service_server {
         const NAME: &'static str = SERVICE_NAME;
     }
 }
+/// Choices of the paper's controller, CONTROLLER_PAPER. The others ignore them.
+#[derive(Clone, Copy, PartialEq, ::prost::Message)]
+pub struct PaperOptions {
+    /// What fields that are absent are taken from.
+    #[prost(enumeration = "PaperPreset", tag = "1")]
+    pub preset: i32,
+    /// Blend α of position and velocity demand in equation (4) per 1/30 s, 0…1. Counts when `horizon_s` is 0.
+    #[prost(double, optional, tag = "2")]
+    pub alpha: ::core::option::Option<f64>,
+    /// Time constant of the demand, 0.01…2 s; 0: the paper's demand, met within one step.
+    #[prost(double, optional, tag = "3")]
+    pub horizon_s: ::core::option::Option<f64>,
+    /// Norm of equation (10).
+    #[prost(enumeration = "PaperMetric", tag = "4")]
+    pub metric: i32,
+    /// Order of equation (12).
+    #[prost(enumeration = "PaperPriority", tag = "5")]
+    pub priority: i32,
+    /// Sharing of the ground reaction.
+    #[prost(enumeration = "PaperShare", tag = "6")]
+    pub share: i32,
+    /// Joints that equation (16) saturates go to their limit instead of staying where equations (7) to (11) left them.
+    #[prost(bool, optional, tag = "7")]
+    pub to_limit: ::core::option::Option<bool>,
+    /// Torques of a tipping figure know that its support turns.
+    #[prost(bool, optional, tag = "8")]
+    pub tilt: ::core::option::Option<bool>,
+    /// Keep the demand for the centre of mass within what the feet can give.
+    #[prost(bool, optional, tag = "9")]
+    pub zmp_feasible: ::core::option::Option<bool>,
+    /// Control both hands as end-effectors.
+    #[prost(bool, optional, tag = "10")]
+    pub track_hands: ::core::option::Option<bool>,
+    /// Control the centre of mass.
+    #[prost(bool, optional, tag = "11")]
+    pub track_com: ::core::option::Option<bool>,
+    /// STEPPER_KINEMATIC: torques move the figure while prescribed accelerations cannot go on.
+    #[prost(bool, optional, tag = "12")]
+    pub hand_over: ::core::option::Option<bool>,
+}
 /// Scale of measured human strength.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct StrengthScale {
@@ -1045,6 +1085,9 @@ pub struct Figure {
     /// pelvis on its path. 0: none.
     #[prost(double, tag = "15")]
     pub assist: f64,
+    /// Choices of the paper's controller. Absent: its defaults.
+    #[prost(message, optional, tag = "16")]
+    pub paper: ::core::option::Option<PaperOptions>,
 }
 /// Adds a figure.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -1109,7 +1152,7 @@ pub struct UpdateFigureRequest {
     /// The figure, by `name`, with new values.
     #[prost(message, optional, tag = "1")]
     pub figure: ::core::option::Option<Figure>,
-    /// Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist` to take. Must not be empty.
+    /// Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper` to take. Must not be empty.
     #[prost(message, optional, tag = "2")]
     pub update_mask: ::core::option::Option<::prost_types::FieldMask>,
 }
@@ -1192,7 +1235,7 @@ pub enum Stepper {
     Unspecified = 0,
     /// Joint torques drive rigid-body dynamics with ground contact.
     Torque = 1,
-    /// Accelerations are applied as they are. UNIMPLEMENTED where the server lacks it.
+    /// Accelerations are applied as they are; torques take over while that cannot go on (frame flag HANDED_OVER).
     Kinematic = 2,
 }
 impl Stepper {
@@ -1213,6 +1256,142 @@ impl Stepper {
             "STEPPER_UNSPECIFIED" => Some(Self::Unspecified),
             "STEPPER_TORQUE" => Some(Self::Torque),
             "STEPPER_KINEMATIC" => Some(Self::Kinematic),
+            _ => None,
+        }
+    }
+}
+/// Starting point of `PaperOptions`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum PaperPreset {
+    /// The default: PAPER_PRESET_SAFEGUARDED.
+    Unspecified = 0,
+    /// The equations with the repairs that they need under stress.
+    Safeguarded = 1,
+    /// As printed in 2000, every safeguard off; for comparison. Meant for STEPPER_KINEMATIC and 30 ticks a second.
+    PaperPreset2000 = 2,
+}
+impl PaperPreset {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "PAPER_PRESET_UNSPECIFIED",
+            Self::Safeguarded => "PAPER_PRESET_SAFEGUARDED",
+            Self::PaperPreset2000 => "PAPER_PRESET_2000",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "PAPER_PRESET_UNSPECIFIED" => Some(Self::Unspecified),
+            "PAPER_PRESET_SAFEGUARDED" => Some(Self::Safeguarded),
+            "PAPER_PRESET_2000" => Some(Self::PaperPreset2000),
+            _ => None,
+        }
+    }
+}
+/// Norm in which the change of acceleration that brings torques within strength is least, equation (10).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum PaperMetric {
+    /// As the preset has it.
+    Unspecified = 0,
+    /// W = I, the paper's: all joints help.
+    Identity = 1,
+    /// W = H: only saturated joints accelerate otherwise.
+    Inertia = 2,
+    /// W = H²: only saturated torques change.
+    Torque = 3,
+}
+impl PaperMetric {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "PAPER_METRIC_UNSPECIFIED",
+            Self::Identity => "PAPER_METRIC_IDENTITY",
+            Self::Inertia => "PAPER_METRIC_INERTIA",
+            Self::Torque => "PAPER_METRIC_TORQUE",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "PAPER_METRIC_UNSPECIFIED" => Some(Self::Unspecified),
+            "PAPER_METRIC_IDENTITY" => Some(Self::Identity),
+            "PAPER_METRIC_INERTIA" => Some(Self::Inertia),
+            "PAPER_METRIC_TORQUE" => Some(Self::Torque),
+            _ => None,
+        }
+    }
+}
+/// How equation (12) orders centre of mass and hands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum PaperPriority {
+    /// As the preset has it.
+    Unspecified = 0,
+    /// As printed.
+    Printed = 1,
+    /// Exact task priority: hands get what the centre of mass leaves.
+    Nested = 2,
+}
+impl PaperPriority {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "PAPER_PRIORITY_UNSPECIFIED",
+            Self::Printed => "PAPER_PRIORITY_PRINTED",
+            Self::Nested => "PAPER_PRIORITY_NESTED",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "PAPER_PRIORITY_UNSPECIFIED" => Some(Self::Unspecified),
+            "PAPER_PRIORITY_PRINTED" => Some(Self::Printed),
+            "PAPER_PRIORITY_NESTED" => Some(Self::Nested),
+            _ => None,
+        }
+    }
+}
+/// How supports share the ground reaction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum PaperShare {
+    /// As the preset has it.
+    Unspecified = 0,
+    /// By the ratios of equation (2).
+    Ratio = 1,
+    /// The least weighted forces whose sum and moment are right.
+    Balanced = 2,
+}
+impl PaperShare {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "PAPER_SHARE_UNSPECIFIED",
+            Self::Ratio => "PAPER_SHARE_RATIO",
+            Self::Balanced => "PAPER_SHARE_BALANCED",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "PAPER_SHARE_UNSPECIFIED" => Some(Self::Unspecified),
+            "PAPER_SHARE_RATIO" => Some(Self::Ratio),
+            "PAPER_SHARE_BALANCED" => Some(Self::Balanced),
             _ => None,
         }
     }
@@ -1384,7 +1563,7 @@ pub mod figure_service_client {
                 .insert(GrpcMethod::new("sinew.v1.FigureService", "ListFigures"));
             self.inner.unary(req, path, codec).await
         }
-        /// Changes strength, controller, fatigue or assist.
+        /// Changes strength, controller, options of the paper's controller, fatigue or assist.
         pub async fn update_figure(
             &mut self,
             request: impl tonic::IntoRequest<super::UpdateFigureRequest>,
@@ -1498,7 +1677,7 @@ pub mod figure_service_server {
             tonic::Response<super::ListFiguresResponse>,
             tonic::Status,
         >;
-        /// Changes strength, controller, fatigue or assist.
+        /// Changes strength, controller, options of the paper's controller, fatigue or assist.
         async fn update_figure(
             &self,
             request: tonic::Request<super::UpdateFigureRequest>,
@@ -2064,7 +2243,7 @@ pub struct DesiredPosture {
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Status {
     /// Set of flags by bit; `GetServerInfo` lists their names: FLIGHT, TIPPING, OVERLOAD, DAMPED, CONTROL_BOUND, STEP_BOUND, FALLEN,
-    /// QUARANTINED, BALANCE_LOST.
+    /// QUARANTINED, BALANCE_LOST, HANDED_OVER.
     #[prost(int32, tag = "1")]
     pub flags: i32,
     /// Set of DOFs at the limit of their strength, by bit.
