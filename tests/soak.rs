@@ -119,7 +119,11 @@ impl Chaos {
             setup.strength.dof[7 * d] = self.size(10.0).max(0.01);
         }
         setup.options = FigureOptions {
-            fatigue_time_scale: if self.often(0.2) { self.size(1000.0) } else { 0.0 },
+            fatigue_time_scale: if self.often(0.2) {
+                self.size(1000.0)
+            } else {
+                0.0
+            },
             assist: if self.often(0.2) { self.size(1.0) } else { 0.0 },
         };
         world.add_figure(setup).unwrap()
@@ -218,7 +222,10 @@ impl Chaos {
             };
             assert!(matches!(
                 world.perturb(key, refused),
-                Err(WorldError::Range { field: "force.force_newtons", .. })
+                Err(WorldError::Range {
+                    field: "force.force_newtons",
+                    ..
+                })
             ));
             assert_eq!(world.state_hash(), before);
         }
@@ -279,11 +286,19 @@ fn live(seed: u64, people: &[Arc<Body>], seen: &mut Seen) {
         for (_, f) in world.figures() {
             let r = f.report().unwrap();
             assert!(f.state().is_finite(), "seed {seed}, tick {}", world.tick());
-            let numbers = r.torque.iter().chain(&r.ligament_torque).chain(&r.acceleration);
+            let numbers = r
+                .torque
+                .iter()
+                .chain(&r.ligament_torque)
+                .chain(&r.acceleration);
             let forces = r.contacts.iter().map(|c| c.force);
-            let touches = r.touches.iter().flat_map(|t| [t.force, t.position, t.normal]);
+            let touches = r
+                .touches
+                .iter()
+                .flat_map(|t| [t.force, t.position, t.normal]);
             assert!(
-                numbers.copied().all(f64::is_finite) && forces.chain(touches).all(|v| v.is_finite())
+                numbers.copied().all(f64::is_finite)
+                    && forces.chain(touches).all(|v| v.is_finite())
                     || r.flags.has(Flags::QUARANTINED),
                 "seed {seed}, tick {}: a report that is not finite",
                 world.tick()
@@ -303,7 +318,13 @@ fn live(seed: u64, people: &[Arc<Body>], seen: &mut Seen) {
         }
         for (_, o) in world.obstacles() {
             let s = o.setup();
-            let good = [s.position, s.velocity, s.angular_velocity, o.spin(), o.force()];
+            let good = [
+                s.position,
+                s.velocity,
+                s.angular_velocity,
+                o.spin(),
+                o.force(),
+            ];
             assert!(
                 good.iter().all(|v| v.is_finite()),
                 "seed {seed}, tick {}: an obstacle",

@@ -34,6 +34,6 @@ fi
 stamp="$here/node_modules/.lock"
 if ! cmp -s "$here/package-lock.json" "$stamp"; then
     echo "setup: installing the npm packages of clients/web"
-    (cd "$here" && npm ci --silent --no-audit --no-fund)
+    (cd "$here" && npm install --no-save --silent --no-audit --no-fund)
     cp "$here/package-lock.json" "$stamp"
 fi

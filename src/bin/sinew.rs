@@ -26,6 +26,8 @@ enum Command {
     Lint(cli::lint::LintArgs),
     /// Fit a recording to the body and write the prepared motion
     Convert(cli::convert::ConvertArgs),
+    /// Run the paper's experiments again and write a page about them
+    Paper(cli::paper::PaperArgs),
     /// List segments, degrees of freedom, limits and strength of a body
     Bodies(cli::bodies::BodiesArgs),
 }
@@ -43,6 +45,7 @@ fn main() -> ExitCode {
         Some(Command::Run(args)) => cli::run::run(&args),
         Some(Command::Lint(args)) => cli::lint::run(&args),
         Some(Command::Convert(args)) => cli::convert::run(&args),
+        Some(Command::Paper(args)) => cli::paper::run(&args),
         Some(Command::Bodies(args)) => cli::bodies::run(&args),
         None => unreachable!("`serve` was put in its place"),
     };

@@ -5,6 +5,7 @@ pub mod bodies;
 pub mod convert;
 pub mod lint;
 pub mod output;
+pub mod paper;
 pub mod push;
 pub mod run;
 pub mod serve;

@@ -1,14 +1,17 @@
 //! `sinew run`: a motion through the physics, offline, as fast as it goes; measured, drawn and written.
 
-use super::args::{BodyArgs, ControllerArg, LoadSpec, PushSpec, StepperArg, person_name, sex_name};
+use super::args::{
+    BodyArgs, ControllerArg, LoadSpec, PaperOptions, PresetArg, PushSpec, StepperArg, person_name,
+    sex_name,
+};
 use super::output::{extension, for_clip, write};
 use super::source::{Source, load};
 use crate::evaluate::strip::{Frame, StripOptions, View, draw, evenly_spaced, raster, svg};
 use crate::evaluate::table::{Torques, header, row};
 use crate::evaluate::{Metrics, RunReport, Tick};
-use crate::sim::body::topology::DOF_NAMES;
+use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES};
 use crate::sim::body::{Body, Posture, SegmentId, State};
-use crate::sim::figure::{ControlParams, FigureOptions, StrengthScale};
+use crate::sim::figure::{FigureOptions, StrengthScale};
 use crate::sim::math::Vec3;
 use crate::sim::motion::retarget::RetargetOptions;
 use crate::sim::motion::{Clip, PlanarTransform, cycle, write_bvh};
@@ -71,9 +74,12 @@ pub struct RunArgs {
     /// Who moves the body.
     #[arg(long, value_enum, default_value_t)]
     pub stepper: StepperArg,
-    /// Ticks per second.
-    #[arg(long, value_name = "HZ", default_value_t = WorldParams::default().rate_hz)]
-    pub rate: f64,
+    /// Choices of the paper's controller.
+    #[command(flatten)]
+    pub paper: PaperOptions,
+    /// Ticks per second; 60 unless the preset says otherwise.
+    #[arg(long, value_name = "HZ")]
+    pub rate: Option<f64>,
     /// Physics steps per tick.
     #[arg(long, value_name = "N", default_value_t = WorldParams::default().substeps)]
     pub substeps: u32,
@@ -104,6 +110,38 @@ pub struct RunArgs {
     /// Clips that are run at the same time.
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub threads: usize,
+}
+
+impl RunArgs {
+    fn rate_hz(&self) -> f64 {
+        self.rate.unwrap_or(match self.paper.preset {
+            Some(PresetArg::Paper2000) => 30.0,
+            None => WorldParams::default().rate_hz,
+        })
+    }
+
+    fn controller_kind(&self) -> ControllerArg {
+        match self.paper.preset {
+            Some(PresetArg::Paper2000) => ControllerArg::Paper,
+            None => self.controller,
+        }
+    }
+
+    fn stepper_kind(&self) -> StepperArg {
+        match self.paper.preset {
+            Some(PresetArg::Paper2000) => StepperArg::Kinematic,
+            None => self.stepper,
+        }
+    }
+
+    /// The body; the preset takes the rotors out of its joints.
+    fn build_body(&self) -> Result<Body> {
+        let mut body = self.body.build()?;
+        if self.paper.preset.is_some() {
+            body.armature = [0.0; DOF_COUNT];
+        }
+        Ok(body)
+    }
 }
 
 /// From where a strip is drawn.
@@ -193,9 +231,9 @@ struct PushEntry {
 pub fn run(args: &RunArgs) -> Result<()> {
     check(args)?;
     let scenario = Scenario {
-        body: Arc::new(args.body.build()?),
+        body: Arc::new(args.build_body()?),
         params: WorldParams {
-            rate_hz: args.rate,
+            rate_hz: args.rate_hz(),
             substeps: args.substeps,
             ..WorldParams::default()
         },
@@ -225,6 +263,7 @@ pub fn run(args: &RunArgs) -> Result<()> {
 
 /// Checks what clap cannot.
 fn check(args: &RunArgs) -> Result<()> {
+    args.paper.params()?;
     ensure!(
         (0.01..=100.0).contains(&args.strength),
         "--strength {}: outside 0.01…100",
@@ -316,7 +355,7 @@ fn run_one(
         0.0
     };
     let duration = args.duration.unwrap_or_else(|| clip.duration() + ends);
-    let ticks = ((duration * args.rate).round() as u64).max(1);
+    let ticks = ((duration * args.rate_hz()).round() as u64).max(1);
     let mut csv = None;
     let mut postures = None;
     if let Some(path) = &args.out {
@@ -351,13 +390,13 @@ fn run_one(
         csv.finish()?;
     }
     if let Some((path, postures)) = postures {
-        write(&path, bvh_text(&scenario.body, &postures, args.rate))?;
+        write(&path, bvh_text(&scenario.body, &postures, args.rate_hz()))?;
     }
     if let Some(path) = &args.strip {
         let path = for_clip(path, &source.name, several);
         write_strip(scenario, &source.name, &frames, &path)?;
     }
-    let document = document(scenario, source, ticks as f64 / args.rate, &report);
+    let document = document(scenario, source, ticks as f64 / args.rate_hz(), &report);
     serde_json::to_value(document).context("the report cannot be written as JSON")
 }
 
@@ -390,9 +429,9 @@ fn simulate(
                 effort: args.effort,
                 ..StrengthScale::default()
             },
-            controller: args.controller.into(),
-            stepper: args.stepper.into(),
-            params: ControlParams::default(),
+            controller: args.controller_kind().into(),
+            stepper: args.stepper_kind().into(),
+            params: args.paper.params()?,
             options: FigureOptions {
                 fatigue_time_scale: args.fatigue,
                 assist: args.assist,
@@ -422,7 +461,7 @@ fn simulate(
         looped: args.looped,
         origin: PlanarTransform::default(),
     }));
-    let mut metrics = Metrics::new(args.rate, &start.posture);
+    let mut metrics = Metrics::new(args.rate_hz(), &start.posture);
     let mut frames = Vec::with_capacity(shown.len());
     for n in 0..ticks {
         let began = Instant::now();
@@ -487,6 +526,8 @@ fn note(metrics: &mut Metrics, event: &FigureEvent) {
         E::LoadDropped { segment, mass } => ("load_dropped", Some(segment), None, Some(mass)),
         E::LoadSlipped { segment, mass } => ("load_slipped", Some(segment), None, Some(mass)),
         E::Quarantined => ("quarantined", None, None, None),
+        E::Touched { segment, .. } => ("touched", Some(segment), None, None),
+        E::Parted { segment, .. } => ("parted", Some(segment), None, None),
     };
     metrics.event(
         kind,
@@ -513,8 +554,8 @@ fn document<'a>(
             height_m: profile.height,
             mass_kg: profile.mass,
         },
-        controller: args.controller,
-        stepper: args.stepper,
+        controller: args.controller_kind(),
+        stepper: args.stepper_kind(),
         strength: args.strength,
         percentile: args.percentile,
         effort: args.effort,

@@ -1,10 +1,13 @@
 //! Judging a run from outside: what a figure did, measured from its reports and checked against the laws of motion.
 //!
 //! [`metrics`] accumulates a run tick by tick into a [`RunReport`]; [`audit`] rebuilds the equations of motion from the body alone, without
-//! any number of the solver; [`strip`] draws the motion; [`table`] writes it as CSV. Nothing here reads a clock or a file.
+//! any number of the solver; [`strip`] draws the motion, [`plot`] its numbers; [`table`] writes it as CSV; [`experiments`] are those of
+//! `sinew paper`. Nothing here reads a clock or a file.
 
 pub mod audit;
+pub mod experiments;
 pub mod metrics;
+pub mod plot;
 pub mod pose;
 pub mod report;
 pub mod strip;

@@ -279,9 +279,7 @@ pub fn new_world(s: &WorldSettings) -> Result<World, Fault> {
 
 /// Adds an obstacle.
 pub fn add_obstacle(world: &mut World, setup: ObstacleSetup) -> Result<ObstacleKey, Fault> {
-    world
-        .add_obstacle(setup)
-        .map_err(|e| refused_obstacle(&e))
+    world.add_obstacle(setup).map_err(|e| refused_obstacle(&e))
 }
 
 /// Replaces an obstacle.
@@ -325,15 +323,16 @@ pub fn reset(world: &mut World, key: FigureKey, mut state: State) -> Result<(), 
         .map_err(|e| refused("figure", &e))
 }
 
-/// Changes strength and controller.
+/// Changes strength, controller and its choices.
 pub fn retune(
     world: &mut World,
     key: FigureKey,
     strength: StrengthScale,
     controller: ControllerKind,
+    params: ControlParams,
 ) -> Result<(), Fault> {
     world
-        .retune_figure(key, strength, controller, ControlParams::default())
+        .retune_figure(key, strength, controller, params)
         .map_err(|e| refused("figure", &e))
 }
 
@@ -363,11 +362,12 @@ pub fn provenance(body: &Body) -> Vec<(&'static str, Provenance)> {
 }
 
 /// Names of the controllers and steppers that work in this build.
-pub const CAPABILITIES: [&str; 4] = [
+pub const CAPABILITIES: [&str; 5] = [
     "CONTROLLER_PAPER",
     "CONTROLLER_MODERN",
     "CONTROLLER_MOTORS",
     "STEPPER_TORQUE",
+    "STEPPER_KINEMATIC",
 ];
 
 /// Adds a figure, standing still at its place.
@@ -387,7 +387,7 @@ pub fn add_figure(
             strength: s.strength.clone(),
             controller: s.controller,
             stepper: s.stepper,
-            params: ControlParams::default(),
+            params: s.params.clone(),
             options: s.options,
             state,
             name: id.to_owned(),

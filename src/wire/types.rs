@@ -2,7 +2,9 @@
 
 use crate::sim::body::{Body, NV, Posture, Profile, SegmentId, State};
 use crate::sim::collide::ObstacleSetup;
-use crate::sim::figure::{ControllerKind, FigureOptions, StepperKind, StrengthScale, TickReport};
+use crate::sim::figure::{
+    ControlParams, ControllerKind, FigureOptions, StepperKind, StrengthScale, TickReport,
+};
 use crate::sim::math::Vec3;
 use crate::sim::motion::Target;
 use std::sync::Arc;
@@ -126,6 +128,8 @@ pub struct FigureSettings {
     pub controller: ControllerKind,
     /// Stepper.
     pub stepper: StepperKind,
+    /// Choices of the paper's controller.
+    pub params: ControlParams,
     /// Fatigue and assist.
     pub options: FigureOptions,
     /// Where it stands.
@@ -158,6 +162,8 @@ pub struct FigureUpdate {
     pub strength: Option<StrengthScale>,
     /// Controller.
     pub controller: Option<ControllerKind>,
+    /// Choices of the paper's controller.
+    pub params: Option<ControlParams>,
     /// Time scale of fatigue.
     pub fatigue_time_scale: Option<f64>,
     /// Assist.

@@ -7,6 +7,7 @@
 //! * `load`: a held load is inertia.
 //! * `people`: ages, sizes, fatigue, percentiles.
 //! * `assist`: the wrench that no body has, and its honesty.
+//! * `symmetry`: left and right, and all directions, are alike.
 //! * `containment`: bad input is refused, a figure that runs away harms nobody.
 //!
 //! Everything is seeded or constant; nothing is timed.
@@ -20,10 +21,13 @@ mod collide;
 mod containment;
 mod fall;
 mod flight;
+mod jump;
+mod lift;
 mod load;
 mod people;
 mod push;
 mod stand;
+mod symmetry;
 
 use sinew::sim::body::{DOF_COUNT, Links, State};
 use sinew::sim::dynamics::{Kinematics, Momentum, center_of_mass, kinetic_energy, momentum};

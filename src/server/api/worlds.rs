@@ -281,9 +281,7 @@ impl WorldService for Api {
     ) -> Result<Response<pb::ListObstaclesResponse>, Status> {
         let result = async {
             let handle = self.world("parent", &request.get_ref().parent)?;
-            let list = handle
-                .call(origin(&request), |s| Ok(s.obstacles()))
-                .await?;
+            let list = handle.call(origin(&request), |s| Ok(s.obstacles())).await?;
             Ok(pb::ListObstaclesResponse {
                 obstacles: list.iter().map(|o| obstacle::out(&handle.id, o)).collect(),
             })

@@ -10,8 +10,8 @@ use crate::sim::figure::loads::MAX_PERTURBATIONS;
 use crate::wire::status::Fault;
 use crate::wire::types::{
     DriveOpen, EventKind, Feedback, FigureDisturbance, FigureInfo, FigureSettings, FigureUpdate,
-    MotionSample, ObstacleInfo, Overrun, Place, Playback, RosterEntry, Snapshot, WorldCondition, WorldEvent,
-    WorldInfo, WorldSettings, WorldUpdate,
+    MotionSample, ObstacleInfo, Overrun, Place, Playback, RosterEntry, Snapshot, WorldCondition,
+    WorldEvent, WorldInfo, WorldSettings, WorldUpdate,
 };
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -350,11 +350,14 @@ impl Shard {
         self.working()?;
         let i = self.member(figure)?;
         let m = &mut self.members[i];
-        if u.controller.is_some() || u.strength.is_some() {
+        if u.controller.is_some() || u.strength.is_some() || u.params.is_some() {
             let controller = u.controller.unwrap_or(m.settings.controller);
             let strength = u.strength.unwrap_or_else(|| m.settings.strength.clone());
-            engine::retune(&mut self.world, m.key, strength.clone(), controller)?;
+            let params = u.params.unwrap_or_else(|| m.settings.params.clone());
+            let world = &mut self.world;
+            engine::retune(world, m.key, strength.clone(), controller, params.clone())?;
             m.settings.controller = controller;
+            m.settings.params = params;
             m.settings.strength = strength;
         }
         if u.fatigue_time_scale.is_some() || u.assist.is_some() {

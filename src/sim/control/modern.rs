@@ -101,6 +101,11 @@ impl std::fmt::Debug for Modern {
 }
 
 impl Modern {
+    /// The last decision.
+    pub fn command(&self) -> &Command {
+        &self.command
+    }
+
     /// A controller that plans with a little less friction than the simulator's `friction`.
     pub fn new(friction: f64) -> Self {
         let dense = || Box::new([[0.0; WIDTH]; NV]);

@@ -17,7 +17,7 @@ use crate::sim::figure::report::MAX_CONTACTS;
 use crate::sim::figure::{ControlParams, Flags, Metric, Share};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::support::zmp::LEAST_NORMAL_FORCE;
-use crate::sim::support::{Pivot, Polygon, Sharing, pivot, zmp};
+use crate::sim::support::{Pivot, Polygon, Sharing, pivot, unblocked_pivot, zmp};
 
 /// Overload: more members of K and L together than this (0.6 n).
 const OVERLOAD_ENTER: u32 = 23;
@@ -29,6 +29,8 @@ const PIVOT_REACH: f64 = 0.012;
 const ROTATION_LENGTH: f64 = 0.3;
 /// Horizon of the ZMP-feasible centre-of-mass law if the joints have none, s: gains 25 and 10.
 const COM_HORIZON: f64 = 0.1;
+/// A support that turns faster than this is tipping, rad/s (ALGORITHM §6).
+const AT_REST: f64 = 1e-3;
 /// Part of a pose error of a planted foot that is taken back per step (kinematic loops).
 const LOOP_RETURN: f64 = 0.2;
 /// Clamped torques beyond this relative excess are worth a flag.
@@ -109,6 +111,7 @@ pub struct Paper {
     anchors: [Option<(Vec3, Quat)>; 2],
     previous: Option<Row>,
     overload: bool,
+    left_out: Option<[bool; MAX_CONTACTS]>,
     command: Command,
 }
 
@@ -130,6 +133,7 @@ impl Default for Paper {
             anchors: [None; 2],
             previous: None,
             overload: false,
+            left_out: None,
             command: Command::default(),
         }
     }
@@ -147,6 +151,16 @@ impl Paper {
     /// A controller that has seen nothing yet.
     pub fn new() -> Self {
         Self::default()
+    }
+
+    /// The last decision.
+    pub fn command(&self) -> &Command {
+        &self.command
+    }
+
+    /// Touching points that carry nothing in the last decision, by index; `None` unless it balances several supports.
+    pub fn left_out(&self) -> Option<&[bool; MAX_CONTACTS]> {
+        self.left_out.as_ref()
     }
 
     /// The maps of the last pass, for steppers and checks.
@@ -216,7 +230,14 @@ impl Paper {
                 } else {
                     OVERLOAD_ENTER
                 };
-        if self.overload {
+        // Motors clip what a tipping figure cannot have: to spread it would bend a body that only falls.
+        let clip = match mode {
+            Mode::Tilt(..) => {
+                !input.kinematic && first.set != 0 && !input.support.polygon().has_area()
+            }
+            _ => false,
+        };
+        if self.overload || clip {
             (qdd, first) = self.overloaded(input, law, &initial, &tau0, mode);
             second = Outcome::default();
         }
@@ -226,6 +247,12 @@ impl Paper {
             first,
             second,
         }
+    }
+
+    /// True if a support under prescribed accelerations tips already: what it stands on has no area, or it turns.
+    fn tilted(input: &ControlInput<'_>, main: SegmentId) -> bool {
+        let spin = input.terms.kin.omega[main.index()].norm();
+        !input.support.polygon().has_area() || (input.kinematic && spin > AT_REST)
     }
 
     /// With the ZMP-feasible demand, θ̈_initial gets the centre-of-mass part of (12) before strength is looked at. Without saturation the
@@ -293,6 +320,7 @@ impl Paper {
 
     /// Lets contacts other than those of S carry their share of the ground reaction (ALGORITHM §5).
     fn share(&mut self, input: &ControlInput<'_>, initial: &Row, mode: Mode) {
+        self.left_out = None;
         let (terms, support) = (input.terms, input.support);
         let (main, tilt) = match mode {
             Mode::Rest(s) => (s, None),
@@ -323,6 +351,7 @@ impl Paper {
                     return;
                 }
                 self.map.add_sharing(terms, &self.sharing, main);
+                self.left_out = Some(out);
             }
             Share::Paper => {
                 // The reaction of the last step, at the point of each polygon closest to its zero-moment point.
@@ -429,7 +458,8 @@ impl Paper {
         if params.track_com && matches!(mode, Mode::Rest(_)) {
             self.push_com(input, law, qdd);
         }
-        if params.track_hands {
+        // A tipping figure turns as a whole: hands held at their place in the world would bend it.
+        if params.track_hands && !matches!(mode, Mode::Tilt(..)) {
             for e in input.effectors.iter().take(2) {
                 self.push_effector(input, law, qdd, e, matches!(mode, Mode::Flight));
             }
@@ -556,19 +586,39 @@ impl Controller for Paper {
             Some(main) => {
                 let first = self.pass(input, &law, &initial, Mode::Rest(main));
                 // Decide with the support at rest: when it tips, the zero-moment point lies on the pivot by construction.
-                let (force, moment) = self.map.ground_wrench_world(terms, &first.qdd);
+                // One that tips already can do nothing for the balance any more: what counts there is where the joints alone, holding
+                // their posture, would put it.
+                let tilted = Self::tilted(input, main);
+                let qdd = if tilted { &initial } else { &first.qdd };
+                let (force, moment) = self.map.ground_wrench_world(terms, qdd);
                 if force.z <= LEAST_NORMAL_FORCE {
                     flags.set(Flags::FLIGHT);
                     self.pass(input, &law, &initial, Mode::Flight)
                 } else {
                     point = zmp(force, moment);
                     margin = point.and_then(|z| support.margin(z));
-                    tips_about = point.and_then(|z| pivot(support.polygon(), z));
+                    tips_about = point.and_then(|z| {
+                        if input.kinematic {
+                            let at_rest = (z, force, moment);
+                            unblocked_pivot(terms, support.polygon(), main, at_rest, input.dt)
+                        } else {
+                            pivot(support.polygon(), z)
+                        }
+                    });
                     match tips_about {
                         Some(p) => {
                             flags.set(Flags::TIPPING);
                             if input.params.tilt {
-                                self.pass(input, &law, &initial, Mode::Tilt(main, p))
+                                let tilting = self.pass(input, &law, &initial, Mode::Tilt(main, p));
+                                let (f, _) = self.map.ground_wrench_world(terms, &tilting.qdd);
+                                if input.kinematic && f.z <= LEAST_NORMAL_FORCE {
+                                    // The floor cannot pull: the edge leaves it.
+                                    flags.set(Flags::FLIGHT);
+                                    tips_about = None;
+                                    self.pass(input, &law, &initial, Mode::Flight)
+                                } else {
+                                    tilting
+                                }
                             } else {
                                 first
                             }

@@ -88,10 +88,13 @@ fn add_damped(
     }
 }
 
-fn lengths(rows: &[Row]) -> [f64; MAX_ROWS] {
+/// Lengths that scale rows before damping; one for each group of `group` rows, the components of one vector. With a length for every row the
+/// damping would depend on which way the axes of the world point.
+fn lengths(rows: &[Row], group: usize) -> [f64; MAX_ROWS] {
     let mut l = [1.0; MAX_ROWS];
-    for (l, r) in l.iter_mut().zip(rows) {
-        *l = dot(r, r).sqrt().max(1e-9);
+    for (l, r) in l.chunks_mut(group).zip(rows.chunks(group)) {
+        let square = r.iter().map(|r| dot(r, r)).sum::<f64>() / r.len() as f64;
+        l.fill(square.sqrt().max(1e-9));
     }
     l
 }
@@ -105,12 +108,12 @@ fn lengths(rows: &[Row]) -> [f64; MAX_ROWS] {
 #[inline(always)]
 pub fn wish(com: &Task, effector: &Task, priority: Priority) -> Row {
     let mut x = [0.0; ROW];
-    let lg = lengths(com.rows());
+    let lg = lengths(com.rows(), 2);
     add_damped(com.rows(), &lg, COM_DAMPING, &com.change, &mut x);
     if effector.is_empty() {
         return x;
     }
-    let le = lengths(effector.rows());
+    let le = lengths(effector.rows(), 3);
     // P r for a joint vector: take away what the centre of mass would feel.
     let project = |r: &mut Row| {
         let mut t = [0.0; MAX_ROWS];

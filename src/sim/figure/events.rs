@@ -29,9 +29,9 @@ pub enum FigureEvent {
         /// DOF index.
         dof: usize,
     },
-    /// The zero-moment point left the support polygon.
+    /// Balance is lost: the controller handed over to motors alone.
     BalanceLost,
-    /// It came back.
+    /// It is found again.
     Recovered,
     /// The figure has fallen.
     Fell,
@@ -155,7 +155,7 @@ impl Watcher {
                 });
             }
         }
-        let balanced = !report.flags.has(Flags::TIPPING);
+        let balanced = !report.flags.has(Flags::BALANCE_LOST);
         if balanced != self.balanced {
             self.balanced = balanced;
             self.push(if balanced {

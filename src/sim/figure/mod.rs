@@ -1,8 +1,10 @@
 //! One figure, one tick. The loop is [`Figure::step`](step::Figure).
 
 pub mod assist;
+pub mod balance;
 pub mod drive;
 pub mod events;
+pub mod kinematic_step;
 pub mod loads;
 pub mod report;
 pub mod setup;

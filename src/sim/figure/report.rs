@@ -44,8 +44,11 @@ impl Flags {
     pub const QUARANTINED: Self = Self(1 << 7);
     /// Balance is lost: the controller handed over to motors alone.
     pub const BALANCE_LOST: Self = Self(1 << 8);
+    /// Prescribed accelerations could not go on (saturated joints on a tilting support, overload, a part other than a foot touching):
+    /// a figure with the kinematic stepper is moved by its torques for the time being.
+    pub const HANDED_OVER: Self = Self(1 << 9);
     /// Names of the flags, by bit.
-    pub const NAMES: [&'static str; 9] = [
+    pub const NAMES: [&'static str; 10] = [
         "FLIGHT",
         "TIPPING",
         "OVERLOAD",
@@ -55,6 +58,7 @@ impl Flags {
         "FALLEN",
         "QUARANTINED",
         "BALANCE_LOST",
+        "HANDED_OVER",
     ];
     /// True if every flag of `f` is set.
     pub const fn has(self, f: Self) -> bool {
@@ -72,7 +76,8 @@ impl Flags {
 pub struct Audit {
     /// State at the start of the substep.
     pub state: State,
-    /// Acceleration over the substep `(v⁺ − v)/h`, layout of `State::velocity`.
+    /// Acceleration over the substep `(v⁺ − v)/h`, layout of `State::velocity`; with the kinematic stepper the one that was applied, to which
+    /// impacts and the return of the support to its place come on top.
     pub acceleration: [f64; NV],
     /// Joint torques of muscles, N·m.
     pub torque: [f64; DOF_COUNT],
@@ -84,6 +89,21 @@ pub struct Audit {
     pub applied: Vec<(SegmentId, Vec3, Vec3)>,
     /// Assist on the pelvis: moment about its origin (N·m), then force (N), world axes.
     pub assist: [f64; 6],
+}
+
+impl Audit {
+    /// An empty one with room for every contact and so many applied forces.
+    pub fn with_capacity(applied: usize) -> Self {
+        Self {
+            state: State::default(),
+            acceleration: [0.0; NV],
+            torque: [0.0; DOF_COUNT],
+            ligament_torque: [0.0; DOF_COUNT],
+            assist: [0.0; 6],
+            contacts: Vec::with_capacity(MAX_CONTACTS),
+            applied: Vec::with_capacity(applied),
+        }
+    }
 }
 
 impl Clone for Audit {

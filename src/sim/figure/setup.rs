@@ -21,6 +21,9 @@ pub enum ControllerKind {
 pub enum StepperKind {
     /// Torques drive full rigid-body dynamics with contact, ALGORITHM §14.3.
     Torque,
+    /// The controller's accelerations are applied as they are; the support holds, tips about an edge or a vertex, or flies (ALGORITHM §6).
+    /// For the paper's controller. Motors alone need torques: with them this is `Torque`.
+    Kinematic,
 }
 
 /// Norm in which the change of acceleration is least (10), ALGORITHM §8.
@@ -75,6 +78,9 @@ pub struct ControlParams {
     pub track_hands: bool,
     /// Control the centre of mass.
     pub track_com: bool,
+    /// Hand over what cannot go on: to torques, while the kinematic stepper's prescribed accelerations cannot (ALGORITHM §6); to motors
+    /// alone, while balance is lost (ALGORITHM §14.3).
+    pub hand_over: bool,
     /// Step when the capture point has left the feet (modern controller).
     pub protective_steps: bool,
 }
@@ -92,7 +98,25 @@ impl Default for ControlParams {
             zmp_feasible: true,
             track_hands: true,
             track_com: true,
+            hand_over: true,
             protective_steps: true,
+        }
+    }
+}
+
+impl ControlParams {
+    /// The paper to the letter, all safeguards off: dead-beat demand, W = I, (12) as printed, sharing by ratios (2), a support that tips but
+    /// whose torques do not know it. Meant for [`StepperKind::Kinematic`], 30 ticks a second and a body without armature; for comparison only.
+    pub fn paper2000() -> Self {
+        Self {
+            horizon: None,
+            metric: Metric::Identity,
+            priority: Priority::Paper,
+            share: Share::Paper,
+            tilt: false,
+            zmp_feasible: false,
+            hand_over: false,
+            ..Self::default()
         }
     }
 }

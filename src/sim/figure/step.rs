@@ -2,12 +2,14 @@
 
 use super::FigureKey;
 use super::assist::Assist;
+use super::balance::{BalanceWatch, Reach};
 use super::drive::Drive;
 use super::events::{FigureEvent, Watcher};
+use super::kinematic_step::{Decision, KinematicStepper, SPEED_CAP, other_part_arrives};
 use super::loads::Disturbances;
 use super::report::{Audit, Flags, MAX_CONTACTS, TickReport};
 use super::setup::{
-    ControlParams, ControllerKind, FigureOptions, Perturbation, StepperKind, StrengthScale,
+    ControlParams, ControllerKind, FigureOptions, Perturbation, Share, StepperKind, StrengthScale,
 };
 use super::tasks::{TaskPoints, TaskWorkspace};
 use super::torque_step::{
@@ -75,6 +77,8 @@ const FALLEN_HEIGHT: f64 = 0.45;
 /// A fallen figure relaxes: share of its strength, and time constant of its demand, s (ALGORITHM §12).
 const FALLEN_STRENGTH: f64 = 0.3;
 const FALLEN_HORIZON: f64 = 0.3;
+/// Torques give back to prescribed accelerations after the figure has stood this long on flat feet with strength to spare, s.
+const CALM_TIME: f64 = 0.5;
 /// It stands again when its CoM is above this share of the standing height.
 const RISEN_HEIGHT: f64 = 0.6;
 
@@ -99,8 +103,16 @@ pub struct Figure {
     modern: Box<Modern>,
     motors: Command,
     stepper: TorqueStepper,
+    kinematic: Box<KinematicStepper>,
+    /// Torques move the figure though accelerations should: for how long it has been calm since, s.
+    handed_over: Option<f64>,
+    /// The decision of the tick tips over an edge or a vertex.
+    tips: bool,
+    /// Accelerations moved the figure in the last tick.
+    prescribed: bool,
     com_acceleration: Vec3,
     standing_com_height: f64,
+    balance: BalanceWatch,
     fallen: bool,
     frozen: bool,
     report: TickReport,
@@ -113,6 +125,16 @@ pub struct Figure {
     pub(crate) cluster: usize,
     /// Put where it is since the last tick.
     pub(crate) is_new: bool,
+}
+
+/// What stage 6 works with.
+struct Stage<'a> {
+    input: StepInput<'a>,
+    stepper: &'a mut TorqueStepper,
+    kinematic: &'a mut KinematicStepper,
+    controllers: (&'a Paper, &'a Modern),
+    support: &'a Support,
+    state: &'a mut State,
 }
 
 /// What the stages of a tick hand on.
@@ -162,8 +184,13 @@ impl Figure {
             modern: Box::new(Modern::new(friction)),
             motors: Command::default(),
             stepper: TorqueStepper::new(friction),
+            kinematic: Box::new(KinematicStepper::new(friction)),
+            handed_over: None,
+            tips: false,
+            prescribed: false,
             com_acceleration: Vec3::zero(),
             standing_com_height: standing_com_height(&setup.body),
+            balance: BalanceWatch::default(),
             fallen: false,
             frozen: false,
             report: empty_report(&setup.state),
@@ -213,6 +240,7 @@ impl Figure {
         );
         self.support
             .update(&self.terms, &body, self.com_acceleration, world.gravity);
+        self.watch_balance(world);
         let angles = anatomical_angles(&self.state.posture);
         let rates: [f64; DOF_COUNT] = std::array::from_fn(|j| self.state.velocity[6 + j]);
         self.muscles = self.available_strength();
@@ -235,7 +263,9 @@ impl Figure {
                 .gait
                 .lead(&self.terms, &self.support, world.gravity, dt, &mut led);
         }
+        self.prescribed = self.prescribes();
         let command = self.control(world, &tasks, balance, (&lower, &upper));
+        self.judge_hand_over(dt);
         self.terms.h = bias;
         self.pending = Pending {
             command,
@@ -250,22 +280,42 @@ impl Figure {
         true
     }
 
-    /// Stage 6: motors, limits and ground move the body.
+    /// Stage 6: motors, limits and ground move the body, or its accelerations do.
     pub(crate) fn simulate(&mut self, world: &TickContext) {
         self.touches.begin();
-        match self.setup.stepper {
-            StepperKind::Torque => {
-                let (input, stepper, state) = self.stage(world);
-                stepper.step(&input, state);
-            }
+        let paper = self.setup.controller == ControllerKind::Paper;
+        let prescribed = self.prescribed;
+        let as_commanded = paper && self.setup.params.share == Share::Paper;
+        let planted = self.target.next.planted;
+        let Stage {
+            input,
+            stepper,
+            kinematic,
+            controllers: (first, second),
+            support,
+            state,
+        } = self.stage(world);
+        if prescribed {
+            let decision = Decision {
+                command: if paper {
+                    first.command()
+                } else {
+                    second.command()
+                },
+                left_out: first.left_out().filter(|_| paper),
+                as_commanded,
+                support,
+                planted,
+            };
+            kinematic.step(&input, &decision, state);
+        } else {
+            kinematic.reset();
+            stepper.step(&input, state);
         }
     }
 
-    /// What the stepper reads, the stepper, and the state it moves.
-    fn stage<'a>(
-        &'a mut self,
-        world: &TickContext,
-    ) -> (StepInput<'a>, &'a mut TorqueStepper, &'a mut State) {
+    /// What the steppers read, the steppers, and the state they move.
+    fn stage(&mut self, world: &TickContext) -> Stage<'_> {
         let Self {
             setup,
             links,
@@ -276,6 +326,10 @@ impl Figure {
             disturbances,
             target,
             stepper,
+            kinematic,
+            paper,
+            modern,
+            support,
             state,
             ..
         } = self;
@@ -295,17 +349,44 @@ impl Figure {
             dt: world.dt,
             substeps: world.substeps,
         };
-        (input, stepper, state)
+        Stage {
+            input,
+            stepper,
+            kinematic,
+            controllers: (paper, modern),
+            support,
+            state,
+        }
+    }
+
+    /// True if accelerations move it in this tick, whatever it meets.
+    pub(crate) fn is_prescribed(&self) -> bool {
+        self.prescribed
+    }
+    /// Something will be met, and contact acts by forces: torques take over before the tick begins.
+    pub(crate) fn hand_over(&mut self) {
+        self.prescribed = false;
+        self.handed_over = Some(0.0);
+    }
+    /// Stage 6 among others: shows where the segments are before it is known who moves them.
+    pub(crate) fn show(&mut self) {
+        self.stepper.terms.clone_from(&self.terms);
     }
 
     /// Stage 6 among others: starts the tick.
     pub(crate) fn begin_substeps(&mut self) {
+        self.kinematic.reset();
         self.stepper.begin(&self.state);
         self.touches.begin();
     }
     /// Stage 6 among others: substep `i` as if nothing but the ground were touched.
     pub(crate) fn open_substep(&mut self, world: &TickContext, i: u32) {
-        let (input, stepper, state) = self.stage(world);
+        let Stage {
+            input,
+            stepper,
+            state,
+            ..
+        } = self.stage(world);
         stepper.open_substep(&input, state, i);
     }
     /// Stage 6 among others: takes the impulse of an island in velocity components.
@@ -320,12 +401,17 @@ impl Figure {
     }
     /// Stage 6 among others: closes substep `i` and moves.
     pub(crate) fn close_substep(&mut self, world: &TickContext, i: u32) {
-        let (input, stepper, state) = self.stage(world);
+        let Stage {
+            input,
+            stepper,
+            state,
+            ..
+        } = self.stage(world);
         stepper.close_substep(&input, state, i);
     }
     /// Stage 6 among others: ends the tick.
     pub(crate) fn end_substeps(&mut self, world: &TickContext) {
-        let (input, stepper, _) = self.stage(world);
+        let Stage { input, stepper, .. } = self.stage(world);
         stepper.end(&input);
     }
 
@@ -361,6 +447,7 @@ impl Figure {
     /// keeps its clock and its place there.
     fn steps(&self) -> bool {
         !self.fallen
+            && !self.balance.lost()
             && self.setup.controller == ControllerKind::Modern
             && self.setup.options.assist < 1.0
     }
@@ -389,7 +476,7 @@ impl Figure {
             dt: world.dt,
             assist: Assist::new(&self.setup.body, self.setup.options.assist)
                 .map_or([0.0; 2], |a| a.planned()),
-            kinematic: false,
+            kinematic: self.prescribed,
         };
         let (command, saturation_speed) = match self.active_controller() {
             ControllerKind::Paper => (self.paper.control(&input), FEED_FORWARD_SPEED),
@@ -433,15 +520,90 @@ impl Figure {
         self.report.saturated_secondary = command.saturated_secondary;
         self.report.control_iterations = command.iterations;
         self.report.flags = command.flags;
+        self.tips = command.pivot.is_some();
         out
     }
 
-    /// The chosen controller, or motors alone once the figure lies on the ground.
+    /// Is balance lost? Full assist holds the pelvis, so there is none to lose; and prescribed accelerations fall by themselves.
+    fn watch_balance(&mut self, world: &TickContext) {
+        let s = &self.setup;
+        let falls = s.stepper == StepperKind::Kinematic && self.handed_over.is_none();
+        let motors = s.controller == ControllerKind::Motors;
+        if falls || motors || !s.params.hand_over || s.options.assist > 0.0 {
+            self.balance.reset();
+            return;
+        }
+        let modern = s.controller == ControllerKind::Modern;
+        let reach = match s.params.protective_steps {
+            true if modern => Reach::Step,
+            false if modern => Reach::Body,
+            _ => Reach::Paper,
+        };
+        let height = self.terms.com.z / self.standing_com_height;
+        let before = self.balance.lost();
+        let off = self.gait.off_plan().filter(|_| self.steps());
+        self.balance.observe(
+            &s.body,
+            &self.terms,
+            &self.support,
+            (world.gravity, world.dt),
+            (reach, height),
+            off,
+        );
+        if before && !self.balance.lost() {
+            self.start_afresh();
+        }
+    }
+
+    /// Controllers and steps forget what they knew of a figure that has fallen or stumbled since.
+    fn start_afresh(&mut self) {
+        self.modern.reset();
+        self.paper.reset();
+        self.gait.reset();
+    }
+
+    /// The chosen controller, or motors alone once balance is lost or the figure lies on the ground.
     fn active_controller(&self) -> ControllerKind {
-        if self.fallen {
+        if self.fallen || self.balance.lost() {
             ControllerKind::Motors
         } else {
             self.setup.controller
+        }
+    }
+
+    /// True if accelerations are to be applied as they are. A load held in two hands and the assist act by forces, which need torques.
+    fn prescribes(&self) -> bool {
+        self.setup.stepper == StepperKind::Kinematic
+            && self.setup.options.assist == 0.0
+            && self.disturbances.bar().is_none()
+            && self.active_controller() != ControllerKind::Motors
+            && self.handed_over.is_none()
+    }
+
+    /// Prescribed accelerations on a tilting support create energy once joints saturate, and they know nothing of parts other than feet:
+    /// there torques take over (ALGORITHM §6), until the figure has stood calmly for a while. The state is the same for both.
+    fn judge_hand_over(&mut self, dt: f64) {
+        let r = &self.report;
+        let feet = [L_FOOT, L_TOES, R_FOOT, R_TOES];
+        if self.prescribed && self.setup.params.hand_over {
+            let saturated = (r.saturated | r.saturated_secondary) != 0;
+            let arrives = other_part_arrives(&self.setup.body, &self.terms, dt);
+            let fast = self.state.velocity[6..].iter().any(|v| v.abs() > SPEED_CAP);
+            if arrives || fast || (self.tips && saturated) || r.flags.has(Flags::OVERLOAD) {
+                self.prescribed = false;
+                self.handed_over = Some(0.0);
+            }
+        } else if let Some(calm) = self.handed_over {
+            let points = self.support.points();
+            let flat = points.len() >= 3 && points.iter().all(|p| feet.contains(&p.segment));
+            let upright = !self.fallen && !self.balance.lost();
+            let alone = self.touches.list().next().is_none();
+            let stands = flat && upright && alone && !self.tips && r.saturated == 0;
+            self.handed_over = match calm + dt {
+                t if !stands && t > 0.0 => Some(0.0),
+                t if t > CALM_TIME => None,
+                t => Some(t),
+            };
         }
     }
 
@@ -470,7 +632,12 @@ impl Figure {
         let (mut lower, mut upper) = ([0.0; DOF_COUNT], [0.0; DOF_COUNT]);
         self.strength
             .range(angles, rates, &rested.muscles(1.0), &mut lower, &mut upper);
-        fatigue.step(&self.stepper.forces.torque, &lower, &upper, dt);
+        let torque = if self.prescribed {
+            &self.kinematic.forces.torque
+        } else {
+            &self.stepper.forces.torque
+        };
+        fatigue.step(torque, &lower, &upper, dt);
         self.report.remaining = fatigue.remaining();
     }
 
@@ -496,7 +663,12 @@ impl Figure {
             upper,
             ..
         } = &self.pending;
-        let (r, f) = (&mut self.report, &self.stepper.forces);
+        let (f, penetration) = if self.prescribed {
+            (&self.kinematic.forces, self.kinematic.penetration())
+        } else {
+            (&self.stepper.forces, self.stepper.penetration())
+        };
+        let r = &mut self.report;
         r.touches.clear();
         r.touches.extend(self.touches.list());
         r.torque = f.torque;
@@ -531,7 +703,7 @@ impl Figure {
         r.com_velocity = self.terms.com_velocity;
         r.com_desired = tasks.com.now;
         r.joint_error = before.posture.joint_difference(&self.target.now.posture);
-        r.penetration = self.stepper.penetration();
+        r.penetration = penetration;
         r.step_iterations = f.iterations;
         r.flags.set(f.flags);
         if r.contacts.is_empty() && r.touches.is_empty() {
@@ -539,6 +711,12 @@ impl Figure {
         }
         if self.fallen {
             r.flags.set(Flags::FALLEN);
+        }
+        if self.balance.lost() {
+            r.flags.set(Flags::BALANCE_LOST);
+        }
+        if self.handed_over.is_some() {
+            r.flags.set(Flags::HANDED_OVER);
         }
         if frozen {
             r.flags.set(Flags::QUARANTINED);
@@ -568,9 +746,7 @@ impl Figure {
             self.fallen = true;
         } else if self.fallen && height > RISEN_HEIGHT {
             self.fallen = false;
-            self.modern.reset();
-            self.paper.reset();
-            self.gait.reset();
+            self.start_afresh();
         }
     }
 }
@@ -684,6 +860,9 @@ impl Figure {
         self.touches = Touches::default();
         self.paper.reset();
         self.modern.reset();
+        self.kinematic.reset();
+        self.handed_over = None;
+        self.balance.reset();
         self.fatigue = rested(&self.setup.options);
         self.report.remaining = [[1.0; 2]; DOF_COUNT];
     }

@@ -205,6 +205,13 @@ impl Gait {
         &self.capture
     }
 
+    /// Distance of the capture point from where a motion that steps has it, m; `None` while the figure follows no such motion.
+    pub fn off_plan(&self) -> Option<f64> {
+        let e = self.capture.error;
+        let walks = self.plan.is_some() && self.ended.is_none();
+        walks.then(|| (e[0] * e[0] + e[1] * e[1]).sqrt())
+    }
+
     /// The foot that came down in this tick.
     pub fn landing(&self) -> Option<&Landing> {
         self.landing.as_ref()

@@ -15,7 +15,7 @@ mod tests;
 pub use contact_set::{ContactSet, SupportPoint};
 pub use polygon::{Closest, Feature, Polygon};
 pub use sharing::Sharing;
-pub use tipping::{Pivot, pivot, tipping_acceleration};
+pub use tipping::{Pivot, pivot, tipping_acceleration, unblocked_pivot};
 pub use zmp::zmp;
 
 use crate::sim::body::{Body, SEGMENT_COUNT, SegmentId};

@@ -238,6 +238,35 @@ fn a_tilted_figure_pivots_on_what_touches() {
 }
 
 #[test]
+fn a_corner_that_would_sink_holds_the_rotation() {
+    // The figure leans far out over the right edge and slightly over the front one. About the corner alone it would turn mostly to the
+    // right, which takes the front-left corner up and the back-right one down or up with the way it leans.
+    let body = mannequin();
+    let t = terms(&body, &standing(&body));
+    let (f, n) = t.ground_wrench(&[0.0; NV]);
+    let z = zmp(f, n).unwrap();
+    for (ahead, aside) in [(0.2, 0.2), (0.2, 0.001), (0.001, 0.2)] {
+        let corner = [z.x - ahead, z.y + aside]; // front right
+        let mut polygon = Polygon::default();
+        let square = [[-0.2, 0.0], [0.0, 0.0], [0.0, 0.2], [-0.2, 0.2]];
+        polygon.set_hull(
+            square
+                .map(|c| [corner[0] + c[0], corner[1] + c[1]])
+                .into_iter(),
+        );
+        assert_eq!(pivot(&polygon, z).unwrap().axes().len(), 2);
+        let p = unblocked_pivot(&t, &polygon, L_FOOT, (z, f, n), 1.0 / 60.0).unwrap();
+        assert!((p.point - vec3(corner[0], corner[1], 0.0)).norm() < 1e-12);
+        let spin = p.project(tipping_acceleration(&t, &p, f, n));
+        for c in polygon.corners() {
+            let down = spin.cross(vec3(c[0], c[1], 0.0) - p.point).z;
+            assert!(down > -1e-9, "({ahead}, {aside}): {down}");
+        }
+        assert!(spin.norm() > 1e-3, "it tips");
+    }
+}
+
+#[test]
 fn a_stiff_figure_on_an_edge_turns_like_a_box() {
     // A stiff body about an edge: ω̇ = m g l sin φ / I, l sin φ the horizontal distance of the centre of mass from the edge.
     let body = mannequin();

@@ -1,8 +1,12 @@
 //! Minimum-moment point and the axes about which a support tips (ALGORITHM §6).
 
 use super::polygon::{Feature, Polygon};
+use crate::sim::body::SegmentId;
 use crate::sim::dynamics::Terms;
 use crate::sim::math::{Vec3, vec3::vec3};
+
+/// A corner that goes down faster than this holds the rotation, m/s.
+const BLOCKED: f64 = 1e-9;
 
 /// Where a support tips, and about which axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,6 +69,38 @@ pub fn pivot(polygon: &Polygon, zmp: Vec3) -> Option<Pivot> {
         }
         Feature::Vertex(_) => Some(Pivot::vertex(point)),
     }
+}
+
+/// As [`pivot`], for support `s` of the state in `terms`: a rotation about a vertex that would push a neighbouring corner into the floor is
+/// held by that corner, so that the edge between the two remains.
+///
+/// * `force`, `moment` (about the world origin): the ground wrench that the accelerations with the support *at rest* would need; its
+///   zero-moment point is `zmp`.
+/// * `dt`: tick, s.
+pub fn unblocked_pivot(
+    terms: &Terms,
+    polygon: &Polygon,
+    s: SegmentId,
+    (zmp, force, moment): (Vec3, Vec3, Vec3),
+    dt: f64,
+) -> Option<Pivot> {
+    let c = polygon.closest([zmp.x, zmp.y])?;
+    let p = pivot(polygon, zmp)?;
+    let (Feature::Vertex(i), n) = (c.feature, polygon.corners().len()) else {
+        return Some(p);
+    };
+    let spin = terms.kin.omega[s.index()] + tipping_acceleration(terms, &p, force, moment) * dt;
+    let spin = p.project(spin);
+    let (mut out, mut deepest) = (p, -BLOCKED);
+    for j in [(i + 1) % n, (i + n - 1) % n] {
+        let to = polygon.corners()[j];
+        let r = vec3(to[0], to[1], 0.0) - p.point;
+        let down = spin.cross(r).z;
+        if down < deepest {
+            (out, deepest) = (Pivot::edge(p.point, r * (1.0 / r.norm())), down);
+        }
+    }
+    Some(out)
 }
 
 /// Rotational acceleration of a tipping support, rad/s² (world axes): ω̇ = −U (Uᵀ I_p U)⁻¹ Uᵀ n_p.

@@ -5,7 +5,10 @@ use super::super::status::Fault;
 use super::super::types::{FigureInfo, FigureSettings, FigureUpdate};
 use super::{body, clip_text, display_name, or_default, place, place_out, within};
 use crate::sim::body::topology::DOF_NAMES;
-use crate::sim::figure::{ControllerKind, FigureOptions, StepperKind, StrengthScale};
+use crate::sim::figure::{
+    ControlParams, ControllerKind, FigureOptions, Metric, Priority, Share, StepperKind,
+    StrengthScale,
+};
 use crate::sim::strength::fatigue::MAX_TIME_SCALE;
 
 /// Controller of a request.
@@ -25,8 +28,96 @@ pub fn controller(field: &str, value: i32) -> Result<ControllerKind, Fault> {
 pub fn stepper(field: &str, value: i32) -> Result<StepperKind, Fault> {
     match pb::Stepper::try_from(value) {
         Ok(pb::Stepper::Unspecified | pb::Stepper::Torque) => Ok(StepperKind::Torque),
-        Ok(pb::Stepper::Kinematic) => Err(Fault::Unimplemented("STEPPER_KINEMATIC".into())),
+        Ok(pb::Stepper::Kinematic) => Ok(StepperKind::Kinematic),
         Err(_) => Err(Fault::invalid(field, format!("{value} is not a stepper"))),
+    }
+}
+
+/// A value of an enumeration, or what to say about it.
+fn choice<T: TryFrom<i32>>(field: &str, value: i32, what: &str) -> Result<T, Fault> {
+    T::try_from(value).map_err(|_| Fault::invalid(field, format!("{value} is not a {what}")))
+}
+
+/// Choices of the paper's controller in a request.
+pub fn paper(field: &str, o: Option<&pb::PaperOptions>) -> Result<ControlParams, Fault> {
+    let Some(o) = o else {
+        return Ok(ControlParams::default());
+    };
+    let at = |part: &str| format!("{field}.{part}");
+    let mut out = match choice(&at("preset"), o.preset, "preset")? {
+        pb::PaperPreset::Unspecified | pb::PaperPreset::Safeguarded => ControlParams::default(),
+        pb::PaperPreset::PaperPreset2000 => ControlParams::paper2000(),
+    };
+    if let Some(alpha) = o.alpha {
+        out.alpha = within(&at("alpha"), alpha, 0.0, 1.0)?;
+    }
+    match o.horizon_s {
+        Some(0.0) => out.horizon = None,
+        Some(t) => out.horizon = Some(within(&at("horizon_s"), t, 0.01, 2.0)?),
+        None => {}
+    }
+    match choice(&at("metric"), o.metric, "metric")? {
+        pb::PaperMetric::Unspecified => {}
+        pb::PaperMetric::Identity => out.metric = Metric::Identity,
+        pb::PaperMetric::Inertia => out.metric = Metric::Inertia,
+        pb::PaperMetric::Torque => out.metric = Metric::Torque,
+    }
+    match choice(&at("priority"), o.priority, "priority")? {
+        pb::PaperPriority::Unspecified => {}
+        pb::PaperPriority::Printed => out.priority = Priority::Paper,
+        pb::PaperPriority::Nested => out.priority = Priority::Nested,
+    }
+    match choice(&at("share"), o.share, "way to share")? {
+        pb::PaperShare::Unspecified => {}
+        pb::PaperShare::Ratio => out.share = Share::Paper,
+        pb::PaperShare::Balanced => out.share = Share::Balanced,
+    }
+    for (to, from) in [
+        (&mut out.to_limit, o.to_limit),
+        (&mut out.tilt, o.tilt),
+        (&mut out.zmp_feasible, o.zmp_feasible),
+        (&mut out.track_hands, o.track_hands),
+        (&mut out.track_com, o.track_com),
+        (&mut out.hand_over, o.hand_over),
+    ] {
+        *to = from.unwrap_or(*to);
+    }
+    Ok(out)
+}
+
+/// The choices in force, every one of them said.
+fn paper_out(p: &ControlParams) -> pb::PaperOptions {
+    pb::PaperOptions {
+        preset: if *p == ControlParams::paper2000() {
+            pb::PaperPreset::PaperPreset2000
+        } else {
+            pb::PaperPreset::Safeguarded
+        }
+        .into(),
+        alpha: Some(p.alpha),
+        horizon_s: Some(p.horizon.unwrap_or(0.0)),
+        metric: match p.metric {
+            Metric::Identity => pb::PaperMetric::Identity,
+            Metric::Inertia => pb::PaperMetric::Inertia,
+            Metric::Torque => pb::PaperMetric::Torque,
+        }
+        .into(),
+        priority: match p.priority {
+            Priority::Paper => pb::PaperPriority::Printed,
+            Priority::Nested => pb::PaperPriority::Nested,
+        }
+        .into(),
+        share: match p.share {
+            Share::Paper => pb::PaperShare::Ratio,
+            Share::Balanced => pb::PaperShare::Balanced,
+        }
+        .into(),
+        to_limit: Some(p.to_limit),
+        tilt: Some(p.tilt),
+        zmp_feasible: Some(p.zmp_feasible),
+        track_hands: Some(p.track_hands),
+        track_com: Some(p.track_com),
+        hand_over: Some(p.hand_over),
     }
 }
 
@@ -76,6 +167,7 @@ pub fn settings(field: &str, f: Option<&pb::Figure>) -> Result<FigureSettings, F
         strength: strength(&at("strength"), f.strength.as_ref())?,
         controller: controller(&at("controller"), f.controller)?,
         stepper: stepper(&at("stepper"), f.stepper)?,
+        params: paper(&at("paper"), f.paper.as_ref())?,
         options: FigureOptions {
             fatigue_time_scale: time_scale(&at("fatigue_time_scale"), f.fatigue_time_scale)?,
             assist: within(&at("assist"), f.assist, 0.0, 1.0)?,
@@ -112,12 +204,13 @@ pub fn update(
                 let value = time_scale("figure.fatigue_time_scale", f.fatigue_time_scale)?;
                 out.fatigue_time_scale = Some(value);
             }
+            "paper" => out.params = Some(paper("figure.paper", f.paper.as_ref())?),
             "assist" => out.assist = Some(within("figure.assist", f.assist, 0.0, 1.0)?),
             other => {
                 return Err(Fault::invalid(
                     format!("update_mask.paths[{i}]"),
                     format!(
-                        "must be display_name, strength, controller, fatigue_time_scale or assist, got {:?}",
+                        "must be display_name, strength, controller, paper, fatigue_time_scale or assist, got {:?}",
                         clip_text(other)
                     ),
                 ));
@@ -159,6 +252,7 @@ pub fn figure_out(f: &FigureInfo) -> pb::Figure {
         .into(),
         stepper: match s.stepper {
             StepperKind::Torque => pb::Stepper::Torque,
+            StepperKind::Kinematic => pb::Stepper::Kinematic,
         }
         .into(),
         placement: Some(place_out(s.place)),
@@ -171,5 +265,70 @@ pub fn figure_out(f: &FigureInfo) -> pb::Figure {
         figure_index: f.index,
         fatigue_time_scale: s.options.fatigue_time_scale,
         assist: s.options.assist,
+        paper: Some(paper_out(&s.params)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_choice_of_the_papers_controller_comes_back_as_it_was_sent() {
+        let choices = ControlParams {
+            alpha: 0.35,
+            horizon: None,
+            metric: Metric::Torque,
+            priority: Priority::Paper,
+            share: Share::Paper,
+            to_limit: true,
+            tilt: false,
+            zmp_feasible: false,
+            track_hands: false,
+            track_com: false,
+            hand_over: false,
+            ..ControlParams::default()
+        };
+        for p in [
+            ControlParams::default(),
+            ControlParams::paper2000(),
+            choices,
+        ] {
+            assert_eq!(paper("paper", Some(&paper_out(&p))).unwrap(), p);
+        }
+        assert_eq!(paper("paper", None).unwrap(), ControlParams::default());
+        let preset = pb::PaperOptions {
+            preset: pb::PaperPreset::PaperPreset2000.into(),
+            ..Default::default()
+        };
+        let got = paper("paper", Some(&preset)).unwrap();
+        assert_eq!(got, ControlParams::paper2000());
+    }
+
+    #[test]
+    fn bad_choices_name_their_field() {
+        let base = pb::PaperOptions::default();
+        let cases = [
+            (pb::PaperOptions { metric: 9, ..base }, "paper.metric"),
+            (pb::PaperOptions { preset: -1, ..base }, "paper.preset"),
+            (
+                pb::PaperOptions {
+                    alpha: Some(f64::NAN),
+                    ..base
+                },
+                "paper.alpha",
+            ),
+            (
+                pb::PaperOptions {
+                    horizon_s: Some(1e-3),
+                    ..base
+                },
+                "paper.horizon_s",
+            ),
+        ];
+        for (options, field) in cases {
+            let fault = paper("paper", Some(&options)).unwrap_err();
+            assert!(format!("{fault:?}").contains(field), "{fault:?}");
+        }
     }
 }

@@ -29,7 +29,12 @@ fn shape(field: &str, s: Option<&pb::obstacle::Shape>) -> Result<Shape, Fault> {
             radius: within(&format!("{field}.sphere.radius_m"), s.radius_m, THIN, ROUND)?,
         },
         Some(pb::obstacle::Shape::Capsule(c)) => Shape::Capsule {
-            radius: within(&format!("{field}.capsule.radius_m"), c.radius_m, THIN, ROUND)?,
+            radius: within(
+                &format!("{field}.capsule.radius_m"),
+                c.radius_m,
+                THIN,
+                ROUND,
+            )?,
             half_length: within(
                 &format!("{field}.capsule.half_length_m"),
                 c.half_length_m,
@@ -39,9 +44,8 @@ fn shape(field: &str, s: Option<&pb::obstacle::Shape>) -> Result<Shape, Fault> {
         },
         Some(pb::obstacle::Shape::Box(b)) => {
             let h = b.half_m.unwrap_or_default();
-            let edge = |axis: &str, x: f64| {
-                within(&format!("{field}.box.half_m.{axis}"), x, THIN, EDGE)
-            };
+            let edge =
+                |axis: &str, x: f64| within(&format!("{field}.box.half_m.{axis}"), x, THIN, EDGE);
             Shape::Box {
                 half: Vec3 {
                     x: edge("x", h.x)?,
@@ -175,7 +179,9 @@ mod tests {
 
     fn ball() -> pb::Obstacle {
         pb::Obstacle {
-            shape: Some(pb::obstacle::Shape::Sphere(pb::SphereShape { radius_m: 0.1 })),
+            shape: Some(pb::obstacle::Shape::Sphere(pb::SphereShape {
+                radius_m: 0.1,
+            })),
             mobility: pb::ObstacleMobility::Free.into(),
             mass_kg: 5.0,
             ..Default::default()

@@ -61,7 +61,7 @@ class _StepperEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_Stepper.Value
     STEPPER_TORQUE: _Stepper.ValueType  # 1
     """Joint torques drive rigid-body dynamics with ground contact."""
     STEPPER_KINEMATIC: _Stepper.ValueType  # 2
-    """Accelerations are applied as they are. UNIMPLEMENTED where the server lacks it."""
+    """Accelerations are applied as they are; torques take over while that cannot go on (frame flag HANDED_OVER)."""
 
 class Stepper(_Stepper, metaclass=_StepperEnumTypeWrapper):
     """Who moves the body."""
@@ -71,8 +71,205 @@ STEPPER_UNSPECIFIED: Stepper.ValueType  # 0
 STEPPER_TORQUE: Stepper.ValueType  # 1
 """Joint torques drive rigid-body dynamics with ground contact."""
 STEPPER_KINEMATIC: Stepper.ValueType  # 2
-"""Accelerations are applied as they are. UNIMPLEMENTED where the server lacks it."""
+"""Accelerations are applied as they are; torques take over while that cannot go on (frame flag HANDED_OVER)."""
 Global___Stepper: _TypeAlias = Stepper  # noqa: Y015
+
+class _PaperPreset:
+    ValueType = _typing.NewType("ValueType", _builtins.int)
+    V: _TypeAlias = ValueType  # noqa: Y015
+
+class _PaperPresetEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_PaperPreset.ValueType], _builtins.type):
+    DESCRIPTOR: _descriptor.EnumDescriptor
+    PAPER_PRESET_UNSPECIFIED: _PaperPreset.ValueType  # 0
+    """The default: PAPER_PRESET_SAFEGUARDED."""
+    PAPER_PRESET_SAFEGUARDED: _PaperPreset.ValueType  # 1
+    """The equations with the repairs that they need under stress."""
+    PAPER_PRESET_2000: _PaperPreset.ValueType  # 2
+    """As printed in 2000, every safeguard off; for comparison. Meant for STEPPER_KINEMATIC and 30 ticks a second."""
+
+class PaperPreset(_PaperPreset, metaclass=_PaperPresetEnumTypeWrapper):
+    """Starting point of `PaperOptions`."""
+
+PAPER_PRESET_UNSPECIFIED: PaperPreset.ValueType  # 0
+"""The default: PAPER_PRESET_SAFEGUARDED."""
+PAPER_PRESET_SAFEGUARDED: PaperPreset.ValueType  # 1
+"""The equations with the repairs that they need under stress."""
+PAPER_PRESET_2000: PaperPreset.ValueType  # 2
+"""As printed in 2000, every safeguard off; for comparison. Meant for STEPPER_KINEMATIC and 30 ticks a second."""
+Global___PaperPreset: _TypeAlias = PaperPreset  # noqa: Y015
+
+class _PaperMetric:
+    ValueType = _typing.NewType("ValueType", _builtins.int)
+    V: _TypeAlias = ValueType  # noqa: Y015
+
+class _PaperMetricEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_PaperMetric.ValueType], _builtins.type):
+    DESCRIPTOR: _descriptor.EnumDescriptor
+    PAPER_METRIC_UNSPECIFIED: _PaperMetric.ValueType  # 0
+    """As the preset has it."""
+    PAPER_METRIC_IDENTITY: _PaperMetric.ValueType  # 1
+    """W = I, the paper's: all joints help."""
+    PAPER_METRIC_INERTIA: _PaperMetric.ValueType  # 2
+    """W = H: only saturated joints accelerate otherwise."""
+    PAPER_METRIC_TORQUE: _PaperMetric.ValueType  # 3
+    """W = H²: only saturated torques change."""
+
+class PaperMetric(_PaperMetric, metaclass=_PaperMetricEnumTypeWrapper):
+    """Norm in which the change of acceleration that brings torques within strength is least, equation (10)."""
+
+PAPER_METRIC_UNSPECIFIED: PaperMetric.ValueType  # 0
+"""As the preset has it."""
+PAPER_METRIC_IDENTITY: PaperMetric.ValueType  # 1
+"""W = I, the paper's: all joints help."""
+PAPER_METRIC_INERTIA: PaperMetric.ValueType  # 2
+"""W = H: only saturated joints accelerate otherwise."""
+PAPER_METRIC_TORQUE: PaperMetric.ValueType  # 3
+"""W = H²: only saturated torques change."""
+Global___PaperMetric: _TypeAlias = PaperMetric  # noqa: Y015
+
+class _PaperPriority:
+    ValueType = _typing.NewType("ValueType", _builtins.int)
+    V: _TypeAlias = ValueType  # noqa: Y015
+
+class _PaperPriorityEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_PaperPriority.ValueType], _builtins.type):
+    DESCRIPTOR: _descriptor.EnumDescriptor
+    PAPER_PRIORITY_UNSPECIFIED: _PaperPriority.ValueType  # 0
+    """As the preset has it."""
+    PAPER_PRIORITY_PRINTED: _PaperPriority.ValueType  # 1
+    """As printed."""
+    PAPER_PRIORITY_NESTED: _PaperPriority.ValueType  # 2
+    """Exact task priority: hands get what the centre of mass leaves."""
+
+class PaperPriority(_PaperPriority, metaclass=_PaperPriorityEnumTypeWrapper):
+    """How equation (12) orders centre of mass and hands."""
+
+PAPER_PRIORITY_UNSPECIFIED: PaperPriority.ValueType  # 0
+"""As the preset has it."""
+PAPER_PRIORITY_PRINTED: PaperPriority.ValueType  # 1
+"""As printed."""
+PAPER_PRIORITY_NESTED: PaperPriority.ValueType  # 2
+"""Exact task priority: hands get what the centre of mass leaves."""
+Global___PaperPriority: _TypeAlias = PaperPriority  # noqa: Y015
+
+class _PaperShare:
+    ValueType = _typing.NewType("ValueType", _builtins.int)
+    V: _TypeAlias = ValueType  # noqa: Y015
+
+class _PaperShareEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_PaperShare.ValueType], _builtins.type):
+    DESCRIPTOR: _descriptor.EnumDescriptor
+    PAPER_SHARE_UNSPECIFIED: _PaperShare.ValueType  # 0
+    """As the preset has it."""
+    PAPER_SHARE_RATIO: _PaperShare.ValueType  # 1
+    """By the ratios of equation (2)."""
+    PAPER_SHARE_BALANCED: _PaperShare.ValueType  # 2
+    """The least weighted forces whose sum and moment are right."""
+
+class PaperShare(_PaperShare, metaclass=_PaperShareEnumTypeWrapper):
+    """How supports share the ground reaction."""
+
+PAPER_SHARE_UNSPECIFIED: PaperShare.ValueType  # 0
+"""As the preset has it."""
+PAPER_SHARE_RATIO: PaperShare.ValueType  # 1
+"""By the ratios of equation (2)."""
+PAPER_SHARE_BALANCED: PaperShare.ValueType  # 2
+"""The least weighted forces whose sum and moment are right."""
+Global___PaperShare: _TypeAlias = PaperShare  # noqa: Y015
+
+@_typing.final
+class PaperOptions(_message.Message):
+    """Choices of the paper's controller, CONTROLLER_PAPER. The others ignore them."""
+
+    DESCRIPTOR: _descriptor.Descriptor
+
+    PRESET_FIELD_NUMBER: _builtins.int
+    ALPHA_FIELD_NUMBER: _builtins.int
+    HORIZON_S_FIELD_NUMBER: _builtins.int
+    METRIC_FIELD_NUMBER: _builtins.int
+    PRIORITY_FIELD_NUMBER: _builtins.int
+    SHARE_FIELD_NUMBER: _builtins.int
+    TO_LIMIT_FIELD_NUMBER: _builtins.int
+    TILT_FIELD_NUMBER: _builtins.int
+    ZMP_FEASIBLE_FIELD_NUMBER: _builtins.int
+    TRACK_HANDS_FIELD_NUMBER: _builtins.int
+    TRACK_COM_FIELD_NUMBER: _builtins.int
+    HAND_OVER_FIELD_NUMBER: _builtins.int
+    preset: Global___PaperPreset.ValueType
+    """What fields that are absent are taken from."""
+    alpha: _builtins.float
+    """Blend α of position and velocity demand in equation (4) per 1/30 s, 0…1. Counts when `horizon_s` is 0."""
+    horizon_s: _builtins.float
+    """Time constant of the demand, 0.01…2 s; 0: the paper's demand, met within one step."""
+    metric: Global___PaperMetric.ValueType
+    """Norm of equation (10)."""
+    priority: Global___PaperPriority.ValueType
+    """Order of equation (12)."""
+    share: Global___PaperShare.ValueType
+    """Sharing of the ground reaction."""
+    to_limit: _builtins.bool
+    """Joints that equation (16) saturates go to their limit instead of staying where equations (7) to (11) left them."""
+    tilt: _builtins.bool
+    """Torques of a tipping figure know that its support turns."""
+    zmp_feasible: _builtins.bool
+    """Keep the demand for the centre of mass within what the feet can give."""
+    track_hands: _builtins.bool
+    """Control both hands as end-effectors."""
+    track_com: _builtins.bool
+    """Control the centre of mass."""
+    hand_over: _builtins.bool
+    """STEPPER_KINEMATIC: torques move the figure while prescribed accelerations cannot go on."""
+    def __init__(
+        self,
+        *,
+        preset: Global___PaperPreset.ValueType = ...,
+        alpha: _builtins.float | None = ...,
+        horizon_s: _builtins.float | None = ...,
+        metric: Global___PaperMetric.ValueType = ...,
+        priority: Global___PaperPriority.ValueType = ...,
+        share: Global___PaperShare.ValueType = ...,
+        to_limit: _builtins.bool | None = ...,
+        tilt: _builtins.bool | None = ...,
+        zmp_feasible: _builtins.bool | None = ...,
+        track_hands: _builtins.bool | None = ...,
+        track_com: _builtins.bool | None = ...,
+        hand_over: _builtins.bool | None = ...,
+    ) -> None: ...
+    _HasFieldArgType: _TypeAlias = _typing.Literal["_alpha", b"_alpha", "_hand_over", b"_hand_over", "_horizon_s", b"_horizon_s", "_tilt", b"_tilt", "_to_limit", b"_to_limit", "_track_com", b"_track_com", "_track_hands", b"_track_hands", "_zmp_feasible", b"_zmp_feasible", "alpha", b"alpha", "hand_over", b"hand_over", "horizon_s", b"horizon_s", "tilt", b"tilt", "to_limit", b"to_limit", "track_com", b"track_com", "track_hands", b"track_hands", "zmp_feasible", b"zmp_feasible"]  # noqa: Y015
+    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_alpha", b"_alpha", "_hand_over", b"_hand_over", "_horizon_s", b"_horizon_s", "_tilt", b"_tilt", "_to_limit", b"_to_limit", "_track_com", b"_track_com", "_track_hands", b"_track_hands", "_zmp_feasible", b"_zmp_feasible", "alpha", b"alpha", "hand_over", b"hand_over", "horizon_s", b"horizon_s", "metric", b"metric", "preset", b"preset", "priority", b"priority", "share", b"share", "tilt", b"tilt", "to_limit", b"to_limit", "track_com", b"track_com", "track_hands", b"track_hands", "zmp_feasible", b"zmp_feasible"]  # noqa: Y015
+    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    _WhichOneofReturnType__alpha: _TypeAlias = _typing.Literal["alpha"]  # noqa: Y015
+    _WhichOneofArgType__alpha: _TypeAlias = _typing.Literal["_alpha", b"_alpha"]  # noqa: Y015
+    _WhichOneofReturnType__hand_over: _TypeAlias = _typing.Literal["hand_over"]  # noqa: Y015
+    _WhichOneofArgType__hand_over: _TypeAlias = _typing.Literal["_hand_over", b"_hand_over"]  # noqa: Y015
+    _WhichOneofReturnType__horizon_s: _TypeAlias = _typing.Literal["horizon_s"]  # noqa: Y015
+    _WhichOneofArgType__horizon_s: _TypeAlias = _typing.Literal["_horizon_s", b"_horizon_s"]  # noqa: Y015
+    _WhichOneofReturnType__tilt: _TypeAlias = _typing.Literal["tilt"]  # noqa: Y015
+    _WhichOneofArgType__tilt: _TypeAlias = _typing.Literal["_tilt", b"_tilt"]  # noqa: Y015
+    _WhichOneofReturnType__to_limit: _TypeAlias = _typing.Literal["to_limit"]  # noqa: Y015
+    _WhichOneofArgType__to_limit: _TypeAlias = _typing.Literal["_to_limit", b"_to_limit"]  # noqa: Y015
+    _WhichOneofReturnType__track_com: _TypeAlias = _typing.Literal["track_com"]  # noqa: Y015
+    _WhichOneofArgType__track_com: _TypeAlias = _typing.Literal["_track_com", b"_track_com"]  # noqa: Y015
+    _WhichOneofReturnType__track_hands: _TypeAlias = _typing.Literal["track_hands"]  # noqa: Y015
+    _WhichOneofArgType__track_hands: _TypeAlias = _typing.Literal["_track_hands", b"_track_hands"]  # noqa: Y015
+    _WhichOneofReturnType__zmp_feasible: _TypeAlias = _typing.Literal["zmp_feasible"]  # noqa: Y015
+    _WhichOneofArgType__zmp_feasible: _TypeAlias = _typing.Literal["_zmp_feasible", b"_zmp_feasible"]  # noqa: Y015
+    @_typing.overload
+    def WhichOneof(self, oneof_group: _WhichOneofArgType__alpha) -> _WhichOneofReturnType__alpha | None: ...
+    @_typing.overload
+    def WhichOneof(self, oneof_group: _WhichOneofArgType__hand_over) -> _WhichOneofReturnType__hand_over | None: ...
+    @_typing.overload
+    def WhichOneof(self, oneof_group: _WhichOneofArgType__horizon_s) -> _WhichOneofReturnType__horizon_s | None: ...
+    @_typing.overload
+    def WhichOneof(self, oneof_group: _WhichOneofArgType__tilt) -> _WhichOneofReturnType__tilt | None: ...
+    @_typing.overload
+    def WhichOneof(self, oneof_group: _WhichOneofArgType__to_limit) -> _WhichOneofReturnType__to_limit | None: ...
+    @_typing.overload
+    def WhichOneof(self, oneof_group: _WhichOneofArgType__track_com) -> _WhichOneofReturnType__track_com | None: ...
+    @_typing.overload
+    def WhichOneof(self, oneof_group: _WhichOneofArgType__track_hands) -> _WhichOneofReturnType__track_hands | None: ...
+    @_typing.overload
+    def WhichOneof(self, oneof_group: _WhichOneofArgType__zmp_feasible) -> _WhichOneofReturnType__zmp_feasible | None: ...
+
+Global___PaperOptions: _TypeAlias = PaperOptions  # noqa: Y015
 
 @_typing.final
 class StrengthScale(_message.Message):
@@ -189,6 +386,7 @@ class Figure(_message.Message):
     FIGURE_INDEX_FIELD_NUMBER: _builtins.int
     FATIGUE_TIME_SCALE_FIELD_NUMBER: _builtins.int
     ASSIST_FIELD_NUMBER: _builtins.int
+    PAPER_FIELD_NUMBER: _builtins.int
     name: _builtins.str
     """Resource name `worlds/{world}/figures/{figure}`. Ignored in requests to create one."""
     display_name: _builtins.str
@@ -223,6 +421,10 @@ class Figure(_message.Message):
     def placement(self) -> _types_pb2.Placement:
         """Where it stands at creation and after a reset without a place."""
 
+    @_builtins.property
+    def paper(self) -> Global___PaperOptions:
+        """Choices of the paper's controller. Absent: its defaults."""
+
     def __init__(
         self,
         *,
@@ -239,10 +441,11 @@ class Figure(_message.Message):
         figure_index: _builtins.int = ...,
         fatigue_time_scale: _builtins.float = ...,
         assist: _builtins.float = ...,
+        paper: Global___PaperOptions | None = ...,
     ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _typing.Literal["placement", b"placement", "profile", b"profile", "strength", b"strength"]  # noqa: Y015
+    _HasFieldArgType: _TypeAlias = _typing.Literal["paper", b"paper", "placement", b"placement", "profile", b"profile", "strength", b"strength"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["assist", b"assist", "body", b"body", "clip", b"clip", "controller", b"controller", "display_name", b"display_name", "driver_id", b"driver_id", "fatigue_time_scale", b"fatigue_time_scale", "figure_index", b"figure_index", "name", b"name", "placement", b"placement", "profile", b"profile", "stepper", b"stepper", "strength", b"strength"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["assist", b"assist", "body", b"body", "clip", b"clip", "controller", b"controller", "display_name", b"display_name", "driver_id", b"driver_id", "fatigue_time_scale", b"fatigue_time_scale", "figure_index", b"figure_index", "name", b"name", "paper", b"paper", "placement", b"placement", "profile", b"profile", "stepper", b"stepper", "strength", b"strength"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
@@ -422,7 +625,7 @@ class UpdateFigureRequest(_message.Message):
 
     @_builtins.property
     def update_mask(self) -> _field_mask_pb2.FieldMask:
-        """Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist` to take. Must not be empty."""
+        """Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper` to take. Must not be empty."""
 
     def __init__(
         self,

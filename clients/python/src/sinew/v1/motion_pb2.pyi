@@ -511,14 +511,18 @@ class PlayClipRequest(_message.Message):
     speed: _builtins.float
     """Playback speed, 0.1…4. 0 or absent: 1."""
     loop: _builtins.bool
-    """Repeats, carrying the displacement of the root over. Default: false."""
+    """Repeats, carrying the displacement of the root over. A walk repeats its best cycle; a motion whose end is not like its beginning is
+    led back to it by steps. Default: false.
+    """
     start_time_s: _builtins.float
     """World time at which the clip starts, s. Absent: at the next tick."""
     reset: _builtins.bool
-    """Puts the figure into the clip's first posture and velocity before it starts. Default: false, it moves there by itself."""
+    """Puts the figure into the clip's first posture and velocity before it starts. Default: false, it comes into it from standing, by steps of
+    its own if the recording begins in motion. Without `loop` it ends standing in the same way.
+    """
     @_builtins.property
     def placement(self) -> _types_pb2.Placement:
-        """Where the clip begins. Absent: where the figure is."""
+        """Where the clip begins, with the steps that lead into it. Absent: where the figure is."""
 
     def __init__(
         self,
@@ -549,7 +553,7 @@ class PlayClipResponse(_message.Message):
 
     START_TIME_S_FIELD_NUMBER: _builtins.int
     start_time_s: _builtins.float
-    """World time at which it starts, s."""
+    """World time at which its first frame plays, s: later than asked for by the length of the steps that lead into it."""
     def __init__(
         self,
         *,

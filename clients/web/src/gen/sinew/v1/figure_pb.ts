@@ -16,7 +16,105 @@ import type { Message } from "@bufbuild/protobuf";
  * Describes the file sinew/v1/figure.proto.
  */
 export const file_sinew_v1_figure: GenFile = /*@__PURE__*/
-  fileDesc("ChVzaW5ldy92MS9maWd1cmUucHJvdG8SCHNpbmV3LnYxInUKDVN0cmVuZ3RoU2NhbGUSCwoDYWxsGAEgASgBEiMKBGRvZnMYAiADKAsyFS5zaW5ldy52MS5Eb2ZTdHJlbmd0aBISCgpwZXJjZW50aWxlGAMgASgBEhMKBmVmZm9ydBgEIAEoAUgAiAEBQgkKB19lZmZvcnQiKgoLRG9mU3RyZW5ndGgSCwoDZG9mGAEgASgJEg4KBmZhY3RvchgCIAEoASJTCgtDYXJyaWVkTG9hZBIPCgdzZWdtZW50GAEgASgFEiIKB3BvaW50X20YAiABKAsyES5zaW5ldy52MS5WZWN0b3IzEg8KB21hc3Nfa2cYAyABKAEi5gIKBkZpZ3VyZRIMCgRuYW1lGAEgASgJEhQKDGRpc3BsYXlfbmFtZRgCIAEoCRIMCgRib2R5GAMgASgJEiYKB3Byb2ZpbGUYBCABKAsyFS5zaW5ldy52MS5Cb2R5UHJvZmlsZRIpCghzdHJlbmd0aBgFIAEoCzIXLnNpbmV3LnYxLlN0cmVuZ3RoU2NhbGUSKAoKY29udHJvbGxlchgGIAEoDjIULnNpbmV3LnYxLkNvbnRyb2xsZXISIgoHc3RlcHBlchgHIAEoDjIRLnNpbmV3LnYxLlN0ZXBwZXISJgoJcGxhY2VtZW50GAggASgLMhMuc2luZXcudjEuUGxhY2VtZW50EgwKBGNsaXAYCSABKAkSEQoJZHJpdmVyX2lkGAogASgJEhQKDGZpZ3VyZV9pbmRleBgLIAEoBRIaChJmYXRpZ3VlX3RpbWVfc2NhbGUYDiABKAESDgoGYXNzaXN0GA8gASgBIloKE0NyZWF0ZUZpZ3VyZVJlcXVlc3QSDgoGcGFyZW50GAEgASgJEhEKCWZpZ3VyZV9pZBgCIAEoCRIgCgZmaWd1cmUYAyABKAsyEC5zaW5ldy52MS5GaWd1cmUiOAoUQ3JlYXRlRmlndXJlUmVzcG9uc2USIAoGZmlndXJlGAEgASgLMhAuc2luZXcudjEuRmlndXJlIiAKEEdldEZpZ3VyZVJlcXVlc3QSDAoEbmFtZRgBIAEoCSI1ChFHZXRGaWd1cmVSZXNwb25zZRIgCgZmaWd1cmUYASABKAsyEC5zaW5ldy52MS5GaWd1cmUiSwoSTGlzdEZpZ3VyZXNSZXF1ZXN0Eg4KBnBhcmVudBgBIAEoCRIRCglwYWdlX3NpemUYAiABKAUSEgoKcGFnZV90b2tlbhgDIAEoCSJRChNMaXN0RmlndXJlc1Jlc3BvbnNlEiEKB2ZpZ3VyZXMYASADKAsyEC5zaW5ldy52MS5GaWd1cmUSFwoPbmV4dF9wYWdlX3Rva2VuGAIgASgJImgKE1VwZGF0ZUZpZ3VyZVJlcXVlc3QSIAoGZmlndXJlGAEgASgLMhAuc2luZXcudjEuRmlndXJlEi8KC3VwZGF0ZV9tYXNrGAIgASgLMhouZ29vZ2xlLnByb3RvYnVmLkZpZWxkTWFzayI4ChRVcGRhdGVGaWd1cmVSZXNwb25zZRIgCgZmaWd1cmUYASABKAsyEC5zaW5ldy52MS5GaWd1cmUiIwoTRGVsZXRlRmlndXJlUmVxdWVzdBIMCgRuYW1lGAEgASgJIhYKFERlbGV0ZUZpZ3VyZVJlc3BvbnNlIkoKElJlc2V0RmlndXJlUmVxdWVzdBIMCgRuYW1lGAEgASgJEiYKCXBsYWNlbWVudBgCIAEoCzITLnNpbmV3LnYxLlBsYWNlbWVudCI3ChNSZXNldEZpZ3VyZVJlc3BvbnNlEiAKBmZpZ3VyZRgBIAEoCzIQLnNpbmV3LnYxLkZpZ3VyZSpsCgpDb250cm9sbGVyEhoKFkNPTlRST0xMRVJfVU5TUEVDSUZJRUQQABIUChBDT05UUk9MTEVSX1BBUEVSEAESFQoRQ09OVFJPTExFUl9NT0RFUk4QAhIVChFDT05UUk9MTEVSX01PVE9SUxADKk0KB1N0ZXBwZXISFwoTU1RFUFBFUl9VTlNQRUNJRklFRBAAEhIKDlNURVBQRVJfVE9SUVVFEAESFQoRU1RFUFBFUl9LSU5FTUFUSUMQAjLaAwoNRmlndXJlU2VydmljZRJNCgxDcmVhdGVGaWd1cmUSHS5zaW5ldy52MS5DcmVhdGVGaWd1cmVSZXF1ZXN0Gh4uc2luZXcudjEuQ3JlYXRlRmlndXJlUmVzcG9uc2USRAoJR2V0RmlndXJlEhouc2luZXcudjEuR2V0RmlndXJlUmVxdWVzdBobLnNpbmV3LnYxLkdldEZpZ3VyZVJlc3BvbnNlEkoKC0xpc3RGaWd1cmVzEhwuc2luZXcudjEuTGlzdEZpZ3VyZXNSZXF1ZXN0Gh0uc2luZXcudjEuTGlzdEZpZ3VyZXNSZXNwb25zZRJNCgxVcGRhdGVGaWd1cmUSHS5zaW5ldy52MS5VcGRhdGVGaWd1cmVSZXF1ZXN0Gh4uc2luZXcudjEuVXBkYXRlRmlndXJlUmVzcG9uc2USTQoMRGVsZXRlRmlndXJlEh0uc2luZXcudjEuRGVsZXRlRmlndXJlUmVxdWVzdBoeLnNpbmV3LnYxLkRlbGV0ZUZpZ3VyZVJlc3BvbnNlEkoKC1Jlc2V0RmlndXJlEhwuc2luZXcudjEuUmVzZXRGaWd1cmVSZXF1ZXN0Gh0uc2luZXcudjEuUmVzZXRGaWd1cmVSZXNwb25zZWIGcHJvdG8z", [file_google_protobuf_field_mask, file_sinew_v1_body, file_sinew_v1_types]);
+  fileDesc("ChVzaW5ldy92MS9maWd1cmUucHJvdG8SCHNpbmV3LnYxItIDCgxQYXBlck9wdGlvbnMSJQoGcHJlc2V0GAEgASgOMhUuc2luZXcudjEuUGFwZXJQcmVzZXQSEgoFYWxwaGEYAiABKAFIAIgBARIWCglob3Jpem9uX3MYAyABKAFIAYgBARIlCgZtZXRyaWMYBCABKA4yFS5zaW5ldy52MS5QYXBlck1ldHJpYxIpCghwcmlvcml0eRgFIAEoDjIXLnNpbmV3LnYxLlBhcGVyUHJpb3JpdHkSIwoFc2hhcmUYBiABKA4yFC5zaW5ldy52MS5QYXBlclNoYXJlEhUKCHRvX2xpbWl0GAcgASgISAKIAQESEQoEdGlsdBgIIAEoCEgDiAEBEhkKDHptcF9mZWFzaWJsZRgJIAEoCEgEiAEBEhgKC3RyYWNrX2hhbmRzGAogASgISAWIAQESFgoJdHJhY2tfY29tGAsgASgISAaIAQESFgoJaGFuZF9vdmVyGAwgASgISAeIAQFCCAoGX2FscGhhQgwKCl9ob3Jpem9uX3NCCwoJX3RvX2xpbWl0QgcKBV90aWx0Qg8KDV96bXBfZmVhc2libGVCDgoMX3RyYWNrX2hhbmRzQgwKCl90cmFja19jb21CDAoKX2hhbmRfb3ZlciJ1Cg1TdHJlbmd0aFNjYWxlEgsKA2FsbBgBIAEoARIjCgRkb2ZzGAIgAygLMhUuc2luZXcudjEuRG9mU3RyZW5ndGgSEgoKcGVyY2VudGlsZRgDIAEoARITCgZlZmZvcnQYBCABKAFIAIgBAUIJCgdfZWZmb3J0IioKC0RvZlN0cmVuZ3RoEgsKA2RvZhgBIAEoCRIOCgZmYWN0b3IYAiABKAEiUwoLQ2FycmllZExvYWQSDwoHc2VnbWVudBgBIAEoBRIiCgdwb2ludF9tGAIgASgLMhEuc2luZXcudjEuVmVjdG9yMxIPCgdtYXNzX2tnGAMgASgBIo0DCgZGaWd1cmUSDAoEbmFtZRgBIAEoCRIUCgxkaXNwbGF5X25hbWUYAiABKAkSDAoEYm9keRgDIAEoCRImCgdwcm9maWxlGAQgASgLMhUuc2luZXcudjEuQm9keVByb2ZpbGUSKQoIc3RyZW5ndGgYBSABKAsyFy5zaW5ldy52MS5TdHJlbmd0aFNjYWxlEigKCmNvbnRyb2xsZXIYBiABKA4yFC5zaW5ldy52MS5Db250cm9sbGVyEiIKB3N0ZXBwZXIYByABKA4yES5zaW5ldy52MS5TdGVwcGVyEiYKCXBsYWNlbWVudBgIIAEoCzITLnNpbmV3LnYxLlBsYWNlbWVudBIMCgRjbGlwGAkgASgJEhEKCWRyaXZlcl9pZBgKIAEoCRIUCgxmaWd1cmVfaW5kZXgYCyABKAUSGgoSZmF0aWd1ZV90aW1lX3NjYWxlGA4gASgBEg4KBmFzc2lzdBgPIAEoARIlCgVwYXBlchgQIAEoCzIWLnNpbmV3LnYxLlBhcGVyT3B0aW9ucyJaChNDcmVhdGVGaWd1cmVSZXF1ZXN0Eg4KBnBhcmVudBgBIAEoCRIRCglmaWd1cmVfaWQYAiABKAkSIAoGZmlndXJlGAMgASgLMhAuc2luZXcudjEuRmlndXJlIjgKFENyZWF0ZUZpZ3VyZVJlc3BvbnNlEiAKBmZpZ3VyZRgBIAEoCzIQLnNpbmV3LnYxLkZpZ3VyZSIgChBHZXRGaWd1cmVSZXF1ZXN0EgwKBG5hbWUYASABKAkiNQoRR2V0RmlndXJlUmVzcG9uc2USIAoGZmlndXJlGAEgASgLMhAuc2luZXcudjEuRmlndXJlIksKEkxpc3RGaWd1cmVzUmVxdWVzdBIOCgZwYXJlbnQYASABKAkSEQoJcGFnZV9zaXplGAIgASgFEhIKCnBhZ2VfdG9rZW4YAyABKAkiUQoTTGlzdEZpZ3VyZXNSZXNwb25zZRIhCgdmaWd1cmVzGAEgAygLMhAuc2luZXcudjEuRmlndXJlEhcKD25leHRfcGFnZV90b2tlbhgCIAEoCSJoChNVcGRhdGVGaWd1cmVSZXF1ZXN0EiAKBmZpZ3VyZRgBIAEoCzIQLnNpbmV3LnYxLkZpZ3VyZRIvCgt1cGRhdGVfbWFzaxgCIAEoCzIaLmdvb2dsZS5wcm90b2J1Zi5GaWVsZE1hc2siOAoUVXBkYXRlRmlndXJlUmVzcG9uc2USIAoGZmlndXJlGAEgASgLMhAuc2luZXcudjEuRmlndXJlIiMKE0RlbGV0ZUZpZ3VyZVJlcXVlc3QSDAoEbmFtZRgBIAEoCSIWChREZWxldGVGaWd1cmVSZXNwb25zZSJKChJSZXNldEZpZ3VyZVJlcXVlc3QSDAoEbmFtZRgBIAEoCRImCglwbGFjZW1lbnQYAiABKAsyEy5zaW5ldy52MS5QbGFjZW1lbnQiNwoTUmVzZXRGaWd1cmVSZXNwb25zZRIgCgZmaWd1cmUYASABKAsyEC5zaW5ldy52MS5GaWd1cmUqbAoKQ29udHJvbGxlchIaChZDT05UUk9MTEVSX1VOU1BFQ0lGSUVEEAASFAoQQ09OVFJPTExFUl9QQVBFUhABEhUKEUNPTlRST0xMRVJfTU9ERVJOEAISFQoRQ09OVFJPTExFUl9NT1RPUlMQAypNCgdTdGVwcGVyEhcKE1NURVBQRVJfVU5TUEVDSUZJRUQQABISCg5TVEVQUEVSX1RPUlFVRRABEhUKEVNURVBQRVJfS0lORU1BVElDEAIqYAoLUGFwZXJQcmVzZXQSHAoYUEFQRVJfUFJFU0VUX1VOU1BFQ0lGSUVEEAASHAoYUEFQRVJfUFJFU0VUX1NBRkVHVUFSREVEEAESFQoRUEFQRVJfUFJFU0VUXzIwMDAQAip5CgtQYXBlck1ldHJpYxIcChhQQVBFUl9NRVRSSUNfVU5TUEVDSUZJRUQQABIZChVQQVBFUl9NRVRSSUNfSURFTlRJVFkQARIYChRQQVBFUl9NRVRSSUNfSU5FUlRJQRACEhcKE1BBUEVSX01FVFJJQ19UT1JRVUUQAypmCg1QYXBlclByaW9yaXR5Eh4KGlBBUEVSX1BSSU9SSVRZX1VOU1BFQ0lGSUVEEAASGgoWUEFQRVJfUFJJT1JJVFlfUFJJTlRFRBABEhkKFVBBUEVSX1BSSU9SSVRZX05FU1RFRBACKloKClBhcGVyU2hhcmUSGwoXUEFQRVJfU0hBUkVfVU5TUEVDSUZJRUQQABIVChFQQVBFUl9TSEFSRV9SQVRJTxABEhgKFFBBUEVSX1NIQVJFX0JBTEFOQ0VEEAIy2gMKDUZpZ3VyZVNlcnZpY2USTQoMQ3JlYXRlRmlndXJlEh0uc2luZXcudjEuQ3JlYXRlRmlndXJlUmVxdWVzdBoeLnNpbmV3LnYxLkNyZWF0ZUZpZ3VyZVJlc3BvbnNlEkQKCUdldEZpZ3VyZRIaLnNpbmV3LnYxLkdldEZpZ3VyZVJlcXVlc3QaGy5zaW5ldy52MS5HZXRGaWd1cmVSZXNwb25zZRJKCgtMaXN0RmlndXJlcxIcLnNpbmV3LnYxLkxpc3RGaWd1cmVzUmVxdWVzdBodLnNpbmV3LnYxLkxpc3RGaWd1cmVzUmVzcG9uc2USTQoMVXBkYXRlRmlndXJlEh0uc2luZXcudjEuVXBkYXRlRmlndXJlUmVxdWVzdBoeLnNpbmV3LnYxLlVwZGF0ZUZpZ3VyZVJlc3BvbnNlEk0KDERlbGV0ZUZpZ3VyZRIdLnNpbmV3LnYxLkRlbGV0ZUZpZ3VyZVJlcXVlc3QaHi5zaW5ldy52MS5EZWxldGVGaWd1cmVSZXNwb25zZRJKCgtSZXNldEZpZ3VyZRIcLnNpbmV3LnYxLlJlc2V0RmlndXJlUmVxdWVzdBodLnNpbmV3LnYxLlJlc2V0RmlndXJlUmVzcG9uc2ViBnByb3RvMw", [file_google_protobuf_field_mask, file_sinew_v1_body, file_sinew_v1_types]);
+
+/**
+ * Choices of the paper's controller, CONTROLLER_PAPER. The others ignore them.
+ *
+ * @generated from message sinew.v1.PaperOptions
+ */
+export type PaperOptions = Message<"sinew.v1.PaperOptions"> & {
+  /**
+   * What fields that are absent are taken from.
+   *
+   * @generated from field: sinew.v1.PaperPreset preset = 1;
+   */
+  preset: PaperPreset;
+
+  /**
+   * Blend α of position and velocity demand in equation (4) per 1/30 s, 0…1. Counts when `horizon_s` is 0.
+   *
+   * @generated from field: optional double alpha = 2;
+   */
+  alpha?: number | undefined;
+
+  /**
+   * Time constant of the demand, 0.01…2 s; 0: the paper's demand, met within one step.
+   *
+   * @generated from field: optional double horizon_s = 3;
+   */
+  horizonS?: number | undefined;
+
+  /**
+   * Norm of equation (10).
+   *
+   * @generated from field: sinew.v1.PaperMetric metric = 4;
+   */
+  metric: PaperMetric;
+
+  /**
+   * Order of equation (12).
+   *
+   * @generated from field: sinew.v1.PaperPriority priority = 5;
+   */
+  priority: PaperPriority;
+
+  /**
+   * Sharing of the ground reaction.
+   *
+   * @generated from field: sinew.v1.PaperShare share = 6;
+   */
+  share: PaperShare;
+
+  /**
+   * Joints that equation (16) saturates go to their limit instead of staying where equations (7) to (11) left them.
+   *
+   * @generated from field: optional bool to_limit = 7;
+   */
+  toLimit?: boolean | undefined;
+
+  /**
+   * Torques of a tipping figure know that its support turns.
+   *
+   * @generated from field: optional bool tilt = 8;
+   */
+  tilt?: boolean | undefined;
+
+  /**
+   * Keep the demand for the centre of mass within what the feet can give.
+   *
+   * @generated from field: optional bool zmp_feasible = 9;
+   */
+  zmpFeasible?: boolean | undefined;
+
+  /**
+   * Control both hands as end-effectors.
+   *
+   * @generated from field: optional bool track_hands = 10;
+   */
+  trackHands?: boolean | undefined;
+
+  /**
+   * Control the centre of mass.
+   *
+   * @generated from field: optional bool track_com = 11;
+   */
+  trackCom?: boolean | undefined;
+
+  /**
+   * STEPPER_KINEMATIC: torques move the figure while prescribed accelerations cannot go on.
+   *
+   * @generated from field: optional bool hand_over = 12;
+   */
+  handOver?: boolean | undefined;
+};
+
+/**
+ * Describes the message sinew.v1.PaperOptions.
+ * Use `create(PaperOptionsSchema)` to create a new message.
+ */
+export const PaperOptionsSchema: GenMessage<PaperOptions> = /*@__PURE__*/
+  messageDesc(file_sinew_v1_figure, 0);
 
 /**
  * Scale of measured human strength.
@@ -58,7 +156,7 @@ export type StrengthScale = Message<"sinew.v1.StrengthScale"> & {
  * Use `create(StrengthScaleSchema)` to create a new message.
  */
 export const StrengthScaleSchema: GenMessage<StrengthScale> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 0);
+  messageDesc(file_sinew_v1_figure, 1);
 
 /**
  * Strength factor of one DOF.
@@ -86,7 +184,7 @@ export type DofStrength = Message<"sinew.v1.DofStrength"> & {
  * Use `create(DofStrengthSchema)` to create a new message.
  */
 export const DofStrengthSchema: GenMessage<DofStrength> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 1);
+  messageDesc(file_sinew_v1_figure, 2);
 
 /**
  * A load that a figure carries.
@@ -121,7 +219,7 @@ export type CarriedLoad = Message<"sinew.v1.CarriedLoad"> & {
  * Use `create(CarriedLoadSchema)` to create a new message.
  */
 export const CarriedLoadSchema: GenMessage<CarriedLoad> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 2);
+  messageDesc(file_sinew_v1_figure, 3);
 
 /**
  * One articulated body in a world.
@@ -220,6 +318,13 @@ export type Figure = Message<"sinew.v1.Figure"> & {
    * @generated from field: double assist = 15;
    */
   assist: number;
+
+  /**
+   * Choices of the paper's controller. Absent: its defaults.
+   *
+   * @generated from field: sinew.v1.PaperOptions paper = 16;
+   */
+  paper?: PaperOptions | undefined;
 };
 
 /**
@@ -227,7 +332,7 @@ export type Figure = Message<"sinew.v1.Figure"> & {
  * Use `create(FigureSchema)` to create a new message.
  */
 export const FigureSchema: GenMessage<Figure> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 3);
+  messageDesc(file_sinew_v1_figure, 4);
 
 /**
  * Adds a figure.
@@ -262,7 +367,7 @@ export type CreateFigureRequest = Message<"sinew.v1.CreateFigureRequest"> & {
  * Use `create(CreateFigureRequestSchema)` to create a new message.
  */
 export const CreateFigureRequestSchema: GenMessage<CreateFigureRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 4);
+  messageDesc(file_sinew_v1_figure, 5);
 
 /**
  * The new figure.
@@ -283,7 +388,7 @@ export type CreateFigureResponse = Message<"sinew.v1.CreateFigureResponse"> & {
  * Use `create(CreateFigureResponseSchema)` to create a new message.
  */
 export const CreateFigureResponseSchema: GenMessage<CreateFigureResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 5);
+  messageDesc(file_sinew_v1_figure, 6);
 
 /**
  * Asks for one figure.
@@ -304,7 +409,7 @@ export type GetFigureRequest = Message<"sinew.v1.GetFigureRequest"> & {
  * Use `create(GetFigureRequestSchema)` to create a new message.
  */
 export const GetFigureRequestSchema: GenMessage<GetFigureRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 6);
+  messageDesc(file_sinew_v1_figure, 7);
 
 /**
  * One figure.
@@ -325,7 +430,7 @@ export type GetFigureResponse = Message<"sinew.v1.GetFigureResponse"> & {
  * Use `create(GetFigureResponseSchema)` to create a new message.
  */
 export const GetFigureResponseSchema: GenMessage<GetFigureResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 7);
+  messageDesc(file_sinew_v1_figure, 8);
 
 /**
  * Asks for figures.
@@ -360,7 +465,7 @@ export type ListFiguresRequest = Message<"sinew.v1.ListFiguresRequest"> & {
  * Use `create(ListFiguresRequestSchema)` to create a new message.
  */
 export const ListFiguresRequestSchema: GenMessage<ListFiguresRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 8);
+  messageDesc(file_sinew_v1_figure, 9);
 
 /**
  * A page of figures.
@@ -388,7 +493,7 @@ export type ListFiguresResponse = Message<"sinew.v1.ListFiguresResponse"> & {
  * Use `create(ListFiguresResponseSchema)` to create a new message.
  */
 export const ListFiguresResponseSchema: GenMessage<ListFiguresResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 9);
+  messageDesc(file_sinew_v1_figure, 10);
 
 /**
  * Changes a figure.
@@ -404,7 +509,7 @@ export type UpdateFigureRequest = Message<"sinew.v1.UpdateFigureRequest"> & {
   figure?: Figure | undefined;
 
   /**
-   * Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist` to take. Must not be empty.
+   * Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper` to take. Must not be empty.
    *
    * @generated from field: google.protobuf.FieldMask update_mask = 2;
    */
@@ -416,7 +521,7 @@ export type UpdateFigureRequest = Message<"sinew.v1.UpdateFigureRequest"> & {
  * Use `create(UpdateFigureRequestSchema)` to create a new message.
  */
 export const UpdateFigureRequestSchema: GenMessage<UpdateFigureRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 10);
+  messageDesc(file_sinew_v1_figure, 11);
 
 /**
  * The changed figure.
@@ -437,7 +542,7 @@ export type UpdateFigureResponse = Message<"sinew.v1.UpdateFigureResponse"> & {
  * Use `create(UpdateFigureResponseSchema)` to create a new message.
  */
 export const UpdateFigureResponseSchema: GenMessage<UpdateFigureResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 11);
+  messageDesc(file_sinew_v1_figure, 12);
 
 /**
  * Removes a figure.
@@ -458,7 +563,7 @@ export type DeleteFigureRequest = Message<"sinew.v1.DeleteFigureRequest"> & {
  * Use `create(DeleteFigureRequestSchema)` to create a new message.
  */
 export const DeleteFigureRequestSchema: GenMessage<DeleteFigureRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 12);
+  messageDesc(file_sinew_v1_figure, 13);
 
 /**
  * The figure is gone.
@@ -473,7 +578,7 @@ export type DeleteFigureResponse = Message<"sinew.v1.DeleteFigureResponse"> & {
  * Use `create(DeleteFigureResponseSchema)` to create a new message.
  */
 export const DeleteFigureResponseSchema: GenMessage<DeleteFigureResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 13);
+  messageDesc(file_sinew_v1_figure, 14);
 
 /**
  * Puts a figure back.
@@ -501,7 +606,7 @@ export type ResetFigureRequest = Message<"sinew.v1.ResetFigureRequest"> & {
  * Use `create(ResetFigureRequestSchema)` to create a new message.
  */
 export const ResetFigureRequestSchema: GenMessage<ResetFigureRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 14);
+  messageDesc(file_sinew_v1_figure, 15);
 
 /**
  * The figure that was put back.
@@ -522,7 +627,7 @@ export type ResetFigureResponse = Message<"sinew.v1.ResetFigureResponse"> & {
  * Use `create(ResetFigureResponseSchema)` to create a new message.
  */
 export const ResetFigureResponseSchema: GenMessage<ResetFigureResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 15);
+  messageDesc(file_sinew_v1_figure, 16);
 
 /**
  * Who computes accelerations and torques.
@@ -586,7 +691,7 @@ export enum Stepper {
   TORQUE = 1,
 
   /**
-   * Accelerations are applied as they are. UNIMPLEMENTED where the server lacks it.
+   * Accelerations are applied as they are; torques take over while that cannot go on (frame flag HANDED_OVER).
    *
    * @generated from enum value: STEPPER_KINEMATIC = 2;
    */
@@ -598,6 +703,149 @@ export enum Stepper {
  */
 export const StepperSchema: GenEnum<Stepper> = /*@__PURE__*/
   enumDesc(file_sinew_v1_figure, 1);
+
+/**
+ * Starting point of `PaperOptions`.
+ *
+ * @generated from enum sinew.v1.PaperPreset
+ */
+export enum PaperPreset {
+  /**
+   * The default: PAPER_PRESET_SAFEGUARDED.
+   *
+   * @generated from enum value: PAPER_PRESET_UNSPECIFIED = 0;
+   */
+  PAPER_PRESET_UNSPECIFIED = 0,
+
+  /**
+   * The equations with the repairs that they need under stress.
+   *
+   * @generated from enum value: PAPER_PRESET_SAFEGUARDED = 1;
+   */
+  PAPER_PRESET_SAFEGUARDED = 1,
+
+  /**
+   * As printed in 2000, every safeguard off; for comparison. Meant for STEPPER_KINEMATIC and 30 ticks a second.
+   *
+   * @generated from enum value: PAPER_PRESET_2000 = 2;
+   */
+  PAPER_PRESET_2000 = 2,
+}
+
+/**
+ * Describes the enum sinew.v1.PaperPreset.
+ */
+export const PaperPresetSchema: GenEnum<PaperPreset> = /*@__PURE__*/
+  enumDesc(file_sinew_v1_figure, 2);
+
+/**
+ * Norm in which the change of acceleration that brings torques within strength is least, equation (10).
+ *
+ * @generated from enum sinew.v1.PaperMetric
+ */
+export enum PaperMetric {
+  /**
+   * As the preset has it.
+   *
+   * @generated from enum value: PAPER_METRIC_UNSPECIFIED = 0;
+   */
+  UNSPECIFIED = 0,
+
+  /**
+   * W = I, the paper's: all joints help.
+   *
+   * @generated from enum value: PAPER_METRIC_IDENTITY = 1;
+   */
+  IDENTITY = 1,
+
+  /**
+   * W = H: only saturated joints accelerate otherwise.
+   *
+   * @generated from enum value: PAPER_METRIC_INERTIA = 2;
+   */
+  INERTIA = 2,
+
+  /**
+   * W = H²: only saturated torques change.
+   *
+   * @generated from enum value: PAPER_METRIC_TORQUE = 3;
+   */
+  TORQUE = 3,
+}
+
+/**
+ * Describes the enum sinew.v1.PaperMetric.
+ */
+export const PaperMetricSchema: GenEnum<PaperMetric> = /*@__PURE__*/
+  enumDesc(file_sinew_v1_figure, 3);
+
+/**
+ * How equation (12) orders centre of mass and hands.
+ *
+ * @generated from enum sinew.v1.PaperPriority
+ */
+export enum PaperPriority {
+  /**
+   * As the preset has it.
+   *
+   * @generated from enum value: PAPER_PRIORITY_UNSPECIFIED = 0;
+   */
+  UNSPECIFIED = 0,
+
+  /**
+   * As printed.
+   *
+   * @generated from enum value: PAPER_PRIORITY_PRINTED = 1;
+   */
+  PRINTED = 1,
+
+  /**
+   * Exact task priority: hands get what the centre of mass leaves.
+   *
+   * @generated from enum value: PAPER_PRIORITY_NESTED = 2;
+   */
+  NESTED = 2,
+}
+
+/**
+ * Describes the enum sinew.v1.PaperPriority.
+ */
+export const PaperPrioritySchema: GenEnum<PaperPriority> = /*@__PURE__*/
+  enumDesc(file_sinew_v1_figure, 4);
+
+/**
+ * How supports share the ground reaction.
+ *
+ * @generated from enum sinew.v1.PaperShare
+ */
+export enum PaperShare {
+  /**
+   * As the preset has it.
+   *
+   * @generated from enum value: PAPER_SHARE_UNSPECIFIED = 0;
+   */
+  UNSPECIFIED = 0,
+
+  /**
+   * By the ratios of equation (2).
+   *
+   * @generated from enum value: PAPER_SHARE_RATIO = 1;
+   */
+  RATIO = 1,
+
+  /**
+   * The least weighted forces whose sum and moment are right.
+   *
+   * @generated from enum value: PAPER_SHARE_BALANCED = 2;
+   */
+  BALANCED = 2,
+}
+
+/**
+ * Describes the enum sinew.v1.PaperShare.
+ */
+export const PaperShareSchema: GenEnum<PaperShare> = /*@__PURE__*/
+  enumDesc(file_sinew_v1_figure, 5);
 
 /**
  * Creates, lists and changes the figures of a world. Changes act at the start of the next tick.
@@ -636,7 +884,7 @@ export const FigureService: GenService<{
     output: typeof ListFiguresResponseSchema;
   },
   /**
-   * Changes strength, controller, fatigue or assist.
+   * Changes strength, controller, options of the paper's controller, fatigue or assist.
    *
    * @generated from rpc sinew.v1.FigureService.UpdateFigure
    */

@@ -1,0 +1,240 @@
+//! Falls over an edge of the feet, against the physical pendulum.
+
+use super::{Pair, Record, record};
+use crate::evaluate::pose::segment_poses;
+use crate::sim::body::topology::{DOF_COUNT, L_FOOT, L_TOES, R_FOOT, R_TOES};
+use crate::sim::body::{Body, Links, Posture, State};
+use crate::sim::dynamics::{Kinematics, center_of_mass, kinetic_energy};
+use crate::sim::figure::StrengthScale;
+use crate::sim::math::{Quat, Vec3};
+use crate::sim::motion::builtin::at_ease;
+use crate::sim::world::World;
+use std::sync::Arc;
+
+/// Gravity of the default world, m/s².
+const GRAVITY: f64 = 9.81;
+/// Height of the centre of mass that ends the comparison, m.
+pub const LOW: f64 = 0.5;
+/// Shortest edge that a figure can tip over as a whole, m; shorter ones round a corner.
+const MIN_EDGE: f64 = 0.05;
+/// How far beyond balance a fall begins, degrees.
+const BEYOND: f64 = 3.0;
+
+/// The four directions.
+pub const DIRECTIONS: [(&str, Vec3); 4] = [
+    (
+        "forward",
+        Vec3 {
+            x: 1.0,
+            y: 0.0,
+            z: 0.0,
+        },
+    ),
+    (
+        "backward",
+        Vec3 {
+            x: -1.0,
+            y: 0.0,
+            z: 0.0,
+        },
+    ),
+    (
+        "left",
+        Vec3 {
+            x: 0.0,
+            y: 1.0,
+            z: 0.0,
+        },
+    ),
+    (
+        "right",
+        Vec3 {
+            x: 0.0,
+            y: -1.0,
+            z: 0.0,
+        },
+    ),
+];
+
+/// A figure about to fall.
+#[derive(Clone, Debug)]
+pub struct Leaning {
+    /// Where it starts, at rest.
+    pub state: State,
+    /// A point of the edge.
+    pub pivot: Vec3,
+    /// Horizontal, away from the feet, perpendicular to the edge.
+    pub normal: Vec3,
+}
+
+/// Edge of the soles that faces `direction` most: a point on it and its outward normal.
+fn edge_towards(body: &Body, posture: &Posture, direction: Vec3) -> (Vec3, Vec3) {
+    let poses = segment_poses(&body.joint_offset, posture);
+    let mut soles = Vec::new();
+    for s in [L_FOOT, L_TOES, R_FOOT, R_TOES] {
+        for p in &body.segment(s).contact_points {
+            let p = poses[s.index()].point(*p);
+            soles.push(Vec3 { z: 0.0, ..p });
+        }
+    }
+    let mut best = (f64::MIN, Vec3::zero(), Vec3::zero());
+    for a in &soles {
+        for b in &soles {
+            let along = *b - *a;
+            if along.norm() < MIN_EDGE {
+                continue;
+            }
+            let normal = along.cross(Vec3::Z) * (1.0 / along.norm());
+            let outside = soles.iter().any(|p| (*p - *a).dot(normal) > 1e-6);
+            if !outside && normal.dot(direction) > best.0 {
+                best = (normal.dot(direction), *a, normal);
+            }
+        }
+    }
+    (best.1, best.2)
+}
+
+/// Standing at ease, turned stiffly about the edge that faces `direction` until the centre of mass is 3° beyond it.
+pub fn leaning(body: &Body, direction: Vec3) -> Leaning {
+    let posture = at_ease(body);
+    let (pivot, normal) = edge_towards(body, &posture, direction);
+    let com = com_and_energy(
+        &Links::new(body),
+        &State {
+            posture,
+            ..State::default()
+        },
+    )
+    .0;
+    let angle = (pivot - com).dot(normal).atan2(com.z) + BEYOND.to_radians();
+    let turn = Quat::from_axis_angle(Vec3::Z.cross(normal), angle);
+    let mut posture = posture;
+    posture.root_position = pivot + turn.rotate(posture.root_position - pivot);
+    posture.root_rotation = turn * posture.root_rotation;
+    Leaning {
+        state: State {
+            posture,
+            ..State::default()
+        },
+        pivot,
+        normal,
+    }
+}
+
+/// Centre of mass (m) and energy (J, rotors included).
+fn com_and_energy(links: &Links, state: &State) -> (Vec3, f64) {
+    let mut kin = Kinematics::default();
+    kin.set_state(links, state);
+    let (com, mass) = center_of_mass(links, &kin);
+    let com = state.posture.root_position + com;
+    let rotors: f64 = (0..DOF_COUNT)
+        .map(|d| 0.5 * links.armature[d] * state.velocity[6 + d].powi(2))
+        .sum();
+    (
+        com,
+        kinetic_energy(links, &kin) + rotors + mass * GRAVITY * com.z,
+    )
+}
+
+/// The figure as one rigid body turning about the edge: time (s) and height of the centre of mass (m) every millisecond, down to [`LOW`].
+/// Midpoint rule, 0.1 ms.
+pub fn pendulum(body: &Body, start: &Leaning) -> Vec<[f64; 2]> {
+    let links = Links::new(body);
+    let axis = Vec3::Z.cross(start.normal);
+    let poses = segment_poses(&links.offset, &start.state.posture);
+    let mut inertia = 0.0;
+    for (segment, pose) in body.segments.iter().zip(&poses) {
+        let own = segment.inertia.rotated(pose.rotation.to_mat3());
+        let r = pose.point(segment.com) - start.pivot;
+        inertia += axis.dot(own * axis) + segment.mass * axis.cross(r).dot(axis.cross(r));
+    }
+    let r = com_and_energy(&links, &start.state).0 - start.pivot;
+    let across = r - axis * r.dot(axis);
+    let length = across.norm();
+    let stiffness = links.total_mass() * GRAVITY * length / inertia;
+    let (mut angle, mut rate) = ((across.z / length).acos(), 0.0f64);
+    let h = 1e-4;
+    let mut out = Vec::new();
+    for n in 0u32.. {
+        let z = length * angle.cos();
+        if n % 10 == 0 || z <= LOW {
+            out.push([f64::from(n) * h, z]);
+        }
+        if z <= LOW {
+            break;
+        }
+        let (a, w) = (
+            angle + 0.5 * h * rate,
+            rate + 0.5 * h * stiffness * angle.sin(),
+        );
+        angle += h * w;
+        rate += h * stiffness * a.sin();
+    }
+    out
+}
+
+/// One fall.
+#[derive(Clone, Debug)]
+pub struct Fall {
+    /// Time until the centre of mass is [`LOW`], s.
+    pub time_s: Option<f64>,
+    /// The same for the pendulum, s.
+    pub pendulum_s: f64,
+    /// Least and largest energy before that, relative to the start.
+    pub energy: [f64; 2],
+    /// Angle between the path of the centre of mass and the normal of the edge, degrees.
+    pub off_course_deg: f64,
+    /// Largest joint error before that, degrees.
+    pub bent_deg: f64,
+    /// The run.
+    pub record: Record,
+}
+
+/// Lets a figure fall with `strength` times its own.
+pub fn fall(body: &Arc<Body>, pair: &Pair, direction: Vec3, strength: f64, panels: usize) -> Fall {
+    let start = leaning(body, direction);
+    let scale = StrengthScale {
+        all: strength,
+        ..StrengthScale::default()
+    };
+    let pendulum_s = pendulum(body, &start).last().map_or(0.0, |p| p[0]);
+    // Energies come from the state, which the recording does not keep: a second world is cheaper than all states.
+    let (mut world, key) = pair.world(body, start.state, scale.clone());
+    let (com, first) = com_and_energy(&Links::new(body), &start.state);
+    let mut out = Fall {
+        time_s: None,
+        pendulum_s,
+        energy: [0.0; 2],
+        off_course_deg: 0.0,
+        bent_deg: 0.0,
+        record: Record::default(),
+    };
+    while out.time_s.is_none() && world.time() < 3.0 {
+        let (moved, energy, bent) = tick(&mut world, key, com);
+        let gain = (energy - first) / first;
+        out.energy = [out.energy[0].min(gain), out.energy[1].max(gain)];
+        out.bent_deg = out.bent_deg.max(bent.to_degrees());
+        let along = moved.dot(start.normal);
+        let across = (moved - start.normal * along - Vec3::Z * moved.z).norm();
+        out.off_course_deg = across.atan2(along).to_degrees();
+        if com.z + moved.z < LOW {
+            out.time_s = Some(world.time());
+        }
+    }
+    let (mut world, key) = pair.world(body, start.state, scale);
+    out.record = record(&mut world, key, 1.8, panels, |_| Vec::new());
+    out
+}
+
+/// One tick: displacement of the centre of mass from `start`, energy, and largest joint error (rad).
+fn tick(world: &mut World, key: crate::sim::world::FigureKey, start: Vec3) -> (Vec3, f64, f64) {
+    world.step();
+    let figure = world.figure(key).expect("nobody removes the figure");
+    let (com, energy) = com_and_energy(figure.links(), figure.state());
+    let report = figure.report().expect("a stepped figure has a report");
+    let bent = report
+        .joint_error
+        .iter()
+        .fold(0.0f64, |m, e| m.max(e.abs()));
+    (com - start, energy, bent)
+}

@@ -1,0 +1,154 @@
+//! Lifting a load with one arm: the paper's headline experiment.
+
+use super::{Pair, Record, record};
+use crate::sim::body::angles::anatomical_angles;
+use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES, R_HAND};
+use crate::sim::body::{Body, Links, State};
+use crate::sim::dynamics::Terms;
+use crate::sim::figure::tasks::grip;
+use crate::sim::figure::{Perturbation, StrengthScale};
+use crate::sim::motion::builtin::{LIFT_GRASP, builtin};
+use crate::sim::motion::{Clip, PlanarTransform};
+use crate::sim::strength::Strength;
+use crate::sim::world::{ClipPlayback, Drive, FigureKey, World};
+use std::sync::Arc;
+
+/// Gravity of the default world, m/s².
+const GRAVITY: f64 = 9.81;
+/// Share of the static need of 3 kg that the arm has.
+const SHARE: f64 = 0.98;
+/// The figure goes on holding the load after the clip has ended; s in all.
+pub const DURATION: f64 = 6.0;
+
+/// Shoulder and elbow of the right arm.
+pub fn is_arm(dof: usize) -> bool {
+    DOF_NAMES[dof].starts_with("r_shoulder") || DOF_NAMES[dof].starts_with("r_elbow")
+}
+
+/// Joints that give when the arm is too weak: hip, knee, ankle and back.
+fn is_helper(dof: usize) -> bool {
+    ["hip", "knee", "ankle", "waist", "thorax"]
+        .iter()
+        .any(|part| DOF_NAMES[dof].contains(part))
+}
+
+/// Factor on the strength of the right arm at which it has 98 % of what `mass` (kg) needs, held still in the clip's worst posture.
+pub fn weak_arm(body: &Arc<Body>, clip: &Clip, mass: f64) -> f64 {
+    let strength = Strength::for_body(body);
+    let mut links = Links::new(body);
+    links.add_load(R_HAND, grip(body, R_HAND), mass);
+    let mut terms = Terms::default();
+    let mut need = 0.0f64;
+    let first = (LIFT_GRASP * clip.rate_hz()).ceil() as usize;
+    for i in first..clip.len() {
+        let state = State {
+            posture: *clip.posture(i),
+            ..State::default()
+        };
+        terms.compute(&links, &state, &[], GRAVITY);
+        let angles = anatomical_angles(&state.posture);
+        let (mut lower, mut upper) = ([0.0; DOF_COUNT], [0.0; DOF_COUNT]);
+        let muscles = StrengthScale::default().muscles(1.0);
+        strength.range(&angles, &[0.0; DOF_COUNT], &muscles, &mut lower, &mut upper);
+        for j in (0..DOF_COUNT).filter(|j| is_arm(*j)) {
+            let tau = terms.h[6 + j];
+            need = need.max(tau / upper[j]).max(tau / lower[j]);
+        }
+    }
+    SHARE * need
+}
+
+/// One lift.
+#[derive(Clone, Debug)]
+pub struct Lift {
+    /// Load, kg.
+    pub mass: f64,
+    /// The run.
+    pub record: Record,
+    /// How long a joint of the arm was at its limit, s.
+    pub arm_saturated_s: f64,
+    /// Largest error of hip, knee, ankle or back, degrees, up to a fall.
+    pub helpers_deg: f64,
+    /// Least distance of the zero-moment point inside the polygon after the grasp, m, up to a fall; `None`: it never had one.
+    pub margin: Option<f64>,
+    /// Largest share of its strength that the right shoulder used.
+    pub shoulder_use: f64,
+}
+
+/// The scene, before its first tick; `arm` is the factor on the strength of the right arm.
+pub fn scene(body: &Arc<Body>, pair: &Pair, mass: f64, arm: f64) -> (World, FigureKey) {
+    let clip = Arc::new(builtin(body, "lift").expect("there is a lift"));
+    let first = clip.sample(0.0);
+    let mut strength = StrengthScale::default();
+    for j in (0..DOF_COUNT).filter(|j| is_arm(*j)) {
+        strength.dof[j] = arm;
+    }
+    let state = State {
+        posture: first.posture,
+        velocity: first.velocity,
+    };
+    let (mut world, key) = pair.world(body, state, strength);
+    let load = Perturbation::Load {
+        segment: R_HAND,
+        point: grip(body, R_HAND),
+        mass,
+        from: LIFT_GRASP,
+        to: f64::INFINITY,
+    };
+    world.perturb(key, load).expect("loads are valid");
+    let figure = world.figure_mut(key).expect("the figure was just added");
+    figure.set_drive(Drive::Clip(ClipPlayback {
+        clip,
+        start: 0.0,
+        speed: 1.0,
+        looped: false,
+        origin: PlanarTransform::default(),
+    }));
+    (world, key)
+}
+
+/// Lifts `mass` kg.
+pub fn lift(body: &Arc<Body>, pair: &Pair, mass: f64, arm: f64, panels: usize) -> Lift {
+    let (mut world, key) = scene(body, pair, mass, arm);
+    let at = grip(body, R_HAND);
+    let record = record(&mut world, key, DURATION, panels, |t| {
+        if t > LIFT_GRASP {
+            vec![(R_HAND.index(), at, mass)]
+        } else {
+            Vec::new()
+        }
+    });
+    let dt = 1.0 / pair.rate_hz;
+    let mut out = Lift {
+        mass,
+        arm_saturated_s: 0.0,
+        helpers_deg: 0.0,
+        margin: None,
+        shoulder_use: 0.0,
+        record,
+    };
+    let end = out.record.fell_s.unwrap_or(f64::INFINITY);
+    for s in &out.record.samples {
+        if (0..DOF_COUNT).any(|j| is_arm(j) && s.saturated >> j & 1 == 1) {
+            out.arm_saturated_s += dt;
+        }
+        if s.time_s >= end {
+            continue;
+        }
+        for j in 0..DOF_COUNT {
+            if is_helper(j) {
+                out.helpers_deg = out.helpers_deg.max(s.joint_error[j].abs().to_degrees());
+            }
+            if DOF_NAMES[j].starts_with("r_shoulder") {
+                let [t, low, high] = s.torque[j];
+                let used = if t > 0.0 { t / high } else { t / low };
+                out.shoulder_use = out.shoulder_use.max(used);
+            }
+        }
+        if let (Some(z), Some([x0, x1, y0, y1]), true) = (s.zmp, s.polygon, s.time_s > LIFT_GRASP) {
+            let inside = (z.x - x0).min(x1 - z.x).min(z.y - y0).min(y1 - z.y);
+            out.margin = Some(out.margin.map_or(inside, |m| m.min(inside)));
+        }
+    }
+    out
+}

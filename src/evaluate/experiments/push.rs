@@ -1,0 +1,80 @@
+//! Pushes of a standing figure, in units of what the linear inverted pendulum can stop.
+
+use super::{Pair, Record, record};
+use crate::sim::body::Body;
+use crate::sim::body::State;
+use crate::sim::body::topology::CHEST;
+use crate::sim::figure::{Perturbation, StrengthScale};
+use crate::sim::math::Vec3;
+use crate::sim::motion::builtin::at_ease;
+use std::sync::Arc;
+
+/// Gravity of the default world, m/s².
+const GRAVITY: f64 = 9.81;
+/// The push begins after the figure has settled, s, and lasts this long, s.
+const BEGINS: f64 = 0.5;
+const LASTS: f64 = 0.1;
+/// The run, s.
+const DURATION: f64 = 4.5;
+
+/// One push.
+#[derive(Clone, Debug)]
+pub struct Push {
+    /// Impulse, N·s.
+    pub impulse: f64,
+    /// What the pendulum can stop, N·s: m ω d with ω² = g/h and d the way of the centre of mass to the edge.
+    pub bound: f64,
+    /// The run.
+    pub record: Record,
+}
+
+/// Pushes the chest with `share` of the pendulum's bound. The feet stay where they are: no protective step.
+pub fn push(body: &Arc<Body>, pair: &Pair, direction: Vec3, share: f64, panels: usize) -> Push {
+    let state = State {
+        posture: at_ease(body),
+        ..State::default()
+    };
+    let mut pair = pair.clone();
+    pair.params.protective_steps = false;
+    let (mut world, key) = pair.world(body, state, StrengthScale::default());
+    world.step();
+    let figure = world.figure(key).expect("nobody removes the figure");
+    let r = figure.report().expect("a stepped figure has a report");
+    let edge = r
+        .support_polygon
+        .iter()
+        .map(|c| c[0] * direction.x + c[1] * direction.y)
+        .fold(f64::MIN, f64::max);
+    let mass = figure.links().total_mass();
+    let bound = mass * (GRAVITY / r.com.z).sqrt() * (edge - r.com.dot(direction));
+    let impulse = share * bound;
+    let what = Perturbation::Force {
+        segment: CHEST,
+        point: Vec3 {
+            z: 0.1,
+            ..Vec3::zero()
+        },
+        force: direction * (impulse / LASTS),
+        from: BEGINS,
+        to: BEGINS + LASTS,
+    };
+    world.perturb(key, what).expect("pushes are valid");
+    Push {
+        impulse,
+        bound,
+        record: record(&mut world, key, DURATION, panels, |_| Vec::new()),
+    }
+}
+
+/// Largest share of the bound that is recovered without a larger one below it that is not, in steps of 5 %, up to 1.5.
+pub fn recovered(body: &Arc<Body>, pair: &Pair, direction: Vec3) -> Push {
+    let mut best = push(body, pair, direction, 0.0, 0);
+    for n in 1..=30 {
+        let next = push(body, pair, direction, 0.05 * f64::from(n), 0);
+        if next.record.fell_s.is_some() {
+            break;
+        }
+        best = next;
+    }
+    best
+}

@@ -1,0 +1,60 @@
+//! What people can hold still: arm straight out in front, and elbow bent.
+
+use crate::sim::body::angles::{anatomical_angles, set_anatomical_angles};
+use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES, R_HAND};
+use crate::sim::body::{Body, Links, Posture, State};
+use crate::sim::dynamics::Terms;
+use crate::sim::figure::StrengthScale;
+use crate::sim::figure::tasks::grip;
+use crate::sim::strength::Strength;
+
+/// Gravity of the default world, m/s².
+const GRAVITY: f64 = 9.81;
+
+/// A posture that is held.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hold {
+    /// Right arm level and straight, forwards; shoulder flexion decides.
+    StraightArm,
+    /// Right upper arm hanging, forearm level; elbow flexion decides.
+    Curl,
+}
+
+/// Share of strength that the deciding joint needs with the empty hand, and the load in the hand that takes all of it, kg.
+pub fn hold(body: &Body, what: Hold) -> (f64, f64) {
+    let name = match what {
+        Hold::StraightArm => "r_shoulder_flexion",
+        Hold::Curl => "r_elbow_flexion",
+    };
+    let dof = DOF_NAMES
+        .iter()
+        .position(|n| *n == name)
+        .expect("the joint exists");
+    let mut angles = [0.0; DOF_COUNT];
+    angles[dof] = std::f64::consts::FRAC_PI_2;
+    let mut posture = Posture::default();
+    set_anatomical_angles(&mut posture, &angles);
+    let state = State {
+        posture,
+        ..State::default()
+    };
+    let need = |kg: f64| {
+        let mut links = Links::new(body);
+        if kg > 0.0 {
+            links.add_load(R_HAND, grip(body, R_HAND), kg);
+        }
+        let mut terms = Terms::default();
+        terms.compute(&links, &state, &[], GRAVITY);
+        terms.h[6 + dof]
+    };
+    let (mut lower, mut upper) = ([0.0; DOF_COUNT], [0.0; DOF_COUNT]);
+    Strength::for_body(body).range(
+        &anatomical_angles(&posture),
+        &[0.0; DOF_COUNT],
+        &StrengthScale::default().muscles(1.0),
+        &mut lower,
+        &mut upper,
+    );
+    let (empty, per_kg) = (need(0.0), need(1.0) - need(0.0));
+    (empty / upper[dof], (upper[dof] - empty) / per_kg)
+}

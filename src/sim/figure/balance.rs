@@ -1,0 +1,200 @@
+//! Is balance lost for good? Then the controller, which would bend ankles and knees to keep soles flat that cannot stay flat, hands over to
+//! motors alone (ALGORITHM §14.3): the figure falls as the body it is.
+
+use super::report::MAX_CONTACTS;
+use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
+use crate::sim::body::{Body, SegmentId};
+use crate::sim::dynamics::Terms;
+use crate::sim::support::{Polygon, Support};
+
+/// A body this low (share of its standing height) does not step any more.
+const LOW: f64 = 0.7;
+/// Balance is found again once the capture point has been inside for this long, s.
+const FOUND_TIME: f64 = 0.3;
+
+/// What brings the capture point back from where, m.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reach {
+    /// Arms and trunk; a controller that does all it can.
+    Body,
+    /// The paper's controller, which keeps trying on an edge of its feet.
+    Paper,
+    /// Steps.
+    Step,
+}
+
+impl Reach {
+    fn length(self, height: f64) -> f64 {
+        match self {
+            Self::Body => 0.04,
+            Self::Step if height > LOW => 0.6,
+            Self::Paper | Self::Step => 0.15,
+        }
+    }
+}
+
+/// Watches the capture point.
+#[derive(Clone, Debug)]
+pub struct BalanceWatch {
+    polygon: Polygon,
+    lost: bool,
+    inside: f64,
+}
+
+impl Default for BalanceWatch {
+    fn default() -> Self {
+        Self {
+            polygon: Polygon::with_capacity(MAX_CONTACTS),
+            lost: false,
+            inside: 0.0,
+        }
+    }
+}
+
+impl BalanceWatch {
+    /// True while balance is lost.
+    pub fn lost(&self) -> bool {
+        self.lost
+    }
+
+    /// Forgets the past.
+    pub fn reset(&mut self) {
+        (self.lost, self.inside) = (false, 0.0);
+    }
+
+    /// Looks at the state in `terms`, at the start of a tick of `dt` seconds. Allocates nothing.
+    ///
+    /// * `reach`: what may bring it back.
+    /// * `height`: of the centre of mass, as a share of the standing one.
+    /// * `off`: distance of the capture point from where the motion has it, m, while that motion walks: who walks falls from foot to foot, and has
+    ///   lost nothing as long as it falls where the next foot is going to be.
+    pub fn observe(
+        &mut self,
+        body: &Body,
+        terms: &Terms,
+        support: &Support,
+        (gravity, dt): (f64, f64),
+        (reach, height): (Reach, f64),
+        off: Option<f64>,
+    ) {
+        if support.points().is_empty() || gravity <= 0.0 {
+            return; // Flight: nothing to lose balance over.
+        }
+        let (c, v) = (terms.com, terms.com_velocity);
+        let time = (c.z.max(0.05) / gravity).sqrt();
+        let capture = [c.x + v.x * time, c.y + v.y * time];
+        self.cover(body, terms, support);
+        let outside = self.polygon.closest(capture).map_or(0.0, |c| -c.margin);
+        if outside.min(off.unwrap_or(f64::INFINITY)) > reach.length(height) {
+            (self.lost, self.inside) = (true, 0.0);
+        } else if self.lost {
+            self.inside = if outside > 0.0 { 0.0 } else { self.inside + dt };
+            self.lost = self.inside < FOUND_TIME;
+        }
+    }
+
+    /// What the supports can cover: all of a foot of which a part touches, since it can be put down again; of other segments what touches.
+    fn cover(&mut self, body: &Body, terms: &Terms, support: &Support) {
+        let points = support.points();
+        let touches = |s: SegmentId| points.iter().any(|p| p.segment == s);
+        let feet = [[L_FOOT, L_TOES], [R_FOOT, R_TOES]];
+        let down = feet.map(|f| f.into_iter().any(touches));
+        let soles = feet
+            .iter()
+            .zip(down)
+            .filter(|(_, down)| *down)
+            .flat_map(|(foot, _)| foot)
+            .flat_map(|s| {
+                let points = &body.segment(*s).contact_points;
+                points.iter().map(|p| terms.point_world(s.index(), *p))
+            });
+        let others = points
+            .iter()
+            .filter(|p| !feet.iter().flatten().any(|s| *s == p.segment))
+            .map(|p| p.position);
+        self.polygon
+            .set_hull(soles.chain(others).map(|p| [p.x, p.y]));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::body::topology::SEGMENT_COUNT;
+    use crate::sim::math::Vec3;
+    use crate::sim::support::testing::{GRAVITY, mannequin, standing, terms};
+
+    const DT: f64 = 1.0 / 60.0;
+
+    /// Standing, with the whole body moving at `speed` to the front.
+    fn moving(speed: f64) -> (Body, Terms, Support) {
+        let body = mannequin();
+        let mut state = standing(&body);
+        state.velocity[3] = speed;
+        let t = terms(&body, &state);
+        let mut support = Support::default();
+        support.update(&t, &body, Vec3::zero(), GRAVITY);
+        (body, t, support)
+    }
+
+    fn lost_after(watch: &mut BalanceWatch, speed: f64, reach: Reach) -> bool {
+        let (body, t, support) = moving(speed);
+        watch.observe(&body, &t, &support, (GRAVITY, DT), (reach, 1.0), None);
+        watch.lost()
+    }
+
+    #[test]
+    fn the_capture_point_decides_and_steps_reach_farther() {
+        // How fast the body may be so that the capture point is so far outside the toes.
+        let (body, t, _) = moving(0.0);
+        let front = (0..SEGMENT_COUNT)
+            .flat_map(|s| {
+                let points = &body.segments[s].contact_points;
+                points.iter().map(move |p| (s, *p))
+            })
+            .map(|(s, p)| t.point_world(s, p))
+            .filter(|p| p.z < 0.02)
+            .fold(f64::MIN, |m, p| m.max(p.x));
+        let speed = |outside: f64| (front + outside - t.com.x) * (GRAVITY / t.com.z).sqrt();
+        for (reach, length) in [
+            (Reach::Body, 0.04),
+            (Reach::Paper, 0.15),
+            (Reach::Step, 0.6),
+        ] {
+            let mut watch = BalanceWatch::default();
+            assert!(!lost_after(&mut watch, speed(length - 1e-3), reach));
+            assert!(lost_after(&mut watch, speed(length + 1e-3), reach));
+            // Found only after a while inside.
+            let mut ticks = 0;
+            while lost_after(&mut watch, 0.0, reach) {
+                ticks += 1;
+                assert!(ticks < 20, "found within a third of a second");
+            }
+            assert!(ticks >= 16);
+        }
+    }
+
+    #[test]
+    fn who_falls_where_the_motion_goes_has_lost_nothing() {
+        let (body, t, support) = moving(5.0);
+        let lost = |off: f64| {
+            let mut watch = BalanceWatch::default();
+            let reach = (Reach::Step, 1.0);
+            watch.observe(&body, &t, &support, (GRAVITY, DT), reach, Some(off));
+            watch.lost()
+        };
+        assert!(!lost(0.0) && !lost(0.59) && lost(0.61));
+    }
+
+    #[test]
+    fn nothing_is_lost_in_the_air() {
+        let (body, mut t, mut support) = moving(5.0);
+        t.com_velocity.x = 5.0;
+        let mut state = standing(&body);
+        state.posture.root_position.z += 1.0;
+        support.update(&terms(&body, &state), &body, Vec3::zero(), GRAVITY);
+        let mut watch = BalanceWatch::default();
+        watch.observe(&body, &t, &support, (GRAVITY, DT), (Reach::Body, 1.0), None);
+        assert!(!watch.lost());
+    }
+}

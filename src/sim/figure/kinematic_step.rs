@@ -1,0 +1,515 @@
+//! The paper's own way to move a figure (ALGORITHM §6, §10): the controller's accelerations are applied as they are, and the support holds
+//! still, rotates about the minimum-moment point, or flies.
+//!
+//! Nothing here can push back: what the ground would have to give follows from inverse dynamics and is shared among the touching points.
+//! What they cannot give shows as a residual of the audit; it is not hidden.
+
+use super::report::{Audit, ContactPoint, Flags, MAX_CONTACTS};
+use super::torque_step::{StepInput, TickForces};
+use crate::sim::body::topology::{DOF_COUNT, L_FOOT, L_TOES, NV, R_FOOT, R_TOES, SEGMENT_COUNT};
+use crate::sim::body::{Body, Posture, SegmentId, State};
+use crate::sim::contact::limits::LimitRows;
+use crate::sim::contact::newton::{Motors, NewtonWorkspace, minimise};
+use crate::sim::contact::rows::{ContactRows, PointRow};
+use crate::sim::contact::sparse::SparseSystem;
+use crate::sim::control::Command;
+use crate::sim::control::reroot::shift;
+use crate::sim::dynamics::factor::{factor, solve};
+use crate::sim::dynamics::terms::WIDTH;
+use crate::sim::dynamics::{Kinematics, MassMatrix, Terms};
+use crate::sim::math::{Quat, Vec3};
+use crate::sim::support::{Pivot, Sharing, Support, SupportPoint, tipping_acceleration};
+
+/// A point that arrives faster than this strikes the ground; a slower one settles, m/s.
+const IMPACT_SPEED: f64 = 0.05;
+/// Points below this height take part in an impact, m.
+const IMPACT_HEIGHT: f64 = 0.006;
+/// While tilting, only points this close to the pivot line carry load, m.
+const PIVOT_REACH: f64 = 0.012;
+/// Softness of a touching point in an impact, 1/kg.
+const COMPLIANCE: f64 = 1e-6;
+/// Bound and residual (N·m·s) of an impact's iterations.
+const IMPACT_ITERATIONS: u32 = 80;
+const IMPACT_TOLERANCE: f64 = 1e-9;
+/// A foot tilted less than this when it comes to hold is laid flat, 1 − cos of the angle (3°).
+const NEARLY_FLAT: f64 = 1.4e-3;
+/// Part of the remaining tilt that is laid flat per tick.
+const SETTLE: f64 = 0.2;
+/// Contact points of one segment that are looked at, as in the other stepper.
+const POINTS_PER_SEGMENT: usize = MAX_CONTACTS / SEGMENT_COUNT;
+/// Joint speed that the motors may reach under prescribed accelerations; beyond it torques take over, rad/s (ALGORITHM §12).
+pub const SPEED_CAP: f64 = 15.0;
+
+/// What this stepper reads beside the common input.
+#[derive(Clone, Copy, Debug)]
+pub struct Decision<'a> {
+    /// The controller's decision for the tick.
+    pub command: &'a Command,
+    /// Supports at the start of the tick.
+    pub support: &'a Support,
+    /// Which feet the desired motion keeps on the floor.
+    pub planted: [bool; 2],
+    /// Touching points that carry nothing by the controller's decision, by index, if it has decided.
+    pub left_out: Option<&'a [bool; MAX_CONTACTS]>,
+    /// Torques are the controller's, whatever the ground forces found here say: its sharing has no point forces (ratios (2)).
+    pub as_commanded: bool,
+}
+
+/// Applies accelerations; remembers where the support stands.
+#[derive(Clone, Debug)]
+pub struct KinematicStepper {
+    anchor: Option<(SegmentId, Vec3, Quat)>,
+    kin: Kinematics<f64>,
+    terms: Terms,
+    contacts: ContactRows,
+    limits: LimitRows,
+    motors: Motors,
+    newton: NewtonWorkspace,
+    hessian: MassMatrix<f64>,
+    sharing: Sharing,
+    penetration: f64,
+    /// Result of the last tick.
+    pub forces: TickForces,
+}
+
+/// Where the support is and how it moves.
+#[derive(Clone, Copy)]
+struct Rigid {
+    position: Vec3,
+    rotation: Quat,
+    omega: Vec3,
+    velocity: Vec3,
+}
+
+impl KinematicStepper {
+    /// A stepper on ground with friction coefficient `friction`.
+    pub fn new(friction: f64) -> Self {
+        Self {
+            anchor: None,
+            kin: Kinematics::default(),
+            terms: Terms::default(),
+            contacts: ContactRows::new(friction),
+            limits: LimitRows::new(),
+            motors: Motors::default(),
+            newton: NewtonWorkspace::default(),
+            hessian: MassMatrix::default(),
+            sharing: Sharing::default(),
+            penetration: 0.0,
+            forces: TickForces {
+                torque: [0.0; DOF_COUNT],
+                ligament_torque: [0.0; DOF_COUNT],
+                assist: [0.0; 6],
+                bar: Vec3::zero(),
+                contact: Vec::with_capacity(2 * MAX_CONTACTS),
+                over_limit: 0.0,
+                iterations: 0,
+                flags: Flags::default(),
+                audit: Audit::with_capacity(super::loads::MAX_PERTURBATIONS),
+            },
+        }
+    }
+
+    /// Forgets where the support stands (after a reset, or when torques moved the figure).
+    pub fn reset(&mut self) {
+        self.anchor = None;
+    }
+
+    /// Deepest contact point below the surface at the start of the last tick, m.
+    pub fn penetration(&self) -> f64 {
+        self.penetration
+    }
+
+    /// Advances `state` by one tick: the commanded accelerations, the support as the decision has it, impacts of points that arrive.
+    /// Allocates nothing.
+    pub fn step(&mut self, input: &StepInput<'_>, decision: &Decision<'_>, state: &mut State) {
+        let command = decision.command;
+        let f = &mut self.forces;
+        (f.iterations, f.flags) = (0, Flags::default());
+        f.contact.clear();
+        self.penetration = deepest(input, input.terms);
+        self.account(input, decision, state);
+        let main = decision
+            .support
+            .main()
+            .filter(|_| !command.flags.has(Flags::FLIGHT));
+        // A support that is to hold but still moves has just come down: it stops inelastically.
+        if let (Some(s), None) = (main, command.pivot)
+            && touching_speed(input.terms, decision.support.points(), s) > IMPACT_SPEED
+        {
+            self.terms.clone_from(input.terms);
+            self.impact(input, state);
+        }
+        let start = *state;
+        for (v, a) in state.velocity.iter_mut().zip(&command.acceleration) {
+            *v += input.dt * a;
+        }
+        self.advance(input, main, command.pivot, &start, input.dt, state);
+        let arrival = self.arrival(input, &start.posture, &state.posture);
+        if let Some(fraction) = arrival {
+            // Up to the moment of arrival, the impact, and the rest of the tick with what it leaves.
+            let velocity = state.velocity;
+            *state = start;
+            state.velocity = velocity;
+            state.posture.integrate(&velocity, fraction * input.dt);
+            self.terms
+                .compute(input.links, state, input.applied, input.gravity);
+            self.impact(input, state);
+            let v = state.velocity;
+            state.posture.integrate(&v, (1.0 - fraction) * input.dt);
+            self.anchor = None;
+        }
+    }
+
+    /// Moves the posture with the new velocity, and puts the pelvis where the support wants it.
+    fn advance(
+        &mut self,
+        input: &StepInput<'_>,
+        main: Option<SegmentId>,
+        pivot: Option<Pivot>,
+        start: &State,
+        dt: f64,
+        state: &mut State,
+    ) {
+        let velocity = state.velocity;
+        state.posture.integrate(&velocity, dt);
+        let Some(main) = main else {
+            self.anchor = None;
+            return;
+        };
+        let (t, s) = (input.terms, main.index());
+        let rotation = Quat::from_mat3(&t.segment_rotation(s));
+        let wanted = match pivot {
+            None => {
+                let (position, rotation) = match self.anchor {
+                    Some((at, p, r)) if at == main => (p, r),
+                    _ => (t.segment_position(s), rotation),
+                };
+                let (position, rotation) = settle(input, main, position, rotation);
+                self.anchor = Some((main, position, rotation));
+                Rigid {
+                    position,
+                    rotation,
+                    omega: Vec3::zero(),
+                    velocity: Vec3::zero(),
+                }
+            }
+            Some(p) => {
+                self.anchor = None;
+                let mut jacobian = [[0.0; WIDTH]; 6];
+                t.segment_jacobian(s, &mut jacobian);
+                let a = &input_acceleration(start, &velocity, dt);
+                let row = |k: usize| (0..NV).map(|i| jacobian[k][i] * a[i]).sum::<f64>();
+                let alpha = Vec3 {
+                    x: row(0),
+                    y: row(1),
+                    z: row(2),
+                } + t.segment_bias(s).0;
+                // With torques that know the tilt (S1) there is no moment left about the pivot; with the paper's it all turns the figure.
+                let (force, moment) = t.ground_wrench(a);
+                let alpha = alpha + tipping_acceleration(t, &p, force, moment);
+                // The weight turns with the figure, which one step forward would miss by several per cent of the energy of a fall.
+                let before = p.project(t.kin.omega[s]);
+                let alpha = p.project(alpha);
+                let turn = Quat::exp((before + alpha * (0.5 * dt)) * dt);
+                let arm = t.com - p.point;
+                let weight = Vec3::Z * (input.gravity * t.mass);
+                let moment = (turn.rotate(arm) - arm).cross(weight);
+                let change = tipping_acceleration(t, &p, Vec3::zero(), moment);
+                let omega = before + (alpha + change * 0.5) * dt;
+                let position = p.point + turn.rotate(t.segment_position(s) - p.point);
+                Rigid {
+                    position,
+                    rotation: (turn * rotation).normalized(),
+                    omega,
+                    velocity: omega.cross(position - p.point),
+                }
+            }
+        };
+        self.place(input, s, &wanted, state);
+    }
+
+    /// Moves the whole body rigidly so that segment `s` is where and as fast as wanted; joints keep their angles and rates.
+    fn place(&mut self, input: &StepInput<'_>, s: usize, wanted: &Rigid, state: &mut State) {
+        self.kin.set_state(input.links, state);
+        let p = &mut state.posture;
+        let at = p.root_position + self.kin.position[s];
+        let turn =
+            (wanted.rotation * Quat::from_mat3(&self.kin.rotation[s]).conjugate()).normalized();
+        let arm = turn.rotate(p.root_position - at);
+        p.root_position = wanted.position + arm;
+        p.root_rotation = (turn * p.root_rotation).normalized();
+        let v = &mut state.velocity;
+        let pelvis = |o: usize, v: &[f64; NV]| {
+            turn.rotate(Vec3 {
+                x: v[o],
+                y: v[o + 1],
+                z: v[o + 2],
+            })
+        };
+        // The twist that is too much, about the segment origin.
+        let spin = turn.rotate(self.kin.omega[s]) - wanted.omega;
+        let drift = turn.rotate(self.kin.velocity[s]) - wanted.velocity;
+        let omega = pelvis(0, v) - spin;
+        let velocity = pelvis(3, v) - drift - spin.cross(arm);
+        v[..3].copy_from_slice(&omega.to_array());
+        v[3..6].copy_from_slice(&velocity.to_array());
+    }
+
+    /// Earliest part of the tick at which a point above the floor strikes it; `None` if none does.
+    fn arrival(&mut self, input: &StepInput<'_>, before: &Posture, after: &Posture) -> Option<f64> {
+        let heights = |kin: &mut Kinematics<f64>, p: &Posture| {
+            kin.set_posture(input.links, p);
+            let root = p.root_position.z;
+            let mut out = [[f64::INFINITY; POINTS_PER_SEGMENT]; SEGMENT_COUNT];
+            for (s, segment) in input.body.segments.iter().enumerate() {
+                for (z, local) in out[s].iter_mut().zip(&segment.contact_points) {
+                    *z = root + kin.position[s].z + (kin.rotation[s] * *local).z;
+                }
+            }
+            out
+        };
+        let (z0, z1) = (
+            heights(&mut self.kin, before),
+            heights(&mut self.kin, after),
+        );
+        let mut first = None;
+        for (a, b) in z0.iter().flatten().zip(z1.iter().flatten()) {
+            if *b < 0.0 && (a - b) > IMPACT_SPEED * input.dt {
+                let fraction = (a / (a - b)).max(0.0);
+                if first.is_none_or(|f| fraction < f) {
+                    first = Some(fraction);
+                }
+            }
+        }
+        first
+    }
+
+    /// Inelastic impact of all touching points of the whole body: least change of velocity in the metric of M under which none goes on
+    /// into the floor; friction within its cone. Kinetic energy cannot rise. The workspace holds the terms of `state`.
+    fn impact(&mut self, input: &StepInput<'_>, state: &mut State) {
+        let terms = &self.terms;
+        self.contacts.clear();
+        for (s, segment) in input.body.segments.iter().enumerate() {
+            for (vertex, local) in segment
+                .contact_points
+                .iter()
+                .enumerate()
+                .take(POINTS_PER_SEGMENT)
+            {
+                if terms.point_world(s, *local).z < IMPACT_HEIGHT {
+                    let slot = self.contacts.slot(&terms.kin, s);
+                    self.contacts.points.push(PointRow {
+                        slot,
+                        r: terms.kin.rotation[s] * *local,
+                        c: Vec3::zero(),
+                        inverse_r: 1.0 / COMPLIANCE,
+                        segment: s,
+                        vertex,
+                    });
+                }
+            }
+        }
+        let mut momentum = [0.0; NV];
+        terms.mass_matrix.mul(&state.velocity, &mut momentum);
+        let mut v = state.velocity;
+        let outcome = minimise(
+            &SparseSystem(&terms.mass_matrix),
+            &mut self.hessian,
+            &momentum,
+            &self.motors,
+            &self.limits,
+            &self.contacts,
+            IMPACT_ITERATIONS,
+            IMPACT_TOLERANCE,
+            &mut v,
+            &mut self.newton,
+        );
+        self.contacts
+            .add_transposed(&self.newton.force, 1.0, &mut momentum);
+        self.hessian.rows = terms.mass_matrix.rows;
+        factor(&mut self.hessian);
+        solve(&self.hessian, &mut momentum);
+        state.velocity = momentum;
+        self.forces.iterations += outcome.iterations;
+        if !outcome.converged {
+            self.forces.flags.set(Flags::STEP_BOUND);
+        }
+        for (k, p) in self.contacts.points.iter().enumerate() {
+            let impulse = self.newton.force[k];
+            if impulse.z > 0.0 {
+                let segment = SegmentId::new(p.segment).expect("rows hold valid segments");
+                add_contact(
+                    &mut self.forces.contact,
+                    ContactPoint {
+                        segment,
+                        vertex: p.vertex,
+                        position: terms.point_world(
+                            p.segment,
+                            input.body.segments[p.segment].contact_points[p.vertex],
+                        ),
+                        force: impulse * (1.0 / input.dt),
+                    },
+                );
+            }
+        }
+    }
+
+    /// What the applied accelerations need: ground forces at the touching points and joint torques by inverse dynamics.
+    fn account(&mut self, input: &StepInput<'_>, decision: &Decision<'_>, state: &State) {
+        let (t, command) = (input.terms, decision.command);
+        let mut r = t.h; // M v̇ + h
+        let mut ma = [0.0; NV];
+        t.mass_matrix.mul(&command.acceleration, &mut ma);
+        for (r, m) in r.iter_mut().zip(ma) {
+            *r += m;
+        }
+        let points = decision.support.points();
+        let holds = |p: &SupportPoint| match p.segment {
+            L_FOOT | L_TOES => decision.planted[0],
+            R_FOOT | R_TOES => decision.planted[1],
+            _ => true,
+        };
+        let any = points.iter().any(holds);
+        let mut out = match decision.left_out {
+            Some(out) => *out,
+            None => std::array::from_fn(|i| {
+                points.get(i).is_some_and(|p| {
+                    let far = command
+                        .pivot
+                        .is_some_and(|t| t.distance(p.position) >= PIVOT_REACH);
+                    (any && !holds(p)) || far
+                })
+            }),
+        };
+        let f = &mut self.forces;
+        f.audit.contacts.clear();
+        let root = t.state.posture.root_position;
+        let wrench: [f64; 6] = std::array::from_fn(|k| r[k]);
+        let total = |about: Vec3| shift(&wrench, about - root);
+        let ratio = decision.support.ratio();
+        let shares = !command.flags.has(Flags::FLIGHT)
+            && if decision.left_out.is_some() {
+                self.sharing.set_balanced(points, ratio, &out)
+            } else {
+                self.sharing.set_unilateral(points, ratio, &mut out, total)
+            };
+        if shares {
+            let y = self.sharing.multiplier(&total(self.sharing.reference));
+            for (p, _) in points.iter().zip(out).filter(|(_, out)| !out) {
+                let force = self.sharing.point_force(p, ratio, &y);
+                let local = input.body.segment(p.segment).contact_points[p.vertex];
+                let mut jacobian = [[0.0; WIDTH]; 3];
+                t.point_jacobian(p.segment.index(), local, &mut jacobian);
+                for (row, f) in jacobian.iter().zip(force.to_array()) {
+                    for (r, j) in r[6..].iter_mut().zip(&row[6..NV]) {
+                        *r -= j * f;
+                    }
+                }
+                let contact = ContactPoint {
+                    segment: p.segment,
+                    vertex: p.vertex,
+                    position: p.position,
+                    force,
+                };
+                f.audit.contacts.push(contact);
+                f.contact.push(contact);
+            }
+        }
+        if decision.as_commanded {
+            f.torque = command.torque;
+        } else {
+            f.torque.copy_from_slice(&r[6..]);
+        }
+        f.audit.torque = f.torque;
+        f.audit.state = *state;
+        f.audit.acceleration = command.acceleration;
+        f.audit.applied.clear();
+        for (s, p, force) in input.applied {
+            f.audit
+                .applied
+                .push((*s, t.point_world(s.index(), *p), *force));
+        }
+        f.over_limit = 0.0;
+        for j in 0..DOF_COUNT {
+            f.over_limit = f
+                .over_limit
+                .max(f.torque[j] / input.upper[j] - 1.0)
+                .max(f.torque[j] / input.lower[j] - 1.0);
+        }
+    }
+}
+
+/// True if a part other than a foot touches the floor or reaches it within the tick at its present velocity.
+pub fn other_part_arrives(body: &Body, terms: &Terms, dt: f64) -> bool {
+    let feet = [L_FOOT, L_TOES, R_FOOT, R_TOES].map(SegmentId::index);
+    (0..SEGMENT_COUNT).filter(|s| !feet.contains(s)).any(|s| {
+        let points = &body.segments[s].contact_points;
+        points.iter().take(POINTS_PER_SEGMENT).any(|p| {
+            let z = terms.point_world(s, *p).z;
+            z + 2.0 * dt * terms.point_velocity(s, *p).z.min(0.0) < IMPACT_HEIGHT
+        })
+    })
+}
+
+/// The acceleration that leads from a state to a velocity in `dt`.
+fn input_acceleration(start: &State, velocity: &[f64; NV], dt: f64) -> [f64; NV] {
+    std::array::from_fn(|i| (velocity[i] - start.velocity[i]) / dt)
+}
+
+/// A foot that holds is laid flat on the floor, little by little: contact has a tolerance of some millimetres, standing has not.
+fn settle(input: &StepInput<'_>, main: SegmentId, position: Vec3, rotation: Quat) -> (Vec3, Quat) {
+    if main != L_FOOT && main != R_FOOT {
+        return (position, rotation);
+    }
+    let up = rotation.rotate(Vec3::Z);
+    if 1.0 - up.z > NEARLY_FLAT {
+        return (position, rotation);
+    }
+    let points = &input.body.segment(main).contact_points;
+    let turn = Quat::exp(up.cross(Vec3::Z) * SETTLE);
+    let rotation = (turn * rotation).normalized();
+    let low = |q: Quat| {
+        points
+            .iter()
+            .map(|p| q.rotate(*p).z)
+            .fold(f64::INFINITY, f64::min)
+    };
+    let mut position = position;
+    position.z -= SETTLE * (position.z + low(rotation));
+    (position, rotation)
+}
+
+/// Largest speed of the touching points of a support, m/s.
+fn touching_speed(t: &Terms, points: &[SupportPoint], main: SegmentId) -> f64 {
+    points
+        .iter()
+        .filter(|p| p.segment == main)
+        .map(|p| {
+            let s = p.segment.index();
+            let r = p.position - t.segment_position(s);
+            (t.kin.velocity[s] + t.kin.omega[s].cross(r)).norm()
+        })
+        .fold(0.0, f64::max)
+}
+
+/// Depth of the deepest contact point, m; 0 when none is below the surface.
+fn deepest(input: &StepInput<'_>, t: &Terms) -> f64 {
+    let mut depth = 0.0f64;
+    for (s, segment) in input.body.segments.iter().enumerate() {
+        for p in segment.contact_points.iter().take(POINTS_PER_SEGMENT) {
+            depth = depth.max(-t.point_world(s, *p).z);
+        }
+    }
+    depth
+}
+
+/// Adds a mean force to the list, to that of the same point if it is there.
+fn add_contact(list: &mut Vec<ContactPoint>, c: ContactPoint) {
+    match list
+        .iter_mut()
+        .find(|p| p.segment == c.segment && p.vertex == c.vertex)
+    {
+        Some(p) => p.force += c.force,
+        None => list.push(c),
+    }
+}
