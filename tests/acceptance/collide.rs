@@ -64,7 +64,7 @@ struct Meter {
     /// Largest overlap, and the largest later than 0.2 s after the first touch, m.
     depth: f64,
     late_depth: f64,
-    /// Work of contacts, J, and the largest gain of one tick.
+    /// Work of contacts, J, and the largest of one tick that they drove a motion with instead of stopping it.
     work: f64,
     gain: f64,
     unfinished: u64,
@@ -83,7 +83,7 @@ impl Meter {
     fn judge(&self, what: &str, rate: f64) {
         let text = format!(
             "{what}: touched {} ticks, {:.1} switches/s, unbalanced {:.1e}, equations {:.1e}, overlap {:.2} mm, after 0.2 s {:.2} mm, work of \
-             contacts {:.1} J, largest gain {:.4} J, {} of {} islands cut short, {:.1} iterations each, top joint speed {:.0} rad/s",
+             contacts {:.1} J, driven at most {:.4} J, {} of {} islands cut short, {:.1} iterations each, top joint speed {:.0} rad/s",
             self.touched,
             self.switches as f64 * rate / self.ticks as f64,
             self.unbalanced,
@@ -150,7 +150,7 @@ impl Meter {
             self.late_depth = self.late_depth.max(c.depth);
         }
         self.work += c.work;
-        self.gain = self.gain.max(c.work);
+        self.gain = self.gain.max(c.driven);
         self.unfinished += c.unfinished;
         self.islands += c.islands;
         self.iterations += c.iterations;

@@ -5,6 +5,7 @@ import { message, Sinew } from "./client.js";
 import type { FigureFrame, WorldFrame } from "./gen/sinew/v1/frame_pb.js";
 import type { Stepper } from "./gen/sinew/v1/figure_pb.js";
 import type { Person } from "./model.js";
+import { Obstacles } from "./obstacles.js";
 import { el, Panel } from "./panel.js";
 import { Scene, type Shown } from "./scene.js";
 import { Session, type Phase } from "./session.js";
@@ -37,6 +38,7 @@ const captions = new Captions(get("captions", HTMLElement));
 const say = (text: string, grave = false): void => captions.say(text, now(), grave);
 const attempt = (what: Promise<unknown>): void => void what.catch((error: unknown) => say(message(error), true));
 
+const obstacles = new Obstacles();
 const session = new Session(
   new Sinew(location.origin),
   (what) => {
@@ -46,7 +48,10 @@ const session = new Session(
     if (what === "lists") listsChanged();
   },
   (event) => captions.event(event, now()),
-  (frame) => (lastFrame = frame),
+  (frame) => {
+    lastFrame = frame;
+    if (session.world) void obstacles.follow(session.api, session.world.name, frame);
+  },
 );
 
 let scene: Scene | undefined;
@@ -72,6 +77,7 @@ try {
       );
     },
   });
+  scene.add(obstacles.group);
 } catch {
   // The panel, the words and the controls work without a picture.
   canvas.hidden = true;
@@ -584,6 +590,7 @@ function picture(): void {
   if (t < notBefore) return;
   const pair = session.playhead.at(t, session.paused ? 1 : (session.world?.speed ?? 1));
   scene?.prepare(pair && { before: indexed(pair.before), after: indexed(pair.after), share: pair.share }, shown, chosen);
+  if (pair) obstacles.place(pair.before, pair.after, pair.share);
   if (pair && reframed !== session.people.size) {
     reframed = session.people.size;
     scene?.frameAllOnce();

@@ -171,12 +171,9 @@ pub fn capsule_box(c: &Capsule, b: &PosedBox, mut emit: impl FnMut(Near)) {
             low = l;
         }
     }
-    let t = 0.5 * (low + high);
-    if t > 0.05 && t < 0.95 {
-        let middle = at(t);
-        if middle.gap < first.gap.min(last.gap) - 1e-4 {
-            emit(middle);
-        }
+    let middle = at(0.5 * (low + high));
+    if middle.gap < first.gap.min(last.gap) - 1e-4 {
+        emit(middle);
     }
 }
 

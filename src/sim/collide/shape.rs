@@ -130,6 +130,9 @@ fn along(mesh: &Mesh, axis: usize) -> Capsule {
     }
 }
 
+/// How far the capsules of the trunk may reach beyond the ends of their part, m.
+const BULGE: f64 = 0.035;
+
 /// Capsules from side to side, one above the other, as deep as the trunk is there.
 fn trunk(mesh: &Mesh) -> Vec<Capsule> {
     let (low, high) = extent(mesh, 2, |_| true).unwrap_or((0.0, 0.0));
@@ -140,6 +143,8 @@ fn trunk(mesh: &Mesh) -> Vec<Capsule> {
             let z = low + length * (0.2 + 0.6 * f64::from(i) / f64::from(rows - 1));
             let [(x, depth), (y, width)] = slice(mesh, 2, z, 0.12 * length);
             let r = (0.92 * depth).min(0.5 * length);
+            // Shoulders slope and the seat is flat: no bulge far beyond the ends.
+            let z = z.clamp(low + r - BULGE, high - r + BULGE);
             let w = (0.96 * width - r).max(0.0);
             Capsule {
                 a: vec3(x, y - w, z),

@@ -79,6 +79,8 @@ const FALLEN_STRENGTH: f64 = 0.3;
 const FALLEN_HORIZON: f64 = 0.3;
 /// Torques give back to prescribed accelerations after the figure has stood this long on flat feet with strength to spare, s.
 const CALM_TIME: f64 = 0.5;
+/// A part rests on something that carries this share of the weight.
+const RESTS: f64 = 0.02;
 /// It stands again when its CoM is above this share of the standing height.
 const RISEN_HEIGHT: f64 = 0.6;
 
@@ -240,6 +242,8 @@ impl Figure {
         );
         self.support
             .update(&self.terms, &body, self.com_acceleration, world.gravity);
+        let least = RESTS * self.terms.mass * world.gravity;
+        self.support.rest_on(self.touches.rests(&self.terms, least));
         self.watch_balance(world);
         let angles = anatomical_angles(&self.state.posture);
         let rates: [f64; DOF_COUNT] = std::array::from_fn(|j| self.state.velocity[6 + j]);
@@ -250,7 +254,8 @@ impl Figure {
             .range(&angles, &rates, scale, &mut lower, &mut upper);
         // 5. Control: accelerations and torques within strength. What the figure leans on is known to it.
         let bias = self.terms.h;
-        self.touches.lean(&mut self.terms);
+        let modern = self.active_controller() == ControllerKind::Modern;
+        self.touches.lean(&mut self.terms, modern.then_some(least));
         let mut tasks = self.tasks.points(&body, &self.links, &self.target);
         let mut balance = None;
         if self.steps() {

@@ -6,6 +6,7 @@ use crate::sim::collide::{MAX_TOUCHES, Other, Touch};
 use crate::sim::dynamics::Terms;
 use crate::sim::dynamics::jacobian::for_each_column;
 use crate::sim::math::Vec3;
+use crate::sim::support::Rest;
 
 /// Part of a reaction that a controller takes in per tick: a blow is over before it is known, a seat is known after some ticks.
 const LEARN: f64 = 0.15;
@@ -27,6 +28,8 @@ pub struct Contacting {
     pub normal: Vec3,
     /// Overlap, m.
     pub depth: f64,
+    /// The other is an obstacle that nothing moves.
+    pub firm: bool,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -38,6 +41,7 @@ struct Entry {
     local: Vec3,
     /// Reaction that controllers count on, N.
     expected: Vec3,
+    firm: bool,
 }
 
 /// Touches of one tick and of the one before.
@@ -100,6 +104,7 @@ impl Touches {
                 weight,
                 local,
                 expected: Vec3::zero(),
+                firm: c.firm,
             });
         }
     }
@@ -137,10 +142,26 @@ impl Touches {
         self.now.iter().map(|e| e.touch)
     }
 
-    /// Counts the expected reactions among the forces in `terms.h`.
-    pub fn lean(&self, terms: &mut Terms) {
+    /// What carries it: firm things that push with more than `least` N, with their places in the state of `terms`.
+    pub fn rests<'a>(&'a self, terms: &'a Terms, least: f64) -> impl Iterator<Item = Rest> + 'a {
+        let firm = self.now.iter().filter(|e| e.firm);
+        firm.filter(move |e| e.expected.dot(e.touch.normal) > least)
+            .map(|e| Rest {
+                segment: e.touch.segment,
+                position: terms.point_world(e.touch.segment.index(), e.local),
+                normal: e.touch.normal,
+                force: e.expected,
+            })
+    }
+
+    /// Counts the expected reactions among the forces in `terms.h`; those of level rests that carry more than `least` N, if given, are left
+    /// to a controller that chooses them.
+    pub fn lean(&self, terms: &mut Terms, least: Option<f64>) {
         for e in &self.now {
-            if e.expected == Vec3::zero() {
+            let normal = e.touch.normal;
+            let chosen =
+                least.is_some_and(|l| e.firm && Rest::level(normal) && e.expected.dot(normal) > l);
+            if chosen || e.expected == Vec3::zero() {
                 continue;
             }
             let s = e.touch.segment.index();

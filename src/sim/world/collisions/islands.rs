@@ -14,11 +14,11 @@ use crate::sim::math::Vec3;
 /// Compliance of a contact between bodies, 1/kg.
 const COMPLIANCE: f64 = 1e-4;
 /// Share of a penetration beyond the slop that is taken back per substep.
-const RETURN_SHARE: f64 = 0.2;
+const RETURN_SHARE: f64 = 0.1;
 /// Penetration that is left alone, m.
 const SLOP: f64 = 1e-4;
-/// Fastest push-out, m/s.
-const RETURN_SPEED: f64 = 1.0;
+/// Fastest push-out, m/s: slow, because it gives energy to what presses on the contact.
+const RETURN_SPEED: f64 = 0.05;
 
 impl Cluster {
     /// Solves every island of bodies that are near each other, and lets the impulses act.
@@ -139,12 +139,15 @@ impl Cluster {
                 _ => Vec3::zero(),
             };
             let u0 = va + gravity(a) - vb - gravity(b);
-            r.work += 0.5 * impulse.dot(u0) + 0.5 * c.work_after();
+            let after = c.work_after();
+            r.work += 0.5 * impulse.dot(u0) + 0.5 * after;
+            r.driven += 0.5 * after.max(0.0);
             for (who, part, sign, other) in [
                 (a, c.ends[0].1, 1.0, (b, c.ends[1].1)),
                 (b, c.ends[1].1, -1.0, (a, c.ends[0].1)),
             ] {
-                if let (Who::Figure(i), Some(other)) = (who, cast.other(other.0, other.1)) {
+                let of = other.0;
+                if let (Who::Figure(i), Some(other)) = (who, cast.other(of, other.1)) {
                     let what = Contacting {
                         segment: SegmentId::new(part).expect("parts of figures are segments"),
                         other,
@@ -152,6 +155,7 @@ impl Cluster {
                         impulse: impulse * sign,
                         normal: c.frame[2] * sign,
                         depth: (-c.gap).max(0.0),
+                        firm: matches!(of, Who::Firm(_)),
                     };
                     cast.figures[i].1.record(&what, h, world.dt);
                 }

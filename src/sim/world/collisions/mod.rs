@@ -34,8 +34,11 @@ pub struct CollisionReport {
     /// Deepest overlap of any two bodies at the start of any substep, m.
     pub depth: f64,
     /// Work of contacts between bodies, J: impulse times the mean of the relative velocities before and after; never positive but for
-    /// the return from overlaps and the work of led obstacles.
+    /// the return from overlaps, the work of led obstacles, and muscles that turn a motion around within one substep.
     pub work: f64,
+    /// The part of it along the motion that contacts leave behind, J: what they drive instead of stopping it. Zero but for the return from
+    /// overlaps and led obstacles.
+    pub driven: f64,
 }
 
 impl CollisionReport {
@@ -47,6 +50,7 @@ impl CollisionReport {
         self.unfinished += o.unfinished;
         self.depth = self.depth.max(o.depth);
         self.work += o.work;
+        self.driven += o.driven;
     }
 }
 
