@@ -8,8 +8,10 @@ use crate::sim::math::exp::exp;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::foot_lock::Sole;
 
-/// The capture point is lost when it leaves the support by this much, m.
+/// The capture point is lost when it leaves the support by this much, m; where only a foot that crosses could catch it, arms and trunk are
+/// given more time to bring it back.
 pub(super) const LOST: f64 = 0.0;
+pub(super) const LOST_ACROSS: f64 = 0.03;
 /// Beyond this distance no step helps, m.
 pub(super) const HOPELESS: f64 = 0.6;
 /// Length of a swing that catches, and of one that only tidies up, s.
@@ -26,7 +28,7 @@ const FARTHEST: (f64, f64, f64, f64) = (0.75, 0.65, 0.6, 0.35);
 /// A foot that crosses passes this far before or behind the other, m.
 const CROSS_ROOM: f64 = 0.18;
 /// Closer than this to the stance foot counts as crossing, m.
-const BESIDE: f64 = 0.1;
+pub(super) const BESIDE: f64 = 0.1;
 /// Distance of the middle of the sole before the ankle, m.
 pub(super) const SOLE_MIDDLE: f64 = 0.05;
 /// Speed of a foot that looks for the floor, m/s.
@@ -45,6 +47,8 @@ pub struct Catch {
     pub since: f64,
     /// Brings the foot back to its place instead of catching.
     pub tidy: bool,
+    /// May pass the stance foot to its other side. A foot that has, or has been passed, comes back to its own.
+    crosses: bool,
     start: Vec3,
     start_yaw: f64,
     goal: Vec3,
@@ -56,11 +60,18 @@ pub(super) type Places = [(Vec3, f64); 2];
 
 impl Catch {
     /// A step of foot `side` whose ankle and heading are these now.
-    pub(super) fn new(side: usize, tidy: bool, ankle: Vec3, yaw: f64) -> Self {
+    pub(super) fn new(
+        side: usize,
+        tidy: bool,
+        crosses: bool,
+        ankle: Vec3,
+        yaw: f64,
+    ) -> Self {
         Self {
             side,
             since: 0.0,
             tidy,
+            crosses,
             start: ankle,
             start_yaw: yaw,
             goal: Vec3 { z: 0.0, ..ankle },
@@ -120,7 +131,7 @@ impl Catch {
         let wanted = local.y * outward;
         let y = if wanted > BESIDE {
             wanted.max(apart)
-        } else if wanted > -BESIDE {
+        } else if wanted > -BESIDE || !self.crosses {
             apart.max(BESIDE)
         } else {
             let room = if x > -0.05 { CROSS_ROOM } else { -CROSS_ROOM };

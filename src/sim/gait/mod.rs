@@ -114,6 +114,15 @@ fn stance_points(support: &Support, side: usize) -> impl Iterator<Item = [f64; 2
         .map(|p| [p.position.x, p.position.y])
 }
 
+/// A point of the floor.
+fn level(p: [f64; 2]) -> Vec3 {
+    Vec3 {
+        x: p[0],
+        y: p[1],
+        z: 0.0,
+    }
+}
+
 /// The steps of one figure. Remembers phase and footholds; nothing allocates in a tick.
 #[derive(Clone, Debug)]
 pub struct Gait {
@@ -301,7 +310,7 @@ impl Gait {
         for side in 0..2 {
             if !self.feet[side].down {
                 let pose = terms.segment_position(FOOT[side].index());
-                self.step = Some(Catch::new(side, false, pose, now[side].1));
+                self.step = Some(Catch::new(side, false, false, pose, now[side].1));
             }
         }
     }
@@ -579,33 +588,37 @@ impl Gait {
             .points()
             .iter()
             .all(|p| FOOT.contains(&p.support) || TOES.contains(&p.support));
-        let start = |side: usize, tidy: bool| {
+        let start = |side: usize, tidy: bool, crosses: bool| {
             let ankle = terms.segment_position(FOOT[side].index());
-            Some(Catch::new(side, tidy, ankle, now[side].1))
+            Some(Catch::new(side, tidy, crosses, ankle, now[side].1))
         };
         if !on_feet || margin < -catch::HOPELESS {
             return;
         }
-        if margin < -catch::LOST {
-            // The foot that carries less swings.
-            let carried = |side: usize| {
-                support.load()[FOOT[side].index()] + support.load()[TOES[side].index()]
-            };
-            let side = usize::from(carried(1) <= carried(0));
+        // The foot that carries less swings.
+        let carried = |side: usize| {
+            support.load()[FOOT[side].index()] + support.load()[TOES[side].index()]
+        };
+        let side = usize::from(carried(1) <= carried(0));
+        // Places to the own side of the stance foot are positive.
+        let outward = |p: Vec3| {
+            let (at, yaw) = now[1 - side];
+            let y = Quat::exp(Vec3::Z * -yaw).rotate(p - at).y;
+            if side == 0 { y } else { -y }
+        };
+        let crossed = outward(now[side].0) < 0.5 * catch::BESIDE;
+        let across = outward(level(xi)) < -catch::BESIDE;
+        let lost = if across { catch::LOST_ACROSS } else { catch::LOST };
+        if margin < -lost || crossed {
             self.tidying = None;
-            self.step = start(side, false);
+            self.step = start(side, false, !crossed);
             return;
         }
         if let Some(side) = self.tidying {
             let over = now[1 - side];
             let stance = over.0 + Quat::exp(Vec3::Z * over.1).rotate(Vec3::X * catch::SOLE_MIDDLE);
-            let off = Vec3 {
-                x: xi[0] - stance.x,
-                y: xi[1] - stance.y,
-                z: 0.0,
-            };
-            if off.norm() < SETTLED.1 {
-                self.step = start(side, true);
+            if (level(xi) - level([stance.x, stance.y])).norm() < SETTLED.1 {
+                self.step = start(side, true, false);
             }
             return;
         }
