@@ -41,8 +41,6 @@ const CLEARANCE: f64 = 0.03;
 const CLEARANCE_RATE: f64 = 0.35;
 /// Share of its distance from home by which a foothold is pulled there, and the most, m.
 const HOME: (f64, f64) = (0.3, 0.04);
-/// Weight of the centre of mass while a step catches it: the trunk has to be stopped too, and the foot has to get there.
-const CATCH_SHARE: f64 = 0.3;
 /// Time in which a motion that ended turns into standing, s.
 const EASE: f64 = 0.6;
 /// A body slower than this, and a capture point closer to its place than this, is settled: m/s and m.
@@ -451,17 +449,13 @@ impl Gait {
                 acceleration: self
                     .capture
                     .slowest(terms, stance_points(support, step.side)),
-                share: CATCH_SHARE,
             });
         }
         let wanted = com_law(tasks.com, terms.com, terms.com_velocity, dt);
         let acceleration = self
             .capture
             .feasible(terms, wanted, support.polygon(), gravity)?;
-        Some(Balance {
-            acceleration,
-            share: 1.0,
-        })
+        Some(Balance { acceleration })
     }
 
     /// A standing foot keeps the heading it landed with: it could only be turned by scraping.
@@ -596,9 +590,8 @@ impl Gait {
             return;
         }
         // The foot that carries less swings.
-        let carried = |side: usize| {
-            support.load()[FOOT[side].index()] + support.load()[TOES[side].index()]
-        };
+        let carried =
+            |side: usize| support.load()[FOOT[side].index()] + support.load()[TOES[side].index()];
         let side = usize::from(carried(1) <= carried(0));
         // Places to the own side of the stance foot are positive.
         let outward = |p: Vec3| {
@@ -607,9 +600,7 @@ impl Gait {
             if side == 0 { y } else { -y }
         };
         let crossed = outward(now[side].0) < 0.5 * catch::BESIDE;
-        let across = outward(level(xi)) < -catch::BESIDE;
-        let lost = if across { catch::LOST_ACROSS } else { catch::LOST };
-        if margin < -lost || crossed {
+        if margin < -catch::LOST || crossed {
             self.tidying = None;
             self.step = start(side, false, !crossed);
             return;
