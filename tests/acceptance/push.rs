@@ -64,7 +64,7 @@ fn push(kind: ControllerKind, direction: Vec3, impulse: f64, steps: bool) -> Out
     };
     scene.world.perturb(scene.key, what).unwrap();
     let mut fell_at = None;
-    scene.run(4.0, |s| {
+    scene.run(6.0, |s| {
         let r = s.figure().report().unwrap();
         if fell_at.is_none() && (s.figure().is_fallen() || r.com.z < 0.5) {
             fell_at = Some(r.com);
@@ -144,7 +144,12 @@ fn paper_falls_the_way_it_is_pushed() {
 /// Beyond the bound a figure that may step does, and stands again; the same push fells one that may not.
 #[test]
 fn steps_catch_what_feet_in_place_cannot() {
-    for (name, direction, share) in [("forward", Vec3::X, 1.1), ("backward", -Vec3::X, 1.25)] {
+    for (name, direction, share) in [
+        ("forward", Vec3::X, 1.1),
+        ("backward", -Vec3::X, 1.25),
+        ("left", Vec3::Y, 1.15),
+        ("right", -Vec3::Y, 1.15),
+    ] {
         let kind = ControllerKind::Modern;
         let impulse = share * bound(&standing(kind, false), direction);
         let (still, steps) = (

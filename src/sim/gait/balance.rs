@@ -111,10 +111,11 @@ impl Capture {
         ];
         self.inner.set_inset(polygon, INSET);
         let can = self.inner.closest(wanted).map_or(wanted, |c| c.point);
-        for k in 0..2 {
-            let e = self.error[k];
-            self.handled[k] = (can[k] - planned[k]).clamp(e.min(0.0), e.max(0.0));
-        }
+        // What it takes care of lies along the error, and is at most all of it.
+        let e = self.error;
+        let along = (can[0] - planned[0]) * e[0] + (can[1] - planned[1]) * e[1];
+        let share = (along / (e[0] * e[0] + e[1] * e[1]).max(1e-12)).clamp(0.0, 1.0);
+        self.handled = e.map(|x| share * x);
     }
 
     /// The capture point ξ, m.

@@ -295,7 +295,7 @@ impl Gait {
             std::array::from_fn(|k| plan::place(&self.soles[k], poses[k].0, poses[k].1));
         // It stands where the foot is that the body moves over, and looks where the feet look.
         let xi = self.capture.point();
-        let far = |k: usize| (now[k].0.x - xi[0]).abs() + (now[k].0.y - xi[1]).abs();
+        let far = |k: usize| level([now[k].0.x - xi[0], now[k].0.y - xi[1]]).norm();
         let side = match [self.feet[0].down, self.feet[1].down] {
             [true, false] => 0,
             [false, true] => 1,
@@ -661,10 +661,13 @@ impl Gait {
         let foot = &self.feet[side];
         let remaining = (f.on - self.phase).max(0.0) / self.speed;
         let home = self.anchor.point(f.place);
-        let pull = |d: f64| (HOME.0 * d).clamp(-HOME.1, HOME.1);
+        let away = home - f.place;
+        let pull = HOME
+            .0
+            .min(HOME.1 / level([away.x, away.y]).norm().max(1e-9));
         let mut d = self.capture.left_over(remaining);
-        d[0] -= pull(home.x - f.place.x);
-        d[1] -= pull(home.y - f.place.y);
+        d[0] -= pull * away.x;
+        d[1] -= pull * away.y;
         let stance = terms.segment_position(FOOT[1 - side].index());
         let heading = self.anchor.yaw() + f.yaw;
         let d = balance::within_reach(d, home, stance, heading, side);
