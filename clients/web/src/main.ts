@@ -151,6 +151,7 @@ function worldChanged(): void {
 // ── States ──────────────────────────────────────────────────────────────────────────────────────────────────────────
 
 function showPhase(phase: Phase): void {
+  if (phase.kind === "error") lastFrame = undefined;
   state.dataset.kind = phase.kind;
   state.hidden = phase.kind === "live";
   document.body.dataset.phase = phase.kind;

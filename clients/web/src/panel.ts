@@ -109,6 +109,8 @@ export class Panel {
   private readonly report = el("div", { id: "report", "aria-live": "polite" });
   private readonly plots: { figure: HTMLElement; name: HTMLElement; value: HTMLElement; canvas: HTMLCanvasElement }[] = [];
   private readonly dofs = el("select", { id: "plotted" });
+  /** Buttons that need a chosen figure. */
+  private readonly ofSomebody: HTMLButtonElement[];
   private busiest: number[] = [];
   private busiestAt = 0;
 
@@ -155,6 +157,7 @@ export class Panel {
     this.assist.addEventListener("input", () => (this.assistOut.textContent = `${Math.round(Number(this.assist.value) * 100)} %`));
     this.changes(this.assist, "assist", (value) => ({ assist: value }));
     this.impulse.addEventListener("input", () => (this.impulseOut.textContent = `${this.impulse.value} N·s`));
+    this.ofSomebody = [push, stand, remove, make];
     for (let i = 0; i < PLOTS; i++) {
       const canvas = el("canvas", { role: "img", tabindex: "-1" });
       const name = el("span");
@@ -281,7 +284,7 @@ export class Panel {
     this.assistOut.textContent = `${Math.round(assist * 100)} %`;
     const dofs = person?.body.dofs ?? [];
     fill(this.dofs, [{ value: "", text: "hardest working" }, ...dofs.map((d) => ({ value: d.name, text: dofWords(d.name) }))], this.dofs.value);
-    for (const c of [this.clip, this.body, this.controller, this.preset, this.stepper, this.fatigue, this.sex, this.age, this.height, this.mass, this.strength, this.assist, this.dofs]) c.disabled = !person;
+    for (const c of [this.clip, this.body, this.controller, this.preset, this.stepper, this.fatigue, this.sex, this.age, this.height, this.mass, ...this.ofSomebody, this.strength, this.assist, this.dofs]) c.disabled = !person;
     this.busiestAt = 0;
   }
 

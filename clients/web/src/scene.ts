@@ -1,12 +1,10 @@
 // The three-dimensional view: figures, what they should do, what they stand on, and the forces on them.
-import { create } from "@bufbuild/protobuf";
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { numbers } from "./client.js";
-import { BodySchema, type Body } from "./gen/sinew/v1/body_pb.js";
-import { FigureSchema } from "./gen/sinew/v1/figure_pb.js";
+import type { Body } from "./gen/sinew/v1/body_pb.js";
 import type { FigureFrame } from "./gen/sinew/v1/frame_pb.js";
-import { forward, mixPoses, Person, POSE } from "./model.js";
+import { forward, mixPoses, POSE, type Person } from "./model.js";
 import { Touchable, type Touch } from "./picking.js";
 
 /** What is shown besides the figures. */
@@ -195,7 +193,7 @@ function point(arrowGroup: THREE.Group, from: THREE.Vector3, along: THREE.Vector
   arrowGroup.quaternion.setFromUnitVectors(UP, scratchC.copy(along).divideScalar(length));
 }
 
-/** One figure in the scene. */
+/** One figure in the scene. Materials are few in kind: each kind is a program to compile before the first picture. */
 class Actor {
   readonly group = new THREE.Group();
   readonly solid: Solid;
@@ -207,10 +205,10 @@ class Actor {
     new THREE.BufferGeometry(),
     new THREE.MeshBasicMaterial({ color: HUES.support, transparent: true, opacity: 0.35, depthWrite: false, side: THREE.DoubleSide }),
   );
-  private readonly outline = new THREE.LineLoop(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: HUES.support }));
+  private readonly outline = new THREE.LineLoop(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: HUES.support, transparent: true }));
   private readonly com = new THREE.Mesh(comShape, new THREE.MeshBasicMaterial({ color: HUES.com }));
   private readonly plumb = new THREE.Line(new THREE.BufferGeometry().setFromPoints([new THREE.Vector3(), new THREE.Vector3()]), new THREE.LineBasicMaterial({ color: HUES.com, transparent: true, opacity: 0.6 }));
-  private readonly zmp = new THREE.Mesh(zmpShape, new THREE.MeshBasicMaterial({ color: HUES.zmp, side: THREE.DoubleSide }));
+  private readonly zmp = new THREE.Mesh(zmpShape, new THREE.MeshBasicMaterial({ color: HUES.zmp, transparent: true, depthWrite: false, side: THREE.DoubleSide }));
   private readonly arrows: THREE.Group[] = [];
   private readonly hands: [number, number];
   private readonly touchable: Touchable;
@@ -241,10 +239,13 @@ class Actor {
       this.weights.push(weight);
     }
     this.polygon.renderOrder = 1;
+    this.zmp.renderOrder = 3;
     this.com.renderOrder = 4;
     (this.com.material as THREE.Material).depthTest = false;
     for (let i = 0; i < MOST_ARROWS; i++) this.arrows.push(arrow(HUES.force));
     this.group.add(this.solid.mesh, this.ghost.mesh, this.crate, ...this.weights, this.polygon, this.outline, this.com, this.plumb, this.zmp, ...this.arrows);
+    // Nothing is seen of it before the first frame that tells where it is.
+    this.group.visible = false;
     this.group.traverse((o) => {
       if (o instanceof THREE.Mesh || o instanceof THREE.Line) o.frustumCulled = false;
     });
@@ -408,11 +409,6 @@ class Actor {
     return out.copy(local).applyQuaternion(scratchQ.fromArray(this.solid.poses, o + 3)).add(scratchC.fromArray(this.solid.poses, o));
   }
 
-  /** Shows everything that a figure can have. */
-  reveal(): void {
-    this.group.traverse((o) => (o.visible = true));
-  }
-
   /** Above the head, world. */
   top(out: THREE.Vector3): THREE.Vector3 {
     const head = Math.max(0, this.person.segment("head"));
@@ -431,7 +427,7 @@ class Actor {
 const IRON = 32_000;
 const MOST_WEIGHTS = 8;
 const weightShape = new THREE.SphereGeometry(1, 24, 16);
-const weightMaterial = new THREE.MeshStandardMaterial({ color: 0x3a434a, roughness: 0.45, metalness: 0.3 });
+const weightMaterial = new THREE.MeshLambertMaterial({ color: 0x3a434a });
 const comShape = new THREE.SphereGeometry(0.028, 16, 12);
 const zmpShape = new THREE.RingGeometry(0.022, 0.04, 24);
 
@@ -450,12 +446,6 @@ function makeCrate(): THREE.Group {
       group.add(edge);
     }
   return group;
-}
-
-/** A figure of one small triangle. */
-function nobody(): Person {
-  const body = create(BodySchema, { segments: [{ name: "head", meshVerticesM: [0, 0, 0, 0.01, 0, 0, 0, 0.01, 0], meshTriangles: [0, 1, 2] }] });
-  return new Person(-1, "", body, create(FigureSchema));
 }
 
 /** A push being drawn. */
@@ -495,9 +485,7 @@ export class Scene {
   private hovered: PointerEvent | undefined;
   private readonly ray = new THREE.Raycaster();
   private moved = false;
-  /** Somebody behind the camera, in the first picture only: programs are compiled while the server is still being asked. */
-  private stand: Actor | undefined = new Actor(nobody(), this.look);
-  /** Frames drawn. */
+  /** Pictures drawn with somebody in them. */
   drawn = 0;
 
   constructor(
@@ -526,7 +514,6 @@ export class Scene {
     this.ground = new THREE.Mesh(new THREE.PlaneGeometry(160, 160), new THREE.MeshLambertMaterial());
     this.ground.receiveShadow = true;
     this.scene.add(this.sun, this.sun.target, this.fill, this.ground, this.pushArrow);
-    if (this.stand) this.scene.add(this.stand.group);
     canvas.addEventListener("pointerdown", (e) => this.press(e), { capture: true });
     canvas.addEventListener("pointermove", (e) => this.move(e));
     canvas.addEventListener("pointerup", () => this.release(true));
@@ -684,15 +671,8 @@ export class Scene {
 
   /** Draws what `prepare` made. */
   draw3d(): void {
-    this.stand?.group.position.copy(this.camera.position).addScaledVector(this.camera.getWorldDirection(scratchA), -20);
-    this.stand?.reveal();
     this.renderer.render(this.scene, this.camera);
-    this.drawn++;
-    if (!this.stand || !this.actors.size) return;
-    // Its programs are those of everyone now.
-    this.scene.remove(this.stand.group);
-    this.stand.dispose();
-    this.stand = undefined;
+    if ([...this.actors.values()].some((a) => a.group.visible)) this.drawn++;
   }
 
   /** Pixel above a figure's head, or nothing when it is behind the camera. */
