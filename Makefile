@@ -9,7 +9,7 @@ SINEW_MOCAP_DIR ?= $(abspath $(ROOT)/../shared/mocap)
 export SINEW_MOCAP_DIR PYTHON
 
 .DEFAULT_GOAL := help
-.PHONY: help run test ci setup lint physics rust oracle python viewer load fmt
+.PHONY: help run test ci setup lint physics rust oracle python viewer load soak fmt
 
 help: ## what there is
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(ROOT)/Makefile
@@ -37,6 +37,9 @@ rust: ## Rust tests
 
 load: ## load test against a live server, where there is one
 	@if [ -x $(ROOT)/tests/load/run.sh ]; then $(ROOT)/tests/load/run.sh; fi
+
+soak: ## a million figure-ticks of everything that can be asked for; about an hour
+	cd $(ROOT) && SINEW_SOAK_TICKS=1000000 $(CARGO) test --release --locked --no-default-features --test soak -- --nocapture
 
 oracle: setup ## comparison with Pinocchio and MuJoCo, and the server seen from Python
 	cd $(ROOT) && $(CARGO) build --locked --bins --examples

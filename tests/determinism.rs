@@ -87,6 +87,15 @@ struct Actor {
 }
 
 impl Actor {
+    /// Puts figure and motion elsewhere.
+    fn shift(&mut self, by: Vec3) {
+        let p = &mut self.setup.state.posture.root_position;
+        *p += by;
+        if let Drive::Clip(play) = &mut self.drive {
+            (play.origin.x, play.origin.y) = (play.origin.x + by.x, play.origin.y + by.y);
+        }
+    }
+
     fn enter(&self, world: &mut World) -> FigureKey {
         let key = world.add_figure(self.setup.clone()).unwrap();
         world.figure_mut(key).unwrap().set_drive(self.drive.clone());
@@ -221,7 +230,15 @@ fn threads_do_not_matter() {
 
 #[test]
 fn neighbours_do_not_matter() {
-    let neighbours = crowd(50);
+    let mut neighbours = crowd(50);
+    // Out of reach: whoever is touched does notice.
+    for (i, actor) in neighbours.iter_mut().enumerate() {
+        actor.shift(Vec3 {
+            x: 100.0,
+            y: 12.0 * i as f64,
+            z: 0.0,
+        });
+    }
     for kind in [ControllerKind::Modern, ControllerKind::Paper] {
         let actor = subject(kind, 200.0);
         let mut alone = world(1);
@@ -271,7 +288,7 @@ fn golden_scenes() -> Vec<(String, u64)> {
             substeps: 4,
             gravity: 3.7,
             friction: 0.4,
-            threads: 1,
+            ..WorldParams::default()
         },
         figure(&body, ControllerKind::Modern, still(bent(&body, 0.5))),
     );

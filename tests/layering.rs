@@ -24,18 +24,20 @@ const PARTS: &[(&str, &[&str])] = &[
 
 /// Layers of the physics, from the left to the right; modules of one layer do not use each other.
 /// Two refinements of the style guide's line: `contact` (the Newton kernel of motors, limits and friction) lies right of `control`, because
-/// the modern controller is solved by the same kernel; and `figure::setup` and `figure::report` are plain data, how a figure is set
+/// the modern controller is solved by the same kernel; and `figure::setup` and `figure::report`, `collide::touch` are plain data, how a figure is set
 /// up and what it says, so they lie right of everything that reads and fills them.
 const SIM: &[&[&str]] = &[
     &["world"],
     &["figure"],
     &["gait"],
     &["control"],
+    &["collide"],
     &["contact"],
     &["figure::setup"],
     &["support", "strength", "motion"],
     &["dynamics"],
     &["figure::report"],
+    &["collide::touch"],
     &["motion::target"],
     &["body"],
     &["math"],
@@ -76,6 +78,7 @@ const TICK_MODULES: &[&str] = &[
     "sim::support",
     "sim::control",
     "sim::contact",
+    "sim::collide",
     "sim::figure",
     "sim::world",
 ];

@@ -1,12 +1,12 @@
 //! `sinew run`: a motion through the physics, offline, as fast as it goes; measured, drawn and written.
 
 use super::args::{
-    BodyArgs, ControllerArg, LoadSpec, PaperOptions, PresetArg, PushSpec, StepperArg, person_name,
-    sex_name,
+    BodyArgs, ControllerArg, LoadSpec, ObstacleSpec, PaperOptions, PresetArg, PushSpec, StepperArg,
+    person_name, sex_name,
 };
 use super::output::{extension, for_clip, write};
 use super::source::{Source, load};
-use crate::evaluate::strip::{Frame, StripOptions, View, draw, evenly_spaced, raster, svg};
+use crate::evaluate::strip::{Frame, StripOptions, Thing, View, draw, evenly_spaced, raster, svg};
 use crate::evaluate::table::{Torques, header, row};
 use crate::evaluate::{Metrics, RunReport, Tick};
 use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES};
@@ -65,6 +65,14 @@ pub struct RunArgs {
     /// Push on a segment, for example 20@chest@1.5:1,0,0 (N·s, start in s, world direction; repeatable).
     #[arg(long, value_name = "NS@SEGMENT@T:x,y,z", allow_hyphen_values = true)]
     pub push: Vec<PushSpec>,
+    /// A thing that the figure can touch (repeatable): a seat box:0.4,0.5,0.45@-0.3,0,0.225, a thrown ball sphere:0.11@2,0,1.2:5kg:-5,0,1,
+    /// a wall plane:-1,0,0@0.6,0,0.
+    #[arg(
+        long,
+        value_name = "SHAPE:SIZE@x,y,z[:KGkg][:vx,vy,vz]",
+        allow_hyphen_values = true
+    )]
+    pub obstacle: Vec<ObstacleSpec>,
     /// How long a push lasts, s.
     #[arg(long, value_name = "S", default_value_t = 0.2)]
     pub push_duration: f64,
@@ -190,6 +198,8 @@ struct Document<'a> {
     gravity_mps2: f64,
     loads: Vec<LoadEntry>,
     pushes: Vec<PushEntry>,
+    /// As they were given.
+    obstacles: Vec<&'a str>,
     #[serde(flatten)]
     measures: &'a RunReport,
     /// `null` for built-in motions, which are made for the body.
@@ -453,6 +463,9 @@ fn simulate(
             .perturb(key, push.perturbation(body, args.push_duration))
             .context("--push")?;
     }
+    for o in &args.obstacle {
+        world.add_obstacle(o.0.clone()).context("--obstacle")?;
+    }
     let figure = world.figure_mut(key).expect("the figure was just added");
     figure.set_drive(Drive::Clip(ClipPlayback {
         clip: Arc::new(clip.clone()),
@@ -483,11 +496,9 @@ fn simulate(
             note(&mut metrics, event);
         }
         if shown.binary_search(&n).is_ok() {
-            frames.push(Frame::of(
-                &tick,
-                metrics.time_s(),
-                held_loads(scenario, metrics.time_s()),
-            ));
+            let loads = held_loads(scenario, metrics.time_s());
+            let things = world.obstacles().map(|(_, o)| Thing::obstacle(o.setup()));
+            frames.push(Frame::of(&tick, metrics.time_s(), loads).among(things));
         }
         each(figure, metrics.time_s())?;
     }
@@ -526,6 +537,8 @@ fn note(metrics: &mut Metrics, event: &FigureEvent) {
         E::LoadDropped { segment, mass } => ("load_dropped", Some(segment), None, Some(mass)),
         E::LoadSlipped { segment, mass } => ("load_slipped", Some(segment), None, Some(mass)),
         E::Quarantined => ("quarantined", None, None, None),
+        E::Touched { segment, .. } => ("touched", Some(segment), None, None),
+        E::Parted { segment, .. } => ("parted", Some(segment), None, None),
     };
     metrics.event(
         kind,
@@ -583,6 +596,7 @@ fn document<'a>(
                 direction: p.direction.to_array(),
             })
             .collect(),
+        obstacles: args.obstacle.iter().map(|o| o.0.name.as_str()).collect(),
         measures,
         retarget: source
             .retarget

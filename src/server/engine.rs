@@ -6,6 +6,7 @@
 use crate::sim::body::provenance::Provenance;
 use crate::sim::body::topology::{self, BONE_NAMES, SEGMENT_NAMES};
 use crate::sim::body::{Body, DOF_COUNT, Posture, SEGMENT_COUNT, SegmentId, State};
+use crate::sim::collide::{MAX_OBSTACLES, ObstacleSetup, Other};
 use crate::sim::figure::loads::MAX_PERTURBATIONS;
 use crate::sim::figure::{
     ControlParams, ControllerKind, FigureOptions, HeldLoad, Perturbation, StrengthScale,
@@ -21,6 +22,7 @@ use crate::wire::types::{
 };
 use std::sync::Arc;
 
+pub use crate::sim::collide::ObstacleKey;
 pub use crate::sim::motion::Clip;
 pub use crate::sim::motion::builtin::BUILTIN_NAMES;
 pub use crate::sim::world::{ClipPlayback, Drive, Figure, FigureEvent, FigureKey, World};
@@ -249,7 +251,16 @@ fn refused(prefix: &str, e: &WorldError) -> Fault {
             message: e.to_string(),
             retry: None,
         },
-        WorldError::UnknownFigure(_) => Fault::Internal(e.to_string()),
+        WorldError::TooManyObstacles => Fault::Exhausted {
+            limit: "max_obstacles_per_world",
+            value: MAX_OBSTACLES as u64,
+            message: e.to_string(),
+            retry: None,
+        },
+        WorldError::FreePlane => Fault::invalid(format!("{prefix}.mobility"), e.to_string()),
+        WorldError::UnknownFigure(_) | WorldError::UnknownObstacle(_) => {
+            Fault::Internal(e.to_string())
+        }
     }
 }
 
@@ -260,9 +271,33 @@ pub fn new_world(s: &WorldSettings) -> Result<World, Fault> {
         substeps: s.substeps,
         gravity: s.gravity,
         friction: s.friction,
-        threads: 1,
+        collisions: s.collisions,
+        ..WorldParams::default()
     })
     .map_err(|e| refused("world", &e))
+}
+
+/// Adds an obstacle.
+pub fn add_obstacle(world: &mut World, setup: ObstacleSetup) -> Result<ObstacleKey, Fault> {
+    world.add_obstacle(setup).map_err(|e| refused_obstacle(&e))
+}
+
+/// Replaces an obstacle.
+pub fn update_obstacle(
+    world: &mut World,
+    key: ObstacleKey,
+    setup: ObstacleSetup,
+) -> Result<(), Fault> {
+    world
+        .update_obstacle(key, setup)
+        .map_err(|e| refused_obstacle(&e))
+}
+
+fn refused_obstacle(e: &WorldError) -> Fault {
+    match e {
+        WorldError::Range { field, .. } => Fault::invalid(*field, e.to_string()),
+        other => refused("obstacle", other),
+    }
 }
 
 /// Schedules a perturbation.
@@ -454,9 +489,19 @@ pub fn perturbation(body: &Body, what: &Disturbance, from: f64) -> Perturbation 
     }
 }
 
-/// A figure's event in the words of the server.
-pub fn event_kind(e: &FigureEvent) -> EventKind {
+/// A figure's event in the words of the server. `name` knows what is touched.
+pub fn event_kind(e: &FigureEvent, name: impl Fn(Other) -> String) -> EventKind {
+    let part = |o: Other| match o {
+        Other::Figure(_, s) => Some(s),
+        Other::Obstacle(_) => None,
+    };
     match *e {
+        FigureEvent::Touched { segment, other } => {
+            EventKind::Touched(segment, name(other), part(other))
+        }
+        FigureEvent::Parted { segment, other } => {
+            EventKind::Parted(segment, name(other), part(other))
+        }
         FigureEvent::SupportGained { segment } => EventKind::SupportGained(segment),
         FigureEvent::SupportLost { segment } => EventKind::SupportLost(segment),
         FigureEvent::Saturated { dof } => EventKind::Saturated(dof.min(DOF_COUNT - 1)),
@@ -488,5 +533,6 @@ pub fn snapshot(figure: &Figure, start: f64, dt: f64, applied: (i64, i64)) -> Fi
             .filter(|l| l.from <= soon && soon < l.to)
             .flat_map(|l| l.shares())
             .collect(),
+        touched: Vec::new(),
     }
 }

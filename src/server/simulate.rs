@@ -104,6 +104,7 @@ pub fn run(
         substeps: s.substeps,
         gravity: 9.81,
         friction: 0.9,
+        collisions: false,
         pace: Pace {
             display_name: String::new(),
             overrun: Overrun::Dilate,
@@ -163,7 +164,7 @@ pub fn run(
                     tick,
                     time,
                     figure: "figure".into(),
-                    kind: engine::event_kind(e),
+                    kind: engine::event_kind(e, |_| String::new()),
                 });
             }
         }
@@ -180,6 +181,7 @@ pub fn run(
                 roster_version: 1,
                 roster: roster.clone(),
                 figures: vec![engine::snapshot(figure, before, world.dt(), (-1, 0))],
+                obstacles: Vec::new(),
             };
             let frame = world_frame(&snapshot, view);
             bytes += frame.encoded_len() as u64;

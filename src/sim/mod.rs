@@ -1,8 +1,9 @@
 //! Physics and control: pure, synchronous, without I/O, clock or logging.
 //!
-//! `world` ─► `figure` ─► `gait` ─► `control` ─► `contact` ─► `support`, `strength`, `motion` ─► `dynamics` ─► `body` ─► `math`.
+//! `world` ─► `figure` ─► `gait` ─► `control` ─► `collide` ─► `contact` ─► `support`, `strength`, `motion` ─► `dynamics` ─► `body` ─► `math`.
 
 pub mod body;
+pub mod collide;
 pub mod contact;
 pub mod control;
 pub mod dynamics;

@@ -2,16 +2,19 @@
 
 use super::pb;
 use super::posture::{joint_rotation, positions, segment_poses};
-use super::types::{Fields, FigureSnapshot, NumberFormat, RosterEntry, Snapshot, ViewSpec};
+use super::types::{
+    Fields, FigureSnapshot, NumberFormat, ObstacleInfo, RosterEntry, Snapshot, ViewSpec,
+};
 use super::watched::WatchWorldResponse;
 use crate::sim::body::angles::anatomical_angles;
 use crate::sim::body::{DOF_COUNT, Posture, SEGMENT_COUNT, SegmentId};
+use crate::sim::collide::{Other, Touch};
 use crate::sim::figure::{Audit, ContactPoint, TickReport};
 use crate::sim::math::Vec3;
 use prost::bytes::Bytes;
 
 /// Names of the fields of a figure's frame that a view can choose, by bit of [`Fields`].
-pub const FIELD_NAMES: [&str; 17] = [
+pub const FIELD_NAMES: [&str; 18] = [
     "root_pose",
     "joint_angles",
     "joint_rotations",
@@ -29,6 +32,7 @@ pub const FIELD_NAMES: [&str; 17] = [
     "positions",
     "fatigue",
     "assist",
+    "touches",
 ];
 
 impl Fields {
@@ -105,6 +109,35 @@ fn contacts(format: NumberFormat, points: &[ContactPoint]) -> pb::Contacts {
         vertex: points.iter().map(|c| c.vertex as i32).collect(),
         position: places(format, &flat(points.iter().map(|c| c.position))),
         force: numbers(format, &flat(points.iter().map(|c| c.force))),
+    }
+}
+
+fn touches(format: NumberFormat, list: &[Touch], others: &[String]) -> pb::Touches {
+    pb::Touches {
+        segment: list.iter().map(|t| t.segment.index() as i32).collect(),
+        other: others.to_vec(),
+        other_segment: list
+            .iter()
+            .map(|t| match t.other {
+                Other::Figure(_, s) => s.index() as i32,
+                Other::Obstacle(_) => -1,
+            })
+            .collect(),
+        position: places(format, &flat(list.iter().map(|t| t.position))),
+        force: numbers(format, &flat(list.iter().map(|t| t.force))),
+        depth: numbers(format, &list.iter().map(|t| t.depth).collect::<Vec<_>>()),
+    }
+}
+
+fn obstacle_frame(o: &ObstacleInfo, format: NumberFormat) -> pb::ObstacleFrame {
+    let s = &o.setup;
+    let (p, q) = (s.position, s.rotation);
+    let (w, v) = (s.angular_velocity, s.velocity);
+    pb::ObstacleFrame {
+        obstacle: o.id.clone(),
+        pose: places(format, &[p.x, p.y, p.z, q.x, q.y, q.z, q.w]),
+        velocity: numbers(format, &[w.x, w.y, w.z, v.x, v.y, v.z]),
+        force: numbers(format, &o.force.to_array()),
     }
 }
 
@@ -260,6 +293,9 @@ pub fn figure_frame(
     if fields.has("assist") {
         out.assist = numbers(format, &r.assist);
     }
+    if fields.has("touches") {
+        out.touches = Some(touches(format, &r.touches, &f.touched));
+    }
     if fields.has("audit") {
         out.audit = Some(audit(format, &r.audit, &f.loads, gravity));
     }
@@ -287,6 +323,11 @@ pub fn world_frame(snapshot: &Snapshot, view: &ViewSpec) -> pb::WorldFrame {
             .map(|(entry, f)| {
                 figure_frame(entry.index, f, snapshot.gravity, view.fields, view.format)
             })
+            .collect(),
+        obstacles: snapshot
+            .obstacles
+            .iter()
+            .map(|o| obstacle_frame(o, view.format))
             .collect(),
     }
 }

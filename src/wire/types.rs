@@ -1,6 +1,7 @@
 //! What requests and frames are about, as domain types: checked once at the edge, trusted afterwards.
 
 use crate::sim::body::{Body, NV, Posture, Profile, SegmentId, State};
+use crate::sim::collide::ObstacleSetup;
 use crate::sim::figure::{
     ControlParams, ControllerKind, FigureOptions, StepperKind, StrengthScale, TickReport,
 };
@@ -54,6 +55,8 @@ pub struct WorldSettings {
     pub gravity: f64,
     /// Friction of the ground.
     pub friction: f64,
+    /// Figures and obstacles touch each other.
+    pub collisions: bool,
     /// What may change later.
     pub pace: Pace,
 }
@@ -420,6 +423,19 @@ pub struct Snapshot {
     pub roster: Arc<[RosterEntry]>,
     /// Figures, in the order of creation.
     pub figures: Vec<FigureSnapshot>,
+    /// Obstacles, in the order they were added.
+    pub obstacles: Vec<ObstacleInfo>,
+}
+
+/// One obstacle.
+#[derive(Clone, Debug)]
+pub struct ObstacleInfo {
+    /// Last part of its name.
+    pub id: String,
+    /// What it is, with its present pose and velocity.
+    pub setup: ObstacleSetup,
+    /// Mean force on it over the last tick, N.
+    pub force: Vec3,
 }
 
 /// One figure after one tick.
@@ -439,6 +455,8 @@ pub struct FigureSnapshot {
     pub applied_source_ns: i64,
     /// Loads carried: segment, point (segment frame, m), mass (kg).
     pub loads: Vec<(SegmentId, Vec3, f64)>,
+    /// What each of the report's touches touches: `figures/{figure}` or `obstacles/{obstacle}`.
+    pub touched: Vec<String>,
 }
 
 /// What happened in a world.
@@ -466,8 +484,16 @@ pub enum EventKind {
     LoadDropped(SegmentId, f64),
     /// A load slipped from the hand: segment, kg.
     LoadSlipped(SegmentId, f64),
+    /// A segment began to touch a figure or an obstacle: name and, of a figure, its segment.
+    Touched(SegmentId, String, Option<SegmentId>),
+    /// A segment no longer touches it.
+    Parted(SegmentId, String, Option<SegmentId>),
     /// The figure is frozen at its last good state.
     Quarantined,
+    /// An obstacle was added.
+    ObstacleAdded(String),
+    /// An obstacle was removed.
+    ObstacleRemoved(String),
     /// A figure was added.
     FigureAdded,
     /// A figure was removed.

@@ -17,6 +17,7 @@
 mod common;
 
 mod assist;
+mod collide;
 mod containment;
 mod fall;
 mod flight;

@@ -45,6 +45,11 @@ pub fn man() -> Arc<Body> {
 
 /// The recording `name` fitted to `body`; panics if the data set is missing.
 pub fn recorded(body: &Body, name: &str) -> Arc<Clip> {
+    recorded_with(body, name, &RetargetOptions::default())
+}
+
+/// The same, fitted as `options` say.
+pub fn recorded_with(body: &Body, name: &str, options: &RetargetOptions) -> Arc<Clip> {
     let folder = std::env::var_os("SINEW_MOCAP_DIR").map_or_else(
         || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/mocap"),
         PathBuf::from,
@@ -52,7 +57,7 @@ pub fn recorded(body: &Body, name: &str) -> Arc<Clip> {
     let path = folder.join(format!("{name}.bvh"));
     let bytes = std::fs::read(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     let bvh = Bvh::parse(&bytes).unwrap_or_else(|e| panic!("{name}: {e}"));
-    let fitted = retarget(&bvh, body, &RetargetOptions::default());
+    let fitted = retarget(&bvh, body, options);
     Arc::new(fitted.unwrap_or_else(|e| panic!("{name}: {e}")).clip)
 }
 

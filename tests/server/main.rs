@@ -4,6 +4,7 @@
 
 mod clips;
 mod drives;
+mod obstacles;
 mod support;
 mod watching;
 mod wire_faults;

@@ -4,6 +4,7 @@ import { Captions } from "./captions.js";
 import { message, Sinew } from "./client.js";
 import type { FigureFrame, WorldFrame } from "./gen/sinew/v1/frame_pb.js";
 import type { Person } from "./model.js";
+import { Obstacles } from "./obstacles.js";
 import { el, Panel, type Anew } from "./panel.js";
 import { Scene, type Shown } from "./scene.js";
 import { Session, type Phase } from "./session.js";
@@ -55,6 +56,7 @@ function forChosen(what: (p: Person) => Promise<unknown>): void {
   });
 }
 
+const obstacles = new Obstacles();
 const session = new Session(
   new Sinew(location.origin),
   (what) => {
@@ -64,7 +66,10 @@ const session = new Session(
     if (what === "lists") listsChanged();
   },
   (event) => captions.event(event, now()),
-  (frame) => (lastFrame = frame),
+  (frame) => {
+    lastFrame = frame;
+    if (session.world) void obstacles.follow(session.api, session.world.name, frame);
+  },
 );
 
 let scene: Scene | undefined;
@@ -90,6 +95,7 @@ try {
       );
     },
   });
+  scene.add(obstacles.group);
 } catch {
   // The panel, the words and the controls work without a picture.
   canvas.hidden = true;
@@ -611,6 +617,7 @@ function picture(): void {
   if (t < notBefore) return;
   const pair = session.playhead.at(t, session.paused ? 1 : (session.world?.speed ?? 1));
   scene?.prepare(pair && { before: indexed(pair.before), after: indexed(pair.after), share: pair.share }, shown, chosen);
+  if (pair) obstacles.place(pair.before, pair.after, pair.share);
   if (pair && reframed !== session.people.size) {
     reframed = session.people.size;
     scene?.frameAllOnce();

@@ -560,6 +560,11 @@ export class Scene {
     for (const a of this.actors.values()) a.repaint(this.look);
   }
 
+  /** Shows something besides the people. */
+  add(thing: THREE.Object3D): void {
+    this.scene.add(thing);
+  }
+
   /** Shows these people and no others. */
   populate(people: Iterable<Person>): void {
     const wanted = new Map([...people].map((p) => [p.index, p]));

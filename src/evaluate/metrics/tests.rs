@@ -42,6 +42,7 @@ impl Stand {
                 acceleration: [0.0; NV],
                 saturated: 0,
                 saturated_secondary: 0,
+                touches: Vec::new(),
                 contacts: Vec::new(),
                 main_support: None,
                 support_ratio: [0.0; SEGMENT_COUNT],

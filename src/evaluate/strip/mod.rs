@@ -11,8 +11,10 @@ mod panel;
 #[cfg(feature = "net")]
 pub mod raster;
 pub mod svg;
+mod things;
 
 pub use drawing::{Drawing, Item, Rgba};
+pub use things::{Kind, Thing};
 
 use super::metrics::Tick;
 use crate::sim::body::{Body, DOF_COUNT, Posture, SEGMENT_COUNT};
@@ -40,7 +42,9 @@ pub struct Frame {
     pub posture: Posture,
     /// Where it should be.
     pub desired: Posture,
-    /// Sum of contact forces (N) on each segment and the point it acts at (world, m); zero force where nothing touches.
+    /// What stands around it.
+    pub things: Vec<Thing>,
+    /// Sum of contact forces (N) on each segment, of the ground and of all else, and the point it acts at (world, m); zero force where nothing touches.
     pub contact: [(Vec3, Vec3); SEGMENT_COUNT],
     /// Centre of mass, world, m.
     pub com: Vec3,
@@ -72,6 +76,12 @@ impl Frame {
             contact[s].1 += c.force;
             weight[s] += n;
         }
+        for t in report.touches.iter().filter(|_| !frozen) {
+            let (s, n) = (t.segment.index(), t.force.norm());
+            contact[s].0 += t.position * n;
+            contact[s].1 += t.force;
+            weight[s] += n;
+        }
         for s in 0..SEGMENT_COUNT {
             if weight[s] > 0.0 {
                 contact[s].0 = contact[s].0 * (1.0 / weight[s]);
@@ -81,6 +91,7 @@ impl Frame {
             time_s,
             posture: tick.state.posture,
             desired: tick.target.next.posture,
+            things: Vec::new(),
             contact,
             com: report.com,
             zmp: report.zmp,
@@ -94,6 +105,15 @@ impl Frame {
             fallen: report.flags.has(Flags::FALLEN),
             frozen,
         }
+    }
+}
+
+impl Frame {
+    /// The same with `things` around the figure.
+    #[must_use]
+    pub fn among(mut self, things: impl IntoIterator<Item = Thing>) -> Self {
+        self.things.extend(things);
+        self
     }
 }
 

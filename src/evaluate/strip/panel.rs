@@ -1,7 +1,7 @@
 //! Composes a strip: camera, ground tile, shadow, ghost, body and marks of every panel, then the legend.
 
 use super::drawing::{Anchor, Drawing, Item, Rgba, convex_hull};
-use super::{Frame, StripOptions, View};
+use super::{Frame, Kind, StripOptions, Thing, View};
 use crate::evaluate::pose::{SegmentPose, segment_poses};
 use crate::sim::body::topology::{DOF_COUNT, DOF_SEGMENT, SEGMENT_NAMES};
 use crate::sim::body::{Body, Mesh, Posture, SEGMENT_COUNT};
@@ -16,6 +16,8 @@ const LEFT: Rgba = Rgba::hex(0x4f_93dd);
 const RIGHT: Rgba = Rgba::hex(0xf0_9345);
 const TRUNK: Rgba = Rgba::hex(0xbd_c2cb);
 const LOAD: Rgba = Rgba::hex(0x8a_6a4f);
+const OBSTACLE: Rgba = Rgba::hex(0xa8_9f8d);
+const OTHER: Rgba = Rgba::hex(0x8f_b59a);
 const FORCE: Rgba = Rgba::hex(0x1f_8f55);
 const COM: Rgba = Rgba::hex(0x22_262c);
 const ZMP: Rgba = Rgba::hex(0xb1_2d9a);
@@ -34,6 +36,9 @@ const LONGEST_FORCE: f64 = 1.0;
 const TILE_DEPTH: f64 = 0.5;
 /// A ghost farther off than this is not drawn: after a fall the desired motion walks on alone, m.
 const GHOST_RANGE: f64 = 1.5;
+/// A thing whose nearest corner is farther from the figure than the first is not drawn; a panel widens for things up to the second, m.
+const THING_RANGE: f64 = 1.3;
+const THING_WIDTH: f64 = 1.6;
 /// Surface of a limb without a mesh, m.
 const BARE_RADIUS: f64 = 0.04;
 
@@ -272,7 +277,44 @@ fn extent(body: &Body, skins: &[Skin], frame: &Frame, camera: Camera) -> [f64; 3
             }
         }
     }
+    for t in near(frame) {
+        for v in &t.mesh.vertices {
+            let d = t.pose.point(*v) - centre;
+            let (x, y) = (d.dot(camera.right), d.dot(camera.up));
+            out[0] = out[0].max((0.06 - x).min(THING_WIDTH));
+            out[1] = out[1].max((0.06 + x).min(THING_WIDTH));
+            if x.abs() < THING_WIDTH {
+                out[2] = out[2].max(y.min(THING_RANGE));
+            }
+        }
+    }
     out
+}
+
+/// Things near the figure.
+fn near(frame: &Frame) -> impl Iterator<Item = &Thing> {
+    let at = frame.posture.root_position;
+    frame.things.iter().filter(move |t| {
+        let mut corners = t.mesh.vertices.iter();
+        corners.any(|v| (t.pose.point(*v) - at).norm() < THING_RANGE)
+    })
+}
+
+/// Those in front of the figure, or those behind it.
+fn things(items: &mut Vec<Item>, frame: &Frame, place: &Place, front: bool) {
+    for t in near(frame) {
+        let middle = t.mesh.vertices.iter().fold(Vec3::zero(), |m, v| m + *v)
+            * (1.0 / t.mesh.vertices.len().max(1) as f64);
+        let d = t.pose.point(middle) - frame.posture.root_position;
+        if (d.dot(place.camera.near) > 0.0) == front {
+            let colour = match t.kind {
+                Kind::Obstacle => OBSTACLE,
+                Kind::Other(_) => OTHER,
+            };
+            let skin = Skin::new(t.mesh.clone());
+            items.push(solid(&skin, &t.pose, colour, place));
+        }
+    }
 }
 
 fn panel(
@@ -319,9 +361,11 @@ fn panel(
     if shows_ghost(frame) {
         ghost(items, body, skins, &frame.desired, place);
     }
+    things(items, frame, place, false);
     for s in 0..SEGMENT_COUNT {
         items.push(solid(&skins[s], &poses[s], segment_colour(s), place));
     }
+    things(items, frame, place, true);
     for (s, point, mass) in &frame.loads {
         // As large as a ball of twice the density of water.
         let radius = (mass / 2000.0 * 0.75 / std::f64::consts::PI).cbrt();

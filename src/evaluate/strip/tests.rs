@@ -20,6 +20,7 @@ fn frame(body: &Body) -> Frame {
         time_s: 0.5,
         posture,
         desired: posture,
+        things: Vec::new(),
         contact,
         com: posture.root_position,
         zmp: Some(Vec3::zero()),

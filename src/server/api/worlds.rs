@@ -2,7 +2,7 @@
 
 use super::{Api, answer, origin};
 use crate::server::tick::shard::{Shard, StepRequest};
-use crate::wire::convert::{count, new_id, page, world, world_name};
+use crate::wire::convert::{count, new_id, obstacle, page, world, world_name};
 use crate::wire::pb::{self, world_service_server::WorldService};
 use crate::wire::status::Fault;
 use crate::wire::types::{WorldInfo, WorldUpdate};
@@ -217,5 +217,75 @@ impl WorldService for Api {
                 .await
                 .map(|w| pb::SetWorldSpeedResponse { world: Some(w) }),
         )
+    }
+
+    async fn add_obstacle(
+        &self,
+        request: Request<pb::AddObstacleRequest>,
+    ) -> Result<Response<pb::AddObstacleResponse>, Status> {
+        let result = async {
+            let r = request.get_ref();
+            let handle = self.world("parent", &r.parent)?;
+            let id = new_id("obstacle_id", &r.obstacle_id)?;
+            let setup = obstacle::setup("obstacle", r.obstacle.as_ref())?;
+            let info = handle
+                .call(origin(&request), move |s| s.add_obstacle(id, setup))
+                .await?;
+            Ok(pb::AddObstacleResponse {
+                obstacle: Some(obstacle::out(&handle.id, &info)),
+            })
+        };
+        answer(result.await)
+    }
+
+    async fn update_obstacle(
+        &self,
+        request: Request<pb::UpdateObstacleRequest>,
+    ) -> Result<Response<pb::UpdateObstacleResponse>, Status> {
+        let result = async {
+            let r = request.get_ref();
+            let setup = obstacle::setup("obstacle", r.obstacle.as_ref())?;
+            let name = r.obstacle.as_ref().map_or("", |o| &o.name);
+            let (world, id) = obstacle::name("obstacle.name", name)?;
+            let handle = self.worlds.get(world)?;
+            let id = id.to_owned();
+            let info = handle
+                .call(origin(&request), move |s| s.update_obstacle(&id, setup))
+                .await?;
+            Ok(pb::UpdateObstacleResponse {
+                obstacle: Some(obstacle::out(&handle.id, &info)),
+            })
+        };
+        answer(result.await)
+    }
+
+    async fn remove_obstacle(
+        &self,
+        request: Request<pb::RemoveObstacleRequest>,
+    ) -> Result<Response<pb::RemoveObstacleResponse>, Status> {
+        let result = async {
+            let (world, id) = obstacle::name("name", &request.get_ref().name)?;
+            let handle = self.worlds.get(world)?;
+            let id = id.to_owned();
+            handle
+                .call(origin(&request), move |s| s.remove_obstacle(&id))
+                .await?;
+            Ok(pb::RemoveObstacleResponse {})
+        };
+        answer(result.await)
+    }
+
+    async fn list_obstacles(
+        &self,
+        request: Request<pb::ListObstaclesRequest>,
+    ) -> Result<Response<pb::ListObstaclesResponse>, Status> {
+        let result = async {
+            let handle = self.world("parent", &request.get_ref().parent)?;
+            let list = handle.call(origin(&request), |s| Ok(s.obstacles())).await?;
+            Ok(pb::ListObstaclesResponse {
+                obstacles: list.iter().map(|o| obstacle::out(&handle.id, o)).collect(),
+            })
+        };
+        answer(result.await)
     }
 }

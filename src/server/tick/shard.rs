@@ -3,14 +3,15 @@
 
 use super::clock::Clock;
 use super::drives::{Drive, Slot};
-use crate::server::engine::{self, Clip, Drive as Motion, FigureKey, World};
+use crate::server::engine::{self, Clip, Drive as Motion, FigureKey, ObstacleKey, World};
 use crate::sim::body::{Body, State};
+use crate::sim::collide::{ObstacleSetup, Other};
 use crate::sim::figure::loads::MAX_PERTURBATIONS;
 use crate::wire::status::Fault;
 use crate::wire::types::{
     DriveOpen, EventKind, Feedback, FigureDisturbance, FigureInfo, FigureSettings, FigureUpdate,
-    MotionSample, Overrun, Place, Playback, RosterEntry, Snapshot, WorldCondition, WorldEvent,
-    WorldInfo, WorldSettings, WorldUpdate,
+    MotionSample, ObstacleInfo, Overrun, Place, Playback, RosterEntry, Snapshot, WorldCondition,
+    WorldEvent, WorldInfo, WorldSettings, WorldUpdate,
 };
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -51,6 +52,8 @@ pub struct Shard {
     limits: Limits,
     world: World,
     members: Vec<Member>,
+    obstacles: Vec<(String, ObstacleKey)>,
+    next_obstacle: u64,
     next_index: i32,
     roster: Arc<[RosterEntry]>,
     roster_version: i32,
@@ -88,6 +91,8 @@ impl Shard {
             limits,
             world,
             members: Vec::new(),
+            obstacles: Vec::new(),
+            next_obstacle: 1,
             next_index: 0,
             roster: Arc::new([]),
             roster_version: 1,
@@ -414,6 +419,96 @@ impl Shard {
         self.figure(figure)
     }
 
+    // ── obstacles ──
+
+    fn obstacle(&self, id: &str) -> Result<usize, Fault> {
+        let found = self.obstacles.iter().position(|(o, _)| o == id);
+        found.ok_or_else(|| {
+            Fault::not_found("obstacle", format!("worlds/{}/obstacles/{id}", self.id))
+        })
+    }
+
+    fn obstacle_info(&self, (id, key): &(String, ObstacleKey)) -> ObstacleInfo {
+        let o = self.world.obstacle(*key).expect("it is in the world");
+        ObstacleInfo {
+            id: id.clone(),
+            setup: o.setup().clone(),
+            force: o.force(),
+        }
+    }
+
+    /// All obstacles, in the order they were added.
+    pub fn obstacles(&self) -> Vec<ObstacleInfo> {
+        let all = self.obstacles.iter();
+        all.map(|o| self.obstacle_info(o)).collect()
+    }
+
+    /// Adds an obstacle.
+    pub fn add_obstacle(
+        &mut self,
+        id: Option<String>,
+        setup: ObstacleSetup,
+    ) -> Result<ObstacleInfo, Fault> {
+        self.working()?;
+        let id = match id {
+            Some(id) if self.obstacle(&id).is_ok() => {
+                return Err(Fault::Exists {
+                    kind: "obstacle",
+                    name: format!("worlds/{}/obstacles/{id}", self.id),
+                });
+            }
+            Some(id) => id,
+            None => (self.next_obstacle..)
+                .map(|n| format!("obstacle-{n}"))
+                .find(|id| self.obstacle(id).is_err())
+                .expect("there is a free number"),
+        };
+        let key = engine::add_obstacle(&mut self.world, setup)?;
+        self.next_obstacle += 1;
+        self.obstacles.push((id.clone(), key));
+        self.changed = true;
+        self.world_event(EventKind::ObstacleAdded(format!("obstacles/{id}")));
+        Ok(self.obstacle_info(&(id, key)))
+    }
+
+    /// Replaces an obstacle.
+    pub fn update_obstacle(
+        &mut self,
+        id: &str,
+        setup: ObstacleSetup,
+    ) -> Result<ObstacleInfo, Fault> {
+        self.working()?;
+        let i = self.obstacle(id)?;
+        engine::update_obstacle(&mut self.world, self.obstacles[i].1, setup)?;
+        self.changed = true;
+        Ok(self.obstacle_info(&self.obstacles[i]))
+    }
+
+    /// Removes an obstacle.
+    pub fn remove_obstacle(&mut self, id: &str) -> Result<(), Fault> {
+        self.working()?;
+        let i = self.obstacle(id)?;
+        let (_, key) = self.obstacles.remove(i);
+        self.world.remove_obstacle(key);
+        self.changed = true;
+        self.world_event(EventKind::ObstacleRemoved(format!("obstacles/{id}")));
+        Ok(())
+    }
+
+    /// What a figure touches, as it is called outside; empty for something that has gone.
+    fn name_of(&self, other: Other) -> String {
+        match other {
+            Other::Figure(key, _) => {
+                let m = self.members.iter().find(|m| m.key.0 == key);
+                m.map_or_else(String::new, |m| format!("figures/{}", m.id))
+            }
+            Other::Obstacle(key) => {
+                let o = self.obstacles.iter().find(|(_, k)| *k == key);
+                o.map_or_else(String::new, |(id, _)| format!("obstacles/{id}"))
+            }
+        }
+    }
+
     // ── perturbations ──
 
     /// Applies a batch, all or nothing. Returns the tick at whose start it acts.
@@ -715,15 +810,17 @@ impl Shard {
     pub(super) fn step_world(&mut self) {
         self.world.step();
         let (tick, time) = (self.world.tick(), self.world.time());
+        let mut events = std::mem::take(&mut self.events);
         for m in &self.members {
             let f = self.world.figure(m.key).expect("members are in the world");
-            self.events.extend(f.events().iter().map(|e| WorldEvent {
+            events.extend(f.events().iter().map(|e| WorldEvent {
                 tick,
                 time,
                 figure: m.id.clone(),
-                kind: engine::event_kind(e),
+                kind: engine::event_kind(e, |o| self.name_of(o)),
             }));
         }
+        self.events = events;
     }
 
     fn event(&mut self, figure: &str, kind: EventKind) {
@@ -761,9 +858,14 @@ impl Shard {
             .iter()
             .map(|m| {
                 let f = self.world.figure(m.key).expect("members are in the world");
-                engine::snapshot(f, start, self.world.dt(), applied(m.key))
+                let mut shown = engine::snapshot(f, start, self.world.dt(), applied(m.key));
+                if let Some(r) = &shown.report {
+                    shown.touched = r.touches.iter().map(|t| self.name_of(t.other)).collect();
+                }
+                shown
             })
             .collect();
+        let obstacles = self.obstacles();
         let since = SystemTime::now()
             .duration_since(SystemTime::UNIX_EPOCH)
             .unwrap_or_default();
@@ -779,6 +881,7 @@ impl Shard {
             roster_version: self.roster_version,
             roster: self.roster.clone(),
             figures,
+            obstacles,
         });
         if self.history.back().is_some_and(|s| s.tick == snapshot.tick) {
             self.history.pop_back(); // the roster changed between ticks

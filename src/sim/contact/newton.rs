@@ -51,7 +51,7 @@ impl Default for Motors {
 impl Motors {
     /// Value and slope at `x`.
     #[inline(always)]
-    fn value(&self, j: usize, x: f64) -> (f64, f64) {
+    pub(crate) fn value(&self, j: usize, x: f64) -> (f64, f64) {
         let t = self.gain[j] * (self.rest[j] - x);
         if t > self.upper[j] {
             (self.upper[j], 0.0)
@@ -72,9 +72,9 @@ pub struct NewtonWorkspace {
     pub limit: [f64; DOF_COUNT],
     /// Contact forces, one per point.
     pub force: Box<[Vec3; MAX_CONTACTS]>,
-    velocity: Box<[Vec3; MAX_CONTACTS]>,
-    direction: Box<[Vec3; MAX_CONTACTS]>,
-    region: Box<[Region; MAX_CONTACTS]>,
+    pub(crate) velocity: Box<[Vec3; MAX_CONTACTS]>,
+    pub(crate) direction: Box<[Vec3; MAX_CONTACTS]>,
+    pub(crate) region: Box<[Region; MAX_CONTACTS]>,
 }
 
 impl Default for NewtonWorkspace {

@@ -58,6 +58,9 @@ const FADE: (f64, f64) = (0.004, 0.010);
 const PLANNED_FADE: (f64, f64) = (0.006, 0.020);
 /// What is kept of the last tick's contact force.
 const FORCE_MEMORY: f64 = 0.98;
+/// Weight with which a part that rests on a seat is held there when it carries all it may count for, and that share of the weight.
+const REST_HOLD: f64 = 500.0;
+const REST_FULL: f64 = 0.2;
 /// Share of hold and force that segments other than feet get.
 const OTHER_SEGMENT: f64 = 1e-3;
 /// Most Newton iterations; residual of the equations of motion at which it stops, N·m. In gait the median is 3, the 99th percentile 26.
@@ -224,7 +227,30 @@ impl Modern {
         self.hold.clear();
         let t = input.terms;
         let planted = input.target.next.planted;
+        let mg = t.mass * input.gravity.max(1.0);
         for s in 0..SEGMENT_COUNT {
+            for rest in input.support.rests().iter().filter(|r| r.is_level()) {
+                if rest.segment.index() != s || self.contacts.points.len() >= MAX_CONTACTS {
+                    continue;
+                }
+                // What rests on a seat or a table is pushed by it as the solution needs, starting from what it gave.
+                let share = (rest.force.norm() / (REST_FULL * mg)).min(1.0);
+                let r = rest.position - t.segment_position(s);
+                let local = t.kin.rotation[s].transpose_mul(r);
+                let v = t.kin.velocity[s] + t.kin.omega[s].cross(r);
+                let a = v * (-1.0 / HOLD_TIME) - t.point_bias(s, local);
+                let inverse_r = share.max(OTHER_SEGMENT) / weight::FORCE;
+                let slot = self.contacts.slot(&t.kin, s);
+                self.contacts.points.push(PointRow {
+                    slot,
+                    r,
+                    c: rest.force * (-FORCE_MEMORY / inverse_r),
+                    inverse_r,
+                    segment: s,
+                    vertex: POINTS,
+                });
+                self.hold.push((REST_HOLD * share, a));
+            }
             let foot = s == L_FOOT.index()
                 || s == L_TOES.index()
                 || s == R_FOOT.index()
@@ -381,7 +407,9 @@ impl Controller for Modern {
         let (mut force, mut moment) = (Vec3::zero(), Vec3::zero());
         for (k, p) in self.contacts.points.iter().enumerate() {
             let f = self.newton.force[k];
-            self.last_force[p.segment * POINTS + p.vertex] = f;
+            if p.vertex < POINTS {
+                self.last_force[p.segment * POINTS + p.vertex] = f;
+            }
             force += f;
             moment += (t.segment_position(p.segment) + p.r).cross(f);
         }
@@ -392,7 +420,7 @@ impl Controller for Modern {
         });
         c.margin = c.zmp.and_then(|z| input.support.margin(z));
         c.pivot = None;
-        if input.support.main().is_none() {
+        if input.support.main().is_none() && input.support.rests().is_empty() {
             c.flags.set(Flags::FLIGHT);
         }
         &self.command

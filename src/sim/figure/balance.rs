@@ -77,7 +77,7 @@ impl BalanceWatch {
         (reach, height): (Reach, f64),
         off: Option<f64>,
     ) {
-        if support.points().is_empty() || gravity <= 0.0 {
+        if (support.points().is_empty() && support.rests().is_empty()) || gravity <= 0.0 {
             return; // Flight: nothing to lose balance over.
         }
         let (c, v) = (terms.com, terms.com_velocity);
@@ -112,8 +112,10 @@ impl BalanceWatch {
             .iter()
             .filter(|p| !feet.iter().flatten().any(|s| *s == p.segment))
             .map(|p| p.position);
+        let seats = support.rests().iter().filter(|r| r.is_level());
+        let seats = seats.map(|r| r.position);
         self.polygon
-            .set_hull(soles.chain(others).map(|p| [p.x, p.y]));
+            .set_hull(soles.chain(others).chain(seats).map(|p| [p.x, p.y]));
     }
 }
 

@@ -3,6 +3,7 @@
 use super::report::{Flags, TickReport};
 use crate::sim::body::SegmentId;
 use crate::sim::body::topology::{DOF_COUNT, SEGMENT_COUNT};
+use crate::sim::collide::Other;
 use crate::sim::support::Support;
 
 /// Something worth telling.
@@ -56,6 +57,20 @@ pub enum FigureEvent {
         segment: SegmentId,
         /// kg.
         mass: f64,
+    },
+    /// A segment began to touch another figure or an obstacle.
+    Touched {
+        /// Own segment.
+        segment: SegmentId,
+        /// What it touches.
+        other: Other,
+    },
+    /// A segment no longer touches it.
+    Parted {
+        /// Own segment.
+        segment: SegmentId,
+        /// What it touched.
+        other: Other,
     },
     /// The state turned non-finite or ran away; the figure is frozen at its last good state.
     Quarantined,

@@ -12,6 +12,10 @@ use crate::sim::math::Vec3;
 
 /// Most perturbations a figure can have scheduled at once.
 pub const MAX_PERTURBATIONS: usize = 64;
+/// Most forces of other bodies in the audit of one figure.
+pub const MAX_EXTERNAL: usize = crate::sim::collide::touch::MAX_ISLAND_CONTACTS;
+/// Most applied forces in an audit: perturbations, a bar, other bodies.
+pub const MAX_APPLIED: usize = MAX_PERTURBATIONS + 2 + MAX_EXTERNAL;
 
 #[derive(Clone, Copy, Debug)]
 struct Scheduled {

@@ -11,6 +11,7 @@ pub mod setup;
 pub mod step;
 pub mod tasks;
 pub mod torque_step;
+pub mod touches;
 
 pub use drive::{ClipPlayback, Drive};
 pub use events::FigureEvent;
@@ -20,3 +21,7 @@ pub use setup::{
     StepperKind, StrengthScale,
 };
 pub use step::{Figure, FigureSetup, TickContext};
+
+/// Identity of a figure in a world; never used again after removal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct FigureKey(pub u64);

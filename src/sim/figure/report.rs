@@ -1,6 +1,7 @@
 //! What one tick of one figure did: enough to check it from outside.
 
 use crate::sim::body::{DOF_COUNT, NV, SEGMENT_COUNT, SegmentId, State};
+use crate::sim::collide::touch::Touch;
 use crate::sim::math::Vec3;
 
 /// Most contact points one figure can have at once: 8 per segment.
@@ -84,7 +85,7 @@ pub struct Audit {
     pub ligament_torque: [f64; DOF_COUNT],
     /// Ground and object contacts, at the start of the substep.
     pub contacts: Vec<ContactPoint>,
-    /// Forces of perturbations: segment, world point, world force (N).
+    /// Forces of perturbations and of other bodies: segment, world point, world force (N).
     pub applied: Vec<(SegmentId, Vec3, Vec3)>,
     /// Assist on the pelvis: moment about its origin (N·m), then force (N), world axes.
     pub assist: [f64; 6],
@@ -164,6 +165,8 @@ pub struct TickReport {
     pub saturated_secondary: u64,
     /// Touching points with their mean force.
     pub contacts: Vec<ContactPoint>,
+    /// Parts that touch other figures and obstacles, by segment, then by what is touched; at most [`MAX_TOUCHES`](crate::sim::collide::touch::MAX_TOUCHES).
+    pub touches: Vec<Touch>,
     /// Main supporting segment, if any.
     pub main_support: Option<SegmentId>,
     /// Support ratio (2) per segment (0 where it does not support).

@@ -1,5 +1,6 @@
 //! One tick of one figure (ALGORITHM §10): the list of stages is [`Figure::step`].
 
+use super::FigureKey;
 use super::assist::Assist;
 use super::balance::{BalanceWatch, Reach};
 use super::drive::Drive;
@@ -15,9 +16,14 @@ use super::torque_step::{
     FALLEN_SPEED, FEED_FORWARD_SPEED, MODERN_SPEED, MOTORS_ALONE_SPEED, MotorCommand, StepInput,
     Stepper, TorqueStepper,
 };
+use super::touches::{Contacting, Touches};
 use crate::sim::body::angles::anatomical_angles;
 use crate::sim::body::topology::{DOF_COUNT, L_FOOT, L_TOES, NV, R_FOOT, R_TOES, SEGMENT_COUNT};
 use crate::sim::body::{Body, Links, Posture, State};
+use crate::sim::collide::MAX_TOUCHES;
+use crate::sim::collide::island::{Articulated, Parts};
+use crate::sim::collide::shape::BodyShape;
+use crate::sim::contact::Outcome;
 use crate::sim::control::{
     Balance, Command, ControlInput, Controller, Law, Modern, Paper, tracking,
 };
@@ -73,6 +79,8 @@ const FALLEN_STRENGTH: f64 = 0.3;
 const FALLEN_HORIZON: f64 = 0.3;
 /// Torques give back to prescribed accelerations after the figure has stood this long on flat feet with strength to spare, s.
 const CALM_TIME: f64 = 0.5;
+/// A part rests on something that carries this share of the weight.
+const RESTS: f64 = 0.02;
 /// It stands again when its CoM is above this share of the standing height.
 const RISEN_HEIGHT: f64 = 0.6;
 
@@ -112,6 +120,42 @@ pub struct Figure {
     report: TickReport,
     reported: bool,
     watcher: Watcher,
+    pending: Pending,
+    touches: Touches,
+    shape: Arc<BodyShape>,
+    /// Who it is near in this tick.
+    pub(crate) cluster: usize,
+    /// Put where it is since the last tick.
+    pub(crate) is_new: bool,
+}
+
+/// What stage 6 works with.
+struct Stage<'a> {
+    input: StepInput<'a>,
+    stepper: &'a mut TorqueStepper,
+    kinematic: &'a mut KinematicStepper,
+    controllers: (&'a Paper, &'a Modern),
+    support: &'a Support,
+    state: &'a mut State,
+}
+
+/// What the stages of a tick hand on.
+#[derive(Debug)]
+struct Pending {
+    command: MotorCommand,
+    lower: [f64; DOF_COUNT],
+    upper: [f64; DOF_COUNT],
+    tasks: TaskPoints,
+    before: State,
+    angles: [f64; DOF_COUNT],
+    rates: [f64; DOF_COUNT],
+    assist: Option<Assist>,
+}
+
+impl Articulated for (FigureKey, Box<Figure>) {
+    fn parts(&mut self) -> Parts<'_> {
+        self.1.stepper.parts()
+    }
 }
 
 impl Figure {
@@ -154,12 +198,17 @@ impl Figure {
             report: empty_report(&setup.state),
             reported: false,
             watcher: Watcher::default(),
+            pending: Pending::new(&setup.state),
+            touches: Touches::default(),
+            shape: Arc::new(BodyShape::new(&setup.body)),
+            cluster: 0,
+            is_new: true,
             setup,
         }
     }
 
-    /// One tick. Allocates nothing.
-    pub(crate) fn step(&mut self, world: &TickContext) {
+    /// Stages 1–5 of a tick: everything before the body moves. False for a frozen figure, whose tick ends here.
+    pub(crate) fn prepare(&mut self, world: &TickContext) -> bool {
         let (time, dt) = (world.tick as f64 * world.dt, world.dt);
         self.watcher.begin();
         // 1. Commands: loads, pushes.
@@ -174,7 +223,7 @@ impl Figure {
         );
         if self.frozen {
             self.report.flags = Flags::QUARANTINED;
-            return;
+            return false;
         }
         // 2. Dynamics of the state, desired motion, 3. supports, 4. strength.
         self.terms.compute(
@@ -193,6 +242,8 @@ impl Figure {
         );
         self.support
             .update(&self.terms, &body, self.com_acceleration, world.gravity);
+        let least = RESTS * self.terms.mass * world.gravity;
+        self.support.rest_on(self.touches.rests(&self.terms, least));
         self.watch_balance(world);
         let angles = anatomical_angles(&self.state.posture);
         let rates: [f64; DOF_COUNT] = std::array::from_fn(|j| self.state.velocity[6 + j]);
@@ -201,7 +252,10 @@ impl Figure {
         let (mut lower, mut upper) = ([0.0; DOF_COUNT], [0.0; DOF_COUNT]);
         self.strength
             .range(&angles, &rates, scale, &mut lower, &mut upper);
-        // 5. Control: accelerations and torques within strength.
+        // 5. Control: accelerations and torques within strength. What the figure leans on is known to it.
+        let bias = self.terms.h;
+        let modern = self.active_controller() == ControllerKind::Modern;
+        self.touches.lean(&mut self.terms, modern.then_some(least));
         let mut tasks = self.tasks.points(&body, &self.links, &self.target);
         let mut balance = None;
         if self.steps() {
@@ -215,49 +269,164 @@ impl Figure {
                 .lead(&self.terms, &self.support, world.gravity, dt, &mut led);
         }
         self.prescribed = self.prescribes();
-        let motors = self.control(world, &tasks, balance, (&lower, &upper));
+        let command = self.control(world, &tasks, balance, (&lower, &upper));
         self.judge_hand_over(dt);
-        // 6. Simulate: motors, limits and contact move the body.
-        let before = self.state;
-        let assist = Assist::new(&body, self.setup.options.assist);
-        let input = StepInput {
-            body: &body,
-            links: &self.links,
-            strength: &self.strength,
-            scale: &self.muscles,
-            terms: &self.terms,
-            command: &motors,
-            lower: &lower,
-            upper: &upper,
-            applied: self.disturbances.applied(),
-            bar: self.disturbances.bar(),
-            assist: assist.as_ref().map(|a| (a, &self.target)),
-            gravity: world.gravity,
-            dt,
-            substeps: world.substeps,
+        self.terms.h = bias;
+        self.pending = Pending {
+            command,
+            lower,
+            upper,
+            tasks,
+            before: self.state,
+            angles,
+            rates,
+            assist: Assist::new(&body, self.setup.options.assist),
         };
-        if self.prescribed {
-            let paper = self.setup.controller == ControllerKind::Paper;
+        true
+    }
+
+    /// Stage 6: motors, limits and ground move the body, or its accelerations do.
+    pub(crate) fn simulate(&mut self, world: &TickContext) {
+        self.touches.begin();
+        let paper = self.setup.controller == ControllerKind::Paper;
+        let prescribed = self.prescribed;
+        let as_commanded = paper && self.setup.params.share == Share::Paper;
+        let planted = self.target.next.planted;
+        let Stage {
+            input,
+            stepper,
+            kinematic,
+            controllers: (first, second),
+            support,
+            state,
+        } = self.stage(world);
+        if prescribed {
             let decision = Decision {
                 command: if paper {
-                    self.paper.command()
+                    first.command()
                 } else {
-                    self.modern.command()
+                    second.command()
                 },
-                left_out: self.paper.left_out().filter(|_| paper),
-                as_commanded: paper && self.setup.params.share == Share::Paper,
-                support: &self.support,
-                planted: self.target.next.planted,
+                left_out: first.left_out().filter(|_| paper),
+                as_commanded,
+                support,
+                planted,
             };
-            self.kinematic.step(&input, &decision, &mut self.state);
+            kinematic.step(&input, &decision, state);
         } else {
-            self.kinematic.reset();
-            self.stepper.step(&input, &mut self.state);
+            kinematic.reset();
+            stepper.step(&input, state);
         }
-        self.tire(&angles, &rates, dt);
-        // 7. Contain trouble, 8. report.
+    }
+
+    /// What the steppers read, the steppers, and the state they move.
+    fn stage(&mut self, world: &TickContext) -> Stage<'_> {
+        let Self {
+            setup,
+            links,
+            strength,
+            muscles,
+            terms,
+            pending,
+            disturbances,
+            target,
+            stepper,
+            kinematic,
+            paper,
+            modern,
+            support,
+            state,
+            ..
+        } = self;
+        let input = StepInput {
+            body: &setup.body,
+            links,
+            strength,
+            scale: muscles,
+            terms,
+            command: &pending.command,
+            lower: &pending.lower,
+            upper: &pending.upper,
+            applied: disturbances.applied(),
+            bar: disturbances.bar(),
+            assist: pending.assist.as_ref().map(|a| (a, &*target)),
+            gravity: world.gravity,
+            dt: world.dt,
+            substeps: world.substeps,
+        };
+        Stage {
+            input,
+            stepper,
+            kinematic,
+            controllers: (paper, modern),
+            support,
+            state,
+        }
+    }
+
+    /// True if accelerations move it in this tick, whatever it meets.
+    pub(crate) fn is_prescribed(&self) -> bool {
+        self.prescribed
+    }
+    /// Something will be met, and contact acts by forces: torques take over before the tick begins.
+    pub(crate) fn hand_over(&mut self) {
+        self.prescribed = false;
+        self.handed_over = Some(0.0);
+    }
+    /// Stage 6 among others: shows where the segments are before it is known who moves them.
+    pub(crate) fn show(&mut self) {
+        self.stepper.terms.clone_from(&self.terms);
+    }
+
+    /// Stage 6 among others: starts the tick.
+    pub(crate) fn begin_substeps(&mut self) {
+        self.kinematic.reset();
+        self.stepper.begin(&self.state);
+        self.touches.begin();
+    }
+    /// Stage 6 among others: substep `i` as if nothing but the ground were touched.
+    pub(crate) fn open_substep(&mut self, world: &TickContext, i: u32) {
+        let Stage {
+            input,
+            stepper,
+            state,
+            ..
+        } = self.stage(world);
+        stepper.open_substep(&input, state, i);
+    }
+    /// Stage 6 among others: takes the impulse of an island in velocity components.
+    pub(crate) fn touch(&mut self, impulse: [f64; NV], outcome: Outcome) {
+        self.stepper.touch(impulse, outcome);
+    }
+    /// Stage 6 among others: one contact of the substep, with its impulse on this figure.
+    pub(crate) fn record(&mut self, what: &Contacting, h: f64, dt: f64) {
+        self.stepper
+            .push(what.segment, what.position, what.impulse * (1.0 / h));
+        self.touches.add(&self.stepper.terms, what, dt);
+    }
+    /// Stage 6 among others: closes substep `i` and moves.
+    pub(crate) fn close_substep(&mut self, world: &TickContext, i: u32) {
+        let Stage {
+            input,
+            stepper,
+            state,
+            ..
+        } = self.stage(world);
+        stepper.close_substep(&input, state, i);
+    }
+    /// Stage 6 among others: ends the tick.
+    pub(crate) fn end_substeps(&mut self, world: &TickContext) {
+        let Stage { input, stepper, .. } = self.stage(world);
+        stepper.end(&input);
+    }
+
+    /// Stages 7 and 8: contain trouble, report.
+    pub(crate) fn finish(&mut self, world: &TickContext) {
+        self.touches.end(&mut self.watcher);
+        let (angles, rates) = (self.pending.angles, self.pending.rates);
+        self.tire(&angles, &rates, world.dt);
         let frozen = self.contain();
-        self.fill_report(world, &before, &tasks, (&lower, &upper), frozen);
+        self.fill_report(world, frozen);
         self.judge_fall();
         self.watcher
             .observe(&self.report, &self.support, self.fallen);
@@ -433,7 +602,8 @@ impl Figure {
             let points = self.support.points();
             let flat = points.len() >= 3 && points.iter().all(|p| feet.contains(&p.segment));
             let upright = !self.fallen && !self.balance.lost();
-            let stands = flat && upright && !self.tips && r.saturated == 0;
+            let alone = self.touches.list().next().is_none();
+            let stands = flat && upright && alone && !self.tips && r.saturated == 0;
             self.handed_over = match calm + dt {
                 t if !stands && t > 0.0 => Some(0.0),
                 t if t > CALM_TIME => None,
@@ -490,25 +660,27 @@ impl Figure {
         !good
     }
 
-    fn fill_report(
-        &mut self,
-        world: &TickContext,
-        before: &State,
-        tasks: &TaskPoints,
-        range: (&[f64; DOF_COUNT], &[f64; DOF_COUNT]),
-        frozen: bool,
-    ) {
+    fn fill_report(&mut self, world: &TickContext, frozen: bool) {
+        let Pending {
+            before,
+            tasks,
+            lower,
+            upper,
+            ..
+        } = &self.pending;
         let (f, penetration) = if self.prescribed {
             (&self.kinematic.forces, self.kinematic.penetration())
         } else {
             (&self.stepper.forces, self.stepper.penetration())
         };
         let r = &mut self.report;
+        r.touches.clear();
+        r.touches.extend(self.touches.list());
         r.torque = f.torque;
         r.ligament_torque = f.ligament_torque;
         r.assist = f.assist;
-        r.torque_lower = *range.0;
-        r.torque_upper = *range.1;
+        r.torque_lower = *lower;
+        r.torque_upper = *upper;
         r.over_limit = f.over_limit;
         for i in 0..NV {
             r.acceleration[i] = (self.state.velocity[i] - before.velocity[i]) / world.dt;
@@ -539,7 +711,7 @@ impl Figure {
         r.penetration = penetration;
         r.step_iterations = f.iterations;
         r.flags.set(f.flags);
-        if r.contacts.is_empty() {
+        if r.contacts.is_empty() && r.touches.is_empty() {
             r.flags.set(Flags::FLIGHT);
         }
         if self.fallen {
@@ -573,7 +745,8 @@ impl Figure {
             .report
             .contacts
             .iter()
-            .any(|c| !feet.contains(&c.segment));
+            .any(|c| !feet.contains(&c.segment))
+            || self.touches.list().any(|t| !feet.contains(&t.segment));
         if !self.fallen && height < FALLEN_HEIGHT && on_other {
             self.fallen = true;
         } else if self.fallen && height > RISEN_HEIGHT {
@@ -624,6 +797,22 @@ impl Figure {
     pub fn target(&self) -> &TargetPair {
         &self.target
     }
+    /// The shapes it collides with.
+    pub fn shape(&self) -> &BodyShape {
+        &self.shape
+    }
+    /// True while it is frozen after trouble.
+    pub(crate) fn is_frozen(&self) -> bool {
+        self.frozen
+    }
+    /// Where its segments are in the present substep.
+    pub(crate) fn substep_terms(&self) -> &Terms {
+        &self.stepper.terms
+    }
+    /// Where its segments were at the start of the tick.
+    pub(crate) fn tick_terms(&self) -> &Terms {
+        &self.terms
+    }
     /// Events of the last tick.
     pub fn events(&self) -> &[FigureEvent] {
         self.watcher.events()
@@ -666,12 +855,14 @@ impl Figure {
     /// Puts the figure into a state and forgets its past; loads stay.
     pub fn reset(&mut self, state: State) {
         self.state = state;
+        self.is_new = true;
         self.last_good = state;
         self.fallen = false;
         self.frozen = false;
         self.gait.reset();
         self.com_acceleration = Vec3::zero();
         self.support.reset();
+        self.touches = Touches::default();
         self.paper.reset();
         self.modern.reset();
         self.kinematic.reset();
@@ -725,6 +916,26 @@ impl Figure {
     }
 }
 
+impl Pending {
+    fn new(state: &State) -> Self {
+        let z = [0.0; DOF_COUNT];
+        Self {
+            command: MotorCommand {
+                acceleration: z,
+                torque: z,
+                saturation_speed: 1.0,
+            },
+            lower: z,
+            upper: z,
+            tasks: TaskPoints::none(),
+            before: *state,
+            angles: z,
+            rates: z,
+            assist: None,
+        }
+    }
+}
+
 fn rested(options: &FigureOptions) -> Option<Box<Fatigue>> {
     let scale = options.fatigue_time_scale;
     (scale > 0.0).then(|| Box::new(Fatigue::rested(scale)))
@@ -752,6 +963,7 @@ fn empty_report(state: &State) -> TickReport {
         saturated: 0,
         saturated_secondary: 0,
         contacts: Vec::with_capacity(MAX_CONTACTS),
+        touches: Vec::with_capacity(MAX_TOUCHES),
         main_support: None,
         support_ratio: [0.0; SEGMENT_COUNT],
         support_polygon: Vec::with_capacity(MAX_CONTACTS),
@@ -771,7 +983,7 @@ fn empty_report(state: &State) -> TickReport {
             torque: z,
             ligament_torque: z,
             contacts: Vec::with_capacity(MAX_CONTACTS),
-            applied: Vec::with_capacity(super::loads::MAX_PERTURBATIONS + 2),
+            applied: Vec::with_capacity(super::loads::MAX_APPLIED),
             assist: [0.0; 6],
         },
     }

@@ -18,6 +18,36 @@ pub struct TaskPoints {
     pub feet: [(PointTarget, RotationTarget); 2],
 }
 
+impl TaskPoints {
+    /// Everything at the world origin, at rest: before the first tick.
+    pub fn none() -> Self {
+        let o = Vec3::zero();
+        let point = PointTarget {
+            now: o,
+            now_velocity: o,
+            next: o,
+            next_velocity: o,
+        };
+        let turn = RotationTarget {
+            now: Quat::identity(),
+            now_velocity: o,
+            next: Quat::identity(),
+            next_velocity: o,
+        };
+        let hand = |segment| Effector {
+            segment,
+            point: o,
+            position: point,
+            rotation: None,
+        };
+        Self {
+            com: point,
+            hands: [hand(L_HAND), hand(R_HAND)],
+            feet: [(point, turn); 2],
+        }
+    }
+}
+
 /// Where a load is held: the middle of the hand.
 pub fn grip(body: &Body, hand: SegmentId) -> Vec3 {
     body.segment(hand).tip * 0.5

@@ -6,10 +6,11 @@
 //! equations of motion to rounding whatever residual the iteration stopped at.
 
 use super::assist::{Assist, Spring};
-use super::loads::Bar;
+use super::loads::{Bar, MAX_EXTERNAL};
 use super::report::{Audit, ContactPoint, Flags, MAX_CONTACTS};
 use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT, SegmentId};
 use crate::sim::body::{Body, Links, State};
+use crate::sim::collide::island::{Articulated, Parts};
 use crate::sim::contact::rows::PointRow;
 use crate::sim::contact::{
     ContactRows, LimitRows, Motors, NewtonWorkspace, Outcome, SparseSystem, collect_limits,
@@ -199,6 +200,21 @@ pub struct TorqueStepper {
     /// Sum of contact impulses over the tick by segment × 8 + vertex, N·s, and where the point was when it first touched.
     impulse: Box<[(Vec3, Vec3); MAX_CONTACTS]>,
     penetration: f64,
+    /// Joint rates at the start of the tick.
+    start: [f64; DOF_COUNT],
+    /// Strength of the current substep.
+    range: [[f64; DOF_COUNT]; 2],
+    /// Momentum of the current substep without motors, limits and contacts;
+    /// assist and bar included.
+    pushed: [f64; NV],
+    /// Velocity that solves the current substep.
+    solution: [f64; NV],
+    outcome: Outcome,
+    row: Option<BarRow>,
+    /// Impulse of other bodies in the current substep.
+    external: Option<[f64; NV]>,
+    /// Its forces: segment, world point, world force, N.
+    external_forces: Vec<(SegmentId, Vec3, Vec3)>,
     /// Result of the last tick.
     pub forces: TickForces,
 }
@@ -222,6 +238,14 @@ impl TorqueStepper {
             bar_forces: None,
             impulse: Box::new([(Vec3::zero(), Vec3::zero()); MAX_CONTACTS]),
             penetration: 0.0,
+            start: [0.0; DOF_COUNT],
+            range: [[0.0; DOF_COUNT]; 2],
+            pushed: [0.0; NV],
+            solution: [0.0; NV],
+            outcome: Outcome::default(),
+            row: None,
+            external: None,
+            external_forces: Vec::with_capacity(super::loads::MAX_APPLIED),
             forces: TickForces {
                 torque: [0.0; DOF_COUNT],
                 ligament_torque: [0.0; DOF_COUNT],
@@ -237,7 +261,7 @@ impl TorqueStepper {
                     torque: [0.0; DOF_COUNT],
                     ligament_torque: [0.0; DOF_COUNT],
                     contacts: Vec::with_capacity(MAX_CONTACTS),
-                    applied: Vec::with_capacity(super::loads::MAX_PERTURBATIONS + 2),
+                    applied: Vec::with_capacity(super::loads::MAX_APPLIED),
                     assist: [0.0; 6],
                 },
             },
@@ -253,6 +277,34 @@ impl TorqueStepper {
 impl Stepper for TorqueStepper {
     /// Advances `state` by one tick of `dt` seconds in `substeps` substeps. Fills [`Self::forces`]. No allocation.
     fn step(&mut self, input: &StepInput<'_>, state: &mut State) {
+        self.begin(state);
+        for i in 0..input.substeps {
+            self.open_substep(input, state, i);
+            self.close_substep(input, state, i);
+        }
+        self.end(input);
+    }
+}
+
+impl TorqueStepper {
+    /// Starts a tick.
+    pub(crate) fn begin(&mut self, state: &State) {
+        self.start = std::array::from_fn(|j| state.velocity[6 + j]);
+        let f = &mut self.forces;
+        f.torque.fill(0.0);
+        f.ligament_torque.fill(0.0);
+        f.assist.fill(0.0);
+        f.bar = Vec3::zero();
+        f.over_limit = 0.0;
+        f.iterations = 0;
+        f.flags = Flags::default();
+        f.contact.clear();
+        self.impulse.fill((Vec3::zero(), Vec3::zero()));
+        self.penetration = 0.0;
+    }
+
+    /// Substep `i`: everything that depends on the state, and the velocity at its end if nothing but the ground is touched.
+    pub(crate) fn open_substep(&mut self, input: &StepInput<'_>, state: &State, i: u32) {
         let StepInput {
             body,
             links,
@@ -266,51 +318,67 @@ impl Stepper for TorqueStepper {
             ..
         } = *input;
         let h = dt / f64::from(substeps);
-        let start: [f64; DOF_COUNT] = std::array::from_fn(|j| state.velocity[6 + j]);
-        let f = &mut self.forces;
-        f.torque.fill(0.0);
-        f.ligament_torque.fill(0.0);
-        f.assist.fill(0.0);
-        f.bar = Vec3::zero();
-        f.over_limit = 0.0;
-        f.iterations = 0;
-        f.flags = Flags::default();
-        f.contact.clear();
-        self.impulse.fill((Vec3::zero(), Vec3::zero()));
-        self.penetration = 0.0;
-        for i in 0..substeps {
-            if i == 0 {
-                self.terms.clone_from(input.terms);
-            } else {
-                self.terms.compute(links, state, applied, gravity);
-            }
-            let angles = collect_limits(body, &state.posture, h, &mut self.limits);
-            let rates: [f64; DOF_COUNT] = std::array::from_fn(|j| state.velocity[6 + j]);
-            let (mut lower, mut upper) = ([0.0; DOF_COUNT], [0.0; DOF_COUNT]);
-            strength.range(&angles, &rates, scale, &mut lower, &mut upper);
-            for j in 0..DOF_COUNT {
-                // The gain follows strength: a motor gives all it has when it is `saturation_speed` off.
-                let k = 0.5 * (input.upper[j] - input.lower[j]) / command.saturation_speed;
-                let aim = start[j] + f64::from(i + 1) * h * command.acceleration[j];
-                self.motors.gain[j] = h * k;
-                self.motors.rest[j] = aim + command.torque[j] / k;
-                self.motors.lower[j] = h * lower[j];
-                self.motors.upper[j] = h * upper[j];
-            }
-            self.collect_contacts(body, h);
-            let spring = input.assist.map(|(assist, target)| {
-                let s = f64::from(i) / f64::from(substeps);
-                assist.spring(target, state, s, dt, h)
-            });
-            let row = input.bar.map(|bar| BarRow::new(bar, &self.terms, h));
-            let outcome = self.solve_substep(h, state, spring.as_ref(), row.as_ref());
-            if let Some(row) = &row {
-                self.account_bar(row, h, dt, i + 1 == substeps);
-            }
-            self.account(h, dt, i + 1 == substeps, &lower, &upper, applied, outcome);
-            let v = state.velocity;
-            state.posture.integrate(&v, h);
+        if i == 0 {
+            self.terms.clone_from(input.terms);
+        } else {
+            self.terms.compute(links, state, applied, gravity);
         }
+        let angles = collect_limits(body, &state.posture, h, &mut self.limits);
+        let rates: [f64; DOF_COUNT] = std::array::from_fn(|j| state.velocity[6 + j]);
+        let [lower, upper] = &mut self.range;
+        strength.range(&angles, &rates, scale, lower, upper);
+        for j in 0..DOF_COUNT {
+            // The gain follows strength: a motor gives all it has when it is `saturation_speed` off.
+            let k = 0.5 * (input.upper[j] - input.lower[j]) / command.saturation_speed;
+            let aim = self.start[j] + f64::from(i + 1) * h * command.acceleration[j];
+            self.motors.gain[j] = h * k;
+            self.motors.rest[j] = aim + command.torque[j] / k;
+            self.motors.lower[j] = h * lower[j];
+            self.motors.upper[j] = h * upper[j];
+        }
+        self.collect_contacts(body, h);
+        let spring = input.assist.map(|(assist, target)| {
+            let s = f64::from(i) / f64::from(substeps);
+            assist.spring(target, state, s, dt, h)
+        });
+        self.row = input.bar.map(|bar| BarRow::new(bar, &self.terms, h));
+        self.external = None;
+        self.external_forces.clear();
+        self.solve_substep(h, state, spring.as_ref());
+    }
+
+    /// What other bodies give in this substep, after an island has been solved for the velocity that it left in [`Self::parts`].
+    pub(crate) fn touch(&mut self, impulse: [f64; NV], outcome: Outcome) {
+        self.external = Some(impulse);
+        self.outcome = Outcome {
+            iterations: self.outcome.iterations + outcome.iterations,
+            ..outcome
+        };
+    }
+
+    /// One of the forces that [`Self::touch`] summed up: segment, world point, world force (N).
+    pub(crate) fn push(&mut self, segment: SegmentId, at: Vec3, force: Vec3) {
+        if self.external_forces.len() < MAX_EXTERNAL {
+            self.external_forces.push((segment, at, force));
+        }
+    }
+
+    /// Closes substep `i` and moves.
+    pub(crate) fn close_substep(&mut self, input: &StepInput<'_>, state: &mut State, i: u32) {
+        let h = input.dt / f64::from(input.substeps);
+        let last = i + 1 == input.substeps;
+        self.close(h, state);
+        if let Some(row) = self.row.take() {
+            self.account_bar(&row, h, input.dt, last);
+        }
+        self.account(h, input.dt, last, input.applied);
+        let v = state.velocity;
+        state.posture.integrate(&v, h);
+    }
+
+    /// Finishes a tick: mean forces of the points that touched the ground.
+    pub(crate) fn end(&mut self, input: &StepInput<'_>) {
+        let (body, dt) = (input.body, input.dt);
         for s in 0..SEGMENT_COUNT {
             for vertex in 0..body.segments[s]
                 .contact_points
@@ -376,14 +444,8 @@ impl TorqueStepper {
         }
     }
 
-    /// Solves for the velocity at the end of the substep, closes the step, writes it to `state.velocity`.
-    fn solve_substep(
-        &mut self,
-        h: f64,
-        state: &mut State,
-        spring: Option<&Spring>,
-        bar: Option<&BarRow>,
-    ) -> Outcome {
+    /// Solves for the velocity at the end of the substep.
+    fn solve_substep(&mut self, h: f64, state: &State, spring: Option<&Spring>) {
         let t = &self.terms;
         let mut momentum = [0.0; NV];
         t.mass_matrix.mul(&state.velocity, &mut momentum);
@@ -392,32 +454,42 @@ impl TorqueStepper {
         }
         let mut v = state.velocity;
         self.assist = [0.0; 6];
-        let outcome = match bar {
+        self.outcome = match self.row {
             None => self.solve_with(&momentum, spring, &mut v),
-            Some(bar) => self.solve_barred(&momentum, spring, bar, &mut v),
+            Some(bar) => self.solve_barred(&momentum, spring, &bar, &mut v),
         };
-        let t = &self.terms;
         let mut x = momentum;
         for i in 0..6 {
             x[i] += self.assist[i];
         }
-        if let Some(bar) = bar {
+        if let Some(bar) = &self.row {
             bar.add(self.bar_impulse, &mut x);
         } else {
             self.bar_impulse = 0.0;
         }
+        (self.solution, self.pushed) = (v, x);
+    }
+
+    /// Recomputes the velocity from the impulses of the last iterate and writes it to `state.velocity`.
+    fn close(&mut self, h: f64, state: &mut State) {
+        let t = &self.terms;
+        let mut x = self.pushed;
         for j in 0..DOF_COUNT {
             x[6 + j] += self.newton.motor[j] + self.newton.limit[j];
         }
         self.contacts
             .add_transposed(&self.newton.force, 1.0, &mut x);
+        if let Some(external) = &self.external {
+            for (x, p) in x.iter_mut().zip(external) {
+                *x += p;
+            }
+        }
         close_kernel(&t.mass_matrix, &mut self.hessian, &mut x);
         self.forces.audit.state = *state;
         for i in 0..NV {
             self.forces.audit.acceleration[i] = (x[i] - state.velocity[i]) / h;
         }
         state.velocity = x;
-        outcome
     }
 
     /// Solves with or without assist.
@@ -591,17 +663,8 @@ impl TorqueStepper {
     }
 
     /// Adds a substep to the means of the tick, and keeps the last one.
-    fn account(
-        &mut self,
-        h: f64,
-        dt: f64,
-        last: bool,
-        lower: &[f64; DOF_COUNT],
-        upper: &[f64; DOF_COUNT],
-        applied: &[AppliedForce],
-        outcome: Outcome,
-    ) {
-        let f = &mut self.forces;
+    fn account(&mut self, h: f64, dt: f64, last: bool, applied: &[AppliedForce]) {
+        let (f, outcome, [lower, upper]) = (&mut self.forces, self.outcome, &self.range);
         f.iterations += outcome.iterations;
         if !outcome.converged {
             f.flags.set(Flags::STEP_BOUND);
@@ -634,6 +697,7 @@ impl TorqueStepper {
             f.audit
                 .applied
                 .extend(self.bar_forces.take().into_iter().flatten());
+            f.audit.applied.extend(&self.external_forces);
         }
         for (k, p) in self.contacts.points.iter().enumerate() {
             let impulse = self.newton.force[k];
@@ -655,6 +719,21 @@ impl TorqueStepper {
                     force: impulse * (1.0 / h),
                 });
             }
+        }
+    }
+}
+
+impl Articulated for TorqueStepper {
+    fn parts(&mut self) -> Parts<'_> {
+        Parts {
+            m: &self.terms.mass_matrix,
+            hessian: &mut self.hessian,
+            b: &self.pushed,
+            motors: &self.motors,
+            limits: &self.limits,
+            contacts: &self.contacts,
+            newton: &mut self.newton,
+            x: &mut self.solution,
         }
     }
 }

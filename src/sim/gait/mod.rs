@@ -578,10 +578,11 @@ impl Gait {
         home: &catch::Places,
         (xi, margin): ([f64; 2], f64),
     ) {
-        let on_feet = support
-            .points()
-            .iter()
-            .all(|p| FOOT.contains(&p.support) || TOES.contains(&p.support));
+        let points = support.points().iter();
+        let on_feet = support.rests().is_empty()
+            && points
+                .map(|p| p.support)
+                .all(|s| FOOT.contains(&s) || TOES.contains(&s));
         let start = |side: usize, tidy: bool, crosses: bool| {
             let ankle = terms.segment_position(FOOT[side].index());
             Some(Catch::new(side, tidy, crosses, ankle, now[side].1))

@@ -3,6 +3,7 @@
 pub mod contact_set;
 pub mod polygon;
 pub mod ratio;
+pub mod rest;
 pub mod sharing;
 pub mod tipping;
 pub mod zmp;
@@ -14,11 +15,13 @@ mod tests;
 
 pub use contact_set::{ContactSet, SupportPoint};
 pub use polygon::{Closest, Feature, Polygon};
+pub use rest::Rest;
 pub use sharing::Sharing;
 pub use tipping::{Pivot, pivot, tipping_acceleration, unblocked_pivot};
 pub use zmp::zmp;
 
 use crate::sim::body::{Body, SEGMENT_COUNT, SegmentId};
+use crate::sim::collide::touch::MAX_TOUCHES;
 use crate::sim::dynamics::Terms;
 use crate::sim::figure::report::MAX_CONTACTS;
 use crate::sim::math::Vec3;
@@ -32,6 +35,7 @@ pub struct Support {
     sharing: Sharing,
     main: Option<SegmentId>,
     polygon: Polygon,
+    rests: Vec<Rest>,
 }
 
 impl Default for Support {
@@ -42,7 +46,8 @@ impl Default for Support {
             load: [0.0; SEGMENT_COUNT],
             sharing: Sharing::default(),
             main: None,
-            polygon: Polygon::with_capacity(MAX_CONTACTS),
+            polygon: Polygon::with_capacity(MAX_CONTACTS + MAX_TOUCHES),
+            rests: Vec::with_capacity(MAX_TOUCHES),
         }
     }
 }
@@ -76,9 +81,28 @@ impl Support {
             }
         }
         self.main = ratio::main_support(points, &self.load, self.main);
+        self.rests.clear();
         self.polygon
             .set_hull(points.iter().map(|p| [p.position.x, p.position.y]));
         self.polygon.reduce_thin();
+    }
+
+    /// Adds what the figure leans on besides the floor. Seats and tables widen the polygon: as far as balance goes, what is over them is
+    /// carried. Call after [`Self::update`]. Allocates nothing for up to [`MAX_TOUCHES`] of them.
+    pub fn rest_on(&mut self, rests: impl Iterator<Item = Rest>) {
+        self.rests.extend(rests.take(MAX_TOUCHES));
+        if self.rests.iter().any(Rest::is_level) {
+            let level = self.rests.iter().filter(|r| r.is_level());
+            let floor = self.contacts.points().iter().map(|p| p.position);
+            let all = floor.chain(level.map(|r| r.position));
+            self.polygon.set_hull(all.map(|p| [p.x, p.y]));
+            self.polygon.reduce_thin();
+        }
+    }
+
+    /// What carries it besides the floor.
+    pub fn rests(&self) -> &[Rest] {
+        &self.rests
     }
 
     /// Forgets the past (after a reset of the figure).
@@ -112,7 +136,7 @@ impl Support {
         self.points().iter().any(|p| p.support == segment)
     }
 
-    /// Ground polygon: hull over all supports; thin sets are edges and vertices.
+    /// Ground polygon: hull over all supports, those that are not on the ground from above; thin sets are edges and vertices.
     pub fn polygon(&self) -> &Polygon {
         &self.polygon
     }

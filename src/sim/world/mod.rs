@@ -1,10 +1,14 @@
 //! A shared scene: a clock and figures on one ground. The physics of one tick is [`World::step`].
 
+mod collisions;
 mod validate;
 
-pub use crate::sim::figure::{ClipPlayback, Drive, Figure, FigureEvent, FigureSetup};
+pub use collisions::CollisionReport;
+
+pub use crate::sim::figure::{ClipPlayback, Drive, Figure, FigureEvent, FigureKey, FigureSetup};
 
 use crate::sim::body::{SegmentId, State};
+use crate::sim::collide::{MAX_OBSTACLES, Obstacle, ObstacleKey, ObstacleSetup};
 use crate::sim::figure::loads::MAX_PERTURBATIONS;
 use crate::sim::figure::{
     ControlParams, ControllerKind, FigureOptions, Perturbation, StrengthScale, TickContext,
@@ -24,6 +28,8 @@ pub struct WorldParams {
     pub friction: f64,
     /// Threads that step the figures, 1…64. The result does not depend on it.
     pub threads: usize,
+    /// Figures and obstacles meet. Off: figures touch nothing but the ground.
+    pub collisions: bool,
 }
 
 impl Default for WorldParams {
@@ -34,13 +40,10 @@ impl Default for WorldParams {
             gravity: 9.81,
             friction: 0.9,
             threads: 1,
+            collisions: true,
         }
     }
 }
-
-/// Identity of a figure in a world; never used again after removal.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct FigureKey(pub u64);
 
 /// Why a world refuses something. Nothing has changed then.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -73,6 +76,15 @@ pub enum WorldError {
     /// A figure can have only so many perturbations at once.
     #[error("a figure can have {MAX_PERTURBATIONS} perturbations scheduled at once")]
     TooManyPerturbations,
+    /// No such obstacle.
+    #[error("no obstacle {0:?} in this world")]
+    UnknownObstacle(ObstacleKey),
+    /// A world can have only so many obstacles.
+    #[error("a world can have {MAX_OBSTACLES} obstacles")]
+    TooManyObstacles,
+    /// A plane is fixed or led.
+    #[error("obstacle.mobility: a plane cannot move freely")]
+    FreePlane,
 }
 
 /// A scene that is stepped tick by tick.
@@ -80,8 +92,11 @@ pub enum WorldError {
 pub struct World {
     params: WorldParams,
     tick: u64,
-    figures: Vec<(FigureKey, Figure)>,
+    figures: Vec<(FigureKey, Box<Figure>)>,
     next_key: u64,
+    obstacles: Vec<(ObstacleKey, Obstacle)>,
+    next_obstacle: u64,
+    neighbourhood: collisions::Neighbourhood,
 }
 
 impl World {
@@ -96,14 +111,18 @@ impl World {
             tick: 0,
             figures: Vec::new(),
             next_key: 1,
+            obstacles: Vec::new(),
+            next_obstacle: 1,
+            neighbourhood: collisions::Neighbourhood::default(),
         })
     }
 
     /// Advances every figure by one tick; afterwards reports and events are those of this tick.
     ///
     /// Stages of one figure: commands (desired motion, loads, pushes) → dynamics, supports, strength → control → motors, limits and
-    /// contact → report; see [`Figure`]. Figures do not see each other, so they step in any order and on any number of threads with the
-    /// same result. With one thread nothing is allocated.
+    /// contact → report; see [`Figure`]. Up to control figures do not see each other. Then those that are near nothing move on alone, and
+    /// the others in clusters that are near each other (docs/adr/0009-collisions.md). Neither order nor number of threads matters to the
+    /// result. With one thread nothing is allocated once buffers have grown.
     pub fn step(&mut self) {
         let context = TickContext {
             tick: self.tick,
@@ -111,23 +130,35 @@ impl World {
             substeps: self.params.substeps,
             gravity: self.params.gravity,
         };
-        let threads = self.params.threads.min(self.figures.len());
-        if threads <= 1 {
-            for (_, figure) in &mut self.figures {
-                figure.step(&context);
+        let threads = self.params.threads;
+        each(&mut self.figures, threads, |f| {
+            f.prepare(&context);
+        });
+        let gathered = self.neighbourhood.gather(
+            &mut self.figures,
+            &mut self.obstacles,
+            context.dt,
+            self.params.collisions,
+        );
+        let (near, alone) = self.figures.split_at_mut(gathered);
+        each(alone, threads, |f| {
+            if !f.is_frozen() {
+                f.simulate(&context);
+                f.finish(&context);
             }
-        } else {
-            let share = self.figures.len().div_ceil(threads);
-            std::thread::scope(|scope| {
-                for chunk in self.figures.chunks_mut(share) {
-                    scope.spawn(move || {
-                        chunk
-                            .iter_mut()
-                            .for_each(|(_, figure)| figure.step(&context))
-                    });
-                }
-            });
+        });
+        if self.neighbourhood.any() {
+            self.neighbourhood.simulate(
+                &context,
+                self.params.friction,
+                threads,
+                near,
+                &mut self.obstacles,
+            );
+            self.figures.sort_unstable_by_key(|(k, _)| *k);
+            self.obstacles.sort_unstable_by_key(|(k, _)| *k);
         }
+        collisions::lead(&mut self.obstacles, context.dt);
         self.tick += 1;
     }
 
@@ -157,7 +188,7 @@ impl World {
         let key = FigureKey(self.next_key);
         self.next_key += 1;
         self.figures
-            .push((key, Figure::new(setup, self.params.friction)));
+            .push((key, Box::new(Figure::new(setup, self.params.friction))));
         Ok(key)
     }
 
@@ -170,18 +201,73 @@ impl World {
 
     /// A figure by key.
     pub fn figure(&self, key: FigureKey) -> Option<&Figure> {
-        self.figures.iter().find(|(k, _)| *k == key).map(|(_, f)| f)
+        self.figures
+            .iter()
+            .find(|(k, _)| *k == key)
+            .map(|(_, f)| &**f)
     }
     /// A figure by key, to change its drive.
     pub fn figure_mut(&mut self, key: FigureKey) -> Option<&mut Figure> {
         self.figures
             .iter_mut()
             .find(|(k, _)| *k == key)
-            .map(|(_, f)| f)
+            .map(|(_, f)| &mut **f)
     }
     /// All figures in the order they were added.
     pub fn figures(&self) -> impl Iterator<Item = (FigureKey, &Figure)> {
-        self.figures.iter().map(|(k, f)| (*k, f))
+        self.figures.iter().map(|(k, f)| (*k, &**f))
+    }
+
+    /// Puts an obstacle into the world.
+    ///
+    /// # Errors
+    /// [`WorldError::Range`] naming the field, a plane that is to move freely, or no room.
+    pub fn add_obstacle(&mut self, setup: ObstacleSetup) -> Result<ObstacleKey, WorldError> {
+        validate::obstacle(&setup)?;
+        if self.obstacles.len() >= MAX_OBSTACLES {
+            return Err(WorldError::TooManyObstacles);
+        }
+        let key = ObstacleKey(self.next_obstacle);
+        self.next_obstacle += 1;
+        self.obstacles.push((key, Obstacle::new(setup)));
+        Ok(key)
+    }
+
+    /// Replaces an obstacle by another under the same key: shape, mobility, pose and velocity.
+    ///
+    /// # Errors
+    /// As [`Self::add_obstacle`], and an unknown key.
+    pub fn update_obstacle(
+        &mut self,
+        key: ObstacleKey,
+        setup: ObstacleSetup,
+    ) -> Result<(), WorldError> {
+        validate::obstacle(&setup)?;
+        let found = self.obstacles.iter_mut().find(|(k, _)| *k == key);
+        let (_, old) = found.ok_or(WorldError::UnknownObstacle(key))?;
+        *old = Obstacle::new(setup);
+        Ok(())
+    }
+
+    /// Removes an obstacle; false if there is none of that key.
+    pub fn remove_obstacle(&mut self, key: ObstacleKey) -> bool {
+        let before = self.obstacles.len();
+        self.obstacles.retain(|(k, _)| *k != key);
+        self.obstacles.len() < before
+    }
+
+    /// An obstacle by key.
+    pub fn obstacle(&self, key: ObstacleKey) -> Option<&Obstacle> {
+        let found = self.obstacles.iter().find(|(k, _)| *k == key);
+        found.map(|(_, o)| o)
+    }
+    /// All obstacles in the order they were added.
+    pub fn obstacles(&self) -> impl Iterator<Item = (ObstacleKey, &Obstacle)> {
+        self.obstacles.iter().map(|(k, o)| (*k, o))
+    }
+    /// What the collisions of the last tick came to.
+    pub fn collisions(&self) -> &CollisionReport {
+        &self.neighbourhood.report
     }
 
     /// Schedules a perturbation of a figure.
@@ -253,8 +339,32 @@ impl World {
             h.u64(k.0);
             h.u64(f.state_hash());
         }
+        for (k, o) in &self.obstacles {
+            h.u64(k.0);
+            o.add_to(&mut h);
+        }
         h.finish()
     }
+}
+
+/// Does `work` for every figure, on so many threads.
+fn each(
+    figures: &mut [(FigureKey, Box<Figure>)],
+    threads: usize,
+    work: impl Fn(&mut Figure) + Sync,
+) {
+    let threads = threads.min(figures.len());
+    if threads <= 1 {
+        figures.iter_mut().for_each(|(_, f)| work(f));
+        return;
+    }
+    let share = figures.len().div_ceil(threads);
+    std::thread::scope(|scope| {
+        for chunk in figures.chunks_mut(share) {
+            let work = &work;
+            scope.spawn(move || chunk.iter_mut().for_each(|(_, f)| work(f)));
+        }
+    });
 }
 
 /// Segments a perturbation may name, for messages.

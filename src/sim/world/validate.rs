@@ -2,6 +2,7 @@
 
 use super::{WorldError, WorldParams};
 use crate::sim::body::State;
+use crate::sim::collide::{Mobility, ObstacleSetup, Shape};
 use crate::sim::figure::{ControlParams, FigureOptions, FigureSetup, Perturbation, StrengthScale};
 use crate::sim::math::Vec3;
 
@@ -119,4 +120,40 @@ pub(super) fn perturbation(p: &Perturbation) -> Result<(), WorldError> {
         });
     }
     Ok(())
+}
+
+pub(super) fn obstacle(o: &ObstacleSetup) -> Result<(), WorldError> {
+    match o.shape {
+        Shape::Sphere { radius } => range("obstacle.sphere.radius_m", radius, 0.005, 100.0)?,
+        Shape::Capsule {
+            radius,
+            half_length,
+        } => {
+            range("obstacle.capsule.radius_m", radius, 0.005, 100.0)?;
+            range("obstacle.capsule.half_length_m", half_length, 0.0, 100.0)?;
+        }
+        Shape::Box { half } => {
+            let fields = [
+                "obstacle.box.half_m.x",
+                "obstacle.box.half_m.y",
+                "obstacle.box.half_m.z",
+            ];
+            for (field, x) in fields.into_iter().zip(half.to_array()) {
+                range(field, x, 0.005, 1000.0)?;
+            }
+        }
+        Shape::Plane => {}
+    }
+    if let Mobility::Free(mass) = o.mobility {
+        range("obstacle.mass_kg", mass, 0.01, 10_000.0)?;
+        if o.shape == Shape::Plane {
+            return Err(WorldError::FreePlane);
+        }
+    }
+    range("obstacle.friction", o.friction, 0.05, 2.0)?;
+    vector("obstacle.position_m", o.position, FAR)?;
+    let n: f64 = o.rotation.to_xyzw().iter().map(|c| c * c).sum();
+    range("obstacle.rotation", n, 0.999, 1.001)?;
+    vector("obstacle.velocity_mps", o.velocity, 100.0)?;
+    vector("obstacle.angular_velocity_radps", o.angular_velocity, 100.0)
 }

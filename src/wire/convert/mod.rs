@@ -3,6 +3,7 @@
 pub mod body;
 pub mod figure;
 pub mod motion;
+pub mod obstacle;
 pub mod perturbation;
 pub mod server;
 pub mod simulation;

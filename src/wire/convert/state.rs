@@ -107,6 +107,10 @@ fn event_type(kind: &EventKind) -> pb::EventType {
         EventKind::LoadTaken(..) => pb::EventType::LoadTaken,
         EventKind::LoadDropped(..) => pb::EventType::LoadDropped,
         EventKind::LoadSlipped(..) => pb::EventType::LoadSlipped,
+        EventKind::Touched(..) => pb::EventType::Touched,
+        EventKind::Parted(..) => pb::EventType::Parted,
+        EventKind::ObstacleAdded(_) => pb::EventType::ObstacleAdded,
+        EventKind::ObstacleRemoved(_) => pb::EventType::ObstacleRemoved,
         EventKind::Quarantined => pb::EventType::Quarantined,
         EventKind::FigureAdded => pb::EventType::FigureAdded,
         EventKind::FigureRemoved => pb::EventType::FigureRemoved,
@@ -143,6 +147,14 @@ pub fn event_out(e: &WorldEvent) -> pb::Event {
         | EventKind::LoadSlipped(s, m) => {
             out.segment = s.name().into();
             out.mass_kg = *m;
+        }
+        EventKind::Touched(s, other, part) | EventKind::Parted(s, other, part) => {
+            out.segment = s.name().into();
+            out.other = other.clone();
+            out.other_segment = part.map_or_else(String::new, |p| p.name().into());
+        }
+        EventKind::ObstacleAdded(other) | EventKind::ObstacleRemoved(other) => {
+            out.other = other.clone();
         }
         EventKind::DriveBegan(t) | EventKind::DriveEnded(t) | EventKind::Failed(t) => {
             out.detail = t.clone();

@@ -46,6 +46,7 @@ pub fn settings(w: Option<pb::World>) -> Result<WorldSettings, Fault> {
             30.0,
         )?,
         friction: within("world.friction", w.friction.unwrap_or(0.9), 0.05, 2.0)?,
+        collisions: w.collisions.unwrap_or(true),
         pace: Pace {
             display_name: display_name("world.display_name", &w.display_name)?,
             overrun: overrun("world.overrun_policy", w.overrun_policy, catch_up_limit)?,
@@ -107,6 +108,7 @@ pub fn world_out(w: &WorldInfo) -> pb::World {
         substeps: w.settings.substeps as i32,
         gravity_mps2: Some(w.settings.gravity),
         friction: Some(w.settings.friction),
+        collisions: Some(w.settings.collisions),
         overrun_policy: match pace.overrun {
             Overrun::Skip => pb::OverrunPolicy::Skip,
             Overrun::CatchUp(_) => pb::OverrunPolicy::CatchUp,

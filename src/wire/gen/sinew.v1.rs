@@ -2113,6 +2113,25 @@ pub struct WorldFrame {
     /// The figures of the view, in roster order.
     #[prost(message, repeated, tag = "7")]
     pub figures: ::prost::alloc::vec::Vec<FigureFrame>,
+    /// All obstacles, in the order they were added.
+    #[prost(message, repeated, tag = "8")]
+    pub obstacles: ::prost::alloc::vec::Vec<ObstacleFrame>,
+}
+/// One obstacle after one tick. `WorldService.ListObstacles` tells its shape.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct ObstacleFrame {
+    /// Last part of the obstacle's name.
+    #[prost(string, tag = "1")]
+    pub obstacle: ::prost::alloc::string::String,
+    /// Position x, y, z (m) and rotation x, y, z, w of its frame in the world: 7 numbers.
+    #[prost(message, optional, tag = "2")]
+    pub pose: ::core::option::Option<Numbers>,
+    /// Angular velocity (rad/s), then velocity of its centre (m/s), world axes: 6 numbers.
+    #[prost(message, optional, tag = "3")]
+    pub velocity: ::core::option::Option<Numbers>,
+    /// Mean force of contacts on it over the tick, world axes, N: 3 numbers; 0 unless it moves freely.
+    #[prost(message, optional, tag = "4")]
+    pub force: ::core::option::Option<Numbers>,
 }
 /// One figure after one tick. The view's field mask chooses among the fields from `root_pose` on; fields that were not chosen are
 /// absent. Torques and contact forces are means over the tick.
@@ -2181,6 +2200,31 @@ pub struct FigureFrame {
     /// Mean assist on the pelvis over the tick, world axes: moment about the pelvis origin (3, N·m), then force (3, N). Zero while it is off.
     #[prost(message, optional, tag = "22")]
     pub assist: ::core::option::Option<Numbers>,
+    /// What it touches besides the ground.
+    #[prost(message, optional, tag = "23")]
+    pub touches: ::core::option::Option<Touches>,
+}
+/// Parts that touch another figure or an obstacle, one entry each in every list.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct Touches {
+    /// Index of the own segment.
+    #[prost(int32, repeated, tag = "1")]
+    pub segment: ::prost::alloc::vec::Vec<i32>,
+    /// What it touches: `figures/{figure}` or `obstacles/{obstacle}`.
+    #[prost(string, repeated, tag = "2")]
+    pub other: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
+    /// Index of the other figure's segment; -1 for an obstacle.
+    #[prost(int32, repeated, tag = "3")]
+    pub other_segment: ::prost::alloc::vec::Vec<i32>,
+    /// Where, world, m: x, y, z of each.
+    #[prost(message, optional, tag = "4")]
+    pub position: ::core::option::Option<Numbers>,
+    /// Mean force over the tick on this figure, world axes, N: x, y, z of each.
+    #[prost(message, optional, tag = "5")]
+    pub force: ::core::option::Option<Numbers>,
+    /// Overlap at the start of a substep, m.
+    #[prost(message, optional, tag = "6")]
+    pub depth: ::core::option::Option<Numbers>,
 }
 /// Touching points, one entry each in every list.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -2293,7 +2337,7 @@ pub struct Audit {
     /// Contacts at the start of the substep.
     #[prost(message, optional, tag = "6")]
     pub contacts: ::core::option::Option<Contacts>,
-    /// Forces of perturbations.
+    /// Forces of perturbations, other figures and obstacles.
     #[prost(message, optional, tag = "7")]
     pub applied: ::core::option::Option<AppliedForces>,
     /// Loads that were part of the body during the substep.
@@ -2306,7 +2350,7 @@ pub struct Audit {
     #[prost(message, optional, tag = "12")]
     pub assist: ::core::option::Option<Numbers>,
 }
-/// Forces of perturbations, one entry each in every list.
+/// Forces of perturbations, other figures and obstacles, one entry each in every list.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct AppliedForces {
     /// Index of the segment.
@@ -4817,6 +4861,12 @@ pub struct Event {
     /// Driver or reason, where there is one.
     #[prost(string, tag = "8")]
     pub detail: ::prost::alloc::string::String,
+    /// What is touched, added or removed: `figures/{figure}` or `obstacles/{obstacle}`, where there is one.
+    #[prost(string, tag = "9")]
+    pub other: ::prost::alloc::string::String,
+    /// Name of the segment of the other figure, where there is one.
+    #[prost(string, tag = "10")]
+    pub other_segment: ::prost::alloc::string::String,
 }
 /// Asks for events as they come.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
@@ -4885,6 +4935,14 @@ pub enum EventType {
     WorldFailed = 17,
     /// The figure stands again after a fall.
     GotUp = 18,
+    /// A segment began to touch another figure or an obstacle.
+    Touched = 31,
+    /// A segment no longer touches it.
+    Parted = 32,
+    /// An obstacle was added.
+    ObstacleAdded = 33,
+    /// An obstacle was removed.
+    ObstacleRemoved = 34,
 }
 impl EventType {
     /// String value of the enum field names used in the ProtoBuf definition.
@@ -4913,6 +4971,10 @@ impl EventType {
             Self::WorldResumed => "EVENT_TYPE_WORLD_RESUMED",
             Self::WorldFailed => "EVENT_TYPE_WORLD_FAILED",
             Self::GotUp => "EVENT_TYPE_GOT_UP",
+            Self::Touched => "EVENT_TYPE_TOUCHED",
+            Self::Parted => "EVENT_TYPE_PARTED",
+            Self::ObstacleAdded => "EVENT_TYPE_OBSTACLE_ADDED",
+            Self::ObstacleRemoved => "EVENT_TYPE_OBSTACLE_REMOVED",
         }
     }
     /// Creates an enum from field names used in the ProtoBuf definition.
@@ -4938,6 +5000,10 @@ impl EventType {
             "EVENT_TYPE_WORLD_RESUMED" => Some(Self::WorldResumed),
             "EVENT_TYPE_WORLD_FAILED" => Some(Self::WorldFailed),
             "EVENT_TYPE_GOT_UP" => Some(Self::GotUp),
+            "EVENT_TYPE_TOUCHED" => Some(Self::Touched),
+            "EVENT_TYPE_PARTED" => Some(Self::Parted),
+            "EVENT_TYPE_OBSTACLE_ADDED" => Some(Self::ObstacleAdded),
+            "EVENT_TYPE_OBSTACLE_REMOVED" => Some(Self::ObstacleRemoved),
             _ => None,
         }
     }
@@ -5884,6 +5950,9 @@ pub struct World {
     /// Why the world failed; empty otherwise. Output only.
     #[prost(string, tag = "16")]
     pub failure: ::prost::alloc::string::String,
+    /// Figures and obstacles touch each other. Absent: true. False: figures touch nothing but the ground. Fixed at creation.
+    #[prost(bool, optional, tag = "17")]
+    pub collisions: ::core::option::Option<bool>,
 }
 /// Asks for a new world.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -6034,6 +6103,138 @@ pub struct SetWorldSpeedResponse {
     #[prost(message, optional, tag = "1")]
     pub world: ::core::option::Option<World>,
 }
+/// A ball around the obstacle's origin.
+#[derive(Clone, Copy, PartialEq, ::prost::Message)]
+pub struct SphereShape {
+    /// Radius, m, 0.005…100.
+    #[prost(double, tag = "1")]
+    pub radius_m: f64,
+}
+/// A cylinder with round ends along z of the obstacle's frame, around its origin.
+#[derive(Clone, Copy, PartialEq, ::prost::Message)]
+pub struct CapsuleShape {
+    /// Radius, m, 0.005…100.
+    #[prost(double, tag = "1")]
+    pub radius_m: f64,
+    /// Half the length of the cylinder without its ends, m, 0…100.
+    #[prost(double, tag = "2")]
+    pub half_length_m: f64,
+}
+/// A box around the obstacle's origin.
+#[derive(Clone, Copy, PartialEq, ::prost::Message)]
+pub struct BoxShape {
+    /// Half of its edges along the axes of the obstacle's frame, m, each 0.005…1000.
+    #[prost(message, optional, tag = "1")]
+    pub half_m: ::core::option::Option<Vector3>,
+}
+/// Everything below z = 0 of the obstacle's frame.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct PlaneShape {}
+/// A thing that figures can touch.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct Obstacle {
+    /// Resource name `worlds/{world}/obstacles/{obstacle}`. Ignored in requests to add one.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+    /// How it moves.
+    #[prost(enumeration = "ObstacleMobility", tag = "6")]
+    pub mobility: i32,
+    /// Mass of a free obstacle, kg, 0.01…10000; spread evenly over its shape. Ignored for others.
+    #[prost(double, tag = "7")]
+    pub mass_kg: f64,
+    /// Coefficient of friction, 0.05…2; of two obstacles the smaller one counts. Absent: 0.6.
+    #[prost(double, optional, tag = "8")]
+    pub friction: ::core::option::Option<f64>,
+    /// Where it is; the origin of its frame is its centre. Absent: at the world's origin.
+    #[prost(message, optional, tag = "9")]
+    pub pose: ::core::option::Option<Pose>,
+    /// Velocity of its centre, m/s, each component within ±100. Ignored for fixed ones. Absent: at rest.
+    #[prost(message, optional, tag = "10")]
+    pub velocity_mps: ::core::option::Option<Vector3>,
+    /// Angular velocity, world axes, rad/s, each component within ±100. Ignored for fixed ones. Absent: none.
+    #[prost(message, optional, tag = "11")]
+    pub angular_velocity_radps: ::core::option::Option<Vector3>,
+    /// Shape. Required. A plane cannot be free.
+    #[prost(oneof = "obstacle::Shape", tags = "2, 3, 4, 5")]
+    pub shape: ::core::option::Option<obstacle::Shape>,
+}
+/// Nested message and enum types in `Obstacle`.
+pub mod obstacle {
+    /// Shape. Required. A plane cannot be free.
+    #[derive(Clone, Copy, PartialEq, ::prost::Oneof)]
+    pub enum Shape {
+        /// A ball.
+        #[prost(message, tag = "2")]
+        Sphere(super::SphereShape),
+        /// A cylinder with round ends.
+        #[prost(message, tag = "3")]
+        Capsule(super::CapsuleShape),
+        /// A box.
+        #[prost(message, tag = "4")]
+        Box(super::BoxShape),
+        /// A half-space.
+        #[prost(message, tag = "5")]
+        Plane(super::PlaneShape),
+    }
+}
+/// Asks to put an obstacle into a world.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct AddObstacleRequest {
+    /// World: resource name `worlds/{world}`.
+    #[prost(string, tag = "1")]
+    pub parent: ::prost::alloc::string::String,
+    /// Last part of the new name: 1 to 63 of `a-z 0-9 -`, beginning with a letter. Empty: the server chooses.
+    #[prost(string, tag = "2")]
+    pub obstacle_id: ::prost::alloc::string::String,
+    /// The obstacle. Required.
+    #[prost(message, optional, tag = "3")]
+    pub obstacle: ::core::option::Option<Obstacle>,
+}
+/// The new obstacle.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct AddObstacleResponse {
+    /// As it was added, with defaults filled in.
+    #[prost(message, optional, tag = "1")]
+    pub obstacle: ::core::option::Option<Obstacle>,
+}
+/// Replaces an obstacle.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct UpdateObstacleRequest {
+    /// The obstacle, by `name`, with all its new values.
+    #[prost(message, optional, tag = "1")]
+    pub obstacle: ::core::option::Option<Obstacle>,
+}
+/// The changed obstacle.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct UpdateObstacleResponse {
+    /// As it is now.
+    #[prost(message, optional, tag = "1")]
+    pub obstacle: ::core::option::Option<Obstacle>,
+}
+/// Takes an obstacle out.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct RemoveObstacleRequest {
+    /// Resource name `worlds/{world}/obstacles/{obstacle}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+}
+/// The obstacle is gone.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct RemoveObstacleResponse {}
+/// Asks for the obstacles of a world.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct ListObstaclesRequest {
+    /// World: resource name `worlds/{world}`.
+    #[prost(string, tag = "1")]
+    pub parent: ::prost::alloc::string::String,
+}
+/// The obstacles of a world: at most 256.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct ListObstaclesResponse {
+    /// In the order they were added.
+    #[prost(message, repeated, tag = "1")]
+    pub obstacles: ::prost::alloc::vec::Vec<Obstacle>,
+}
 /// What the clock does when a tick takes longer than its period.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
 #[repr(i32)]
@@ -6104,6 +6305,43 @@ impl WorldState {
             "WORLD_STATE_RUNNING" => Some(Self::Running),
             "WORLD_STATE_PAUSED" => Some(Self::Paused),
             "WORLD_STATE_FAILED" => Some(Self::Failed),
+            _ => None,
+        }
+    }
+}
+/// How an obstacle moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum ObstacleMobility {
+    /// The default: OBSTACLE_MOBILITY_FIXED.
+    Unspecified = 0,
+    /// Not at all.
+    Fixed = 1,
+    /// With its velocity, whatever it meets.
+    Led = 2,
+    /// As a rigid body of `mass_kg`, under gravity and on the ground.
+    Free = 3,
+}
+impl ObstacleMobility {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "OBSTACLE_MOBILITY_UNSPECIFIED",
+            Self::Fixed => "OBSTACLE_MOBILITY_FIXED",
+            Self::Led => "OBSTACLE_MOBILITY_LED",
+            Self::Free => "OBSTACLE_MOBILITY_FREE",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "OBSTACLE_MOBILITY_UNSPECIFIED" => Some(Self::Unspecified),
+            "OBSTACLE_MOBILITY_FIXED" => Some(Self::Fixed),
+            "OBSTACLE_MOBILITY_LED" => Some(Self::Led),
+            "OBSTACLE_MOBILITY_FREE" => Some(Self::Free),
             _ => None,
         }
     }
@@ -6426,6 +6664,106 @@ pub mod world_service_client {
                 .insert(GrpcMethod::new("sinew.v1.WorldService", "SetWorldSpeed"));
             self.inner.unary(req, path, codec).await
         }
+        /// Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256 (RESOURCE_EXHAUSTED).
+        pub async fn add_obstacle(
+            &mut self,
+            request: impl tonic::IntoRequest<super::AddObstacleRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::AddObstacleResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = tonic_prost::ProstCodec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.WorldService/AddObstacle",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.WorldService", "AddObstacle"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// Replaces an obstacle by another of the same name: shape, mobility, pose and velocity.
+        pub async fn update_obstacle(
+            &mut self,
+            request: impl tonic::IntoRequest<super::UpdateObstacleRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::UpdateObstacleResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = tonic_prost::ProstCodec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.WorldService/UpdateObstacle",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.WorldService", "UpdateObstacle"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// Takes an obstacle out of its world.
+        pub async fn remove_obstacle(
+            &mut self,
+            request: impl tonic::IntoRequest<super::RemoveObstacleRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::RemoveObstacleResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = tonic_prost::ProstCodec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.WorldService/RemoveObstacle",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.WorldService", "RemoveObstacle"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// All obstacles of a world as they are now, in the order they were added.
+        pub async fn list_obstacles(
+            &mut self,
+            request: impl tonic::IntoRequest<super::ListObstaclesRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::ListObstaclesResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = tonic_prost::ProstCodec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.WorldService/ListObstacles",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.WorldService", "ListObstacles"));
+            self.inner.unary(req, path, codec).await
+        }
     }
 }
 /// Generated server implementations.
@@ -6512,6 +6850,38 @@ pub mod world_service_server {
             request: tonic::Request<super::SetWorldSpeedRequest>,
         ) -> std::result::Result<
             tonic::Response<super::SetWorldSpeedResponse>,
+            tonic::Status,
+        >;
+        /// Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256 (RESOURCE_EXHAUSTED).
+        async fn add_obstacle(
+            &self,
+            request: tonic::Request<super::AddObstacleRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::AddObstacleResponse>,
+            tonic::Status,
+        >;
+        /// Replaces an obstacle by another of the same name: shape, mobility, pose and velocity.
+        async fn update_obstacle(
+            &self,
+            request: tonic::Request<super::UpdateObstacleRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::UpdateObstacleResponse>,
+            tonic::Status,
+        >;
+        /// Takes an obstacle out of its world.
+        async fn remove_obstacle(
+            &self,
+            request: tonic::Request<super::RemoveObstacleRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::RemoveObstacleResponse>,
+            tonic::Status,
+        >;
+        /// All obstacles of a world as they are now, in the order they were added.
+        async fn list_obstacles(
+            &self,
+            request: tonic::Request<super::ListObstaclesRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::ListObstaclesResponse>,
             tonic::Status,
         >;
     }
@@ -6982,6 +7352,186 @@ pub mod world_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = SetWorldSpeedSvc(inner);
+                        let codec = tonic_prost::ProstCodec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.WorldService/AddObstacle" => {
+                    #[allow(non_camel_case_types)]
+                    struct AddObstacleSvc<T: WorldService>(pub Arc<T>);
+                    impl<
+                        T: WorldService,
+                    > tonic::server::UnaryService<super::AddObstacleRequest>
+                    for AddObstacleSvc<T> {
+                        type Response = super::AddObstacleResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::AddObstacleRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as WorldService>::add_obstacle(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = AddObstacleSvc(inner);
+                        let codec = tonic_prost::ProstCodec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.WorldService/UpdateObstacle" => {
+                    #[allow(non_camel_case_types)]
+                    struct UpdateObstacleSvc<T: WorldService>(pub Arc<T>);
+                    impl<
+                        T: WorldService,
+                    > tonic::server::UnaryService<super::UpdateObstacleRequest>
+                    for UpdateObstacleSvc<T> {
+                        type Response = super::UpdateObstacleResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::UpdateObstacleRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as WorldService>::update_obstacle(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = UpdateObstacleSvc(inner);
+                        let codec = tonic_prost::ProstCodec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.WorldService/RemoveObstacle" => {
+                    #[allow(non_camel_case_types)]
+                    struct RemoveObstacleSvc<T: WorldService>(pub Arc<T>);
+                    impl<
+                        T: WorldService,
+                    > tonic::server::UnaryService<super::RemoveObstacleRequest>
+                    for RemoveObstacleSvc<T> {
+                        type Response = super::RemoveObstacleResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::RemoveObstacleRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as WorldService>::remove_obstacle(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = RemoveObstacleSvc(inner);
+                        let codec = tonic_prost::ProstCodec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.WorldService/ListObstacles" => {
+                    #[allow(non_camel_case_types)]
+                    struct ListObstaclesSvc<T: WorldService>(pub Arc<T>);
+                    impl<
+                        T: WorldService,
+                    > tonic::server::UnaryService<super::ListObstaclesRequest>
+                    for ListObstaclesSvc<T> {
+                        type Response = super::ListObstaclesResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::ListObstaclesRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as WorldService>::list_obstacles(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = ListObstaclesSvc(inner);
                         let codec = tonic_prost::ProstCodec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(

@@ -33,6 +33,7 @@ class WorldFrame(_message.Message):
     SERVER_TIME_NS_FIELD_NUMBER: _builtins.int
     ROSTER_VERSION_FIELD_NUMBER: _builtins.int
     FIGURES_FIELD_NUMBER: _builtins.int
+    OBSTACLES_FIELD_NUMBER: _builtins.int
     tick: _builtins.int
     """Ticks computed since the world was created."""
     time_s: _builtins.float
@@ -49,6 +50,10 @@ class WorldFrame(_message.Message):
     def figures(self) -> _containers.RepeatedCompositeFieldContainer[Global___FigureFrame]:
         """The figures of the view, in roster order."""
 
+    @_builtins.property
+    def obstacles(self) -> _containers.RepeatedCompositeFieldContainer[Global___ObstacleFrame]:
+        """All obstacles, in the order they were added."""
+
     def __init__(
         self,
         *,
@@ -59,14 +64,55 @@ class WorldFrame(_message.Message):
         server_time_ns: _builtins.int = ...,
         roster_version: _builtins.int = ...,
         figures: _abc.Iterable[Global___FigureFrame] | None = ...,
+        obstacles: _abc.Iterable[Global___ObstacleFrame] | None = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["epoch", b"epoch", "figures", b"figures", "roster_version", b"roster_version", "server_time_ns", b"server_time_ns", "state_hash", b"state_hash", "tick", b"tick", "time_s", b"time_s"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["epoch", b"epoch", "figures", b"figures", "obstacles", b"obstacles", "roster_version", b"roster_version", "server_time_ns", b"server_time_ns", "state_hash", b"state_hash", "tick", b"tick", "time_s", b"time_s"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
 Global___WorldFrame: _TypeAlias = WorldFrame  # noqa: Y015
+
+@_typing.final
+class ObstacleFrame(_message.Message):
+    """One obstacle after one tick. `WorldService.ListObstacles` tells its shape."""
+
+    DESCRIPTOR: _descriptor.Descriptor
+
+    OBSTACLE_FIELD_NUMBER: _builtins.int
+    POSE_FIELD_NUMBER: _builtins.int
+    VELOCITY_FIELD_NUMBER: _builtins.int
+    FORCE_FIELD_NUMBER: _builtins.int
+    obstacle: _builtins.str
+    """Last part of the obstacle's name."""
+    @_builtins.property
+    def pose(self) -> _types_pb2.Numbers:
+        """Position x, y, z (m) and rotation x, y, z, w of its frame in the world: 7 numbers."""
+
+    @_builtins.property
+    def velocity(self) -> _types_pb2.Numbers:
+        """Angular velocity (rad/s), then velocity of its centre (m/s), world axes: 6 numbers."""
+
+    @_builtins.property
+    def force(self) -> _types_pb2.Numbers:
+        """Mean force of contacts on it over the tick, world axes, N: 3 numbers; 0 unless it moves freely."""
+
+    def __init__(
+        self,
+        *,
+        obstacle: _builtins.str = ...,
+        pose: _types_pb2.Numbers | None = ...,
+        velocity: _types_pb2.Numbers | None = ...,
+        force: _types_pb2.Numbers | None = ...,
+    ) -> None: ...
+    _HasFieldArgType: _TypeAlias = _typing.Literal["force", b"force", "pose", b"pose", "velocity", b"velocity"]  # noqa: Y015
+    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["force", b"force", "obstacle", b"obstacle", "pose", b"pose", "velocity", b"velocity"]  # noqa: Y015
+    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    def WhichOneof(self, oneof_group: _Never) -> None: ...
+
+Global___ObstacleFrame: _TypeAlias = ObstacleFrame  # noqa: Y015
 
 @_typing.final
 class FigureFrame(_message.Message):
@@ -96,6 +142,7 @@ class FigureFrame(_message.Message):
     POSITIONS_FIELD_NUMBER: _builtins.int
     FATIGUE_FIELD_NUMBER: _builtins.int
     ASSIST_FIELD_NUMBER: _builtins.int
+    TOUCHES_FIELD_NUMBER: _builtins.int
     figure_index: _builtins.int
     """Position in the roster."""
     applied_sequence: _builtins.int
@@ -175,6 +222,10 @@ class FigureFrame(_message.Message):
     def assist(self) -> _types_pb2.Numbers:
         """Mean assist on the pelvis over the tick, world axes: moment about the pelvis origin (3, N·m), then force (3, N). Zero while it is off."""
 
+    @_builtins.property
+    def touches(self) -> Global___Touches:
+        """What it touches besides the ground."""
+
     def __init__(
         self,
         *,
@@ -198,14 +249,69 @@ class FigureFrame(_message.Message):
         positions: _types_pb2.Numbers | None = ...,
         fatigue: _types_pb2.Numbers | None = ...,
         assist: _types_pb2.Numbers | None = ...,
+        touches: Global___Touches | None = ...,
     ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _typing.Literal["acceleration", b"acceleration", "assist", b"assist", "audit", b"audit", "balance", b"balance", "contacts", b"contacts", "desired", b"desired", "fatigue", b"fatigue", "joint_angles", b"joint_angles", "joint_rotations", b"joint_rotations", "ligament_torque", b"ligament_torque", "positions", b"positions", "root_pose", b"root_pose", "segment_transforms", b"segment_transforms", "status", b"status", "torque", b"torque", "torque_limits", b"torque_limits", "velocity", b"velocity"]  # noqa: Y015
+    _HasFieldArgType: _TypeAlias = _typing.Literal["acceleration", b"acceleration", "assist", b"assist", "audit", b"audit", "balance", b"balance", "contacts", b"contacts", "desired", b"desired", "fatigue", b"fatigue", "joint_angles", b"joint_angles", "joint_rotations", b"joint_rotations", "ligament_torque", b"ligament_torque", "positions", b"positions", "root_pose", b"root_pose", "segment_transforms", b"segment_transforms", "status", b"status", "torque", b"torque", "torque_limits", b"torque_limits", "touches", b"touches", "velocity", b"velocity"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["acceleration", b"acceleration", "applied_sequence", b"applied_sequence", "applied_source_time_ns", b"applied_source_time_ns", "assist", b"assist", "audit", b"audit", "balance", b"balance", "contacts", b"contacts", "desired", b"desired", "fatigue", b"fatigue", "figure_index", b"figure_index", "joint_angles", b"joint_angles", "joint_rotations", b"joint_rotations", "ligament_torque", b"ligament_torque", "positions", b"positions", "root_pose", b"root_pose", "segment_transforms", b"segment_transforms", "status", b"status", "torque", b"torque", "torque_limits", b"torque_limits", "velocity", b"velocity"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["acceleration", b"acceleration", "applied_sequence", b"applied_sequence", "applied_source_time_ns", b"applied_source_time_ns", "assist", b"assist", "audit", b"audit", "balance", b"balance", "contacts", b"contacts", "desired", b"desired", "fatigue", b"fatigue", "figure_index", b"figure_index", "joint_angles", b"joint_angles", "joint_rotations", b"joint_rotations", "ligament_torque", b"ligament_torque", "positions", b"positions", "root_pose", b"root_pose", "segment_transforms", b"segment_transforms", "status", b"status", "torque", b"torque", "torque_limits", b"torque_limits", "touches", b"touches", "velocity", b"velocity"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
 Global___FigureFrame: _TypeAlias = FigureFrame  # noqa: Y015
+
+@_typing.final
+class Touches(_message.Message):
+    """Parts that touch another figure or an obstacle, one entry each in every list."""
+
+    DESCRIPTOR: _descriptor.Descriptor
+
+    SEGMENT_FIELD_NUMBER: _builtins.int
+    OTHER_FIELD_NUMBER: _builtins.int
+    OTHER_SEGMENT_FIELD_NUMBER: _builtins.int
+    POSITION_FIELD_NUMBER: _builtins.int
+    FORCE_FIELD_NUMBER: _builtins.int
+    DEPTH_FIELD_NUMBER: _builtins.int
+    @_builtins.property
+    def segment(self) -> _containers.RepeatedScalarFieldContainer[_builtins.int]:
+        """Index of the own segment."""
+
+    @_builtins.property
+    def other(self) -> _containers.RepeatedScalarFieldContainer[_builtins.str]:
+        """What it touches: `figures/{figure}` or `obstacles/{obstacle}`."""
+
+    @_builtins.property
+    def other_segment(self) -> _containers.RepeatedScalarFieldContainer[_builtins.int]:
+        """Index of the other figure's segment; -1 for an obstacle."""
+
+    @_builtins.property
+    def position(self) -> _types_pb2.Numbers:
+        """Where, world, m: x, y, z of each."""
+
+    @_builtins.property
+    def force(self) -> _types_pb2.Numbers:
+        """Mean force over the tick on this figure, world axes, N: x, y, z of each."""
+
+    @_builtins.property
+    def depth(self) -> _types_pb2.Numbers:
+        """Overlap at the start of a substep, m."""
+
+    def __init__(
+        self,
+        *,
+        segment: _abc.Iterable[_builtins.int] | None = ...,
+        other: _abc.Iterable[_builtins.str] | None = ...,
+        other_segment: _abc.Iterable[_builtins.int] | None = ...,
+        position: _types_pb2.Numbers | None = ...,
+        force: _types_pb2.Numbers | None = ...,
+        depth: _types_pb2.Numbers | None = ...,
+    ) -> None: ...
+    _HasFieldArgType: _TypeAlias = _typing.Literal["depth", b"depth", "force", b"force", "position", b"position"]  # noqa: Y015
+    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["depth", b"depth", "force", b"force", "other", b"other", "other_segment", b"other_segment", "position", b"position", "segment", b"segment"]  # noqa: Y015
+    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    def WhichOneof(self, oneof_group: _Never) -> None: ...
+
+Global___Touches: _TypeAlias = Touches  # noqa: Y015
 
 @_typing.final
 class Contacts(_message.Message):
@@ -453,7 +559,7 @@ class Audit(_message.Message):
 
     @_builtins.property
     def applied(self) -> Global___AppliedForces:
-        """Forces of perturbations."""
+        """Forces of perturbations, other figures and obstacles."""
 
     @_builtins.property
     def loads(self) -> _containers.RepeatedCompositeFieldContainer[_figure_pb2.CarriedLoad]:
@@ -487,7 +593,7 @@ Global___Audit: _TypeAlias = Audit  # noqa: Y015
 
 @_typing.final
 class AppliedForces(_message.Message):
-    """Forces of perturbations, one entry each in every list."""
+    """Forces of perturbations, other figures and obstacles, one entry each in every list."""
 
     DESCRIPTOR: _descriptor.Descriptor
 

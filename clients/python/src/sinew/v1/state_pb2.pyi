@@ -68,6 +68,14 @@ class _EventTypeEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_EventType.V
     """The world failed."""
     EVENT_TYPE_GOT_UP: _EventType.ValueType  # 18
     """The figure stands again after a fall."""
+    EVENT_TYPE_TOUCHED: _EventType.ValueType  # 31
+    """A segment began to touch another figure or an obstacle."""
+    EVENT_TYPE_PARTED: _EventType.ValueType  # 32
+    """A segment no longer touches it."""
+    EVENT_TYPE_OBSTACLE_ADDED: _EventType.ValueType  # 33
+    """An obstacle was added."""
+    EVENT_TYPE_OBSTACLE_REMOVED: _EventType.ValueType  # 34
+    """An obstacle was removed."""
 
 class EventType(_EventType, metaclass=_EventTypeEnumTypeWrapper):
     """What happened."""
@@ -112,6 +120,14 @@ EVENT_TYPE_WORLD_FAILED: EventType.ValueType  # 17
 """The world failed."""
 EVENT_TYPE_GOT_UP: EventType.ValueType  # 18
 """The figure stands again after a fall."""
+EVENT_TYPE_TOUCHED: EventType.ValueType  # 31
+"""A segment began to touch another figure or an obstacle."""
+EVENT_TYPE_PARTED: EventType.ValueType  # 32
+"""A segment no longer touches it."""
+EVENT_TYPE_OBSTACLE_ADDED: EventType.ValueType  # 33
+"""An obstacle was added."""
+EVENT_TYPE_OBSTACLE_REMOVED: EventType.ValueType  # 34
+"""An obstacle was removed."""
 Global___EventType: _TypeAlias = EventType  # noqa: Y015
 
 @_typing.final
@@ -366,6 +382,8 @@ class Event(_message.Message):
     DOF_FIELD_NUMBER: _builtins.int
     MASS_KG_FIELD_NUMBER: _builtins.int
     DETAIL_FIELD_NUMBER: _builtins.int
+    OTHER_FIELD_NUMBER: _builtins.int
+    OTHER_SEGMENT_FIELD_NUMBER: _builtins.int
     type: Global___EventType.ValueType
     """What happened."""
     tick: _builtins.int
@@ -382,6 +400,10 @@ class Event(_message.Message):
     """Mass of the load, kg, where there is one."""
     detail: _builtins.str
     """Driver or reason, where there is one."""
+    other: _builtins.str
+    """What is touched, added or removed: `figures/{figure}` or `obstacles/{obstacle}`, where there is one."""
+    other_segment: _builtins.str
+    """Name of the segment of the other figure, where there is one."""
     def __init__(
         self,
         *,
@@ -393,10 +415,12 @@ class Event(_message.Message):
         dof: _builtins.str = ...,
         mass_kg: _builtins.float = ...,
         detail: _builtins.str = ...,
+        other: _builtins.str = ...,
+        other_segment: _builtins.str = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["detail", b"detail", "dof", b"dof", "figure", b"figure", "mass_kg", b"mass_kg", "segment", b"segment", "tick", b"tick", "time_s", b"time_s", "type", b"type"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["detail", b"detail", "dof", b"dof", "figure", b"figure", "mass_kg", b"mass_kg", "other", b"other", "other_segment", b"other_segment", "segment", b"segment", "tick", b"tick", "time_s", b"time_s", "type", b"type"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 

@@ -10,6 +10,7 @@ from google.protobuf import message as _message
 from google.protobuf import timestamp_pb2 as _timestamp_pb2
 from google.protobuf.internal import containers as _containers
 from google.protobuf.internal import enum_type_wrapper as _enum_type_wrapper
+from sinew.v1 import types_pb2 as _types_pb2
 import builtins as _builtins
 import sys
 import typing as _typing
@@ -77,6 +78,34 @@ WORLD_STATE_FAILED: WorldState.ValueType  # 3
 """A step ended abnormally. The world keeps its last frame and can only be read or deleted."""
 Global___WorldState: _TypeAlias = WorldState  # noqa: Y015
 
+class _ObstacleMobility:
+    ValueType = _typing.NewType("ValueType", _builtins.int)
+    V: _TypeAlias = ValueType  # noqa: Y015
+
+class _ObstacleMobilityEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_ObstacleMobility.ValueType], _builtins.type):
+    DESCRIPTOR: _descriptor.EnumDescriptor
+    OBSTACLE_MOBILITY_UNSPECIFIED: _ObstacleMobility.ValueType  # 0
+    """The default: OBSTACLE_MOBILITY_FIXED."""
+    OBSTACLE_MOBILITY_FIXED: _ObstacleMobility.ValueType  # 1
+    """Not at all."""
+    OBSTACLE_MOBILITY_LED: _ObstacleMobility.ValueType  # 2
+    """With its velocity, whatever it meets."""
+    OBSTACLE_MOBILITY_FREE: _ObstacleMobility.ValueType  # 3
+    """As a rigid body of `mass_kg`, under gravity and on the ground."""
+
+class ObstacleMobility(_ObstacleMobility, metaclass=_ObstacleMobilityEnumTypeWrapper):
+    """How an obstacle moves."""
+
+OBSTACLE_MOBILITY_UNSPECIFIED: ObstacleMobility.ValueType  # 0
+"""The default: OBSTACLE_MOBILITY_FIXED."""
+OBSTACLE_MOBILITY_FIXED: ObstacleMobility.ValueType  # 1
+"""Not at all."""
+OBSTACLE_MOBILITY_LED: ObstacleMobility.ValueType  # 2
+"""With its velocity, whatever it meets."""
+OBSTACLE_MOBILITY_FREE: ObstacleMobility.ValueType  # 3
+"""As a rigid body of `mass_kg`, under gravity and on the ground."""
+Global___ObstacleMobility: _TypeAlias = ObstacleMobility  # noqa: Y015
+
 @_typing.final
 class World(_message.Message):
     """One world."""
@@ -99,6 +128,7 @@ class World(_message.Message):
     EPOCH_FIELD_NUMBER: _builtins.int
     CREATE_TIME_FIELD_NUMBER: _builtins.int
     FAILURE_FIELD_NUMBER: _builtins.int
+    COLLISIONS_FIELD_NUMBER: _builtins.int
     name: _builtins.str
     """Resource name `worlds/{world}`. Ignored in requests to create one."""
     display_name: _builtins.str
@@ -129,6 +159,8 @@ class World(_message.Message):
     """Counts up when the world's identity changes (restored or moved); 1 for a new world. Output only."""
     failure: _builtins.str
     """Why the world failed; empty otherwise. Output only."""
+    collisions: _builtins.bool
+    """Figures and obstacles touch each other. Absent: true. False: figures touch nothing but the ground. Fixed at creation."""
     @_builtins.property
     def create_time(self) -> _timestamp_pb2.Timestamp:
         """When it was created. Output only."""
@@ -152,15 +184,20 @@ class World(_message.Message):
         epoch: _builtins.int = ...,
         create_time: _timestamp_pb2.Timestamp | None = ...,
         failure: _builtins.str = ...,
+        collisions: _builtins.bool | None = ...,
     ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _typing.Literal["_friction", b"_friction", "_gravity_mps2", b"_gravity_mps2", "create_time", b"create_time", "friction", b"friction", "gravity_mps2", b"gravity_mps2"]  # noqa: Y015
+    _HasFieldArgType: _TypeAlias = _typing.Literal["_collisions", b"_collisions", "_friction", b"_friction", "_gravity_mps2", b"_gravity_mps2", "collisions", b"collisions", "create_time", b"create_time", "friction", b"friction", "gravity_mps2", b"gravity_mps2"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["_friction", b"_friction", "_gravity_mps2", b"_gravity_mps2", "catch_up_limit", b"catch_up_limit", "create_time", b"create_time", "display_name", b"display_name", "epoch", b"epoch", "failure", b"failure", "figure_count", b"figure_count", "friction", b"friction", "gravity_mps2", b"gravity_mps2", "name", b"name", "overrun_policy", b"overrun_policy", "rate_hz", b"rate_hz", "speed", b"speed", "state", b"state", "substeps", b"substeps", "tick", b"tick", "time_s", b"time_s"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_collisions", b"_collisions", "_friction", b"_friction", "_gravity_mps2", b"_gravity_mps2", "catch_up_limit", b"catch_up_limit", "collisions", b"collisions", "create_time", b"create_time", "display_name", b"display_name", "epoch", b"epoch", "failure", b"failure", "figure_count", b"figure_count", "friction", b"friction", "gravity_mps2", b"gravity_mps2", "name", b"name", "overrun_policy", b"overrun_policy", "rate_hz", b"rate_hz", "speed", b"speed", "state", b"state", "substeps", b"substeps", "tick", b"tick", "time_s", b"time_s"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    _WhichOneofReturnType__collisions: _TypeAlias = _typing.Literal["collisions"]  # noqa: Y015
+    _WhichOneofArgType__collisions: _TypeAlias = _typing.Literal["_collisions", b"_collisions"]  # noqa: Y015
     _WhichOneofReturnType__friction: _TypeAlias = _typing.Literal["friction"]  # noqa: Y015
     _WhichOneofArgType__friction: _TypeAlias = _typing.Literal["_friction", b"_friction"]  # noqa: Y015
     _WhichOneofReturnType__gravity_mps2: _TypeAlias = _typing.Literal["gravity_mps2"]  # noqa: Y015
     _WhichOneofArgType__gravity_mps2: _TypeAlias = _typing.Literal["_gravity_mps2", b"_gravity_mps2"]  # noqa: Y015
+    @_typing.overload
+    def WhichOneof(self, oneof_group: _WhichOneofArgType__collisions) -> _WhichOneofReturnType__collisions | None: ...
     @_typing.overload
     def WhichOneof(self, oneof_group: _WhichOneofArgType__friction) -> _WhichOneofReturnType__friction | None: ...
     @_typing.overload
@@ -614,3 +651,364 @@ class SetWorldSpeedResponse(_message.Message):
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
 Global___SetWorldSpeedResponse: _TypeAlias = SetWorldSpeedResponse  # noqa: Y015
+
+@_typing.final
+class SphereShape(_message.Message):
+    """A ball around the obstacle's origin."""
+
+    DESCRIPTOR: _descriptor.Descriptor
+
+    RADIUS_M_FIELD_NUMBER: _builtins.int
+    radius_m: _builtins.float
+    """Radius, m, 0.005…100."""
+    def __init__(
+        self,
+        *,
+        radius_m: _builtins.float = ...,
+    ) -> None: ...
+    _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
+    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["radius_m", b"radius_m"]  # noqa: Y015
+    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    def WhichOneof(self, oneof_group: _Never) -> None: ...
+
+Global___SphereShape: _TypeAlias = SphereShape  # noqa: Y015
+
+@_typing.final
+class CapsuleShape(_message.Message):
+    """A cylinder with round ends along z of the obstacle's frame, around its origin."""
+
+    DESCRIPTOR: _descriptor.Descriptor
+
+    RADIUS_M_FIELD_NUMBER: _builtins.int
+    HALF_LENGTH_M_FIELD_NUMBER: _builtins.int
+    radius_m: _builtins.float
+    """Radius, m, 0.005…100."""
+    half_length_m: _builtins.float
+    """Half the length of the cylinder without its ends, m, 0…100."""
+    def __init__(
+        self,
+        *,
+        radius_m: _builtins.float = ...,
+        half_length_m: _builtins.float = ...,
+    ) -> None: ...
+    _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
+    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["half_length_m", b"half_length_m", "radius_m", b"radius_m"]  # noqa: Y015
+    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    def WhichOneof(self, oneof_group: _Never) -> None: ...
+
+Global___CapsuleShape: _TypeAlias = CapsuleShape  # noqa: Y015
+
+@_typing.final
+class BoxShape(_message.Message):
+    """A box around the obstacle's origin."""
+
+    DESCRIPTOR: _descriptor.Descriptor
+
+    HALF_M_FIELD_NUMBER: _builtins.int
+    @_builtins.property
+    def half_m(self) -> _types_pb2.Vector3:
+        """Half of its edges along the axes of the obstacle's frame, m, each 0.005…1000."""
+
+    def __init__(
+        self,
+        *,
+        half_m: _types_pb2.Vector3 | None = ...,
+    ) -> None: ...
+    _HasFieldArgType: _TypeAlias = _typing.Literal["half_m", b"half_m"]  # noqa: Y015
+    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["half_m", b"half_m"]  # noqa: Y015
+    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    def WhichOneof(self, oneof_group: _Never) -> None: ...
+
+Global___BoxShape: _TypeAlias = BoxShape  # noqa: Y015
+
+@_typing.final
+class PlaneShape(_message.Message):
+    """Everything below z = 0 of the obstacle's frame."""
+
+    DESCRIPTOR: _descriptor.Descriptor
+
+    def __init__(
+        self,
+    ) -> None: ...
+    _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
+    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
+    _ClearFieldArgType: _TypeAlias = _Never  # noqa: Y015
+    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    def WhichOneof(self, oneof_group: _Never) -> None: ...
+
+Global___PlaneShape: _TypeAlias = PlaneShape  # noqa: Y015
+
+@_typing.final
+class Obstacle(_message.Message):
+    """A thing that figures can touch."""
+
+    DESCRIPTOR: _descriptor.Descriptor
+
+    NAME_FIELD_NUMBER: _builtins.int
+    SPHERE_FIELD_NUMBER: _builtins.int
+    CAPSULE_FIELD_NUMBER: _builtins.int
+    BOX_FIELD_NUMBER: _builtins.int
+    PLANE_FIELD_NUMBER: _builtins.int
+    MOBILITY_FIELD_NUMBER: _builtins.int
+    MASS_KG_FIELD_NUMBER: _builtins.int
+    FRICTION_FIELD_NUMBER: _builtins.int
+    POSE_FIELD_NUMBER: _builtins.int
+    VELOCITY_MPS_FIELD_NUMBER: _builtins.int
+    ANGULAR_VELOCITY_RADPS_FIELD_NUMBER: _builtins.int
+    name: _builtins.str
+    """Resource name `worlds/{world}/obstacles/{obstacle}`. Ignored in requests to add one."""
+    mobility: Global___ObstacleMobility.ValueType
+    """How it moves."""
+    mass_kg: _builtins.float
+    """Mass of a free obstacle, kg, 0.01…10000; spread evenly over its shape. Ignored for others."""
+    friction: _builtins.float
+    """Coefficient of friction, 0.05…2; of two obstacles the smaller one counts. Absent: 0.6."""
+    @_builtins.property
+    def sphere(self) -> Global___SphereShape:
+        """A ball."""
+
+    @_builtins.property
+    def capsule(self) -> Global___CapsuleShape:
+        """A cylinder with round ends."""
+
+    @_builtins.property
+    def box(self) -> Global___BoxShape:
+        """A box."""
+
+    @_builtins.property
+    def plane(self) -> Global___PlaneShape:
+        """A half-space."""
+
+    @_builtins.property
+    def pose(self) -> _types_pb2.Pose:
+        """Where it is; the origin of its frame is its centre. Absent: at the world's origin."""
+
+    @_builtins.property
+    def velocity_mps(self) -> _types_pb2.Vector3:
+        """Velocity of its centre, m/s, each component within ±100. Ignored for fixed ones. Absent: at rest."""
+
+    @_builtins.property
+    def angular_velocity_radps(self) -> _types_pb2.Vector3:
+        """Angular velocity, world axes, rad/s, each component within ±100. Ignored for fixed ones. Absent: none."""
+
+    def __init__(
+        self,
+        *,
+        name: _builtins.str = ...,
+        sphere: Global___SphereShape | None = ...,
+        capsule: Global___CapsuleShape | None = ...,
+        box: Global___BoxShape | None = ...,
+        plane: Global___PlaneShape | None = ...,
+        mobility: Global___ObstacleMobility.ValueType = ...,
+        mass_kg: _builtins.float = ...,
+        friction: _builtins.float | None = ...,
+        pose: _types_pb2.Pose | None = ...,
+        velocity_mps: _types_pb2.Vector3 | None = ...,
+        angular_velocity_radps: _types_pb2.Vector3 | None = ...,
+    ) -> None: ...
+    _HasFieldArgType: _TypeAlias = _typing.Literal["_friction", b"_friction", "angular_velocity_radps", b"angular_velocity_radps", "box", b"box", "capsule", b"capsule", "friction", b"friction", "plane", b"plane", "pose", b"pose", "shape", b"shape", "sphere", b"sphere", "velocity_mps", b"velocity_mps"]  # noqa: Y015
+    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_friction", b"_friction", "angular_velocity_radps", b"angular_velocity_radps", "box", b"box", "capsule", b"capsule", "friction", b"friction", "mass_kg", b"mass_kg", "mobility", b"mobility", "name", b"name", "plane", b"plane", "pose", b"pose", "shape", b"shape", "sphere", b"sphere", "velocity_mps", b"velocity_mps"]  # noqa: Y015
+    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    _WhichOneofReturnType__friction: _TypeAlias = _typing.Literal["friction"]  # noqa: Y015
+    _WhichOneofArgType__friction: _TypeAlias = _typing.Literal["_friction", b"_friction"]  # noqa: Y015
+    _WhichOneofReturnType_shape: _TypeAlias = _typing.Literal["sphere", "capsule", "box", "plane"]  # noqa: Y015
+    _WhichOneofArgType_shape: _TypeAlias = _typing.Literal["shape", b"shape"]  # noqa: Y015
+    @_typing.overload
+    def WhichOneof(self, oneof_group: _WhichOneofArgType__friction) -> _WhichOneofReturnType__friction | None: ...
+    @_typing.overload
+    def WhichOneof(self, oneof_group: _WhichOneofArgType_shape) -> _WhichOneofReturnType_shape | None: ...
+
+Global___Obstacle: _TypeAlias = Obstacle  # noqa: Y015
+
+@_typing.final
+class AddObstacleRequest(_message.Message):
+    """Asks to put an obstacle into a world."""
+
+    DESCRIPTOR: _descriptor.Descriptor
+
+    PARENT_FIELD_NUMBER: _builtins.int
+    OBSTACLE_ID_FIELD_NUMBER: _builtins.int
+    OBSTACLE_FIELD_NUMBER: _builtins.int
+    parent: _builtins.str
+    """World: resource name `worlds/{world}`."""
+    obstacle_id: _builtins.str
+    """Last part of the new name: 1 to 63 of `a-z 0-9 -`, beginning with a letter. Empty: the server chooses."""
+    @_builtins.property
+    def obstacle(self) -> Global___Obstacle:
+        """The obstacle. Required."""
+
+    def __init__(
+        self,
+        *,
+        parent: _builtins.str = ...,
+        obstacle_id: _builtins.str = ...,
+        obstacle: Global___Obstacle | None = ...,
+    ) -> None: ...
+    _HasFieldArgType: _TypeAlias = _typing.Literal["obstacle", b"obstacle"]  # noqa: Y015
+    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["obstacle", b"obstacle", "obstacle_id", b"obstacle_id", "parent", b"parent"]  # noqa: Y015
+    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    def WhichOneof(self, oneof_group: _Never) -> None: ...
+
+Global___AddObstacleRequest: _TypeAlias = AddObstacleRequest  # noqa: Y015
+
+@_typing.final
+class AddObstacleResponse(_message.Message):
+    """The new obstacle."""
+
+    DESCRIPTOR: _descriptor.Descriptor
+
+    OBSTACLE_FIELD_NUMBER: _builtins.int
+    @_builtins.property
+    def obstacle(self) -> Global___Obstacle:
+        """As it was added, with defaults filled in."""
+
+    def __init__(
+        self,
+        *,
+        obstacle: Global___Obstacle | None = ...,
+    ) -> None: ...
+    _HasFieldArgType: _TypeAlias = _typing.Literal["obstacle", b"obstacle"]  # noqa: Y015
+    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["obstacle", b"obstacle"]  # noqa: Y015
+    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    def WhichOneof(self, oneof_group: _Never) -> None: ...
+
+Global___AddObstacleResponse: _TypeAlias = AddObstacleResponse  # noqa: Y015
+
+@_typing.final
+class UpdateObstacleRequest(_message.Message):
+    """Replaces an obstacle."""
+
+    DESCRIPTOR: _descriptor.Descriptor
+
+    OBSTACLE_FIELD_NUMBER: _builtins.int
+    @_builtins.property
+    def obstacle(self) -> Global___Obstacle:
+        """The obstacle, by `name`, with all its new values."""
+
+    def __init__(
+        self,
+        *,
+        obstacle: Global___Obstacle | None = ...,
+    ) -> None: ...
+    _HasFieldArgType: _TypeAlias = _typing.Literal["obstacle", b"obstacle"]  # noqa: Y015
+    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["obstacle", b"obstacle"]  # noqa: Y015
+    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    def WhichOneof(self, oneof_group: _Never) -> None: ...
+
+Global___UpdateObstacleRequest: _TypeAlias = UpdateObstacleRequest  # noqa: Y015
+
+@_typing.final
+class UpdateObstacleResponse(_message.Message):
+    """The changed obstacle."""
+
+    DESCRIPTOR: _descriptor.Descriptor
+
+    OBSTACLE_FIELD_NUMBER: _builtins.int
+    @_builtins.property
+    def obstacle(self) -> Global___Obstacle:
+        """As it is now."""
+
+    def __init__(
+        self,
+        *,
+        obstacle: Global___Obstacle | None = ...,
+    ) -> None: ...
+    _HasFieldArgType: _TypeAlias = _typing.Literal["obstacle", b"obstacle"]  # noqa: Y015
+    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["obstacle", b"obstacle"]  # noqa: Y015
+    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    def WhichOneof(self, oneof_group: _Never) -> None: ...
+
+Global___UpdateObstacleResponse: _TypeAlias = UpdateObstacleResponse  # noqa: Y015
+
+@_typing.final
+class RemoveObstacleRequest(_message.Message):
+    """Takes an obstacle out."""
+
+    DESCRIPTOR: _descriptor.Descriptor
+
+    NAME_FIELD_NUMBER: _builtins.int
+    name: _builtins.str
+    """Resource name `worlds/{world}/obstacles/{obstacle}`."""
+    def __init__(
+        self,
+        *,
+        name: _builtins.str = ...,
+    ) -> None: ...
+    _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
+    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["name", b"name"]  # noqa: Y015
+    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    def WhichOneof(self, oneof_group: _Never) -> None: ...
+
+Global___RemoveObstacleRequest: _TypeAlias = RemoveObstacleRequest  # noqa: Y015
+
+@_typing.final
+class RemoveObstacleResponse(_message.Message):
+    """The obstacle is gone."""
+
+    DESCRIPTOR: _descriptor.Descriptor
+
+    def __init__(
+        self,
+    ) -> None: ...
+    _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
+    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
+    _ClearFieldArgType: _TypeAlias = _Never  # noqa: Y015
+    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    def WhichOneof(self, oneof_group: _Never) -> None: ...
+
+Global___RemoveObstacleResponse: _TypeAlias = RemoveObstacleResponse  # noqa: Y015
+
+@_typing.final
+class ListObstaclesRequest(_message.Message):
+    """Asks for the obstacles of a world."""
+
+    DESCRIPTOR: _descriptor.Descriptor
+
+    PARENT_FIELD_NUMBER: _builtins.int
+    parent: _builtins.str
+    """World: resource name `worlds/{world}`."""
+    def __init__(
+        self,
+        *,
+        parent: _builtins.str = ...,
+    ) -> None: ...
+    _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
+    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["parent", b"parent"]  # noqa: Y015
+    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    def WhichOneof(self, oneof_group: _Never) -> None: ...
+
+Global___ListObstaclesRequest: _TypeAlias = ListObstaclesRequest  # noqa: Y015
+
+@_typing.final
+class ListObstaclesResponse(_message.Message):
+    """The obstacles of a world: at most 256."""
+
+    DESCRIPTOR: _descriptor.Descriptor
+
+    OBSTACLES_FIELD_NUMBER: _builtins.int
+    @_builtins.property
+    def obstacles(self) -> _containers.RepeatedCompositeFieldContainer[Global___Obstacle]:
+        """In the order they were added."""
+
+    def __init__(
+        self,
+        *,
+        obstacles: _abc.Iterable[Global___Obstacle] | None = ...,
+    ) -> None: ...
+    _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
+    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["obstacles", b"obstacles"]  # noqa: Y015
+    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    def WhichOneof(self, oneof_group: _Never) -> None: ...
+
+Global___ListObstaclesResponse: _TypeAlias = ListObstaclesResponse  # noqa: Y015

@@ -53,6 +53,14 @@ class WorldServiceStub:
     """
     SetWorldSpeed: _grpc.UnaryUnaryMultiCallable[_world_pb2.SetWorldSpeedRequest, _world_pb2.SetWorldSpeedResponse]
     """Sets how fast world time passes."""
+    AddObstacle: _grpc.UnaryUnaryMultiCallable[_world_pb2.AddObstacleRequest, _world_pb2.AddObstacleResponse]
+    """Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256 (RESOURCE_EXHAUSTED)."""
+    UpdateObstacle: _grpc.UnaryUnaryMultiCallable[_world_pb2.UpdateObstacleRequest, _world_pb2.UpdateObstacleResponse]
+    """Replaces an obstacle by another of the same name: shape, mobility, pose and velocity."""
+    RemoveObstacle: _grpc.UnaryUnaryMultiCallable[_world_pb2.RemoveObstacleRequest, _world_pb2.RemoveObstacleResponse]
+    """Takes an obstacle out of its world."""
+    ListObstacles: _grpc.UnaryUnaryMultiCallable[_world_pb2.ListObstaclesRequest, _world_pb2.ListObstaclesResponse]
+    """All obstacles of a world as they are now, in the order they were added."""
 
 @_typing.type_check_only
 class WorldServiceAsyncStub(WorldServiceStub):
@@ -79,6 +87,14 @@ class WorldServiceAsyncStub(WorldServiceStub):
     """
     SetWorldSpeed: _aio.UnaryUnaryMultiCallable[_world_pb2.SetWorldSpeedRequest, _world_pb2.SetWorldSpeedResponse]  # type: ignore[assignment]
     """Sets how fast world time passes."""
+    AddObstacle: _aio.UnaryUnaryMultiCallable[_world_pb2.AddObstacleRequest, _world_pb2.AddObstacleResponse]  # type: ignore[assignment]
+    """Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256 (RESOURCE_EXHAUSTED)."""
+    UpdateObstacle: _aio.UnaryUnaryMultiCallable[_world_pb2.UpdateObstacleRequest, _world_pb2.UpdateObstacleResponse]  # type: ignore[assignment]
+    """Replaces an obstacle by another of the same name: shape, mobility, pose and velocity."""
+    RemoveObstacle: _aio.UnaryUnaryMultiCallable[_world_pb2.RemoveObstacleRequest, _world_pb2.RemoveObstacleResponse]  # type: ignore[assignment]
+    """Takes an obstacle out of its world."""
+    ListObstacles: _aio.UnaryUnaryMultiCallable[_world_pb2.ListObstaclesRequest, _world_pb2.ListObstaclesResponse]  # type: ignore[assignment]
+    """All obstacles of a world as they are now, in the order they were added."""
 
 class WorldServiceServicer(metaclass=_abc_1.ABCMeta):
     """Creates, lists and controls worlds. A world is one shared scene with a clock of its own: gravity, ground, figures."""
@@ -156,5 +172,37 @@ class WorldServiceServicer(metaclass=_abc_1.ABCMeta):
         context: _ServicerContext,
     ) -> _typing.Union[_world_pb2.SetWorldSpeedResponse, _abc.Awaitable[_world_pb2.SetWorldSpeedResponse]]:
         """Sets how fast world time passes."""
+
+    @_abc_1.abstractmethod
+    def AddObstacle(
+        self,
+        request: _world_pb2.AddObstacleRequest,
+        context: _ServicerContext,
+    ) -> _typing.Union[_world_pb2.AddObstacleResponse, _abc.Awaitable[_world_pb2.AddObstacleResponse]]:
+        """Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256 (RESOURCE_EXHAUSTED)."""
+
+    @_abc_1.abstractmethod
+    def UpdateObstacle(
+        self,
+        request: _world_pb2.UpdateObstacleRequest,
+        context: _ServicerContext,
+    ) -> _typing.Union[_world_pb2.UpdateObstacleResponse, _abc.Awaitable[_world_pb2.UpdateObstacleResponse]]:
+        """Replaces an obstacle by another of the same name: shape, mobility, pose and velocity."""
+
+    @_abc_1.abstractmethod
+    def RemoveObstacle(
+        self,
+        request: _world_pb2.RemoveObstacleRequest,
+        context: _ServicerContext,
+    ) -> _typing.Union[_world_pb2.RemoveObstacleResponse, _abc.Awaitable[_world_pb2.RemoveObstacleResponse]]:
+        """Takes an obstacle out of its world."""
+
+    @_abc_1.abstractmethod
+    def ListObstacles(
+        self,
+        request: _world_pb2.ListObstaclesRequest,
+        context: _ServicerContext,
+    ) -> _typing.Union[_world_pb2.ListObstaclesResponse, _abc.Awaitable[_world_pb2.ListObstaclesResponse]]:
+        """All obstacles of a world as they are now, in the order they were added."""
 
 def add_WorldServiceServicer_to_server(servicer: WorldServiceServicer, server: _typing.Union[_grpc.Server, _aio.Server]) -> None: ...

@@ -14,7 +14,7 @@ import type { Message } from "@bufbuild/protobuf";
  * Describes the file sinew/v1/frame.proto.
  */
 export const file_sinew_v1_frame: GenFile = /*@__PURE__*/
-  fileDesc("ChRzaW5ldy92MS9mcmFtZS5wcm90bxIIc2luZXcudjEipQEKCldvcmxkRnJhbWUSDAoEdGljaxgBIAEoAxIOCgZ0aW1lX3MYAiABKAESEgoKc3RhdGVfaGFzaBgDIAEoEBINCgVlcG9jaBgEIAEoBRIWCg5zZXJ2ZXJfdGltZV9ucxgFIAEoEBIWCg5yb3N0ZXJfdmVyc2lvbhgGIAEoBRImCgdmaWd1cmVzGAcgAygLMhUuc2luZXcudjEuRmlndXJlRnJhbWUi8gUKC0ZpZ3VyZUZyYW1lEhQKDGZpZ3VyZV9pbmRleBgBIAEoBRIYChBhcHBsaWVkX3NlcXVlbmNlGAIgASgDEh4KFmFwcGxpZWRfc291cmNlX3RpbWVfbnMYAyABKBASJAoJcm9vdF9wb3NlGAQgASgLMhEuc2luZXcudjEuTnVtYmVycxInCgxqb2ludF9hbmdsZXMYBSABKAsyES5zaW5ldy52MS5OdW1iZXJzEioKD2pvaW50X3JvdGF0aW9ucxgGIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSLQoSc2VnbWVudF90cmFuc2Zvcm1zGAcgASgLMhEuc2luZXcudjEuTnVtYmVycxIjCgh2ZWxvY2l0eRgIIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSJwoMYWNjZWxlcmF0aW9uGAkgASgLMhEuc2luZXcudjEuTnVtYmVycxIhCgZ0b3JxdWUYCiABKAsyES5zaW5ldy52MS5OdW1iZXJzEioKD2xpZ2FtZW50X3RvcnF1ZRgLIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSKAoNdG9ycXVlX2xpbWl0cxgMIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSJAoIY29udGFjdHMYDSABKAsyEi5zaW5ldy52MS5Db250YWN0cxIiCgdiYWxhbmNlGA4gASgLMhEuc2luZXcudjEuQmFsYW5jZRIpCgdkZXNpcmVkGA8gASgLMhguc2luZXcudjEuRGVzaXJlZFBvc3R1cmUSIAoGc3RhdHVzGBAgASgLMhAuc2luZXcudjEuU3RhdHVzEh4KBWF1ZGl0GBEgASgLMg8uc2luZXcudjEuQXVkaXQSJAoJcG9zaXRpb25zGBIgASgLMhEuc2luZXcudjEuTnVtYmVycxIiCgdmYXRpZ3VlGBUgASgLMhEuc2luZXcudjEuTnVtYmVycxIhCgZhc3Npc3QYFiABKAsyES5zaW5ldy52MS5OdW1iZXJzInIKCENvbnRhY3RzEg8KB3NlZ21lbnQYASADKAUSDgoGdmVydGV4GAIgAygFEiMKCHBvc2l0aW9uGAMgASgLMhEuc2luZXcudjEuTnVtYmVycxIgCgVmb3JjZRgEIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMiogIKB0JhbGFuY2USHgoDY29tGAEgASgLMhEuc2luZXcudjEuTnVtYmVycxInCgxjb21fdmVsb2NpdHkYAiABKAsyES5zaW5ldy52MS5OdW1iZXJzEiYKC2NvbV9kZXNpcmVkGAMgASgLMhEuc2luZXcudjEuTnVtYmVycxIeCgN6bXAYBCABKAsyES5zaW5ldy52MS5OdW1iZXJzEhUKCG1hcmdpbl9tGAUgASgBSACIAQESIgoHcG9seWdvbhgGIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSFAoMbWFpbl9zdXBwb3J0GAcgASgFEigKDXN1cHBvcnRfcmF0aW8YCCABKAsyES5zaW5ldy52MS5OdW1iZXJzQgsKCV9tYXJnaW5fbSKLAQoORGVzaXJlZFBvc3R1cmUSJAoJcm9vdF9wb3NlGAEgASgLMhEuc2luZXcudjEuTnVtYmVycxInCgxqb2ludF9hbmdsZXMYAiABKAsyES5zaW5ldy52MS5OdW1iZXJzEioKD2pvaW50X3JvdGF0aW9ucxgDIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMi5AEKBlN0YXR1cxINCgVmbGFncxgBIAEoBRIRCglzYXR1cmF0ZWQYAiABKBASGwoTc2F0dXJhdGVkX3NlY29uZGFyeRgDIAEoEBISCgpvdmVyX2xpbWl0GAQgASgBEhUKDWpvaW50X3Jtc19yYWQYBSABKAESFQoNcGVuZXRyYXRpb25fbRgGIAEoARIaChJjb250cm9sX2l0ZXJhdGlvbnMYByABKAUSFwoPc3RlcF9pdGVyYXRpb25zGAggASgFEiQKBWxvYWRzGAkgAygLMhUuc2luZXcudjEuQ2FycmllZExvYWQi+QIKBUF1ZGl0EiQKCXBvc2l0aW9ucxgBIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSIwoIdmVsb2NpdHkYAiABKAsyES5zaW5ldy52MS5OdW1iZXJzEicKDGFjY2VsZXJhdGlvbhgDIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSIQoGdG9ycXVlGAQgASgLMhEuc2luZXcudjEuTnVtYmVycxIqCg9saWdhbWVudF90b3JxdWUYBSABKAsyES5zaW5ldy52MS5OdW1iZXJzEiQKCGNvbnRhY3RzGAYgASgLMhIuc2luZXcudjEuQ29udGFjdHMSKAoHYXBwbGllZBgHIAEoCzIXLnNpbmV3LnYxLkFwcGxpZWRGb3JjZXMSJAoFbG9hZHMYCCADKAsyFS5zaW5ldy52MS5DYXJyaWVkTG9hZBIUCgxncmF2aXR5X21wczIYCSABKAESIQoGYXNzaXN0GAwgASgLMhEuc2luZXcudjEuTnVtYmVycyJnCg1BcHBsaWVkRm9yY2VzEg8KB3NlZ21lbnQYASADKAUSIwoIcG9zaXRpb24YAiABKAsyES5zaW5ldy52MS5OdW1iZXJzEiAKBWZvcmNlGAMgASgLMhEuc2luZXcudjEuTnVtYmVyc2IGcHJvdG8z", [file_sinew_v1_figure, file_sinew_v1_types]);
+  fileDesc("ChRzaW5ldy92MS9mcmFtZS5wcm90bxIIc2luZXcudjEi0QEKCldvcmxkRnJhbWUSDAoEdGljaxgBIAEoAxIOCgZ0aW1lX3MYAiABKAESEgoKc3RhdGVfaGFzaBgDIAEoEBINCgVlcG9jaBgEIAEoBRIWCg5zZXJ2ZXJfdGltZV9ucxgFIAEoEBIWCg5yb3N0ZXJfdmVyc2lvbhgGIAEoBRImCgdmaWd1cmVzGAcgAygLMhUuc2luZXcudjEuRmlndXJlRnJhbWUSKgoJb2JzdGFjbGVzGAggAygLMhcuc2luZXcudjEuT2JzdGFjbGVGcmFtZSKJAQoNT2JzdGFjbGVGcmFtZRIQCghvYnN0YWNsZRgBIAEoCRIfCgRwb3NlGAIgASgLMhEuc2luZXcudjEuTnVtYmVycxIjCgh2ZWxvY2l0eRgDIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSIAoFZm9yY2UYBCABKAsyES5zaW5ldy52MS5OdW1iZXJzIpYGCgtGaWd1cmVGcmFtZRIUCgxmaWd1cmVfaW5kZXgYASABKAUSGAoQYXBwbGllZF9zZXF1ZW5jZRgCIAEoAxIeChZhcHBsaWVkX3NvdXJjZV90aW1lX25zGAMgASgQEiQKCXJvb3RfcG9zZRgEIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSJwoMam9pbnRfYW5nbGVzGAUgASgLMhEuc2luZXcudjEuTnVtYmVycxIqCg9qb2ludF9yb3RhdGlvbnMYBiABKAsyES5zaW5ldy52MS5OdW1iZXJzEi0KEnNlZ21lbnRfdHJhbnNmb3JtcxgHIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSIwoIdmVsb2NpdHkYCCABKAsyES5zaW5ldy52MS5OdW1iZXJzEicKDGFjY2VsZXJhdGlvbhgJIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSIQoGdG9ycXVlGAogASgLMhEuc2luZXcudjEuTnVtYmVycxIqCg9saWdhbWVudF90b3JxdWUYCyABKAsyES5zaW5ldy52MS5OdW1iZXJzEigKDXRvcnF1ZV9saW1pdHMYDCABKAsyES5zaW5ldy52MS5OdW1iZXJzEiQKCGNvbnRhY3RzGA0gASgLMhIuc2luZXcudjEuQ29udGFjdHMSIgoHYmFsYW5jZRgOIAEoCzIRLnNpbmV3LnYxLkJhbGFuY2USKQoHZGVzaXJlZBgPIAEoCzIYLnNpbmV3LnYxLkRlc2lyZWRQb3N0dXJlEiAKBnN0YXR1cxgQIAEoCzIQLnNpbmV3LnYxLlN0YXR1cxIeCgVhdWRpdBgRIAEoCzIPLnNpbmV3LnYxLkF1ZGl0EiQKCXBvc2l0aW9ucxgSIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSIgoHZmF0aWd1ZRgVIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSIQoGYXNzaXN0GBYgASgLMhEuc2luZXcudjEuTnVtYmVycxIiCgd0b3VjaGVzGBcgASgLMhEuc2luZXcudjEuVG91Y2hlcyKpAQoHVG91Y2hlcxIPCgdzZWdtZW50GAEgAygFEg0KBW90aGVyGAIgAygJEhUKDW90aGVyX3NlZ21lbnQYAyADKAUSIwoIcG9zaXRpb24YBCABKAsyES5zaW5ldy52MS5OdW1iZXJzEiAKBWZvcmNlGAUgASgLMhEuc2luZXcudjEuTnVtYmVycxIgCgVkZXB0aBgGIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMicgoIQ29udGFjdHMSDwoHc2VnbWVudBgBIAMoBRIOCgZ2ZXJ0ZXgYAiADKAUSIwoIcG9zaXRpb24YAyABKAsyES5zaW5ldy52MS5OdW1iZXJzEiAKBWZvcmNlGAQgASgLMhEuc2luZXcudjEuTnVtYmVycyKiAgoHQmFsYW5jZRIeCgNjb20YASABKAsyES5zaW5ldy52MS5OdW1iZXJzEicKDGNvbV92ZWxvY2l0eRgCIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSJgoLY29tX2Rlc2lyZWQYAyABKAsyES5zaW5ldy52MS5OdW1iZXJzEh4KA3ptcBgEIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSFQoIbWFyZ2luX20YBSABKAFIAIgBARIiCgdwb2x5Z29uGAYgASgLMhEuc2luZXcudjEuTnVtYmVycxIUCgxtYWluX3N1cHBvcnQYByABKAUSKAoNc3VwcG9ydF9yYXRpbxgIIAEoCzIRLnNpbmV3LnYxLk51bWJlcnNCCwoJX21hcmdpbl9tIosBCg5EZXNpcmVkUG9zdHVyZRIkCglyb290X3Bvc2UYASABKAsyES5zaW5ldy52MS5OdW1iZXJzEicKDGpvaW50X2FuZ2xlcxgCIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSKgoPam9pbnRfcm90YXRpb25zGAMgASgLMhEuc2luZXcudjEuTnVtYmVycyLkAQoGU3RhdHVzEg0KBWZsYWdzGAEgASgFEhEKCXNhdHVyYXRlZBgCIAEoEBIbChNzYXR1cmF0ZWRfc2Vjb25kYXJ5GAMgASgQEhIKCm92ZXJfbGltaXQYBCABKAESFQoNam9pbnRfcm1zX3JhZBgFIAEoARIVCg1wZW5ldHJhdGlvbl9tGAYgASgBEhoKEmNvbnRyb2xfaXRlcmF0aW9ucxgHIAEoBRIXCg9zdGVwX2l0ZXJhdGlvbnMYCCABKAUSJAoFbG9hZHMYCSADKAsyFS5zaW5ldy52MS5DYXJyaWVkTG9hZCL5AgoFQXVkaXQSJAoJcG9zaXRpb25zGAEgASgLMhEuc2luZXcudjEuTnVtYmVycxIjCgh2ZWxvY2l0eRgCIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSJwoMYWNjZWxlcmF0aW9uGAMgASgLMhEuc2luZXcudjEuTnVtYmVycxIhCgZ0b3JxdWUYBCABKAsyES5zaW5ldy52MS5OdW1iZXJzEioKD2xpZ2FtZW50X3RvcnF1ZRgFIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSJAoIY29udGFjdHMYBiABKAsyEi5zaW5ldy52MS5Db250YWN0cxIoCgdhcHBsaWVkGAcgASgLMhcuc2luZXcudjEuQXBwbGllZEZvcmNlcxIkCgVsb2FkcxgIIAMoCzIVLnNpbmV3LnYxLkNhcnJpZWRMb2FkEhQKDGdyYXZpdHlfbXBzMhgJIAEoARIhCgZhc3Npc3QYDCABKAsyES5zaW5ldy52MS5OdW1iZXJzImcKDUFwcGxpZWRGb3JjZXMSDwoHc2VnbWVudBgBIAMoBRIjCghwb3NpdGlvbhgCIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSIAoFZm9yY2UYAyABKAsyES5zaW5ldy52MS5OdW1iZXJzYgZwcm90bzM", [file_sinew_v1_figure, file_sinew_v1_types]);
 
 /**
  * What a world looks like after one tick.
@@ -70,6 +70,13 @@ export type WorldFrame = Message<"sinew.v1.WorldFrame"> & {
    * @generated from field: repeated sinew.v1.FigureFrame figures = 7;
    */
   figures: FigureFrame[];
+
+  /**
+   * All obstacles, in the order they were added.
+   *
+   * @generated from field: repeated sinew.v1.ObstacleFrame obstacles = 8;
+   */
+  obstacles: ObstacleFrame[];
 };
 
 /**
@@ -78,6 +85,48 @@ export type WorldFrame = Message<"sinew.v1.WorldFrame"> & {
  */
 export const WorldFrameSchema: GenMessage<WorldFrame> = /*@__PURE__*/
   messageDesc(file_sinew_v1_frame, 0);
+
+/**
+ * One obstacle after one tick. `WorldService.ListObstacles` tells its shape.
+ *
+ * @generated from message sinew.v1.ObstacleFrame
+ */
+export type ObstacleFrame = Message<"sinew.v1.ObstacleFrame"> & {
+  /**
+   * Last part of the obstacle's name.
+   *
+   * @generated from field: string obstacle = 1;
+   */
+  obstacle: string;
+
+  /**
+   * Position x, y, z (m) and rotation x, y, z, w of its frame in the world: 7 numbers.
+   *
+   * @generated from field: sinew.v1.Numbers pose = 2;
+   */
+  pose?: Numbers | undefined;
+
+  /**
+   * Angular velocity (rad/s), then velocity of its centre (m/s), world axes: 6 numbers.
+   *
+   * @generated from field: sinew.v1.Numbers velocity = 3;
+   */
+  velocity?: Numbers | undefined;
+
+  /**
+   * Mean force of contacts on it over the tick, world axes, N: 3 numbers; 0 unless it moves freely.
+   *
+   * @generated from field: sinew.v1.Numbers force = 4;
+   */
+  force?: Numbers | undefined;
+};
+
+/**
+ * Describes the message sinew.v1.ObstacleFrame.
+ * Use `create(ObstacleFrameSchema)` to create a new message.
+ */
+export const ObstacleFrameSchema: GenMessage<ObstacleFrame> = /*@__PURE__*/
+  messageDesc(file_sinew_v1_frame, 1);
 
 /**
  * One figure after one tick. The view's field mask chooses among the fields from `root_pose` on; fields that were not chosen are
@@ -228,6 +277,13 @@ export type FigureFrame = Message<"sinew.v1.FigureFrame"> & {
    * @generated from field: sinew.v1.Numbers assist = 22;
    */
   assist?: Numbers | undefined;
+
+  /**
+   * What it touches besides the ground.
+   *
+   * @generated from field: sinew.v1.Touches touches = 23;
+   */
+  touches?: Touches | undefined;
 };
 
 /**
@@ -235,7 +291,63 @@ export type FigureFrame = Message<"sinew.v1.FigureFrame"> & {
  * Use `create(FigureFrameSchema)` to create a new message.
  */
 export const FigureFrameSchema: GenMessage<FigureFrame> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_frame, 1);
+  messageDesc(file_sinew_v1_frame, 2);
+
+/**
+ * Parts that touch another figure or an obstacle, one entry each in every list.
+ *
+ * @generated from message sinew.v1.Touches
+ */
+export type Touches = Message<"sinew.v1.Touches"> & {
+  /**
+   * Index of the own segment.
+   *
+   * @generated from field: repeated int32 segment = 1;
+   */
+  segment: number[];
+
+  /**
+   * What it touches: `figures/{figure}` or `obstacles/{obstacle}`.
+   *
+   * @generated from field: repeated string other = 2;
+   */
+  other: string[];
+
+  /**
+   * Index of the other figure's segment; -1 for an obstacle.
+   *
+   * @generated from field: repeated int32 other_segment = 3;
+   */
+  otherSegment: number[];
+
+  /**
+   * Where, world, m: x, y, z of each.
+   *
+   * @generated from field: sinew.v1.Numbers position = 4;
+   */
+  position?: Numbers | undefined;
+
+  /**
+   * Mean force over the tick on this figure, world axes, N: x, y, z of each.
+   *
+   * @generated from field: sinew.v1.Numbers force = 5;
+   */
+  force?: Numbers | undefined;
+
+  /**
+   * Overlap at the start of a substep, m.
+   *
+   * @generated from field: sinew.v1.Numbers depth = 6;
+   */
+  depth?: Numbers | undefined;
+};
+
+/**
+ * Describes the message sinew.v1.Touches.
+ * Use `create(TouchesSchema)` to create a new message.
+ */
+export const TouchesSchema: GenMessage<Touches> = /*@__PURE__*/
+  messageDesc(file_sinew_v1_frame, 3);
 
 /**
  * Touching points, one entry each in every list.
@@ -277,7 +389,7 @@ export type Contacts = Message<"sinew.v1.Contacts"> & {
  * Use `create(ContactsSchema)` to create a new message.
  */
 export const ContactsSchema: GenMessage<Contacts> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_frame, 2);
+  messageDesc(file_sinew_v1_frame, 4);
 
 /**
  * How the figure stands.
@@ -347,7 +459,7 @@ export type Balance = Message<"sinew.v1.Balance"> & {
  * Use `create(BalanceSchema)` to create a new message.
  */
 export const BalanceSchema: GenMessage<Balance> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_frame, 3);
+  messageDesc(file_sinew_v1_frame, 5);
 
 /**
  * The posture that was asked for.
@@ -382,7 +494,7 @@ export type DesiredPosture = Message<"sinew.v1.DesiredPosture"> & {
  * Use `create(DesiredPostureSchema)` to create a new message.
  */
 export const DesiredPostureSchema: GenMessage<DesiredPosture> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_frame, 4);
+  messageDesc(file_sinew_v1_frame, 6);
 
 /**
  * What state a figure is in.
@@ -460,7 +572,7 @@ export type Status = Message<"sinew.v1.Status"> & {
  * Use `create(StatusSchema)` to create a new message.
  */
 export const StatusSchema: GenMessage<Status> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_frame, 5);
+  messageDesc(file_sinew_v1_frame, 7);
 
 /**
  * The last substep of the tick as it was solved: `M v̇ + h = Sᵀ (torque + ligament_torque) + Σ Jᵀ f + assist`, with M and h of the body with
@@ -512,7 +624,7 @@ export type Audit = Message<"sinew.v1.Audit"> & {
   contacts?: Contacts | undefined;
 
   /**
-   * Forces of perturbations.
+   * Forces of perturbations, other figures and obstacles.
    *
    * @generated from field: sinew.v1.AppliedForces applied = 7;
    */
@@ -545,10 +657,10 @@ export type Audit = Message<"sinew.v1.Audit"> & {
  * Use `create(AuditSchema)` to create a new message.
  */
 export const AuditSchema: GenMessage<Audit> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_frame, 6);
+  messageDesc(file_sinew_v1_frame, 8);
 
 /**
- * Forces of perturbations, one entry each in every list.
+ * Forces of perturbations, other figures and obstacles, one entry each in every list.
  *
  * @generated from message sinew.v1.AppliedForces
  */
@@ -580,5 +692,5 @@ export type AppliedForces = Message<"sinew.v1.AppliedForces"> & {
  * Use `create(AppliedForcesSchema)` to create a new message.
  */
 export const AppliedForcesSchema: GenMessage<AppliedForces> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_frame, 7);
+  messageDesc(file_sinew_v1_frame, 9);
 

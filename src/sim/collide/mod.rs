@@ -1,0 +1,18 @@
+//! Collisions between figures and with obstacles (docs/adr/0009-collisions.md).
+//!
+//! * [`shape`]: capsules fitted to the segments, and the shapes of obstacles.
+//! * [`obstacle`]: bodies that are no figures: fixed, led, or free.
+//! * [`broad`]: who may meet whom within a tick.
+//! * [`narrow`]: where two shapes are nearest.
+//! * [`touch`]: what a body says about what it touches.
+//! * [`island`]: one convex problem for all bodies that touch each other.
+
+pub mod broad;
+pub mod island;
+pub mod narrow;
+pub mod obstacle;
+pub mod shape;
+pub mod touch;
+
+pub use obstacle::{MAX_OBSTACLES, Mobility, Obstacle, ObstacleSetup, Shape};
+pub use touch::{MAX_TOUCHES, ObstacleKey, Other, Touch};

@@ -1,0 +1,40 @@
+//! What a body says about what it touches: plain data.
+
+use crate::sim::body::SegmentId;
+use crate::sim::math::Vec3;
+
+/// Identity of an obstacle in a world; never used again after removal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ObstacleKey(pub u64);
+
+/// What a body touches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Other {
+    /// A segment of another figure, by the number of its key.
+    Figure(u64, SegmentId),
+    /// An obstacle.
+    Obstacle(ObstacleKey),
+}
+
+/// One pair of parts that touched during a tick, as one of the two sees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touch {
+    /// Own segment.
+    pub segment: SegmentId,
+    /// What it touches.
+    pub other: Other,
+    /// Where, world, m: mean of the touching points by their normal impulse.
+    pub position: Vec3,
+    /// Mean force over the tick on this body, world axes, N.
+    pub force: Vec3,
+    /// Unit vector from the other body to this one, world axes.
+    pub normal: Vec3,
+    /// Deepest overlap of the two at the start of any substep, m; 0 if they only meet.
+    pub depth: f64,
+}
+
+/// Most pairs of parts that one figure reports in a tick.
+pub const MAX_TOUCHES: usize = 64;
+
+/// Most contacts between bodies in one island; beyond, the shallowest are left out.
+pub const MAX_ISLAND_CONTACTS: usize = 160;

@@ -1,0 +1,32 @@
+//! What carries a figure besides the floor: parts that lean on things that do not give way.
+
+use crate::sim::body::SegmentId;
+use crate::sim::math::Vec3;
+
+/// A part of the body that rests on an obstacle: a seat, a table, a wall.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rest {
+    /// The part.
+    pub segment: SegmentId,
+    /// Where, world, m.
+    pub position: Vec3,
+    /// Unit vector from the obstacle to the part, world axes.
+    pub normal: Vec3,
+    /// Reaction that can be counted on, world axes, N: that of the last ticks.
+    pub force: Vec3,
+}
+
+/// Least height of the normal of a surface that weight can be put on (60° of slope).
+const LEVEL: f64 = 0.5;
+
+impl Rest {
+    /// True if weight can be put there: a seat or a table, not a wall.
+    pub fn is_level(&self) -> bool {
+        Self::level(self.normal)
+    }
+
+    /// The same of a surface with this normal.
+    pub fn level(normal: Vec3) -> bool {
+        normal.z > LEVEL
+    }
+}

@@ -1,0 +1,123 @@
+//! The bodies of one cluster, and where they are in the present substep.
+
+use super::Who;
+use crate::sim::body::SegmentId;
+use crate::sim::collide::narrow::PosedBox;
+use crate::sim::collide::shape::Capsule;
+use crate::sim::collide::{Obstacle, ObstacleKey, Other, Shape};
+use crate::sim::dynamics::Terms;
+use crate::sim::figure::{Figure, FigureKey};
+use crate::sim::math::Vec3;
+
+/// The bodies of one cluster.
+pub(super) struct Cast<'a> {
+    pub figures: &'a mut [(FigureKey, Box<Figure>)],
+    pub free: &'a mut [(ObstacleKey, Obstacle)],
+    pub firm: &'a [(ObstacleKey, Obstacle)],
+    pub friction: f64,
+}
+
+impl Cast<'_> {
+    /// Figures that torques move in this tick.
+    pub fn moved_by_torques(&mut self) -> impl Iterator<Item = &mut Figure> {
+        let all = self.figures.iter_mut().map(|(_, f)| &mut **f);
+        all.filter(|f| !f.is_prescribed())
+    }
+
+    /// Velocity of a world point of a part.
+    pub fn velocity(&self, who: Who, part: usize, p: Vec3) -> Vec3 {
+        match who {
+            Who::Figure(i) => {
+                let t = self.figures[i].1.substep_terms();
+                t.kin.velocity[part] + t.kin.omega[part].cross(p - t.segment_position(part))
+            }
+            Who::Free(i) => self.free[i].1.point_velocity(p),
+            Who::Firm(i) => self.firm[i].1.point_velocity(p),
+            Who::Ground => Vec3::zero(),
+        }
+    }
+
+    /// How reports name a body.
+    pub fn other(&self, who: Who, part: usize) -> Option<Other> {
+        match who {
+            Who::Figure(i) => Some(Other::Figure(self.figures[i].0.0, SegmentId::new(part)?)),
+            Who::Free(i) => Some(Other::Obstacle(self.free[i].0)),
+            Who::Firm(i) => Some(Other::Obstacle(self.firm[i].0)),
+            Who::Ground => None,
+        }
+    }
+
+    /// The obstacle behind a body, and for how long it has moved since its pose was stored.
+    pub fn obstacle(&self, who: Who, led_for: f64) -> Option<Posed> {
+        match who {
+            Who::Free(i) => Some(Posed::new(&self.free[i].1, 0.0)),
+            Who::Firm(i) => Some(Posed::new(&self.firm[i].1, led_for)),
+            _ => None,
+        }
+    }
+}
+
+/// An obstacle's shape in the world.
+pub(super) struct Posed {
+    pub shape: PosedShape,
+    pub friction: f64,
+}
+
+/// Its shape there.
+pub(super) enum PosedShape {
+    Round(Capsule),
+    Box(PosedBox),
+    Plane { origin: Vec3, normal: Vec3 },
+}
+
+impl Posed {
+    /// The obstacle `later` seconds after its pose was stored.
+    pub fn new(o: &Obstacle, later: f64) -> Self {
+        let s = o.setup();
+        let (position, axes) = o.pose_after(later);
+        let shape = match s.shape {
+            Shape::Box { half } => PosedShape::Box(PosedBox {
+                centre: position,
+                axes,
+                half,
+            }),
+            Shape::Plane => PosedShape::Plane {
+                origin: position,
+                normal: axes.z,
+            },
+            round => {
+                let c = round.capsule().expect("spheres and capsules are round");
+                PosedShape::Round(Capsule {
+                    a: position + axes * c.a,
+                    b: position + axes * c.b,
+                    ..c
+                })
+            }
+        };
+        Self {
+            shape,
+            friction: s.friction,
+        }
+    }
+
+    /// The floor.
+    pub fn ground(friction: f64) -> Self {
+        Self {
+            shape: PosedShape::Plane {
+                origin: Vec3::zero(),
+                normal: Vec3::Z,
+            },
+            friction,
+        }
+    }
+}
+
+/// A capsule of a segment in the world.
+pub(super) fn posed(t: &Terms, s: usize, c: &Capsule) -> Capsule {
+    let (p, r) = (t.segment_position(s), t.segment_rotation(s));
+    Capsule {
+        a: p + r * c.a,
+        b: p + r * c.b,
+        ..*c
+    }
+}

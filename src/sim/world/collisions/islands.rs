@@ -1,0 +1,240 @@
+//! Solves every island of bodies that touch, and lets the impulses act.
+
+use super::cast::Cast;
+use super::{Candidate, Cluster, Who, find, unite};
+use crate::sim::body::SegmentId;
+use crate::sim::body::topology::NV;
+use crate::sim::collide::island::Island;
+use crate::sim::collide::touch::MAX_ISLAND_CONTACTS as MAX_CONTACTS;
+use crate::sim::dynamics::jacobian::for_each_column;
+use crate::sim::figure::TickContext;
+use crate::sim::figure::touches::Contacting;
+use crate::sim::math::Vec3;
+
+/// Compliance of a contact between bodies, 1/kg.
+const COMPLIANCE: f64 = 1e-4;
+/// Share of a penetration beyond the slop that is taken back per substep.
+const RETURN_SHARE: f64 = 0.1;
+/// Penetration that is left alone, m.
+const SLOP: f64 = 1e-4;
+/// Fastest push-out, m/s: slow, because it gives energy to what presses on the contact.
+const RETURN_SPEED: f64 = 0.05;
+
+impl Cluster {
+    /// Solves every island of bodies that are near each other, and lets the impulses act.
+    pub(super) fn solve(&mut self, world: &TickContext, cast: &mut Cast<'_>, h: f64, substep: u32) {
+        if self.candidates.is_empty() {
+            return;
+        }
+        let nf = cast.figures.len();
+        let total = nf + cast.free.len();
+        let index = |who: Who| match who {
+            Who::Figure(i) => Some(i),
+            Who::Free(i) => Some(nf + i),
+            _ => None,
+        };
+        self.parent.clear();
+        self.parent.extend(0..total);
+        for c in &self.candidates {
+            if let (Some(i), Some(j)) = (index(c.who[0]), index(c.who[1])) {
+                unite(&mut self.parent, i, j);
+            }
+        }
+        for root in 0..total {
+            if find(&mut self.parent, root) != root {
+                continue;
+            }
+            let parent = &mut self.parent;
+            self.block.clear();
+            self.block.resize(total, None);
+            let mut mine = |c: &Candidate| index(c.who[0]).is_some_and(|i| find(parent, i) == root);
+            // Too many: the deepest stay.
+            let count = self.candidates.iter().filter(|c| mine(c)).count();
+            if count == 0 {
+                continue;
+            }
+            let mut limit = f64::INFINITY;
+            if count > MAX_CONTACTS {
+                self.before.clear();
+                let gaps = self
+                    .candidates
+                    .iter()
+                    .filter(|c| mine(c))
+                    .map(|c| c.near.gap);
+                self.before.extend(gaps);
+                self.before.sort_unstable_by(f64::total_cmp);
+                limit = self.before[MAX_CONTACTS];
+            }
+            self.island.clear();
+            for c in &self.candidates {
+                if !mine(c) || c.near.gap >= limit {
+                    continue;
+                }
+                let mut block = [None; 2];
+                for side in 0..2 {
+                    let Some(i) = index(c.who[side]) else {
+                        continue;
+                    };
+                    block[side] = Some(match self.block[i] {
+                        Some(k) => k,
+                        None => {
+                            let k = add_block(&mut self.island, cast, i);
+                            self.block[i] = Some(k);
+                            k
+                        }
+                    });
+                }
+                add_contact(&mut self.island, cast, c, block, index, h);
+            }
+            if self.island.is_active(cast.figures) {
+                self.finish_island(world, cast, h, substep);
+            }
+        }
+    }
+
+    fn finish_island(&mut self, world: &TickContext, cast: &mut Cast<'_>, h: f64, substep: u32) {
+        let nf = cast.figures.len();
+        let before = |cast: &Cast<'_>, who: (usize, usize), p: Vec3| {
+            let body = if who.0 < nf {
+                Who::Figure(who.0)
+            } else if who.0 < nf + cast.free.len() {
+                Who::Free(who.0 - nf)
+            } else if who.0 == usize::MAX {
+                Who::Ground
+            } else {
+                Who::Firm(who.0 - nf - cast.free.len())
+            };
+            (body, cast.velocity(body, who.1, p))
+        };
+        let outcome = self.island.solve(cast.figures);
+        let r = &mut self.report;
+        r.islands += 1;
+        r.iterations += u64::from(outcome.iterations);
+        r.unfinished += u64::from(!outcome.converged);
+        // What acts on each body.
+        for i in 0..nf {
+            if self.block[i].is_none() {
+                continue;
+            }
+            let impulse = self.island.figure_impulse(i).expect("it has a block");
+            let figure = &mut cast.figures[i].1;
+            if impulse == [0.0; NV] {
+                // Near, but not touched: the same bits as if it were alone.
+                figure.open_substep(world, substep);
+            } else {
+                figure.touch(impulse, outcome);
+            }
+        }
+        for k in 0..self.island.contacts().len() {
+            let c = &self.island.contacts()[k];
+            let impulse = c.world_impulse();
+            if impulse == Vec3::zero() {
+                continue;
+            }
+            r.contacts += 1;
+            let (a, va) = before(cast, c.ends[0], c.position);
+            let (b, vb) = before(cast, c.ends[1], c.position);
+            let gravity = |who: Who| match who {
+                Who::Free(_) => Vec3::Z * (h * world.gravity),
+                _ => Vec3::zero(),
+            };
+            let u0 = va + gravity(a) - vb - gravity(b);
+            let after = c.work_after();
+            r.work += 0.5 * impulse.dot(u0) + 0.5 * after;
+            r.driven += 0.5 * after.max(0.0);
+            for (who, part, sign, other) in [
+                (a, c.ends[0].1, 1.0, (b, c.ends[1].1)),
+                (b, c.ends[1].1, -1.0, (a, c.ends[0].1)),
+            ] {
+                let of = other.0;
+                if let (Who::Figure(i), Some(other)) = (who, cast.other(of, other.1)) {
+                    let what = Contacting {
+                        segment: SegmentId::new(part).expect("parts of figures are segments"),
+                        other,
+                        position: c.position,
+                        impulse: impulse * sign,
+                        normal: c.frame[2] * sign,
+                        depth: (-c.gap).max(0.0),
+                        firm: matches!(of, Who::Firm(_)),
+                    };
+                    cast.figures[i].1.record(&what, h, world.dt);
+                }
+            }
+        }
+        for i in 0..cast.free.len() {
+            if self.block[nf + i].is_some() {
+                let (linear, moment) = self.island.free_impulse(i).expect("it has a block");
+                let o = &mut cast.free[i].1;
+                o.push(linear, moment);
+                o.force += linear * (1.0 / world.dt);
+            }
+        }
+    }
+}
+
+fn add_block(island: &mut Island, cast: &Cast<'_>, i: usize) -> usize {
+    let nf = cast.figures.len();
+    if i < nf {
+        return island.add_figure(i);
+    }
+    let o = &cast.free[i - nf].1;
+    let (s, m) = (o.setup(), o.mass().expect("free bodies have a mass"));
+    island.add_free(
+        i - nf,
+        m,
+        o.inertia(),
+        [o.spin(), s.velocity * m],
+        [s.angular_velocity, s.velocity],
+    )
+}
+
+fn add_contact(
+    island: &mut Island,
+    cast: &Cast<'_>,
+    c: &Candidate,
+    block: [Option<usize>; 2],
+    index: impl Fn(Who) -> Option<usize>,
+    h: f64,
+) {
+    let n = &c.near;
+    let nf = cast.figures.len();
+    let approach = if n.gap > 0.0 {
+        n.gap / h
+    } else {
+        -(RETURN_SHARE * (-n.gap - SLOP).max(0.0) / h).min(RETURN_SPEED)
+    };
+    // What moves by itself brings its velocity along; the second body is the one that can be firm.
+    let firm = match block[1] {
+        None => cast.velocity(c.who[1], c.part[1], n.position),
+        Some(_) => Vec3::zero(),
+    };
+    let end = |side: usize| {
+        let body = index(c.who[side]).unwrap_or(match c.who[side] {
+            Who::Firm(k) => nf + cast.free.len() + k,
+            _ => usize::MAX,
+        });
+        (body, c.part[side])
+    };
+    island.add_contact(
+        block,
+        [end(0), end(1)],
+        (n.position, n.normal, n.gap),
+        (approach, firm, c.mu),
+        1.0 / COMPLIANCE,
+        |side, visit| match c.who[side] {
+            Who::Figure(i) => {
+                let t = cast.figures[i].1.substep_terms();
+                let r = n.position - t.state.posture.root_position;
+                for_each_column(&t.kin, c.part[side], r, |k, _, v| visit(k, v));
+            }
+            Who::Free(i) => {
+                let r = n.position - cast.free[i].1.setup().position;
+                for (k, e) in [Vec3::X, Vec3::Y, Vec3::Z].into_iter().enumerate() {
+                    visit(k, e.cross(r));
+                    visit(3 + k, e);
+                }
+            }
+            _ => {}
+        },
+    );
+}

@@ -1,0 +1,171 @@
+//! Stage 6 of a tick for everything that is near something else: who is near whom, what touches, and one solve for all that touch.
+//!
+//! * [`neighbourhood`]: who is near whom, and the clusters that follow.
+//! * [`cast`]: the bodies of one cluster and where they are.
+//! * [`contacts`]: the points at which parts are nearest.
+//! * [`islands`]: the solve, and its impulses on everyone.
+
+mod cast;
+mod contacts;
+mod islands;
+mod neighbourhood;
+
+use crate::sim::collide::island::Island;
+use crate::sim::collide::narrow::Near;
+use crate::sim::collide::{Mobility, Obstacle, ObstacleKey};
+use crate::sim::figure::TickContext;
+use crate::sim::math::Vec3;
+use cast::Cast;
+pub(super) use neighbourhood::Neighbourhood;
+
+/// What the collisions of one tick came to.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CollisionReport {
+    /// Pairs of bodies whose boxes overlapped.
+    pub pairs: u64,
+    /// Solves of islands.
+    pub islands: u64,
+    /// Contacts that pushed, over all substeps.
+    pub contacts: u64,
+    /// Newton iterations of all islands.
+    pub iterations: u64,
+    /// Islands whose iteration bound was hit.
+    pub unfinished: u64,
+    /// Deepest overlap of any two bodies at the start of any substep, m.
+    pub depth: f64,
+    /// Work of contacts between bodies, J: impulse times the mean of the relative velocities before and after; never positive but for
+    /// the return from overlaps, the work of led obstacles, and muscles that turn a motion around within one substep.
+    pub work: f64,
+    /// The part of it along the motion that contacts leave behind, J: what they drive instead of stopping it. Zero but for the return from
+    /// overlaps and led obstacles.
+    pub driven: f64,
+}
+
+impl CollisionReport {
+    fn add(&mut self, o: &Self) {
+        self.pairs += o.pairs;
+        self.islands += o.islands;
+        self.contacts += o.contacts;
+        self.iterations += o.iterations;
+        self.unfinished += o.unfinished;
+        self.depth = self.depth.max(o.depth);
+        self.work += o.work;
+        self.driven += o.driven;
+    }
+}
+
+/// A body of a cluster.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Who {
+    Figure(usize),
+    Free(usize),
+    /// Fixed or led.
+    Firm(usize),
+    Ground,
+}
+
+/// Two parts that are near.
+#[derive(Clone, Copy, Debug)]
+struct Candidate {
+    who: [Who; 2],
+    part: [usize; 2],
+    near: Near,
+    mu: f64,
+}
+
+/// Bodies that may meet in this tick, with the buffers to let them.
+#[derive(Debug, Default)]
+struct Cluster {
+    figures: (usize, usize),
+    free: (usize, usize),
+    pairs: Vec<[Who; 2]>,
+    candidates: Vec<Candidate>,
+    parent: Vec<usize>,
+    block: Vec<Option<usize>>,
+    before: Vec<f64>,
+    island: Island,
+    report: CollisionReport,
+}
+
+fn find(parent: &mut [usize], mut i: usize) -> usize {
+    while parent[i] != i {
+        parent[i] = parent[parent[i]];
+        i = parent[i];
+    }
+    i
+}
+
+fn unite(parent: &mut [usize], i: usize, j: usize) {
+    let (a, b) = (find(parent, i), find(parent, j));
+    // The smaller index is the root, so that labels do not depend on the order of pairs.
+    parent[a.max(b)] = a.min(b);
+}
+
+impl Cluster {
+    /// A tick of all bodies of the cluster, from the first substep to the reports.
+    fn tick(&mut self, world: &TickContext, mut cast: Cast<'_>) {
+        self.hand_over(world, &mut cast);
+        let h = world.dt / f64::from(world.substeps);
+        for f in cast.moved_by_torques() {
+            f.begin_substeps();
+        }
+        for (_, o) in cast.free.iter_mut() {
+            o.force = Vec3::zero();
+        }
+        for i in 0..world.substeps {
+            for f in cast.moved_by_torques() {
+                f.open_substep(world, i);
+            }
+            self.find_contacts(&cast, h, f64::from(i) * h);
+            for (_, o) in cast.free.iter_mut() {
+                o.setup.velocity.z -= h * world.gravity;
+            }
+            self.solve(world, &mut cast, h, i);
+            for f in cast.moved_by_torques() {
+                f.close_substep(world, i);
+            }
+            for (_, o) in cast.free.iter_mut() {
+                o.advance(h);
+            }
+        }
+        for f in cast.moved_by_torques() {
+            f.end_substeps(world);
+            f.finish(world);
+        }
+    }
+
+    /// Contact acts by forces. Figures whose accelerations are prescribed and that may meet something in this tick or the next are
+    /// moved by torques from here on; the others move on alone.
+    fn hand_over(&mut self, world: &TickContext, cast: &mut Cast<'_>) {
+        if cast.figures.iter().all(|(_, f)| !f.is_prescribed()) {
+            return;
+        }
+        for (_, f) in cast.figures.iter_mut() {
+            f.show();
+        }
+        self.find_contacts(cast, 2.0 * world.dt, 0.0);
+        self.report.depth = 0.0; // found again, at the start of the first substep
+        for who in self.candidates.iter().flat_map(|c| c.who) {
+            if let Who::Figure(i) = who
+                && cast.figures[i].1.is_prescribed()
+            {
+                cast.figures[i].1.hand_over();
+            }
+        }
+        let apart = |who: &Who| matches!(who, Who::Figure(i) if cast.figures[*i].1.is_prescribed());
+        self.pairs.retain(|pair| !pair.iter().any(apart));
+        for (_, f) in cast.figures.iter_mut().filter(|(_, f)| f.is_prescribed()) {
+            f.simulate(world);
+            f.finish(world);
+        }
+    }
+}
+
+/// Moves the obstacles that are led.
+pub(super) fn lead(obstacles: &mut [(ObstacleKey, Obstacle)], dt: f64) {
+    for (_, o) in obstacles {
+        if o.setup.mobility == Mobility::Led {
+            o.advance(dt);
+        }
+    }
+}

@@ -1,0 +1,424 @@
+//! Goal: figures and obstacles that meet push each other, as much as they are pushed; nothing passes through, nothing comes from nowhere,
+//! and whoever is not touched does not notice.
+//! Method: a ball thrown at a figure, two figures pushed into each other, one falling onto another, two that dance; books of momentum and of
+//! the work of contacts by the tick, overlaps, and the hashes of bystanders.
+
+use crate::common::{authored, figure, man, play, recorded_with, still};
+use crate::vec3;
+use sinew::evaluate::audit;
+use sinew::sim::body::topology::CHEST;
+use sinew::sim::body::{Body, State};
+use sinew::sim::collide::{MAX_OBSTACLES, Mobility, ObstacleSetup, Other, Shape};
+use sinew::sim::figure::{ControllerKind, FigureEvent, Flags, Perturbation};
+use sinew::sim::math::{Quat, Vec3};
+use sinew::sim::motion::Clip;
+use sinew::sim::motion::retarget::RetargetOptions;
+use sinew::sim::world::{FigureKey, FigureSetup, World, WorldError, WorldParams};
+use std::sync::Arc;
+
+/// An obstacle at rest.
+fn obstacle(shape: Shape, mobility: Mobility, position: Vec3) -> ObstacleSetup {
+    ObstacleSetup {
+        name: "obstacle".to_owned(),
+        shape,
+        mobility,
+        friction: 0.6,
+        position,
+        rotation: Quat::identity(),
+        velocity: Vec3::zero(),
+        angular_velocity: Vec3::zero(),
+    }
+}
+
+/// A ball of 5 kg.
+fn ball(position: Vec3, velocity: Vec3) -> ObstacleSetup {
+    ObstacleSetup {
+        velocity,
+        ..obstacle(
+            Shape::Sphere { radius: 0.12 },
+            Mobility::Free(5.0),
+            position,
+        )
+    }
+}
+
+/// Someone who stands at `x`, `y`, turned by `yaw`.
+fn stander(body: &Arc<Body>, kind: ControllerKind, x: f64, y: f64, yaw: f64) -> FigureSetup {
+    let posture = authored(body, "idle").posture(0).to_owned();
+    let mut setup = figure(body, kind, still(posture));
+    let turn = Quat::exp(Vec3::Z * yaw);
+    let p = &mut setup.state.posture;
+    p.root_position = turn.rotate(p.root_position) + vec3(x, y, 0.0);
+    p.root_rotation = turn * p.root_rotation;
+    setup
+}
+
+/// What a run of a world with collisions showed.
+#[derive(Debug, Default)]
+struct Meter {
+    ticks: u64,
+    touched: u64,
+    switches: u64,
+    /// Largest sum of all forces between bodies over the largest of them.
+    unbalanced: f64,
+    /// Largest overlap, and the largest later than 0.2 s after the first touch, m.
+    depth: f64,
+    late_depth: f64,
+    /// Work of contacts, J, and the largest of one tick that they drove a motion with instead of stopping it.
+    work: f64,
+    gain: f64,
+    unfinished: u64,
+    islands: u64,
+    iterations: u64,
+    residual: f64,
+    speed: f64,
+    first: Option<u64>,
+}
+
+/// Largest work that the return from overlaps of a fraction of a millimetre may add in a tick, J.
+const RETURN_WORK: f64 = 0.02;
+
+impl Meter {
+    /// What every scene must keep, and what it came to, on one line.
+    fn judge(&self, what: &str, rate: f64) {
+        let text = format!(
+            "{what}: touched {} ticks, {:.1} switches/s, unbalanced {:.1e}, equations {:.1e}, overlap {:.2} mm, after 0.2 s {:.2} mm, work of \
+             contacts {:.1} J, driven at most {:.4} J, {} of {} islands cut short, {:.1} iterations each, top joint speed {:.0} rad/s",
+            self.touched,
+            self.switches as f64 * rate / self.ticks as f64,
+            self.unbalanced,
+            self.residual,
+            1e3 * self.depth,
+            1e3 * self.late_depth,
+            self.work,
+            self.gain,
+            self.unfinished,
+            self.islands,
+            self.iterations as f64 / self.islands.max(1) as f64,
+            self.speed
+        );
+        println!("{text}");
+        assert!(self.touched > 0, "{text}");
+        assert!(self.unbalanced < 1e-9 && self.residual < 1e-9, "{text}");
+        assert!(self.late_depth < 0.01, "{text}");
+        assert!(self.gain < RETURN_WORK && self.work <= 0.0, "{text}");
+    }
+
+    fn observe(&mut self, world: &World) {
+        self.ticks += 1;
+        let c = world.collisions();
+        let (mut sum, mut most, mut touching) = (Vec3::zero(), 0.0f64, false);
+        for (_, f) in world.figures() {
+            let r = f.report().unwrap();
+            assert!(r.over_limit <= 1e-9, "torques stay within strength");
+            assert!(!r.flags.has(Flags::QUARANTINED));
+            for t in &r.touches {
+                touching = true;
+                most = most.max(t.force.norm());
+                let free = match t.other {
+                    Other::Figure(..) => true,
+                    Other::Obstacle(k) => world.obstacle(k).unwrap().mass().is_some(),
+                };
+                if free {
+                    sum += t.force;
+                }
+            }
+            for e in f.events() {
+                let switch = matches!(e, FigureEvent::Touched { .. } | FigureEvent::Parted { .. });
+                self.switches += u64::from(switch);
+            }
+            self.speed = f.state().velocity[6..]
+                .iter()
+                .fold(self.speed, |m, v| m.max(v.abs()));
+            let a = audit::audit(f.links(), &r.audit, world.params().gravity);
+            self.residual = self.residual.max(a.relative);
+        }
+        for (_, o) in world.obstacles() {
+            if o.mass().is_some() {
+                sum += o.force();
+            }
+        }
+        if most > 0.0 {
+            self.unbalanced = self.unbalanced.max(sum.norm() / most);
+        }
+        if touching {
+            self.touched += 1;
+            self.first.get_or_insert(self.ticks);
+        }
+        self.depth = self.depth.max(c.depth);
+        if self.first.is_some_and(|f| self.ticks > f + 12) {
+            self.late_depth = self.late_depth.max(c.depth);
+        }
+        self.work += c.work;
+        self.gain = self.gain.max(c.driven);
+        self.unfinished += c.unfinished;
+        self.islands += c.islands;
+        self.iterations += c.iterations;
+    }
+}
+
+/// A ball of 5 kg at 5 m/s from three sides, for every controller. Books of the ball: its momentum changes by what it is pushed and by gravity.
+#[test]
+fn a_ball_hits_a_figure() {
+    let body = man();
+    for kind in [
+        ControllerKind::Modern,
+        ControllerKind::Paper,
+        ControllerKind::Motors,
+    ] {
+        for (name, from) in [("front", Vec3::X), ("side", Vec3::Y), ("back", -Vec3::X)] {
+            let mut world = World::new(WorldParams::default()).unwrap();
+            let key = world
+                .add_figure(stander(&body, kind, 0.0, 0.0, 0.0))
+                .unwrap();
+            let start = vec3(0.0, 0.0, 1.35) + from * 0.9;
+            let thrown = ball(start, from * -5.0 + Vec3::Z * 0.6);
+            let b = world.add_obstacle(thrown).unwrap();
+            let mut m = Meter::default();
+            for _ in 0..180 {
+                let before = world.obstacle(b).unwrap().setup().velocity;
+                world.step();
+                m.observe(&world);
+                let o = world.obstacle(b).unwrap();
+                let (dv, dt) = (o.setup().velocity - before, world.dt());
+                let want = (o.force() - Vec3::Z * (5.0 * crate::GRAVITY)) * dt;
+                assert!(
+                    (dv * 5.0 - want).norm() < 1e-6 * 25.0,
+                    "momentum of the ball"
+                );
+            }
+            let fell = world.figure(key).unwrap().is_fallen();
+            m.judge(&format!("{kind:?} {name}, fell {fell}"), 60.0);
+            let o = world.obstacle(b).unwrap().setup();
+            assert!(
+                (o.position.z - 0.12).abs() < 0.005,
+                "the ball lies on the ground"
+            );
+        }
+    }
+}
+
+fn push(world: &mut World, key: FigureKey, newtons: f64, from: f64) {
+    let what = Perturbation::Force {
+        segment: CHEST,
+        point: vec3(0.0, 0.0, 0.1),
+        force: vec3(newtons, 0.0, 0.0),
+        from,
+        to: from + 0.1,
+    };
+    world.perturb(key, what).unwrap();
+}
+
+/// Face to face, each pushed towards the other with 60 N·s.
+fn face_to_face(kind: ControllerKind, threads: usize) -> World {
+    let body = man();
+    let mut world = World::new(WorldParams {
+        threads,
+        ..WorldParams::default()
+    })
+    .unwrap();
+    let half_turn = std::f64::consts::PI;
+    for (x, yaw, newtons) in [(-0.35, 0.0, 600.0), (0.35, half_turn, -600.0)] {
+        let key = world.add_figure(stander(&body, kind, x, 0.0, yaw)).unwrap();
+        push(&mut world, key, newtons, 0.2);
+    }
+    world
+}
+
+#[test]
+fn two_figures_are_pushed_into_each_other() {
+    for kind in [
+        ControllerKind::Modern,
+        ControllerKind::Paper,
+        ControllerKind::Motors,
+    ] {
+        let mut world = face_to_face(kind, 1);
+        let mut m = Meter::default();
+        for _ in 0..240 {
+            world.step();
+            m.observe(&world);
+        }
+        let fell: Vec<bool> = world.figures().map(|(_, f)| f.is_fallen()).collect();
+        m.judge(&format!("{kind:?}, fell {fell:?}"), 60.0);
+    }
+}
+
+#[test]
+fn a_figure_falls_onto_another() {
+    let body = man();
+    for kind in [ControllerKind::Modern, ControllerKind::Motors] {
+        let mut world = World::new(WorldParams::default()).unwrap();
+        let setup = stander(&body, kind, -0.45, 0.05, 0.0);
+        let a = world.add_figure(setup).unwrap();
+        world
+            .add_figure(stander(&body, kind, 0.45, 0.0, 0.0))
+            .unwrap();
+        push(&mut world, a, 1000.0, 0.1);
+        let mut m = Meter::default();
+        for _ in 0..300 {
+            world.step();
+            m.observe(&world);
+        }
+        let fell: Vec<bool> = world.figures().map(|(_, f)| f.is_fallen()).collect();
+        m.judge(&format!("{kind:?}, fell {fell:?}"), 60.0);
+    }
+}
+
+/// A recording where and as it was taken, so that partners stay partners.
+fn dancing(body: &Body, name: &str) -> Arc<Clip> {
+    let options = RetargetOptions {
+        keep_origin: true,
+        ..RetargetOptions::default()
+    };
+    recorded_with(body, name, &options)
+}
+
+#[test]
+fn a_couple_dances_salsa() {
+    let body = man();
+    let mut world = World::new(WorldParams::default()).unwrap();
+    for name in ["salsa-a", "salsa-b"] {
+        let clip = dancing(&body, name);
+        let first = clip.sample(0.0);
+        let state = State {
+            posture: first.posture,
+            velocity: first.velocity,
+        };
+        let setup = figure(&body, ControllerKind::Modern, state);
+        let key = world.add_figure(setup).unwrap();
+        world.figure_mut(key).unwrap().set_drive(play(&clip));
+    }
+    let mut m = Meter::default();
+    for _ in 0..600 {
+        world.step();
+        m.observe(&world);
+    }
+    let fell: Vec<bool> = world.figures().map(|(_, f)| f.is_fallen()).collect();
+    m.judge(&format!("salsa, fell {fell:?}"), 60.0);
+}
+
+/// Someone within arm's length of a collision, and someone out of reach, have the bits that they have alone. The number of threads changes
+/// nothing.
+#[test]
+fn bystanders_and_threads_do_not_matter() {
+    let body = man();
+    let kind = ControllerKind::Modern;
+    let places = [(0.0, 1.3), (0.0, 30.0)];
+    let alone: Vec<Vec<u64>> = places
+        .iter()
+        .map(|(x, y)| {
+            let mut world = World::new(WorldParams::default()).unwrap();
+            let key = world.add_figure(stander(&body, kind, *x, *y, 0.0)).unwrap();
+            (0..90)
+                .map(|_| {
+                    world.step();
+                    world.figure(key).unwrap().state_hash()
+                })
+                .collect()
+        })
+        .collect();
+    let mut hashes: Vec<Vec<u64>> = Vec::new();
+    for threads in [1, 2, 7] {
+        let mut world = face_to_face(kind, threads);
+        let keys: Vec<FigureKey> = places
+            .iter()
+            .map(|(x, y)| world.add_figure(stander(&body, kind, *x, *y, 0.0)).unwrap())
+            .collect();
+        let mut met = 0;
+        let mut all = Vec::new();
+        for i in 0..90 {
+            world.step();
+            met += world.collisions().contacts;
+            for (key, want) in keys.iter().zip(&alone) {
+                assert_eq!(world.figure(*key).unwrap().state_hash(), want[i]);
+            }
+            all.push(world.state_hash());
+        }
+        assert!(met > 0, "the other two have met");
+        hashes.push(all);
+    }
+    assert!(hashes.iter().all(|h| *h == hashes[0]));
+}
+
+/// A tower of a ball-shaped, a box-shaped and a long thing comes to rest and stays.
+#[test]
+fn things_come_to_rest() {
+    let mut world = World::new(WorldParams::default()).unwrap();
+    let half = vec3(0.3, 0.3, 0.2);
+    let free = Mobility::Free(20.0);
+    let low = obstacle(Shape::Box { half }, free, vec3(0.0, 0.0, 0.25));
+    let high = obstacle(
+        Shape::Box { half: half * 0.5 },
+        Mobility::Free(3.0),
+        vec3(0.05, 0.02, 0.6),
+    );
+    let log = ObstacleSetup {
+        rotation: Quat::exp(vec3(0.3, 1.2, 0.0)),
+        ..obstacle(
+            Shape::Capsule {
+                radius: 0.1,
+                half_length: 0.4,
+            },
+            Mobility::Free(10.0),
+            vec3(2.0, 0.0, 0.7),
+        )
+    };
+    let keys = [low, high, log].map(|o| world.add_obstacle(o).unwrap());
+    for _ in 0..300 {
+        world.step();
+    }
+    for (key, z) in keys.into_iter().zip([0.2, 0.5, 0.1]) {
+        let s = world.obstacle(key).unwrap().setup();
+        let text = format!("{:?} {:?}", s.position, s.velocity);
+        assert!((s.position.z - z).abs() < 2e-3, "{text}");
+        assert!(s.velocity.norm() < 0.02, "{text}");
+    }
+}
+
+/// What is wrong with an obstacle is named, and nothing has changed.
+#[test]
+fn bad_obstacles_are_refused() {
+    let mut world = World::new(WorldParams::default()).unwrap();
+    let good = || ball(vec3(0.0, 0.0, 1.0), Vec3::zero());
+    let key = world.add_obstacle(good()).unwrap();
+    let before = world.state_hash();
+    let edits: [(&str, fn(&mut ObstacleSetup, f64)); 7] = [
+        ("obstacle.position_m", |o, x| o.position.y = x),
+        ("obstacle.rotation", |o, x| o.rotation.w = x),
+        ("obstacle.velocity_mps", |o, x| o.velocity.z = x),
+        ("obstacle.angular_velocity_radps", |o, x| {
+            o.angular_velocity.x = x
+        }),
+        ("obstacle.friction", |o, x| o.friction = x),
+        ("obstacle.mass_kg", |o, x| o.mobility = Mobility::Free(x)),
+        ("obstacle.sphere.radius_m", |o, x| {
+            o.shape = Shape::Sphere { radius: x }
+        }),
+    ];
+    for (field, edit) in edits {
+        for x in [f64::NAN, f64::INFINITY, -1e9, 1e9] {
+            let mut o = good();
+            edit(&mut o, x);
+            for refused in [
+                world.add_obstacle(o.clone()).map(drop),
+                world.update_obstacle(key, o),
+            ] {
+                match refused {
+                    Err(WorldError::Range { field: f, .. }) => assert_eq!(f, field),
+                    other => panic!("{field} {x}: {other:?}"),
+                }
+            }
+        }
+    }
+    let plane = obstacle(Shape::Plane, Mobility::Free(1.0), Vec3::zero());
+    assert_eq!(world.add_obstacle(plane), Err(WorldError::FreePlane));
+    assert_eq!(world.state_hash(), before);
+    for _ in 1..MAX_OBSTACLES {
+        world.add_obstacle(good()).unwrap();
+    }
+    let full = world.add_obstacle(good());
+    assert_eq!(full, Err(WorldError::TooManyObstacles));
+    assert!(world.remove_obstacle(key) && !world.remove_obstacle(key));
+    let gone = world.update_obstacle(key, good());
+    assert_eq!(gone, Err(WorldError::UnknownObstacle(key)));
+}
