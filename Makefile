@@ -17,12 +17,13 @@ help: ## what there is
 run: ## the demo server
 	cd $(ROOT) && $(CARGO) run --release
 
-test: setup lint physics rust load oracle python ## every test but those in a browser (make viewer); installs what they need
+test: setup lint physics rust load oracle python viewer ## every test; installs what they need
 
 ci: test ## what CI runs
 
-setup: ## Python environment of the tests
+setup: ## Python environment of the tests; Node, Chromium and npm packages of the viewer's tests
 	$(ROOT)/tests/setup.sh
+	$(ROOT)/clients/web/setup.sh
 
 lint: ## format and lints, warnings denied
 	cd $(ROOT) && $(CARGO) fmt --check
@@ -44,9 +45,8 @@ oracle: setup ## comparison with Pinocchio and MuJoCo, and the server seen from 
 	cd $(ROOT) && $(CARGO) build --locked --bins --examples
 	cd $(ROOT) && .venv/bin/python -m pytest tests/oracle
 
-viewer: ## the viewer in a real browser, the TypeScript client, and that the bundle is what its source builds
-	$(ROOT)/clients/web/setup.sh
-	cd $(ROOT) && $(CARGO) build --locked --bins
+viewer: setup ## the viewer in a real browser, the TypeScript client, and that the bundle is what its source builds
+	cd $(ROOT) && $(CARGO) build --locked --bins --example client
 	cd $(ROOT)/clients/web && npm run --silent typecheck && npm run --silent lint && npm run --silent check && npm test --silent
 
 python: setup ## the Python package: types, tests, examples, wheel; vectors of tests/conformance

@@ -3,12 +3,16 @@
 //! Method: clips from the motion capture folder, retargeted as they come, 60 Hz with two substeps, the modern controller.
 #![allow(clippy::unwrap_used)]
 
-use sinew::sim::body::{Body, State};
+use sinew::sim::body::topology::CHEST;
+use sinew::sim::body::{Body, Profile, Sex, State};
 use sinew::sim::figure::{
-    ControlParams, ControllerKind, FigureOptions, FigureSetup, Flags, StepperKind, StrengthScale,
+    ControlParams, ControllerKind, FigureOptions, FigureSetup, Flags, Perturbation, StepperKind,
+    StrengthScale,
 };
+use sinew::sim::math::Vec3;
 use sinew::sim::motion::{Bvh, Clip, PlanarTransform, RetargetOptions, cycle, retarget};
-use sinew::sim::world::{ClipPlayback, Drive, World, WorldParams};
+use sinew::sim::world::{ClipPlayback, Drive, FigureKey, World, WorldParams};
+use std::f64::consts::FRAC_PI_4;
 use std::sync::Arc;
 
 const RATE: f64 = 60.0;
@@ -24,11 +28,15 @@ fn clip(body: &Body, name: &str) -> Clip {
         .clip
 }
 
-/// Root mean square of the joint errors, degrees, and largest error of the capture point, m.
-fn walk(body: &Arc<Body>, name: &str, clip: Clip, looped: bool, seconds: f64) -> (f64, f64) {
-    let lead = clip.lead_in();
-    let from = if looped { lead + 1.0 } else { 0.0 };
-    let start = clip.sample(-lead);
+/// A world with a figure that plays `clip` from its sample at time `from` of the clip on, s.
+fn playing(
+    body: &Arc<Body>,
+    name: &str,
+    clip: Arc<Clip>,
+    from: f64,
+    looped: bool,
+) -> (World, FigureKey) {
+    let start = clip.sample(from);
     let mut world = World::new(WorldParams::default()).unwrap();
     let key = world
         .add_figure(FigureSetup {
@@ -47,12 +55,20 @@ fn walk(body: &Arc<Body>, name: &str, clip: Clip, looped: bool, seconds: f64) ->
         .unwrap();
     let figure = world.figure_mut(key).unwrap();
     figure.set_drive(Drive::Clip(ClipPlayback {
-        clip: Arc::new(clip),
-        start: lead,
+        clip,
+        start: -from,
         speed: 1.0,
         looped,
         origin: PlanarTransform::default(),
     }));
+    (world, key)
+}
+
+/// Root mean square of the joint errors, degrees, and largest error of the capture point, m.
+fn walk(body: &Arc<Body>, name: &str, clip: Clip, looped: bool, seconds: f64) -> (f64, f64) {
+    let lead = clip.lead_in();
+    let from = if looped { lead + 1.0 } else { 0.0 };
+    let (mut world, key) = playing(body, name, Arc::new(clip), -lead, looped);
     let (mut sum, mut count, mut capture) = (0.0, 0, 0.0f64);
     for tick in 0..(seconds * RATE) as usize {
         world.step();
@@ -122,4 +138,73 @@ fn a_motion_without_a_cycle_comes_back_to_its_beginning() {
     );
     let (rms, _) = walk(&body, "wave", repeats, true, 30.0);
     assert!(rms < 4.0, "{rms} deg");
+}
+
+/// A push of 0.1 s at the chest while walking: does the figure still stand 4 s later?
+fn survives(body: &Arc<Body>, clip: &Arc<Clip>, at: f64, impulse: Vec3) -> bool {
+    let (mut world, key) = playing(body, "pushed", Arc::clone(clip), 0.0, true);
+    let push = Perturbation::Force {
+        segment: CHEST,
+        point: Vec3::Z * 0.1,
+        force: impulse * 10.0,
+        from: at,
+        to: at + 0.1,
+    };
+    world.perturb(key, push).unwrap();
+    for _ in 0..((at + 4.0) * RATE) as usize {
+        world.step();
+        let figure = world.figure(key).unwrap();
+        assert!(figure.report().unwrap().over_limit <= 1e-9);
+        if figure.is_fallen() {
+            return false;
+        }
+    }
+    true
+}
+
+#[test]
+fn pushes_while_walking_are_caught_by_steps() {
+    let body = Arc::new(Body::adult_man());
+    let walk_cycle = Arc::new(cycle(&body, &clip(&body, "walk")).unwrap());
+    // All of the light ones, and most of the heavier: what falls are pushes to the side.
+    for (impulse, least) in [(10.0, 32), (20.0, 28)] {
+        let mut survived = 0;
+        print!("{impulse} N s, by phase and direction (every 45 deg):");
+        for phase in 0..4 {
+            print!(" ");
+            for direction in 0..8 {
+                let (y, x) = (f64::from(direction) * FRAC_PI_4).sin_cos();
+                let at = 3.0 + 0.3 * f64::from(phase);
+                let stands = survives(&body, &walk_cycle, at, Vec3 { x, y, z: 0.0 } * impulse);
+                survived += i32::from(stands);
+                print!("{}", if stands { '+' } else { '-' });
+            }
+        }
+        println!(" {survived} of 32");
+        assert!(
+            survived >= least,
+            "{impulse} N s: {survived} of 32 survived"
+        );
+    }
+}
+
+#[test]
+fn people_of_other_sizes_walk_the_same_recording() {
+    let man = |height, mass| Profile {
+        height,
+        mass,
+        ..Profile::ordinary(Sex::Male, 30.0)
+    };
+    for (name, body) in [
+        ("woman", Body::adult_woman()),
+        ("1.55 m", Body::humanoid(man(1.55, 60.0)).unwrap()),
+        ("1.95 m", Body::humanoid(man(1.95, 92.0)).unwrap()),
+    ] {
+        let walk_cycle = cycle(&body, &clip(&body, "walk")).unwrap();
+        let (rms, capture) = walk(&Arc::new(body), name, walk_cycle, true, 20.0);
+        assert!(
+            rms < 4.0 && capture < 0.1,
+            "{name}: {rms} deg, {capture} m"
+        );
+    }
 }

@@ -9,7 +9,7 @@ chromium=${SINEW_CHROMIUM:-/usr/bin/chromium}
 
 wanted=""
 command -v node >/dev/null 2>&1 && command -v npm >/dev/null 2>&1 || wanted="$wanted nodejs npm"
-[ -x "$chromium" ] || wanted="$wanted chromium"
+[ -x "$chromium" ] || wanted="$wanted chromium fonts-dejavu-core"
 if [ -n "$wanted" ]; then
     root=""
     [ "$(id -u)" = 0 ] || root="sudo"
@@ -34,6 +34,6 @@ fi
 stamp="$here/node_modules/.lock"
 if ! cmp -s "$here/package-lock.json" "$stamp"; then
     echo "setup: installing the npm packages of clients/web"
-    (cd "$here" && npm install --no-save --silent --no-audit --no-fund)
+    (cd "$here" && npm ci --silent)
     cp "$here/package-lock.json" "$stamp"
 fi

@@ -1,5 +1,10 @@
 //! A thin client: one connection, the generated clients over it, and the few steps that every user of a stream takes.
 
+mod simulation;
+
+pub use crate::wire::frame::values;
+pub use simulation::Simulation;
+
 use crate::wire::convert::world_name;
 use crate::wire::pb;
 use crate::wire::watched::WatchWorldResponse;

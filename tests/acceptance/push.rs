@@ -5,7 +5,7 @@
 use crate::common::{Scene, authored, figure, man, still};
 use crate::{GRAVITY, vec3};
 use sinew::sim::body::topology::CHEST;
-use sinew::sim::figure::{ControllerKind, Flags, Perturbation};
+use sinew::sim::figure::{ControllerKind, FigureEvent, Flags, Perturbation};
 use sinew::sim::math::Vec3;
 
 const DIRECTIONS: [(&str, Vec3); 4] = [
@@ -64,7 +64,7 @@ fn push(kind: ControllerKind, direction: Vec3, impulse: f64, steps: bool) -> Out
     };
     scene.world.perturb(scene.key, what).unwrap();
     let mut fell_at = None;
-    scene.run(4.0, |s| {
+    scene.run(6.0, |s| {
         let r = s.figure().report().unwrap();
         if fell_at.is_none() && (s.figure().is_fallen() || r.com.z < 0.5) {
             fell_at = Some(r.com);
@@ -144,7 +144,12 @@ fn paper_falls_the_way_it_is_pushed() {
 /// Beyond the bound a figure that may step does, and stands again; the same push fells one that may not.
 #[test]
 fn steps_catch_what_feet_in_place_cannot() {
-    for (name, direction, share) in [("forward", Vec3::X, 1.1), ("backward", -Vec3::X, 1.25)] {
+    for (name, direction, share) in [
+        ("forward", Vec3::X, 1.1),
+        ("backward", -Vec3::X, 1.25),
+        ("left", Vec3::Y, 1.15),
+        ("right", -Vec3::Y, 1.15),
+    ] {
         let kind = ControllerKind::Modern;
         let impulse = share * bound(&standing(kind, false), direction);
         let (still, steps) = (
@@ -158,4 +163,35 @@ fn steps_catch_what_feet_in_place_cannot() {
         println!("{text}");
         assert!(still.fell && !steps.fell && steps.speed < 0.05, "{text}");
     }
+}
+
+/// The flag of lost balance ends when motors have nothing left to save; that is no recovery.
+#[test]
+fn who_lies_on_the_ground_has_found_no_balance() {
+    let mut scene = standing(ControllerKind::Modern, false);
+    let direction = Vec3::X;
+    let now = scene.world.time();
+    let what = Perturbation::Force {
+        segment: CHEST,
+        point: vec3(0.0, 0.0, 0.1),
+        force: direction * (2.0 * bound(&scene, direction) / 0.1),
+        from: now,
+        to: now + 0.1,
+    };
+    scene.world.perturb(scene.key, what).unwrap();
+    let mut told = Vec::new();
+    scene.run(4.0, |s| told.extend_from_slice(s.figure().events()));
+    let balance: Vec<_> = told
+        .iter()
+        .filter(|e| {
+            matches!(
+                e,
+                FigureEvent::BalanceLost
+                    | FigureEvent::Recovered
+                    | FigureEvent::Fell
+                    | FigureEvent::GotUp
+            )
+        })
+        .collect();
+    assert_eq!(balance, [&FigureEvent::BalanceLost, &FigureEvent::Fell]);
 }

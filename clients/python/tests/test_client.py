@@ -132,6 +132,21 @@ def test_errors_carry_what_was_wrong(server: sinew.Client) -> None:
         nobody.info()
 
 
+def test_the_paper_and_its_stepper_are_chosen(server: sinew.Client) -> None:
+    as_printed = sinew.Paper(preset="2000", alpha=0.5, metric="inertia", hand_over=True)
+    kinematic = server.simulate("idle", controller="paper", stepper="kinematic", paper=as_printed, rate_hz=30.0, duration_s=0.5)
+    usual = server.simulate("idle", controller="paper", rate_hz=30.0, duration_s=0.5)
+    assert kinematic.summary.state_hash != usual.summary.state_hash
+    with server.create_world() as world:
+        figure = world.add_figure(controller="paper", stepper="kinematic", paper=as_printed)
+        assert (figure.message.stepper, figure.message.paper.alpha, figure.message.paper.hand_over) == (2, 0.5, True)
+        figure.update(paper=sinew.Paper(priority="nested", share="balanced"))
+        assert figure.message.paper.priority == 2
+        with pytest.raises(sinew.InvalidArgumentError) as wrong:
+            figure.update(paper=sinew.Paper(alpha=2.0))
+        assert wrong.value.field == "figure.paper.alpha"
+
+
 def test_a_running_world_is_watched(server: sinew.Client) -> None:
     with server.create_world(paused=False) as world:
         world.add_figure("a")

@@ -56,14 +56,18 @@ export class Captions {
         const since = p.limitSince[i];
         if (!Number.isNaN(since)) longest.set(d.joint, Math.max(longest.get(d.joint) ?? 0, time - since));
       });
+      // Left and right that strain together are one caption.
+      const told = new Map<string, { sides: string[]; seconds: number }>();
       for (const [j, seconds] of longest) {
         if (seconds < LEAST_S) continue;
-        const key = `${p.name} ${j}`;
-        this.shown.set(key, {
-          text: `${p.name}: ${jointWords(p.body.joints[j].name)} at its limit for ${seconds.toFixed(1)} s`,
-          grave: false,
-          until: now + STAYS_S,
-        });
+        const { name } = p.body.joints[j];
+        const pair = name.replace(/^[lr]_/, "");
+        const caption = told.get(pair) ?? { sides: [], seconds: 0 };
+        told.set(pair, { sides: [...caption.sides, name], seconds: Math.max(caption.seconds, seconds) });
+      }
+      for (const [pair, { sides, seconds }] of told) {
+        const what = sides.length > 1 ? `both ${jointWords(pair)}s at their limit` : `${jointWords(sides[0])} at its limit`;
+        this.shown.set(`${p.name} ${pair}`, { text: `${p.name}: ${what} for ${seconds.toFixed(1)} s`, grave: false, until: now + STAYS_S });
       }
     }
     for (const [key, c] of this.shown) if (c.until < now) this.shown.delete(key);

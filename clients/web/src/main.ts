@@ -3,13 +3,12 @@ import "./viewer.css";
 import { Captions } from "./captions.js";
 import { message, Sinew } from "./client.js";
 import type { FigureFrame, WorldFrame } from "./gen/sinew/v1/frame_pb.js";
-import type { Stepper } from "./gen/sinew/v1/figure_pb.js";
 import type { Person } from "./model.js";
 import { Obstacles } from "./obstacles.js";
-import { el, Panel } from "./panel.js";
+import { el, Panel, type Anew } from "./panel.js";
 import { Scene, type Shown } from "./scene.js";
 import { Session, type Phase } from "./session.js";
-import { asCommand, asPython, cast, controllerOf, read, stepperOf, write, type Address } from "./share.js";
+import { asCommand, asPython, cast, read, settingsOf, write, type Address } from "./share.js";
 import { short } from "./words.js";
 
 function get<T extends HTMLElement>(id: string, kind: new () => T): T {
@@ -30,6 +29,7 @@ const shown: Shown = { ghost: true, forces: true, support: true, effort: true };
 for (const key of address.hide) if (key in shown) shown[key as keyof Shown] = false;
 
 let chosen: Person | undefined;
+let rebuilding = false;
 let wantedFigure = address.figure;
 let lastFrame: WorldFrame | undefined;
 const now = (): number => performance.now() / 1000;
@@ -37,6 +37,24 @@ const now = (): number => performance.now() / 1000;
 const captions = new Captions(get("captions", HTMLElement));
 const say = (text: string, grave = false): void => captions.say(text, now(), grave);
 const attempt = (what: Promise<unknown>): void => void what.catch((error: unknown) => say(message(error), true));
+
+/** One change after the other: each sees what the one before it has brought about. */
+let turn: Promise<unknown> = Promise.resolve();
+function inTurn(what: () => Promise<unknown>): void {
+  const done = turn.then(what);
+  turn = done.catch(() => undefined);
+  attempt(done);
+}
+
+/** The same for the chosen figure, which may be made anew before its turn comes. */
+function forChosen(what: (p: Person) => Promise<unknown>): void {
+  const name = chosen?.name;
+  if (name === undefined) return say("Choose a figure first.");
+  inTurn(async () => {
+    const p = session.person(name);
+    if (p) await what(p);
+  });
+}
 
 const obstacles = new Obstacles();
 const session = new Session(
@@ -90,10 +108,11 @@ const panel = new Panel(
   {
     choose,
     say,
-    play: (clip) => chosen && attempt(play(chosen, clip)),
-    rebuild: (change) => chosen && attempt(rebuild(chosen, change)),
-    add: () => attempt(addFigure()),
-    open: (file) => attempt(openFile(file)),
+    forChosen,
+    play: (clip) => forChosen((p) => play(p, clip)),
+    rebuild: (change) => forChosen((p) => rebuild(p, change)),
+    add: () => inTurn(addFigure),
+    open: (file) => inTurn(() => openFile(file)),
     copy,
     shown: remember,
   },
@@ -111,7 +130,8 @@ function choose(person: Person | undefined): void {
 
 function roster(): void {
   scene?.populate(session.people.values());
-  chosen = session.person(wantedFigure) ?? [...session.people.values()][0];
+  // A figure that is being made anew stays the chosen one.
+  chosen = session.person(wantedFigure) ?? (rebuilding ? chosen : [...session.people.values()][0]);
   panel.lists(chosen);
   get("load", HTMLElement).hidden = !session.people.size;
   reproduce();
@@ -137,6 +157,7 @@ function worldChanged(): void {
 // ── States ──────────────────────────────────────────────────────────────────────────────────────────────────────────
 
 function showPhase(phase: Phase): void {
+  if (phase.kind === "error") lastFrame = undefined;
   state.dataset.kind = phase.kind;
   state.hidden = phase.kind === "live";
   document.body.dataset.phase = phase.kind;
@@ -180,11 +201,7 @@ async function makeWorld(from?: Address): Promise<void> {
   const { world } = await session.api.worlds.createWorld({ worldId: from?.world ?? "" });
   if (!world) return;
   for (const c of from?.figures ?? []) {
-    const { figure } = await session.api.figures.createFigure({
-      parent: world.name,
-      figureId: c.id,
-      figure: { body: `bodies/${c.body}`, controller: controllerOf(c.controller), strength: { all: c.strength }, stepper: stepperOf(c.stepper), assist: c.assist, placement: { xM: c.x, yM: c.y } },
-    });
+    const { figure } = await session.api.figures.createFigure({ parent: world.name, figureId: c.id, figure: settingsOf(c) });
     if (figure && c.clip) await session.api.motion.playClip({ figure: figure.name, clip: `clips/${c.clip}`, loop: true, reset: true });
   }
   session.show(world.name.slice("worlds/".length));
@@ -309,7 +326,7 @@ addEventListener("drop", (e) => {
   dragDepth = 0;
   drop.hidden = true;
   const [file] = e.dataTransfer?.files ?? [];
-  if (file) attempt(openFile(file));
+  if (file) inTurn(() => openFile(file));
 });
 
 // ── Figures ─────────────────────────────────────────────────────────────────────────────────────────────────────────
@@ -327,19 +344,29 @@ async function addFigure(): Promise<void> {
 }
 
 /** Body and stepper are fixed at creation: the figure is made anew in its place, doing the same. */
-async function rebuild(p: Person, change: { body?: string; stepper?: Stepper }): Promise<void> {
+async function rebuild(p: Person, change: Anew): Promise<void> {
+  rebuilding = true;
+  try {
+    await makeAnew(p, change);
+  } finally {
+    rebuilding = false;
+  }
+}
+
+async function makeAnew(p: Person, change: Anew): Promise<void> {
   const f = p.figure;
   const load = p.loadKg();
   wantedFigure = p.name;
   const parent = f.name.slice(0, f.name.indexOf("/figures/"));
   await session.api.figures.deleteFigure({ name: f.name });
-  const figure = { body: change.body ? `bodies/${change.body}` : p.body.name, stepper: change.stepper ?? f.stepper, controller: f.controller, strength: f.strength, assist: f.assist, fatigueTimeScale: f.fatigueTimeScale, placement: f.placement };
+  const same = { body: p.body.name, stepper: f.stepper, controller: f.controller, strength: f.strength, assist: f.assist, fatigueTimeScale: f.fatigueTimeScale, paper: f.paper, placement: f.placement };
+  const figure = { ...same, ...(change.body && { body: `bodies/${change.body}` }), ...(change.profile && { body: "", profile: change.profile }), ...(change.stepper && { stepper: change.stepper }) };
   let made;
   try {
     made = (await session.api.figures.createFigure({ parent, figureId: p.name, figure })).figure;
   } catch (error) {
     say(message(error), true);
-    made = (await session.api.figures.createFigure({ parent, figureId: p.name, figure: { ...figure, body: p.body.name, stepper: f.stepper } })).figure;
+    made = (await session.api.figures.createFigure({ parent, figureId: p.name, figure: same })).figure;
   }
   if (made && f.clip) await session.api.motion.playClip({ figure: made.name, clip: f.clip, loop: true, reset: true });
   await until(() => chosen !== p && chosen?.name === p.name);
@@ -508,8 +535,8 @@ addEventListener("keydown", (e) => {
     "]": () => next(1),
     l: () => nudge(1),
     k: () => nudge(-1),
-    p: () => attempt(panel.push()),
-    r: () => chosen && attempt(session.standUp(chosen)),
+    p: () => forChosen((p) => panel.push(p)),
+    r: () => forChosen((p) => session.standUp(p)),
     s: () => {
       speed.value = speed.value === "1" ? "0.25" : "1";
       attempt(session.setSpeed(Number(speed.value)));

@@ -1,6 +1,7 @@
 // The controls beside the scene: all that the pointer can do in the scene can be done here, too.
-import { message } from "./client.js";
-import { Controller, Stepper } from "./gen/sinew/v1/figure_pb.js";
+import type { MessageInitShape } from "@bufbuild/protobuf";
+import { Sex, type BodyProfileSchema } from "./gen/sinew/v1/body_pb.js";
+import { Controller, PaperPreset, Stepper, type FigureSchema } from "./gen/sinew/v1/figure_pb.js";
 import type { RetargetReport } from "./gen/sinew/v1/types_pb.js";
 import type { Person } from "./model.js";
 import { busiest, plot, PLOTS, plotText } from "./plots.js";
@@ -42,14 +43,39 @@ const DIRECTIONS: [string, string, [number, number]][] = [
   ["left", "from the left", [0, -1]],
   ["right", "from the right", [0, 1]],
 ];
-const plain = (name: string): string => name.replaceAll("-", " ");
+/** `adult-man` → `adult man`; `female-70y-1600mm-62000g` → `woman, 70 y, 1.60 m, 62 kg`. */
+function plain(name: string): string {
+  const [, sex, age, height, mass] = /^(male|female)-([\d.]+)y-(\d+)mm-(\d+)g$/.exec(name) ?? [];
+  if (!sex) return name.replaceAll("-", " ");
+  return `${sex === "male" ? "man" : "woman"}, ${age} y, ${(Number(height) / 1000).toFixed(2)} m, ${(Number(mass) / 1000).toFixed(0)} kg`;
+}
+
+/** What is fixed when a figure is made, and changes by making it anew. */
+export interface Anew {
+  body?: string;
+  profile?: MessageInitShape<typeof BodyProfileSchema>;
+  stepper?: Stepper;
+}
+
+const PRESETS: [PaperPreset, string][] = [
+  [PaperPreset.PAPER_PRESET_SAFEGUARDED, "with safeguards"],
+  [PaperPreset.PAPER_PRESET_2000, "as printed in 2000"],
+];
+/** Seconds of fatigue per second. */
+const FATIGUE: [number, string][] = [
+  [0, "never"],
+  [1, "as people do"],
+  [10, "10 × as fast"],
+  [60, "60 × as fast"],
+];
 
 /** What the panel asks of the page. */
 export interface Wishes {
   choose: (p: Person) => void;
   say: (text: string, grave?: boolean) => void;
+  forChosen: (what: (p: Person) => Promise<void>) => void;
   play: (clip: string) => void;
-  rebuild: (change: { body?: string; stepper?: Stepper }) => void;
+  rebuild: (change: Anew) => void;
   add: () => void;
   open: (file: File) => void;
   copy: (what: "python" | "cli" | "link") => void;
@@ -63,7 +89,14 @@ export class Panel {
   private readonly clip = el("select", { id: "clip" });
   private readonly body = el("select", { id: "body" });
   private readonly controller = el("select", { id: "controller" });
+  private readonly preset = el("select", { id: "preset" });
+  private readonly presetRow = row("Preset", this.preset);
   private readonly stepper = el("select", { id: "stepper" });
+  private readonly fatigue = el("select", { id: "fatigue" });
+  private readonly sex = el("select", { id: "sex" });
+  private readonly age = el("input", { id: "age", type: "number", min: "6", max: "90", step: "1", value: "70" });
+  private readonly height = el("input", { id: "height", type: "number", min: "0.8", max: "2.1", step: "0.01", placeholder: "ordinary" });
+  private readonly mass = el("input", { id: "mass", type: "number", min: "12", max: "180", step: "0.5", placeholder: "ordinary" });
   private readonly strength = el("input", { id: "strength", type: "range", min: "0.2", max: "2", step: "0.05", value: "1" });
   private readonly strengthOut = el("output", { for: "strength" });
   private readonly assist = el("input", { id: "assist", type: "range", min: "0", max: "1", step: "0.05", value: "0" });
@@ -76,6 +109,8 @@ export class Panel {
   private readonly report = el("div", { id: "report", "aria-live": "polite" });
   private readonly plots: { figure: HTMLElement; name: HTMLElement; value: HTMLElement; canvas: HTMLCanvasElement }[] = [];
   private readonly dofs = el("select", { id: "plotted" });
+  /** Buttons that need a chosen figure. */
+  private readonly ofSomebody: HTMLButtonElement[];
   private busiest: number[] = [];
   private busiestAt = 0;
 
@@ -95,22 +130,34 @@ export class Panel {
       this.file.value = "";
     });
     const push = button("Push", { id: "push", class: "main" });
-    push.addEventListener("click", () => this.act(() => this.push()));
+    push.addEventListener("click", () => this.wishes.forChosen((p) => this.push(p)));
     const stand = button("Stand up", { id: "stand" });
-    stand.addEventListener("click", () => this.act((p) => this.session.standUp(p)));
+    stand.addEventListener("click", () => this.wishes.forChosen((p) => this.session.standUp(p)));
     const add = button("Add figure", { id: "add" });
     add.addEventListener("click", () => this.wishes.add());
     const remove = button("Remove", { id: "remove" });
-    remove.addEventListener("click", () => this.act(async (p) => void (await this.session.api.figures.deleteFigure({ name: p.figure.name }))));
+    remove.addEventListener("click", () => this.wishes.forChosen(async (p) => void (await this.session.api.figures.deleteFigure({ name: p.figure.name }))));
     this.clip.addEventListener("change", () => this.wishes.play(this.clip.value));
     this.body.addEventListener("change", () => this.wishes.rebuild({ body: this.body.value }));
+    fill(this.sex, [{ value: String(Sex.FEMALE), text: "woman" }, { value: String(Sex.MALE), text: "man" }], String(Sex.FEMALE));
+    const make = button("Use this body", { id: "make-body" });
+    make.addEventListener("click", () => {
+      const asked = (input: HTMLInputElement): number => (Number.isFinite(input.valueAsNumber) ? input.valueAsNumber : 0);
+      this.wishes.rebuild({ profile: { sex: Number(this.sex.value), ageYears: asked(this.age), heightM: asked(this.height), massKg: asked(this.mass) } });
+    });
+    this.changes(this.preset, "paper", (value) => ({ paper: { preset: value } }));
+    this.changes(this.fatigue, "fatigue_time_scale", (value) => ({ fatigueTimeScale: value }));
     this.stepper.addEventListener("change", () => this.wishes.rebuild({ stepper: Number(this.stepper.value) }));
-    this.controller.addEventListener("change", () => this.act((p) => this.change(p, { controller: Number(this.controller.value) }, "controller")));
+    this.changes(this.controller, "controller", (value) => ({ controller: value }));
     this.strength.addEventListener("input", () => (this.strengthOut.textContent = `${Math.round(Number(this.strength.value) * 100)} %`));
-    this.strength.addEventListener("change", () => this.act((p) => this.change(p, { strength: { ...p.figure.strength, all: Number(this.strength.value) } }, "strength")));
+    this.changes(this.strength, "strength", (value, p) => {
+      const { dofs, percentile, effort } = p.figure.strength ?? {};
+      return { strength: { all: value, dofs, percentile, effort } };
+    });
     this.assist.addEventListener("input", () => (this.assistOut.textContent = `${Math.round(Number(this.assist.value) * 100)} %`));
-    this.assist.addEventListener("change", () => this.act((p) => this.change(p, { assist: Number(this.assist.value) }, "assist")));
+    this.changes(this.assist, "assist", (value) => ({ assist: value }));
     this.impulse.addEventListener("input", () => (this.impulseOut.textContent = `${this.impulse.value} N·s`));
+    this.ofSomebody = [push, stand, remove, make];
     for (let i = 0; i < PLOTS; i++) {
       const canvas = el("canvas", { role: "img", tabindex: "-1" });
       const name = el("span");
@@ -144,7 +191,7 @@ export class Panel {
       section("Motion", row("Plays", this.clip), el("div", { class: "buttons" }, open, this.file), this.report),
       section("Torque within its limits", row("Shown", this.dofs), ...this.plots.map((p) => p.figure)),
       section("Push", row("How hard", this.impulse, this.impulseOut), row("Direction", this.direction), row("Where", this.target), el("div", { class: "buttons" }, push)),
-      section("Body and control", row("Body", this.body), row("Strength", this.strength, this.strengthOut), row("Controller", this.controller), row("Stepper", this.stepper), row("Assist", this.assist, this.assistOut)),
+      section("Body and control", row("Body", this.body), el("details", {}, el("summary", {}, "Another body"), row("Who", this.sex), row("Age, years", this.age), row("Height, m", this.height), row("Mass, kg", this.mass), el("div", { class: "buttons" }, make)), row("Strength", this.strength, this.strengthOut), row("Tires", this.fatigue), row("Controller", this.controller), this.presetRow, row("Stepper", this.stepper), row("Assist", this.assist, this.assistOut)),
       section(
         "Show",
         el("div", { class: "checks" }, ...checks),
@@ -166,15 +213,9 @@ export class Panel {
 
   private person: Person | undefined;
 
-  private act(what: (p: Person) => Promise<void>): void {
-    const p = this.person;
-    if (!p) return this.wishes.say("Choose a figure first.");
-    what(p).catch((error: unknown) => this.wishes.say(message(error), true));
-  }
-
-  /** Pushes the chosen figure as the controls say. */
-  push(p = this.person): Promise<void> {
-    if (!p || !this.session.world) return Promise.resolve();
+  /** Pushes a figure as the controls say. */
+  push(p: Person): Promise<void> {
+    if (!this.session.world) return Promise.resolve();
     const size = Number(this.impulse.value);
     const [x, y] = DIRECTIONS.find(([d]) => d === this.direction.value)?.[2] ?? [1, 0];
     const yaw = p.figure.placement?.yawRad ?? 0;
@@ -187,8 +228,16 @@ export class Panel {
       .then(() => this.wishes.say(`${p.name} is pushed ${this.direction.selectedOptions[0]?.text ?? ""}, ${size} N·s`));
   }
 
-  private async change(p: Person, change: object, path: string): Promise<void> {
-    const { figure } = await this.session.api.figures.updateFigure({ figure: { ...p.figure, ...change }, updateMask: { paths: [path] } });
+  /** Lets a control change one setting of the chosen figure, to the number that it shows when it is set. */
+  private changes(control: HTMLSelectElement | HTMLInputElement, path: string, settings: (value: number, p: Person) => MessageInitShape<typeof FigureSchema>): void {
+    control.addEventListener("change", () => {
+      const value = Number(control.value);
+      this.wishes.forChosen((p) => this.change(p, settings(value, p), path));
+    });
+  }
+
+  private async change(p: Person, change: MessageInitShape<typeof FigureSchema>, path: string): Promise<void> {
+    const { figure } = await this.session.api.figures.updateFigure({ figure: { name: p.figure.name, ...change }, updateMask: { paths: [path] } });
     if (figure) p.figure = figure;
     this.lists(p);
     this.wishes.shown();
@@ -218,6 +267,10 @@ export class Panel {
       [Controller.MOTORS, "motors only", "CONTROLLER_MOTORS"],
     ];
     fill(this.controller, controllers.filter((c) => can(c[2])).map(([v, text]) => ({ value: String(v), text })), String(person?.figure.controller || Controller.MODERN));
+    fill(this.preset, PRESETS.map(([v, text]) => ({ value: String(v), text })), String(person?.figure.paper?.preset || PaperPreset.PAPER_PRESET_SAFEGUARDED));
+    this.presetRow.hidden = person?.figure.controller !== Controller.PAPER;
+    const tires = person?.figure.fatigueTimeScale ?? 0;
+    fill(this.fatigue, [...FATIGUE, ...(FATIGUE.some(([v]) => v === tires) ? [] : [[tires, `${tires} × as fast`] as const])].map(([v, text]) => ({ value: String(v), text })), String(tires));
     const steppers: [Stepper, string, string][] = [
       [Stepper.TORQUE, "torque", "STEPPER_TORQUE"],
       [Stepper.KINEMATIC, "kinematic", "STEPPER_KINEMATIC"],
@@ -231,7 +284,7 @@ export class Panel {
     this.assistOut.textContent = `${Math.round(assist * 100)} %`;
     const dofs = person?.body.dofs ?? [];
     fill(this.dofs, [{ value: "", text: "hardest working" }, ...dofs.map((d) => ({ value: d.name, text: dofWords(d.name) }))], this.dofs.value);
-    for (const c of [this.clip, this.body, this.controller, this.stepper, this.strength, this.assist, this.dofs]) c.disabled = !person;
+    for (const c of [this.clip, this.body, this.controller, this.preset, this.stepper, this.fatigue, this.sex, this.age, this.height, this.mass, ...this.ofSomebody, this.strength, this.assist, this.dofs]) c.disabled = !person;
     this.busiestAt = 0;
   }
 
@@ -248,7 +301,8 @@ export class Panel {
     return (
       `${p.name} ${stand}${where}. ${load > 0 ? `Carries ${short(load)} kg. ` : ""}` +
       `Hardest: ${dofWords(p.body.dofs[hardest]?.name ?? "")}, ${Math.round(100 * p.used[hardest])} % of its strength. ` +
-      `Off the desired motion by ${rms.toFixed(1)}°.`
+      `Off the desired motion by ${rms.toFixed(1)}°.` +
+      (flag("HANDED_OVER") ? " Moved by its torques for now." : "")
     );
   }
 

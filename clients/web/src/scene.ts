@@ -2,8 +2,10 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { numbers } from "./client.js";
+import type { Body } from "./gen/sinew/v1/body_pb.js";
 import type { FigureFrame } from "./gen/sinew/v1/frame_pb.js";
 import { forward, mixPoses, POSE, type Person } from "./model.js";
+import { Touchable, type Touch } from "./picking.js";
 
 /** What is shown besides the figures. */
 export interface Shown {
@@ -35,14 +37,14 @@ interface Effort {
 }
 
 /** Tints each segment by the torque used of the torque available, and draws stripes over it at the limit. */
-function effortMaterial(colour: number): { material: THREE.MeshStandardMaterial; effort: Effort } {
+function effortMaterial(colour: number): { material: THREE.MeshLambertMaterial; effort: Effort } {
   const effort: Effort = {
     used: { value: new Float32Array(MOST_SEGMENTS) },
     atLimit: { value: new Float32Array(MOST_SEGMENTS) },
     shown: { value: 1 },
     chosen: { value: 0 },
   };
-  const material = new THREE.MeshStandardMaterial({ color: colour, roughness: 0.62, metalness: 0 });
+  const material = new THREE.MeshLambertMaterial({ color: colour });
   material.onBeforeCompile = (shader) => {
     shader.uniforms.uUsed = effort.used;
     shader.uniforms.uAtLimit = effort.atLimit;
@@ -96,11 +98,11 @@ outgoingLight += uChosen * rim * vec3(0.15, 0.5, 0.7);
 }
 
 /** One closed surface for all segments, each vertex bound to its segment. */
-function surface(person: Person): THREE.BufferGeometry {
+function surface(body: Body): THREE.BufferGeometry {
   const position: number[] = [];
   const index: number[] = [];
   const segment: number[] = [];
-  person.body.segments.forEach((s, i) => {
+  body.segments.forEach((s, i) => {
     const start = position.length / 3;
     for (const v of s.meshVerticesM) position.push(v);
     for (const t of s.meshTriangles) index.push(start + t);
@@ -162,6 +164,7 @@ const scratchA = new THREE.Vector3();
 const scratchB = new THREE.Vector3();
 const scratchC = new THREE.Vector3();
 const scratchQ = new THREE.Quaternion();
+const scratchPlane = new THREE.Plane();
 const scratchOne = new THREE.Vector3(1, 1, 1);
 
 /** A solid arrow of variable length along its own y. */
@@ -190,7 +193,7 @@ function point(arrowGroup: THREE.Group, from: THREE.Vector3, along: THREE.Vector
   arrowGroup.quaternion.setFromUnitVectors(UP, scratchC.copy(along).divideScalar(length));
 }
 
-/** One figure in the scene. */
+/** One figure in the scene. Materials are few in kind: each kind is a program to compile before the first picture. */
 class Actor {
   readonly group = new THREE.Group();
   readonly solid: Solid;
@@ -202,28 +205,32 @@ class Actor {
     new THREE.BufferGeometry(),
     new THREE.MeshBasicMaterial({ color: HUES.support, transparent: true, opacity: 0.35, depthWrite: false, side: THREE.DoubleSide }),
   );
-  private readonly outline = new THREE.LineLoop(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: HUES.support }));
+  private readonly outline = new THREE.LineLoop(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: HUES.support, transparent: true }));
   private readonly com = new THREE.Mesh(comShape, new THREE.MeshBasicMaterial({ color: HUES.com }));
   private readonly plumb = new THREE.Line(new THREE.BufferGeometry().setFromPoints([new THREE.Vector3(), new THREE.Vector3()]), new THREE.LineBasicMaterial({ color: HUES.com, transparent: true, opacity: 0.6 }));
-  private readonly zmp = new THREE.Mesh(zmpShape, new THREE.MeshBasicMaterial({ color: HUES.zmp, side: THREE.DoubleSide }));
+  private readonly zmp = new THREE.Mesh(zmpShape, new THREE.MeshBasicMaterial({ color: HUES.zmp, transparent: true, depthWrite: false, side: THREE.DoubleSide }));
   private readonly arrows: THREE.Group[] = [];
   private readonly hands: [number, number];
+  private readonly touchable: Touchable;
 
-  constructor(readonly person: Person, look: (typeof LOOKS)["light"]) {
-    const geometry = surface(person);
+  constructor(
+    readonly person: Person,
+    look: (typeof LOOKS)["light"],
+  ) {
+    const geometry = surface(person.body);
     const count = person.body.segments.length;
     const { material, effort } = effortMaterial(look.body);
     this.effort = effort;
     this.solid = new Solid(geometry, material, count);
     this.solid.mesh.castShadow = true;
     this.solid.mesh.receiveShadow = true;
-    this.solid.mesh.userData.person = person;
     this.ghost = new Solid(
       geometry,
       new THREE.MeshBasicMaterial({ color: look.ghost, transparent: true, opacity: 0.2, depthWrite: false }),
       count,
     );
     this.ghost.mesh.renderOrder = 2;
+    this.touchable = new Touchable(person.body);
     this.hands = [person.segment("l_hand"), person.segment("r_hand")];
     this.crate = makeCrate();
     for (let i = 0; i < MOST_WEIGHTS; i++) {
@@ -232,17 +239,20 @@ class Actor {
       this.weights.push(weight);
     }
     this.polygon.renderOrder = 1;
+    this.zmp.renderOrder = 3;
     this.com.renderOrder = 4;
     (this.com.material as THREE.Material).depthTest = false;
     for (let i = 0; i < MOST_ARROWS; i++) this.arrows.push(arrow(HUES.force));
     this.group.add(this.solid.mesh, this.ghost.mesh, this.crate, ...this.weights, this.polygon, this.outline, this.com, this.plumb, this.zmp, ...this.arrows);
+    // Nothing is seen of it before the first frame that tells where it is.
+    this.group.visible = false;
     this.group.traverse((o) => {
       if (o instanceof THREE.Mesh || o instanceof THREE.Line) o.frustumCulled = false;
     });
   }
 
   repaint(look: (typeof LOOKS)["light"]): void {
-    (this.solid.mesh.material as THREE.MeshStandardMaterial).color.set(look.body);
+    (this.solid.mesh.material as THREE.MeshLambertMaterial).color.set(look.body);
     (this.ghost.mesh.material as THREE.MeshBasicMaterial).color.set(look.ghost);
   }
 
@@ -292,9 +302,7 @@ class Actor {
     const loads = frame.status?.loads ?? [];
     const place = (i: number, out: THREE.Vector3): THREE.Vector3 => {
       const { segment, pointM: p } = loads[i];
-      const o = segment * POSE;
-      scratchQ.fromArray(this.solid.poses, o + 3);
-      return out.set(p?.x ?? 0, p?.y ?? 0, p?.z ?? 0).applyQuaternion(scratchQ).add(scratchC.fromArray(this.solid.poses, o));
+      return this.world(segment, out.set(p?.x ?? 0, p?.y ?? 0, p?.z ?? 0), out);
     };
     const [l, r] = this.hands.map((hand) => loads.findIndex((x) => x.segment === hand));
     const crate = l >= 0 && r >= 0 && loads.length === 2 && this.person.holdsCrate();
@@ -380,6 +388,27 @@ class Actor {
     });
   }
 
+  /** What a ray touches of this figure; a load counts as the hand, or whatever else carries it. */
+  touch(ray: THREE.Raycaster, slack: number): Touch | undefined {
+    const body = this.touchable.touch(ray.ray, this.solid.poses, slack);
+    const carried = ray.intersectObjects([this.crate, ...this.weights].filter((o) => o.visible))[0];
+    if (!carried || (body && body.off === 0 && body.distance <= carried.distance)) return body;
+    let nearest: Touch | undefined;
+    let least = Infinity;
+    for (const { segment, pointM: p } of this.person.frame?.status?.loads ?? []) {
+      const local = new THREE.Vector3(p?.x ?? 0, p?.y ?? 0, p?.z ?? 0);
+      const away = this.world(segment, local, scratchA).distanceTo(carried.point);
+      if (away < least) [least, nearest] = [away, { segment, local, distance: carried.distance, off: 0 }];
+    }
+    return nearest;
+  }
+
+  /** World position of a place on a segment. */
+  world(segment: number, local: THREE.Vector3, out: THREE.Vector3): THREE.Vector3 {
+    const o = segment * POSE;
+    return out.copy(local).applyQuaternion(scratchQ.fromArray(this.solid.poses, o + 3)).add(scratchC.fromArray(this.solid.poses, o));
+  }
+
   /** Above the head, world. */
   top(out: THREE.Vector3): THREE.Vector3 {
     const head = Math.max(0, this.person.segment("head"));
@@ -398,16 +427,16 @@ class Actor {
 const IRON = 32_000;
 const MOST_WEIGHTS = 8;
 const weightShape = new THREE.SphereGeometry(1, 24, 16);
-const weightMaterial = new THREE.MeshStandardMaterial({ color: 0x3a434a, roughness: 0.45, metalness: 0.3 });
+const weightMaterial = new THREE.MeshLambertMaterial({ color: 0x3a434a });
 const comShape = new THREE.SphereGeometry(0.028, 16, 12);
 const zmpShape = new THREE.RingGeometry(0.022, 0.04, 24);
 
 function makeCrate(): THREE.Group {
   const group = new THREE.Group();
-  const box = new THREE.Mesh(new THREE.BoxGeometry(...CRATE), new THREE.MeshStandardMaterial({ color: 0xb98b54, roughness: 0.8 }));
+  const box = new THREE.Mesh(new THREE.BoxGeometry(...CRATE), new THREE.MeshLambertMaterial({ color: 0xb98b54 }));
   box.castShadow = true;
   box.receiveShadow = true;
-  const slat = new THREE.MeshStandardMaterial({ color: 0x8a6336, roughness: 0.8 });
+  const slat = new THREE.MeshLambertMaterial({ color: 0x8a6336 });
   group.add(box);
   for (const z of [-0.5, 0.5])
     for (const x of [-0.5, 0.5]) {
@@ -432,8 +461,12 @@ export interface Push {
 /** Impulse per metre drawn, N·s. */
 const IMPULSE_PER_METRE = 80;
 const MOST_IMPULSE = 200;
-/** Metres drawn below which a press only chooses. */
-const LEAST_DRAWN = 0.04;
+/** Height of what lies over the lower edge of the picture, pixels. */
+const BAR = 84;
+/** Pixels drawn below which a press only chooses. */
+const LEAST_DRAWN = 6;
+/** Pixels beside a figure that still count as on it: a finger is broader than a mouse. */
+const SLACK = { mouse: 8, touch: 22 };
 
 export class Scene {
   private readonly renderer: THREE.WebGLRenderer;
@@ -443,13 +476,16 @@ export class Scene {
   private readonly actors = new Map<number, Actor>();
   private readonly sun = new THREE.DirectionalLight(0xffffff, 2.4);
   private readonly fill = new THREE.HemisphereLight(0xffffff, 0x8a949c, 1.4);
-  private readonly ground: THREE.Mesh<THREE.PlaneGeometry, THREE.MeshStandardMaterial>;
+  private readonly ground: THREE.Mesh<THREE.PlaneGeometry, THREE.MeshLambertMaterial>;
   private readonly pushArrow = arrow(HUES.push);
   private look = LOOKS.light;
-  private push: { from: THREE.Vector3; plane: THREE.Plane; drawn: Push } | undefined;
+  /** The push being drawn: where it takes hold, where the pointer went down and where it is, pixels of the window. */
+  private push: { actor: Actor; segment: number; drawn: Push; start: THREE.Vector2; pointer: THREE.Vector2 } | undefined;
+  /** Where the pointer hovers, since that was last looked at. */
+  private hovered: PointerEvent | undefined;
   private readonly ray = new THREE.Raycaster();
   private moved = false;
-  /** Frames drawn. */
+  /** Pictures drawn with somebody in them. */
   drawn = 0;
 
   constructor(
@@ -475,11 +511,11 @@ export class Scene {
     this.sun.shadow.radius = 5;
     this.sun.shadow.bias = -0.0004;
     this.sun.shadow.normalBias = 0.015;
-    this.ground = new THREE.Mesh(new THREE.PlaneGeometry(160, 160), new THREE.MeshStandardMaterial({ roughness: 1 }));
+    this.ground = new THREE.Mesh(new THREE.PlaneGeometry(160, 160), new THREE.MeshLambertMaterial());
     this.ground.receiveShadow = true;
     this.scene.add(this.sun, this.sun.target, this.fill, this.ground, this.pushArrow);
     canvas.addEventListener("pointerdown", (e) => this.press(e), { capture: true });
-    canvas.addEventListener("pointermove", (e) => this.draw(e));
+    canvas.addEventListener("pointermove", (e) => this.move(e));
     canvas.addEventListener("pointerup", () => this.release(true));
     canvas.addEventListener("pointercancel", () => this.release(false));
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement ?? canvas);
@@ -492,7 +528,8 @@ export class Scene {
     this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
     this.renderer.setSize(w, h, false);
     this.camera.aspect = w / h;
-    this.camera.updateProjectionMatrix();
+    // The middle of the picture is that of the part above the load's bar.
+    this.camera.setViewOffset(w, h, 0, BAR / 2, w, h);
     if (!this.moved) this.frameAll();
   }
 
@@ -558,9 +595,10 @@ export class Scene {
     }
     if (box.isEmpty()) return;
     const sphere = box.getBoundingSphere(new THREE.Sphere());
-    const angle = THREE.MathUtils.degToRad(this.camera.fov / 2);
-    const narrow = Math.min(angle, Math.atan(Math.tan(angle) * this.camera.aspect));
-    const distance = (sphere.radius * 0.85) / Math.sin(narrow);
+    const height = this.canvas.clientHeight || 1;
+    const angle = Math.atan(Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2)) * Math.max(0.5, 1 - BAR / height));
+    const narrow = Math.min(angle, Math.atan(Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2)) * this.camera.aspect));
+    const distance = (sphere.radius * 0.76) / Math.sin(narrow);
     this.orbit.target.copy(sphere.center).setZ(0.86);
     this.camera.position.copy(this.orbit.target).addScaledVector(scratchA.set(0.9, -0.36, 0.2).normalize(), distance);
     this.orbit.update();
@@ -628,12 +666,18 @@ export class Scene {
       c.updateProjectionMatrix();
     }
     this.orbit.update();
+    // The figure moves on while a push is drawn on it, and under a pointer that rests.
+    this.drawPush();
+    if (this.hovered) {
+      this.canvas.style.cursor = this.pick(this.hovered) ? "crosshair" : "grab";
+      this.hovered = undefined;
+    }
   }
 
   /** Draws what `prepare` made. */
   draw3d(): void {
     this.renderer.render(this.scene, this.camera);
-    this.drawn++;
+    if ([...this.actors.values()].some((a) => a.group.visible)) this.drawn++;
   }
 
   /** Pixel above a figure's head, or nothing when it is behind the camera. */
@@ -645,48 +689,65 @@ export class Scene {
     return { x: ((p.x + 1) / 2) * this.canvas.clientWidth, y: ((1 - p.y) / 2) * this.canvas.clientHeight };
   }
 
-  private aim(e: PointerEvent): void {
+  private aim(x: number, y: number): void {
     const box = this.canvas.getBoundingClientRect();
-    this.ray.setFromCamera(new THREE.Vector2(((e.clientX - box.left) / box.width) * 2 - 1, 1 - ((e.clientY - box.top) / box.height) * 2), this.camera);
+    this.ray.setFromCamera(new THREE.Vector2(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2), this.camera);
+  }
+
+  /** The figure under a pointer, and where on it. What is met goes before what is only near. */
+  private pick(e: PointerEvent): { actor: Actor; touch: Touch } | undefined {
+    this.aim(e.clientX, e.clientY);
+    const perPixel = THREE.MathUtils.degToRad(this.camera.fov) / (this.canvas.clientHeight || 1);
+    const slack = perPixel * (e.pointerType === "mouse" ? SLACK.mouse : SLACK.touch);
+    let best: { actor: Actor; touch: Touch } | undefined;
+    for (const actor of this.actors.values()) {
+      const touch = actor.group.visible ? actor.touch(this.ray, slack) : undefined;
+      if (touch && (!best || touch.off < best.touch.off || (touch.off === best.touch.off && touch.distance < best.touch.distance))) best = { actor, touch };
+    }
+    return best;
   }
 
   private press(e: PointerEvent): void {
     if (e.button !== 0 || !e.isPrimary) return;
-    this.aim(e);
-    const solids = [...this.actors.values()].filter((a) => a.group.visible).map((a) => a.solid.mesh);
-    for (const m of solids) m.boundingSphere = new THREE.Sphere(new THREE.Vector3(), 1e4);
-    const hit = this.ray.intersectObjects(solids, false)[0];
-    if (!hit?.face) return;
-    const person = hit.object.userData.person as Person;
-    const segment = (hit.object as THREE.Mesh).geometry.getAttribute("segment").getX(hit.face.a);
-    const actor = this.actors.get(person.index);
-    if (!actor) return;
-    const o = segment * POSE;
-    const local = hit.point.clone().sub(scratchA.fromArray(actor.solid.poses, o));
-    local.applyQuaternion(scratchQ.fromArray(actor.solid.poses, o + 3).conjugate());
-    const normal = this.camera.getWorldDirection(new THREE.Vector3());
+    const found = this.pick(e);
+    if (!found) return;
+    const { actor, touch } = found;
+    const { person } = actor;
+    const pointer = new THREE.Vector2(e.clientX, e.clientY);
     this.push = {
-      from: hit.point.clone(),
-      plane: new THREE.Plane().setFromNormalAndCoplanarPoint(normal, hit.point),
-      drawn: { person, segment: person.body.segments[segment].name, local, impulse: new THREE.Vector3() },
+      actor,
+      segment: touch.segment,
+      drawn: { person, segment: person.body.segments[touch.segment].name, local: touch.local, impulse: new THREE.Vector3() },
+      start: pointer.clone(),
+      pointer,
     };
     this.orbit.enabled = false;
     this.canvas.setPointerCapture(e.pointerId);
     this.on.choose(person);
   }
 
-  private draw(e: PointerEvent): void {
+  private move(e: PointerEvent): void {
+    if (this.push) {
+      this.push.pointer.set(e.clientX, e.clientY);
+      this.drawPush();
+    } else if (e.pointerType === "mouse" && !e.buttons) this.hovered = e;
+  }
+
+  /** Draws the arrow from where the figure is now to where the pointer is. */
+  private drawPush(): void {
     if (!this.push) return;
-    this.aim(e);
-    const to = this.ray.ray.intersectPlane(this.push.plane, scratchA);
+    const { actor, segment, drawn, start, pointer } = this.push;
+    if (this.actors.get(actor.person.index) !== actor) return this.release(false);
+    const from = actor.world(segment, drawn.local, new THREE.Vector3());
+    this.aim(pointer.x, pointer.y);
+    const to = this.ray.ray.intersectPlane(scratchPlane.setFromNormalAndCoplanarPoint(this.camera.getWorldDirection(scratchA), from), scratchB);
     if (!to) return;
-    const along = to.clone().sub(this.push.from);
-    const size = along.length();
-    if (size > MOST_IMPULSE / IMPULSE_PER_METRE) along.setLength(MOST_IMPULSE / IMPULSE_PER_METRE);
-    this.push.drawn.impulse.copy(along).multiplyScalar(size < LEAST_DRAWN ? 0 : IMPULSE_PER_METRE);
-    point(this.pushArrow, this.push.from, along);
+    const along = to.clone().sub(from).clampLength(0, MOST_IMPULSE / IMPULSE_PER_METRE);
+    if (start.distanceTo(pointer) < LEAST_DRAWN) along.setScalar(0);
+    drawn.impulse.copy(along).multiplyScalar(IMPULSE_PER_METRE);
+    point(this.pushArrow, from, along);
     const box = this.canvas.getBoundingClientRect();
-    this.on.pushing(this.push.drawn, e.clientX - box.left, e.clientY - box.top);
+    this.on.pushing(along.lengthSq() > 0 ? drawn : undefined, pointer.x - box.left, pointer.y - box.top);
   }
 
   /** Ends the push that is being drawn. */

@@ -1,5 +1,6 @@
 // A scene as an address, as Python and as a command line.
-import { Controller, Stepper, type Figure } from "./gen/sinew/v1/figure_pb.js";
+import type { MessageInitShape } from "@bufbuild/protobuf";
+import { Controller, PaperMetric, PaperPreset, PaperPriority, PaperShare, Stepper, type Figure, type FigureSchema } from "./gen/sinew/v1/figure_pb.js";
 import type { Clip } from "./gen/sinew/v1/motion_pb.js";
 import type { Person } from "./model.js";
 
@@ -25,6 +26,9 @@ export interface Cast {
   /** Empty: the usual one. */
   stepper: string;
   assist: number;
+  /** Of the paper's controller; empty: the usual one. */
+  preset: string;
+  fatigue: number;
 }
 
 const id = (name: string): string => name.split("/").at(-1) ?? name;
@@ -45,6 +49,8 @@ export function cast(p: Person): Cast {
     y: rounded(f.placement?.yM ?? 0),
     stepper: f.stepper === Stepper.KINEMATIC ? "kinematic" : "",
     assist: rounded(f.assist),
+    preset: f.paper?.preset === PaperPreset.PAPER_PRESET_2000 ? "2000" : "",
+    fatigue: rounded(f.fatigueTimeScale),
   };
 }
 
@@ -55,7 +61,7 @@ export function write(a: Address): string {
   if (a.load !== undefined) q.set("load", String(a.load));
   if (a.hide.length) q.set("hide", a.hide.join("."));
   if (a.camera) q.set("camera", a.camera.join("_"));
-  for (const c of a.figures) q.append("f", [c.id, c.body, c.controller, c.strength, c.clip, c.x, c.y, c.stepper, c.assist || ""].join("~").replace(/~+$/, ""));
+  for (const c of a.figures) q.append("f", [c.id, c.body, c.controller, c.strength, c.clip, c.x, c.y, c.stepper, c.assist || "", c.preset, c.fatigue || ""].join("~").replace(/~+$/, ""));
   return q.toString();
 }
 
@@ -70,10 +76,10 @@ export function read(text: string): Address {
   const load = q.has("load") ? Number(q.get("load")) : undefined;
   const camera = q.get("camera")?.split("_").map(Number);
   const figures = q.getAll("f").slice(0, 64).flatMap((text): Cast[] => {
-    const [id, body, controller, strength, clip, x, y, stepper, assist] = text.split("~");
-    const [s, px, py, help] = [Number(strength), Number(x), Number(y), Number(assist || 0)];
-    if (!NAME.test(id) || !body || ![s, px, py, help].every(Number.isFinite)) return [];
-    return [{ id, body, controller: controller ?? "", strength: s, clip: clip ?? "", x: px, y: py, stepper: stepper ?? "", assist: help }];
+    const [id, body, controller, strength, clip, x, y, stepper, assist, preset, fatigue] = text.split("~");
+    const [s, px, py, help, tires] = [Number(strength), Number(x), Number(y), Number(assist || 0), Number(fatigue || 0)];
+    if (!NAME.test(id) || !body || ![s, px, py, help, tires].every(Number.isFinite)) return [];
+    return [{ id, body, controller: controller ?? "", strength: s, clip: clip ?? "", x: px, y: py, stepper: stepper ?? "", assist: help, preset: preset ?? "", fatigue: tires }];
   });
   return {
     world: name("world"),
@@ -86,14 +92,28 @@ export function read(text: string): Address {
 }
 
 /** Controller of a word of an address; the default when it is none. */
-export function controllerOf(word: string): Controller {
+function controllerOf(word: string): Controller {
   const value = (Controller as unknown as Record<string, number | string>)[word.toUpperCase()];
   return typeof value === "number" ? value : Controller.UNSPECIFIED;
 }
 
 /** Stepper of a word of an address; the default when it is none. */
-export function stepperOf(word: string): Stepper {
+function stepperOf(word: string): Stepper {
   return word === "kinematic" ? Stepper.KINEMATIC : Stepper.UNSPECIFIED;
+}
+
+/** The settings of a figure of an address, as a server takes them. */
+export function settingsOf(c: Cast): MessageInitShape<typeof FigureSchema> {
+  return {
+    body: `bodies/${c.body}`,
+    controller: controllerOf(c.controller),
+    strength: { all: c.strength },
+    stepper: stepperOf(c.stepper),
+    assist: c.assist,
+    fatigueTimeScale: c.fatigue,
+    paper: c.preset === "2000" ? { preset: PaperPreset.PAPER_PRESET_2000 } : undefined,
+    placement: { xM: c.x, yM: c.y },
+  };
 }
 
 /** `adult-man` or `female-25y-1680mm-61500g` as arguments of the command line. */
@@ -101,6 +121,17 @@ function bodyArguments(body: string): string {
   const [, sex, age, height, mass] = /^(male|female)-([\d.]+)y-(\d+)mm-(\d+)g$/.exec(body) ?? [];
   if (!sex) return `--body ${body.replace(/^adult-/, "")}`;
   return `--body ${sex === "male" ? "man" : "woman"} --age ${age} --height ${Number(height) / 1000} --mass ${Number(mass) / 1000}`;
+}
+
+/** Every choice of the paper's controller. The command line's own preset would choose stepper and rate as well. */
+function paperArguments(o: Figure["paper"]): string {
+  if (!o) return "";
+  const metric = o.metric === PaperMetric.TORQUE ? "H2" : o.metric === PaperMetric.INERTIA ? "H" : "I";
+  const priority = o.priority === PaperPriority.NESTED ? "nested" : "paper";
+  const share = o.share === PaperShare.BALANCED ? "balanced" : "paper";
+  const switches = { "to-limit": o.toLimit, tilt: o.tilt, "zmp-feasible": o.zmpFeasible, "track-hands": o.trackHands, "track-com": o.trackCom, "hand-over": o.handOver };
+  const words = Object.entries(switches).map(([name, on]) => `--${name}=${Boolean(on)}`);
+  return [`--alpha ${o.alpha ?? 0} --horizon ${o.horizonS ?? 0} --metric ${metric} --priority ${priority} --share ${share}`, ...words].join(" ");
 }
 
 /** The motion as the command line names it: a built-in one, or the file that was dropped here. */
@@ -116,8 +147,10 @@ export function asCommand(p: Person, clips: Clip[]): string {
   const c = cast(p);
   const parts = [`sinew run ${motionArgument(c.clip, clips)} ${bodyArguments(c.body)} --controller ${c.controller}`];
   if (c.stepper) parts.push(`--stepper ${c.stepper}`);
+  if (c.preset) parts.push(paperArguments(p.figure.paper));
   if (c.strength !== 1) parts.push(`--strength ${c.strength}`);
   if (c.assist) parts.push(`--assist ${c.assist}`);
+  if (c.fatigue) parts.push(`--fatigue ${c.fatigue}`);
   for (const l of p.loads()) parts.push(`--load ${rounded(l.massKg)}@${l.segments.join("+")}`);
   return parts.join(" ");
 }
@@ -132,6 +165,9 @@ export function asPython(address: string, people: Person[], chosen: Person | und
     const settings = [`body=${text(c.body)}`, `controller=${text(c.controller)}`, `position=(${c.x}, ${c.y})`];
     if (c.strength !== 1) settings.push(`strength=${c.strength}`);
     if (c.assist) settings.push(`assist=${c.assist}`);
+    if (c.stepper) settings.push(`stepper=${text(c.stepper)}`);
+    if (c.preset) settings.push(`paper=sinew.Paper(preset=${text(c.preset)})`);
+    if (c.fatigue) settings.push(`fatigue_time_scale=${c.fatigue}`);
     lines.push(`    ${name} = world.add_figure(${text(c.id)}, ${settings.join(", ")})`);
     if (c.clip) lines.push(`    ${name}.play(${text(c.clip)}, loop=True, reset=True, position=(${c.x}, ${c.y}))`);
     for (const l of p.loads()) lines.push(`    ${name}.carry(${[rounded(l.massKg), ...l.segments.map((s) => text(s))].join(", ")})`);

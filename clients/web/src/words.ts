@@ -27,6 +27,8 @@ export function event(e: Event): { text: string; grave: boolean } | undefined {
       return { text: `${who} has fallen`, grave: true };
     case EventType.GOT_UP:
       return { text: `${who} stands again`, grave: false };
+    case EventType.LOAD_SLIPPED:
+      return { text: `${short(e.massKg)} kg slip from the ${joint(e.segment)} of ${who}`, grave: true };
     case EventType.QUARANTINED:
       return { text: `${who} is frozen: its state became unusable`, grave: true };
     case EventType.DRIVE_BEGAN:

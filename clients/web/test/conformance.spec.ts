@@ -16,7 +16,7 @@ import { file_sinew_v1_server } from "../src/gen/sinew/v1/server_pb.js";
 import { file_sinew_v1_simulation } from "../src/gen/sinew/v1/simulation_pb.js";
 import { file_sinew_v1_state } from "../src/gen/sinew/v1/state_pb.js";
 import { file_sinew_v1_world } from "../src/gen/sinew/v1/world_pb.js";
-import { expect, Server } from "./support.js";
+import { expect, program, Server } from "./support.js";
 import { test } from "@playwright/test";
 
 interface Vector {
@@ -121,11 +121,12 @@ test.describe("conformance", () => {
       expect(wrong).toEqual([]);
     });
 
-  test("the small client runs", async () => {
-    const { stdout } = await promisify(execFile)(process.execPath, ["run.mjs", "../examples/typescript/client.ts", `http://${server.address}`], { cwd: join(here, "..") });
-    const lines = stdout.trim().split("\n");
-    expect(lines.length).toBeGreaterThan(4);
-    expect(lines[0]).toMatch(/^\d\.\d\d s {2}right shoulder -?[\d.]+ of [\d.]+ N·m$/);
-    expect(lines.at(-1)).toMatch(/^state [0-9a-f]{16}$/);
+  test("the small client says what the one in Rust says", async () => {
+    const run = promisify(execFile);
+    const address = `http://${server.address}`;
+    const typescript = await run(process.execPath, ["run.mjs", "../examples/typescript/client.ts", address], { cwd: join(here, "..") });
+    const rust = await run(join(dirname(program), "examples/client"), [address]);
+    expect(typescript.stdout).toBe(rust.stdout);
+    expect(typescript.stdout).toMatch(/^(\d\.\d\d s {2}right shoulder -?[\d.]+ of [\d.]+ N·m\n){8}state [0-9a-f]{16}\n$/);
   });
 });

@@ -29,6 +29,19 @@ test("copies reproduce the scene", async ({ page, server, context }) => {
   await run("python3", ["-c", "import ast, sys; ast.parse(sys.argv[1])", script]);
   console.log(script);
 
+  // What only the paper's controller knows is said in full.
+  await page.locator("#controller").selectOption("paper 2000");
+  await page.locator("#preset").selectOption("as printed in 2000");
+  await page.locator("#stepper").selectOption("kinematic");
+  await expect.poll(() => page.url()).toContain("kinematic");
+  await page.locator("#copy-cli").click();
+  const printed = "--controller paper --stepper kinematic --alpha 0.2 --horizon 0 --metric I";
+  await expect.poll(copied).toContain(printed);
+  const [, ...choices] = (await copied()).split(" ");
+  await run(program, [...choices, "--duration", "0.5"]);
+  await page.locator("#copy-python").click();
+  await expect.poll(copied).toContain('stepper="kinematic", paper=sinew.Paper(preset="2000")');
+
   await page.locator("#copy-link").click();
   await expect.poll(copied).toContain(`${server.url}#`);
   const link = await copied();

@@ -144,8 +144,6 @@ impl Default for Command {
 pub struct Balance {
     /// Horizontal acceleration, m/s².
     pub acceleration: [f64; 2],
-    /// Share of the usual weight that it has: less while a step takes care of it.
-    pub share: f64,
 }
 
 /// Gains of the modern controller's law for the centre of mass, 1/s² and 1/s.

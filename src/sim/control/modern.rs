@@ -139,16 +139,14 @@ impl Modern {
         let swing_law = hand_law.sharpened(SWING_SHARPNESS);
         if input.params.track_com {
             let mut a = com_law(input.com, t.com, t.com_velocity, input.dt);
-            let mut share = 1.0;
             if let Some(balance) = input.balance {
                 [a.x, a.y] = balance.acceleration;
-                share = balance.share;
             }
             let a = a - t.com_bias;
             for (k, value) in [a.x, a.y, a.z].into_iter().enumerate() {
                 self.rows.push(TaskRow {
                     row: t.jc[k],
-                    weight: if k < 2 { share } else { 1.0 } * weight::COM[k],
+                    weight: weight::COM[k],
                     value,
                 });
             }

@@ -16,6 +16,12 @@ const INSET: f64 = 0.01;
 const REACH: (f64, f64) = (0.30, 0.40);
 /// Least distance to the side from the stance foot, m, unless the plan itself comes closer or crosses.
 const SEPARATION: f64 = 0.03;
+/// A displacement to the side greater than the first brings the foot closer by this many times what it is greater, even across, by up to
+/// the last, m: most pushes to the side cannot be caught otherwise. A foot that crosses passes before or behind the other, by `PASSING`, m.
+const ACROSS: (f64, f64, f64) = (0.03, 4.0, 0.2);
+const PASSING: f64 = 0.16;
+/// Closer than this to the side of the stance foot counts as crossing, m.
+const BESIDE: f64 = 0.08;
 /// Time constant of the foothold, s, and time before touch-down in which it does not change any more.
 const SMOOTHING: f64 = 0.03;
 pub(super) const FREEZE: f64 = 0.06;
@@ -105,10 +111,11 @@ impl Capture {
         ];
         self.inner.set_inset(polygon, INSET);
         let can = self.inner.closest(wanted).map_or(wanted, |c| c.point);
-        for k in 0..2 {
-            let e = self.error[k];
-            self.handled[k] = (can[k] - planned[k]).clamp(e.min(0.0), e.max(0.0));
-        }
+        // What it takes care of lies along the error, and is at most all of it.
+        let e = self.error;
+        let along = (can[0] - planned[0]) * e[0] + (can[1] - planned[1]) * e[1];
+        let share = (along / (e[0] * e[0] + e[1] * e[1]).max(1e-12)).clamp(0.0, 1.0);
+        self.handled = e.map(|x| share * x);
     }
 
     /// The capture point ξ, m.
@@ -179,15 +186,20 @@ pub(super) fn within_reach(
     let back = Quat::exp(Vec3::Z * -yaw);
     let level = |x: f64, y: f64| Vec3 { x, y, z: 0.0 };
     let mut local = back.rotate(level(d[0], d[1]));
+    let pressed = (ACROSS.1 * (local.y.abs() - ACROSS.0)).clamp(0.0, SEPARATION + ACROSS.2);
     local.x = local.x.clamp(-REACH.0, REACH.0);
     local.y = local.y.clamp(-REACH.1, REACH.1);
     let outward = if side == 0 { 1.0 } else { -1.0 };
     let planned = back.rotate(level(home.x - stance.x, home.y - stance.y));
-    // A step that the plan crosses over keeps its sign.
-    let least = SEPARATION.min(planned.y * outward);
+    // A step that the plan itself crosses with may.
+    let least = (SEPARATION - pressed).min(planned.y * outward);
     let away = (planned.y + local.y) * outward;
     if away < least {
         local.y = least * outward - planned.y;
+    }
+    let ahead = planned.x + local.x;
+    if away < BESIDE.min(planned.y * outward) && ahead.abs() < PASSING {
+        local.x = PASSING.copysign(ahead) - planned.x;
     }
     let world = Quat::exp(Vec3::Z * yaw).rotate(local);
     [world.x, world.y]

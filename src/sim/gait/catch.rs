@@ -8,25 +8,24 @@ use crate::sim::math::exp::exp;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::foot_lock::Sole;
 
-/// The capture point is lost when it leaves the support by this much, m.
-pub(super) const LOST: f64 = 0.0;
+/// The capture point is lost when it leaves the support by this much, m: what arms and trunk bring back without a step.
+pub(super) const LOST: f64 = 0.02;
 /// Beyond this distance no step helps, m.
 pub(super) const HOPELESS: f64 = 0.6;
-/// Length of a swing that catches, and of one that only tidies up, s.
-const CATCH_TIME: f64 = 0.35;
+/// Length of a swing that catches, and of one that only tidies up, s. People who are pushed take 0.15–0.3 s; at 0.35 s a push to the side is
+/// lost before the foot is there.
+const CATCH_TIME: f64 = 0.25;
 const TIDY_TIME: f64 = 0.5;
 /// Least time in the air before touching the floor counts as landing, share of the swing.
 const LANDS_AFTER: f64 = 0.5;
 /// Height of the ankle's arc, m.
 const ARC: f64 = 0.07;
-/// The middle of the sole lands this far beyond the capture point, m.
-const BEYOND: f64 = 0.04;
 /// Farthest step forward, backward, to the side, and across, in leg lengths.
 const FARTHEST: (f64, f64, f64, f64) = (0.75, 0.65, 0.6, 0.35);
 /// A foot that crosses passes this far before or behind the other, m.
 const CROSS_ROOM: f64 = 0.18;
 /// Closer than this to the stance foot counts as crossing, m.
-const BESIDE: f64 = 0.1;
+pub(super) const BESIDE: f64 = 0.1;
 /// Distance of the middle of the sole before the ankle, m.
 pub(super) const SOLE_MIDDLE: f64 = 0.05;
 /// Speed of a foot that looks for the floor, m/s.
@@ -45,6 +44,8 @@ pub struct Catch {
     pub since: f64,
     /// Brings the foot back to its place instead of catching.
     pub tidy: bool,
+    /// May pass the stance foot to its other side. A foot that has, or has been passed, comes back to its own.
+    crosses: bool,
     start: Vec3,
     start_yaw: f64,
     goal: Vec3,
@@ -56,11 +57,12 @@ pub(super) type Places = [(Vec3, f64); 2];
 
 impl Catch {
     /// A step of foot `side` whose ankle and heading are these now.
-    pub(super) fn new(side: usize, tidy: bool, ankle: Vec3, yaw: f64) -> Self {
+    pub(super) fn new(side: usize, tidy: bool, crosses: bool, ankle: Vec3, yaw: f64) -> Self {
         Self {
             side,
             since: 0.0,
             tidy,
+            crosses,
             start: ankle,
             start_yaw: yaw,
             goal: Vec3 { z: 0.0, ..ankle },
@@ -104,12 +106,8 @@ impl Catch {
         let remaining = (self.duration() - self.since).clamp(0.0, 1.0);
         let grows = exp(omega * remaining);
         let away = [xi[0] - zmp[0], xi[1] - zmp[1]];
-        let far = (away[0] * away[0] + away[1] * away[1]).sqrt().max(1e-6);
         let level = |x: f64, y: f64| Vec3 { x, y, z: 0.0 };
-        let landing = level(
-            zmp[0] + away[0] * grows + BEYOND * away[0] / far,
-            zmp[1] + away[1] * grows + BEYOND * away[1] / far,
-        );
+        let landing = level(zmp[0] + away[0] * grows, zmp[1] + away[1] * grows);
         let stance = now[1 - side].0;
         let yaw = self.goal_yaw;
         let back = Quat::exp(Vec3::Z * -yaw);
@@ -120,7 +118,7 @@ impl Catch {
         let wanted = local.y * outward;
         let y = if wanted > BESIDE {
             wanted.max(apart)
-        } else if wanted > -BESIDE {
+        } else if wanted > -BESIDE || !self.crosses {
             apart.max(BESIDE)
         } else {
             let room = if x > -0.05 { CROSS_ROOM } else { -CROSS_ROOM };

@@ -41,8 +41,6 @@ const CLEARANCE: f64 = 0.03;
 const CLEARANCE_RATE: f64 = 0.35;
 /// Share of its distance from home by which a foothold is pulled there, and the most, m.
 const HOME: (f64, f64) = (0.3, 0.04);
-/// Weight of the centre of mass while a step catches it: the trunk has to be stopped too, and the foot has to get there.
-const CATCH_SHARE: f64 = 0.3;
 /// Time in which a motion that ended turns into standing, s.
 const EASE: f64 = 0.6;
 /// A body slower than this, and a capture point closer to its place than this, is settled: m/s and m.
@@ -112,6 +110,15 @@ fn stance_points(support: &Support, side: usize) -> impl Iterator<Item = [f64; 2
     points
         .filter(move |p| stance.contains(&p.segment))
         .map(|p| [p.position.x, p.position.y])
+}
+
+/// A point of the floor.
+fn level(p: [f64; 2]) -> Vec3 {
+    Vec3 {
+        x: p[0],
+        y: p[1],
+        z: 0.0,
+    }
 }
 
 /// The steps of one figure. Remembers phase and footholds; nothing allocates in a tick.
@@ -288,7 +295,7 @@ impl Gait {
             std::array::from_fn(|k| plan::place(&self.soles[k], poses[k].0, poses[k].1));
         // It stands where the foot is that the body moves over, and looks where the feet look.
         let xi = self.capture.point();
-        let far = |k: usize| (now[k].0.x - xi[0]).abs() + (now[k].0.y - xi[1]).abs();
+        let far = |k: usize| level([now[k].0.x - xi[0], now[k].0.y - xi[1]]).norm();
         let side = match [self.feet[0].down, self.feet[1].down] {
             [true, false] => 0,
             [false, true] => 1,
@@ -301,7 +308,7 @@ impl Gait {
         for side in 0..2 {
             if !self.feet[side].down {
                 let pose = terms.segment_position(FOOT[side].index());
-                self.step = Some(Catch::new(side, false, pose, now[side].1));
+                self.step = Some(Catch::new(side, false, false, pose, now[side].1));
             }
         }
     }
@@ -442,17 +449,13 @@ impl Gait {
                 acceleration: self
                     .capture
                     .slowest(terms, stance_points(support, step.side)),
-                share: CATCH_SHARE,
             });
         }
         let wanted = com_law(tasks.com, terms.com, terms.com_velocity, dt);
         let acceleration = self
             .capture
             .feasible(terms, wanted, support.polygon(), gravity)?;
-        Some(Balance {
-            acceleration,
-            share: 1.0,
-        })
+        Some(Balance { acceleration })
     }
 
     /// A standing foot keeps the heading it landed with: it could only be turned by scraping.
@@ -580,33 +583,34 @@ impl Gait {
             && points
                 .map(|p| p.support)
                 .all(|s| FOOT.contains(&s) || TOES.contains(&s));
-        let start = |side: usize, tidy: bool| {
+        let start = |side: usize, tidy: bool, crosses: bool| {
             let ankle = terms.segment_position(FOOT[side].index());
-            Some(Catch::new(side, tidy, ankle, now[side].1))
+            Some(Catch::new(side, tidy, crosses, ankle, now[side].1))
         };
         if !on_feet || margin < -catch::HOPELESS {
             return;
         }
-        if margin < -catch::LOST {
-            // The foot that carries less swings.
-            let carried = |side: usize| {
-                support.load()[FOOT[side].index()] + support.load()[TOES[side].index()]
-            };
-            let side = usize::from(carried(1) <= carried(0));
+        // The foot that carries less swings.
+        let carried =
+            |side: usize| support.load()[FOOT[side].index()] + support.load()[TOES[side].index()];
+        let side = usize::from(carried(1) <= carried(0));
+        // Places to the own side of the stance foot are positive.
+        let outward = |p: Vec3| {
+            let (at, yaw) = now[1 - side];
+            let y = Quat::exp(Vec3::Z * -yaw).rotate(p - at).y;
+            if side == 0 { y } else { -y }
+        };
+        let crossed = outward(now[side].0) < 0.5 * catch::BESIDE;
+        if margin < -catch::LOST || crossed {
             self.tidying = None;
-            self.step = start(side, false);
+            self.step = start(side, false, !crossed);
             return;
         }
         if let Some(side) = self.tidying {
             let over = now[1 - side];
             let stance = over.0 + Quat::exp(Vec3::Z * over.1).rotate(Vec3::X * catch::SOLE_MIDDLE);
-            let off = Vec3 {
-                x: xi[0] - stance.x,
-                y: xi[1] - stance.y,
-                z: 0.0,
-            };
-            if off.norm() < SETTLED.1 {
-                self.step = start(side, true);
+            if (level(xi) - level([stance.x, stance.y])).norm() < SETTLED.1 {
+                self.step = start(side, true, false);
             }
             return;
         }
@@ -658,10 +662,13 @@ impl Gait {
         let foot = &self.feet[side];
         let remaining = (f.on - self.phase).max(0.0) / self.speed;
         let home = self.anchor.point(f.place);
-        let pull = |d: f64| (HOME.0 * d).clamp(-HOME.1, HOME.1);
+        let away = home - f.place;
+        let pull = HOME
+            .0
+            .min(HOME.1 / level([away.x, away.y]).norm().max(1e-9));
         let mut d = self.capture.left_over(remaining);
-        d[0] -= pull(home.x - f.place.x);
-        d[1] -= pull(home.y - f.place.y);
+        d[0] -= pull * away.x;
+        d[1] -= pull * away.y;
         let stance = terms.segment_position(FOOT[1 - side].index());
         let heading = self.anchor.yaw() + f.yaw;
         let d = balance::within_reach(d, home, stance, heading, side);

@@ -33,7 +33,7 @@ from sinew.frames import Contact, Event, FigureState, Frame
 from sinew.local import serve
 from sinew.motion import Motion, Pose
 from sinew.recording import RECORDED, Recording, Recordings, Saturation
-from sinew.values import Controller, Disturbance, Encoding, Force, Load, Profile, Push, Strength
+from sinew.values import Controller, Disturbance, Encoding, Force, Load, Paper, Profile, Push, Stepper, Strength
 
 __version__ = "0.1.0"
 
@@ -64,6 +64,7 @@ __all__ = [
     "Mesh",
     "Motion",
     "NotFoundError",
+    "Paper",
     "Pose",
     "PreconditionError",
     "Profile",
@@ -73,6 +74,7 @@ __all__ = [
     "Saturation",
     "ServerInfo",
     "SinewError",
+    "Stepper",
     "Strength",
     "UnavailableError",
     "UnimplementedError",

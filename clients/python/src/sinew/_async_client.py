@@ -43,7 +43,21 @@ from sinew.v1 import (
     world_pb2,
     world_pb2_grpc,
 )
-from sinew.values import Controller, Disturbance, Encoding, Force, Load, Profile, Push, Strength, Vector, last, resource
+from sinew.values import (
+    Controller,
+    Disturbance,
+    Encoding,
+    Force,
+    Load,
+    Paper,
+    Profile,
+    Push,
+    Stepper,
+    Strength,
+    Vector,
+    last,
+    resource,
+)
 
 __all__ = ["Client", "Clip", "Drive", "Events", "Figure", "Frames", "ServerInfo", "World"]
 
@@ -274,6 +288,8 @@ class Client:
         disturbances: Iterable[Disturbance] = (),
         strength: float | Strength = 1.0,
         controller: Controller = "modern",
+        stepper: Stepper = "torque",
+        paper: Paper | None = None,
         fatigue_time_scale: float = 0.0,
         assist: float = 0.0,
         duration_s: float = 0.0,
@@ -290,7 +306,13 @@ class Client:
         no frames, only `summary` and `events`.
         """
         figure = requests.figure(
-            body=body, strength=strength, choice=controller, fatigue_time_scale=fatigue_time_scale, assist=assist
+            body=body,
+            strength=strength,
+            choice=controller,
+            moved_by=stepper,
+            paper=paper,
+            fatigue_time_scale=fatigue_time_scale,
+            assist=assist,
         )
         request = simulation_pb2.SimulateClipRequest(
             figure=figure,
@@ -459,6 +481,8 @@ class World:
         body: str | Profile = "adult-man",
         strength: float | Strength = 1.0,
         controller: Controller = "modern",
+        stepper: Stepper = "torque",
+        paper: Paper | None = None,
         position: tuple[float, float] = (0.0, 0.0),
         yaw: float = 0.0,
         fatigue_time_scale: float = 0.0,
@@ -470,6 +494,8 @@ class World:
             body=body,
             strength=strength,
             choice=controller,
+            moved_by=stepper,
+            paper=paper,
             position=position,
             yaw=yaw,
             fatigue_time_scale=fatigue_time_scale,
@@ -677,6 +703,7 @@ class Figure:
         *,
         strength: float | Strength | None = None,
         controller: Controller | None = None,
+        paper: Paper | None = None,
         fatigue_time_scale: float | None = None,
         assist: float | None = None,
         display_name: str | None = None,
@@ -685,6 +712,7 @@ class Figure:
         given = {
             "strength": strength,
             "controller": controller,
+            "paper": paper,
             "fatigue_time_scale": fatigue_time_scale,
             "assist": assist,
             "display_name": display_name,
@@ -692,6 +720,7 @@ class Figure:
         settings = requests.figure(
             strength=strength,
             choice=controller,
+            paper=paper,
             fatigue_time_scale=fatigue_time_scale,
             assist=assist,
             display_name=display_name,

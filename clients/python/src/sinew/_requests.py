@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from google.protobuf.field_mask_pb2 import FieldMask
 
 from sinew.v1 import figure_pb2, perturbation_pb2, simulation_pb2, state_pb2, types_pb2, world_pb2
-from sinew.values import Controller, Disturbance, Encoding, Profile, Strength, resource
+from sinew.values import Controller, Disturbance, Encoding, Paper, Profile, Stepper, Strength, resource
 
 PORT = 7463
 OPTIONS = [
@@ -29,6 +29,11 @@ def address(given: str) -> str:
 def controller(name: Controller) -> figure_pb2.Controller.ValueType:
     """A controller by name."""
     return figure_pb2.Controller.Value(_choice(figure_pb2.Controller.keys(), "CONTROLLER_", name))
+
+
+def stepper(name: Stepper) -> figure_pb2.Stepper.ValueType:
+    """A stepper by name."""
+    return figure_pb2.Stepper.Value(_choice(figure_pb2.Stepper.keys(), "STEPPER_", name))
 
 
 def encoding(name: Encoding) -> types_pb2.Encoding.ValueType:
@@ -74,6 +79,8 @@ def figure(
     body: str | Profile | None = None,
     strength: float | Strength | None = None,
     choice: Controller | None = None,
+    moved_by: Stepper | None = None,
+    paper: Paper | None = None,
     position: tuple[float, float] | None = None,
     yaw: float | None = None,
     fatigue_time_scale: float | None = None,
@@ -91,6 +98,10 @@ def figure(
         out.strength.CopyFrom(scale.message())
     if choice is not None:
         out.controller = controller(choice)
+    if moved_by is not None:
+        out.stepper = stepper(moved_by)
+    if paper is not None:
+        out.paper.CopyFrom(paper.message())
     place = placement(position, yaw)
     if place is not None:
         out.placement.CopyFrom(place)

@@ -14,8 +14,10 @@ __all__ = [
     "Encoding",
     "Force",
     "Load",
+    "Paper",
     "Profile",
     "Push",
+    "Stepper",
     "Strength",
     "Vector",
 ]
@@ -24,6 +26,8 @@ Vector: TypeAlias = Sequence[float]
 """Three numbers x, y, z: forward, left, up."""
 Controller: TypeAlias = Literal["modern", "paper", "motors"]
 """Who computes the torques."""
+Stepper: TypeAlias = Literal["torque", "kinematic"]
+"""How a figure is moved: by its torques, or by its accelerations as they are demanded."""
 Encoding: TypeAlias = Literal["float", "double", "fixed16"]
 """How numbers of frames travel."""
 
@@ -72,6 +76,52 @@ class Strength:
         """As it is sent."""
         dofs = [figure_pb2.DofStrength(dof=k, factor=v) for k, v in self.dofs.items()]
         return figure_pb2.StrengthScale(all=self.all, dofs=dofs, percentile=self.percentile, effort=self.effort)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Paper:
+    """Choices of the paper's controller, `controller="paper"`; what is `None` is as the preset has it.
+
+    `alpha`: blend of position and velocity demand in equation (4) per 1/30 s, where `horizon_s` is 0. `horizon_s`: time constant
+    of the demand, s; 0: met within one step. `metric`: norm of equation (10). `priority`: how equation (12) orders centre of mass
+    and hands. `share`: how supports share the ground reaction. `to_limit`: joints that equation (16) saturates go to their
+    limit. `tilt`: torques of a tipping figure know that its support turns. `zmp_feasible`: the demand for the centre of mass stays
+    within what the feet can give. `hand_over`: with the kinematic stepper, torques take over where accelerations cannot go on.
+    """
+
+    preset: Literal["safeguarded", "2000"] = "safeguarded"
+    alpha: float | None = None
+    horizon_s: float | None = None
+    metric: Literal["identity", "inertia", "torque"] | None = None
+    priority: Literal["printed", "nested"] | None = None
+    share: Literal["ratio", "balanced"] | None = None
+    to_limit: bool | None = None
+    tilt: bool | None = None
+    zmp_feasible: bool | None = None
+    track_hands: bool | None = None
+    track_com: bool | None = None
+    hand_over: bool | None = None
+
+    def message(self) -> figure_pb2.PaperOptions:
+        """As it is sent."""
+        out = figure_pb2.PaperOptions(
+            preset=figure_pb2.PaperPreset.Value(f"PAPER_PRESET_{self.preset.upper()}"),
+            alpha=self.alpha,
+            horizon_s=self.horizon_s,
+            to_limit=self.to_limit,
+            tilt=self.tilt,
+            zmp_feasible=self.zmp_feasible,
+            track_hands=self.track_hands,
+            track_com=self.track_com,
+            hand_over=self.hand_over,
+        )
+        if self.metric is not None:
+            out.metric = figure_pb2.PaperMetric.Value(f"PAPER_METRIC_{self.metric.upper()}")
+        if self.priority is not None:
+            out.priority = figure_pb2.PaperPriority.Value(f"PAPER_PRIORITY_{self.priority.upper()}")
+        if self.share is not None:
+            out.share = figure_pb2.PaperShare.Value(f"PAPER_SHARE_{self.share.upper()}")
+        return out
 
 
 @dataclass(frozen=True, kw_only=True)
