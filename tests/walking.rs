@@ -202,9 +202,6 @@ fn people_of_other_sizes_walk_the_same_recording() {
     ] {
         let walk_cycle = cycle(&body, &clip(&body, "walk")).unwrap();
         let (rms, capture) = walk(&Arc::new(body), name, walk_cycle, true, 20.0);
-        assert!(
-            rms < 4.0 && capture < 0.1,
-            "{name}: {rms} deg, {capture} m"
-        );
+        assert!(rms < 4.0 && capture < 0.1, "{name}: {rms} deg, {capture} m");
     }
 }
