@@ -17,6 +17,9 @@ const COMPLIANCE: f64 = 1e-4;
 const RETURN_SHARE: f64 = 0.1;
 /// Penetration that is left alone, m.
 const SLOP: f64 = 1e-4;
+/// The same where a figure takes part, m: flesh gives. Round parts that slide past each other sink in by a millimetre or two, and lifting
+/// a body that lies on them back out would give it energy.
+const FLESH: f64 = 4e-3;
 /// Fastest push-out, m/s: slow, because it gives energy to what presses on the contact.
 const RETURN_SPEED: f64 = 0.05;
 
@@ -198,10 +201,12 @@ fn add_contact(
 ) {
     let n = &c.near;
     let nf = cast.figures.len();
+    let fleshy = c.who.iter().any(|w| matches!(w, Who::Figure(_)));
+    let slop = if fleshy { FLESH } else { SLOP };
     let approach = if n.gap > 0.0 {
         n.gap / h
     } else {
-        -(RETURN_SHARE * (-n.gap - SLOP).max(0.0) / h).min(RETURN_SPEED)
+        -(RETURN_SHARE * (-n.gap - slop).max(0.0) / h).min(RETURN_SPEED)
     };
     // What moves by itself brings its velocity along; the second body is the one that can be firm.
     let firm = match block[1] {
