@@ -49,7 +49,7 @@ test("the first picture comes within seconds of the start, and is not blank", as
     await page.waitForFunction(() => document.body.dataset.phase === "live" && Number(document.body.dataset.drawn) > 0);
     best = Math.min(best, Date.now() - begun);
   }
-  console.log(`first picture after ${best} ms: start of the server (unoptimised build), page and first frame, drawn in software`);
+  console.log(`first picture after ${best} ms: start of the server, page and first frame, drawn in software`);
   expect(best).toBeLessThan(6000 * busy);
   await expect(page.locator("#figures button")).not.toHaveCount(0);
   await expect(page.locator("#labels span").first()).toBeVisible();

@@ -118,6 +118,12 @@ impl Capture {
         self.handled = e.map(|x| share * x);
     }
 
+    /// Length of the error, m.
+    pub fn off(&self) -> f64 {
+        let e = self.error;
+        (e[0] * e[0] + e[1] * e[1]).sqrt()
+    }
+
     /// The capture point ξ, m.
     pub fn point(&self) -> [f64; 2] {
         self.point

@@ -35,6 +35,17 @@ pub(super) const LEAN_SPEED: f64 = 0.25;
 /// Feet farther than this from where the motion has them are brought back, m and rad.
 pub(super) const UNTIDY: (f64, f64) = (0.04, 0.2);
 
+/// What a step is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// To catch the body, across the stance foot if it has to be.
+    Catch,
+    /// To catch the body on the foot's own side, where feet have crossed or a clip has just ended.
+    CatchBeside,
+    /// To bring the foot back to its place.
+    Tidy,
+}
+
 /// A step under way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Catch {
@@ -42,10 +53,8 @@ pub struct Catch {
     pub side: usize,
     /// Time since lift-off, s.
     pub since: f64,
-    /// Brings the foot back to its place instead of catching.
-    pub tidy: bool,
-    /// May pass the stance foot to its other side. A foot that has, or has been passed, comes back to its own.
-    crosses: bool,
+    /// What it is for.
+    pub purpose: Purpose,
     start: Vec3,
     start_yaw: f64,
     goal: Vec3,
@@ -57,12 +66,11 @@ pub(super) type Places = [(Vec3, f64); 2];
 
 impl Catch {
     /// A step of foot `side` whose ankle and heading are these now.
-    pub(super) fn new(side: usize, tidy: bool, crosses: bool, ankle: Vec3, yaw: f64) -> Self {
+    pub(super) fn new(side: usize, purpose: Purpose, ankle: Vec3, yaw: f64) -> Self {
         Self {
             side,
             since: 0.0,
-            tidy,
-            crosses,
+            purpose,
             start: ankle,
             start_yaw: yaw,
             goal: Vec3 { z: 0.0, ..ankle },
@@ -72,7 +80,10 @@ impl Catch {
 
     /// Length of the swing, s.
     pub fn duration(&self) -> f64 {
-        if self.tidy { TIDY_TIME } else { CATCH_TIME }
+        match self.purpose {
+            Purpose::Tidy => TIDY_TIME,
+            Purpose::Catch | Purpose::CatchBeside => CATCH_TIME,
+        }
     }
 
     /// True once touching the floor means having landed.
@@ -99,7 +110,7 @@ impl Catch {
     ) {
         let side = self.side;
         self.goal_yaw = home[side].1;
-        if self.tidy {
+        if self.purpose == Purpose::Tidy {
             self.goal = home[side].0;
             return;
         }
@@ -118,7 +129,7 @@ impl Catch {
         let wanted = local.y * outward;
         let y = if wanted > BESIDE {
             wanted.max(apart)
-        } else if wanted > -BESIDE || !self.crosses {
+        } else if wanted > -BESIDE || self.purpose == Purpose::CatchBeside {
             apart.max(BESIDE)
         } else {
             let room = if x > -0.05 { CROSS_ROOM } else { -CROSS_ROOM };

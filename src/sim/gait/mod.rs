@@ -9,7 +9,7 @@ pub mod catch;
 pub mod plan;
 
 pub use balance::Capture;
-pub use catch::Catch;
+pub use catch::{Catch, Purpose};
 pub use plan::{Footfall, StepPlan};
 
 use crate::sim::body::topology::{L_FOOT, L_TOES, NV, R_FOOT, R_TOES};
@@ -214,9 +214,8 @@ impl Gait {
 
     /// Distance of the capture point from where a motion that steps has it, m; `None` while the figure follows no such motion.
     pub fn off_plan(&self) -> Option<f64> {
-        let e = self.capture.error;
         let walks = self.plan.is_some() && self.ended.is_none();
-        walks.then(|| (e[0] * e[0] + e[1] * e[1]).sqrt())
+        walks.then(|| self.capture.off())
     }
 
     /// The foot that came down in this tick.
@@ -308,7 +307,7 @@ impl Gait {
         for side in 0..2 {
             if !self.feet[side].down {
                 let pose = terms.segment_position(FOOT[side].index());
-                self.step = Some(Catch::new(side, false, false, pose, now[side].1));
+                self.step = Some(Catch::new(side, Purpose::CatchBeside, pose, now[side].1));
             }
         }
     }
@@ -443,7 +442,7 @@ impl Gait {
             self.catch(terms, support, dt, tasks);
         }
         self.keep_headings(terms, tasks.feet);
-        if let Some(step) = self.step.filter(|s| !s.tidy) {
+        if let Some(step) = self.step.filter(|s| s.purpose != Purpose::Tidy) {
             // The centre of mass goes where the pendulum over the stance foot falls slowest.
             return Some(Balance {
                 acceleration: self
@@ -563,7 +562,7 @@ impl Gait {
                 late: step.since - step.duration(),
                 off: now[step.side].0 - home[step.side].0,
             });
-            if !step.tidy {
+            if step.purpose != Purpose::Tidy {
                 self.anchor.pin(home[step.side].0, now[step.side].0);
             }
         }
@@ -583,9 +582,9 @@ impl Gait {
             && points
                 .map(|p| p.support)
                 .all(|s| FOOT.contains(&s) || TOES.contains(&s));
-        let start = |side: usize, tidy: bool, crosses: bool| {
+        let start = |side: usize, purpose: Purpose| {
             let ankle = terms.segment_position(FOOT[side].index());
-            Some(Catch::new(side, tidy, crosses, ankle, now[side].1))
+            Some(Catch::new(side, purpose, ankle, now[side].1))
         };
         if !on_feet || margin < -catch::HOPELESS {
             return;
@@ -603,20 +602,26 @@ impl Gait {
         let crossed = outward(now[side].0) < 0.5 * catch::BESIDE;
         if margin < -catch::LOST || crossed {
             self.tidying = None;
-            self.step = start(side, false, !crossed);
+            self.step = start(
+                side,
+                if crossed {
+                    Purpose::CatchBeside
+                } else {
+                    Purpose::Catch
+                },
+            );
             return;
         }
         if let Some(side) = self.tidying {
             let over = now[1 - side];
             let stance = over.0 + Quat::exp(Vec3::Z * over.1).rotate(Vec3::X * catch::SOLE_MIDDLE);
             if (level(xi) - level([stance.x, stance.y])).norm() < SETTLED.1 {
-                self.step = start(side, true, false);
+                self.step = start(side, Purpose::Tidy);
             }
             return;
         }
-        let e = self.capture.error;
         let settled = terms.com_velocity.norm() < SETTLED.0
-            && (e[0] * e[0] + e[1] * e[1]).sqrt() < SETTLED.1
+            && self.capture.off() < SETTLED.1
             && self.lean.norm() < 1e-3;
         if settled {
             self.tidying = (0..2).find(|k| {
