@@ -38,7 +38,7 @@ rust: ## Rust tests
 load: ## load test against a live server, where there is one
 	@if [ -x $(ROOT)/tests/load/run.sh ]; then $(ROOT)/tests/load/run.sh; fi
 
-soak: ## a million figure-ticks of everything that can be asked for; about an hour
+soak: ## a million figure-ticks of everything that can be asked for; about twenty minutes
 	cd $(ROOT) && SINEW_SOAK_TICKS=1000000 $(CARGO) test --release --locked --no-default-features --test soak -- --nocapture
 
 oracle: setup ## comparison with Pinocchio and MuJoCo, and the server seen from Python

@@ -11,7 +11,7 @@ use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use sinew::sim::body::{Body, NV, Posture, Profile, SegmentId, Sex, State};
 use sinew::sim::collide::{Mobility, ObstacleSetup, Shape};
-use sinew::sim::figure::{ControllerKind, FigureOptions, Flags, Perturbation};
+use sinew::sim::figure::{ControllerKind, FigureOptions, Flags, Perturbation, StepperKind};
 use sinew::sim::math::{Quat, Vec3};
 use sinew::sim::motion::{Target, TargetPair};
 use sinew::sim::world::{Drive, FigureKey, World, WorldError, WorldParams};
@@ -113,6 +113,9 @@ impl Chaos {
             state.velocity = std::array::from_fn(|_| self.within(fast));
         }
         let mut setup = common::figure(body, kind, state);
+        if kind != ControllerKind::Motors && self.often(0.2) {
+            setup.stepper = StepperKind::Kinematic;
+        }
         setup.strength.all = 10f64.powf(self.within(1.0) - 0.3);
         setup.strength.percentile = self.rng.random_range(5.0..=95.0);
         for d in 0..5 {
@@ -236,7 +239,7 @@ impl Chaos {
 struct Seen {
     figure_ticks: u64,
     worlds: u64,
-    quarantined: u64,
+    braked: u64,
     bounds_hit: u64,
     contacts: u64,
     unfinished: u64,
@@ -298,21 +301,23 @@ fn live(seed: u64, people: &[Arc<Body>], seen: &mut Seen) {
                 .flat_map(|t| [t.force, t.position, t.normal]);
             assert!(
                 numbers.copied().all(f64::is_finite)
-                    && forces.chain(touches).all(|v| v.is_finite())
-                    || r.flags.has(Flags::QUARANTINED),
+                    && forces.chain(touches).all(|v| v.is_finite()),
                 "seed {seed}, tick {}: a report that is not finite",
                 world.tick()
             );
             assert!(
-                r.over_limit <= 1e-9 || r.flags.has(Flags::QUARANTINED),
+                r.over_limit <= 1e-9,
                 "seed {seed}, tick {}: {:e} over the limit",
                 world.tick(),
                 r.over_limit
             );
-            if !r.flags.has(Flags::QUARANTINED) {
-                seen.over_limit = seen.over_limit.max(r.over_limit);
-            }
-            seen.quarantined += u64::from(r.flags.has(Flags::QUARANTINED));
+            assert!(
+                !r.flags.has(Flags::QUARANTINED),
+                "seed {seed}, tick {}: frozen",
+                world.tick()
+            );
+            seen.over_limit = seen.over_limit.max(r.over_limit);
+            seen.braked += u64::from(r.flags.has(Flags::SPEED_BOUND));
             seen.bounds_hit += u64::from(r.flags.has(Flags::STEP_BOUND));
             seen.figure_ticks += 1;
         }

@@ -159,6 +159,17 @@ impl State<f64> {
     pub fn is_finite(&self) -> bool {
         self.posture.is_finite() && self.velocity.iter().all(|v| v.is_finite())
     }
+
+    /// Slows all velocities alike, so that kinetic energy only falls, until none is above `fastest` (rad/s, m/s); true if one was.
+    pub fn brake(&mut self, fastest: f64) -> bool {
+        let most = self.velocity.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        if most > fastest {
+            for v in &mut self.velocity {
+                *v *= fastest / most;
+            }
+        }
+        most > fastest
+    }
 }
 
 impl<L: Lane> State<L> {

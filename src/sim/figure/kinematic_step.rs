@@ -5,7 +5,7 @@
 //! What they cannot give shows as a residual of the audit; it is not hidden.
 
 use super::report::{Audit, ContactPoint, Flags, MAX_CONTACTS};
-use super::torque_step::{StepInput, TickForces};
+use super::torque_step::{MAX_SPEED, StepInput, TickForces};
 use crate::sim::body::topology::{DOF_COUNT, L_FOOT, L_TOES, NV, R_FOOT, R_TOES, SEGMENT_COUNT};
 use crate::sim::body::{Body, Posture, SegmentId, State};
 use crate::sim::contact::limits::LimitRows;
@@ -31,6 +31,8 @@ const COMPLIANCE: f64 = 1e-6;
 /// Bound and residual (N·m·s) of an impact's iterations.
 const IMPACT_ITERATIONS: u32 = 80;
 const IMPACT_TOLERANCE: f64 = 1e-9;
+/// Torque beyond strength that counts as rounding, relative to the limit.
+const LIMIT_TOLERANCE: f64 = 1e-9;
 /// A foot tilted less than this when it comes to hold is laid flat, 1 − cos of the angle (3°).
 const NEARLY_FLAT: f64 = 1.4e-3;
 /// Part of the remaining tilt that is laid flat per tick.
@@ -45,6 +47,8 @@ pub const SPEED_CAP: f64 = 15.0;
 pub struct Decision<'a> {
     /// The controller's decision for the tick.
     pub command: &'a Command,
+    /// Accelerations whose torques are beyond strength are not applied.
+    pub within_strength: bool,
     /// Supports at the start of the tick.
     pub support: &'a Support,
     /// Which feet the desired motion keeps on the floor.
@@ -120,14 +124,23 @@ impl KinematicStepper {
     }
 
     /// Advances `state` by one tick: the commanded accelerations, the support as the decision has it, impacts of points that arrive.
-    /// Allocates nothing.
-    pub fn step(&mut self, input: &StepInput<'_>, decision: &Decision<'_>, state: &mut State) {
+    /// False if the decision is to be within strength and is not: then nothing has moved. Allocates nothing.
+    #[must_use]
+    pub fn step(
+        &mut self,
+        input: &StepInput<'_>,
+        decision: &Decision<'_>,
+        state: &mut State,
+    ) -> bool {
         let command = decision.command;
         let f = &mut self.forces;
         (f.iterations, f.flags) = (0, Flags::default());
         f.contact.clear();
         self.penetration = deepest(input, input.terms);
         self.account(input, decision, state);
+        if decision.within_strength && self.forces.over_limit > LIMIT_TOLERANCE {
+            return false;
+        }
         let main = decision
             .support
             .main()
@@ -142,6 +155,9 @@ impl KinematicStepper {
         let start = *state;
         for (v, a) in state.velocity.iter_mut().zip(&command.acceleration) {
             *v += input.dt * a;
+        }
+        if state.brake(MAX_SPEED) {
+            self.forces.flags.set(Flags::SPEED_BOUND);
         }
         self.advance(input, main, command.pivot, &start, input.dt, state);
         let arrival = self.arrival(input, &start.posture, &state.posture);
@@ -158,6 +174,7 @@ impl KinematicStepper {
             state.posture.integrate(&v, (1.0 - fraction) * input.dt);
             self.anchor = None;
         }
+        true
     }
 
     /// Moves the posture with the new velocity, and puts the pelvis where the support wants it.

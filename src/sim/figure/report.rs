@@ -47,8 +47,10 @@ impl Flags {
     /// Prescribed accelerations could not go on (saturated joints on a tilting support, overload, a part other than a foot touching):
     /// a figure with the kinematic stepper is moved by its torques for the time being.
     pub const HANDED_OVER: Self = Self(1 << 9);
+    /// The state was faster than anything a body does and was braked.
+    pub const SPEED_BOUND: Self = Self(1 << 10);
     /// Names of the flags, by bit.
-    pub const NAMES: [&'static str; 10] = [
+    pub const NAMES: [&'static str; 11] = [
         "FLIGHT",
         "TIPPING",
         "OVERLOAD",
@@ -59,6 +61,7 @@ impl Flags {
         "QUARANTINED",
         "BALANCE_LOST",
         "HANDED_OVER",
+        "SPEED_BOUND",
     ];
     /// True if every flag of `f` is set.
     pub const fn has(self, f: Self) -> bool {

@@ -69,9 +69,6 @@ pub struct TickContext {
     /// Magnitude of gravity, m/s².
     pub gravity: f64,
 }
-
-/// Speed beyond which a state counts as run away, rad/s or m/s.
-const RUNAWAY: f64 = 500.0;
 /// A figure has fallen when its CoM is below this share of its standing height and something other than a foot carries it.
 const FALLEN_HEIGHT: f64 = 0.45;
 /// A fallen figure relaxes: share of its strength, and time constant of its demand, s (ALGORITHM §12).
@@ -291,16 +288,17 @@ impl Figure {
         let paper = self.setup.controller == ControllerKind::Paper;
         let prescribed = self.prescribed;
         let as_commanded = paper && self.setup.params.share == Share::Paper;
+        let within_strength = self.setup.params.hand_over;
         let planted = self.target.next.planted;
-        let Stage {
-            input,
-            stepper,
-            kinematic,
-            controllers: (first, second),
-            support,
-            state,
-        } = self.stage(world);
         if prescribed {
+            let Stage {
+                input,
+                kinematic,
+                controllers: (first, second),
+                support,
+                state,
+                ..
+            } = self.stage(world);
             let decision = Decision {
                 command: if paper {
                     first.command()
@@ -309,14 +307,24 @@ impl Figure {
                 },
                 left_out: first.left_out().filter(|_| paper),
                 as_commanded,
+                within_strength,
                 support,
                 planted,
             };
-            kinematic.step(&input, &decision, state);
-        } else {
-            kinematic.reset();
-            stepper.step(&input, state);
+            if kinematic.step(&input, &decision, state) {
+                return;
+            }
+            self.hand_over();
         }
+        let Stage {
+            input,
+            stepper,
+            kinematic,
+            state,
+            ..
+        } = self.stage(world);
+        kinematic.reset();
+        stepper.step(&input, state);
     }
 
     /// What the steppers read, the steppers, and the state they move.
@@ -646,9 +654,9 @@ impl Figure {
         self.report.remaining = fatigue.remaining();
     }
 
-    /// Freezes a figure whose state is not finite or runs away at its last good state; the world goes on.
+    /// Freezes a figure whose state is not finite at its last good state; the world goes on.
     fn contain(&mut self) -> bool {
-        let good = self.state.is_finite() && self.state.velocity.iter().all(|v| v.abs() < RUNAWAY);
+        let good = self.state.is_finite();
         if good {
             self.last_good = self.state;
         } else {
@@ -986,5 +994,71 @@ fn empty_report(state: &State) -> TickReport {
             applied: Vec::with_capacity(super::loads::MAX_APPLIED),
             assist: [0.0; 6],
         },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::world::{World, WorldParams};
+
+    #[test]
+    fn a_figure_that_is_not_finite_is_frozen_told_once_and_harms_nobody() {
+        let body = Arc::new(Body::adult_man());
+        let hashes = |broken: bool| {
+            let mut world = World::new(WorldParams::default()).unwrap();
+            let [key, victim] = [0.0, 3.0].map(|y| {
+                let mut state = State::default();
+                state.posture.root_position = Vec3 {
+                    x: 0.0,
+                    y,
+                    z: body.standing_root_height(),
+                };
+                let setup = FigureSetup {
+                    name: String::new(),
+                    body: Arc::clone(&body),
+                    strength: StrengthScale::default(),
+                    controller: ControllerKind::Modern,
+                    stepper: StepperKind::Torque,
+                    params: ControlParams::default(),
+                    options: FigureOptions::default(),
+                    state,
+                };
+                world.add_figure(setup).unwrap()
+            });
+            let mut told = 0;
+            let all: Vec<u64> = (0..60)
+                .map(|tick| {
+                    if broken && tick == 20 {
+                        world.figure_mut(victim).unwrap().state.velocity[7] = f64::NAN;
+                    }
+                    world.step();
+                    let f = world.figure(victim).unwrap();
+                    told += f
+                        .events()
+                        .iter()
+                        .filter(|e| **e == FigureEvent::Quarantined)
+                        .count();
+                    assert!(f.state().is_finite());
+                    let frozen = f.report().unwrap().flags.has(Flags::QUARANTINED);
+                    assert_eq!(frozen, broken && tick >= 20);
+                    world.figure(key).unwrap().state_hash()
+                })
+                .collect();
+            (all, told, world, victim)
+        };
+        let (alone, ..) = hashes(false);
+        let (beside, told, mut world, victim) = hashes(true);
+        assert_eq!(alone, beside);
+        assert_eq!(told, 1);
+        // A reset takes it back into the world.
+        let mut state = State::default();
+        state.posture.root_position.z = body.standing_root_height();
+        world.reset_figure(victim, state).unwrap();
+        for _ in 0..60 {
+            world.step();
+        }
+        let f = world.figure(victim).unwrap();
+        assert!(!f.report().unwrap().flags.has(Flags::QUARANTINED) && !f.is_fallen());
     }
 }

@@ -75,6 +75,10 @@ pub struct StepInput<'a> {
     pub substeps: u32,
 }
 
+/// Rates (rad/s) and speeds (m/s) beyond this are braked: far above what bodies do (a pitcher's shoulder turns at 130 rad/s), low enough
+/// that a substep resolves it and a push of any size leaves numbers that can be computed with.
+pub(super) const MAX_SPEED: f64 = 200.0;
+
 /// Who moves the body (ALGORITHM §15).
 pub trait Stepper {
     /// Advances `state` by one tick. Allocates nothing.
@@ -490,6 +494,9 @@ impl TorqueStepper {
             self.forces.audit.acceleration[i] = (x[i] - state.velocity[i]) / h;
         }
         state.velocity = x;
+        if state.brake(MAX_SPEED) {
+            self.forces.flags.set(Flags::SPEED_BOUND);
+        }
     }
 
     /// Solves with or without assist.

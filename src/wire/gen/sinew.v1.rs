@@ -2287,7 +2287,7 @@ pub struct DesiredPosture {
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Status {
     /// Set of flags by bit; `GetServerInfo` lists their names: FLIGHT, TIPPING, OVERLOAD, DAMPED, CONTROL_BOUND, STEP_BOUND, FALLEN,
-    /// QUARANTINED, BALANCE_LOST, HANDED_OVER.
+    /// QUARANTINED, BALANCE_LOST, HANDED_OVER, SPEED_BOUND.
     #[prost(int32, tag = "1")]
     pub flags: i32,
     /// Set of DOFs at the limit of their strength, by bit.

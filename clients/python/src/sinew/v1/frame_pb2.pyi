@@ -472,7 +472,7 @@ class Status(_message.Message):
     LOADS_FIELD_NUMBER: _builtins.int
     flags: _builtins.int
     """Set of flags by bit; `GetServerInfo` lists their names: FLIGHT, TIPPING, OVERLOAD, DAMPED, CONTROL_BOUND, STEP_BOUND, FALLEN,
-    QUARANTINED, BALANCE_LOST, HANDED_OVER.
+    QUARANTINED, BALANCE_LOST, HANDED_OVER, SPEED_BOUND.
     """
     saturated: _builtins.int
     """Set of DOFs at the limit of their strength, by bit."""

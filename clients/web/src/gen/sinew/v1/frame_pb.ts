@@ -504,7 +504,7 @@ export const DesiredPostureSchema: GenMessage<DesiredPosture> = /*@__PURE__*/
 export type Status = Message<"sinew.v1.Status"> & {
   /**
    * Set of flags by bit; `GetServerInfo` lists their names: FLIGHT, TIPPING, OVERLOAD, DAMPED, CONTROL_BOUND, STEP_BOUND, FALLEN,
-   * QUARANTINED, BALANCE_LOST, HANDED_OVER.
+   * QUARANTINED, BALANCE_LOST, HANDED_OVER, SPEED_BOUND.
    *
    * @generated from field: int32 flags = 1;
    */
