@@ -133,12 +133,17 @@ impl Meter {
             let a = audit::audit(f.links(), &r.audit, world.params().gravity);
             self.residual = self.residual.max(a.relative);
         }
+        // The floor's push is among the forces of a ball that lies on it, and cannot be told from the others.
+        let mut on_floor = false;
         for (_, o) in world.obstacles() {
             if o.mass().is_some() {
                 sum += o.force();
+                let s = o.setup();
+                on_floor |=
+                    matches!(s.shape, Shape::Sphere { radius } if s.position.z < radius + 1e-3);
             }
         }
-        if most > 0.0 {
+        if most > 0.0 && !on_floor {
             self.unbalanced = self.unbalanced.max(sum.norm() / most);
         }
         if touching {
@@ -458,42 +463,58 @@ fn a_kinematic_figure_is_handed_over_when_a_ball_comes() {
     m.judge("kinematic", 60.0);
 }
 
-/// Sits down on a stool, sits and gets up. The clip then walks away, which is not asked for here: docs/limits.md.
+/// Sits down on a stool, moves about on it, gets up and walks away: wherever the stool is, within what the motion can mean.
 #[test]
 fn a_figure_sits_down_and_gets_up() {
     let body = man();
     let clip = recorded_with(&body, "sit-stand", &RetargetOptions::default());
-    let first = clip.sample(0.0);
-    let state = State {
-        posture: first.posture,
-        velocity: first.velocity,
-    };
-    let mut world = World::new(WorldParams::default()).unwrap();
-    let setup = figure(&body, ControllerKind::Modern, state);
-    let key = world.add_figure(setup).unwrap();
-    world.figure_mut(key).unwrap().set_drive(play(&clip));
-    let half = vec3(0.17, 0.17, 0.19);
-    let stool = ObstacleSetup {
-        rotation: Quat::exp(Vec3::Z * -51f64.to_radians()),
-        ..obstacle(
-            Shape::Box { half },
-            Mobility::Fixed,
-            vec3(0.389, 0.545, 0.19),
-        )
-    };
-    world.add_obstacle(stool).unwrap();
-    let mut m = Meter::default();
-    let mut seated = 0;
-    for _ in 0..8 * 60 {
-        world.step();
-        m.observe(&world);
-        let f = world.figure(key).unwrap();
-        assert!(!f.is_fallen(), "fell at {:.2} s", world.time());
-        let r = f.report().unwrap();
-        let carried: f64 = r.touches.iter().map(|t| t.force.z).sum();
-        seated += u64::from(carried > 0.1 * 75.0 * crate::GRAVITY);
+    // Side, height and place of the stool, m.
+    for (side, height, x) in [
+        (0.34, 0.38, 0.389),
+        (0.34, 0.36, 0.389),
+        (0.34, 0.40, 0.389),
+        (0.40, 0.38, 0.389),
+        (0.34, 0.38, 0.429),
+        (0.34, 0.38, 0.349),
+    ] {
+        let text = format!("stool {side} wide and {height} m high at {x}");
+        let first = clip.sample(0.0);
+        let state = State {
+            posture: first.posture,
+            velocity: first.velocity,
+        };
+        let mut world = World::new(WorldParams::default()).unwrap();
+        let setup = figure(&body, ControllerKind::Modern, state);
+        let key = world.add_figure(setup).unwrap();
+        world.figure_mut(key).unwrap().set_drive(play(&clip));
+        let half = vec3(0.5 * side, 0.5 * side, 0.5 * height);
+        let stool = ObstacleSetup {
+            rotation: Quat::exp(Vec3::Z * -51f64.to_radians()),
+            ..obstacle(
+                Shape::Box { half },
+                Mobility::Fixed,
+                vec3(x, 0.545, 0.5 * height),
+            )
+        };
+        world.add_obstacle(stool).unwrap();
+        let mut m = Meter::default();
+        let mut seated = 0;
+        for _ in 0..(60.0 * clip.duration()) as u64 {
+            world.step();
+            m.observe(&world);
+            let f = world.figure(key).unwrap();
+            assert!(!f.is_fallen(), "{text}: fell at {:.2} s", world.time());
+            let r = f.report().unwrap();
+            let carried: f64 = r.touches.iter().map(|t| t.force.z).sum();
+            seated += u64::from(carried > 0.1 * 75.0 * crate::GRAVITY);
+        }
+        let up = world.figure(key).unwrap().report().unwrap().com.z;
+        println!("{text}: seated for {:.2} s", seated as f64 / 60.0);
+        assert!(
+            seated > 3 * 60,
+            "{text}: the seat carried for {seated} ticks"
+        );
+        assert!(up > 0.8, "{text}: not up at the end, {up:.2} m");
+        m.judge(&text, 60.0);
     }
-    println!("seated for {:.2} s", seated as f64 / 60.0);
-    assert!(seated > 3 * 60, "the seat carried for {seated} ticks");
-    m.judge("sit-stand", 60.0);
 }

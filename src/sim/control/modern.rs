@@ -18,6 +18,7 @@ use crate::sim::figure::Flags;
 use crate::sim::figure::report::MAX_CONTACTS;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::TargetPair;
+use crate::sim::support::Polygon;
 use multiversion::multiversion;
 
 /// Weights in units of force: the cost of a task is about (inertia × acceleration error)², so that a foot's hundred rad/s² cost less than one
@@ -58,9 +59,18 @@ const FADE: (f64, f64) = (0.004, 0.010);
 const PLANNED_FADE: (f64, f64) = (0.006, 0.020);
 /// What is kept of the last tick's contact force.
 const FORCE_MEMORY: f64 = 0.98;
-/// Weight with which a part that rests on a seat is held there when it carries all it may count for, and that share of the weight.
-const REST_HOLD: f64 = 500.0;
+/// Weight with which a part that rests on a seat is held there when it carries all it may count for, and that share of the weight. Little:
+/// who sits moves about, and who is nailed to the seat topples with it.
+const REST_HOLD: f64 = 5.0;
 const REST_FULL: f64 = 0.2;
+/// Distance of the capture point from the motion's at which balance begins to count more, and at which it counts most, m; how much more.
+const DANGER: (f64, f64) = (0.04, 0.12);
+const DANGER_FACTOR: f64 = 10.0;
+/// Share of the weight on a seat from which the centre of mass counts least, and its factor then.
+const SEATED_FULL: f64 = 0.3;
+const SEATED_LEAST: f64 = 0.05;
+/// The motion needs the seat where its capture point is less than the first inside the soles; from the second on it is about to get up, m.
+const NEEDS_SEAT: (f64, f64) = (-0.02, 0.03);
 /// Share of hold and force that segments other than feet get.
 const OTHER_SEGMENT: f64 = 1e-3;
 /// Most Newton iterations; residual of the equations of motion at which it stops, N·m. In gait the median is 3, the 99th percentile 26.
@@ -81,6 +91,7 @@ pub struct Modern {
     contacts: ContactRows,
     hold: Vec<(f64, Vec3)>,
     limits: LimitRows,
+    soles: Polygon,
     motors: Motors,
     newton: NewtonWorkspace,
     rows: Vec<TaskRow>,
@@ -123,6 +134,7 @@ impl Modern {
             contacts: ContactRows::new(friction * FRICTION_MARGIN),
             hold: Vec::with_capacity(MAX_CONTACTS),
             limits: LimitRows::default(),
+            soles: Polygon::with_capacity(MAX_CONTACTS),
             motors: Motors::default(),
             newton: NewtonWorkspace::default(),
             rows: Vec::with_capacity(32),
@@ -142,11 +154,12 @@ impl Modern {
             if let Some(balance) = input.balance {
                 [a.x, a.y] = balance.acceleration;
             }
+            let urgency = self.urgency(input);
             let a = a - t.com_bias;
             for (k, value) in [a.x, a.y, a.z].into_iter().enumerate() {
                 self.rows.push(TaskRow {
                     row: t.jc[k],
-                    weight: weight::COM[k],
+                    weight: weight::COM[k] * urgency,
                     value,
                 });
             }
@@ -199,6 +212,49 @@ impl Modern {
                 });
             }
         }
+    }
+
+    /// Factor on the weight of the centre of mass. Who cannot step and is about to fall lets the posture go rather than the balance. Who
+    /// sits has no balance to keep, and would bend to put its centre of mass where another seat would have had it; not so while
+    /// the motion is getting up, which takes a centre of mass over the feet.
+    fn urgency(&mut self, input: &ControlInput<'_>) -> f64 {
+        let (t, goal) = (input.terms, input.com);
+        let time = (t.com.z.max(0.1) / input.gravity.max(1.0)).sqrt();
+        let level = input.support.rests().iter().filter(|r| r.is_level());
+        let seated = level.map(|r| r.force.z).sum::<f64>() / (t.mass * input.gravity.max(1.0));
+        if seated > 0.0 {
+            let capture = goal.now + goal.now_velocity * time;
+            let margin = self.margin_on_feet(input, [capture.x, capture.y]);
+            let leaves = 1.0 - smooth_step(margin, NEEDS_SEAT);
+            let floor = SEATED_LEAST + (1.0 - SEATED_LEAST) * leaves;
+            return (1.0 - seated / SEATED_FULL).clamp(floor, 1.0);
+        }
+        let planted = [input.target.now.planted, input.target.next.planted];
+        if input.params.protective_steps || planted != [[true; 2]; 2] {
+            return 1.0;
+        }
+        let off = (t.com - goal.now) + (t.com_velocity - goal.now_velocity) * time;
+        let danger = 1.0 - smooth_step(off.x.hypot(off.y), DANGER);
+        1.0 + (DANGER_FACTOR - 1.0) * danger
+    }
+
+    /// Signed distance of a point on the ground inside the soles of the planted feet, m.
+    fn margin_on_feet(&mut self, input: &ControlInput<'_>, point: [f64; 2]) -> f64 {
+        let planted = input.target.next.planted;
+        let feet = [(L_FOOT, 0), (L_TOES, 0), (R_FOOT, 1), (R_TOES, 1)];
+        let corners = feet
+            .iter()
+            .filter(|(_, side)| planted[*side])
+            .flat_map(|(s, _)| {
+                let points = &input.body.segment(*s).contact_points;
+                points
+                    .iter()
+                    .map(|p| input.terms.point_world(s.index(), *p))
+            });
+        self.soles.set_hull(corners.map(|p| [p.x, p.y]));
+        self.soles
+            .closest(point)
+            .map_or(f64::NEG_INFINITY, |c| c.margin)
     }
 
     fn point_task(

@@ -13,6 +13,13 @@ const LEARN: f64 = 0.15;
 /// Largest reaction a controller counts on, N.
 const MOST: f64 = 2000.0;
 
+/// Places by which one part rests on one thing: buttocks and thighs do not turn on a stool as on a point.
+const SPOTS: usize = 4;
+/// Contacts closer than this are one place, m.
+const SPOT_SIZE: f64 = 0.05;
+/// A place that is not pressed any more is forgotten below this, N.
+const FORGOTTEN: f64 = 1.0;
+
 /// One contact of a substep, as one figure sees it.
 #[derive(Clone, Copy, Debug)]
 pub struct Contacting {
@@ -32,16 +39,117 @@ pub struct Contacting {
     pub firm: bool,
 }
 
+/// A place by which a part rests.
+#[derive(Clone, Copy, Debug, Default)]
+struct Spot {
+    /// Where on the segment, segment frame, m.
+    local: Vec3,
+    /// Sum of normal forces, weight of the mean place, N.
+    weight: f64,
+    /// Reaction of this tick, world axes, N.
+    force: Vec3,
+    /// Reaction that controllers count on, N.
+    expected: Vec3,
+}
+
 #[derive(Clone, Copy, Debug)]
 struct Entry {
     touch: Touch,
     /// Sum of normal forces, weight of the mean position, N.
     weight: f64,
-    /// Where on the segment, segment frame, m.
-    local: Vec3,
-    /// Reaction that controllers count on, N.
-    expected: Vec3,
+    spots: [Spot; SPOTS],
+    /// How many of them count.
+    count: usize,
     firm: bool,
+}
+
+impl Entry {
+    fn spots(&self) -> &[Spot] {
+        &self.spots[..self.count]
+    }
+
+    /// The spot at `local`, a new one if there is room, the closest otherwise.
+    fn spot(&mut self, local: Vec3) -> &mut Spot {
+        let closest = self.closest(local);
+        let i = match closest {
+            Some((i, d)) if d < SPOT_SIZE || self.count == SPOTS => i,
+            _ => {
+                self.spots[self.count] = Spot {
+                    local,
+                    ..Spot::default()
+                };
+                self.count += 1;
+                self.count - 1
+            }
+        };
+        &mut self.spots[i]
+    }
+
+    /// The closest spot to `local` with its distance.
+    fn closest(&self, local: Vec3) -> Option<(usize, f64)> {
+        let distances = self.spots().iter().map(|s| (s.local - local).norm());
+        distances.enumerate().min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    fn press(&mut self, local: Vec3, force: Vec3, weight: f64) {
+        let spot = self.spot(local);
+        spot.weight += weight;
+        spot.force += force;
+        if spot.weight > 0.0 {
+            let share = weight / spot.weight;
+            spot.local += (local - spot.local) * share;
+        }
+    }
+
+    /// What is expected of the next tick: the reactions of this one and what was expected of it, spot by spot.
+    fn learn(&mut self, old: Option<&Self>) {
+        let mut taken = [false; SPOTS];
+        for spot in &mut self.spots[..self.count] {
+            let before = old.and_then(|o| {
+                let (i, d) = o.closest(spot.local)?;
+                (d < SPOT_SIZE && !taken[i]).then(|| {
+                    taken[i] = true;
+                    o.spots[i].expected
+                })
+            });
+            let before = before.unwrap_or_default();
+            spot.expected = before + (spot.force - before) * LEARN;
+        }
+        for (spot, _) in old
+            .into_iter()
+            .flat_map(Self::spots)
+            .zip(taken)
+            .filter(|(_, taken)| !taken)
+        {
+            let expected = spot.expected * (1.0 - LEARN);
+            if self.count < SPOTS && expected.norm() > FORGOTTEN {
+                self.spots[self.count] = Spot {
+                    local: spot.local,
+                    expected,
+                    ..Spot::default()
+                };
+                self.count += 1;
+            }
+        }
+        let total = self.expected().norm();
+        if total > MOST {
+            for spot in &mut self.spots[..self.count] {
+                spot.expected = spot.expected * (MOST / total);
+            }
+        }
+    }
+
+    /// Reaction that controllers count on, N.
+    fn expected(&self) -> Vec3 {
+        self.spots()
+            .iter()
+            .fold(Vec3::zero(), |sum, s| sum + s.expected)
+    }
+
+    /// True if it carries more than `least` N.
+    fn carries(&self, least: f64) -> bool {
+        self.firm && self.expected().dot(self.touch.normal) > least
+    }
 }
 
 /// Touches of one tick and of the one before.
@@ -86,13 +194,13 @@ impl Touches {
             if total > 0.0 {
                 let share = weight / total;
                 e.touch.position += (c.position - e.touch.position) * share;
-                e.local += (local - e.local) * share;
             }
+            e.press(local, force, weight);
             e.weight = total;
             e.touch.force += force;
             e.touch.depth = e.touch.depth.max(c.depth);
         } else if self.now.len() < MAX_TOUCHES {
-            self.now.push(Entry {
+            let mut e = Entry {
                 touch: Touch {
                     segment: c.segment,
                     other: c.other,
@@ -102,10 +210,12 @@ impl Touches {
                     depth: c.depth,
                 },
                 weight,
-                local,
-                expected: Vec3::zero(),
+                spots: [Spot::default(); SPOTS],
+                count: 0,
                 firm: c.firm,
-            });
+            };
+            e.press(local, force, weight);
+            self.now.push(e);
         }
     }
 
@@ -114,16 +224,12 @@ impl Touches {
         self.now.sort_unstable_by_key(key);
         for e in &mut self.now {
             let old = self.before.iter().find(|o| key(o) == key(e));
-            match old {
-                Some(o) => e.expected = o.expected + (e.touch.force - o.expected) * LEARN,
-                None => watcher.push(FigureEvent::Touched {
+            e.learn(old);
+            if old.is_none() {
+                watcher.push(FigureEvent::Touched {
                     segment: e.touch.segment,
                     other: e.touch.other,
-                }),
-            }
-            let n = e.expected.norm();
-            if n > MOST {
-                e.expected = e.expected * (MOST / n);
+                });
             }
         }
         for o in &self.before {
@@ -144,30 +250,31 @@ impl Touches {
 
     /// What carries it: firm things that push with more than `least` N, with their places in the state of `terms`.
     pub fn rests<'a>(&'a self, terms: &'a Terms, least: f64) -> impl Iterator<Item = Rest> + 'a {
-        let firm = self.now.iter().filter(|e| e.firm);
-        firm.filter(move |e| e.expected.dot(e.touch.normal) > least)
-            .map(|e| Rest {
+        let carrying = self.now.iter().filter(move |e| e.carries(least));
+        carrying.flat_map(move |e| {
+            e.spots().iter().map(move |spot| Rest {
                 segment: e.touch.segment,
-                position: terms.point_world(e.touch.segment.index(), e.local),
+                position: terms.point_world(e.touch.segment.index(), spot.local),
                 normal: e.touch.normal,
-                force: e.expected,
+                force: spot.expected,
             })
+        })
     }
 
     /// Counts the expected reactions among the forces in `terms.h`; those of level rests that carry more than `least` N, if given, are left
     /// to a controller that chooses them.
     pub fn lean(&self, terms: &mut Terms, least: Option<f64>) {
         for e in &self.now {
-            let normal = e.touch.normal;
-            let chosen =
-                least.is_some_and(|l| e.firm && Rest::level(normal) && e.expected.dot(normal) > l);
-            if chosen || e.expected == Vec3::zero() {
+            let chosen = least.is_some_and(|l| Rest::level(e.touch.normal) && e.carries(l));
+            if chosen {
                 continue;
             }
             let s = e.touch.segment.index();
             let Terms { kin, h, .. } = terms;
-            let r = kin.position[s] + kin.rotation[s] * e.local;
-            for_each_column(kin, s, r, |i, _, v| h[i] -= v.dot(e.expected));
+            for spot in e.spots() {
+                let r = kin.position[s] + kin.rotation[s] * spot.local;
+                for_each_column(kin, s, r, |i, _, v| h[i] -= v.dot(spot.expected));
+            }
         }
     }
 }
