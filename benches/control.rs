@@ -86,6 +86,7 @@ impl Bench {
             target: &self.target,
             com: &tasks.com,
             effectors: &tasks.hands,
+            goals: &[],
             feet: &tasks.feet,
             balance: None,
             lower: &self.lower,

@@ -8,7 +8,7 @@ use allocation_counter::measure;
 use common::{Scene, authored, bent, figure, man, play, still};
 use sinew::sim::body::SegmentId;
 use sinew::sim::body::topology::{CHEST, L_HAND, R_HAND};
-use sinew::sim::figure::{ControllerKind, Flags, Perturbation};
+use sinew::sim::figure::{Constrained, Constraint, ControllerKind, Flags, Perturbation};
 use sinew::sim::math::{Quat, Vec3};
 use sinew::sim::world::{Drive, World};
 
@@ -120,6 +120,32 @@ fn loads_and_pushes_allocate_nothing() {
         push(&mut scene, Vec3::X * 60.0, 0.3);
         push(&mut scene, Vec3::Y * -40.0, 0.35);
         assert_none(&format!("{kind:?}"), &mut scene, 1.5);
+    }
+}
+
+#[test]
+fn constraints_allocate_nothing() {
+    for kind in KINDS {
+        let mut scene = standing(kind);
+        let place = |x: f64| Some(Vec3 { x, y: -0.2, z: 1.1 });
+        let all: Vec<_> = (0..8)
+            .map(|i| Constraint {
+                on: match i {
+                    0 => Constrained::CenterOfMass,
+                    i => Constrained::Point(SegmentId::new(1 + i).unwrap(), Vec3::zero()),
+                },
+                position: place(0.05 * i as f64),
+                axes: [1.0; 3],
+                rotation: (i > 0).then(Quat::identity),
+                weight: 1.0,
+                ease: 0.2,
+                from: 0.1,
+                to: 0.2 + 0.1 * i as f64,
+            })
+            .collect();
+        scene.world.set_constraints(scene.key, &all).unwrap();
+        scene.world.set_constraints(scene.key, &all[..4]).unwrap();
+        assert_none(&format!("{kind:?}"), &mut scene, 1.0);
     }
 }
 

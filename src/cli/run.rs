@@ -1,8 +1,8 @@
 //! `sinew run`: a motion through the physics, offline, as fast as it goes; measured, drawn and written.
 
 use super::args::{
-    BodyArgs, ControllerArg, LoadSpec, ObstacleSpec, PaperOptions, PresetArg, PushSpec, StepperArg,
-    person_name, sex_name,
+    BodyArgs, ConstraintSpec, ControllerArg, LoadSpec, ObstacleSpec, PaperOptions, PresetArg,
+    PushSpec, StepperArg, person_name, sex_name,
 };
 use super::output::{extension, for_clip, write};
 use super::source::{Source, load};
@@ -11,8 +11,9 @@ use crate::evaluate::table::{Torques, header, row};
 use crate::evaluate::{Metrics, RunReport, Tick};
 use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES};
 use crate::sim::body::{Body, Posture, SegmentId, State};
-use crate::sim::figure::{FigureOptions, StrengthScale};
-use crate::sim::math::Vec3;
+use crate::sim::collide::{Mobility, ObstacleSetup, Shape};
+use crate::sim::figure::{Constraint, ControlParams, FigureOptions, StrengthScale};
+use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::retarget::RetargetOptions;
 use crate::sim::motion::{Clip, PlanarTransform, cycle, write_bvh};
 use crate::sim::strength::fatigue::MAX_TIME_SCALE;
@@ -65,6 +66,14 @@ pub struct RunArgs {
     /// Push on a segment, for example 20@chest@1.5:1,0,0 (N·s, start in s, world direction; repeatable).
     #[arg(long, value_name = "NS@SEGMENT@T:x,y,z", allow_hyphen_values = true)]
     pub push: Vec<PushSpec>,
+    /// Where a segment or the centre of mass (com) is wanted (repeatable): r_hand@0.4,-0.25,1.1, with times r_hand@0.4,-0.25,1.1@1..3, turned
+    /// r_hand@0.4,-0.25,1.1:0,-0.7,0,0.714, single axes com@_,0.08,_.
+    #[arg(
+        long,
+        value_name = "PART@x,y,z[@T0..T1][:qx,qy,qz,qw]",
+        allow_hyphen_values = true
+    )]
+    pub constrain: Vec<ConstraintSpec>,
     /// A thing that the figure can touch (repeatable): a seat box:0.4,0.5,0.45@-0.3,0,0.225, a thrown ball sphere:0.11@2,0,1.2:5kg:-5,0,1,
     /// a wall plane:-1,0,0@0.6,0,0.
     #[arg(
@@ -82,6 +91,9 @@ pub struct RunArgs {
     /// Who moves the body.
     #[arg(long, value_enum, default_value_t)]
     pub stepper: StepperArg,
+    /// Step when the capture point has left the feet (modern controller).
+    #[arg(long, value_name = "BOOL", default_value_t = true, num_args = 0..=1, require_equals = true, default_missing_value = "true", action = clap::ArgAction::Set)]
+    pub protective_steps: bool,
     /// Choices of the paper's controller.
     #[command(flatten)]
     pub paper: PaperOptions,
@@ -441,7 +453,10 @@ fn simulate(
             },
             controller: args.controller_kind().into(),
             stepper: args.stepper_kind().into(),
-            params: args.paper.params()?,
+            params: ControlParams {
+                protective_steps: args.protective_steps,
+                ..args.paper.params()?
+            },
             options: FigureOptions {
                 fatigue_time_scale: args.fatigue,
                 assist: args.assist,
@@ -463,6 +478,10 @@ fn simulate(
             .perturb(key, push.perturbation(body, args.push_duration))
             .context("--push")?;
     }
+    let constraints: Vec<_> = args.constrain.iter().map(|c| c.constraint(body)).collect();
+    world
+        .set_constraints(key, &constraints)
+        .context("--constrain")?;
     for o in &args.obstacle {
         world.add_obstacle(o.0.clone()).context("--obstacle")?;
     }
@@ -498,11 +517,31 @@ fn simulate(
         if shown.binary_search(&n).is_ok() {
             let loads = held_loads(scenario, metrics.time_s());
             let things = world.obstacles().map(|(_, o)| Thing::obstacle(o.setup()));
+            let goals = constraints
+                .iter()
+                .filter_map(|c| goal_mark(c, metrics.time_s()));
+            let things = things.chain(goals);
             frames.push(Frame::of(&tick, metrics.time_s(), loads).among(things));
         }
         each(figure, metrics.time_s())?;
     }
     Ok((metrics.finish(world.state_hash()), frames))
+}
+
+/// A small ball where all three coordinates of a part are wanted at `time` (s).
+fn goal_mark(c: &Constraint, time: f64) -> Option<Thing> {
+    let holds = c.from <= time && time < c.to && c.axes == [1.0; 3];
+    let setup = ObstacleSetup {
+        position: c.position.filter(|_| holds)?,
+        name: String::new(),
+        shape: Shape::Sphere { radius: 0.03 },
+        mobility: Mobility::Fixed,
+        friction: 1.0,
+        rotation: Quat::identity(),
+        velocity: Vec3::zero(),
+        angular_velocity: Vec3::zero(),
+    };
+    Some(Thing::obstacle(&setup))
 }
 
 /// Loads in the figure's hands at `time` (s).

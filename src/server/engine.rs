@@ -8,8 +8,10 @@ use crate::sim::body::topology::{self, BONE_NAMES, SEGMENT_NAMES};
 use crate::sim::body::{Body, DOF_COUNT, Posture, SEGMENT_COUNT, SegmentId, State};
 use crate::sim::collide::{MAX_OBSTACLES, ObstacleSetup, Other};
 use crate::sim::figure::loads::MAX_PERTURBATIONS;
+use crate::sim::figure::tasks::grip;
 use crate::sim::figure::{
-    ControlParams, ControllerKind, FigureOptions, HeldLoad, Perturbation, StrengthScale,
+    Constrained, Constraint, ControlParams, ControllerKind, FigureOptions, HeldLoad, Perturbation,
+    StrengthScale,
 };
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::{Bvh, PlanarTransform, RetargetOptions, Target, UpAxis};
@@ -17,8 +19,8 @@ use crate::sim::strength::Strength;
 use crate::sim::world::{FigureSetup, WorldError, WorldParams};
 use crate::wire::status::Fault;
 use crate::wire::types::{
-    BvhReading, Disturbance, EventKind, FigureSettings, FigureSnapshot, MotionSource, Place,
-    ReadingReport, WorldSettings,
+    BvhReading, ConstraintSettings, Disturbance, EventKind, FigureSettings, FigureSnapshot,
+    MotionSource, Place, ReadingReport, WorldSettings,
 };
 use std::sync::Arc;
 
@@ -257,6 +259,9 @@ fn refused(prefix: &str, e: &WorldError) -> Fault {
             message: e.to_string(),
             retry: None,
         },
+        WorldError::TooManyConstraints | WorldError::Constraint(_) => {
+            Fault::invalid(format!("{prefix}.constraints"), e.to_string())
+        }
         WorldError::FreePlane => Fault::invalid(format!("{prefix}.mobility"), e.to_string()),
         WorldError::UnknownFigure(_) | WorldError::UnknownObstacle(_) => {
             Fault::Internal(e.to_string())
@@ -343,6 +348,63 @@ pub fn set_options(world: &mut World, key: FigureKey, options: FigureOptions) ->
         .map_err(|e| refused("figure", &e))
 }
 
+/// Replaces the constraints of a figure from now on.
+pub fn set_constraints(
+    world: &mut World,
+    key: FigureKey,
+    all: &[ConstraintSettings],
+) -> Result<(), Fault> {
+    let now = world.time();
+    let figure = world.figure(key);
+    let body = Arc::clone(figure.expect("members are in the world").body());
+    let all: Vec<_> = all
+        .iter()
+        .map(|c| Constraint {
+            on: c.on.map_or(Constrained::CenterOfMass, |(s, point)| {
+                Constrained::Point(s, point.unwrap_or_else(|| place_on(&body, s)))
+            }),
+            position: c.position,
+            axes: c.axes,
+            rotation: c.rotation,
+            weight: c.weight,
+            ease: c.ease,
+            from: now,
+            to: now + c.duration,
+        })
+        .collect();
+    world
+        .set_constraints(key, &all)
+        .map_err(|e| refused("figure", &e))
+}
+
+/// Where a constraint that names no point holds a segment.
+fn place_on(body: &Body, s: SegmentId) -> Vec3 {
+    if s == topology::L_HAND || s == topology::R_HAND {
+        grip(body, s)
+    } else {
+        body.segment(s).com
+    }
+}
+
+/// The constraints that hold, at world time `now`.
+pub fn constraints(figure: &Figure, now: f64) -> Vec<ConstraintSettings> {
+    let holds = figure.constraints().iter().filter(|c| c.to > now);
+    holds
+        .map(|c| ConstraintSettings {
+            on: match c.on {
+                Constrained::CenterOfMass => None,
+                Constrained::Point(s, point) => Some((s, Some(point))),
+            },
+            position: c.position,
+            axes: c.axes,
+            rotation: c.rotation,
+            weight: c.weight,
+            ease: c.ease,
+            duration: c.to - now,
+        })
+        .collect()
+}
+
 /// Where the numbers of a body and of its strength come from, by segment or DOF.
 pub fn provenance(body: &Body) -> Vec<(&'static str, Provenance)> {
     let strength = Strength::for_body(body);
@@ -381,7 +443,7 @@ pub fn add_figure(
         posture: standing(&body, s.place),
         ..State::default()
     };
-    world
+    let key = world
         .add_figure(FigureSetup {
             body,
             strength: s.strength.clone(),
@@ -392,7 +454,12 @@ pub fn add_figure(
             state,
             name: id.to_owned(),
         })
-        .map_err(|e| refused("figure", &e))
+        .map_err(|e| refused("figure", &e))?;
+    if let Err(fault) = set_constraints(world, key, &s.constraints) {
+        world.remove_figure(key);
+        return Err(fault);
+    }
+    Ok(key)
 }
 
 /// A clip that begins at a place at world time `start`; with its lead-in, which then is what begins there, if it is played from standing.

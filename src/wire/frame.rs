@@ -14,7 +14,7 @@ use crate::sim::math::Vec3;
 use prost::bytes::Bytes;
 
 /// Names of the fields of a figure's frame that a view can choose, by bit of [`Fields`].
-pub const FIELD_NAMES: [&str; 18] = [
+pub const FIELD_NAMES: [&str; 19] = [
     "root_pose",
     "joint_angles",
     "joint_rotations",
@@ -33,6 +33,7 @@ pub const FIELD_NAMES: [&str; 18] = [
     "fatigue",
     "assist",
     "touches",
+    "constraint_error",
 ];
 
 impl Fields {
@@ -292,6 +293,9 @@ pub fn figure_frame(
     }
     if fields.has("assist") {
         out.assist = numbers(format, &r.assist);
+    }
+    if fields.has("constraint_error") {
+        out.constraint_error = numbers(format, r.constraint_error.as_flattened());
     }
     if fields.has("touches") {
         out.touches = Some(touches(format, &r.touches, &f.touched));

@@ -5,7 +5,7 @@ use crate::sim::collide::ObstacleSetup;
 use crate::sim::figure::{
     ControlParams, ControllerKind, FigureOptions, StepperKind, StrengthScale, TickReport,
 };
-use crate::sim::math::Vec3;
+use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::Target;
 use std::sync::Arc;
 
@@ -134,6 +134,27 @@ pub struct FigureSettings {
     pub options: FigureOptions,
     /// Where it stands.
     pub place: Place,
+    /// Constraints from the start.
+    pub constraints: Vec<ConstraintSettings>,
+}
+
+/// Where a part of a figure is wanted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ConstraintSettings {
+    /// Segment and point, segment frame; no point: the middle of a hand, else the centre of mass. `None`: the figure's centre of mass.
+    pub on: Option<(SegmentId, Option<Vec3>)>,
+    /// Wanted position, world, m.
+    pub position: Option<Vec3>,
+    /// How much each axis counts, 0…1.
+    pub axes: [f64; 3],
+    /// Wanted rotation, `world_from_segment`.
+    pub rotation: Option<Quat>,
+    /// How much it counts, 0…1.
+    pub weight: f64,
+    /// Time to come and to go, s.
+    pub ease: f64,
+    /// How long, s; infinite until it is taken off.
+    pub duration: f64,
 }
 
 /// A figure as it is now.
@@ -151,6 +172,8 @@ pub struct FigureInfo {
     pub driver: Option<String>,
     /// Index in frames.
     pub index: i32,
+    /// Constraints that hold, with the time that they have left.
+    pub constraints: Vec<ConstraintSettings>,
 }
 
 /// Changes of a figure; `None` leaves a setting as it is.
@@ -168,6 +191,10 @@ pub struct FigureUpdate {
     pub fatigue_time_scale: Option<f64>,
     /// Assist.
     pub assist: Option<f64>,
+    /// All constraints.
+    pub constraints: Option<Vec<ConstraintSettings>>,
+    /// Protective steps.
+    pub protective_steps: Option<bool>,
 }
 
 /// What disturbs a figure.

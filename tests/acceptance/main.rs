@@ -5,6 +5,7 @@
 //! * `fall`: a stiff figure is a physical pendulum.
 //! * `flight`: the parabola and the momenta of a thrown figure; a limp one gains no energy.
 //! * `load`: a held load is inertia.
+//! * `constrain`: hands, head and centre of mass at places that a client gives.
 //! * `people`: ages, sizes, fatigue, percentiles.
 //! * `assist`: the wrench that no body has, and its honesty.
 //! * `symmetry`: left and right, and all directions, are alike.
@@ -18,6 +19,7 @@ mod common;
 
 mod assist;
 mod collide;
+mod constrain;
 mod containment;
 mod fall;
 mod flight;

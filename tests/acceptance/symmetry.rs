@@ -20,7 +20,7 @@ use std::sync::Arc;
 const TOLERANCE: f64 = 1e-9;
 
 /// Segment on the other side.
-fn opposite(s: usize) -> usize {
+pub(crate) fn opposite(s: usize) -> usize {
     let name = SEGMENT_NAMES[s];
     let other = match name.split_at(2) {
         ("l_", rest) => format!("r_{rest}"),
@@ -43,7 +43,7 @@ fn mirrored_dofs(x: &[f64]) -> [f64; DOF_COUNT] {
     out
 }
 
-fn flip(p: Vec3) -> Vec3 {
+pub(crate) fn flip(p: Vec3) -> Vec3 {
     vec3(p.x, -p.y, p.z)
 }
 
@@ -51,7 +51,7 @@ fn flip_axial(w: Vec3) -> Vec3 {
     vec3(-w.x, w.y, -w.z)
 }
 
-fn flip_rotation(q: Quat) -> Quat {
+pub(crate) fn flip_rotation(q: Quat) -> Quat {
     let [x, y, z, w] = q.to_xyzw();
     Quat::from_xyzw([-x, y, -z, w])
 }
@@ -74,7 +74,7 @@ fn mirrored(p: &Posture) -> Posture {
     out
 }
 
-fn mirrored_state(s: &State) -> State {
+pub(crate) fn mirrored_state(s: &State) -> State {
     let v = &s.velocity;
     let at = |i: usize| vec3(v[i], v[i + 1], v[i + 2]);
     let mut out = State {

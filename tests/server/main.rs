@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking")]
 
 mod clips;
+mod constraints;
 mod drives;
 mod obstacles;
 mod support;

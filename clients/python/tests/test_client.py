@@ -147,6 +147,23 @@ def test_the_paper_and_its_stepper_are_chosen(server: sinew.Client) -> None:
         assert wrong.value.field == "figure.paper.alpha"
 
 
+def test_a_hand_and_the_centre_of_mass_are_constrained(server: sinew.Client) -> None:
+    with server.create_world() as world:
+        figure = world.add_figure(protective_steps=False)
+        assert figure.message.protective_steps is False
+        hand = sinew.Constraint(segment="r_hand", position=(0.35, -0.25, 1.1))
+        figure.constrain(hand, sinew.Constraint(position=(0, 0.03, 0), axes=(0, 1, 0)))
+        assert [c.segment for c in figure.get().constraints] == ["r_hand", ""]
+        world.step(120)
+        error = world.frame(fields=["constraint_error"])[figure.name].constraint_error
+        assert error.shape == (2, 2) and error[:, 0].max() < 0.01
+        figure.constrain()
+        assert not figure.get().constraints
+        with pytest.raises(sinew.InvalidArgumentError) as wrong:
+            figure.constrain(sinew.Constraint(segment="tail", position=(0, 0, 1)))
+        assert wrong.value.field == "figure.constraints[0].segment"
+
+
 def test_a_running_world_is_watched(server: sinew.Client) -> None:
     with server.create_world(paused=False) as world:
         world.add_figure("a")

@@ -52,6 +52,7 @@ impl Stand {
                 com: Vec3::zero(),
                 com_velocity: Vec3::zero(),
                 com_desired: Vec3::zero(),
+                constraint_error: Vec::new(),
                 joint_error: zero,
                 penetration: 0.0,
                 control_iterations: 0,

@@ -6,6 +6,7 @@ use super::drives::{Drive, Slot};
 use crate::server::engine::{self, Clip, Drive as Motion, FigureKey, ObstacleKey, World};
 use crate::sim::body::{Body, State};
 use crate::sim::collide::{ObstacleSetup, Other};
+use crate::sim::figure::ControlParams;
 use crate::sim::figure::loads::MAX_PERTURBATIONS;
 use crate::wire::status::Fault;
 use crate::wire::types::{
@@ -268,6 +269,11 @@ impl Shard {
                 .find(|d| d.has(&m.id))
                 .map(|d| d.driver.clone()),
             index: m.index,
+            constraints: self
+                .world
+                .figure(m.key)
+                .map(|f| engine::constraints(f, self.world.time()))
+                .unwrap_or_default(),
         }
     }
 
@@ -350,10 +356,18 @@ impl Shard {
         self.working()?;
         let i = self.member(figure)?;
         let m = &mut self.members[i];
-        if u.controller.is_some() || u.strength.is_some() || u.params.is_some() {
+        if let Some(all) = &u.constraints {
+            engine::set_constraints(&mut self.world, m.key, all)?;
+        }
+        let steps = u.protective_steps;
+        if u.controller.is_some() || u.strength.is_some() || u.params.is_some() || steps.is_some() {
             let controller = u.controller.unwrap_or(m.settings.controller);
             let strength = u.strength.unwrap_or_else(|| m.settings.strength.clone());
-            let params = u.params.unwrap_or_else(|| m.settings.params.clone());
+            // Whether it steps is no choice of the paper's controller.
+            let params = ControlParams {
+                protective_steps: steps.unwrap_or(m.settings.params.protective_steps),
+                ..u.params.unwrap_or_else(|| m.settings.params.clone())
+            };
             let world = &mut self.world;
             engine::retune(world, m.key, strength.clone(), controller, params.clone())?;
             m.settings.controller = controller;
@@ -408,6 +422,7 @@ impl Shard {
             .expect("members are in the world");
         let posture = engine::standing(f.body(), place.unwrap_or(m.settings.place));
         f.clear_perturbations();
+        f.clear_constraints();
         f.set_drive(Motion::Hold(posture));
         let state = State {
             posture,

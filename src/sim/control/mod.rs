@@ -3,6 +3,7 @@
 //! [`Paper`] is Oshita & Makinouchi 2000, Eqs. (4)–(17), with the repairs of ALGORITHM §4–9.
 
 pub mod feasible_com;
+pub mod goals;
 pub mod modern;
 pub mod paper;
 pub mod reroot;
@@ -11,6 +12,7 @@ pub mod spatial_targets;
 pub mod torque_limits;
 pub mod tracking;
 
+pub use goals::Goal;
 pub use modern::Modern;
 pub use paper::Paper;
 pub use tracking::Law;
@@ -74,8 +76,10 @@ pub struct ControlInput<'a> {
     pub target: &'a TargetPair,
     /// Desired centre of mass, computed with the present loads.
     pub com: &'a PointTarget,
-    /// End-effectors to control, at most two count.
+    /// Hands that follow the desired motion in space, at most two count.
     pub effectors: &'a [Effector],
+    /// Constraints from outside, the ones that matter more first: at most [`goals::MAX_GOALS`], of which the paper's controller takes eight.
+    pub goals: &'a [Goal],
     /// Left and right foot: ankle and rotation of the foot, for feet that the motion swings.
     pub feet: &'a [(PointTarget, RotationTarget); 2],
     /// What balance asks of the centre of mass; without it the tracking law's own demand holds.

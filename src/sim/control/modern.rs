@@ -4,9 +4,13 @@
 //! kernel as the simulator's substep. Torques stay within strength and forces within friction at every iterate, the solution is a
 //! continuous function of the state, and the work is bounded.
 
+use super::goals::{MAX_GOALS, Pace};
 use super::tracking::{Law, initial_acceleration};
-use super::{Command, ControlInput, Controller, PointTarget, com_law};
-use crate::sim::body::topology::{DOF_COUNT, L_FOOT, L_TOES, NV, R_FOOT, R_TOES, SEGMENT_COUNT};
+use super::{Command, ControlInput, Controller, Goal, PointTarget, com_law};
+use crate::sim::body::topology::{
+    DOF_COUNT, DOF_LEN, DOF_START, L_FOOT, L_HAND, L_TOES, NV, R_FOOT, R_HAND, R_TOES,
+    SEGMENT_COUNT,
+};
 use crate::sim::contact::dense::{Dense, cholesky, solve_lower, solve_upper};
 use crate::sim::contact::rows::{CHAIN_WIDTH, PointRow, add_point_stiffness};
 use crate::sim::contact::{
@@ -26,6 +30,10 @@ use multiversion::multiversion;
 mod weight {
     pub(super) const COM: [f64; 3] = [1000.0, 1000.0, 300.0];
     pub(super) const HAND: f64 = 1.0;
+    /// Constraints from outside, fully in force: a bounded pull that moves the centre of mass by 3 cm when it cannot be met.
+    pub(super) const GOAL: f64 = 100.0;
+    pub(super) const GOAL_ARM: f64 = 200.0;
+    pub(super) const GOAL_ROTATION: f64 = 20.0;
     pub(super) const SWING_FOOT: f64 = 100.0;
     pub(super) const SWING_ROTATION: f64 = 4.0;
     pub(super) const PLANTED_ROTATION: f64 = 1.0;
@@ -39,6 +47,16 @@ mod weight {
 }
 /// Bounds of the joint weights `clip(M_jj, …)`. With less than this wrists and toes pay for every other task.
 const JOINT_WEIGHT: (f64, f64) = (0.05, 1.0);
+/// How constraints from outside are approached.
+const GOAL_PACE: Pace = Pace {
+    horizon: 1.0 / 30.0,
+    most: 8.0,
+    most_trunk: 2.0,
+    most_turn: 20.0,
+};
+/// Weights of the joints of a limb that a constraint from outside leads, and of its wrist, which is light and would go to its limit first.
+const LED_LIMB: f64 = 0.02;
+const LED_WRIST: f64 = 0.2;
 /// Friction the plan counts on; below the simulator's.
 const FRICTION_MARGIN: f64 = 0.7 / 0.9;
 /// Horizons of joints and rotations, and of swinging feet, as shares of the one that is set (0.1 s): 150/s² and 24/s, 400/s² and 40/s. Gait
@@ -137,7 +155,7 @@ impl Modern {
             soles: Polygon::with_capacity(MAX_CONTACTS),
             motors: Motors::default(),
             newton: NewtonWorkspace::default(),
-            rows: Vec::with_capacity(32),
+            rows: Vec::with_capacity(21 + 6 * MAX_GOALS),
             assist: [0.0; 2],
             command: Command::default(),
         }
@@ -175,6 +193,9 @@ impl Modern {
                     weight::HAND,
                 );
             }
+        }
+        for goal in input.goals.iter().take(MAX_GOALS) {
+            self.goal_task(t, goal, 1.0 / input.goals.len() as f64);
         }
         let next = &input.target.next;
         for (side, foot) in [(0, L_FOOT.index()), (1, R_FOOT.index())] {
@@ -255,6 +276,36 @@ impl Modern {
         self.soles
             .closest(point)
             .map_or(f64::NEG_INFINITY, |c| c.margin)
+    }
+
+    /// A constraint from outside. Its weight grows with the cube of how far it is in force: that spreads the passage from the posture's hold to its
+    /// own over the time in which it comes or goes. Several share what one may pull with, or together they would pull a figure off its feet.
+    fn goal_task(&mut self, t: &Terms, goal: &Goal, share: f64) {
+        let s = goal.segment.index();
+        let level = share * goal.weight * goal.weight * goal.weight;
+        let mut push = |jacobian: &[[f64; WIDTH]], a: Vec3, weight: [f64; 3]| {
+            for ((row, value), weight) in jacobian.iter().zip(a.to_array()).zip(weight) {
+                if weight > 0.0 {
+                    let row = *row;
+                    self.rows.push(TaskRow { row, weight, value });
+                }
+            }
+        };
+        if goal.position.is_some() {
+            let a = goal.acceleration(t, &GOAL_PACE) - t.point_bias(s, goal.point);
+            let mut j = [[0.0; WIDTH]; 3];
+            t.point_jacobian(s, goal.point, &mut j);
+            let arm = goal.is_on_arm();
+            let most = if arm { weight::GOAL_ARM } else { weight::GOAL };
+            push(&j, a, goal.axes.map(|axis| most * level * axis));
+        }
+        if goal.rotation.is_some() {
+            let (bias, _) = t.segment_bias(s);
+            let a = goal.angular_acceleration(t, &GOAL_PACE) - bias;
+            let mut j = [[0.0; WIDTH]; 6];
+            t.segment_jacobian(s, &mut j);
+            push(&j[..3], a, [weight::GOAL_ROTATION * level; 3]);
+        }
     }
 
     fn point_task(
@@ -436,6 +487,18 @@ impl Controller for Modern {
             self.motors.upper[j] = input.upper[j];
             self.motors.rest[j] =
                 self.last_torque[j].clamp(input.lower[j], input.upper[j]) / self.motors.gain[j];
+        }
+        // A limb that is led from outside lets go of its posture, or that would hold it back.
+        for goal in input.goals.iter().take(MAX_GOALS) {
+            for s in goal.limb() {
+                let wrist = s == L_HAND.index() || s == R_HAND.index();
+                let led = if wrist { LED_WRIST } else { LED_LIMB };
+                for d in 6 + DOF_START[s]..6 + DOF_START[s] + DOF_LEN[s] {
+                    let keep = diagonal[d] + goal.weight * (led - diagonal[d]);
+                    linear[d] *= keep / diagonal[d];
+                    diagonal[d] = keep;
+                }
+            }
         }
         self.assist = input.assist;
         let outcome = kernel(self, t, &diagonal, &mut linear);

@@ -4,13 +4,16 @@
 //! more with the support free to tip about its edge (S1).
 
 use super::feasible_com::{INSET, feasible};
+use super::goals::Pace;
 use super::reroot::{SupportMap, only_main, shift};
 use super::rows::{ROW, Row, RowQr, cholesky_solve, dot};
 use super::spatial_targets::{SpatialLimits, Task, wish};
 use super::torque_limits::{Outcome, TorqueLimits, violates};
 use super::tracking::{Law, initial_acceleration};
-use super::{Command, ControlInput, Controller, Effector};
-use crate::sim::body::topology::{DOF_START, L_FOOT, L_THIGH, L_TOES, R_FOOT, R_THIGH, R_TOES};
+use super::{Command, ControlInput, Controller, Effector, Goal};
+use crate::sim::body::topology::{
+    DOF_LEN, DOF_START, L_FOOT, L_THIGH, L_TOES, R_FOOT, R_THIGH, R_TOES,
+};
 use crate::sim::body::{DOF_COUNT, NV, SegmentId};
 use crate::sim::dynamics::terms::WIDTH;
 use crate::sim::figure::report::MAX_CONTACTS;
@@ -33,6 +36,17 @@ const COM_HORIZON: f64 = 0.1;
 const AT_REST: f64 = 1e-3;
 /// Part of a pose error of a planted foot that is taken back per step (kinematic loops).
 const LOOP_RETURN: f64 = 0.2;
+/// How constraints from outside are approached.
+const GOAL_PACE: Pace = Pace {
+    horizon: 0.05,
+    most: 4.0,
+    most_trunk: 2.0,
+    most_turn: 10.0,
+};
+/// A capture point nearer to the edge than the first lets go of constraints on the whole body, one farther inside than the second does not, m.
+const SURE: (f64, f64) = (0.02, 0.045);
+/// Constraints from outside that (12) takes.
+const MOST_GOALS: usize = 8;
 /// Clamped torques beyond this relative excess are worth a flag.
 const CLAMP_NOTICE: f64 = 1e-6;
 
@@ -102,6 +116,7 @@ pub struct Paper {
     spatial: SpatialLimits,
     com_task: Task,
     hand_task: Task,
+    led_task: Task,
     polygon: Polygon,
     inset: Polygon,
     held: Box<[Row; 12]>,
@@ -124,6 +139,7 @@ impl Default for Paper {
             spatial: SpatialLimits::default(),
             com_task: Task::default(),
             hand_task: Task::default(),
+            led_task: Task::default(),
             polygon: Polygon::with_capacity(MAX_CONTACTS),
             inset: Polygon::with_capacity(2 * MAX_CONTACTS),
             held: Box::new([[0.0; ROW]; 12]),
@@ -206,7 +222,8 @@ impl Paper {
                 (0..ROW).for_each(|d| qdd[d] += self.limits.change[d]);
             }
             let mut x = self.wish(input, law, &qdd, mode);
-            if !(self.com_task.is_empty() && self.hand_task.is_empty()) {
+            let wishes = [&self.com_task, &self.hand_task, &self.led_task];
+            if wishes.iter().any(|t| !t.is_empty()) {
                 let tau1 = self.map.torque(&qdd);
                 second = self.spatial.solve(
                     &self.map.h,
@@ -275,7 +292,8 @@ impl Paper {
         if self.held_count > 0 {
             self.com_task.restrict(&self.held_qr);
         }
-        let x = wish(&self.com_task, &self.hand_task, p.priority);
+        self.led_task.clear();
+        let x = wish(&self.com_task, &self.hand_task, &self.led_task, p.priority);
         (0..ROW).for_each(|d| initial[d] += x[d]);
     }
 
@@ -455,6 +473,7 @@ impl Paper {
         let (terms, params) = (input.terms, input.params);
         self.com_task.clear();
         self.hand_task.clear();
+        self.led_task.clear();
         if params.track_com && matches!(mode, Mode::Rest(_)) {
             self.push_com(input, law, qdd);
         }
@@ -464,12 +483,28 @@ impl Paper {
                 self.push_effector(input, law, qdd, e, matches!(mode, Mode::Flight));
             }
         }
+        if !matches!(mode, Mode::Tilt(..)) {
+            self.hand_task.begin_goals();
+            for goal in input.goals.iter().take(MOST_GOALS) {
+                let mut goal = *goal;
+                if !goal.is_on_arm() {
+                    goal.weight *= Self::sure(input);
+                }
+                self.push_goal(input, qdd, &goal);
+            }
+        }
         if self.held_count > 0 {
             self.com_task.restrict(&self.held_qr);
             self.hand_task.restrict(&self.held_qr);
+            self.led_task.restrict(&self.held_qr);
         }
         debug_assert!(terms.mass > 0.0);
-        wish(&self.com_task, &self.hand_task, params.priority)
+        wish(
+            &self.com_task,
+            &self.hand_task,
+            &self.led_task,
+            params.priority,
+        )
     }
 
     fn push_com(&mut self, input: &ControlInput<'_>, law: &Law, qdd: &Row) {
@@ -557,13 +592,66 @@ impl Paper {
         }
     }
 
+    /// How surely it stands, 0…1: what moves the whole body from outside is let go of where the capture point nears the edge of the support.
+    fn sure(input: &ControlInput<'_>) -> f64 {
+        let t = input.terms;
+        let rise = (t.com.z.max(0.1) / input.gravity.max(1.0)).sqrt();
+        let margin = input.support.margin(t.com + t.com_velocity * rise);
+        margin.map_or(0.0, |m| ((m - SURE.0) / (SURE.1 - SURE.0)).clamp(0.0, 1.0))
+    }
+
+    /// A constraint from outside: what it demands, by its weight blended with the motion that there is without it.
+    fn push_goal(&mut self, input: &ControlInput<'_>, qdd: &Row, goal: &Goal) {
+        let (terms, s) = (input.terms, goal.segment.index());
+        let arm = goal.is_on_arm();
+        let first = self.led_task.rows().len();
+        if goal.position.is_some() {
+            let mut jacobian = [[0.0; WIDTH]; 3];
+            terms.point_jacobian(s, goal.point, &mut jacobian);
+            let wanted = goal.acceleration(terms, &GOAL_PACE) - terms.point_bias(s, goal.point);
+            let share = goal.axes.map(|a| a * goal.weight);
+            self.push_shares(&jacobian, wanted, qdd, 1.0, (share, arm));
+        }
+        if goal.rotation.is_some() {
+            let mut jacobian = [[0.0; WIDTH]; 6];
+            terms.segment_jacobian(s, &mut jacobian);
+            let (alpha, _) = terms.segment_bias(s);
+            let wanted = goal.angular_acceleration(terms, &GOAL_PACE) - alpha;
+            let share = ([goal.weight; 3], arm);
+            self.push_shares(&jacobian[..3], wanted, qdd, ROTATION_LENGTH, share);
+        }
+        if arm {
+            let dofs = goal
+                .limb()
+                .fold(0, |set, s| set | ((1u64 << DOF_LEN[s]) - 1) << DOF_START[s]);
+            self.led_task.only(first, dofs);
+        }
+    }
+
     /// Three rows with the wanted `J v̇`; rows and wish scaled by `length`.
     fn push_rows(&mut self, jacobian: &[[f64; WIDTH]], wanted: Vec3, qdd: &Row, length: f64) {
-        for (j, want) in jacobian.iter().zip(wanted.to_array()) {
+        self.push_shares(jacobian, wanted, qdd, length, ([1.0; 3], false));
+    }
+
+    /// The same with a share of the change, for a led limb or for all; a row of which nothing counts is left free.
+    fn push_shares(
+        &mut self,
+        jacobian: &[[f64; WIDTH]],
+        wanted: Vec3,
+        qdd: &Row,
+        length: f64,
+        (share, led): ([f64; 3], bool),
+    ) {
+        for ((j, want), share) in jacobian.iter().zip(wanted.to_array()).zip(share) {
             let row = self.map.project(j);
             let change = want - dot(&row, qdd) - self.map.project_bias(j); // Eq. 15 with its bias
-            self.hand_task
-                .push(row.map(|x| x * length), change * length);
+            let length = if share > 0.0 { length } else { 0.0 };
+            let task = if led {
+                &mut self.led_task
+            } else {
+                &mut self.hand_task
+            };
+            task.push(row.map(|x| x * length), change * length * share);
         }
     }
 }
@@ -752,6 +840,7 @@ mod tests {
                 target: &self.target,
                 com: &self.com,
                 effectors: &self.effectors,
+                goals: &[],
                 feet: &self.feet,
                 balance: None,
                 lower: &self.lower,

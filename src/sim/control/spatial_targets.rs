@@ -5,18 +5,28 @@ use super::torque_limits::{Outcome, TOLERANCE, violates};
 use crate::sim::body::DOF_COUNT;
 use crate::sim::figure::Priority;
 
-/// Most rows of one task: two end-effectors with position and orientation.
-pub const MAX_ROWS: usize = 12;
+/// Most rows of one task: positions of both hands, and eight constraints from outside with position and rotation.
+pub const MAX_ROWS: usize = 54;
+/// Most rows of the centre of mass.
+const COM_ROWS: usize = 6;
 /// Damping λ² of the centre-of-mass rows, for rows of unit length.
 const COM_DAMPING: f64 = 1e-6;
 /// Damping λ² of end-effector rows, for rows of unit length: a straight arm makes them dependent.
 const EFFECTOR_DAMPING: f64 = 1e-4;
+/// The same for constraints from outside: a body that is stretched already is not torn after a point that is higher still.
+const GOAL_DAMPING: f64 = 1e-2;
+/// The same for limbs that are led: they are not asked for more than their length.
+const LED_DAMPING: f64 = 1e-3;
 
 /// Rows of a Jacobian on joint accelerations with the wanted change of their acceleration.
 #[derive(Clone, Debug)]
 pub struct Task {
     rows: [Row; MAX_ROWS],
     change: [f64; MAX_ROWS],
+    /// DOFs that may serve each row (bits).
+    serving: [u64; MAX_ROWS],
+    /// Damping of the rows beyond this many is that of goals.
+    own: usize,
     len: usize,
 }
 
@@ -25,6 +35,8 @@ impl Default for Task {
         Self {
             rows: [[0.0; ROW]; MAX_ROWS],
             change: [0.0; MAX_ROWS],
+            serving: [u64::MAX; MAX_ROWS],
+            own: MAX_ROWS,
             len: 0,
         }
     }
@@ -34,12 +46,14 @@ impl Task {
     /// Forgets all rows.
     pub fn clear(&mut self) {
         self.len = 0;
+        self.own = MAX_ROWS;
     }
     /// Adds a row; ignored beyond [`MAX_ROWS`].
     pub fn push(&mut self, row: Row, change: f64) {
         if self.len < MAX_ROWS {
             self.rows[self.len] = row;
             self.change[self.len] = change;
+            self.serving[self.len] = u64::MAX;
             self.len += 1;
         }
     }
@@ -55,6 +69,36 @@ impl Task {
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
+    /// The rows that follow are constraints from outside, which may ask for what cannot be.
+    pub(crate) fn begin_goals(&mut self) {
+        self.own = self.len;
+    }
+    /// Damping λ² of each effector row.
+    fn damping(&self) -> [f64; MAX_ROWS] {
+        std::array::from_fn(|i| {
+            if i < self.own {
+                EFFECTOR_DAMPING
+            } else {
+                GOAL_DAMPING
+            }
+        })
+    }
+    /// Lets only some DOFs (bits) serve the rows from `first` on.
+    pub(crate) fn only(&mut self, first: usize, dofs: u64) {
+        self.serving[first..self.len].fill(dofs);
+    }
+    /// A row without the DOFs that do not serve it.
+    fn served(&self, i: usize) -> Row {
+        let mut r = self.rows[i];
+        for (d, x) in r.iter_mut().enumerate() {
+            *x = if self.serving[i] >> d & 1 == 1 {
+                *x
+            } else {
+                0.0
+            };
+        }
+        r
+    }
     /// Restricts the rows to changes that leave the rows of `held` alone.
     pub(crate) fn restrict(&mut self, held: &RowQr) {
         for r in &mut self.rows[..self.len] {
@@ -63,23 +107,23 @@ impl Task {
     }
 }
 
-/// Adds to `x` the damped least-norm solution `J⁺ t`: rows scaled by `1/lengths`, then `Jᵀ(J Jᵀ + λ²)⁻¹`.
+/// Adds to `x` the damped least-norm solution `J⁺ t`: rows scaled by `1/lengths`, then `Jᵀ(J Jᵀ + λ²)⁻¹`. At most `N` rows count.
 #[inline(always)]
-fn add_damped(
+fn add_damped<const N: usize>(
     rows: &[Row],
     lengths: &[f64; MAX_ROWS],
-    damping: f64,
+    damping: &[f64; MAX_ROWS],
     t: &[f64; MAX_ROWS],
     x: &mut Row,
 ) {
-    let n = rows.len();
-    let mut g = [[0.0; MAX_ROWS]; MAX_ROWS];
-    let mut y = [0.0; MAX_ROWS];
+    let n = rows.len().min(N);
+    let mut g = [[0.0; N]; N];
+    let mut y = [0.0; N];
     for i in 0..n {
         for j in 0..=i {
             g[i][j] = dot(&rows[i], &rows[j]) / (lengths[i] * lengths[j]);
         }
-        g[i][i] += damping;
+        g[i][i] += damping[i];
         y[i] = t[i] / lengths[i];
     }
     cholesky_solve(&mut g, n, &mut y);
@@ -104,31 +148,38 @@ fn lengths(rows: &[Row], group: usize) -> [f64; MAX_ROWS] {
 /// `Priority::Paper`:  x = J_g⁺Δg̈ + (I − J_g⁺J_g) J_e⁺Δë.
 /// `Priority::Nested`: x = J_g⁺Δg̈ + (J_e P)⁺(Δë − J_e J_g⁺Δg̈), P = I − J_g⁺J_g: exact for the end-effector as far as the centre of mass allows.
 ///
+/// Rows of `led` come last, each served by its own limb only: with all joints the least change would bend ankles and knees first, which have the
+/// longest lever.
+///
 /// Pseudo-inverses are damped. The printed (13) and (15) exchange J_e and J_g; this is what the text means. No allocation.
 #[inline(always)]
-pub fn wish(com: &Task, effector: &Task, priority: Priority) -> Row {
+pub fn wish(com: &Task, effector: &Task, led: &Task, priority: Priority) -> Row {
     let mut x = [0.0; ROW];
     let lg = lengths(com.rows(), 2);
-    add_damped(com.rows(), &lg, COM_DAMPING, &com.change, &mut x);
-    if effector.is_empty() {
-        return x;
-    }
-    let le = lengths(effector.rows(), 3);
+    add_damped::<COM_ROWS>(
+        com.rows(),
+        &lg,
+        &[COM_DAMPING; MAX_ROWS],
+        &com.change,
+        &mut x,
+    );
     // P r for a joint vector: take away what the centre of mass would feel.
     let project = |r: &mut Row| {
         let mut t = [0.0; MAX_ROWS];
         for (t, g) in t.iter_mut().zip(com.rows()) {
             *t = -dot(g, r);
         }
-        add_damped(com.rows(), &lg, COM_DAMPING, &t, r);
+        add_damped::<COM_ROWS>(com.rows(), &lg, &[COM_DAMPING; MAX_ROWS], &t, r);
     };
+    let le = lengths(effector.rows(), 3);
     match priority {
+        _ if effector.is_empty() => {}
         Priority::Paper => {
             let mut y = [0.0; ROW];
-            add_damped(
+            add_damped::<MAX_ROWS>(
                 effector.rows(),
                 &le,
-                EFFECTOR_DAMPING,
+                &effector.damping(),
                 &effector.change,
                 &mut y,
             );
@@ -142,8 +193,25 @@ pub fn wish(com: &Task, effector: &Task, priority: Priority) -> Row {
                 rest[i] -= dot(r, &x);
                 project(&mut rows[i]); // P is symmetric: rows of J_e P
             }
-            add_damped(&rows[..effector.len], &le, EFFECTOR_DAMPING, &rest, &mut x);
+            add_damped::<MAX_ROWS>(
+                &rows[..effector.len],
+                &le,
+                &effector.damping(),
+                &rest,
+                &mut x,
+            );
         }
+    }
+    if !led.is_empty() {
+        // What is left of the wish, by the limbs alone.
+        let (mut rest, mut rows, n) = (led.change, led.rows, led.len);
+        for (i, r) in led.rows().iter().enumerate() {
+            rest[i] -= dot(r, &x);
+            rows[i] = led.served(i);
+        }
+        let ll = lengths(&rows[..n], 3);
+        rows[..n].iter_mut().for_each(project);
+        add_damped::<MAX_ROWS>(&rows[..n], &ll, &[LED_DAMPING; MAX_ROWS], &rest, &mut x);
     }
     x
 }
@@ -252,7 +320,7 @@ mod tests {
         let mut rng = Rng::new(21);
         for _ in 0..50 {
             let com = random_task(&mut rng, 2);
-            let x = wish(&com, &Task::default(), Priority::Paper);
+            let x = wish(&com, &Task::default(), &Task::default(), Priority::Paper);
             assert!(miss(&com, &x) < 1e-5 * 3.0);
         }
     }
@@ -263,13 +331,13 @@ mod tests {
         let mut missed = 0;
         for _ in 0..50 {
             let (com, hands) = (random_task(&mut rng, 2), random_task(&mut rng, 6));
-            let x = wish(&com, &hands, Priority::Nested);
+            let x = wish(&com, &hands, &Task::default(), Priority::Nested);
             assert!(
                 miss(&com, &x) < 1e-4 && miss(&hands, &x) < 5e-3,
                 "{}",
                 miss(&hands, &x)
             );
-            let x = wish(&com, &hands, Priority::Paper);
+            let x = wish(&com, &hands, &Task::default(), Priority::Paper);
             assert!(miss(&com, &x) < 1e-4);
             missed += usize::from(miss(&hands, &x) > 0.05);
         }
@@ -285,7 +353,7 @@ mod tests {
         hands.push(row, -1.0);
         hands.push([0.0; ROW], 1.0);
         for p in [Priority::Paper, Priority::Nested] {
-            let x = wish(&com, &hands, p);
+            let x = wish(&com, &hands, &Task::default(), p);
             assert!(x.iter().all(|v| v.is_finite()) && dot(&x, &x) < 1e3);
         }
     }

@@ -2,6 +2,7 @@
 
 pub mod assist;
 pub mod balance;
+pub mod constraints;
 pub mod drive;
 pub mod events;
 pub mod kinematic_step;
@@ -13,6 +14,7 @@ pub mod tasks;
 pub mod torque_step;
 pub mod touches;
 
+pub use constraints::{Constrained, Constraint, MAX_CONSTRAINTS};
 pub use drive::{ClipPlayback, Drive};
 pub use events::FigureEvent;
 pub use report::{Audit, ContactPoint, Flags, TickReport};

@@ -186,6 +186,8 @@ pub struct TickReport {
     pub com_velocity: Vec3,
     /// Desired centre of mass, world, m.
     pub com_desired: Vec3,
+    /// What is missing of each constraint that a client gave, at the start of the tick: distance along the axes that count (m), angle (rad).
+    pub constraint_error: Vec<[f64; 2]>,
     /// Joint error `desired ⊖ actual` at the start of the tick, rad.
     pub joint_error: [f64; DOF_COUNT],
     /// Largest depth of any contact point below the surface at the start of any substep, m.

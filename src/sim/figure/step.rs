@@ -3,6 +3,7 @@
 use super::FigureKey;
 use super::assist::Assist;
 use super::balance::{BalanceWatch, Reach};
+use super::constraints::{Constraint, Constraints, MAX_CONSTRAINTS};
 use super::drive::Drive;
 use super::events::{FigureEvent, Watcher};
 use super::kinematic_step::{Decision, KinematicStepper, SPEED_CAP, other_part_arrives};
@@ -98,6 +99,7 @@ pub struct Figure {
     terms: Terms,
     support: Support,
     tasks: TaskWorkspace,
+    constraints: Constraints,
     paper: Box<Paper>,
     modern: Box<Modern>,
     motors: Command,
@@ -179,6 +181,7 @@ impl Figure {
             terms: Terms::default(),
             support: Support::default(),
             tasks: TaskWorkspace::default(),
+            constraints: Constraints::default(),
             paper: Box::default(),
             modern: Box::new(Modern::new(friction)),
             motors: Command::default(),
@@ -254,6 +257,15 @@ impl Figure {
         let modern = self.active_controller() == ControllerKind::Modern;
         self.touches.lean(&mut self.terms, modern.then_some(least));
         let mut tasks = self.tasks.points(&body, &self.links, &self.target);
+        self.constraints.begin(
+            time,
+            &body,
+            &self.terms,
+            &self.support,
+            &mut tasks.com,
+            &tasks.hands,
+            |s, p| self.tasks.desired_point(&self.target, s, p),
+        );
         let mut balance = None;
         if self.steps() {
             let mut led = Led {
@@ -473,13 +485,19 @@ impl Figure {
         balance: Option<Balance>,
         (lower, upper): (&[f64; DOF_COUNT], &[f64; DOF_COUNT]),
     ) -> MotorCommand {
+        let (mut hands, mut free) = (tasks.hands, 0);
+        for hand in self.constraints.free_hands() {
+            hands[free] = hand;
+            free += 1;
+        }
         let input = ControlInput {
             terms: &self.terms,
             body: &self.setup.body,
             support: &self.support,
             target: &self.target,
             com: &tasks.com,
-            effectors: &tasks.hands,
+            effectors: &hands[..free],
+            goals: self.constraints.goals(),
             feet: &tasks.feet,
             balance,
             lower,
@@ -715,6 +733,9 @@ impl Figure {
         r.com = self.terms.com;
         r.com_velocity = self.terms.com_velocity;
         r.com_desired = tasks.com.now;
+        r.constraint_error.clear();
+        let missing = self.constraints.errors(&self.terms);
+        r.constraint_error.extend_from_slice(missing);
         r.joint_error = before.posture.joint_difference(&self.target.now.posture);
         r.penetration = penetration;
         r.step_iterations = f.iterations;
@@ -897,6 +918,18 @@ impl Figure {
         }
         self.setup.options = options;
     }
+    /// Constraints from outside, in the order in which they were given; those that have ended are gone.
+    pub fn constraints(&self) -> &[Constraint] {
+        self.constraints.given()
+    }
+    /// Replaces all checked constraints at `time`, s.
+    pub(crate) fn set_constraints(&mut self, constraints: &[Constraint], time: f64) {
+        self.constraints.replace(constraints, time);
+    }
+    /// Takes all constraints off at once, without fading.
+    pub fn clear_constraints(&mut self) {
+        self.constraints.forget();
+    }
     /// Changes controller and gains.
     pub fn set_controller(&mut self, controller: ControllerKind, params: ControlParams) {
         if controller != self.setup.controller {
@@ -980,6 +1013,7 @@ fn empty_report(state: &State) -> TickReport {
         com: Vec3::zero(),
         com_velocity: Vec3::zero(),
         com_desired: Vec3::zero(),
+        constraint_error: Vec::with_capacity(MAX_CONSTRAINTS),
         joint_error: z,
         penetration: 0.0,
         control_iterations: 0,

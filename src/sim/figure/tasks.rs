@@ -83,6 +83,17 @@ pub struct TaskWorkspace {
 }
 
 impl TaskWorkspace {
+    /// Where the desired motion has a point (segment frame, m) at the start of the tick, world, m; after [`points`](Self::points).
+    pub fn desired_point(&self, target: &TargetPair, s: SegmentId, point: Vec3) -> Vec3 {
+        let root = target.now.posture.root_position;
+        Pose {
+            kin: &self.now,
+            root,
+        }
+        .point(s, point)
+        .0
+    }
+
     /// Spatial targets of a tick. `links` carry the present loads. No allocation.
     pub fn points(&mut self, body: &Body, links: &Links, target: &TargetPair) -> TaskPoints {
         let set = |kin: &mut Kinematics<f64>, t: &Target| {

@@ -11,7 +11,8 @@ use crate::sim::body::{SegmentId, State};
 use crate::sim::collide::{MAX_OBSTACLES, Obstacle, ObstacleKey, ObstacleSetup};
 use crate::sim::figure::loads::MAX_PERTURBATIONS;
 use crate::sim::figure::{
-    ControlParams, ControllerKind, FigureOptions, Perturbation, StrengthScale, TickContext,
+    Constraint, ControlParams, ControllerKind, FigureOptions, MAX_CONSTRAINTS, Perturbation,
+    StrengthScale, TickContext,
 };
 use crate::sim::math::hash::Fnv;
 
@@ -76,6 +77,12 @@ pub enum WorldError {
     /// A figure can have only so many perturbations at once.
     #[error("a figure can have {MAX_PERTURBATIONS} perturbations scheduled at once")]
     TooManyPerturbations,
+    /// A figure can have only so many constraints at once.
+    #[error("a figure can have {MAX_CONSTRAINTS} constraints at once")]
+    TooManyConstraints,
+    /// A constraint that says nothing, or what cannot be.
+    #[error("constraints: {0}")]
+    Constraint(&'static str),
     /// No such obstacle.
     #[error("no obstacle {0:?} in this world")]
     UnknownObstacle(ObstacleKey),
@@ -328,6 +335,24 @@ impl World {
         self.figure_mut(key)
             .ok_or(WorldError::UnknownFigure(key))?
             .set_options(options);
+        Ok(())
+    }
+
+    /// Replaces the constraints of a figure from the next tick on. One on a part that was constrained before goes on from there; the others come into force and
+    /// fade within their `ease`.
+    ///
+    /// # Errors
+    /// Unknown figure, a number out of range, more than [`MAX_CONSTRAINTS`], or a constraint that says nothing.
+    pub fn set_constraints(
+        &mut self,
+        key: FigureKey,
+        constraints: &[Constraint],
+    ) -> Result<(), WorldError> {
+        validate::constraints(constraints)?;
+        let time = self.time();
+        self.figure_mut(key)
+            .ok_or(WorldError::UnknownFigure(key))?
+            .set_constraints(constraints, time);
         Ok(())
     }
 

@@ -3,6 +3,7 @@
 use super::{WorldError, WorldParams};
 use crate::sim::body::State;
 use crate::sim::collide::{Mobility, ObstacleSetup, Shape};
+use crate::sim::figure::constraints::{Constrained, Constraint, MAX_CONSTRAINTS, MAX_EASE};
 use crate::sim::figure::{ControlParams, FigureOptions, FigureSetup, Perturbation, StrengthScale};
 use crate::sim::math::Vec3;
 
@@ -118,6 +119,52 @@ pub(super) fn perturbation(p: &Perturbation) -> Result<(), WorldError> {
             from,
             to,
         });
+    }
+    Ok(())
+}
+
+pub(super) fn constraints(all: &[Constraint]) -> Result<(), WorldError> {
+    if all.len() > MAX_CONSTRAINTS {
+        return Err(WorldError::TooManyConstraints);
+    }
+    for c in all {
+        match (c.on, c.position, c.rotation) {
+            (_, None, None) => {
+                return Err(WorldError::Constraint(
+                    "neither a position nor a rotation is given",
+                ));
+            }
+            (Constrained::CenterOfMass, _, Some(_)) => {
+                return Err(WorldError::Constraint("the centre of mass has no rotation"));
+            }
+            (Constrained::Point(_, point), ..) => vector("constraints.point_m", point, 10.0)?,
+            _ => {}
+        }
+        if let Some(p) = c.position {
+            vector("constraints.position_m", p, FAR)?;
+        }
+        for a in c.axes {
+            range("constraints.axes", a, 0.0, 1.0)?;
+        }
+        if let Some(q) = c.rotation {
+            let n: f64 = q.to_xyzw().iter().map(|c| c * c).sum();
+            range("constraints.rotation", n, 0.999, 1.001)?;
+        }
+        range("constraints.weight", c.weight, 0.0, 1.0)?;
+        range("constraints.ease_s", c.ease, 0.0, MAX_EASE)?;
+        range("constraints.from_s", c.from, f64::NEG_INFINITY, 1e12)?;
+        if c.to.is_nan() || c.to < c.from {
+            return Err(WorldError::Interval {
+                field: "constraints",
+                from: c.from,
+                to: c.to,
+            });
+        }
+    }
+    for (i, c) in all.iter().enumerate() {
+        if all[..i].iter().any(|b| b.on == c.on) {
+            return Err(WorldError::Constraint("two of them are on the same part"));
+        }
     }
     Ok(())
 }

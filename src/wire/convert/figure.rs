@@ -3,7 +3,7 @@
 use super::super::pb;
 use super::super::status::Fault;
 use super::super::types::{FigureInfo, FigureSettings, FigureUpdate};
-use super::{body, clip_text, display_name, or_default, place, place_out, within};
+use super::{body, clip_text, constraint, display_name, or_default, place, place_out, within};
 use crate::sim::body::topology::DOF_NAMES;
 use crate::sim::figure::{
     ControlParams, ControllerKind, FigureOptions, Metric, Priority, Share, StepperKind,
@@ -167,7 +167,10 @@ pub fn settings(field: &str, f: Option<&pb::Figure>) -> Result<FigureSettings, F
         strength: strength(&at("strength"), f.strength.as_ref())?,
         controller: controller(&at("controller"), f.controller)?,
         stepper: stepper(&at("stepper"), f.stepper)?,
-        params: paper(&at("paper"), f.paper.as_ref())?,
+        params: ControlParams {
+            protective_steps: f.protective_steps.unwrap_or(true),
+            ..paper(&at("paper"), f.paper.as_ref())?
+        },
         options: FigureOptions {
             fatigue_time_scale: time_scale(&at("fatigue_time_scale"), f.fatigue_time_scale)?,
             assist: within(&at("assist"), f.assist, 0.0, 1.0)?,
@@ -177,6 +180,7 @@ pub fn settings(field: &str, f: Option<&pb::Figure>) -> Result<FigureSettings, F
             .map(|p| place(&at("placement"), p))
             .transpose()?
             .unwrap_or_default(),
+        constraints: constraint::list(&at("constraints"), &f.constraints)?,
     })
 }
 
@@ -205,12 +209,16 @@ pub fn update(
                 out.fatigue_time_scale = Some(value);
             }
             "paper" => out.params = Some(paper("figure.paper", f.paper.as_ref())?),
+            "constraints" => {
+                out.constraints = Some(constraint::list("figure.constraints", &f.constraints)?);
+            }
+            "protective_steps" => out.protective_steps = Some(f.protective_steps.unwrap_or(true)),
             "assist" => out.assist = Some(within("figure.assist", f.assist, 0.0, 1.0)?),
             other => {
                 return Err(Fault::invalid(
                     format!("update_mask.paths[{i}]"),
                     format!(
-                        "must be display_name, strength, controller, paper, fatigue_time_scale or assist, got {:?}",
+                        "must be display_name, strength, controller, paper, fatigue_time_scale, assist, constraints or protective_steps, got {:?}",
                         clip_text(other)
                     ),
                 ));
@@ -266,6 +274,8 @@ pub fn figure_out(f: &FigureInfo) -> pb::Figure {
         fatigue_time_scale: s.options.fatigue_time_scale,
         assist: s.options.assist,
         paper: Some(paper_out(&s.params)),
+        constraints: f.constraints.iter().map(constraint::out).collect(),
+        protective_steps: Some(s.params.protective_steps),
     }
 }
 

@@ -1,6 +1,7 @@
 //! Requests to domain types and domain types to responses. Everything is checked here, once: finite, in range, counted, named.
 
 pub mod body;
+pub mod constraint;
 pub mod figure;
 pub mod motion;
 pub mod obstacle;

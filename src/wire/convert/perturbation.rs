@@ -12,7 +12,7 @@ pub const MAX_BATCH: usize = 64;
 /// Longest duration, s.
 const DAY: f64 = 86_400.0;
 
-fn segment(field: &str, name: &str) -> Result<SegmentId, Fault> {
+pub(super) fn segment(field: &str, name: &str) -> Result<SegmentId, Fault> {
     SegmentId::from_name(name).ok_or_else(|| {
         Fault::invalid(
             field,
@@ -24,7 +24,7 @@ fn segment(field: &str, name: &str) -> Result<SegmentId, Fault> {
     })
 }
 
-fn lasting(field: &str, value: f64) -> Result<f64, Fault> {
+pub(super) fn lasting(field: &str, value: f64) -> Result<f64, Fault> {
     or_default(field, value, f64::INFINITY, 0.0, DAY)
 }
 

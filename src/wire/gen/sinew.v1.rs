@@ -1088,6 +1088,57 @@ pub struct Figure {
     /// Choices of the paper's controller. Absent: its defaults.
     #[prost(message, optional, tag = "16")]
     pub paper: ::core::option::Option<PaperOptions>,
+    /// Where parts of the body are wanted, at most 8, no two on the same part. An update replaces all: one on a part that was constrained before
+    /// goes on from there, the others ease in, and those that are missing fade out. In responses those that have ended are gone.
+    #[prost(message, repeated, tag = "17")]
+    pub constraints: ::prost::alloc::vec::Vec<Constraint>,
+    /// Step when the capture point has left the feet (CONTROLLER_MODERN). Absent: true.
+    #[prost(bool, optional, tag = "18")]
+    pub protective_steps: ::core::option::Option<bool>,
+}
+/// Where the centre of mass or a point of a segment is wanted, and how the segment is wanted to be turned, while the rest of the body follows
+/// its motion. At least one of `position_m` and `rotation` must be given. The part moves there from wherever it is; an arm reaches as far as
+/// its length, trunk, head and legs up to 0.15 m from where the motion has them, and the centre of mass stays 0.03 m inside what the feet
+/// cover from heel to ball. A foot that stands is not lifted. Fallen figures and CONTROLLER_MOTORS ignore constraints.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct Constraint {
+    /// Point of the segment, segment frame, m, each component within ±2. Absent: the middle of a hand, else the segment's centre of mass.
+    #[prost(message, optional, tag = "3")]
+    pub point_m: ::core::option::Option<Vector3>,
+    /// Wanted position, world, m, each component within ±10000. Absent: the position is free.
+    #[prost(message, optional, tag = "4")]
+    pub position_m: ::core::option::Option<Vector3>,
+    /// How much each world axis of the position counts, 0…1. Absent: 1, 1, 1.
+    #[prost(message, optional, tag = "5")]
+    pub position_axes: ::core::option::Option<Vector3>,
+    /// Wanted rotation, `world_from_segment`. Absent: the rotation is free. Not for the centre of mass.
+    #[prost(message, optional, tag = "6")]
+    pub rotation: ::core::option::Option<Quaternion>,
+    /// How much it counts, 0…1. Absent: 1.
+    #[prost(double, optional, tag = "7")]
+    pub weight: ::core::option::Option<f64>,
+    /// Time in which it comes into force, and in which it fades when it ends, s, 0…60. Absent: 0.5.
+    #[prost(double, optional, tag = "8")]
+    pub ease_s: ::core::option::Option<f64>,
+    /// How long it holds, s, 0…86400; in responses what is left. 0 or absent: until it is taken off.
+    #[prost(double, tag = "9")]
+    pub duration_s: f64,
+    /// What it is on. Required.
+    #[prost(oneof = "constraint::On", tags = "1, 2")]
+    pub on: ::core::option::Option<constraint::On>,
+}
+/// Nested message and enum types in `Constraint`.
+pub mod constraint {
+    /// What it is on. Required.
+    #[derive(Clone, PartialEq, Eq, Hash, ::prost::Oneof)]
+    pub enum On {
+        /// Segment name, for example `r_hand`.
+        #[prost(string, tag = "1")]
+        Segment(::prost::alloc::string::String),
+        /// The centre of mass, loads included. Must be true.
+        #[prost(bool, tag = "2")]
+        CenterOfMass(bool),
+    }
 }
 /// Adds a figure.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -1152,7 +1203,8 @@ pub struct UpdateFigureRequest {
     /// The figure, by `name`, with new values.
     #[prost(message, optional, tag = "1")]
     pub figure: ::core::option::Option<Figure>,
-    /// Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper` to take. Must not be empty.
+    /// Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper`, `constraints`, `protective_steps` to take. Must
+    /// not be empty.
     #[prost(message, optional, tag = "2")]
     pub update_mask: ::core::option::Option<::prost_types::FieldMask>,
 }
@@ -1563,7 +1615,7 @@ pub mod figure_service_client {
                 .insert(GrpcMethod::new("sinew.v1.FigureService", "ListFigures"));
             self.inner.unary(req, path, codec).await
         }
-        /// Changes strength, controller, options of the paper's controller, fatigue or assist.
+        /// Changes strength, controller, options of the paper's controller, fatigue, assist, constraints or protective steps.
         pub async fn update_figure(
             &mut self,
             request: impl tonic::IntoRequest<super::UpdateFigureRequest>,
@@ -1677,7 +1729,7 @@ pub mod figure_service_server {
             tonic::Response<super::ListFiguresResponse>,
             tonic::Status,
         >;
-        /// Changes strength, controller, options of the paper's controller, fatigue or assist.
+        /// Changes strength, controller, options of the paper's controller, fatigue, assist, constraints or protective steps.
         async fn update_figure(
             &self,
             request: tonic::Request<super::UpdateFigureRequest>,
@@ -2203,6 +2255,9 @@ pub struct FigureFrame {
     /// What it touches besides the ground.
     #[prost(message, optional, tag = "23")]
     pub touches: ::core::option::Option<Touches>,
+    /// What is missing of each constraint, in the order of `Figure.constraints`: distance along the axes that count (m), angle (rad).
+    #[prost(message, optional, tag = "24")]
+    pub constraint_error: ::core::option::Option<Numbers>,
 }
 /// Parts that touch another figure or an obstacle, one entry each in every list.
 #[derive(Clone, PartialEq, ::prost::Message)]

@@ -33,7 +33,7 @@ from sinew.frames import Contact, Event, FigureState, Frame
 from sinew.local import serve
 from sinew.motion import Motion, Pose
 from sinew.recording import RECORDED, Recording, Recordings, Saturation
-from sinew.values import Controller, Disturbance, Encoding, Force, Load, Paper, Profile, Push, Stepper, Strength
+from sinew.values import Constraint, Controller, Disturbance, Encoding, Force, Load, Paper, Profile, Push, Stepper, Strength
 
 __version__ = "0.1.0"
 
@@ -44,6 +44,7 @@ __all__ = [
     "Body",
     "Client",
     "Clip",
+    "Constraint",
     "Contact",
     "Controller",
     "DeadlineError",

@@ -44,6 +44,7 @@ from sinew.v1 import (
     world_pb2_grpc,
 )
 from sinew.values import (
+    Constraint,
     Controller,
     Disturbance,
     Encoding,
@@ -292,6 +293,8 @@ class Client:
         paper: Paper | None = None,
         fatigue_time_scale: float = 0.0,
         assist: float = 0.0,
+        constraints: Iterable[Constraint] = (),
+        protective_steps: bool = True,
         duration_s: float = 0.0,
         loop: bool = False,
         rate_hz: float = 60.0,
@@ -313,6 +316,8 @@ class Client:
             paper=paper,
             fatigue_time_scale=fatigue_time_scale,
             assist=assist,
+            constraints=constraints,
+            protective_steps=protective_steps,
         )
         request = simulation_pb2.SimulateClipRequest(
             figure=figure,
@@ -487,6 +492,8 @@ class World:
         yaw: float = 0.0,
         fatigue_time_scale: float = 0.0,
         assist: float = 0.0,
+        constraints: Iterable[Constraint] = (),
+        protective_steps: bool = True,
         display_name: str = "",
     ) -> Figure:
         """Adds a figure, standing still at `position` (m) and heading `yaw` (rad, 0 looks along x)."""
@@ -500,6 +507,8 @@ class World:
             yaw=yaw,
             fatigue_time_scale=fatigue_time_scale,
             assist=assist,
+            constraints=constraints,
+            protective_steps=protective_steps,
             display_name=display_name,
         )
         request = figure_pb2.CreateFigureRequest(parent=self.resource, figure_id=name, figure=settings)
@@ -706,15 +715,19 @@ class Figure:
         paper: Paper | None = None,
         fatigue_time_scale: float | None = None,
         assist: float | None = None,
+        constraints: Sequence[Constraint] | None = None,
+        protective_steps: bool | None = None,
         display_name: str | None = None,
     ) -> None:
-        """Changes what is given."""
+        """Changes what is given. `constraints` replaces all of them."""
         given = {
             "strength": strength,
             "controller": controller,
             "paper": paper,
             "fatigue_time_scale": fatigue_time_scale,
             "assist": assist,
+            "constraints": constraints,
+            "protective_steps": protective_steps,
             "display_name": display_name,
         }
         settings = requests.figure(
@@ -723,12 +736,21 @@ class Figure:
             paper=paper,
             fatigue_time_scale=fatigue_time_scale,
             assist=assist,
+            constraints=constraints,
+            protective_steps=protective_steps,
             display_name=display_name,
         )
         settings.name = self.message.name
         request = figure_pb2.UpdateFigureRequest(figure=settings)
         request.update_mask.paths.extend(k for k, v in given.items() if v is not None)
         self.message = (await call(self._client.figures_stub.UpdateFigure, request, self._client.timeout_s)).figure
+
+    async def constrain(self, *constraints: Constraint) -> None:
+        """Replaces all constraints by these, none takes them off.
+
+        One on a part that was constrained before goes on from there; the others come and go within their `ease_s`.
+        """
+        await self.update(constraints=constraints)
 
     # Motion.
 

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from google.protobuf.field_mask_pb2 import FieldMask
 
 from sinew.v1 import figure_pb2, perturbation_pb2, simulation_pb2, state_pb2, types_pb2, world_pb2
-from sinew.values import Controller, Disturbance, Encoding, Paper, Profile, Stepper, Strength, resource
+from sinew.values import Constraint, Controller, Disturbance, Encoding, Paper, Profile, Stepper, Strength, resource
 
 PORT = 7463
 OPTIONS = [
@@ -85,6 +85,8 @@ def figure(
     yaw: float | None = None,
     fatigue_time_scale: float | None = None,
     assist: float | None = None,
+    constraints: Iterable[Constraint] | None = None,
+    protective_steps: bool | None = None,
     display_name: str | None = None,
 ) -> figure_pb2.Figure:
     """Settings of a figure; what is `None` is left out."""
@@ -109,6 +111,10 @@ def figure(
         out.fatigue_time_scale = fatigue_time_scale
     if assist is not None:
         out.assist = assist
+    if constraints is not None:
+        out.constraints.extend(c.message() for c in constraints)
+    if protective_steps is not None:
+        out.protective_steps = protective_steps
     if display_name is not None:
         out.display_name = display_name
     return out

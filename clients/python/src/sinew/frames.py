@@ -115,6 +115,11 @@ class FigureState:
         """Least and largest torque that the muscles could give, N·m: (2, 39)."""
         return self._part("torque_limits").reshape(2, -1)
 
+    @cached_property
+    def constraint_error(self) -> Floats:
+        """What is missing of each constraint: distance (m) and angle (rad), (n, 2)."""
+        return self._part("constraint_error").reshape(-1, 2)
+
     @property
     def saturated(self) -> tuple[str, ...]:
         """Names of the degrees of freedom at the limit of their strength."""

@@ -9,6 +9,7 @@ from typing import Literal, TypeAlias, Union
 from sinew.v1 import body_pb2, figure_pb2, perturbation_pb2, types_pb2
 
 __all__ = [
+    "Constraint",
     "Controller",
     "Disturbance",
     "Encoding",
@@ -76,6 +77,43 @@ class Strength:
         """As it is sent."""
         dofs = [figure_pb2.DofStrength(dof=k, factor=v) for k, v in self.dofs.items()]
         return figure_pb2.StrengthScale(all=self.all, dofs=dofs, percentile=self.percentile, effort=self.effort)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Constraint:
+    """Where a part of a figure is wanted while the rest of the body follows its motion.
+
+    `segment` `None`: the centre of mass. `position` (m, world); `axes`: how much each of its axes counts, 0 to 1. `rotation`: quaternion
+    x, y, z, w of the segment in the world, not for the centre of mass. At least one of the two. `point` in the segment's frame (m); `None`:
+    the middle of a hand, else the segment's centre of mass. `weight` 0 to 1. `ease_s`: time to come into force and to fade.
+    `duration_s` 0: until it is taken off.
+    """
+
+    segment: str | None = None
+    position: Vector | None = None
+    axes: Vector = (1.0, 1.0, 1.0)
+    rotation: Sequence[float] | None = None
+    point: Vector | None = None
+    weight: float = 1.0
+    ease_s: float = 0.5
+    duration_s: float = 0.0
+
+    def message(self) -> figure_pb2.Constraint:
+        """As it is sent."""
+        out = figure_pb2.Constraint(weight=self.weight, ease_s=self.ease_s, duration_s=self.duration_s)
+        if self.segment is None:
+            out.center_of_mass = True
+        else:
+            out.segment = self.segment
+        if self.position is not None:
+            out.position_m.CopyFrom(vector(self.position))
+            out.position_axes.CopyFrom(vector(self.axes))
+        if self.rotation is not None:
+            x, y, z, w = (float(c) for c in self.rotation)
+            out.rotation.CopyFrom(types_pb2.Quaternion(x=x, y=y, z=z, w=w))
+        if self.point is not None:
+            out.point_m.CopyFrom(vector(self.point))
+        return out
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -387,6 +387,8 @@ class Figure(_message.Message):
     FATIGUE_TIME_SCALE_FIELD_NUMBER: _builtins.int
     ASSIST_FIELD_NUMBER: _builtins.int
     PAPER_FIELD_NUMBER: _builtins.int
+    CONSTRAINTS_FIELD_NUMBER: _builtins.int
+    PROTECTIVE_STEPS_FIELD_NUMBER: _builtins.int
     name: _builtins.str
     """Resource name `worlds/{world}/figures/{figure}`. Ignored in requests to create one."""
     display_name: _builtins.str
@@ -409,6 +411,8 @@ class Figure(_message.Message):
     """Help towards the desired pose of the pelvis, 0…1: a bounded wrench that no body has, reported in every frame (`assist`). 1 holds the
     pelvis on its path. 0: none.
     """
+    protective_steps: _builtins.bool
+    """Step when the capture point has left the feet (CONTROLLER_MODERN). Absent: true."""
     @_builtins.property
     def profile(self) -> _body_pb2.BodyProfile:
         """Body by profile; only when `body` is empty. Fixed at creation."""
@@ -424,6 +428,12 @@ class Figure(_message.Message):
     @_builtins.property
     def paper(self) -> Global___PaperOptions:
         """Choices of the paper's controller. Absent: its defaults."""
+
+    @_builtins.property
+    def constraints(self) -> _containers.RepeatedCompositeFieldContainer[Global___Constraint]:
+        """Where parts of the body are wanted, at most 8, no two on the same part. An update replaces all: one on a part that was constrained before
+        goes on from there, the others ease in, and those that are missing fade out. In responses those that have ended are gone.
+        """
 
     def __init__(
         self,
@@ -442,14 +452,95 @@ class Figure(_message.Message):
         fatigue_time_scale: _builtins.float = ...,
         assist: _builtins.float = ...,
         paper: Global___PaperOptions | None = ...,
+        constraints: _abc.Iterable[Global___Constraint] | None = ...,
+        protective_steps: _builtins.bool | None = ...,
     ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _typing.Literal["paper", b"paper", "placement", b"placement", "profile", b"profile", "strength", b"strength"]  # noqa: Y015
+    _HasFieldArgType: _TypeAlias = _typing.Literal["_protective_steps", b"_protective_steps", "paper", b"paper", "placement", b"placement", "profile", b"profile", "protective_steps", b"protective_steps", "strength", b"strength"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["assist", b"assist", "body", b"body", "clip", b"clip", "controller", b"controller", "display_name", b"display_name", "driver_id", b"driver_id", "fatigue_time_scale", b"fatigue_time_scale", "figure_index", b"figure_index", "name", b"name", "paper", b"paper", "placement", b"placement", "profile", b"profile", "stepper", b"stepper", "strength", b"strength"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_protective_steps", b"_protective_steps", "assist", b"assist", "body", b"body", "clip", b"clip", "constraints", b"constraints", "controller", b"controller", "display_name", b"display_name", "driver_id", b"driver_id", "fatigue_time_scale", b"fatigue_time_scale", "figure_index", b"figure_index", "name", b"name", "paper", b"paper", "placement", b"placement", "profile", b"profile", "protective_steps", b"protective_steps", "stepper", b"stepper", "strength", b"strength"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
-    def WhichOneof(self, oneof_group: _Never) -> None: ...
+    _WhichOneofReturnType__protective_steps: _TypeAlias = _typing.Literal["protective_steps"]  # noqa: Y015
+    _WhichOneofArgType__protective_steps: _TypeAlias = _typing.Literal["_protective_steps", b"_protective_steps"]  # noqa: Y015
+    def WhichOneof(self, oneof_group: _WhichOneofArgType__protective_steps) -> _WhichOneofReturnType__protective_steps | None: ...
 
 Global___Figure: _TypeAlias = Figure  # noqa: Y015
+
+@_typing.final
+class Constraint(_message.Message):
+    """Where the centre of mass or a point of a segment is wanted, and how the segment is wanted to be turned, while the rest of the body follows
+    its motion. At least one of `position_m` and `rotation` must be given. The part moves there from wherever it is; an arm reaches as far as
+    its length, trunk, head and legs up to 0.15 m from where the motion has them, and the centre of mass stays 0.03 m inside what the feet
+    cover from heel to ball. A foot that stands is not lifted. Fallen figures and CONTROLLER_MOTORS ignore constraints.
+    """
+
+    DESCRIPTOR: _descriptor.Descriptor
+
+    SEGMENT_FIELD_NUMBER: _builtins.int
+    CENTER_OF_MASS_FIELD_NUMBER: _builtins.int
+    POINT_M_FIELD_NUMBER: _builtins.int
+    POSITION_M_FIELD_NUMBER: _builtins.int
+    POSITION_AXES_FIELD_NUMBER: _builtins.int
+    ROTATION_FIELD_NUMBER: _builtins.int
+    WEIGHT_FIELD_NUMBER: _builtins.int
+    EASE_S_FIELD_NUMBER: _builtins.int
+    DURATION_S_FIELD_NUMBER: _builtins.int
+    segment: _builtins.str
+    """Segment name, for example `r_hand`."""
+    center_of_mass: _builtins.bool
+    """The centre of mass, loads included. Must be true."""
+    weight: _builtins.float
+    """How much it counts, 0…1. Absent: 1."""
+    ease_s: _builtins.float
+    """Time in which it comes into force, and in which it fades when it ends, s, 0…60. Absent: 0.5."""
+    duration_s: _builtins.float
+    """How long it holds, s, 0…86400; in responses what is left. 0 or absent: until it is taken off."""
+    @_builtins.property
+    def point_m(self) -> _types_pb2.Vector3:
+        """Point of the segment, segment frame, m, each component within ±2. Absent: the middle of a hand, else the segment's centre of mass."""
+
+    @_builtins.property
+    def position_m(self) -> _types_pb2.Vector3:
+        """Wanted position, world, m, each component within ±10000. Absent: the position is free."""
+
+    @_builtins.property
+    def position_axes(self) -> _types_pb2.Vector3:
+        """How much each world axis of the position counts, 0…1. Absent: 1, 1, 1."""
+
+    @_builtins.property
+    def rotation(self) -> _types_pb2.Quaternion:
+        """Wanted rotation, `world_from_segment`. Absent: the rotation is free. Not for the centre of mass."""
+
+    def __init__(
+        self,
+        *,
+        segment: _builtins.str = ...,
+        center_of_mass: _builtins.bool = ...,
+        point_m: _types_pb2.Vector3 | None = ...,
+        position_m: _types_pb2.Vector3 | None = ...,
+        position_axes: _types_pb2.Vector3 | None = ...,
+        rotation: _types_pb2.Quaternion | None = ...,
+        weight: _builtins.float | None = ...,
+        ease_s: _builtins.float | None = ...,
+        duration_s: _builtins.float = ...,
+    ) -> None: ...
+    _HasFieldArgType: _TypeAlias = _typing.Literal["_ease_s", b"_ease_s", "_weight", b"_weight", "center_of_mass", b"center_of_mass", "ease_s", b"ease_s", "on", b"on", "point_m", b"point_m", "position_axes", b"position_axes", "position_m", b"position_m", "rotation", b"rotation", "segment", b"segment", "weight", b"weight"]  # noqa: Y015
+    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_ease_s", b"_ease_s", "_weight", b"_weight", "center_of_mass", b"center_of_mass", "duration_s", b"duration_s", "ease_s", b"ease_s", "on", b"on", "point_m", b"point_m", "position_axes", b"position_axes", "position_m", b"position_m", "rotation", b"rotation", "segment", b"segment", "weight", b"weight"]  # noqa: Y015
+    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    _WhichOneofReturnType__ease_s: _TypeAlias = _typing.Literal["ease_s"]  # noqa: Y015
+    _WhichOneofArgType__ease_s: _TypeAlias = _typing.Literal["_ease_s", b"_ease_s"]  # noqa: Y015
+    _WhichOneofReturnType__weight: _TypeAlias = _typing.Literal["weight"]  # noqa: Y015
+    _WhichOneofArgType__weight: _TypeAlias = _typing.Literal["_weight", b"_weight"]  # noqa: Y015
+    _WhichOneofReturnType_on: _TypeAlias = _typing.Literal["segment", "center_of_mass"]  # noqa: Y015
+    _WhichOneofArgType_on: _TypeAlias = _typing.Literal["on", b"on"]  # noqa: Y015
+    @_typing.overload
+    def WhichOneof(self, oneof_group: _WhichOneofArgType__ease_s) -> _WhichOneofReturnType__ease_s | None: ...
+    @_typing.overload
+    def WhichOneof(self, oneof_group: _WhichOneofArgType__weight) -> _WhichOneofReturnType__weight | None: ...
+    @_typing.overload
+    def WhichOneof(self, oneof_group: _WhichOneofArgType_on) -> _WhichOneofReturnType_on | None: ...
+
+Global___Constraint: _TypeAlias = Constraint  # noqa: Y015
 
 @_typing.final
 class CreateFigureRequest(_message.Message):
@@ -625,7 +716,9 @@ class UpdateFigureRequest(_message.Message):
 
     @_builtins.property
     def update_mask(self) -> _field_mask_pb2.FieldMask:
-        """Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper` to take. Must not be empty."""
+        """Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper`, `constraints`, `protective_steps` to take. Must
+        not be empty.
+        """
 
     def __init__(
         self,

@@ -143,6 +143,7 @@ class FigureFrame(_message.Message):
     FATIGUE_FIELD_NUMBER: _builtins.int
     ASSIST_FIELD_NUMBER: _builtins.int
     TOUCHES_FIELD_NUMBER: _builtins.int
+    CONSTRAINT_ERROR_FIELD_NUMBER: _builtins.int
     figure_index: _builtins.int
     """Position in the roster."""
     applied_sequence: _builtins.int
@@ -226,6 +227,10 @@ class FigureFrame(_message.Message):
     def touches(self) -> Global___Touches:
         """What it touches besides the ground."""
 
+    @_builtins.property
+    def constraint_error(self) -> _types_pb2.Numbers:
+        """What is missing of each constraint, in the order of `Figure.constraints`: distance along the axes that count (m), angle (rad)."""
+
     def __init__(
         self,
         *,
@@ -250,10 +255,11 @@ class FigureFrame(_message.Message):
         fatigue: _types_pb2.Numbers | None = ...,
         assist: _types_pb2.Numbers | None = ...,
         touches: Global___Touches | None = ...,
+        constraint_error: _types_pb2.Numbers | None = ...,
     ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _typing.Literal["acceleration", b"acceleration", "assist", b"assist", "audit", b"audit", "balance", b"balance", "contacts", b"contacts", "desired", b"desired", "fatigue", b"fatigue", "joint_angles", b"joint_angles", "joint_rotations", b"joint_rotations", "ligament_torque", b"ligament_torque", "positions", b"positions", "root_pose", b"root_pose", "segment_transforms", b"segment_transforms", "status", b"status", "torque", b"torque", "torque_limits", b"torque_limits", "touches", b"touches", "velocity", b"velocity"]  # noqa: Y015
+    _HasFieldArgType: _TypeAlias = _typing.Literal["acceleration", b"acceleration", "assist", b"assist", "audit", b"audit", "balance", b"balance", "constraint_error", b"constraint_error", "contacts", b"contacts", "desired", b"desired", "fatigue", b"fatigue", "joint_angles", b"joint_angles", "joint_rotations", b"joint_rotations", "ligament_torque", b"ligament_torque", "positions", b"positions", "root_pose", b"root_pose", "segment_transforms", b"segment_transforms", "status", b"status", "torque", b"torque", "torque_limits", b"torque_limits", "touches", b"touches", "velocity", b"velocity"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["acceleration", b"acceleration", "applied_sequence", b"applied_sequence", "applied_source_time_ns", b"applied_source_time_ns", "assist", b"assist", "audit", b"audit", "balance", b"balance", "contacts", b"contacts", "desired", b"desired", "fatigue", b"fatigue", "figure_index", b"figure_index", "joint_angles", b"joint_angles", "joint_rotations", b"joint_rotations", "ligament_torque", b"ligament_torque", "positions", b"positions", "root_pose", b"root_pose", "segment_transforms", b"segment_transforms", "status", b"status", "torque", b"torque", "torque_limits", b"torque_limits", "touches", b"touches", "velocity", b"velocity"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["acceleration", b"acceleration", "applied_sequence", b"applied_sequence", "applied_source_time_ns", b"applied_source_time_ns", "assist", b"assist", "audit", b"audit", "balance", b"balance", "constraint_error", b"constraint_error", "contacts", b"contacts", "desired", b"desired", "fatigue", b"fatigue", "figure_index", b"figure_index", "joint_angles", b"joint_angles", "joint_rotations", b"joint_rotations", "ligament_torque", b"ligament_torque", "positions", b"positions", "root_pose", b"root_pose", "segment_transforms", b"segment_transforms", "status", b"status", "torque", b"torque", "torque_limits", b"torque_limits", "touches", b"touches", "velocity", b"velocity"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 

@@ -8,7 +8,7 @@ import type { FieldMask } from "@bufbuild/protobuf/wkt";
 import { file_google_protobuf_field_mask } from "@bufbuild/protobuf/wkt";
 import type { BodyProfile } from "./body_pb.js";
 import { file_sinew_v1_body } from "./body_pb.js";
-import type { Placement, Vector3 } from "./types_pb.js";
+import type { Placement, Quaternion, Vector3 } from "./types_pb.js";
 import { file_sinew_v1_types } from "./types_pb.js";
 import type { Message } from "@bufbuild/protobuf";
 
@@ -16,7 +16,7 @@ import type { Message } from "@bufbuild/protobuf";
  * Describes the file sinew/v1/figure.proto.
  */
 export const file_sinew_v1_figure: GenFile = /*@__PURE__*/
-  fileDesc("ChVzaW5ldy92MS9maWd1cmUucHJvdG8SCHNpbmV3LnYxItIDCgxQYXBlck9wdGlvbnMSJQoGcHJlc2V0GAEgASgOMhUuc2luZXcudjEuUGFwZXJQcmVzZXQSEgoFYWxwaGEYAiABKAFIAIgBARIWCglob3Jpem9uX3MYAyABKAFIAYgBARIlCgZtZXRyaWMYBCABKA4yFS5zaW5ldy52MS5QYXBlck1ldHJpYxIpCghwcmlvcml0eRgFIAEoDjIXLnNpbmV3LnYxLlBhcGVyUHJpb3JpdHkSIwoFc2hhcmUYBiABKA4yFC5zaW5ldy52MS5QYXBlclNoYXJlEhUKCHRvX2xpbWl0GAcgASgISAKIAQESEQoEdGlsdBgIIAEoCEgDiAEBEhkKDHptcF9mZWFzaWJsZRgJIAEoCEgEiAEBEhgKC3RyYWNrX2hhbmRzGAogASgISAWIAQESFgoJdHJhY2tfY29tGAsgASgISAaIAQESFgoJaGFuZF9vdmVyGAwgASgISAeIAQFCCAoGX2FscGhhQgwKCl9ob3Jpem9uX3NCCwoJX3RvX2xpbWl0QgcKBV90aWx0Qg8KDV96bXBfZmVhc2libGVCDgoMX3RyYWNrX2hhbmRzQgwKCl90cmFja19jb21CDAoKX2hhbmRfb3ZlciJ1Cg1TdHJlbmd0aFNjYWxlEgsKA2FsbBgBIAEoARIjCgRkb2ZzGAIgAygLMhUuc2luZXcudjEuRG9mU3RyZW5ndGgSEgoKcGVyY2VudGlsZRgDIAEoARITCgZlZmZvcnQYBCABKAFIAIgBAUIJCgdfZWZmb3J0IioKC0RvZlN0cmVuZ3RoEgsKA2RvZhgBIAEoCRIOCgZmYWN0b3IYAiABKAEiUwoLQ2FycmllZExvYWQSDwoHc2VnbWVudBgBIAEoBRIiCgdwb2ludF9tGAIgASgLMhEuc2luZXcudjEuVmVjdG9yMxIPCgdtYXNzX2tnGAMgASgBIo0DCgZGaWd1cmUSDAoEbmFtZRgBIAEoCRIUCgxkaXNwbGF5X25hbWUYAiABKAkSDAoEYm9keRgDIAEoCRImCgdwcm9maWxlGAQgASgLMhUuc2luZXcudjEuQm9keVByb2ZpbGUSKQoIc3RyZW5ndGgYBSABKAsyFy5zaW5ldy52MS5TdHJlbmd0aFNjYWxlEigKCmNvbnRyb2xsZXIYBiABKA4yFC5zaW5ldy52MS5Db250cm9sbGVyEiIKB3N0ZXBwZXIYByABKA4yES5zaW5ldy52MS5TdGVwcGVyEiYKCXBsYWNlbWVudBgIIAEoCzITLnNpbmV3LnYxLlBsYWNlbWVudBIMCgRjbGlwGAkgASgJEhEKCWRyaXZlcl9pZBgKIAEoCRIUCgxmaWd1cmVfaW5kZXgYCyABKAUSGgoSZmF0aWd1ZV90aW1lX3NjYWxlGA4gASgBEg4KBmFzc2lzdBgPIAEoARIlCgVwYXBlchgQIAEoCzIWLnNpbmV3LnYxLlBhcGVyT3B0aW9ucyJaChNDcmVhdGVGaWd1cmVSZXF1ZXN0Eg4KBnBhcmVudBgBIAEoCRIRCglmaWd1cmVfaWQYAiABKAkSIAoGZmlndXJlGAMgASgLMhAuc2luZXcudjEuRmlndXJlIjgKFENyZWF0ZUZpZ3VyZVJlc3BvbnNlEiAKBmZpZ3VyZRgBIAEoCzIQLnNpbmV3LnYxLkZpZ3VyZSIgChBHZXRGaWd1cmVSZXF1ZXN0EgwKBG5hbWUYASABKAkiNQoRR2V0RmlndXJlUmVzcG9uc2USIAoGZmlndXJlGAEgASgLMhAuc2luZXcudjEuRmlndXJlIksKEkxpc3RGaWd1cmVzUmVxdWVzdBIOCgZwYXJlbnQYASABKAkSEQoJcGFnZV9zaXplGAIgASgFEhIKCnBhZ2VfdG9rZW4YAyABKAkiUQoTTGlzdEZpZ3VyZXNSZXNwb25zZRIhCgdmaWd1cmVzGAEgAygLMhAuc2luZXcudjEuRmlndXJlEhcKD25leHRfcGFnZV90b2tlbhgCIAEoCSJoChNVcGRhdGVGaWd1cmVSZXF1ZXN0EiAKBmZpZ3VyZRgBIAEoCzIQLnNpbmV3LnYxLkZpZ3VyZRIvCgt1cGRhdGVfbWFzaxgCIAEoCzIaLmdvb2dsZS5wcm90b2J1Zi5GaWVsZE1hc2siOAoUVXBkYXRlRmlndXJlUmVzcG9uc2USIAoGZmlndXJlGAEgASgLMhAuc2luZXcudjEuRmlndXJlIiMKE0RlbGV0ZUZpZ3VyZVJlcXVlc3QSDAoEbmFtZRgBIAEoCSIWChREZWxldGVGaWd1cmVSZXNwb25zZSJKChJSZXNldEZpZ3VyZVJlcXVlc3QSDAoEbmFtZRgBIAEoCRImCglwbGFjZW1lbnQYAiABKAsyEy5zaW5ldy52MS5QbGFjZW1lbnQiNwoTUmVzZXRGaWd1cmVSZXNwb25zZRIgCgZmaWd1cmUYASABKAsyEC5zaW5ldy52MS5GaWd1cmUqbAoKQ29udHJvbGxlchIaChZDT05UUk9MTEVSX1VOU1BFQ0lGSUVEEAASFAoQQ09OVFJPTExFUl9QQVBFUhABEhUKEUNPTlRST0xMRVJfTU9ERVJOEAISFQoRQ09OVFJPTExFUl9NT1RPUlMQAypNCgdTdGVwcGVyEhcKE1NURVBQRVJfVU5TUEVDSUZJRUQQABISCg5TVEVQUEVSX1RPUlFVRRABEhUKEVNURVBQRVJfS0lORU1BVElDEAIqYAoLUGFwZXJQcmVzZXQSHAoYUEFQRVJfUFJFU0VUX1VOU1BFQ0lGSUVEEAASHAoYUEFQRVJfUFJFU0VUX1NBRkVHVUFSREVEEAESFQoRUEFQRVJfUFJFU0VUXzIwMDAQAip5CgtQYXBlck1ldHJpYxIcChhQQVBFUl9NRVRSSUNfVU5TUEVDSUZJRUQQABIZChVQQVBFUl9NRVRSSUNfSURFTlRJVFkQARIYChRQQVBFUl9NRVRSSUNfSU5FUlRJQRACEhcKE1BBUEVSX01FVFJJQ19UT1JRVUUQAypmCg1QYXBlclByaW9yaXR5Eh4KGlBBUEVSX1BSSU9SSVRZX1VOU1BFQ0lGSUVEEAASGgoWUEFQRVJfUFJJT1JJVFlfUFJJTlRFRBABEhkKFVBBUEVSX1BSSU9SSVRZX05FU1RFRBACKloKClBhcGVyU2hhcmUSGwoXUEFQRVJfU0hBUkVfVU5TUEVDSUZJRUQQABIVChFQQVBFUl9TSEFSRV9SQVRJTxABEhgKFFBBUEVSX1NIQVJFX0JBTEFOQ0VEEAIy2gMKDUZpZ3VyZVNlcnZpY2USTQoMQ3JlYXRlRmlndXJlEh0uc2luZXcudjEuQ3JlYXRlRmlndXJlUmVxdWVzdBoeLnNpbmV3LnYxLkNyZWF0ZUZpZ3VyZVJlc3BvbnNlEkQKCUdldEZpZ3VyZRIaLnNpbmV3LnYxLkdldEZpZ3VyZVJlcXVlc3QaGy5zaW5ldy52MS5HZXRGaWd1cmVSZXNwb25zZRJKCgtMaXN0RmlndXJlcxIcLnNpbmV3LnYxLkxpc3RGaWd1cmVzUmVxdWVzdBodLnNpbmV3LnYxLkxpc3RGaWd1cmVzUmVzcG9uc2USTQoMVXBkYXRlRmlndXJlEh0uc2luZXcudjEuVXBkYXRlRmlndXJlUmVxdWVzdBoeLnNpbmV3LnYxLlVwZGF0ZUZpZ3VyZVJlc3BvbnNlEk0KDERlbGV0ZUZpZ3VyZRIdLnNpbmV3LnYxLkRlbGV0ZUZpZ3VyZVJlcXVlc3QaHi5zaW5ldy52MS5EZWxldGVGaWd1cmVSZXNwb25zZRJKCgtSZXNldEZpZ3VyZRIcLnNpbmV3LnYxLlJlc2V0RmlndXJlUmVxdWVzdBodLnNpbmV3LnYxLlJlc2V0RmlndXJlUmVzcG9uc2ViBnByb3RvMw", [file_google_protobuf_field_mask, file_sinew_v1_body, file_sinew_v1_types]);
+  fileDesc("ChVzaW5ldy92MS9maWd1cmUucHJvdG8SCHNpbmV3LnYxItIDCgxQYXBlck9wdGlvbnMSJQoGcHJlc2V0GAEgASgOMhUuc2luZXcudjEuUGFwZXJQcmVzZXQSEgoFYWxwaGEYAiABKAFIAIgBARIWCglob3Jpem9uX3MYAyABKAFIAYgBARIlCgZtZXRyaWMYBCABKA4yFS5zaW5ldy52MS5QYXBlck1ldHJpYxIpCghwcmlvcml0eRgFIAEoDjIXLnNpbmV3LnYxLlBhcGVyUHJpb3JpdHkSIwoFc2hhcmUYBiABKA4yFC5zaW5ldy52MS5QYXBlclNoYXJlEhUKCHRvX2xpbWl0GAcgASgISAKIAQESEQoEdGlsdBgIIAEoCEgDiAEBEhkKDHptcF9mZWFzaWJsZRgJIAEoCEgEiAEBEhgKC3RyYWNrX2hhbmRzGAogASgISAWIAQESFgoJdHJhY2tfY29tGAsgASgISAaIAQESFgoJaGFuZF9vdmVyGAwgASgISAeIAQFCCAoGX2FscGhhQgwKCl9ob3Jpem9uX3NCCwoJX3RvX2xpbWl0QgcKBV90aWx0Qg8KDV96bXBfZmVhc2libGVCDgoMX3RyYWNrX2hhbmRzQgwKCl90cmFja19jb21CDAoKX2hhbmRfb3ZlciJ1Cg1TdHJlbmd0aFNjYWxlEgsKA2FsbBgBIAEoARIjCgRkb2ZzGAIgAygLMhUuc2luZXcudjEuRG9mU3RyZW5ndGgSEgoKcGVyY2VudGlsZRgDIAEoARITCgZlZmZvcnQYBCABKAFIAIgBAUIJCgdfZWZmb3J0IioKC0RvZlN0cmVuZ3RoEgsKA2RvZhgBIAEoCRIOCgZmYWN0b3IYAiABKAEiUwoLQ2FycmllZExvYWQSDwoHc2VnbWVudBgBIAEoBRIiCgdwb2ludF9tGAIgASgLMhEuc2luZXcudjEuVmVjdG9yMxIPCgdtYXNzX2tnGAMgASgBIuwDCgZGaWd1cmUSDAoEbmFtZRgBIAEoCRIUCgxkaXNwbGF5X25hbWUYAiABKAkSDAoEYm9keRgDIAEoCRImCgdwcm9maWxlGAQgASgLMhUuc2luZXcudjEuQm9keVByb2ZpbGUSKQoIc3RyZW5ndGgYBSABKAsyFy5zaW5ldy52MS5TdHJlbmd0aFNjYWxlEigKCmNvbnRyb2xsZXIYBiABKA4yFC5zaW5ldy52MS5Db250cm9sbGVyEiIKB3N0ZXBwZXIYByABKA4yES5zaW5ldy52MS5TdGVwcGVyEiYKCXBsYWNlbWVudBgIIAEoCzITLnNpbmV3LnYxLlBsYWNlbWVudBIMCgRjbGlwGAkgASgJEhEKCWRyaXZlcl9pZBgKIAEoCRIUCgxmaWd1cmVfaW5kZXgYCyABKAUSGgoSZmF0aWd1ZV90aW1lX3NjYWxlGA4gASgBEg4KBmFzc2lzdBgPIAEoARIlCgVwYXBlchgQIAEoCzIWLnNpbmV3LnYxLlBhcGVyT3B0aW9ucxIpCgtjb25zdHJhaW50cxgRIAMoCzIULnNpbmV3LnYxLkNvbnN0cmFpbnQSHQoQcHJvdGVjdGl2ZV9zdGVwcxgSIAEoCEgAiAEBQhMKEV9wcm90ZWN0aXZlX3N0ZXBzIrACCgpDb25zdHJhaW50EhEKB3NlZ21lbnQYASABKAlIABIYCg5jZW50ZXJfb2ZfbWFzcxgCIAEoCEgAEiIKB3BvaW50X20YAyABKAsyES5zaW5ldy52MS5WZWN0b3IzEiUKCnBvc2l0aW9uX20YBCABKAsyES5zaW5ldy52MS5WZWN0b3IzEigKDXBvc2l0aW9uX2F4ZXMYBSABKAsyES5zaW5ldy52MS5WZWN0b3IzEiYKCHJvdGF0aW9uGAYgASgLMhQuc2luZXcudjEuUXVhdGVybmlvbhITCgZ3ZWlnaHQYByABKAFIAYgBARITCgZlYXNlX3MYCCABKAFIAogBARISCgpkdXJhdGlvbl9zGAkgASgBQgQKAm9uQgkKB193ZWlnaHRCCQoHX2Vhc2VfcyJaChNDcmVhdGVGaWd1cmVSZXF1ZXN0Eg4KBnBhcmVudBgBIAEoCRIRCglmaWd1cmVfaWQYAiABKAkSIAoGZmlndXJlGAMgASgLMhAuc2luZXcudjEuRmlndXJlIjgKFENyZWF0ZUZpZ3VyZVJlc3BvbnNlEiAKBmZpZ3VyZRgBIAEoCzIQLnNpbmV3LnYxLkZpZ3VyZSIgChBHZXRGaWd1cmVSZXF1ZXN0EgwKBG5hbWUYASABKAkiNQoRR2V0RmlndXJlUmVzcG9uc2USIAoGZmlndXJlGAEgASgLMhAuc2luZXcudjEuRmlndXJlIksKEkxpc3RGaWd1cmVzUmVxdWVzdBIOCgZwYXJlbnQYASABKAkSEQoJcGFnZV9zaXplGAIgASgFEhIKCnBhZ2VfdG9rZW4YAyABKAkiUQoTTGlzdEZpZ3VyZXNSZXNwb25zZRIhCgdmaWd1cmVzGAEgAygLMhAuc2luZXcudjEuRmlndXJlEhcKD25leHRfcGFnZV90b2tlbhgCIAEoCSJoChNVcGRhdGVGaWd1cmVSZXF1ZXN0EiAKBmZpZ3VyZRgBIAEoCzIQLnNpbmV3LnYxLkZpZ3VyZRIvCgt1cGRhdGVfbWFzaxgCIAEoCzIaLmdvb2dsZS5wcm90b2J1Zi5GaWVsZE1hc2siOAoUVXBkYXRlRmlndXJlUmVzcG9uc2USIAoGZmlndXJlGAEgASgLMhAuc2luZXcudjEuRmlndXJlIiMKE0RlbGV0ZUZpZ3VyZVJlcXVlc3QSDAoEbmFtZRgBIAEoCSIWChREZWxldGVGaWd1cmVSZXNwb25zZSJKChJSZXNldEZpZ3VyZVJlcXVlc3QSDAoEbmFtZRgBIAEoCRImCglwbGFjZW1lbnQYAiABKAsyEy5zaW5ldy52MS5QbGFjZW1lbnQiNwoTUmVzZXRGaWd1cmVSZXNwb25zZRIgCgZmaWd1cmUYASABKAsyEC5zaW5ldy52MS5GaWd1cmUqbAoKQ29udHJvbGxlchIaChZDT05UUk9MTEVSX1VOU1BFQ0lGSUVEEAASFAoQQ09OVFJPTExFUl9QQVBFUhABEhUKEUNPTlRST0xMRVJfTU9ERVJOEAISFQoRQ09OVFJPTExFUl9NT1RPUlMQAypNCgdTdGVwcGVyEhcKE1NURVBQRVJfVU5TUEVDSUZJRUQQABISCg5TVEVQUEVSX1RPUlFVRRABEhUKEVNURVBQRVJfS0lORU1BVElDEAIqYAoLUGFwZXJQcmVzZXQSHAoYUEFQRVJfUFJFU0VUX1VOU1BFQ0lGSUVEEAASHAoYUEFQRVJfUFJFU0VUX1NBRkVHVUFSREVEEAESFQoRUEFQRVJfUFJFU0VUXzIwMDAQAip5CgtQYXBlck1ldHJpYxIcChhQQVBFUl9NRVRSSUNfVU5TUEVDSUZJRUQQABIZChVQQVBFUl9NRVRSSUNfSURFTlRJVFkQARIYChRQQVBFUl9NRVRSSUNfSU5FUlRJQRACEhcKE1BBUEVSX01FVFJJQ19UT1JRVUUQAypmCg1QYXBlclByaW9yaXR5Eh4KGlBBUEVSX1BSSU9SSVRZX1VOU1BFQ0lGSUVEEAASGgoWUEFQRVJfUFJJT1JJVFlfUFJJTlRFRBABEhkKFVBBUEVSX1BSSU9SSVRZX05FU1RFRBACKloKClBhcGVyU2hhcmUSGwoXUEFQRVJfU0hBUkVfVU5TUEVDSUZJRUQQABIVChFQQVBFUl9TSEFSRV9SQVRJTxABEhgKFFBBUEVSX1NIQVJFX0JBTEFOQ0VEEAIy2gMKDUZpZ3VyZVNlcnZpY2USTQoMQ3JlYXRlRmlndXJlEh0uc2luZXcudjEuQ3JlYXRlRmlndXJlUmVxdWVzdBoeLnNpbmV3LnYxLkNyZWF0ZUZpZ3VyZVJlc3BvbnNlEkQKCUdldEZpZ3VyZRIaLnNpbmV3LnYxLkdldEZpZ3VyZVJlcXVlc3QaGy5zaW5ldy52MS5HZXRGaWd1cmVSZXNwb25zZRJKCgtMaXN0RmlndXJlcxIcLnNpbmV3LnYxLkxpc3RGaWd1cmVzUmVxdWVzdBodLnNpbmV3LnYxLkxpc3RGaWd1cmVzUmVzcG9uc2USTQoMVXBkYXRlRmlndXJlEh0uc2luZXcudjEuVXBkYXRlRmlndXJlUmVxdWVzdBoeLnNpbmV3LnYxLlVwZGF0ZUZpZ3VyZVJlc3BvbnNlEk0KDERlbGV0ZUZpZ3VyZRIdLnNpbmV3LnYxLkRlbGV0ZUZpZ3VyZVJlcXVlc3QaHi5zaW5ldy52MS5EZWxldGVGaWd1cmVSZXNwb25zZRJKCgtSZXNldEZpZ3VyZRIcLnNpbmV3LnYxLlJlc2V0RmlndXJlUmVxdWVzdBodLnNpbmV3LnYxLlJlc2V0RmlndXJlUmVzcG9uc2ViBnByb3RvMw", [file_google_protobuf_field_mask, file_sinew_v1_body, file_sinew_v1_types]);
 
 /**
  * Choices of the paper's controller, CONTROLLER_PAPER. The others ignore them.
@@ -325,6 +325,21 @@ export type Figure = Message<"sinew.v1.Figure"> & {
    * @generated from field: sinew.v1.PaperOptions paper = 16;
    */
   paper?: PaperOptions | undefined;
+
+  /**
+   * Where parts of the body are wanted, at most 8, no two on the same part. An update replaces all: one on a part that was constrained before
+   * goes on from there, the others ease in, and those that are missing fade out. In responses those that have ended are gone.
+   *
+   * @generated from field: repeated sinew.v1.Constraint constraints = 17;
+   */
+  constraints: Constraint[];
+
+  /**
+   * Step when the capture point has left the feet (CONTROLLER_MODERN). Absent: true.
+   *
+   * @generated from field: optional bool protective_steps = 18;
+   */
+  protectiveSteps?: boolean | undefined;
 };
 
 /**
@@ -333,6 +348,95 @@ export type Figure = Message<"sinew.v1.Figure"> & {
  */
 export const FigureSchema: GenMessage<Figure> = /*@__PURE__*/
   messageDesc(file_sinew_v1_figure, 4);
+
+/**
+ * Where the centre of mass or a point of a segment is wanted, and how the segment is wanted to be turned, while the rest of the body follows
+ * its motion. At least one of `position_m` and `rotation` must be given. The part moves there from wherever it is; an arm reaches as far as
+ * its length, trunk, head and legs up to 0.15 m from where the motion has them, and the centre of mass stays 0.03 m inside what the feet
+ * cover from heel to ball. A foot that stands is not lifted. Fallen figures and CONTROLLER_MOTORS ignore constraints.
+ *
+ * @generated from message sinew.v1.Constraint
+ */
+export type Constraint = Message<"sinew.v1.Constraint"> & {
+  /**
+   * What it is on. Required.
+   *
+   * @generated from oneof sinew.v1.Constraint.on
+   */
+  on: {
+    /**
+     * Segment name, for example `r_hand`.
+     *
+     * @generated from field: string segment = 1;
+     */
+    value: string;
+    case: "segment";
+  } | {
+    /**
+     * The centre of mass, loads included. Must be true.
+     *
+     * @generated from field: bool center_of_mass = 2;
+     */
+    value: boolean;
+    case: "centerOfMass";
+  } | { case: undefined; value?: undefined };
+
+  /**
+   * Point of the segment, segment frame, m, each component within ±2. Absent: the middle of a hand, else the segment's centre of mass.
+   *
+   * @generated from field: sinew.v1.Vector3 point_m = 3;
+   */
+  pointM?: Vector3 | undefined;
+
+  /**
+   * Wanted position, world, m, each component within ±10000. Absent: the position is free.
+   *
+   * @generated from field: sinew.v1.Vector3 position_m = 4;
+   */
+  positionM?: Vector3 | undefined;
+
+  /**
+   * How much each world axis of the position counts, 0…1. Absent: 1, 1, 1.
+   *
+   * @generated from field: sinew.v1.Vector3 position_axes = 5;
+   */
+  positionAxes?: Vector3 | undefined;
+
+  /**
+   * Wanted rotation, `world_from_segment`. Absent: the rotation is free. Not for the centre of mass.
+   *
+   * @generated from field: sinew.v1.Quaternion rotation = 6;
+   */
+  rotation?: Quaternion | undefined;
+
+  /**
+   * How much it counts, 0…1. Absent: 1.
+   *
+   * @generated from field: optional double weight = 7;
+   */
+  weight?: number | undefined;
+
+  /**
+   * Time in which it comes into force, and in which it fades when it ends, s, 0…60. Absent: 0.5.
+   *
+   * @generated from field: optional double ease_s = 8;
+   */
+  easeS?: number | undefined;
+
+  /**
+   * How long it holds, s, 0…86400; in responses what is left. 0 or absent: until it is taken off.
+   *
+   * @generated from field: double duration_s = 9;
+   */
+  durationS: number;
+};
+
+/**
+ * Describes the message sinew.v1.Constraint.
+ * Use `create(ConstraintSchema)` to create a new message.
+ */
+export const ConstraintSchema: GenMessage<Constraint> = /*@__PURE__*/
+  messageDesc(file_sinew_v1_figure, 5);
 
 /**
  * Adds a figure.
@@ -367,7 +471,7 @@ export type CreateFigureRequest = Message<"sinew.v1.CreateFigureRequest"> & {
  * Use `create(CreateFigureRequestSchema)` to create a new message.
  */
 export const CreateFigureRequestSchema: GenMessage<CreateFigureRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 5);
+  messageDesc(file_sinew_v1_figure, 6);
 
 /**
  * The new figure.
@@ -388,7 +492,7 @@ export type CreateFigureResponse = Message<"sinew.v1.CreateFigureResponse"> & {
  * Use `create(CreateFigureResponseSchema)` to create a new message.
  */
 export const CreateFigureResponseSchema: GenMessage<CreateFigureResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 6);
+  messageDesc(file_sinew_v1_figure, 7);
 
 /**
  * Asks for one figure.
@@ -409,7 +513,7 @@ export type GetFigureRequest = Message<"sinew.v1.GetFigureRequest"> & {
  * Use `create(GetFigureRequestSchema)` to create a new message.
  */
 export const GetFigureRequestSchema: GenMessage<GetFigureRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 7);
+  messageDesc(file_sinew_v1_figure, 8);
 
 /**
  * One figure.
@@ -430,7 +534,7 @@ export type GetFigureResponse = Message<"sinew.v1.GetFigureResponse"> & {
  * Use `create(GetFigureResponseSchema)` to create a new message.
  */
 export const GetFigureResponseSchema: GenMessage<GetFigureResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 8);
+  messageDesc(file_sinew_v1_figure, 9);
 
 /**
  * Asks for figures.
@@ -465,7 +569,7 @@ export type ListFiguresRequest = Message<"sinew.v1.ListFiguresRequest"> & {
  * Use `create(ListFiguresRequestSchema)` to create a new message.
  */
 export const ListFiguresRequestSchema: GenMessage<ListFiguresRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 9);
+  messageDesc(file_sinew_v1_figure, 10);
 
 /**
  * A page of figures.
@@ -493,7 +597,7 @@ export type ListFiguresResponse = Message<"sinew.v1.ListFiguresResponse"> & {
  * Use `create(ListFiguresResponseSchema)` to create a new message.
  */
 export const ListFiguresResponseSchema: GenMessage<ListFiguresResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 10);
+  messageDesc(file_sinew_v1_figure, 11);
 
 /**
  * Changes a figure.
@@ -509,7 +613,8 @@ export type UpdateFigureRequest = Message<"sinew.v1.UpdateFigureRequest"> & {
   figure?: Figure | undefined;
 
   /**
-   * Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper` to take. Must not be empty.
+   * Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper`, `constraints`, `protective_steps` to take. Must
+   * not be empty.
    *
    * @generated from field: google.protobuf.FieldMask update_mask = 2;
    */
@@ -521,7 +626,7 @@ export type UpdateFigureRequest = Message<"sinew.v1.UpdateFigureRequest"> & {
  * Use `create(UpdateFigureRequestSchema)` to create a new message.
  */
 export const UpdateFigureRequestSchema: GenMessage<UpdateFigureRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 11);
+  messageDesc(file_sinew_v1_figure, 12);
 
 /**
  * The changed figure.
@@ -542,7 +647,7 @@ export type UpdateFigureResponse = Message<"sinew.v1.UpdateFigureResponse"> & {
  * Use `create(UpdateFigureResponseSchema)` to create a new message.
  */
 export const UpdateFigureResponseSchema: GenMessage<UpdateFigureResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 12);
+  messageDesc(file_sinew_v1_figure, 13);
 
 /**
  * Removes a figure.
@@ -563,7 +668,7 @@ export type DeleteFigureRequest = Message<"sinew.v1.DeleteFigureRequest"> & {
  * Use `create(DeleteFigureRequestSchema)` to create a new message.
  */
 export const DeleteFigureRequestSchema: GenMessage<DeleteFigureRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 13);
+  messageDesc(file_sinew_v1_figure, 14);
 
 /**
  * The figure is gone.
@@ -578,7 +683,7 @@ export type DeleteFigureResponse = Message<"sinew.v1.DeleteFigureResponse"> & {
  * Use `create(DeleteFigureResponseSchema)` to create a new message.
  */
 export const DeleteFigureResponseSchema: GenMessage<DeleteFigureResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 14);
+  messageDesc(file_sinew_v1_figure, 15);
 
 /**
  * Puts a figure back.
@@ -606,7 +711,7 @@ export type ResetFigureRequest = Message<"sinew.v1.ResetFigureRequest"> & {
  * Use `create(ResetFigureRequestSchema)` to create a new message.
  */
 export const ResetFigureRequestSchema: GenMessage<ResetFigureRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 15);
+  messageDesc(file_sinew_v1_figure, 16);
 
 /**
  * The figure that was put back.
@@ -627,7 +732,7 @@ export type ResetFigureResponse = Message<"sinew.v1.ResetFigureResponse"> & {
  * Use `create(ResetFigureResponseSchema)` to create a new message.
  */
 export const ResetFigureResponseSchema: GenMessage<ResetFigureResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 16);
+  messageDesc(file_sinew_v1_figure, 17);
 
 /**
  * Who computes accelerations and torques.
@@ -884,7 +989,7 @@ export const FigureService: GenService<{
     output: typeof ListFiguresResponseSchema;
   },
   /**
-   * Changes strength, controller, options of the paper's controller, fatigue or assist.
+   * Changes strength, controller, options of the paper's controller, fatigue, assist, constraints or protective steps.
    *
    * @generated from rpc sinew.v1.FigureService.UpdateFigure
    */

@@ -1,0 +1,172 @@
+//! Constraints from outside, as both controllers see them: where a point of a segment is wanted, how it is turned, and the acceleration that
+//! brings it there.
+//!
+//! A goal is not a trajectory. From wherever the part is it moves at a speed proportional to the distance, with an upper bound, and its
+//! acceleration is bounded: a goal that cannot be reached pulls with a bounded acceleration, however far away it is.
+
+use crate::sim::body::SegmentId;
+use crate::sim::body::topology::{HEAD, L_UPPER_ARM, PARENT, R_HAND};
+use crate::sim::dynamics::Terms;
+use crate::sim::math::{Quat, Vec3};
+
+/// Most goals of one figure at once: as many as can be set, and as many that fade out.
+pub const MAX_GOALS: usize = 16;
+/// Share of an arm's length that it stretches to, and how much farther than that a point is asked for, m: the trunk bends a little after it.
+const STRETCH: f64 = 0.97;
+const BEYOND: f64 = 0.01;
+
+/// How briskly goals are approached.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pace {
+    /// Time constant T, s: speeds are taken up at 1/T and are 0.25/T times the distance, critically damped with 0.25/T² and 1/T; at most 4 T times
+    /// the largest acceleration, so that they can be braked.
+    pub horizon: f64,
+    /// Largest acceleration of a point, m/s².
+    pub most: f64,
+    /// The same for a point that is not on an arm: whole-body motion.
+    pub most_trunk: f64,
+    /// Largest angular acceleration, rad/s².
+    pub most_turn: f64,
+}
+
+/// Where one part should be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Goal {
+    /// Segment.
+    pub segment: SegmentId,
+    /// Point, segment frame, m.
+    pub point: Vec3,
+    /// Where the point is wanted, world, m.
+    pub position: Option<Vec3>,
+    /// How much each world axis of the position counts, 0…1.
+    pub axes: [f64; 3],
+    /// `world_from_segment`.
+    pub rotation: Option<Quat>,
+    /// How much it counts, 0…1; a goal that comes or goes rises or falls.
+    pub weight: f64,
+}
+
+impl Goal {
+    /// Difference of the wanted position from the present one along the axes that count, world, m; zero if no position is wanted.
+    pub fn distance(&self, terms: &Terms) -> Vec3 {
+        let Some(wanted) = self.position else {
+            return Vec3::zero();
+        };
+        self.difference(terms, wanted)
+    }
+
+    /// What the point is asked to move by: not much farther than an arm reaches, or its figure would be pulled along.
+    fn reachable(&self, terms: &Terms) -> Vec3 {
+        let Some(wanted) = self.position else {
+            return Vec3::zero();
+        };
+        if !self.is_on_arm() {
+            return self.difference(terms, wanted);
+        }
+        let s = self.segment.index();
+        let mut length = self.point.norm();
+        let mut root = terms.segment_position(s);
+        for parent in self.limb().skip(1) {
+            let next = terms.segment_position(parent);
+            length += (root - next).norm();
+            root = next;
+        }
+        let reach = STRETCH * length + BEYOND;
+        self.difference(terms, root + capped(wanted - root, reach))
+    }
+
+    fn difference(&self, terms: &Terms, wanted: Vec3) -> Vec3 {
+        self.along_axes(wanted - terms.point_world(self.segment.index(), self.point))
+    }
+
+    /// The part of a vector along the axes that count.
+    pub fn along_axes(&self, e: Vec3) -> Vec3 {
+        let on = |e: f64, axis: f64| if axis > 0.0 { e } else { 0.0 };
+        Vec3 {
+            x: on(e.x, self.axes[0]),
+            y: on(e.y, self.axes[1]),
+            z: on(e.z, self.axes[2]),
+        }
+    }
+
+    /// Rotation vector from the present to the wanted rotation, world axes, rad; zero if none is wanted.
+    pub fn turn(&self, terms: &Terms) -> Vec3 {
+        let Some(wanted) = self.rotation else {
+            return Vec3::zero();
+        };
+        let now = Quat::from_mat3(&terms.segment_rotation(self.segment.index()));
+        (wanted * now.conjugate()).log()
+    }
+
+    /// Demanded acceleration of the point along the axes that count, m/s².
+    pub fn acceleration(&self, terms: &Terms, pace: &Pace) -> Vec3 {
+        let v = self.along_axes(terms.point_velocity(self.segment.index(), self.point));
+        let most = if self.is_on_arm() {
+            pace.most
+        } else {
+            pace.most_trunk
+        };
+        demand(self.reachable(terms), v, pace.horizon, most)
+    }
+
+    /// The segments of the limb that the goal moves, from its own up to the trunk; none if it is on the trunk or on a leg, which carries.
+    pub fn limb(&self) -> impl Iterator<Item = usize> + use<> {
+        let free =
+            |s: usize| s == HEAD.index() || (L_UPPER_ARM.index()..=R_HAND.index()).contains(&s);
+        let first = Some(self.segment.index()).filter(|s| free(*s));
+        std::iter::successors(first, move |s| Some(PARENT[*s]).filter(|p| free(*p)))
+    }
+
+    /// True if it is on an arm.
+    pub fn is_on_arm(&self) -> bool {
+        (L_UPPER_ARM.index()..=R_HAND.index()).contains(&self.segment.index())
+    }
+
+    /// Demanded angular acceleration of the segment, world axes, rad/s².
+    pub fn angular_acceleration(&self, terms: &Terms, pace: &Pace) -> Vec3 {
+        let w = terms.kin.omega[self.segment.index()];
+        demand(self.turn(terms), w, pace.horizon, pace.most_turn)
+    }
+}
+
+fn demand(error: Vec3, rate: Vec3, t: f64, most: f64) -> Vec3 {
+    capped(
+        (capped(error * (0.25 / t), 4.0 * t * most) - rate) * (1.0 / t),
+        most,
+    )
+}
+
+/// Capped in norm.
+fn capped(a: Vec3, most: f64) -> Vec3 {
+    let n = a.norm();
+    if n > most { a * (most / n) } else { a }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::math::vec3::vec3;
+
+    #[test]
+    fn a_point_comes_to_rest_at_its_goal_without_overshoot_and_within_bounds() {
+        let dt = 1.0 / 60.0;
+        for (distance, (t, bound)) in [0.02, 0.3, 2.0, 1e4]
+            .into_iter()
+            .flat_map(|d| [(0.033, 5.0), (0.05, 4.0)].map(|p| (d, p)))
+        {
+            let (mut x, mut v, mut most) = (0.0, 0.0, 0.0f64);
+            for _ in 0..600 {
+                let a = demand(vec3(distance - x, 0.0, 0.0), vec3(v, 0.0, 0.0), t, bound).x;
+                v += a * dt;
+                x += v * dt;
+                most = most.max(a.abs());
+                assert!(x < distance * 1.005 + 1e-3, "{x} of {distance}");
+                assert!(v <= 4.0 * t * bound + 1e-9);
+            }
+            assert!(most <= bound * (1.0 + 1e-12));
+            if distance < 5.0 {
+                assert!((x - distance).abs() < 1e-4 && v.abs() < 1e-4);
+            }
+        }
+    }
+}

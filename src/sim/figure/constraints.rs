@@ -1,0 +1,371 @@
+//! Constraints that a client gives: a point of a segment or the centre of mass at a place, a segment turned a certain way, while the rest of the
+//! body follows its motion as well as it can.
+
+use crate::sim::body::topology::{
+    L_FOOT, L_FOREARM, L_HAND, L_TOES, L_UPPER_ARM, R_FOOT, R_FOREARM, R_HAND, R_TOES, R_UPPER_ARM,
+};
+use crate::sim::body::{Body, SegmentId};
+use crate::sim::control::goals::MAX_GOALS;
+use crate::sim::control::{Effector, Goal, PointTarget};
+use crate::sim::dynamics::Terms;
+use crate::sim::math::{Quat, Vec3};
+use crate::sim::support::{Polygon, Support};
+
+/// Most constraints on one figure.
+pub const MAX_CONSTRAINTS: usize = 8;
+/// Largest `ease`, s.
+pub const MAX_EASE: f64 = 60.0;
+/// How far inside of what carries it the wanted centre of mass is kept, m. Feet count from the heel to the ball: toes cannot carry a body for long.
+pub const COM_INSET: f64 = 0.03;
+/// How far from where the motion has it a point of trunk, head or legs is led, m: beyond, whole-body motion cannot keep balance.
+pub const TRUNK_REACH: f64 = 0.15;
+/// How far ahead of the present place the centre of mass is asked for, m: 2.5 m/s² and 0.25 m/s with the controllers' law.
+const COM_LEASH: f64 = 0.1;
+
+/// What a constraint is on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Constrained {
+    /// The centre of mass, loads included.
+    CenterOfMass,
+    /// A point of a segment, segment frame, m.
+    Point(SegmentId, Vec3),
+}
+
+/// Where the centre of mass or a point of a segment should be, and how the segment should be turned.
+///
+/// At least one of `position` and `rotation` is given; the centre of mass has no rotation. The part moves there from wherever it is. What cannot be
+/// reached is approached as far as balance, strength and joints let it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Constraint {
+    /// What it is on.
+    pub on: Constrained,
+    /// Wanted position, world, m.
+    pub position: Option<Vec3>,
+    /// How much each world axis of the position counts, 0…1.
+    pub axes: [f64; 3],
+    /// Wanted rotation, `world_from_segment`.
+    pub rotation: Option<Quat>,
+    /// How much it counts, 0…1.
+    pub weight: f64,
+    /// Time in which it comes into force and in which it fades when it ends, s.
+    pub ease: f64,
+    /// Begins at, s.
+    pub from: f64,
+    /// Has ended at, s; `f64::INFINITY` = when it is taken off.
+    pub to: f64,
+}
+
+impl Constraint {
+    /// How much of it is in force at `time` (s), 0…1: rises after `from` and falls before `to` within `ease`, C¹.
+    pub fn level(&self, time: f64) -> f64 {
+        let ramp = |t: f64| {
+            let u = if self.ease > 0.0 {
+                (t / self.ease).clamp(0.0, 1.0)
+            } else {
+                f64::from(u8::from(t >= 0.0))
+            };
+            u * u * (3.0 - 2.0 * u)
+        };
+        let ends = if self.to.is_finite() {
+            ramp(self.to - time)
+        } else {
+            1.0
+        };
+        ramp(time - self.from).min(ends)
+    }
+}
+
+/// The constraints of a figure: those that were given, and those that fade because they were taken off.
+#[derive(Clone, Debug)]
+pub struct Constraints {
+    given: Vec<Constraint>,
+    fading: Vec<Constraint>,
+    goals: Vec<Goal>,
+    hands: [Option<Effector>; 2],
+    polygon: Polygon,
+    inset: Polygon,
+    errors: Vec<[f64; 2]>,
+}
+
+impl Default for Constraints {
+    fn default() -> Self {
+        Self {
+            given: Vec::with_capacity(MAX_CONSTRAINTS),
+            fading: Vec::with_capacity(MAX_CONSTRAINTS),
+            goals: Vec::with_capacity(MAX_GOALS),
+            hands: [None; 2],
+            polygon: Polygon::with_capacity(64),
+            inset: Polygon::with_capacity(128),
+            errors: Vec::with_capacity(MAX_CONSTRAINTS),
+        }
+    }
+}
+
+impl Constraints {
+    /// Replaces all; at most [`MAX_CONSTRAINTS`] are taken. One on a part that was constrained already goes on from there instead of easing in anew; those on other
+    /// parts fade out within their `ease`.
+    pub fn replace(&mut self, new: &[Constraint], time: f64) {
+        let old = std::mem::take(&mut self.given);
+        for c in new.iter().take(MAX_CONSTRAINTS) {
+            let mut c = *c;
+            let before = old.iter().find(|o| o.on == c.on && o.to > time);
+            if let Some(before) = before {
+                c.from = c.from.min(before.from);
+            }
+            self.given.push(c);
+        }
+        for o in old {
+            if self.given.iter().all(|c| c.on != o.on) && self.fading.len() < MAX_CONSTRAINTS {
+                // It falls from where it stands: one that was still rising has less of its way to go.
+                let risen = (time - o.from).clamp(0.0, o.ease);
+                let to = o.to.min(time + risen);
+                self.fading.push(Constraint { to, ..o });
+            }
+        }
+    }
+
+    /// Those that are given, in the order in which they were.
+    pub fn given(&self) -> &[Constraint] {
+        &self.given
+    }
+
+    /// Takes all off at once: the figure was put somewhere else.
+    pub fn forget(&mut self) {
+        self.given.clear();
+        self.fading.clear();
+        self.goals.clear();
+        self.errors.clear();
+    }
+
+    /// What is in force at `time`, the start of a tick: shifts the wanted centre of mass and collects the goals. No allocation.
+    pub(crate) fn begin(
+        &mut self,
+        time: f64,
+        body: &Body,
+        terms: &Terms,
+        support: &Support,
+        com: &mut PointTarget,
+        hands: &[Effector; 2],
+        desired: impl Fn(SegmentId, Vec3) -> Vec3,
+    ) {
+        self.given.retain(|c| c.to > time);
+        self.fading.retain(|c| c.to > time);
+        self.goals.clear();
+        self.hands = hands.map(Some);
+        if self.given.is_empty() && self.fading.is_empty() {
+            return;
+        }
+        for i in 0..self.fading.len() + self.given.len() {
+            // What is given comes first: where there is no room for all, it is what counts.
+            let c = match self.given.get(i) {
+                Some(c) => *c,
+                None => self.fading[i - self.given.len()],
+            };
+            let level = c.weight * c.level(time);
+            match c.on {
+                Constrained::CenterOfMass => {
+                    if let Some(at) = c.position {
+                        let share = c.axes.map(|a| a * level);
+                        self.shift_com(body, terms, support, at, share, com);
+                    }
+                }
+                Constrained::Point(segment, point) => {
+                    if c.position.is_some() {
+                        self.release(segment);
+                    }
+                    let mut goal = Goal {
+                        segment,
+                        point,
+                        position: c.position,
+                        axes: c.axes,
+                        rotation: c.rotation,
+                        weight: level,
+                    };
+                    if let (Some(at), false) = (c.position, goal.is_on_arm()) {
+                        let home = desired(segment, point);
+                        let off = goal.along_axes(at - home);
+                        let share = (TRUNK_REACH / off.norm().max(TRUNK_REACH)).min(1.0);
+                        goal.position = Some(home + off * share);
+                    }
+                    self.goals.push(goal);
+                }
+            }
+        }
+    }
+
+    /// A hand whose arm is constrained does not follow the motion in space as well.
+    fn release(&mut self, segment: SegmentId) {
+        match segment {
+            L_UPPER_ARM | L_FOREARM | L_HAND => self.hands[0] = None,
+            R_UPPER_ARM | R_FOREARM | R_HAND => self.hands[1] = None,
+            _ => {}
+        }
+    }
+
+    /// Blends the wanted centre of mass with a constraint on it: horizontally inside what the supports cover, and never far ahead of where it is.
+    fn shift_com(
+        &mut self,
+        body: &Body,
+        terms: &Terms,
+        support: &Support,
+        wanted: Vec3,
+        share: [f64; 3],
+        com: &mut PointTarget,
+    ) {
+        let mut at = Vec3 {
+            x: if share[0] > 0.0 { wanted.x } else { com.now.x },
+            y: if share[1] > 0.0 { wanted.y } else { com.now.y },
+            z: wanted.z,
+        };
+        // All of a foot of which a part touches, since it can be put down again.
+        let touches = |s: SegmentId| support.points().iter().any(|p| p.segment == s);
+        let toes = |s: SegmentId| s == L_TOES || s == R_TOES;
+        let feet = [(L_FOOT, L_TOES), (R_FOOT, R_TOES)];
+        let feet = feet.into_iter().filter(|(a, b)| touches(*a) || touches(*b));
+        let points = feet.flat_map(|(a, b)| [a, b]).flat_map(|s| {
+            let points = &body.segment(s).contact_points;
+            let ball = move |p: &Vec3| {
+                if toes(s) {
+                    Vec3 {
+                        x: p.x.min(0.0),
+                        ..*p
+                    }
+                } else {
+                    *p
+                }
+            };
+            points
+                .iter()
+                .map(move |p| terms.point_world(s.index(), ball(p)))
+        });
+        let rests = support.rests().iter().filter(|r| r.is_level());
+        let rests = rests.map(|r| r.position);
+        self.polygon
+            .set_hull(points.chain(rests).map(|p| [p.x, p.y]));
+        self.inset.set_inset(&self.polygon, COM_INSET);
+        if let Some(c) = self.inset.closest([at.x, at.y]).filter(|c| c.margin < 0.0) {
+            [at.x, at.y] = c.point;
+        }
+        let toward = |now: f64, next: f64, v: (f64, f64), present: f64, wanted: f64, s: f64| {
+            let near = present + (wanted - present).clamp(-COM_LEASH, COM_LEASH);
+            let mix = |a: f64, b: f64| a + s * (b - a);
+            (
+                mix(now, near),
+                mix(next, near),
+                mix(v.0, 0.0),
+                mix(v.1, 0.0),
+            )
+        };
+        let c = terms.com;
+        let v = (com.now_velocity, com.next_velocity);
+        let (x, y, z) = (
+            toward(com.now.x, com.next.x, (v.0.x, v.1.x), c.x, at.x, share[0]),
+            toward(com.now.y, com.next.y, (v.0.y, v.1.y), c.y, at.y, share[1]),
+            toward(com.now.z, com.next.z, (v.0.z, v.1.z), c.z, at.z, share[2]),
+        );
+        let vector = |k: fn((f64, f64, f64, f64)) -> f64| Vec3 {
+            x: k(x),
+            y: k(y),
+            z: k(z),
+        };
+        *com = PointTarget {
+            now: vector(|t| t.0),
+            next: vector(|t| t.1),
+            now_velocity: vector(|t| t.2),
+            next_velocity: vector(|t| t.3),
+        };
+    }
+
+    /// What the controllers are to reach in this tick.
+    pub(crate) fn goals(&self) -> &[Goal] {
+        &self.goals
+    }
+
+    /// The hands that follow the motion in space.
+    pub(crate) fn free_hands(&self) -> impl Iterator<Item = Effector> + '_ {
+        self.hands.iter().flatten().copied()
+    }
+
+    /// Distance (m, along the axes that count) and angle (rad) that are missing at the start of the tick, one pair per given constraint.
+    pub(crate) fn errors(&mut self, terms: &Terms) -> &[[f64; 2]] {
+        self.errors.clear();
+        for c in &self.given {
+            let (segment, point) = match c.on {
+                Constrained::Point(s, p) => (s, p),
+                Constrained::CenterOfMass => {
+                    let e = c.position.map_or(Vec3::zero(), |p| p - terms.com);
+                    let e = e.to_array();
+                    let on = |k: usize| if c.axes[k] > 0.0 { e[k] * e[k] } else { 0.0 };
+                    self.errors.push([(on(0) + on(1) + on(2)).sqrt(), 0.0]);
+                    continue;
+                }
+            };
+            let goal = Goal {
+                segment,
+                point,
+                position: c.position,
+                axes: c.axes,
+                rotation: c.rotation,
+                weight: 1.0,
+            };
+            let error = [goal.distance(terms).norm(), goal.turn(terms).norm()];
+            self.errors.push(error);
+        }
+        &self.errors
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::math::vec3::vec3;
+
+    fn hand(x: f64, from: f64) -> Constraint {
+        Constraint {
+            on: Constrained::Point(R_HAND, Vec3::zero()),
+            position: Some(vec3(x, 0.0, 1.0)),
+            axes: [1.0; 3],
+            rotation: None,
+            weight: 1.0,
+            ease: 0.5,
+            from,
+            to: f64::INFINITY,
+        }
+    }
+
+    #[test]
+    fn a_constraint_eases_in_goes_on_when_replaced_and_fades_when_taken_off() {
+        let mut set = Constraints::default();
+        set.replace(&[hand(0.3, 1.0)], 1.0);
+        assert_eq!(set.given()[0].level(1.0), 0.0);
+        assert_eq!(set.given()[0].level(1.25), 0.5);
+        assert_eq!(set.given()[0].level(1.5), 1.0);
+        // A new place for the same hand keeps what is reached.
+        set.replace(&[hand(0.4, 1.25)], 1.25);
+        assert_eq!(set.given()[0].level(1.25), 0.5);
+        set.replace(&[], 2.0);
+        assert!(set.given().is_empty());
+        let gone = set.fading[0];
+        assert_eq!(
+            (gone.level(2.0), gone.level(2.25), gone.level(2.5)),
+            (1.0, 0.5, 0.0)
+        );
+    }
+
+    #[test]
+    fn no_more_than_there_is_room_for() {
+        let mut set = Constraints::default();
+        for round in 0..5 {
+            let time = f64::from(round);
+            let many: Vec<_> = (0..20)
+                .map(|i| Constraint {
+                    on: Constrained::Point(L_HAND, vec3(time, f64::from(i), 0.0)),
+                    ease: MAX_EASE,
+                    ..hand(0.0, time)
+                })
+                .collect();
+            set.replace(&many, time);
+            assert!(set.given.len() == MAX_CONSTRAINTS && set.fading.len() <= MAX_CONSTRAINTS);
+        }
+    }
+}
