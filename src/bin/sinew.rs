@@ -28,6 +28,8 @@ enum Command {
     Convert(cli::convert::ConvertArgs),
     /// Run the paper's experiments again and write a page about them
     Paper(cli::paper::PaperArgs),
+    /// Run walks with pushes, loads, other people and noise, and write a page about what is survived
+    Walking(cli::walking::WalkingArgs),
     /// List segments, degrees of freedom, limits and strength of a body
     Bodies(cli::bodies::BodiesArgs),
 }
@@ -46,6 +48,7 @@ fn main() -> ExitCode {
         Some(Command::Lint(args)) => cli::lint::run(&args),
         Some(Command::Convert(args)) => cli::convert::run(&args),
         Some(Command::Paper(args)) => cli::paper::run(&args),
+        Some(Command::Walking(args)) => cli::walking::run(&args),
         Some(Command::Bodies(args)) => cli::bodies::run(&args),
         None => unreachable!("`serve` was put in its place"),
     };

@@ -4,12 +4,15 @@ pub mod args;
 pub mod bodies;
 pub mod convert;
 pub mod lint;
+pub mod noise;
 pub mod output;
+pub mod page;
 pub mod paper;
 pub mod push;
 pub mod run;
 pub mod serve;
 pub mod source;
+pub mod walking;
 pub mod watch;
 
 /// A world's resource name from what a user typed: `demo` or `worlds/demo`.

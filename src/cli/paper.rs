@@ -1,27 +1,25 @@
 //! `sinew paper`: runs every experiment of the paper again and writes a page with tables, plots and motion strips.
 
 use super::args::person_name;
-use super::output::write;
+use super::page::{Page, progress};
 use crate::evaluate::experiments::fall::{DIRECTIONS, Fall, LOW, fall, leaning, pendulum};
 use crate::evaluate::experiments::lift::{Lift, lift, scene, weak_arm};
 use crate::evaluate::experiments::push::{Push, push, recovered};
 use crate::evaluate::experiments::statics::{Hold, hold};
-use crate::evaluate::experiments::{Pair, Record, Sample};
+use crate::evaluate::experiments::{Pair, Sample};
 use crate::evaluate::plot::Plot;
-use crate::evaluate::strip::{StripOptions, View, draw, raster};
+use crate::evaluate::strip::View;
 use crate::sim::body::topology::DOF_NAMES;
 use crate::sim::body::{Body, Profile, Sex};
 use crate::sim::motion::builtin::builtin;
-use anyhow::{Context, Result};
-use indicatif::{ProgressBar, ProgressStyle};
+use anyhow::Result;
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// Panels of a strip and their scale, pixels per metre.
+/// Panels of a strip.
 const PANELS: usize = 7;
-const SCALE: f64 = 82.0;
 /// Loads of the lift, kg: the paper's text says 1, 3 and 4, the caption of its figure 1, 3 and 5.
 const LOADS: [f64; 4] = [1.0, 3.0, 4.0, 5.0];
 /// Experiments, for the progress bar.
@@ -35,77 +33,13 @@ pub struct PaperArgs {
     pub out: PathBuf,
 }
 
-/// The page as it grows, and where its pictures go.
-struct Page {
-    folder: PathBuf,
-    text: String,
-}
-
-impl Page {
-    fn line(&mut self, text: &str) {
-        self.text.push_str(text);
-        self.text.push('\n');
-    }
-
-    /// A paragraph.
-    fn say(&mut self, text: &str) {
-        self.line(text);
-        self.line("");
-    }
-
-    fn table(&mut self, head: &[&str], rows: &[Vec<String>]) {
-        self.line(&format!("| {} |", head.join(" | ")));
-        self.line(&format!("|{}", "---|".repeat(head.len())));
-        for row in rows {
-            self.line(&format!("| {} |", row.join(" | ")));
-        }
-        self.line("");
-    }
-
-    fn plot(&mut self, name: &str, plot: &Plot) -> Result<()> {
-        write(&self.folder.join(format!("{name}.svg")), plot.svg())?;
-        self.say(&format!("![{}]({name}.svg)", plot.title));
-        Ok(())
-    }
-
-    fn strip(
-        &mut self,
-        name: &str,
-        body: &Body,
-        run: &Record,
-        view: View,
-        title: &str,
-    ) -> Result<()> {
-        let options = StripOptions {
-            view,
-            scale: SCALE,
-            title: title.to_owned(),
-        };
-        let png = raster::png(&draw(body, &run.frames, &options))
-            .with_context(|| format!("cannot draw {name}.png"))?;
-        write(&self.folder.join(format!("{name}.png")), png)?;
-        self.say(&format!("![{title}]({name}.png)"));
-        Ok(())
-    }
-}
-
 /// Runs the command.
 ///
 /// # Errors
 /// Files that cannot be written.
 pub fn run(args: &PaperArgs) -> Result<()> {
-    std::fs::create_dir_all(&args.out)
-        .with_context(|| format!("cannot make {}", args.out.display()))?;
-    let mut page = Page {
-        folder: args.out.clone(),
-        text: String::new(),
-    };
-    let bar = ProgressBar::new(STEPS).with_style(
-        ProgressStyle::with_template("{prefix:>14} {wide_bar:.cyan/dim} {pos}/{len} {msg}")
-            .expect("the template is a constant")
-            .progress_chars("━╸─"),
-    );
-    bar.set_prefix("paper");
+    let mut page = Page::new(&args.out)?;
+    let bar = progress("paper", STEPS);
     let body = Arc::new(Body::adult_man());
     introduction(&mut page);
     let parts: [(&str, fn(&mut Page, &Arc<Body>) -> Result<()>); STEPS as usize] = [
@@ -123,21 +57,7 @@ pub fn run(args: &PaperArgs) -> Result<()> {
         bar.inc(1);
     }
     bar.finish_and_clear();
-    let path = args.out.join("README.md");
-    write(&path, page.text.trim_end().to_owned() + "\n")?;
-    println!("{} ({})", path.display(), size(&args.out)?);
-    Ok(())
-}
-
-/// What the folder holds in all.
-fn size(folder: &Path) -> Result<String> {
-    let mut bytes = 0;
-    let mut files = 0;
-    for entry in std::fs::read_dir(folder).context("the folder cannot be listed")? {
-        bytes += entry?.metadata()?.len();
-        files += 1;
-    }
-    Ok(format!("{files} files, {} kB", bytes / 1000))
+    page.finish()
 }
 
 fn introduction(page: &mut Page) {

@@ -1,8 +1,8 @@
 //! Judging a run from outside: what a figure did, measured from its reports and checked against the laws of motion.
 //!
 //! [`metrics`] accumulates a run tick by tick into a [`RunReport`]; [`audit`] rebuilds the equations of motion from the body alone, without
-//! any number of the solver; [`strip`] draws the motion, [`plot`] its numbers; [`table`] writes it as CSV; [`experiments`] are those of
-//! `sinew paper`. Nothing here reads a clock or a file.
+//! any number of the solver; [`strip`] draws the motion, [`plot`] its numbers; [`table`] writes it as CSV; [`survival`] what was
+//! survived; [`experiments`] are those of `sinew paper` and `sinew walking`. Nothing here reads a clock or a file.
 
 pub mod audit;
 pub mod experiments;
@@ -11,6 +11,7 @@ pub mod plot;
 pub mod pose;
 pub mod report;
 pub mod strip;
+pub mod survival;
 pub mod table;
 
 pub use audit::{AuditResult, audit};

@@ -1,10 +1,11 @@
-//! The paper's experiments as functions: build the scene, run it, return what was measured. `sinew paper` prints them; nothing here reads a
-//! clock or a file.
+//! Experiments as functions: build the scene, run it, return what was measured. `sinew paper` and `sinew walking` print them; nothing here
+//! reads a clock or a file.
 
 pub mod fall;
 pub mod lift;
 pub mod push;
 pub mod statics;
+pub mod walk;
 
 use super::metrics::Tick;
 use super::strip::{Frame, evenly_spaced};

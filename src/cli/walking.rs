@@ -1,0 +1,392 @@
+//! `sinew walking`: recorded motion on two feet, tracked, pushed, carried, by other people and from noisy recordings; a page about what is
+//! survived.
+
+use super::noise::noisy;
+use super::page::{Page, progress};
+use super::source::load;
+use crate::evaluate::experiments::walk::{Hands, Walk, Walked, Walker, walk};
+use crate::evaluate::survival::SurvivalMap;
+use crate::sim::body::{Body, Profile, Sex};
+use crate::sim::math::Vec3;
+use crate::sim::motion::builtin::builtin;
+use crate::sim::motion::{Bvh, Clip, RetargetOptions, cycle, retarget};
+use anyhow::{Context, Result};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Impulses, N·s.
+const IMPULSES: [f64; 4] = [10.0, 20.0, 30.0, 40.0];
+/// Directions in which a push goes, in eighths of a turn to the left.
+const DIRECTIONS: [&str; 8] = [
+    "forward",
+    "forward left",
+    "left",
+    "back left",
+    "back",
+    "back right",
+    "right",
+    "forward right",
+];
+/// Pushes are spread over this many phases of the cycle, or moments of standing.
+const PHASES: u32 = 8;
+/// What is watched after a push, s.
+const AFTER: f64 = 4.0;
+/// A repeated walk is watched for so long, s: once, and in each variation.
+const LONG: f64 = 60.0;
+const SHORT: f64 = 20.0;
+/// Noisy copies of each recording: how many, by how much (m, degrees).
+const COPIES: u32 = 20;
+const NOISE: (f64, f64) = (0.001, 0.2);
+
+/// Runs walks with pushes, loads, other people and noise, and writes a page about what is survived.
+#[derive(Clone, Debug, clap::Args)]
+pub struct WalkingArgs {
+    /// BVH files or `builtin:NAME`; the first that repeats is the walk that is pushed and varied
+    #[arg(value_name = "CLIP", default_value = "builtin:walk")]
+    pub clips: Vec<String>,
+    /// Folder for the page (README.md) and its plots; files of the same names are replaced
+    #[arg(long, value_name = "FOLDER", default_value = "docs/walking")]
+    pub out: PathBuf,
+}
+
+/// What all experiments need.
+struct Study {
+    body: Arc<Body>,
+    clips: Vec<(String, Arc<Clip>)>,
+    /// Name, and the clip made to repeat.
+    walk: Option<(String, Arc<Clip>)>,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// Clips that cannot be read or fitted, files that cannot be written.
+pub fn run(args: &WalkingArgs) -> Result<()> {
+    let body = Arc::new(Body::adult_man());
+    let mut clips = Vec::new();
+    for spec in &args.clips {
+        let source = load(spec, &body, &RetargetOptions::default())?;
+        clips.push((source.name, Arc::new(source.clip)));
+    }
+    let walk = clips.iter().find_map(|(name, clip)| {
+        let cycle = cycle(&body, clip)?;
+        let far = cycle.advance().x.hypot(cycle.advance().y);
+        (far > 0.5).then(|| (name.clone(), Arc::new(cycle)))
+    });
+    let study = Study { body, clips, walk };
+    let mut page = Page::new(&args.out)?;
+    introduction(&mut page, &study);
+    let bar = progress("walking", 5);
+    bar.set_message("clips");
+    clips_once(&mut page, &study);
+    bar.inc(1);
+    bar.set_message("pushes, standing");
+    pushes_standing(&mut page, &study)?;
+    bar.inc(1);
+    if let Some((name, clip)) = &study.walk {
+        bar.set_message("pushes, walking");
+        pushes_walking(&mut page, &study, name, clip)?;
+        bar.inc(1);
+        bar.set_message("variations");
+        variations(&mut page, &study, name, clip, args)?;
+        bar.inc(1);
+    }
+    bar.set_message("noise");
+    sensitivity(&mut page, &study, args)?;
+    bar.finish_and_clear();
+    page.finish()
+}
+
+fn introduction(page: &mut Page, study: &Study) {
+    page.say("# Walking, measured");
+    let names: Vec<&str> = study.clips.iter().map(|c| c.0.as_str()).collect();
+    page.say(&format!(
+        "Recorded motion in torque simulation: a man of 30 years, 1.75 m, 75 kg at his own strength, without assist, 60 ticks of two substeps \
+         per second, unless said otherwise. `sinew walking {}` wrote this page; nothing on it is edited by hand.",
+        names.join(" ")
+    ));
+}
+
+fn degrees(x: f64) -> String {
+    format!("{x:.2}")
+}
+
+fn row(name: &str, seconds: f64, w: &Walked) -> Vec<String> {
+    let r = &w.report;
+    let [rms, most] = w.capture;
+    let result = r
+        .fell_at_s
+        .map_or("stood".to_owned(), |t| format!("**fell at {t:.1} s**"));
+    vec![
+        name.to_owned(),
+        format!("{seconds:.1}"),
+        result,
+        degrees(r.joint_rms_deg),
+        format!("{:.0}", r.mpjpe_root_mm),
+        format!("{:.0}", r.mpjpe_global_mm),
+        format!("{:.0} / {:.0}", 1e3 * rms, 1e3 * most),
+        format!("{:.1}", 1e3 * w.slip),
+        format!("{:.1}", w.peak),
+        format!("{}", w.steps),
+        format!("{:.0}", 1e3 * w.late),
+    ]
+}
+
+const HEAD: [&str; 11] = [
+    "",
+    "s",
+    "result",
+    "joints, ° rms",
+    "root-relative, mm",
+    "global, mm",
+    "capture point rms / most, mm",
+    "slip in a stance, mm",
+    "floor, weights",
+    "steps",
+    "touch-down off, ms",
+];
+
+fn clips_once(page: &mut Page, study: &Study) {
+    page.say("## Clips");
+    page.say(
+        "From standing into the clip, through it and back to standing by planned steps; errors until a fall. *Slip* is the way of a foot's contact \
+         points over the floor in one stance, weighted by what they carry; *touch-down off* the largest deviation from the planned time.",
+    );
+    let walker = Walker::new(&study.body);
+    let mut rows: Vec<Vec<String>> = study
+        .clips
+        .iter()
+        .map(|(name, clip)| {
+            let what = Walk::once(clip);
+            row(name, what.seconds, &walk(&walker, &what))
+        })
+        .collect();
+    if let Some((name, clip)) = &study.walk {
+        let what = Walk::over_and_over(clip, LONG);
+        rows.push(row(
+            &format!("{name}, repeated"),
+            LONG,
+            &walk(&walker, &what),
+        ));
+    }
+    page.table(&HEAD, &rows);
+}
+
+/// A push of `impulse` in direction `k`, eighths of a turn from `heading` (rad).
+fn toward(heading: f64, k: usize, impulse: f64) -> Vec3 {
+    let (s, c) = (heading + k as f64 * std::f64::consts::FRAC_PI_4).sin_cos();
+    Vec3 {
+        x: c * impulse,
+        y: s * impulse,
+        z: 0.0,
+    }
+}
+
+/// Pushes of all impulses and directions at `moments`; the motion goes on as it is.
+fn map(
+    walker: &Walker,
+    clip: &Arc<Clip>,
+    heading: f64,
+    moments: &[f64],
+    title: String,
+) -> SurvivalMap {
+    let survivors = |direction: usize, impulse: f64| {
+        let survived = moments.iter().filter(|t| {
+            let mut what = Walk::over_and_over(clip, **t + AFTER);
+            what.push = Some((**t, toward(heading, direction, impulse)));
+            walk(walker, &what).stood()
+        });
+        [survived.count() as u32, moments.len() as u32]
+    };
+    SurvivalMap {
+        title,
+        axes: ["pushed".into(), "impulse, N·s".into()],
+        rows: DIRECTIONS.map(str::to_owned).to_vec(),
+        columns: IMPULSES.map(|i| format!("{i}")).to_vec(),
+        cells: (0..DIRECTIONS.len())
+            .map(|k| IMPULSES.iter().map(|i| survivors(k, *i)).collect())
+            .collect(),
+    }
+}
+
+fn show(page: &mut Page, name: &str, map: &SurvivalMap) -> Result<()> {
+    let (head, rows) = map.table();
+    let head: Vec<&str> = head.iter().map(String::as_str).collect();
+    page.table(&head, &rows);
+    let [survived, tried] = map.total();
+    page.svg(
+        name,
+        &format!("{}: {survived} of {tried} survived", map.title),
+        map.svg(),
+    )
+}
+
+fn pushes_standing(page: &mut Page, study: &Study) -> Result<()> {
+    page.say("## Pushes while standing");
+    page.say(&format!(
+        "At the chest, for 0.1 s, at {PHASES} moments of quiet standing a quarter of a second apart; on its feet {AFTER} s later counts as survived. \
+         It may step. The linear pendulum can stop 35, 22 and 37 N·s forward, backward and sideways with its feet in place."
+    ));
+    let idle = builtin(&study.body, "idle").context("there is a built-in idle")?;
+    let moments: Vec<f64> = (0..PHASES).map(|k| 0.5 + 0.25 * f64::from(k)).collect();
+    let title = "Survived while standing".to_owned();
+    let map = map(
+        &Walker::new(&study.body),
+        &Arc::new(idle),
+        0.0,
+        &moments,
+        title,
+    );
+    show(page, "standing", &map)
+}
+
+fn pushes_walking(page: &mut Page, study: &Study, name: &str, clip: &Arc<Clip>) -> Result<()> {
+    page.say("## Pushes while walking");
+    page.say(&format!(
+        "The same while `{name}` is repeated, at {PHASES} phases of its third cycle; directions as seen by who walks."
+    ));
+    let advance = clip.advance();
+    let moments: Vec<f64> = (0..PHASES)
+        .map(|k| clip.lead_in() + clip.duration() * (2.0 + f64::from(k) / f64::from(PHASES)))
+        .collect();
+    // The cycle may turn: the heading is that of its third repetition.
+    let heading = advance.y.atan2(advance.x) + 2.0 * advance.yaw;
+    let title = "Survived while walking".to_owned();
+    let map = map(&Walker::new(&study.body), clip, heading, &moments, title);
+    show(page, "walking", &map)
+}
+
+/// The repeated walk of another body: the recording fitted to it.
+fn fitted(args: &WalkingArgs, study: &Study, name: &str, body: &Body) -> Result<Option<Arc<Clip>>> {
+    let at = study.clips.iter().position(|c| c.0 == name);
+    let spec = &args.clips[at.context("the walk is one of the clips")?];
+    let clip = load(spec, body, &RetargetOptions::default())?.clip;
+    Ok(cycle(body, &clip).map(Arc::new))
+}
+
+fn variations(
+    page: &mut Page,
+    study: &Study,
+    name: &str,
+    clip: &Arc<Clip>,
+    args: &WalkingArgs,
+) -> Result<()> {
+    page.say("## Other people, loads, floors, rates");
+    page.say(&format!(
+        "`{name}` repeated for {SHORT} s. The motion does not know of the load: nobody leans against it beforehand."
+    ));
+    let man = Walker::new(&study.body);
+    let mut rows = Vec::new();
+    let mut add = |text: &str, walker: &Walker, clip: &Arc<Clip>| {
+        let what = Walk::over_and_over(clip, SHORT);
+        rows.push(row(text, SHORT, &walk(walker, &what)));
+    };
+    let size = |height: f64, mass: f64| Profile {
+        height,
+        mass,
+        ..Profile::ordinary(Sex::Male, 30.0)
+    };
+    let people = [
+        ("woman of 30", Profile::ordinary(Sex::Female, 30.0), 1.0),
+        ("man of 70 at 70 %", Profile::ordinary(Sex::Male, 70.0), 0.7),
+        ("man of 1.55 m, 58 kg", size(1.55, 58.0), 1.0),
+        ("man of 1.95 m, 95 kg", size(1.95, 95.0), 1.0),
+        ("child of 8", Profile::ordinary(Sex::Male, 8.0), 1.0),
+    ];
+    for (text, profile, strength) in people {
+        let body = Arc::new(Body::humanoid(profile)?);
+        if let Some(own) = fitted(args, study, name, &body)? {
+            let walker = Walker {
+                strength,
+                ..Walker::new(&body)
+            };
+            add(text, &walker, &own);
+        }
+    }
+    for mass in [2.5, 5.0, 10.0, 15.0] {
+        for (hands, text) in [
+            (Hands::Right, "in the right hand"),
+            (Hands::Both, "in two hands"),
+        ] {
+            let load = Some((mass, hands));
+            add(
+                &format!("{mass} kg {text}"),
+                &Walker {
+                    load,
+                    ..man.clone()
+                },
+                clip,
+            );
+        }
+    }
+    for friction in [0.4, 0.5, 0.6, 0.8, 1.0] {
+        add(
+            &format!("friction {friction}"),
+            &Walker {
+                friction,
+                ..man.clone()
+            },
+            clip,
+        );
+    }
+    for rate_hz in [60.0, 120.0] {
+        add(
+            &format!("{rate_hz} ticks/s"),
+            &Walker {
+                rate_hz,
+                ..man.clone()
+            },
+            clip,
+        );
+    }
+    for speed in [0.8, 0.9, 1.1, 1.2] {
+        add(
+            &format!("speed {speed}"),
+            &Walker {
+                speed,
+                ..man.clone()
+            },
+            clip,
+        );
+    }
+    page.table(&HEAD, &rows);
+    Ok(())
+}
+
+fn sensitivity(page: &mut Page, study: &Study, args: &WalkingArgs) -> Result<()> {
+    let (metres, degrees) = NOISE;
+    page.say("## Noise");
+    page.say(&format!(
+        "{COPIES} copies of each recording with every number of it off by up to {} mm or {degrees}°, prepared and walked like the recording itself: \
+         what is survived by luck is not survived.",
+        1e3 * metres
+    ));
+    let walker = Walker::new(&study.body);
+    let mut rows = Vec::new();
+    for (spec, (name, _)) in args.clips.iter().zip(&study.clips) {
+        if spec.starts_with("builtin:") {
+            continue;
+        }
+        let bytes = std::fs::read(spec).with_context(|| format!("cannot read {spec}"))?;
+        let bvh = Bvh::parse(&bytes)?;
+        let options = RetargetOptions::default();
+        let unit = retarget(&bvh, &study.body, &options)?.report.unit_m;
+        let (mut stood, mut least, mut most) = (0, f64::INFINITY, 0.0f64);
+        for seed in 0..COPIES {
+            let copy = noisy(&bytes, &bvh, metres / unit, degrees, u64::from(seed))
+                .with_context(|| format!("{spec} has no motion"))?;
+            let clip = retarget(&Bvh::parse(copy.as_bytes())?, &study.body, &options)?.clip;
+            let walked = walk(&walker, &Walk::once(&Arc::new(clip)));
+            stood += u32::from(walked.stood());
+            let rms = walked.report.joint_rms_deg;
+            (least, most) = (least.min(rms), most.max(rms));
+        }
+        rows.push(vec![
+            name.clone(),
+            format!("{stood} of {COPIES}"),
+            format!("{least:.2} – {most:.2}"),
+        ]);
+    }
+    page.table(&["", "stood", "joints, ° rms"], &rows);
+    Ok(())
+}

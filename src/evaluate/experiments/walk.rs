@@ -1,0 +1,271 @@
+//! Recorded motion on two feet: tracked, pushed, by other people, with loads, on other floors, from noisy recordings.
+
+use crate::evaluate::metrics::{Metrics, Tick};
+use crate::evaluate::report::RunReport;
+use crate::sim::body::topology::{CHEST, L_FOOT, L_TOES, R_FOOT, R_TOES};
+use crate::sim::body::{Body, SegmentId, State};
+use crate::sim::figure::{
+    ContactPoint, ControlParams, ControllerKind, FigureOptions, HeldLoad, Perturbation,
+    StepperKind, StrengthScale,
+};
+use crate::sim::math::Vec3;
+use crate::sim::motion::{Clip, PlanarTransform};
+use crate::sim::world::{ClipPlayback, Drive, FigureSetup, World, WorldParams};
+use std::sync::Arc;
+
+/// A push lasts this long, s.
+const LASTS: f64 = 0.1;
+/// A foot stands while the floor pushes it with more than this, N.
+const STANDS: f64 = 20.0;
+
+/// Who walks, and on what.
+#[derive(Clone, Debug)]
+pub struct Walker {
+    /// The body.
+    pub body: Arc<Body>,
+    /// Factor on its strength.
+    pub strength: f64,
+    /// Ticks per second.
+    pub rate_hz: f64,
+    /// Friction coefficient of the floor.
+    pub friction: f64,
+    /// Speed at which the clip is played.
+    pub speed: f64,
+    /// A load in one hand or in both, kg.
+    pub load: Option<(f64, Hands)>,
+}
+
+/// Which hands hold a load.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hands {
+    /// The right one.
+    Right,
+    /// One load in each hand, half of it each.
+    Both,
+}
+
+impl Walker {
+    /// `body` at its own strength, at 60 ticks per second on a floor of friction 0.9, with nothing in its hands.
+    pub fn new(body: &Arc<Body>) -> Self {
+        Self {
+            body: Arc::clone(body),
+            strength: 1.0,
+            rate_hz: 60.0,
+            friction: WorldParams::default().friction,
+            speed: 1.0,
+            load: None,
+        }
+    }
+}
+
+/// What is walked.
+#[derive(Clone, Debug)]
+pub struct Walk {
+    /// The motion.
+    pub clip: Arc<Clip>,
+    /// From its end it goes on at its beginning.
+    pub looped: bool,
+    /// How long, s of the world; it begins with the way from standing into the clip.
+    pub seconds: f64,
+    /// A push at the chest of 0.1 s: time from the beginning, s, and impulse, N·s.
+    pub push: Option<(f64, Vec3)>,
+}
+
+impl Walk {
+    /// Once, from standing to standing, with a second to stand afterwards.
+    pub fn once(clip: &Arc<Clip>) -> Self {
+        Self {
+            clip: Arc::clone(clip),
+            looped: false,
+            seconds: clip.lead_in() + clip.duration() + clip.lead_out() + 1.0,
+            push: None,
+        }
+    }
+
+    /// Over and over for `seconds`.
+    pub fn over_and_over(clip: &Arc<Clip>, seconds: f64) -> Self {
+        Self {
+            clip: Arc::clone(clip),
+            looped: true,
+            seconds,
+            push: None,
+        }
+    }
+}
+
+/// What came of it.
+#[derive(Clone, Debug)]
+pub struct Walked {
+    /// Tracking, strength, torques.
+    pub report: RunReport,
+    /// Distance of the capture point from the motion's, rms and largest, m; until a fall.
+    pub capture: [f64; 2],
+    /// Largest way that a foot slid in one stance, m: of its contact points, by their share of the load.
+    pub slip: f64,
+    /// Largest push of the floor in units of the weight.
+    pub peak: f64,
+    /// Steps, and the largest deviation of a touch-down from its plan, s.
+    pub steps: usize,
+    /// See `steps`.
+    pub late: f64,
+}
+
+impl Walked {
+    /// True if it did not fall.
+    pub fn stood(&self) -> bool {
+        self.report.fell_at_s.is_none()
+    }
+}
+
+/// Sliding of one foot.
+#[derive(Clone, Debug, Default)]
+struct Stance {
+    before: Vec<ContactPoint>,
+    way: f64,
+}
+
+impl Stance {
+    /// Takes in the contact points of a tick; the way of a stance so far, m.
+    fn observe(&mut self, now: &[ContactPoint], segments: [SegmentId; 2]) -> f64 {
+        let mine = |c: &&ContactPoint| segments.contains(&c.segment);
+        let load: f64 = now.iter().filter(mine).map(|c| c.force.z).sum();
+        if load < STANDS {
+            self.way = 0.0;
+            self.before.clear();
+            return 0.0;
+        }
+        for c in now.iter().filter(mine) {
+            let same = |o: &&ContactPoint| (o.segment, o.vertex) == (c.segment, c.vertex);
+            if let Some(o) = self.before.iter().find(same) {
+                let slid = c.position - o.position;
+                self.way += slid.x.hypot(slid.y) * c.force.z / load;
+            }
+        }
+        self.before.clear();
+        self.before.extend(now.iter().filter(mine).copied());
+        self.way
+    }
+}
+
+/// Walks until the end or a fall.
+pub fn walk(walker: &Walker, walk: &Walk) -> Walked {
+    let clip = &walk.clip;
+    let lead = clip.lead_in();
+    let start = clip.sample(-lead);
+    let mut world = World::new(WorldParams {
+        rate_hz: walker.rate_hz,
+        friction: walker.friction,
+        ..WorldParams::default()
+    })
+    .expect("experiments have valid worlds");
+    let key = world
+        .add_figure(FigureSetup {
+            name: clip.name().to_owned(),
+            body: Arc::clone(&walker.body),
+            strength: StrengthScale {
+                all: walker.strength,
+                ..StrengthScale::default()
+            },
+            controller: ControllerKind::Modern,
+            stepper: StepperKind::Torque,
+            params: ControlParams::default(),
+            options: FigureOptions::default(),
+            state: State {
+                posture: start.posture,
+                velocity: start.velocity,
+            },
+        })
+        .expect("experiments have valid figures");
+    let figure = world.figure_mut(key).expect("it was just added");
+    figure.set_drive(Drive::Clip(ClipPlayback {
+        clip: Arc::clone(clip),
+        start: lead / walker.speed,
+        speed: walker.speed,
+        looped: walk.looped,
+        origin: PlanarTransform::default(),
+    }));
+    for what in perturbations(walker, walk) {
+        world
+            .perturb(key, what)
+            .expect("loads and pushes are valid");
+    }
+    let mut metrics = Metrics::new(walker.rate_hz, &start.posture);
+    let (mut square, mut largest, mut peak) = (0.0, 0.0f64, 0.0f64);
+    let (mut slip, mut steps, mut late) = (0.0f64, 0, 0.0f64);
+    let mut stances = [Stance::default(), Stance::default()];
+    let ticks = (walk.seconds * walker.rate_hz).round() as u64;
+    let mut seen = 0u32;
+    for _ in 0..ticks {
+        world.step();
+        let figure = world.figure(key).expect("nobody removes the figure");
+        let r = figure.report().expect("a stepped figure has a report");
+        let tick = Tick {
+            body: figure.body(),
+            links: figure.links(),
+            target: figure.target(),
+            report: r,
+            state: figure.state(),
+            strength: (figure.strength(), figure.muscles()),
+            gravity: world.params().gravity,
+        };
+        metrics.observe(tick, 0.0);
+        if figure.is_fallen() {
+            break;
+        }
+        seen += 1;
+        let off = figure.gait().capture().error;
+        let off = off[0].hypot(off[1]);
+        square += off * off;
+        largest = largest.max(off);
+        let floor: f64 = r.contacts.iter().map(|c| c.force.z).sum();
+        let weight = figure.links().total_mass() * world.params().gravity;
+        peak = peak.max(floor / weight);
+        let feet = [[L_FOOT, L_TOES], [R_FOOT, R_TOES]];
+        for (stance, segments) in stances.iter_mut().zip(feet) {
+            slip = slip.max(stance.observe(&r.contacts, segments));
+        }
+        if let Some(landing) = figure.gait().landing() {
+            steps += 1;
+            late = late.max(landing.late.abs());
+        }
+    }
+    Walked {
+        report: metrics.finish(world.state_hash()),
+        capture: [(square / f64::from(seen.max(1))).sqrt(), largest],
+        slip,
+        peak,
+        steps,
+        late,
+    }
+}
+
+fn perturbations(walker: &Walker, walk: &Walk) -> Vec<Perturbation> {
+    use crate::sim::body::topology::{L_HAND, R_HAND};
+    let held = |segment: SegmentId, mass: f64| {
+        Perturbation::Held(HeldLoad {
+            segment,
+            point: walker.body.segment(segment).com,
+            mass,
+            velocity: Vec3::zero(),
+            second: None,
+            grip: f64::INFINITY,
+            from: 0.0,
+            to: f64::INFINITY,
+        })
+    };
+    let mut out = match walker.load {
+        None => Vec::new(),
+        Some((mass, Hands::Right)) => vec![held(R_HAND, mass)],
+        Some((mass, Hands::Both)) => vec![held(L_HAND, 0.5 * mass), held(R_HAND, 0.5 * mass)],
+    };
+    if let Some((time, impulse)) = walk.push {
+        out.push(Perturbation::Force {
+            segment: CHEST,
+            point: Vec3::Z * 0.1,
+            force: impulse * (1.0 / LASTS),
+            from: time,
+            to: time + LASTS,
+        });
+    }
+    out
+}

@@ -1,0 +1,159 @@
+//! Survival maps: in how many of several cases something is survived, by two quantities, as a table of colours.
+
+use super::plot::{escaped, number};
+use std::fmt::Write;
+
+const CELL: f64 = 46.0;
+const ROW: f64 = 26.0;
+const LEFT: f64 = 74.0;
+const TOP: f64 = 44.0;
+const BOTTOM: f64 = 22.0;
+
+/// Shares of survivors by row and column.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SurvivalMap {
+    /// Heading.
+    pub title: String,
+    /// What the rows are, what the columns are.
+    pub axes: [String; 2],
+    /// Names of the rows and of the columns.
+    pub rows: Vec<String>,
+    /// See `rows`.
+    pub columns: Vec<String>,
+    /// By row, then by column: survivors, and how many tried.
+    pub cells: Vec<Vec<[u32; 2]>>,
+}
+
+impl SurvivalMap {
+    /// Survivors and tries of the whole map.
+    pub fn total(&self) -> [u32; 2] {
+        let all = self.cells.iter().flatten();
+        all.fold([0, 0], |[a, b], [c, d]| [a + c, b + d])
+    }
+
+    /// Survivors and tries of a column.
+    pub fn column(&self, k: usize) -> [u32; 2] {
+        let all = self.cells.iter().filter_map(|row| row.get(k));
+        all.fold([0, 0], |[a, b], [c, d]| [a + c, b + d])
+    }
+
+    /// The map as a self-contained SVG document.
+    pub fn svg(&self) -> String {
+        let mut out = String::new();
+        self.write(&mut out).expect("a string takes any text");
+        out
+    }
+
+    fn write(&self, out: &mut String) -> std::fmt::Result {
+        let width = (LEFT + CELL * self.columns.len() as f64 + 14.0).max(460.0);
+        let height = TOP + ROW * self.rows.len() as f64 + BOTTOM;
+        writeln!(
+            out,
+            r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}" font-family="system-ui, sans-serif" font-size="11" fill="#33373d"><rect width="100%" height="100%" fill="#fbfbf9"/><text x="10" y="15" font-size="13" font-weight="600">{}</text><text x="{LEFT}" y="{}">{}</text><text x="10" y="{}">{}</text>"##,
+            escaped(&self.title),
+            height - 6.0,
+            escaped(&self.axes[1]),
+            TOP - 6.0,
+            escaped(&self.axes[0])
+        )?;
+        for (k, name) in self.columns.iter().enumerate() {
+            let x = LEFT + CELL * (k as f64 + 0.5);
+            let y = TOP - 6.0;
+            writeln!(
+                out,
+                r#"<text x="{x}" y="{y}" text-anchor="middle">{}</text>"#,
+                escaped(name)
+            )?;
+        }
+        for (i, (name, row)) in self.rows.iter().zip(&self.cells).enumerate() {
+            let y = TOP + ROW * i as f64;
+            writeln!(
+                out,
+                r#"<text x="{}" y="{}" text-anchor="end">{}</text>"#,
+                LEFT - 8.0,
+                y + 17.0,
+                escaped(name)
+            )?;
+            for (k, [survived, tried]) in row.iter().enumerate() {
+                let x = LEFT + CELL * k as f64;
+                let share = f64::from(*survived) / f64::from((*tried).max(1));
+                let ink = if share > 0.6 { "#ffffff" } else { "#33373d" };
+                writeln!(
+                    out,
+                    r#"<rect x="{x}" y="{y}" width="{}" height="{}" fill="{}"/><text x="{}" y="{}" text-anchor="middle" fill="{ink}">{survived}/{tried}</text>"#,
+                    CELL - 2.0,
+                    ROW - 2.0,
+                    colour(share),
+                    x + 0.5 * CELL - 1.0,
+                    y + 17.0,
+                )?;
+            }
+        }
+        writeln!(out, "</svg>")
+    }
+
+    /// Heads and rows of the same as a table.
+    pub fn table(&self) -> (Vec<String>, Vec<Vec<String>>) {
+        let [rows, columns] = &self.axes;
+        let mut head = vec![format!("{rows} \\ {columns}")];
+        head.extend(self.columns.iter().cloned());
+        let cell = |[a, b]: &[u32; 2]| format!("{a}/{b}");
+        let mut out: Vec<Vec<String>> = self
+            .rows
+            .iter()
+            .zip(&self.cells)
+            .map(|(name, cells)| {
+                let mut row = vec![name.clone()];
+                row.extend(cells.iter().map(cell));
+                row
+            })
+            .collect();
+        let mut all = vec!["all".to_owned()];
+        all.extend((0..self.columns.len()).map(|k| cell(&self.column(k))));
+        out.push(all);
+        (head, out)
+    }
+}
+
+/// From paper to blue.
+fn colour(share: f64) -> String {
+    let mix = |a: f64, b: f64| (a + (b - a) * share.clamp(0.0, 1.0)).round();
+    format!(
+        "rgb({},{},{})",
+        number(mix(236.0, 0.0)),
+        number(mix(228.0, 104.0)),
+        number(mix(216.0, 170.0))
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn map() -> SurvivalMap {
+        SurvivalMap {
+            title: "Pushes <all>".into(),
+            axes: ["from".into(), "N·s".into()],
+            rows: vec!["front".into(), "left".into()],
+            columns: vec!["10".into(), "20".into(), "30".into()],
+            cells: vec![vec![[8, 8], [4, 8], [0, 8]], vec![[8, 8], [8, 8], [1, 8]]],
+        }
+    }
+
+    #[test]
+    fn sums_are_of_all_cells() {
+        assert_eq!(map().total(), [29, 48]);
+        assert_eq!(map().column(1), [12, 16]);
+        let (head, rows) = map().table();
+        assert_eq!(head, ["from \\ N·s", "10", "20", "30"]);
+        assert_eq!(rows[2], ["all", "16/16", "12/16", "1/16"]);
+    }
+
+    #[test]
+    fn the_drawing_has_a_cell_for_each_number_and_escapes_text() {
+        let svg = map().svg();
+        assert_eq!(svg.matches("<rect").count(), 1 + 6);
+        assert!(svg.contains("Pushes &lt;all&gt;") && svg.contains(">4/8<"));
+        assert_eq!(svg.matches("<text").count(), svg.matches("</text>").count());
+    }
+}
