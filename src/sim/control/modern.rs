@@ -619,3 +619,6 @@ fn kernel(c: &mut Modern, t: &Terms, diagonal: &[f64; NV], linear: &mut [f64; WI
     c.command.acceleration.copy_from_slice(&v[..NV]);
     outcome
 }
+
+#[cfg(test)]
+mod oracle;
