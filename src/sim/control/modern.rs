@@ -22,6 +22,7 @@ use crate::sim::figure::Flags;
 use crate::sim::figure::report::MAX_CONTACTS;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::TargetPair;
+use crate::sim::support::Rest;
 use multiversion::multiversion;
 
 /// Weights in units of force: the cost of a task is about (inertia × acceleration error)², so that a foot's hundred rad/s² cost less than one
@@ -299,6 +300,7 @@ impl Modern {
                     inverse_r,
                     segment: s,
                     vertex: POINTS,
+                    turn: Rest::frame(rest.normal),
                 });
                 self.hold.push((REST_HOLD * share, a));
             }
@@ -346,6 +348,7 @@ impl Modern {
                     inverse_r,
                     segment: s,
                     vertex,
+                    turn: None,
                 });
                 self.hold.push((weight::HOLD * fade, a));
             }

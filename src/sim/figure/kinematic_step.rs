@@ -305,6 +305,7 @@ impl KinematicStepper {
                         inverse_r: 1.0 / COMPLIANCE,
                         segment: s,
                         vertex,
+                        turn: None,
                     });
                 }
             }

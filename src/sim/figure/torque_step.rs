@@ -438,6 +438,7 @@ impl TorqueStepper {
                         inverse_r,
                         segment: s,
                         vertex,
+                        turn: None,
                     });
                 }
             }

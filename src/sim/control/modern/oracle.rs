@@ -473,7 +473,7 @@ fn scene(rng: &mut Rng, kind: usize, round: usize) -> Scene {
     match kind {
         1 => s.plant([true, false]),
         2 => s.plant([false, true]),
-        3 => s.plant([round % 2 == 0; 2]),
+        3 => s.plant([round.is_multiple_of(2); 2]),
         5 => s.assist = [40.0 * 40.0, 500.0 * 500.0].map(|a| a * (0.1 + rng.unit().abs())),
         6 => {
             for _ in 0..4 {
