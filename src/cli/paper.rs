@@ -6,6 +6,7 @@ use crate::evaluate::experiments::fall::{DIRECTIONS, Fall, LOW, fall, leaning, p
 use crate::evaluate::experiments::lift::{Lift, lift, scene, weak_arm};
 use crate::evaluate::experiments::push::{Push, push, recovered};
 use crate::evaluate::experiments::statics::{Hold, hold};
+use crate::evaluate::experiments::touching::{FRICTION, Prop, bump, hand_support};
 use crate::evaluate::experiments::{Pair, Sample};
 use crate::evaluate::plot::Plot;
 use crate::evaluate::strip::View;
@@ -23,7 +24,7 @@ const PANELS: usize = 7;
 /// Loads of the lift, kg: the paper's text says 1, 3 and 4, the caption of its figure 1, 3 and 5.
 const LOADS: [f64; 4] = [1.0, 3.0, 4.0, 5.0];
 /// Experiments, for the progress bar.
-const STEPS: u64 = 7;
+const STEPS: u64 = 9;
 
 /// Runs the paper's experiments again and writes a page about them.
 #[derive(Clone, Debug, clap::Args)]
@@ -47,6 +48,8 @@ pub fn run(args: &PaperArgs) -> Result<()> {
         ("people", people),
         ("falls", falls),
         ("pushes", pushes),
+        ("hand support", hands),
+        ("collision", bumps),
         ("step size", step_size),
         ("as printed", as_printed),
         ("time", time),
@@ -482,6 +485,126 @@ fn step_size(page: &mut Page, body: &Arc<Body>) -> Result<()> {
         &rows,
     );
     page.say("A modern figure holds its soles flat as long as it can, so it is not meant to fall like a pendulum.");
+    Ok(())
+}
+
+fn hands(page: &mut Page, body: &Arc<Body>) -> Result<()> {
+    page.say("## A hand on a table, on a wall");
+    page.say(&format!(
+        "The figure leans 9° forward from the ankles, further than its feet can hold, with its right hand on a table, on a desk that slopes by 20°, or \
+         against a wall (friction {FRICTION}); it takes no step. Forces are means over the last of four seconds; the share of the friction cone is the \
+         largest of any tick. *Weak*: 3 % of the strength in that arm."
+    ));
+    let props = [
+        (Prop::None, "nothing"),
+        (Prop::Table, "table"),
+        (Prop::Desk, "desk"),
+        (Prop::Wall, "wall"),
+    ];
+    let mut rows = Vec::new();
+    let mut strips = Vec::new();
+    for pair in [Pair::modern(), Pair::paper_torque(), Pair::motors()] {
+        for (prop, name) in props {
+            for arm in [1.0, 0.03] {
+                if prop == Prop::None && arm < 1.0 {
+                    continue;
+                }
+                let s = hand_support(body, &pair, prop, arm, PANELS);
+                rows.push(vec![
+                    if arm < 1.0 {
+                        format!("{name}, weak")
+                    } else {
+                        name.into()
+                    },
+                    pair.name.into(),
+                    s.record.result(),
+                    format!("{:.0}", s.pressed),
+                    format!("{:.0} + {:.0}", s.floor, s.rest),
+                    if s.cone > 0.0 {
+                        format!("{:.0} %", 100.0 * s.cone.min(1.0))
+                    } else {
+                        "–".into()
+                    },
+                ]);
+                let drawn = match prop {
+                    Prop::Table | Prop::Wall => pair.name != "motors alone",
+                    _ => false,
+                };
+                if drawn && (arm == 1.0 || pair.name == "modern, torque") {
+                    let who = if pair.name == "modern, torque" {
+                        "modern"
+                    } else {
+                        "paper"
+                    };
+                    let weak = if arm < 1.0 { "-weak" } else { "" };
+                    let title = format!("a hand on a {name}, {who}{}", weak.replace('-', ", "));
+                    strips.push((format!("hand-{name}-{who}{weak}"), s.record, title));
+                }
+            }
+        }
+    }
+    page.table(
+        &[
+            "on",
+            "who",
+            "result",
+            "hand, N into the face",
+            "floor + the rest, N upward",
+            "friction used",
+        ],
+        &rows,
+    );
+    for (name, record, title) in &strips {
+        page.strip(name, body, record, View::Side, title)?;
+    }
+    Ok(())
+}
+
+fn bumps(page: &mut Page, body: &Arc<Body>) -> Result<()> {
+    page.say("## Two figures run into each other");
+    page.say(
+        "Face to face, 0.75 m apart; the left one is pushed in the back for 0.2 s. The forces on both are equal and opposite to rounding; they part \
+         when the torques no longer press. The largest force is that before either has fallen.",
+    );
+    let mut rows = Vec::new();
+    let mut strips = Vec::new();
+    for (pair, impulse, who) in [
+        (Pair::modern(), 80.0, "modern"),
+        (Pair::paper_torque(), 40.0, "paper"),
+        (Pair::motors(), 40.0, "motors"),
+    ] {
+        let b = bump(body, &pair, impulse, PANELS);
+        rows.push(vec![
+            pair.name.into(),
+            format!("{impulse:.0}"),
+            b.record.result(),
+            b.other_fell_s
+                .map_or_else(|| "stands".into(), |t| format!("falls, {t:.1} s")),
+            format!("{:.0} at {:.2} s", b.most.0, b.most.1),
+            format!("{:.1e}", b.unequal),
+            format!("{:.1}", 1e3 * b.overlap),
+        ]);
+        strips.push((
+            format!("bump-{who}"),
+            b.record,
+            format!("{impulse:.0} N·s in the back, {who}"),
+        ));
+    }
+    page.table(
+        &[
+            "who",
+            "push, N·s",
+            "the one that is pushed",
+            "the other",
+            "largest force, N",
+            "difference of the two, relative",
+            "overlap, mm",
+        ],
+        &rows,
+    );
+    for (name, record, title) in &strips {
+        page.strip(name, body, record, View::Side, title)?;
+    }
     Ok(())
 }
 

@@ -6,6 +6,7 @@
 //! * `flight`: the parabola and the momenta of a thrown figure; a limp one gains no energy.
 //! * `load`: a held load is inertia.
 //! * `constrain`: hands, head and centre of mass at places that a client gives.
+//! * `hand`: leaning on tables and walls; two figures that run into each other.
 //! * `people`: ages, sizes, fatigue, percentiles.
 //! * `assist`: the wrench that no body has, and its honesty.
 //! * `symmetry`: left and right, and all directions, are alike.
@@ -22,7 +23,9 @@ mod collide;
 mod constrain;
 mod containment;
 mod fall;
+
 mod flight;
+mod hand;
 mod jump;
 mod lift;
 mod load;

@@ -222,7 +222,7 @@ pub fn fall(body: &Arc<Body>, pair: &Pair, direction: Vec3, strength: f64, panel
         }
     }
     let (mut world, key) = pair.world(body, start.state, scale);
-    out.record = record(&mut world, key, 1.8, panels, |_| Vec::new());
+    out.record = record(&mut world, key, 1.8, panels, |_, _| Default::default());
     out
 }
 

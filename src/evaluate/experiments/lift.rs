@@ -111,12 +111,13 @@ pub fn scene(body: &Arc<Body>, pair: &Pair, mass: f64, arm: f64) -> (World, Figu
 pub fn lift(body: &Arc<Body>, pair: &Pair, mass: f64, arm: f64, panels: usize) -> Lift {
     let (mut world, key) = scene(body, pair, mass, arm);
     let at = grip(body, R_HAND);
-    let record = record(&mut world, key, DURATION, panels, |t| {
-        if t > LIFT_GRASP {
+    let record = record(&mut world, key, DURATION, panels, |_, t| {
+        let loads = if t > LIFT_GRASP {
             vec![(R_HAND.index(), at, mass)]
         } else {
             Vec::new()
-        }
+        };
+        (loads, Vec::new())
     });
     let dt = 1.0 / pair.rate_hz;
     let mut out = Lift {

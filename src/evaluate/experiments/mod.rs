@@ -5,10 +5,11 @@ pub mod fall;
 pub mod lift;
 pub mod push;
 pub mod statics;
+pub mod touching;
 pub mod walk;
 
 use super::metrics::Tick;
-use super::strip::{Frame, evenly_spaced};
+use super::strip::{Frame, Thing, evenly_spaced};
 use crate::sim::body::topology::DOF_COUNT;
 use crate::sim::body::{Body, State};
 use crate::sim::figure::{
@@ -82,16 +83,24 @@ impl Pair {
 
     /// A world of one figure that starts in `state`.
     fn world(&self, body: &Arc<Body>, state: State, strength: StrengthScale) -> (World, FigureKey) {
-        let mut body = Arc::clone(body);
-        if !self.armature {
-            Arc::make_mut(&mut body).armature = [0.0; DOF_COUNT];
-        }
         let params = WorldParams {
             rate_hz: self.rate_hz,
             ..WorldParams::default()
         };
         let mut world = World::new(params).expect("experiments have valid worlds");
-        let setup = FigureSetup {
+        let key = world
+            .add_figure(self.setup(body, state, strength))
+            .expect("experiments have valid figures");
+        (world, key)
+    }
+
+    /// A figure that starts in `state`.
+    fn setup(&self, body: &Arc<Body>, state: State, strength: StrengthScale) -> FigureSetup {
+        let mut body = Arc::clone(body);
+        if !self.armature {
+            Arc::make_mut(&mut body).armature = [0.0; DOF_COUNT];
+        }
+        FigureSetup {
             name: self.name.to_owned(),
             body,
             strength,
@@ -100,11 +109,7 @@ impl Pair {
             params: self.params.clone(),
             options: FigureOptions::default(),
             state,
-        };
-        let key = world
-            .add_figure(setup)
-            .expect("experiments have valid figures");
-        (world, key)
+        }
     }
 }
 
@@ -153,13 +158,16 @@ pub struct Record {
 /// A centre of mass below this share of that at the start counts as a fall.
 const FELL: f64 = 0.45;
 
-/// Runs for `seconds` and keeps `panels` evenly spaced frames; `loads` are what the figure carries at a time (segment, point, kg).
+/// What stands beside the figure in a panel: loads that it carries (segment, point, kg), and things.
+type Beside = (Vec<(usize, Vec3, f64)>, Vec<Thing>);
+
+/// Runs for `seconds` and keeps `panels` evenly spaced frames; `see` is called after every tick with the world and the time (s).
 fn record(
     world: &mut World,
     key: FigureKey,
     seconds: f64,
     panels: usize,
-    loads: impl Fn(f64) -> Vec<(usize, Vec3, f64)>,
+    mut see: impl FnMut(&World, f64) -> Beside,
 ) -> Record {
     let ticks = (seconds * world.params().rate_hz).round() as u64;
     let shown = evenly_spaced(ticks, panels);
@@ -206,6 +214,7 @@ fn record(
         if out.frozen_s.is_none() {
             out.samples.push(sample);
         }
+        let (loads, things) = see(world, time_s);
         if shown.binary_search(&n).is_ok() {
             let tick = Tick {
                 body: figure.body(),
@@ -216,7 +225,8 @@ fn record(
                 strength: (figure.strength(), figure.muscles()),
                 gravity,
             };
-            out.frames.push(Frame::of(&tick, time_s, loads(time_s)));
+            out.frames
+                .push(Frame::of(&tick, time_s, loads).among(things));
         }
     }
     out

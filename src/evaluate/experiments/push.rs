@@ -62,7 +62,7 @@ pub fn push(body: &Arc<Body>, pair: &Pair, direction: Vec3, share: f64, panels: 
     Push {
         impulse,
         bound,
-        record: record(&mut world, key, DURATION, panels, |_| Vec::new()),
+        record: record(&mut world, key, DURATION, panels, |_, _| Default::default()),
     }
 }
 

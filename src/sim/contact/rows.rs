@@ -6,7 +6,7 @@ use crate::sim::dynamics::Kinematics;
 use crate::sim::dynamics::jacobian::for_each_column;
 use crate::sim::dynamics::mass_matrix::{CHAIN, DEPTH};
 use crate::sim::figure::report::MAX_CONTACTS;
-use crate::sim::math::Vec3;
+use crate::sim::math::{Mat3, Vec3};
 
 /// Padded length of a chain of velocity components.
 pub const CHAIN_WIDTH: usize = 24;
@@ -54,6 +54,8 @@ pub struct PointRow {
     pub segment: usize,
     /// Vertex index in the segment's contact points, kept for reports.
     pub vertex: usize,
+    /// Axes of the cone as columns, the normal last, if it does not stand upright.
+    pub turn: Option<Mat3>,
 }
 
 /// All contact rows of one figure. Capacity for every contact point is reserved once.
@@ -164,14 +166,39 @@ impl ContactRows {
     #[inline(always)]
     pub fn force(&self, k: usize, velocity: Vec3) -> (Vec3, Region) {
         let p = &self.points[k];
-        project((velocity + p.c) * -p.inverse_r, self.friction)
+        let u = (velocity + p.c) * -p.inverse_r;
+        match &p.turn {
+            None => project(u, self.friction),
+            Some(turn) => {
+                let (f, region) = project(turn.transpose_mul(u), self.friction);
+                (*turn * f, region)
+            }
+        }
     }
 
     /// Derivative of the force of point `k` with respect to minus its velocity, for the region of [`Self::force`].
     #[inline(always)]
     pub fn stiffness(&self, k: usize, velocity: Vec3, region: Region) -> [[f64; 3]; 3] {
         let p = &self.points[k];
-        let mut d = derivative((velocity + p.c) * -p.inverse_r, self.friction, region);
+        let u = (velocity + p.c) * -p.inverse_r;
+        let mut d = match &p.turn {
+            None => derivative(u, self.friction, region),
+            Some(turn) => {
+                let d = derivative(turn.transpose_mul(u), self.friction, region);
+                let axes = [turn.x, turn.y, turn.z].map(Vec3::to_array);
+                let mut out = [[0.0; 3]; 3];
+                for (a, row) in out.iter_mut().enumerate() {
+                    for (b, x) in row.iter_mut().enumerate() {
+                        for i in 0..3 {
+                            for j in 0..3 {
+                                *x += axes[i][a] * d[i][j] * axes[j][b];
+                            }
+                        }
+                    }
+                }
+                out
+            }
+        };
         for row in &mut d {
             for x in row {
                 *x *= p.inverse_r;

@@ -77,6 +77,7 @@ fn newton_reaches_the_minimum_and_both_storages_agree() {
                     inverse_r: 1e4,
                     segment,
                     vertex,
+                    turn: None,
                 });
             }
         }

@@ -22,7 +22,7 @@ use crate::sim::figure::Flags;
 use crate::sim::figure::report::MAX_CONTACTS;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::TargetPair;
-use crate::sim::support::Polygon;
+use crate::sim::support::{Polygon, Rest};
 use multiversion::multiversion;
 
 /// Weights in units of force: the cost of a task is about (inertia × acceleration error)², so that a foot's hundred rad/s² cost less than one
@@ -355,6 +355,7 @@ impl Modern {
                     inverse_r,
                     segment: s,
                     vertex: POINTS,
+                    turn: Rest::frame(rest.normal),
                 });
                 self.hold.push((REST_HOLD * share, a));
             }
@@ -402,6 +403,7 @@ impl Modern {
                     inverse_r,
                     segment: s,
                     vertex,
+                    turn: None,
                 });
                 self.hold.push((weight::HOLD * fade, a));
             }
@@ -675,3 +677,6 @@ fn kernel(c: &mut Modern, t: &Terms, diagonal: &[f64; NV], linear: &mut [f64; WI
     c.command.acceleration.copy_from_slice(&v[..NV]);
     outcome
 }
+
+#[cfg(test)]
+mod oracle;

@@ -322,6 +322,7 @@ impl KinematicStepper {
                         inverse_r: 1.0 / COMPLIANCE,
                         segment: s,
                         vertex,
+                        turn: None,
                     });
                 }
             }

@@ -442,6 +442,7 @@ impl TorqueStepper {
                         inverse_r,
                         segment: s,
                         vertex,
+                        turn: None,
                     });
                 }
             }

@@ -1,7 +1,7 @@
 //! What carries a figure besides the floor: parts that lean on things that do not give way.
 
 use crate::sim::body::SegmentId;
-use crate::sim::math::Vec3;
+use crate::sim::math::{Mat3, Vec3};
 
 /// A part of the body that rests on an obstacle: a seat, a table, a wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,6 +23,23 @@ impl Rest {
     /// True if weight can be put there: a seat or a table, not a wall.
     pub fn is_level(&self) -> bool {
         Self::level(self.normal)
+    }
+
+    /// Two tangents and the normal as columns, if the surface with this normal is not horizontal.
+    pub fn frame(normal: Vec3) -> Option<Mat3> {
+        (normal != Vec3::Z).then(|| {
+            let other = if normal.x.abs() < 0.6 {
+                Vec3::X
+            } else {
+                Vec3::Y
+            };
+            let y = normal.cross(other).normalized_or(Vec3::X);
+            Mat3 {
+                x: y.cross(normal),
+                y,
+                z: normal,
+            }
+        })
     }
 
     /// The same of a surface with this normal.

@@ -1,0 +1,573 @@
+//! Goal: the kernel solves the problem that it is meant to solve. Method: the same problem in its primal form (accelerations, torques, contact forces,
+//! assist), put together from M, h and Jacobians of [`Terms`], and solved by an interior-point method with second-order cones (clarabel).
+
+use super::*;
+use crate::sim::body::{Body, State};
+use crate::sim::control::{Effector, Goal, PointTarget, RotationTarget};
+use crate::sim::figure::ControlParams;
+use crate::sim::math::vec3::vec3;
+use crate::sim::motion::{Target, TargetPair};
+use crate::sim::support::Support;
+use crate::sim::support::testing::{
+    GRAVITY, Rng, mannequin, on_floor, random_stance, random_state, standing, strength, terms,
+};
+use clarabel::algebra::CscMatrix;
+use clarabel::solver::{
+    DefaultSettingsBuilder, DefaultSolver, IPSolver, SolverStatus, SupportedConeT,
+};
+
+const DT: f64 = 1.0 / 60.0;
+/// Friction of the ground; the controller plans with less.
+const FRICTION: f64 = 0.9;
+
+/// One tick's input, owned.
+struct Scene {
+    body: Body,
+    terms: Terms,
+    support: Support,
+    target: TargetPair,
+    com: PointTarget,
+    effectors: Vec<Effector>,
+    goals: Vec<Goal>,
+    feet: [(PointTarget, RotationTarget); 2],
+    lower: [f64; DOF_COUNT],
+    upper: [f64; DOF_COUNT],
+    params: ControlParams,
+    assist: [f64; 2],
+}
+
+fn still(p: Vec3) -> PointTarget {
+    PointTarget {
+        now: p,
+        next: p,
+        ..PointTarget::default()
+    }
+}
+
+impl Scene {
+    fn new(state: &State, desired: &State, scale: f64) -> Self {
+        let body = mannequin();
+        let (t, d) = (terms(&body, state), terms(&body, desired));
+        let mut support = Support::default();
+        support.update(&t, &body, Vec3::zero(), GRAVITY);
+        let grip = vec3(0.0, 0.0, -0.08);
+        let effectors = [L_HAND, R_HAND]
+            .map(|segment| Effector {
+                segment,
+                point: grip,
+                position: still(d.point_world(segment.index(), grip)),
+                rotation: None,
+            })
+            .to_vec();
+        let feet = [L_FOOT, R_FOOT].map(|s| {
+            let turn = Quat::from_mat3(&d.segment_rotation(s.index()));
+            let rotation = RotationTarget {
+                now: turn,
+                next: turn,
+                ..RotationTarget::default()
+            };
+            (still(d.segment_position(s.index())), rotation)
+        });
+        let target = Target::still(desired.posture);
+        let (lower, upper) = strength(scale);
+        Self {
+            com: still(d.com),
+            body,
+            terms: t,
+            support,
+            target: TargetPair {
+                now: target.clone(),
+                next: target,
+            },
+            effectors,
+            goals: Vec::new(),
+            feet,
+            lower,
+            upper,
+            params: ControlParams::default(),
+            assist: [0.0; 2],
+        }
+    }
+
+    fn plant(&mut self, planted: [bool; 2]) {
+        self.target.now.planted = planted;
+        self.target.next.planted = planted;
+    }
+
+    fn input(&self) -> ControlInput<'_> {
+        ControlInput {
+            terms: &self.terms,
+            body: &self.body,
+            support: &self.support,
+            target: &self.target,
+            com: &self.com,
+            effectors: &self.effectors,
+            goals: &self.goals,
+            feet: &self.feet,
+            balance: None,
+            lower: &self.lower,
+            upper: &self.upper,
+            params: &self.params,
+            gravity: GRAVITY,
+            dt: DT,
+            assist: self.assist,
+            kinematic: false,
+        }
+    }
+}
+
+/// The unknowns of the primal: v̇, τ, contact forces, assist (moment and force on the pelvis).
+#[derive(Clone, Debug)]
+struct Solution {
+    acceleration: [f64; NV],
+    torque: [f64; DOF_COUNT],
+    force: Vec<Vec3>,
+    assist: [f64; 6],
+}
+
+/// A least-squares term `½ w (row · v̇ − value)²`.
+struct Term {
+    row: [f64; NV],
+    weight: f64,
+    value: f64,
+}
+
+/// The problem in primal form.
+struct Primal {
+    terms: Vec<Term>,
+    m: Vec<[f64; NV]>,
+    h: [f64; NV],
+    lower: [f64; DOF_COUNT],
+    upper: [f64; DOF_COUNT],
+    /// Rest and cost `½ k (τ − rest)²` of each torque.
+    torque: Vec<(f64, f64)>,
+    /// Jacobian (3 rows), rest and cost of each contact force.
+    contacts: Vec<([[f64; WIDTH]; 3], Vec3, f64)>,
+    /// Cost of assist, none without it.
+    assist: Option<[f64; 2]>,
+    mu: f64,
+}
+
+impl Primal {
+    /// Of the problem that `c` has just solved for `s`; `torques` and `forces` are those of the tick before, by DOF and by contact point.
+    fn new(
+        c: &Modern,
+        s: &Scene,
+        torques: &[f64; DOF_COUNT],
+        forces: &[Vec3; MAX_CONTACTS],
+    ) -> Self {
+        let t = &s.terms;
+        let input = s.input();
+        let law = Law::new(&s.params, DT).sharpened(SHARPNESS);
+        let mut all = Vec::new();
+        let unit = |d: usize| {
+            let mut row = [0.0; NV];
+            row[d] = 1.0;
+            row
+        };
+        // Posture: joints, pelvis.
+        let demand = initial_acceleration(&s.body, &t.state, &s.target, &law);
+        let mut weight = [0.0; DOF_COUNT];
+        for j in 0..DOF_COUNT {
+            weight[j] = t.m[6 + j][6 + j].clamp(JOINT_WEIGHT.0, JOINT_WEIGHT.1);
+        }
+        for g in &s.goals {
+            for l in g.limb() {
+                for d in DOF_START[l]..DOF_START[l] + DOF_LEN[l] {
+                    let wrist = l == L_HAND.index() || l == R_HAND.index();
+                    let led = if wrist { LED_WRIST } else { LED_LIMB };
+                    weight[d] += g.weight * (led - weight[d]);
+                }
+            }
+        }
+        for j in 0..DOF_COUNT {
+            all.push(Term {
+                row: unit(6 + j),
+                weight: weight[j],
+                value: demand[j],
+            });
+        }
+        let w = pelvis_demand(t, &s.target, &law, DT).to_array();
+        for d in 0..6 {
+            all.push(Term {
+                row: unit(d),
+                weight: weight::BASE,
+                value: 0.0,
+            });
+            if d < 3 {
+                all.push(Term {
+                    row: unit(d),
+                    weight: weight::PELVIS,
+                    value: w[d],
+                });
+            }
+        }
+        // Tasks: what they demand is the controller's own, how they enter is not.
+        for task in &c.rows {
+            let mut row = [0.0; NV];
+            row.copy_from_slice(&task.row[..NV]);
+            all.push(Term {
+                row,
+                weight: task.weight,
+                value: task.value,
+            });
+        }
+        // Points that are kept down, and their forces.
+        let mut contacts = Vec::new();
+        for (p, (hold, a)) in c.contacts.points.iter().zip(&c.hold) {
+            let local = t.kin.rotation[p.segment].transpose_mul(p.r);
+            let mut j = [[0.0; WIDTH]; 3];
+            t.point_jacobian(p.segment, local, &mut j);
+            for (row, value) in j.iter().zip(a.to_array()) {
+                let mut r = [0.0; NV];
+                r.copy_from_slice(&row[..NV]);
+                all.push(Term {
+                    row: r,
+                    weight: *hold,
+                    value,
+                });
+            }
+            let rest = forces[p.segment * POINTS + p.vertex] * FORCE_MEMORY;
+            contacts.push((j, rest, 1.0 / p.inverse_r));
+        }
+        let torque = (0..DOF_COUNT).map(|j| {
+            let half = 0.5 * (s.upper[j] - s.lower[j]);
+            let rest = torques[j].clamp(s.lower[j], s.upper[j]);
+            (rest, weight::TORQUE / (half * half))
+        });
+        let with = s.assist[0] > 0.0;
+        Self {
+            terms: all,
+            m: (0..NV)
+                .map(|i| std::array::from_fn(|k| t.m[i][k]))
+                .collect(),
+            h: t.h,
+            lower: s.lower,
+            upper: s.upper,
+            torque: torque.collect(),
+            contacts,
+            assist: with.then(|| input.assist.map(|a| 1.0 / a)),
+            mu: FRICTION * FRICTION_MARGIN,
+        }
+    }
+
+    fn unknowns(&self) -> usize {
+        NV + DOF_COUNT + 3 * self.contacts.len() + if self.assist.is_some() { 6 } else { 0 }
+    }
+
+    fn objective(&self, s: &Solution) -> f64 {
+        let mut sum = 0.0;
+        for t in &self.terms {
+            let a: f64 = t.row.iter().zip(&s.acceleration).map(|(x, y)| x * y).sum();
+            sum += 0.5 * t.weight * (a - t.value).powi(2);
+        }
+        for (tau, (rest, k)) in s.torque.iter().zip(&self.torque) {
+            sum += 0.5 * k * (tau - rest).powi(2);
+        }
+        for (f, (_, rest, k)) in s.force.iter().zip(&self.contacts) {
+            sum += 0.5 * k * (*f - *rest).dot(*f - *rest);
+        }
+        if let Some(k) = self.assist {
+            for (i, w) in s.assist.iter().enumerate() {
+                sum += 0.5 * k[i / 3] * w * w;
+            }
+        }
+        sum
+    }
+
+    /// Largest component of `M v̇ + h − Sᵀτ − Jᵀf − assist`, N·m or N.
+    fn residual(&self, s: &Solution) -> f64 {
+        let mut worst = 0.0f64;
+        for i in 0..NV {
+            let mut r = self.h[i];
+            for k in 0..NV {
+                r += self.m[i][k] * s.acceleration[k];
+            }
+            if i >= 6 {
+                r -= s.torque[i - 6];
+            } else {
+                r -= s.assist[i];
+            }
+            for (f, (j, ..)) in s.force.iter().zip(&self.contacts) {
+                r -= j[0][i] * f.x + j[1][i] * f.y + j[2][i] * f.z;
+            }
+            worst = worst.max(r.abs());
+        }
+        worst
+    }
+
+    /// How far it is outside of limits and cones, N·m or N.
+    fn excess(&self, s: &Solution) -> f64 {
+        let mut worst = 0.0f64;
+        for j in 0..DOF_COUNT {
+            worst = worst.max(s.torque[j] - self.upper[j]);
+            worst = worst.max(self.lower[j] - s.torque[j]);
+        }
+        for f in &s.force {
+            worst = worst.max(-f.z);
+            worst = worst.max(f.x.hypot(f.y) - self.mu * f.z);
+        }
+        worst
+    }
+
+    /// The exact solution.
+    fn solve(&self) -> Solution {
+        let n = self.unknowns();
+        let (tau, force) = (NV, NV + DOF_COUNT);
+        let assist = force + 3 * self.contacts.len();
+        // ½ zᵀP z + qᵀz.
+        let mut p = vec![vec![0.0; n]; n];
+        let mut q = vec![0.0; n];
+        for t in &self.terms {
+            for i in 0..NV {
+                if t.row[i] != 0.0 {
+                    q[i] -= t.weight * t.row[i] * t.value;
+                    for k in i..NV {
+                        p[i][k] += t.weight * t.row[i] * t.row[k];
+                    }
+                }
+            }
+        }
+        for (j, (rest, k)) in self.torque.iter().enumerate() {
+            p[tau + j][tau + j] = *k;
+            q[tau + j] = -k * rest;
+        }
+        for (c, (_, rest, k)) in self.contacts.iter().enumerate() {
+            for (axis, r) in rest.to_array().into_iter().enumerate() {
+                let i = force + 3 * c + axis;
+                p[i][i] = *k;
+                q[i] = -k * r;
+            }
+        }
+        if let Some(k) = self.assist {
+            for i in 0..6 {
+                p[assist + i][assist + i] = k[i / 3];
+            }
+        }
+        // A z + s = b, s in the cones.
+        let mut rows: Vec<(usize, usize, f64)> = Vec::new();
+        let mut b = Vec::new();
+        let mut cones = vec![SupportedConeT::ZeroConeT(NV)];
+        for i in 0..NV {
+            for k in 0..NV {
+                rows.push((i, k, self.m[i][k]));
+            }
+            if i >= 6 {
+                rows.push((i, tau + i - 6, -1.0));
+            } else if self.assist.is_some() {
+                rows.push((i, assist + i, -1.0));
+            }
+            for (c, (j, ..)) in self.contacts.iter().enumerate() {
+                for axis in 0..3 {
+                    rows.push((i, force + 3 * c + axis, -j[axis][i]));
+                }
+            }
+            b.push(-self.h[i]);
+        }
+        cones.push(SupportedConeT::NonnegativeConeT(2 * DOF_COUNT));
+        for j in 0..DOF_COUNT {
+            rows.push((b.len(), tau + j, 1.0));
+            b.push(self.upper[j]);
+            rows.push((b.len(), tau + j, -1.0));
+            b.push(-self.lower[j]);
+        }
+        for c in 0..self.contacts.len() {
+            cones.push(SupportedConeT::SecondOrderConeT(3));
+            for (axis, scale) in [(2, self.mu), (0, 1.0), (1, 1.0)] {
+                rows.push((b.len(), force + 3 * c + axis, -scale));
+                b.push(0.0);
+            }
+        }
+        rows.retain(|r| r.2 != 0.0);
+        let a = sparse(b.len(), n, rows);
+        let mut upper = Vec::new();
+        for (i, row) in p.iter().enumerate() {
+            for (k, x) in row.iter().enumerate().skip(i) {
+                if *x != 0.0 {
+                    upper.push((i, k, *x));
+                }
+            }
+        }
+        let p = sparse(n, n, upper);
+        let settings = DefaultSettingsBuilder::default()
+            .verbose(false)
+            .tol_gap_abs(1e-10)
+            .tol_gap_rel(1e-11)
+            .tol_feas(1e-11)
+            .max_iter(200)
+            .build()
+            .unwrap();
+        let mut solver = DefaultSolver::new(&p, &q, &a, &b, &cones, settings).unwrap();
+        solver.solve();
+        let ok = matches!(
+            solver.solution.status,
+            SolverStatus::Solved | SolverStatus::AlmostSolved
+        );
+        assert!(ok, "{:?}", solver.solution.status);
+        let x = &solver.solution.x;
+        Solution {
+            acceleration: std::array::from_fn(|i| x[i]),
+            torque: std::array::from_fn(|j| x[tau + j]),
+            force: (0..self.contacts.len())
+                .map(|c| {
+                    let at = force + 3 * c;
+                    vec3(x[at], x[at + 1], x[at + 2])
+                })
+                .collect(),
+            assist: std::array::from_fn(|i| {
+                if self.assist.is_some() {
+                    x[assist + i]
+                } else {
+                    0.0
+                }
+            }),
+        }
+    }
+}
+
+fn sparse(m: usize, n: usize, mut entries: Vec<(usize, usize, f64)>) -> CscMatrix<f64> {
+    entries.sort_by_key(|e| (e.1, e.0));
+    let mut colptr = vec![0; n + 1];
+    for e in &entries {
+        colptr[e.1 + 1] += 1;
+    }
+    for k in 0..n {
+        colptr[k + 1] += colptr[k];
+    }
+    let rowval = entries.iter().map(|e| e.0).collect();
+    let nzval = entries.iter().map(|e| e.2).collect();
+    CscMatrix::new(m, n, colptr, rowval, nzval)
+}
+
+/// What the kernel decided, as a solution of the primal.
+fn decided(c: &Modern) -> Solution {
+    let n = c.contacts.points.len();
+    Solution {
+        acceleration: c.command.acceleration,
+        torque: c.command.torque,
+        force: c.newton.force[..n].to_vec(),
+        // Stationarity: assist = −compliance × price.
+        assist: std::array::from_fn(|i| -c.assist[i / 3] * c.price[i]),
+    }
+}
+
+/// A figure that is somewhere and should be somewhere else, of one of eight kinds.
+fn scene(rng: &mut Rng, kind: usize, round: usize) -> Scene {
+    let body = mannequin();
+    let scale = [1.0, 0.3, 0.08, 5.0][round / 8 % 4];
+    let (spread, rate) = [(0.05, 0.1), (0.3, 1.0), (0.8, 4.0)][round % 3];
+    let mut state = random_stance(&body, rng, spread, rate);
+    let mut desired = random_state(&body, rng, 0.6, 0.0);
+    if kind == 0 {
+        desired = standing(&body);
+    }
+    if kind == 3 {
+        state = random_state(&body, rng, 1.0, 5.0);
+        state.posture.root_position.z += 1.0;
+    }
+    if kind == 4 {
+        state = random_state(&body, rng, 1.0, 5.0);
+        state.posture = on_floor(&body, state.posture);
+    }
+    let mut s = Scene::new(&state, &desired, scale);
+    match kind {
+        1 => s.plant([true, false]),
+        2 => s.plant([false, true]),
+        3 => s.plant([round.is_multiple_of(2); 2]),
+        5 => s.assist = [40.0 * 40.0, 500.0 * 500.0].map(|a| a * (0.1 + rng.unit().abs())),
+        6 => {
+            for _ in 0..4 {
+                let segment = crate::sim::body::SegmentId::new(rng.between(1.0, 10.0) as usize);
+                let axis = vec3(rng.unit(), rng.unit(), rng.unit());
+                s.goals.push(Goal {
+                    segment: segment.unwrap(),
+                    point: vec3(0.0, 0.02, -0.05),
+                    position: Some(vec3(rng.unit(), rng.unit(), 1.0 + rng.unit())),
+                    axes: [1.0, 0.5, rng.unit().abs()],
+                    rotation: Some(Quat::exp(axis)),
+                    weight: rng.unit().abs(),
+                });
+            }
+        }
+        _ => {}
+    }
+    s
+}
+
+#[test]
+fn the_kernel_solves_the_problem_that_an_interior_point_method_solves() {
+    let mut rng = Rng::new(77);
+    let mut c = Modern::new(FRICTION);
+    let (mut compared, mut bound, mut stuck, mut saturated, mut sliding, mut flying) =
+        (0, 0, 0, 0, 0, 0);
+    let (mut cost, mut torque, mut force, mut acceleration) = (0.0f64, 0.0f64, 0.0f64, 0.0f64);
+    for round in 0..320 {
+        let s = scene(&mut rng, round % 8, round);
+        if round % 5 == 0 {
+            c.reset();
+        }
+        let (torques, forces) = (c.last_torque, c.last_force.clone());
+        c.control(&s.input());
+        let forces: [Vec3; MAX_CONTACTS] = *forces;
+        // Within limits and cones whatever the residual.
+        let primal = Primal::new(&c, &s, &torques, &forces);
+        let ours = decided(&c);
+        assert!(
+            primal.excess(&ours) < 1e-9,
+            "{round}: {}",
+            primal.excess(&ours)
+        );
+        if c.command.flags.has(Flags::CONTROL_BOUND) {
+            // The prices of another figure's problem are a bad start. The next tick begins with none.
+            bound += 1;
+            (c.last_torque, *c.last_force) = (torques, forces);
+            c.control(&s.input());
+            if c.command.flags.has(Flags::CONTROL_BOUND) {
+                stuck += 1;
+                continue;
+            }
+        }
+        let primal = Primal::new(&c, &s, &torques, &forces);
+        let ours = decided(&c);
+        let exact = primal.solve();
+        assert!(primal.excess(&exact) < 1e-4, "{round}: the oracle itself");
+        assert!(primal.residual(&exact) < 1e-4, "{round}: the oracle itself");
+        assert!(primal.residual(&ours) < 2.0 * TOLERANCE, "{round}");
+        let (a, b) = (primal.objective(&ours), primal.objective(&exact));
+        let d = (a - b).abs() / b.abs().max(1.0);
+        cost = cost.max(d);
+        for j in 0..DOF_COUNT {
+            let range = s.upper[j] - s.lower[j];
+            torque = torque.max((ours.torque[j] - exact.torque[j]).abs() / range);
+        }
+        let sum = |x: &Solution| x.force.iter().fold(Vec3::zero(), |f, g| f + *g);
+        let weight = s.terms.mass * GRAVITY;
+        force = force.max((sum(&ours) - sum(&exact)).norm() / weight);
+        let scale = exact
+            .acceleration
+            .iter()
+            .fold(1.0f64, |m, a| m.max(a.abs()));
+        for (x, y) in ours.acceleration.iter().zip(&exact.acceleration) {
+            acceleration = acceleration.max((x - y).abs() / scale);
+        }
+        compared += 1;
+        saturated += usize::from(c.command.saturated != 0);
+        flying += usize::from(ours.force.is_empty());
+        let edge = |f: &&Vec3| f.z > 1.0 && f.x.hypot(f.y) > 0.999 * primal.mu * f.z;
+        sliding += usize::from(ours.force.iter().any(|f| edge(&f)));
+    }
+    let text = format!(
+        "{compared} compared ({saturated} saturated, {sliding} at the cone, {flying} in flight), {bound} stopped at the bound, {stuck} of them with a cold start too; \
+         cost {cost:.1e}, torque {torque:.1e} of its range, force {force:.1e} of the weight, acceleration {acceleration:.1e} of the largest"
+    );
+    println!("{text}");
+    assert!(
+        compared > 280 && saturated > 60 && sliding > 20 && flying > 20,
+        "{text}"
+    );
+    assert!(cost < 1e-6, "{text}");
+    assert!(
+        torque < 1e-4 && force < 1e-4 && acceleration < 1e-4,
+        "{text}"
+    );
+}
