@@ -13,7 +13,7 @@ pub mod tasks;
 pub mod torque_step;
 pub mod touches;
 
-pub use drive::{ClipPlayback, Drive};
+pub use drive::{ClipPlayback, Drive, LivePlayback};
 pub use events::FigureEvent;
 pub use report::{Audit, ContactPoint, Flags, TickReport};
 pub use setup::{

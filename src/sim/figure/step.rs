@@ -3,7 +3,7 @@
 use super::FigureKey;
 use super::assist::Assist;
 use super::balance::{BalanceWatch, Reach};
-use super::drive::Drive;
+use super::drive::{Drive, LivePlayback};
 use super::events::{FigureEvent, Watcher};
 use super::kinematic_step::{Decision, KinematicStepper, SPEED_CAP, other_part_arrives};
 use super::loads::Disturbances;
@@ -30,7 +30,7 @@ use crate::sim::control::{
 use crate::sim::dynamics::{Kinematics, Terms, center_of_mass};
 use crate::sim::gait::{Gait, Led, StepPlan};
 use crate::sim::math::Vec3;
-use crate::sim::motion::{Target, TargetPair};
+use crate::sim::motion::{PlanarTransform, Target, TargetPair};
 use crate::sim::strength::fatigue::Fatigue;
 use crate::sim::strength::{MuscleScale, Strength};
 use crate::sim::support::Support;
@@ -434,12 +434,17 @@ impl Figure {
 
     /// Desired motion of the tick: as the drive has it, or as its steps come out.
     fn desired(&mut self, time: f64, dt: f64) -> TargetPair {
+        if let Drive::Live(live) = &mut self.drive {
+            live.motion.advance(live.stream_time(time + dt));
+            self.gait.follow_stream(&live.motion);
+        }
         if !self.steps() {
             return self.drive.targets(time, dt);
         }
         let drive = &self.drive;
         let clip_time = |t: f64| match drive {
             Drive::Clip(play) => play.clip_time(t),
+            Drive::Live(live) => live.stream_time(t),
             _ => t,
         };
         self.gait
@@ -832,9 +837,17 @@ impl Figure {
                 let plan = StepPlan::new(&self.setup.body, &play.clip, play.looped);
                 Some((plan, play.speed, play.origin))
             }
+            Drive::Live(_) => Some((StepPlan::live(), 1.0, PlanarTransform::default())),
             _ => None,
         });
         self.drive = drive;
+    }
+    /// The stream that drives it with a window, if one does: to feed it.
+    pub fn stream_mut(&mut self) -> Option<&mut LivePlayback> {
+        match &mut self.drive {
+            Drive::Live(live) => Some(live),
+            _ => None,
+        }
     }
     /// Its steps.
     pub fn gait(&self) -> &Gait {
