@@ -297,7 +297,24 @@ fn show_one() {
     } else {
         raw
     };
-    let (_, label) = prepared(&body, |t| whole.sample(t).posture, whole.duration(), w);
+    let (out, label) = prepared(&body, |t| whole.sample(t).posture, whole.duration(), w);
+    for k in 0..out.len() / 10 {
+        let from = (k * 10usize).saturating_sub(2);
+        let to = (k * 10 + 12).min(out.len());
+        let c = consistency(&body, &out[from..to], &label[from..to], RATE);
+        let z: Vec<String> = (k * 10..k * 10 + 10)
+            .map(|i| format!("{:.3}", out[i].root_position.z))
+            .collect();
+        println!(
+            "piece {:.2} {:?} force {:.3} outside {:.3} {} {}",
+            k as f64 / 6.0,
+            label[k * 10],
+            c.force.max,
+            c.distance.max,
+            z.join(" "),
+            0
+        );
+    }
     println!(
         "planted {}",
         label

@@ -4,6 +4,7 @@
 
 mod clips;
 mod drives;
+mod live;
 mod obstacles;
 mod support;
 mod watching;

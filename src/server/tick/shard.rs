@@ -2,7 +2,7 @@
 //! [`Command`](super::command::Command)s that call these methods between ticks.
 
 use super::clock::Clock;
-use super::drives::{Drive, Slot};
+use super::drives::{Drive, Slot, Window};
 use crate::server::engine::{self, Clip, Drive as Motion, FigureKey, ObstacleKey, World};
 use crate::sim::body::{Body, State};
 use crate::sim::collide::{ObstacleSetup, Other};
@@ -24,6 +24,8 @@ pub struct Limits {
     pub figures: u64,
     /// Ticks that are held.
     pub history: usize,
+    /// Window of live motion for drivers that do not say, s; 0: none.
+    pub window: f64,
 }
 
 struct Member {
@@ -617,8 +619,14 @@ impl Shard {
         let m = &mut self.members[i];
         m.clip = None;
         if let Some(f) = self.world.figure_mut(m.key) {
-            let posture = f.target().next.posture;
-            f.set_drive(Motion::Hold(posture));
+            match f.stream_mut() {
+                // It finishes its step and stands.
+                Some(live) => live.motion.end(),
+                None => {
+                    let posture = f.target().next.posture;
+                    f.set_drive(Motion::Hold(posture));
+                }
+            }
         }
     }
 
@@ -673,10 +681,13 @@ impl Shard {
             let key = self.members[self.member(figure)?].key;
             let f = self.world.figure(key).expect("members are in the world");
             let stand = engine::standing(f.body(), Place::default());
+            let length = open.settings.window.unwrap_or(self.limits.window);
+            let window = (length > 0.0).then(|| Window::new(f.body(), length));
             slots.push(Slot {
                 figure: figure.clone(),
                 key: Some(key),
                 body: f.body().clone(),
+                window,
                 buffer: crate::server::ingest::jitter_buffer::JitterBuffer::new(
                     open.settings.clone(),
                     self.world.dt(),
@@ -684,6 +695,14 @@ impl Shard {
                     stand,
                 ),
             });
+        }
+        if !open.settings.reset {
+            for slot in &mut slots {
+                let f = slot.key.and_then(|k| self.world.figure(k));
+                if let Some(f) = f {
+                    slot.lead_in(&f.target().next.posture);
+                }
+            }
         }
         self.drives.push(Drive::new(
             driver.clone(),
@@ -786,6 +805,15 @@ impl Shard {
         for drive in &mut self.drives {
             for slot in &mut drive.slots {
                 let Some(key) = slot.key else { continue };
+                if slot.window.is_some() {
+                    let Some(f) = self.world.figure_mut(key) else {
+                        continue;
+                    };
+                    if let Some(state) = slot.feed(time, f, drive.settings.reset) {
+                        let _ = engine::reset(&mut self.world, key, state);
+                    }
+                    continue;
+                }
                 let Some((pair, reset)) = slot.sample(time) else {
                     continue;
                 };

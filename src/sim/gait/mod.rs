@@ -197,9 +197,6 @@ impl Gait {
     pub fn follow_stream(&mut self, motion: &LiveMotion) {
         if let Some(plan) = &mut self.plan {
             plan.refresh(motion);
-            if std::env::var_os("SHOW").is_some() {
-                println!("planted {:.3} {:?}", self.phase, plan.known());
-            }
         }
     }
 

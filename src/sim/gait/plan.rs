@@ -155,18 +155,6 @@ impl StepPlan {
         }
     }
 
-    pub fn known(&self) -> String {
-        self.stances
-            .iter()
-            .map(|s| {
-                s.iter()
-                    .map(|f| format!("{:.2}-{:.2} ", f.on, f.off))
-                    .collect::<String>()
-                    + "/ "
-            })
-            .collect()
-    }
-
     /// True for the plan of a stream.
     pub fn is_live(&self) -> bool {
         self.duration == f64::INFINITY
@@ -177,25 +165,16 @@ impl StepPlan {
         for (side, known) in self.stances.iter_mut().enumerate() {
             known.clear();
             let seconds = |sample: i64| (sample as f64 - 0.5) / live::RATE;
-            let lim: f64 = std::env::var("LIM")
-                .ok()
-                .and_then(|v| v.parse().ok())
-                .unwrap_or(9.0);
-            known.extend(
-                motion
-                    .stances(side)
-                    .filter(|s| seconds(s.start) < motion.ready() + lim)
-                    .map(|s| Footfall {
-                        on: seconds(s.start),
-                        off: if s.end == i64::MAX {
-                            f64::INFINITY
-                        } else {
-                            seconds(s.end)
-                        },
-                        place: s.place,
-                        yaw: s.yaw,
-                    }),
-            );
+            known.extend(motion.stances(side).map(|s| Footfall {
+                on: seconds(s.start),
+                off: if s.end == i64::MAX {
+                    f64::INFINITY
+                } else {
+                    seconds(s.end)
+                },
+                place: s.place,
+                yaw: s.yaw,
+            }));
         }
     }
 

@@ -180,7 +180,7 @@ impl Foot {
     }
 
     /// True if it touches in sample `j` or so soon after it that the time between is no flight.
-    pub fn lands(&self, j: i64, last: i64) -> bool {
+    fn lands(&self, j: i64, last: i64) -> bool {
         (j..=(j + FLIGHT).min(last)).any(|i| self.on[Self::slot(i)])
     }
 
@@ -216,13 +216,13 @@ impl Foot {
     }
 
     /// Settles whether it stands in sample `j`; `last` is the newest sample that [`Self::touch`] has seen, `other` says whether the other
-    /// foot touches, and whether it does at least soon.
+    /// foot touches.
     pub fn label(
         &mut self,
         j: i64,
         last: i64,
         upright: bool,
-        (other, soon): (bool, bool),
+        other: bool,
         standing: impl Fn(i64) -> Standing,
     ) {
         let before = j > 0 && self.down[Self::slot(j - 1)];
@@ -234,8 +234,8 @@ impl Foot {
         } else {
             before && upright
         };
-        // Someone must stand unless it is a flight.
-        down |= before && upright && !other && soon;
+        // Someone must stand unless it is a flight: the foot that lands comes earlier.
+        down |= upright && !other && self.lands(j, last);
         if down && let Some(k) = self.stance_at(j) {
             let (st, now) = (&self.stances[k], standing(j));
             let strays = st.settled
@@ -345,10 +345,11 @@ impl Foot {
             st.rolled |= now.pitch < FLAT;
             let pose = sole.stand(st.place, st.yaw, stance_pitch(now.pitch, st.rolled));
             let o = difference(&pose, (ankle, rotation), toe);
-            let [o0, v0, _] = self.offset;
+            let o0 = self.offset[0];
             self.offset = if self.posed >= 0 {
                 let v: Channels = std::array::from_fn(|c| (o[c] - o0[c]) / H);
-                [o, v, std::array::from_fn(|c| (v[c] - v0[c]) / H)]
+                // Differences of differences would lead the swing astray.
+                [o, v, [0.0; 7]]
             } else {
                 [o, [0.0; 7], [0.0; 7]]
             };

@@ -92,7 +92,11 @@ struct Drop {
 }
 
 impl Drop {
-    fn take(&mut self, need: f64) {
+    /// Takes the next need; the first one holds at once.
+    fn take(&mut self, need: f64, first: bool) {
+        if first {
+            (self.needed, self.at) = (need, need);
+        }
         self.needed = need.min(self.needed + FORGET * H).min(0.0);
         let pull = STIFF * STIFF * (self.needed - self.at) - 2.0 * STIFF * self.speed;
         self.speed += pull * H;
@@ -505,8 +509,7 @@ impl LiveMotion {
         let upright =
             self.at(j).smooth.root_position.z > UPRIGHT * self.body.standing_root_height();
         for side in 0..2 {
-            let foot = &self.feet[1 - side];
-            let other = (foot.touches(j), foot.lands(j, last));
+            let other = self.feet[1 - side].touches(j);
             let mut foot = std::mem::replace(&mut self.feet[side], Foot::new());
             foot.label(j, last, upright, other, |i| self.standing(side, i));
             self.feet[side] = foot;
@@ -599,7 +602,7 @@ impl LiveMotion {
                 need.max(-SWING_DROP) * ((0.6 - along / most) / 0.15).clamp(0.0, 1.0)
             });
         }
-        self.drop.take(drop);
+        self.drop.take(drop, f == 0);
         self.at_mut(f).drop = self.drop.at;
     }
 
@@ -644,11 +647,7 @@ impl LiveMotion {
             let wanted = p * now + q[k];
             let next = free + TURN * (wanted - free);
             self.shift[0][k] = now;
-            self.shift[1][k] = if std::env::var_os("NOSHIFT").is_some() {
-                0.0
-            } else {
-                next.clamp(-MOST_SHIFT, MOST_SHIFT)
-            };
+            self.shift[1][k] = next.clamp(-MOST_SHIFT, MOST_SHIFT);
         }
     }
 
