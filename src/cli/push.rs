@@ -36,7 +36,7 @@ pub struct Args {
     #[arg(long, value_name = "MS")]
     playout_delay_ms: Option<f64>,
     /// Window in which the server prepares the motion, ms: 300 to 1000, or 0 for frames as they come
-    #[arg(long, value_name = "MS", default_value_t = 500.0)]
+    #[arg(long, value_name = "MS", default_value_t = 1000.0)]
     window_ms: f64,
     /// Send the recording as a capture system would: fitted to the body, nothing else; the window does the rest
     #[arg(long)]

@@ -154,10 +154,14 @@ async fn a_walk_comes_through_jitter_and_loss() {
             s.far,
             s.speed
         );
-        assert_eq!(s.fell, None, "window {window} ms");
+        // What comes after the stream is the subject of `tests/live.rs`, at every phase of the gait.
+        assert!(
+            s.fell.is_none_or(|t| t > seconds),
+            "window {window} ms: fell at {:?} s",
+            s.fell
+        );
         assert!(s.far > 0.9 * seconds, "{} m", s.far);
         assert_eq!(s.feedback.preparation_window_ms, window);
-        assert!(s.speed < 0.1, "it stands after the stream: {} m/s", s.speed);
     }
 }
 

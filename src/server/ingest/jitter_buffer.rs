@@ -469,6 +469,12 @@ impl JitterBuffer {
         Some(TargetPair { now, next })
     }
 
+    /// True if there is motion that was not handed to a window yet.
+    pub fn has_news(&self) -> bool {
+        let newest = self.frames.back().map(|f| self.seconds(f));
+        newest.zip(self.head).is_some_and(|(f, head)| f > head)
+    }
+
     /// Hands the samples of a grid of `rate` per second to a window that lies `window` seconds behind them, as far as they are due in the tick from
     /// world time `t`. Returns the playout time of the newest sample that is due at `t`, s, and how many samples of the grid are over; `None`
     /// while there is no motion.

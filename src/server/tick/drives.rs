@@ -36,6 +36,8 @@ pub struct Window {
     pub length: f64,
     /// The stream until its figure begins to follow it.
     waiting: Option<Box<LivePlayback>>,
+    /// The figure comes into the stream from what it does, whatever the driver asked for.
+    begun: bool,
 }
 
 impl Window {
@@ -48,6 +50,7 @@ impl Window {
                 motion,
                 offset: 0.0,
             })),
+            begun: false,
         }
     }
 }
@@ -211,47 +214,61 @@ impl Drive {
     }
 }
 
+impl Window {
+    /// Continues from what is asked of the figure now: a stream that begins elsewhere is moved there.
+    pub fn lead_in(&mut self, posture: &crate::sim::body::Posture) {
+        self.begun = true;
+        if let Some(live) = &mut self.waiting {
+            for _ in 0..LEAD_IN {
+                live.motion.push(posture, Some([true; 2]));
+            }
+        }
+    }
+}
+
 impl Slot {
     /// Feeds the window with what is due in the tick from world time `time`; once there is enough of it, the figure follows. Returns the state
     /// that the figure is to be put into, if its driver asked for that.
     pub fn feed(&mut self, time: f64, figure: &mut Figure, reset: bool) -> Option<State> {
         let window = self.window.as_mut()?;
         let length = window.length;
+        if window.waiting.is_none() && figure.stream_mut().is_none() {
+            // It stopped in a silence: a stream that comes again begins from where the figure is.
+            if !self.buffer.has_news() {
+                self.buffer.feed(time, (RATE, length), |_| ());
+                return None;
+            }
+            *window = Window::new(&self.body, length);
+            window.lead_in(&figure.target().next.posture);
+        }
         let waits = window.waiting.is_some();
         let live = match &mut window.waiting {
             Some(waiting) => waiting,
             None => figure.stream_mut()?,
         };
         let motion = &mut live.motion;
+        let mut silent = false;
         let (head, next) = self.buffer.feed(time, (RATE, length), |due| match due {
             Due::Sample(posture, planted) => motion.push(posture, planted),
-            Due::Silence => motion.end(),
+            Due::Silence => silent = true,
         })?;
-        if !motion.is_ended() {
-            live.offset = head - length + (motion.fed() - next) as f64 / RATE - time;
+        if silent {
+            // It finishes its step and stands.
+            if !waits {
+                figure.stop(time);
+            }
+            return None;
         }
+        live.offset = head - length + (motion.fed() - next) as f64 / RATE - time;
         let begins = waits && live.stream_time(time) >= 0.0;
         let mut live = window.waiting.take_if(|_| begins)?;
         live.motion.advance(live.stream_time(time) + 1.0 / RATE);
         let first = live.motion.sample(live.stream_time(time));
         figure.set_drive(engine::Drive::Live(live));
-        reset.then_some(State {
+        (reset && !window.begun).then_some(State {
             posture: first.posture,
             velocity: first.velocity,
         })
-    }
-
-    /// Continues from what is asked of the figure now: a stream that begins elsewhere is moved there.
-    pub fn lead_in(&mut self, posture: &crate::sim::body::Posture) {
-        if let Some(Window {
-            waiting: Some(live),
-            ..
-        }) = &mut self.window
-        {
-            for _ in 0..LEAD_IN {
-                live.motion.push(posture, Some([true; 2]));
-            }
-        }
     }
 
     /// The desired motion over the tick from world time `time`, and whether the figure is to be put into it at once.

@@ -616,21 +616,16 @@ impl Shard {
 
     fn hold(&mut self, figure: &str) {
         let Ok(i) = self.member(figure) else { return };
+        let time = self.world.time();
         let m = &mut self.members[i];
         m.clip = None;
         if let Some(f) = self.world.figure_mut(m.key) {
-            match f.stream_mut() {
-                // It finishes its step and stands.
-                Some(live) => live.motion.end(),
-                None => {
-                    let posture = f.target().next.posture;
-                    f.set_drive(Motion::Hold(posture));
-                }
-            }
+            // It finishes its step and stands.
+            f.stop(time);
         }
     }
 
-    /// Lets a figure hold the posture that is asked of it now.
+    /// Lets a figure finish its step and stand, or hold the posture that is asked of it now if it stands already.
     pub fn stop(&mut self, figure: &str) -> Result<(), Fault> {
         self.working()?;
         self.member(figure)?;
@@ -699,8 +694,8 @@ impl Shard {
         if !open.settings.reset {
             for slot in &mut slots {
                 let f = slot.key.and_then(|k| self.world.figure(k));
-                if let Some(f) = f {
-                    slot.lead_in(&f.target().next.posture);
+                if let (Some(f), Some(window)) = (f, &mut slot.window) {
+                    window.lead_in(&f.target().next.posture);
                 }
             }
         }

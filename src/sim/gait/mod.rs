@@ -193,6 +193,23 @@ impl Gait {
         self.reset();
     }
 
+    /// Goes on with another plan in the middle of a motion: feet, places and lag stay. The new plan's time 0 is time `begin` (s) of the present one;
+    /// its coordinates are those of the present motion where its origin puts it.
+    pub fn go_on(&mut self, plan: StepPlan, begin: f64) {
+        for foot in &mut self.feet {
+            foot.lifted = (foot.lifted - begin) / self.speed;
+        }
+        self.plan = Some(plan);
+        self.speed = 1.0;
+        self.origin = PlanarTransform::default();
+        self.ended = None;
+    }
+
+    /// True while it follows a motion that steps.
+    pub fn is_walking(&self) -> bool {
+        self.walks()
+    }
+
     /// Takes over what is known now of the stream that is followed.
     pub fn follow_stream(&mut self, motion: &LiveMotion) {
         if let Some(plan) = &mut self.plan {

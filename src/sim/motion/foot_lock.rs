@@ -330,7 +330,7 @@ impl Track {
 }
 
 /// A quintic that takes value, slope and curvature to zero over unit time, at `u` in 0…1.
-fn fade(value: f64, slope: f64, curvature: f64, u: f64) -> f64 {
+pub(super) fn fade(value: f64, slope: f64, curvature: f64, u: f64) -> f64 {
     let v = 1.0 - u;
     let v3 = v * v * v;
     v3 * (value * (1.0 + 3.0 * u + 6.0 * u * u)

@@ -12,6 +12,7 @@ pub mod cycle;
 pub mod ends;
 pub mod filter;
 pub mod foot_lock;
+pub mod join;
 pub mod leg_ik;
 pub mod live;
 pub mod prepare;

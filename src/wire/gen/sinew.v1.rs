@@ -2557,7 +2557,7 @@ pub struct StopClipRequest {
     #[prost(string, tag = "1")]
     pub figure: ::prost::alloc::string::String,
 }
-/// The figure holds its posture.
+/// The figure stands, or comes to a stand.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct StopClipResponse {}
 /// Rotation of one bone.
@@ -3106,7 +3106,7 @@ pub mod motion_service_client {
                 .insert(GrpcMethod::new("sinew.v1.MotionService", "PlayClip"));
             self.inner.unary(req, path, codec).await
         }
-        /// Lets a figure hold the posture that is asked of it now.
+        /// Ends a clip: a figure that walks finishes its step and comes to a stand, any other holds the posture that is asked of it now.
         pub async fn stop_clip(
             &mut self,
             request: impl tonic::IntoRequest<super::StopClipRequest>,
@@ -3236,7 +3236,7 @@ pub mod motion_service_server {
             tonic::Response<super::PlayClipResponse>,
             tonic::Status,
         >;
-        /// Lets a figure hold the posture that is asked of it now.
+        /// Ends a clip: a figure that walks finishes its step and comes to a stand, any other holds the posture that is asked of it now.
         async fn stop_clip(
             &self,
             request: tonic::Request<super::StopClipRequest>,

@@ -33,7 +33,7 @@ const QUIET: f64 = 0.1;
 /// Neither foot down for no more samples than this is no flight.
 const FLIGHT: i64 = 5;
 /// Samples that labels are kept for.
-const KEPT: usize = 160;
+const KEPT: usize = 192;
 /// Stances that are kept.
 pub(super) const STANCES: usize = 8;
 /// Most samples that a place is averaged over.

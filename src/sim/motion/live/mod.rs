@@ -3,7 +3,7 @@
 //! What [`prepare`](super::prepare) does with a whole clip happens here sample by sample, a window behind the newest one: smoothing,
 //! labels of planted feet, foot lock, swings that clear the floor and meet the next foothold, a pelvis that both legs reach, and the
 //! shift of the trunk that keeps the zero-moment point over the feet, solved over the window again with every sample. Memory is a ring,
-//! time per sample is bounded, nothing allocates but [`LiveMotion::end`]. Rounds alike everywhere: it is part of the tick.
+//! time per sample is bounded, nothing allocates. Rounds alike everywhere: it is part of the tick.
 //!
 //! Places of a sample on its way, in samples behind the newest: smoothed (`SMOOTH`), labelled and balanced (`LABEL`), feet posed (`POSED`
 //! before the output), put out (the window).
@@ -14,7 +14,6 @@ mod polygon;
 use super::clip::{Knot, PlanarTransform, between};
 use super::foot_lock::{FootPose, Sole};
 use super::leg_ik::{center_of_mass, forward, knee_axis, solve_leg_in_plane};
-use super::prepare::Draft;
 use super::target::Target;
 use crate::sim::body::angles::clamp_to_limits;
 use crate::sim::body::topology::{
@@ -49,7 +48,7 @@ const LABEL: i64 = SMOOTH + 1 + STEADY;
 /// Samples between the one whose feet are posed and the output: clearance and pelvis height are smooth over them.
 const POSED: i64 = 2;
 /// Samples behind the output that balance looks back on, and that a figure which is late may still ask for.
-const PAST: i64 = 60;
+const PAST: i64 = 90;
 /// The zero-moment point is kept this far inside the soles, m.
 const INSET: f64 = 0.03;
 /// How much farther the pelvis moves than the centre of mass: the feet stay.
@@ -79,8 +78,6 @@ const SEVERAL: usize = 4;
 const FADE: f64 = 0.4;
 /// Samples that may wait to be prepared: ten seconds.
 pub const MOST_PENDING: usize = 600;
-/// Samples of the motion from which its end is planned.
-const RUN_UP: i64 = 36;
 
 /// Lowering of the pelvis: as low as was needed in the last seconds, so that it does not add to the ups and downs of the gait.
 #[derive(Clone, Copy, Debug, Default)]
@@ -188,8 +185,6 @@ pub struct LiveMotion {
     frame: PlanarTransform,
     /// What is left of a jump, and the samples since.
     fade: Option<([f64; NV], i64)>,
-    /// The stream was ended; how many samples of the end are still to come follows from `pending`.
-    ended: bool,
     weights: [f64; SMOOTH as usize + 1],
 }
 
@@ -230,7 +225,6 @@ impl LiveMotion {
             lasting: 0.0,
             frame: PlanarTransform::default(),
             fade: None,
-            ended: false,
             weights,
             body,
         }
@@ -246,16 +240,6 @@ impl LiveMotion {
         self.frame
     }
 
-    /// True once [`Self::end`] was called and nothing came since.
-    pub fn is_ended(&self) -> bool {
-        self.ended
-    }
-
-    /// True once all that was planned for the end has been put out before time `t`, s.
-    pub fn is_over(&self, t: f64) -> bool {
-        self.ended && self.pending.is_empty() && t > self.count as f64 * H
-    }
-
     /// Number of samples that were taken or wait.
     pub fn fed(&self) -> i64 {
         self.count + self.pending.len() as i64
@@ -265,12 +249,8 @@ impl LiveMotion {
     ///
     /// * `planted`: feet on the floor (left, right), if the sender knows.
     ///
-    /// A sample that is not finite is taken for a repetition of the last one. A stream that was ended goes on.
+    /// A sample that is not finite is taken for a repetition of the last one.
     pub fn push(&mut self, posture: &Posture, planted: Option<[bool; 2]>) {
-        if self.ended {
-            self.ended = false;
-            self.pending.clear();
-        }
         if posture.is_finite() {
             self.wait(Raw {
                 posture: *posture,
@@ -732,41 +712,34 @@ impl LiveMotion {
         self.feet[side].stances()
     }
 
-    /// The stream has stopped: plans the steps that bring the motion to a stand and takes them for what comes next. Once per silence; plans
-    /// ahead like the preparation of a clip, so it allocates.
-    pub fn end(&mut self) {
-        if self.ended || self.fed() == 0 {
-            return;
-        }
-        self.ended = true;
-        while let Some(raw) = self.pending.pop_front() {
-            self.take(&raw.posture, raw.planted);
-        }
+    /// The motion from time `from` (s) on as far as it has come, with its feet: what was put out, then what is still in the window as it came,
+    /// led over from there. Samples are 1/[`RATE`] s apart; the first is at the time returned with them.
+    pub fn known(&self, from: f64) -> (f64, Vec<(Posture, [bool; 2])>) {
+        let n = self.knots.len() as i64;
         let last = self.count - 1;
-        let from = (last - RUN_UP).max(0);
-        // Up to the last samples labels are settled; those of the last ones are what they seem.
-        let postures: Vec<Posture> = (from..=last).map(|i| self.at(i).raw).collect();
-        let label: Vec<[bool; 2]> = (from..=last)
-            .map(|i| std::array::from_fn(|s| self.feet[s].is_down(i)))
+        let done = (self.out - 2).max(0);
+        let first = ((from * RATE) as i64).clamp((self.out - n + 1).max(0), done);
+        let mut all: Vec<(Posture, [bool; 2])> = (first..=done)
+            .map(|i| {
+                let knot = &self.knots[i.rem_euclid(n) as usize];
+                (knot.posture, knot.planted)
+            })
             .collect();
-        let mut draft = Draft::of_postures(&self.body, RATE, postures, label);
-        let begin = draft.postures.len();
-        if draft.end_standing(&self.body) == 0 {
-            return;
-        }
-        let back = self.frame.power(-1.0);
-        for i in begin..draft.postures.len().min(begin + MOST_PENDING) {
-            let mut p = draft.postures[i];
-            for s in 0..2 {
-                let (foot, axis) = ((draft.ankle[s][i], draft.foot[s][i]), draft.knee_axis[s][i]);
-                solve_leg_in_plane(&self.body, &mut p, s == 0, foot, 0.0, axis);
-            }
-            back.apply_posture(&mut p);
-            self.wait(Raw {
-                posture: p,
-                planted: Some(draft.label[i]),
+        let Some(&(end, _)) = all.last() else {
+            return (0.0, all);
+        };
+        let moved = self.at(done).raw.difference(&end);
+        let (labelled, seen) = (last - LABEL, last - SMOOTH - 1);
+        for i in done + 1..=last {
+            let mut p = self.at(i).raw;
+            p.integrate(&moved, 1.0);
+            let down = std::array::from_fn(|s| match i {
+                i if i <= labelled => self.feet[s].is_down(i),
+                i => self.feet[s].touches(i.min(seen)),
             });
+            all.push((p, down));
         }
+        (first as f64 * H, all)
     }
 }
 
