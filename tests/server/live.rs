@@ -133,7 +133,9 @@ async fn a_walk_comes_through_jitter_and_loss() {
     let body = Body::adult_man();
     let walk = walk(&body);
     let seconds: f64 = std::env::var("SINEW_LIVE_SECONDS").map_or(12.0, |s| s.parse().unwrap());
-    for window in [300.0, 500.0, 1000.0] {
+    let windows = std::env::var("SINEW_LIVE_WINDOW")
+        .map_or(vec![300.0, 500.0, 1000.0], |w| vec![w.parse().unwrap()]);
+    for window in windows {
         let mut network = Network::new(0.05, 0.02, 7);
         let s = stream(
             "w",
