@@ -80,6 +80,7 @@ const TICK_MODULES: &[&str] = &[
     "sim::contact",
     "sim::collide",
     "sim::figure",
+    "sim::motion::live",
     "sim::world",
 ];
 

@@ -218,7 +218,29 @@ fn files_have_the_promised_content() {
     let text = std::fs::read(&bvh).expect("a motion");
     let motion = sinew::sim::motion::Bvh::parse(&text).expect("our own BVH");
     assert_eq!(motion.frame_count, 30);
-    assert!(succeed(&["lint", &bvh]).contains("mapped by name"));
+    let words = succeed(&["lint", &bvh]);
+    assert!(words.contains("mapped by name"));
+    assert!(words.contains("as recorded") && words.contains("as prepared"));
+}
+
+#[test]
+fn lint_tells_how_far_a_motion_is_from_one_that_feet_can_carry() {
+    let text = succeed(&["lint", "builtin:idle", "builtin:walk", "--json"]);
+    let all: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let of = |i: usize| &all[i]["consistency"]["prepared"];
+    assert!(all[0]["consistency"]["recorded"].is_null());
+    assert_eq!(of(0)["zmp_outside_share"], 0.0);
+    assert_eq!(of(0)["flight_share"], 0.0);
+    let lacks = |i: usize| {
+        of(i)["residual_force_weights"]["max"]
+            .as_f64()
+            .expect("a number")
+    };
+    assert!(lacks(0) < 0.01, "{text}");
+    assert!(
+        lacks(1) < 0.2 && of(1)["stances"].as_u64() > Some(3),
+        "{text}"
+    );
 }
 
 #[test]

@@ -1,7 +1,9 @@
 //! `sinew lint`: what retargeting finds in a recording, guesses and changes.
 
 use super::args::BodyArgs;
-use super::source::load;
+use super::source::{Source, load};
+use crate::sim::body::Body;
+use crate::sim::motion::consistency::{Consistency, Spread, consistency};
 use crate::sim::motion::retarget::{RetargetOptions, RetargetReport, UpAxis};
 use anyhow::{Context, Result};
 use serde_json::{Value, json};
@@ -42,8 +44,13 @@ pub fn run(args: &LintArgs) -> Result<()> {
     for spec in &args.clips {
         let source = load(spec, &body, &options)?;
         let clip = &source.clip;
+        let (before, after) = consistencies(&source, &body, &options)?;
         if args.json {
             all.push(json!({
+                "consistency": {
+                    "recorded": before.as_ref().map_or(Value::Null, consistency_json),
+                    "prepared": consistency_json(&after),
+                },
                 "clip": source.name,
                 "duration_s": clip.duration(),
                 "rate_hz": clip.rate_hz(),
@@ -62,6 +69,10 @@ pub fn run(args: &LintArgs) -> Result<()> {
                 Some(report) => print!("{}", describe(report)),
                 None => println!("  built in: made for the body, nothing to fit"),
             }
+            if let Some(before) = &before {
+                print!("{}", describe_consistency("as recorded", before));
+            }
+            print!("{}", describe_consistency("as prepared", &after));
         }
     }
     if args.json {
@@ -72,6 +83,82 @@ pub fn run(args: &LintArgs) -> Result<()> {
         println!("{}", text.context("the report cannot be written as JSON")?);
     }
     Ok(())
+}
+
+/// How far the motion is from one that a body on its feet can do: as recorded (bones on the body, nothing else; `None` for built-in
+/// motions) and as prepared, on the same feet.
+fn consistencies(
+    source: &Source,
+    body: &Body,
+    options: &RetargetOptions,
+) -> Result<(Option<Consistency>, Consistency)> {
+    let clip = &source.clip;
+    let rate = clip.rate_hz();
+    let postures: Vec<_> = (0..clip.len()).map(|i| *clip.posture(i)).collect();
+    let Some(report) = &source.retarget else {
+        let label: Vec<_> = (0..clip.len()).map(|i| clip.planted(i)).collect();
+        return Ok((None, consistency(body, &postures, &label, rate)));
+    };
+    let at = |i: usize| {
+        let t = (i as f64 + 0.5) / rate;
+        let phase = report.phases.iter().find(|p| t < p.end);
+        phase.map_or([false; 2], |p| p.planted)
+    };
+    let label: Vec<_> = (0..clip.len()).map(at).collect();
+    let bare = RetargetOptions {
+        lock_feet: false,
+        balance: false,
+        ends: false,
+        ..options.clone()
+    };
+    let recorded = load(&source.spec, body, &bare)?.clip;
+    let raw: Vec<_> = (0..recorded.len()).map(|i| *recorded.posture(i)).collect();
+    Ok((
+        Some(consistency(body, &raw, &label, rate)),
+        consistency(body, &postures, &label, rate),
+    ))
+}
+
+/// Measures of consistency as JSON: lengths in mm, forces in shares of the weight, moments in weight × m.
+fn consistency_json(c: &Consistency) -> Value {
+    let spread = |s: &Spread, unit: f64| json!({ "rms": unit * s.rms, "max": unit * s.max });
+    json!({
+        "zmp_outside_share": c.outside,
+        "zmp_outside_mm": spread(&c.distance, 1e3),
+        "residual_force_weights": spread(&c.force, 1.0),
+        "residual_moment_weight_m": spread(&c.moment, 1.0),
+        "flight_share": c.flight,
+        "carried_share": c.carried,
+        "stances": c.stances,
+        "slip_per_stance_mm": { "mean": 1e3 * c.slip.0, "max": 1e3 * c.slip.1 },
+        "floor_mm": { "deepest": 1e3 * c.floor.0, "highest": 1e3 * c.floor.1 },
+    })
+}
+
+/// Measures of consistency in words.
+fn describe_consistency(name: &str, c: &Consistency) -> String {
+    let carried = if c.carried > 0.0 {
+        format!(", {:.0} % not on feet and not judged", 100.0 * c.carried)
+    } else {
+        String::new()
+    };
+    format!(
+        "  {name:<14} zero-moment point outside {:.0} % of the time, {:.0} mm rms, {:.0} mm at most; the ground lacks {:.3} of the weight rms ({:.2} at most) and {:.3} weight x m ({:.2})\n  {:<14} {:.0} % in flight{carried}; {} stances that slip {:.1} mm on the average, {:.1} mm at most; soles {:.1} mm under the floor, {:.1} mm over it\n",
+        100.0 * c.outside,
+        1e3 * c.distance.rms,
+        1e3 * c.distance.max,
+        c.force.rms,
+        c.force.max,
+        c.moment.rms,
+        c.moment.max,
+        "",
+        100.0 * c.flight,
+        c.stances,
+        1e3 * c.slip.0,
+        1e3 * c.slip.1,
+        1e3 * c.floor.0,
+        1e3 * c.floor.1,
+    )
 }
 
 /// The report as JSON; lengths in mm where they are errors, in m otherwise; angles in degrees.

@@ -3,7 +3,7 @@
 use super::{explain, world_resource};
 use crate::client::Client;
 use crate::server::engine;
-use crate::sim::motion::{Bvh, cycle};
+use crate::sim::motion::{Bvh, RetargetOptions, cycle};
 use crate::wire::convert::{self, motion::figure_motion};
 use crate::wire::frame::values;
 use crate::wire::pb;
@@ -35,9 +35,67 @@ pub struct Args {
     /// Fixed delay between arrival and use, ms [default: as the network needs]
     #[arg(long, value_name = "MS")]
     playout_delay_ms: Option<f64>,
+    /// Window in which the server prepares the motion, ms: 300 to 1000, or 0 for frames as they come
+    #[arg(long, value_name = "MS", default_value_t = 1000.0)]
+    window_ms: f64,
+    /// Send the recording as a capture system would: fitted to the body, nothing else; the window does the rest
+    #[arg(long)]
+    raw: bool,
+    /// Stop after this time, s [default: at the end of the motion]
+    #[arg(long, value_name = "S")]
+    duration: Option<f64>,
+    /// Hold each frame up by a random time of at most this, ms, in order as a network does
+    #[arg(long, value_name = "MS", default_value_t = 0.0)]
+    jitter_ms: f64,
+    /// Lose this share of the frames, 0 to 0.9
+    #[arg(long, value_name = "SHARE", default_value_t = 0.0)]
+    loss: f64,
+    /// Seed of jitter and loss
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
     /// Length of one file unit, m [default: guessed from the stature]
     #[arg(long, value_name = "M")]
     unit: Option<f64>,
+}
+
+/// A network that holds frames up and loses them, the same way for the same seed.
+#[derive(Clone, Debug)]
+pub struct Network {
+    state: u64,
+    jitter: f64,
+    loss: f64,
+    last: f64,
+}
+
+impl Network {
+    /// Holds frames up by at most `jitter` seconds and loses the share `loss` of them.
+    pub fn new(jitter: f64, loss: f64, seed: u64) -> Self {
+        Self {
+            state: seed,
+            jitter,
+            loss,
+            last: f64::NEG_INFINITY,
+        }
+    }
+
+    /// Uniform in 0…1 (splitmix64).
+    fn random(&mut self) -> f64 {
+        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.state;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// When a frame that is sent at `t` (s) arrives, not before those sent earlier; `None` if it is lost.
+    pub fn arrival(&mut self, t: f64) -> Option<f64> {
+        let (late, lost) = (self.random(), self.random());
+        if lost < self.loss {
+            return None;
+        }
+        self.last = self.last.max(t + self.jitter * late);
+        Some(self.last)
+    }
 }
 
 /// Streams the file at its own rate.
@@ -53,6 +111,14 @@ pub fn run(args: &Args) -> anyhow::Result<()> {
 
 async fn push(args: &Args) -> anyhow::Result<()> {
     let path = args.clip.display();
+    anyhow::ensure!(
+        (0.0..=0.9).contains(&args.loss) && (0.0..=2000.0).contains(&args.jitter_ms),
+        "--loss must be in 0…0.9 and --jitter-ms in 0…2000"
+    );
+    anyhow::ensure!(
+        args.duration.is_none_or(|d| d > 0.0 && d.is_finite()),
+        "--duration must be positive"
+    );
     let bytes = std::fs::read(&args.clip).with_context(|| format!("{path}"))?;
     let bvh = Bvh::parse(&bytes).with_context(|| format!("{path}"))?;
     let client = Client::connect(&args.address).await?;
@@ -77,16 +143,35 @@ async fn push(args: &Args) -> anyhow::Result<()> {
         unit_m: args.unit,
         ..Default::default()
     };
-    let (clip, report) = engine::retarget(&args.figure, &bvh, &reading, &body)
-        .map_err(|e| anyhow::anyhow!("{path}: {e}"))?;
-    for warning in &report.warnings {
+    let (clip, warnings) = if args.raw {
+        let options = RetargetOptions {
+            unit_m: args.unit,
+            lock_feet: false,
+            balance: false,
+            ends: false,
+            ..Default::default()
+        };
+        let fitted = crate::sim::motion::retarget(&bvh, &body, &options)
+            .map_err(|e| anyhow::anyhow!("{path}: {e}"))?;
+        (fitted.clip, fitted.report.warnings)
+    } else {
+        let (clip, report) = engine::retarget(&args.figure, &bvh, &reading, &body)
+            .map_err(|e| anyhow::anyhow!("{path}: {e}"))?;
+        (clip, report.warnings)
+    };
+    for warning in &warnings {
         eprintln!("{path}: {warning}");
     }
-    let clip = match args.looped.then(|| cycle(&body, &clip)).flatten() {
+    let clip = match (args.looped && !args.raw)
+        .then(|| cycle(&body, &clip))
+        .flatten()
+    {
         Some(repeats) => repeats,
         None => clip,
     };
-    let start = engine::place_of(clip.posture(0));
+    // From standing, by the steps that lead into the motion.
+    let lead = clip.lead_in();
+    let start = engine::place_of(&clip.sample(-lead).posture);
     let created = existing.is_none();
     let place = if created {
         client
@@ -114,10 +199,18 @@ async fn push(args: &Args) -> anyhow::Result<()> {
             nominal_rate_hz: clip.rate_hz(),
             playout_delay_ms: args.playout_delay_ms,
             reset: created,
+            preparation_window_ms: Some(args.window_ms),
             ..Default::default()
         })
         .await
         .map_err(|e| explain(&e))?;
+    let length = clip.duration() + clip.lead_out() + lead;
+    let length = match (args.duration, args.looped) {
+        (Some(d), true) => d,
+        (Some(d), false) => d.min(length),
+        (None, true) => f64::INFINITY,
+        (None, false) => length,
+    };
     println!(
         "pushing {path} ({} frames at {:.0} Hz, {:.1} s) to {name}",
         clip.len(),
@@ -127,22 +220,22 @@ async fn push(args: &Args) -> anyhow::Result<()> {
 
     let placing = engine::placing(start, place);
     let began = Instant::now();
+    let mut network = Network::new(args.jitter_ms / 1e3, args.loss, args.seed);
     let mut sequence = 0i64;
     let mut told = Instant::now();
     let mut last: Option<pb::DriveFeedback> = None;
+    let mut delay = Delay::default();
     loop {
         let t = sequence as f64 / clip.rate_hz();
-        if !args.looped && t > clip.duration() {
+        if t > length {
             break;
         }
         let target = if args.looped {
-            clip.sample_looped(t)
+            clip.sample_looped(t - lead)
         } else {
-            clip.sample(t)
+            clip.sample(t - lead)
         };
         let target = placing.apply(&target);
-        let due = began + Duration::from_secs_f64(t);
-        tokio::time::sleep_until(due.into()).await;
         let frame = pb::MotionFrame {
             sequence,
             source_time_ns: (t * 1e9).round() as i64,
@@ -150,17 +243,23 @@ async fn push(args: &Args) -> anyhow::Result<()> {
                 &args.figure,
                 &target.posture,
                 &target.velocity,
-                Some(target.planted),
+                (!args.raw).then_some(target.planted),
             )],
         };
-        if !driver.send(vec![frame]).await {
-            break; // the reason comes below
-        }
         sequence += 1;
+        if let Some(at) = network.arrival(t) {
+            tokio::time::sleep_until((began + Duration::from_secs_f64(at)).into()).await;
+            if !driver.send(vec![frame]).await {
+                break; // the reason comes below
+            }
+        }
         // Feedback is read as it comes; its arrival does not hold the motion up.
         while let Some(ready) = futures_util::FutureExt::now_or_never(driver.feedback()) {
             match ready.map_err(|e| explain(&e))? {
-                Some(f) => last = Some(f),
+                Some(f) => {
+                    delay.note(&f, began.elapsed().as_secs_f64(), clip.rate_hz());
+                    last = Some(f);
+                }
                 None => anyhow::bail!("the server ended the stream"),
             }
         }
@@ -174,7 +273,34 @@ async fn push(args: &Args) -> anyhow::Result<()> {
     if let Some(f) = driver.finish().await.map_err(|e| explain(&e))? {
         println!("done    {}", describe(&f));
     }
+    if delay.count > 0 {
+        println!(
+            "from capture to the figure {:.0} ms on the average, {:.0} ms at most",
+            1e3 * delay.sum / delay.count as f64,
+            1e3 * delay.most
+        );
+    }
     Ok(())
+}
+
+/// Time from a frame's capture to its use, as feedback shows it (so with the way back).
+#[derive(Clone, Copy, Debug, Default)]
+struct Delay {
+    sum: f64,
+    count: u32,
+    most: f64,
+}
+
+impl Delay {
+    fn note(&mut self, f: &pb::DriveFeedback, now: f64, rate_hz: f64) {
+        let Some(g) = f.figures.first().filter(|g| g.applied_sequence > 0) else {
+            return;
+        };
+        let age = now - g.applied_sequence as f64 / rate_hz;
+        self.sum += age;
+        self.count += 1;
+        self.most = self.most.max(age);
+    }
 }
 
 async fn current_place(client: &Client, world: &str, figure: &str) -> anyhow::Result<Place> {
@@ -217,7 +343,12 @@ fn describe(f: &pb::DriveFeedback) -> String {
     };
     let used = g.present_count + g.interpolated_count;
     format!(
-        "delay {:.0} ms, jitter {:.0} ms, {used} ticks with motion, {} extrapolated, {} held, {} frames late",
-        g.playout_delay_ms, g.jitter_ms, g.extrapolated_count, g.held_count, g.late_count
+        "delay {:.0} ms (window {:.0}), jitter {:.0} ms, {used} ticks with motion, {} extrapolated, {} held, {} frames late",
+        g.playout_delay_ms,
+        g.preparation_window_ms,
+        g.jitter_ms,
+        g.extrapolated_count,
+        g.held_count,
+        g.late_count
     )
 }

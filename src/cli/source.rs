@@ -11,6 +11,8 @@ use std::path::Path;
 pub struct Source {
     /// File stem or built-in name.
     pub name: String,
+    /// What it was asked for by.
+    pub spec: String,
     /// The motion.
     pub clip: Clip,
     /// How the recording was fitted; `None` for built-in motions, which are made for the body.
@@ -34,6 +36,7 @@ pub fn load(spec: &str, body: &Body, options: &RetargetOptions) -> Result<Source
         };
         return Ok(Source {
             name: name.to_owned(),
+            spec: spec.to_owned(),
             clip,
             retarget: None,
         });
@@ -53,6 +56,7 @@ pub fn load(spec: &str, body: &Body, options: &RetargetOptions) -> Result<Source
         .map_or_else(|| spec.to_owned(), |s| s.to_string_lossy().into_owned());
     Ok(Source {
         name,
+        spec: spec.to_owned(),
         clip: fitted.clip,
         retarget: Some(fitted.report),
     })

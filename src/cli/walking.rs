@@ -114,8 +114,8 @@ fn degrees(x: f64) -> String {
 fn row(name: &str, seconds: f64, w: &Walked) -> Vec<String> {
     let r = &w.report;
     let [rms, most] = w.capture;
-    let result = r
-        .fell_at_s
+    let result = w
+        .fell_s
         .map_or("stood".to_owned(), |t| format!("**fell at {t:.1} s**"));
     vec![
         name.to_owned(),

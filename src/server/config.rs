@@ -164,6 +164,9 @@ settings! {
     max_views_per_world: int = 32, 1, 1000;
     /// Streams of desired motion at a time.
     max_drivers: int = 64, 1, 10_000;
+    /// Window in which live motion is prepared for drivers that do not say, ms: 0 (off) or 300 to 1000. It makes streams that walk possible,
+    /// and all streams later by as much.
+    live_window_ms: float = 0.0, 0.0, 1000.0;
     /// Stored clips.
     max_clips: int = 256, 1, 100_000;
     /// Bytes of one uploaded file.

@@ -27,7 +27,9 @@ use std::sync::Arc;
 pub use crate::sim::collide::ObstacleKey;
 pub use crate::sim::motion::Clip;
 pub use crate::sim::motion::builtin::BUILTIN_NAMES;
-pub use crate::sim::world::{ClipPlayback, Drive, Figure, FigureEvent, FigureKey, World};
+pub use crate::sim::world::{
+    ClipPlayback, Drive, Figure, FigureEvent, FigureKey, LivePlayback, World,
+};
 
 /// Builds a body; the fault names the field of the profile that its tables do not cover.
 pub fn build_body(profile: crate::sim::body::Profile) -> Result<Body, Fault> {

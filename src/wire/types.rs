@@ -283,6 +283,8 @@ pub struct DriveSettings {
     pub grace: f64,
     /// Put each figure into its first desired posture.
     pub reset: bool,
+    /// Window in which motion is prepared, s; 0: frames are used as they come; `None`: as the server is set.
+    pub window: Option<f64>,
 }
 
 /// Header of a drive.
@@ -369,6 +371,8 @@ pub struct FigureFeedback {
     pub stale: u64,
     /// Frames dropped for want of room.
     pub overflow: u64,
+    /// Window in which motion is prepared, s; contained in the delay.
+    pub window: f64,
 }
 
 /// State of a drive.

@@ -5,6 +5,7 @@
 mod clips;
 mod constraints;
 mod drives;
+mod live;
 mod obstacles;
 mod support;
 mod watching;

@@ -98,6 +98,8 @@ impl Walk {
 pub struct Walked {
     /// Tracking, strength, torques.
     pub report: RunReport,
+    /// When it fell, s.
+    pub fell_s: Option<f64>,
     /// Distance of the capture point from the motion's, rms and largest, m; until a fall.
     pub capture: [f64; 2],
     /// Largest way that a foot slid in one stance, m: of its contact points, by their share of the load.
@@ -113,7 +115,7 @@ pub struct Walked {
 impl Walked {
     /// True if it did not fall.
     pub fn stood(&self) -> bool {
-        self.report.fell_at_s.is_none()
+        self.fell_s.is_none()
     }
 }
 
@@ -194,7 +196,7 @@ pub fn walk(walker: &Walker, walk: &Walk) -> Walked {
     let (mut slip, mut steps, mut late) = (0.0f64, 0, 0.0f64);
     let mut stances = [Stance::default(), Stance::default()];
     let ticks = (walk.seconds * walker.rate_hz).round() as u64;
-    let mut seen = 0u32;
+    let (mut seen, mut fell_s) = (0u32, None);
     for _ in 0..ticks {
         world.step();
         let figure = world.figure(key).expect("nobody removes the figure");
@@ -210,6 +212,7 @@ pub fn walk(walker: &Walker, walk: &Walk) -> Walked {
         };
         metrics.observe(tick, 0.0);
         if figure.is_fallen() {
+            fell_s = Some(world.time());
             break;
         }
         seen += 1;
@@ -231,6 +234,7 @@ pub fn walk(walker: &Walker, walk: &Walk) -> Walked {
     }
     Walked {
         report: metrics.finish(world.state_hash()),
+        fell_s,
         capture: [(square / f64::from(seen.max(1))).sqrt(), largest],
         slip,
         peak,

@@ -40,6 +40,8 @@ pub struct Frame {
     pub velocity: Option<Box<[f64; NV]>>,
     /// Planted feet.
     pub planted: [bool; 2],
+    /// True if the driver said which feet are planted.
+    pub labelled: bool,
 }
 
 /// Counters of one buffer.
@@ -79,7 +81,25 @@ pub struct JitterBuffer {
     blend: Option<(Box<[f64; NV]>, f64)>,
     /// Where to relax from and since when (playout s).
     stand: Posture,
+    /// Newest time that was handed to a window, playout s, and the next sample of its grid.
+    head: Option<f64>,
+    next: i64,
+    /// Frames that a window holds: playout time, sequence, source time.
+    held: VecDeque<(f64, i64, i64)>,
 }
+
+/// What a window is given for one sample of its grid.
+#[derive(Clone, Copy, Debug)]
+pub enum Due<'a> {
+    /// Posture, and planted feet if the driver named them.
+    Sample(&'a Posture, Option<[bool; 2]>),
+    /// Nothing has come for too long to guess.
+    Silence,
+}
+
+/// A window's time runs at most so much faster or slower than the world's while delays change; it jumps where they change by more than this, s.
+const SLEW: f64 = 0.1;
+const LEAP: f64 = 0.5;
 
 /// Position on a curve in the tangent space of `base`, as a target: value, first and second derivative.
 fn on_curve(
@@ -117,6 +137,9 @@ impl JitterBuffer {
             last: now,
             blend: None,
             stand,
+            head: None,
+            next: 0,
+            held: VecDeque::with_capacity(CAPACITY),
         }
     }
 
@@ -444,6 +467,86 @@ impl JitterBuffer {
             self.frames.pop_front();
         }
         Some(TargetPair { now, next })
+    }
+
+    /// True if there is motion that was not handed to a window yet.
+    pub fn has_news(&self) -> bool {
+        let newest = self.frames.back().map(|f| self.seconds(f));
+        newest.zip(self.head).is_some_and(|(f, head)| f > head)
+    }
+
+    /// Hands the samples of a grid of `rate` per second to a window that lies `window` seconds behind them, as far as they are due in the tick from
+    /// world time `t`. Returns the playout time of the newest sample that is due at `t`, s, and how many samples of the grid are over; `None`
+    /// while there is no motion.
+    pub fn feed(
+        &mut self,
+        t: f64,
+        (rate, window): (f64, f64),
+        mut give: impl FnMut(Due<'_>),
+    ) -> Option<(f64, i64)> {
+        let p = self.playout(t)?;
+        let p = match self.head {
+            Some(head) if (p - head).abs() < LEAP => p.clamp(
+                head + (1.0 - SLEW) * self.tick,
+                head + (1.0 + SLEW) * self.tick,
+            ),
+            _ => p,
+        };
+        if p < -self.tick {
+            self.supply = Supply::Waiting;
+            return None;
+        }
+        self.head = Some(p);
+        self.supply = self.at(p.max(0.0)).1;
+        let k = match self.supply {
+            Supply::Present => 0,
+            Supply::Interpolated => 1,
+            Supply::Extrapolated => 2,
+            Supply::Held => 3,
+            Supply::Relaxed => 4,
+            Supply::Waiting | Supply::None => return None,
+        };
+        self.counts.ticks[k] += 1;
+        let last = ((p + self.tick) * rate + SAME).floor() as i64;
+        // Time that leaps, or a silence, is not made up for sample by sample.
+        let first = self.next.max(last.saturating_sub(CAPACITY as i64));
+        for g in first..=last {
+            let (target, supply, i) = self.at(g as f64 / rate);
+            match supply {
+                Supply::Present | Supply::Interpolated | Supply::Extrapolated => {
+                    let frame = &self.frames[i];
+                    give(Due::Sample(
+                        &target.posture,
+                        frame.labelled.then_some(target.planted),
+                    ));
+                    let known = self.held.back().is_none_or(|h| h.1 < frame.sequence);
+                    if known {
+                        if self.held.len() == CAPACITY {
+                            self.held.pop_front();
+                        }
+                        let entry = (self.seconds(frame), frame.sequence, frame.source_ns);
+                        self.held.push_back(entry);
+                    }
+                }
+                _ => {
+                    give(Due::Silence);
+                    break;
+                }
+            }
+        }
+        self.next = last + 1;
+        self.played = p;
+        // What acts now has come a window ago.
+        while let Some(&(at, sequence, source)) = self.held.front()
+            && at <= p - window + SAME
+        {
+            self.applied = Some((sequence, source));
+            self.held.pop_front();
+        }
+        while self.frames.len() > 2 && self.seconds(&self.frames[1]) < p - 2.0 * SLOPE {
+            self.frames.pop_front();
+        }
+        Some((p, self.next))
     }
 
     /// True once, when the figure is to be put into its first desired posture.

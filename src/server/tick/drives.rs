@@ -1,13 +1,18 @@
 //! Who drives which figure live: at most one driver per figure, kept for a grace time when the driver is gone.
 
-use crate::server::engine::{self, FigureKey};
+use crate::server::engine::{self, Figure, FigureKey, LivePlayback};
 use crate::server::ingest::admission::Admission;
-use crate::server::ingest::jitter_buffer::{Frame, JitterBuffer};
-use crate::sim::motion::TargetPair;
+use crate::server::ingest::jitter_buffer::{Due, Frame, JitterBuffer};
+use crate::sim::body::State;
+use crate::sim::motion::live::RATE;
+use crate::sim::motion::{LiveMotion, TargetPair};
 use crate::wire::status::Fault;
 use crate::wire::types::{DriveSettings, Feedback, FigureFeedback, MotionSample, Supply};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
+
+/// Samples of standing before a stream begins, for a figure that is not put into it.
+const LEAD_IN: usize = 6;
 
 /// One driven figure.
 #[derive(Debug)]
@@ -20,6 +25,34 @@ pub struct Slot {
     pub buffer: JitterBuffer,
     /// Its body, to tell planted feet.
     pub body: Arc<crate::sim::body::Body>,
+    /// The window that prepares its motion, if there is one.
+    pub window: Option<Window>,
+}
+
+/// A window between the buffer and its figure.
+#[derive(Debug)]
+pub struct Window {
+    /// Its length, s.
+    pub length: f64,
+    /// The stream until its figure begins to follow it.
+    waiting: Option<Box<LivePlayback>>,
+    /// The figure comes into the stream from what it does, whatever the driver asked for.
+    begun: bool,
+}
+
+impl Window {
+    /// A window of `length` seconds for a figure with this body.
+    pub fn new(body: &Arc<crate::sim::body::Body>, length: f64) -> Self {
+        let motion = LiveMotion::new(Arc::clone(body), length);
+        Self {
+            length: motion.window(),
+            waiting: Some(Box::new(LivePlayback {
+                motion,
+                offset: 0.0,
+            })),
+            begun: false,
+        }
+    }
 }
 
 /// One driver with its figures.
@@ -139,6 +172,7 @@ impl Drive {
                         posture,
                         velocity: f.velocity,
                         planted,
+                        labelled: f.planted.is_some(),
                     },
                     time,
                 );
@@ -165,13 +199,14 @@ impl Drive {
                         applied_sequence: applied.map_or(-1, |a| a.0),
                         applied_source_ns: applied.map_or(0, |a| a.1),
                         buffered: s.buffer.buffered(),
-                        delay: s.buffer.delay(),
+                        delay: s.buffer.delay() + s.window.as_ref().map_or(0.0, |w| w.length),
                         jitter: s.buffer.jitter(),
                         supply: s.buffer.supply(),
                         ticks: counts.ticks,
                         late: counts.late,
                         stale: counts.stale,
                         overflow: counts.overflow,
+                        window: s.window.as_ref().map_or(0.0, |w| w.length),
                     }
                 })
                 .collect(),
@@ -179,7 +214,63 @@ impl Drive {
     }
 }
 
+impl Window {
+    /// Continues from what is asked of the figure now: a stream that begins elsewhere is moved there.
+    pub fn lead_in(&mut self, posture: &crate::sim::body::Posture) {
+        self.begun = true;
+        if let Some(live) = &mut self.waiting {
+            for _ in 0..LEAD_IN {
+                live.motion.push(posture, Some([true; 2]));
+            }
+        }
+    }
+}
+
 impl Slot {
+    /// Feeds the window with what is due in the tick from world time `time`; once there is enough of it, the figure follows. Returns the state
+    /// that the figure is to be put into, if its driver asked for that.
+    pub fn feed(&mut self, time: f64, figure: &mut Figure, reset: bool) -> Option<State> {
+        let window = self.window.as_mut()?;
+        let length = window.length;
+        if window.waiting.is_none() && figure.stream_mut().is_none() {
+            // It stopped in a silence: a stream that comes again begins from where the figure is.
+            if !self.buffer.has_news() {
+                self.buffer.feed(time, (RATE, length), |_| ());
+                return None;
+            }
+            *window = Window::new(&self.body, length);
+            window.lead_in(&figure.target().next.posture);
+        }
+        let waits = window.waiting.is_some();
+        let live = match &mut window.waiting {
+            Some(waiting) => waiting,
+            None => figure.stream_mut()?,
+        };
+        let motion = &mut live.motion;
+        let mut silent = false;
+        let (head, next) = self.buffer.feed(time, (RATE, length), |due| match due {
+            Due::Sample(posture, planted) => motion.push(posture, planted),
+            Due::Silence => silent = true,
+        })?;
+        if silent {
+            // It finishes its step and stands.
+            if !waits {
+                figure.stop(time);
+            }
+            return None;
+        }
+        live.offset = head - length + (motion.fed() - next) as f64 / RATE - time;
+        let begins = waits && live.stream_time(time) >= 0.0;
+        let mut live = window.waiting.take_if(|_| begins)?;
+        live.motion.advance(live.stream_time(time) + 1.0 / RATE);
+        let first = live.motion.sample(live.stream_time(time));
+        figure.set_drive(engine::Drive::Live(live));
+        (reset && !window.begun).then_some(State {
+            posture: first.posture,
+            velocity: first.velocity,
+        })
+    }
+
     /// The desired motion over the tick from world time `time`, and whether the figure is to be put into it at once.
     pub fn sample(&mut self, time: f64) -> Option<(TargetPair, bool)> {
         let pair = self.buffer.sample(time)?;

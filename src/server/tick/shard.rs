@@ -2,7 +2,7 @@
 //! [`Command`](super::command::Command)s that call these methods between ticks.
 
 use super::clock::Clock;
-use super::drives::{Drive, Slot};
+use super::drives::{Drive, Slot, Window};
 use crate::server::engine::{self, Clip, Drive as Motion, FigureKey, ObstacleKey, World};
 use crate::sim::body::{Body, State};
 use crate::sim::collide::{ObstacleSetup, Other};
@@ -25,6 +25,8 @@ pub struct Limits {
     pub figures: u64,
     /// Ticks that are held.
     pub history: usize,
+    /// Window of live motion for drivers that do not say, s; 0: none.
+    pub window: f64,
 }
 
 struct Member {
@@ -629,15 +631,16 @@ impl Shard {
 
     fn hold(&mut self, figure: &str) {
         let Ok(i) = self.member(figure) else { return };
+        let time = self.world.time();
         let m = &mut self.members[i];
         m.clip = None;
         if let Some(f) = self.world.figure_mut(m.key) {
-            let posture = f.target().next.posture;
-            f.set_drive(Motion::Hold(posture));
+            // It finishes its step and stands.
+            f.stop(time);
         }
     }
 
-    /// Lets a figure hold the posture that is asked of it now.
+    /// Lets a figure finish its step and stand, or hold the posture that is asked of it now if it stands already.
     pub fn stop(&mut self, figure: &str) -> Result<(), Fault> {
         self.working()?;
         self.member(figure)?;
@@ -688,10 +691,13 @@ impl Shard {
             let key = self.members[self.member(figure)?].key;
             let f = self.world.figure(key).expect("members are in the world");
             let stand = engine::standing(f.body(), Place::default());
+            let length = open.settings.window.unwrap_or(self.limits.window);
+            let window = (length > 0.0).then(|| Window::new(f.body(), length));
             slots.push(Slot {
                 figure: figure.clone(),
                 key: Some(key),
                 body: f.body().clone(),
+                window,
                 buffer: crate::server::ingest::jitter_buffer::JitterBuffer::new(
                     open.settings.clone(),
                     self.world.dt(),
@@ -699,6 +705,14 @@ impl Shard {
                     stand,
                 ),
             });
+        }
+        if !open.settings.reset {
+            for slot in &mut slots {
+                let f = slot.key.and_then(|k| self.world.figure(k));
+                if let (Some(f), Some(window)) = (f, &mut slot.window) {
+                    window.lead_in(&f.target().next.posture);
+                }
+            }
         }
         self.drives.push(Drive::new(
             driver.clone(),
@@ -801,6 +815,15 @@ impl Shard {
         for drive in &mut self.drives {
             for slot in &mut drive.slots {
                 let Some(key) = slot.key else { continue };
+                if slot.window.is_some() {
+                    let Some(f) = self.world.figure_mut(key) else {
+                        continue;
+                    };
+                    if let Some(state) = slot.feed(time, f, drive.settings.reset) {
+                        let _ = engine::reset(&mut self.world, key, state);
+                    }
+                    continue;
+                }
                 let Some((pair, reset)) = slot.sample(time) else {
                     continue;
                 };

@@ -205,6 +205,7 @@ impl Registry {
         let limits = Limits {
             figures: self.config.max_figures_per_world,
             history: self.config.history_ticks as usize,
+            window: self.config.live_window_ms / 1e3,
         };
         let mut shard = Shard::new(name.clone(), settings, paused, limits)?;
         let (commands, queue) = sync_channel(self.config.command_queue as usize);

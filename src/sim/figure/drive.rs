@@ -2,7 +2,7 @@
 
 use crate::sim::body::Posture;
 use crate::sim::motion::clip::{Clip, PlanarTransform};
-use crate::sim::motion::{Target, TargetPair};
+use crate::sim::motion::{LiveMotion, Target, TargetPair};
 use std::sync::Arc;
 
 /// A clip being played.
@@ -20,6 +20,22 @@ pub struct ClipPlayback {
     pub origin: PlanarTransform,
 }
 
+/// A stream that is prepared while it comes.
+#[derive(Clone, Debug)]
+pub struct LivePlayback {
+    /// The stream.
+    pub motion: LiveMotion,
+    /// Time of the stream minus world time, s. Whoever feeds it keeps it so that its window lies behind what has come.
+    pub offset: f64,
+}
+
+impl LivePlayback {
+    /// Time of the stream at world time `t`, s.
+    pub fn stream_time(&self, t: f64) -> f64 {
+        t + self.offset
+    }
+}
+
 /// Source of the desired motion.
 #[derive(Clone, Debug)]
 #[allow(clippy::large_enum_variant)] // one per figure; boxing a posture would only add a pointer chase
@@ -30,6 +46,8 @@ pub enum Drive {
     Clip(ClipPlayback),
     /// Whatever the caller sets before each step (live streams).
     External(Box<TargetPair>),
+    /// A stream with a window: its feet are locked, its balance is kept, and its steps follow events.
+    Live(Box<LivePlayback>),
 }
 
 impl ClipPlayback {
@@ -78,6 +96,10 @@ impl Drive {
                 next: play.sample(next),
             },
             Self::External(pair) => (**pair).clone(),
+            Self::Live(live) => TargetPair {
+                now: live.motion.sample(live.stream_time(now)),
+                next: live.motion.sample(live.stream_time(next)),
+            },
         }
     }
 }

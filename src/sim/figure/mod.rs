@@ -15,7 +15,7 @@ pub mod torque_step;
 pub mod touches;
 
 pub use constraints::{Constrained, Constraint, MAX_CONSTRAINTS};
-pub use drive::{ClipPlayback, Drive};
+pub use drive::{ClipPlayback, Drive, LivePlayback};
 pub use events::FigureEvent;
 pub use report::{Audit, ContactPoint, Flags, TickReport};
 pub use setup::{

@@ -4,7 +4,7 @@ use super::FigureKey;
 use super::assist::Assist;
 use super::balance::{BalanceWatch, Reach};
 use super::constraints::{Constraint, Constraints, MAX_CONSTRAINTS};
-use super::drive::Drive;
+use super::drive::{ClipPlayback, Drive, LivePlayback};
 use super::events::{FigureEvent, Watcher};
 use super::kinematic_step::{Decision, KinematicStepper, SPEED_CAP, other_part_arrives};
 use super::loads::Disturbances;
@@ -31,7 +31,8 @@ use crate::sim::control::{
 use crate::sim::dynamics::{Kinematics, Terms, center_of_mass};
 use crate::sim::gait::{Gait, Led, StepPlan};
 use crate::sim::math::Vec3;
-use crate::sim::motion::{Target, TargetPair};
+use crate::sim::motion::join::{self, RUN_UP};
+use crate::sim::motion::{PlanarTransform, Target, TargetPair};
 use crate::sim::strength::fatigue::Fatigue;
 use crate::sim::strength::{MuscleScale, Strength};
 use crate::sim::support::Support;
@@ -77,6 +78,9 @@ const FALLEN_STRENGTH: f64 = 0.3;
 const FALLEN_HORIZON: f64 = 0.3;
 /// Torques give back to prescribed accelerations after the figure has stood this long on flat feet with strength to spare, s.
 const CALM_TIME: f64 = 0.5;
+/// Samples that still play before a motion is led to a stand, and how far ahead a clip is looked at, s.
+const STOP_AHEAD: f64 = 0.8;
+const STOP_AFTER: usize = 3;
 /// A part rests on something that carries this share of the weight.
 const RESTS: f64 = 0.02;
 /// It stands again when its CoM is above this share of the standing height.
@@ -454,12 +458,17 @@ impl Figure {
 
     /// Desired motion of the tick: as the drive has it, or as its steps come out.
     fn desired(&mut self, time: f64, dt: f64) -> TargetPair {
+        if let Drive::Live(live) = &mut self.drive {
+            live.motion.advance(live.stream_time(time + dt));
+            self.gait.follow_stream(&live.motion);
+        }
         if !self.steps() {
             return self.drive.targets(time, dt);
         }
         let drive = &self.drive;
         let clip_time = |t: f64| match drive {
             Drive::Clip(play) => play.clip_time(t),
+            Drive::Live(live) => live.stream_time(t),
             _ => t,
         };
         self.gait
@@ -861,9 +870,61 @@ impl Figure {
                 let plan = StepPlan::new(&self.setup.body, &play.clip, play.looped);
                 Some((plan, play.speed, play.origin))
             }
+            Drive::Live(_) => Some((StepPlan::live(), 1.0, PlanarTransform::default())),
             _ => None,
         });
         self.drive = drive;
+    }
+    /// Comes to a stand from world time `time` on: a walk is ended by the steps that takes, everything else is held as it is. Plans like the
+    /// preparation of a clip does: some milliseconds, allocates.
+    pub fn stop(&mut self, time: f64) {
+        let from = time - self.gait.lag();
+        let (begin, so_far) = match &self.drive {
+            _ if !self.steps() || !self.gait.is_walking() => (0.0, Vec::new()),
+            Drive::Clip(play) => {
+                let count = (RUN_UP * join::RATE) as usize;
+                let at = |i: usize| from + (i as f64 - count as f64) / join::RATE;
+                let ahead = (STOP_AHEAD * join::RATE) as usize;
+                let so_far = (0..=count + ahead)
+                    .map(|i| play.sample(at(i)))
+                    .map(|t| (t.posture, t.planted))
+                    .collect();
+                (at(0), so_far)
+            }
+            Drive::Live(live) => {
+                let t = live.stream_time(from);
+                let (first, so_far) = live.motion.known(t - RUN_UP);
+                (from + first - t, so_far)
+            }
+            _ => (0.0, Vec::new()),
+        };
+        let now = ((from - begin) * join::RATE).max(0.0) as usize + STOP_AFTER;
+        let Some(clip) = join::stop(&self.setup.body, &so_far, now) else {
+            let posture = self.target.next.posture;
+            self.set_drive(Drive::Hold(posture));
+            return;
+        };
+        let before = match &self.drive {
+            Drive::Clip(play) => play.clip_time(begin),
+            Drive::Live(live) => live.stream_time(begin),
+            _ => 0.0,
+        };
+        let plan = StepPlan::new(&self.setup.body, &clip, false);
+        self.gait.go_on(plan, before);
+        self.drive = Drive::Clip(ClipPlayback {
+            clip: Arc::new(clip),
+            start: begin,
+            speed: 1.0,
+            looped: false,
+            origin: PlanarTransform::default(),
+        });
+    }
+    /// The stream that drives it with a window, if one does: to feed it.
+    pub fn stream_mut(&mut self) -> Option<&mut LivePlayback> {
+        match &mut self.drive {
+            Drive::Live(live) => Some(live),
+            _ => None,
+        }
     }
     /// Its steps.
     pub fn gait(&self) -> &Gait {

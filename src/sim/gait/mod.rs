@@ -19,7 +19,7 @@ use crate::sim::dynamics::Terms;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::builtin::at_ease;
 use crate::sim::motion::foot_lock::Sole;
-use crate::sim::motion::{PlanarTransform, Target, TargetPair};
+use crate::sim::motion::{LiveMotion, PlanarTransform, Target, TargetPair};
 use crate::sim::support::Support;
 use anchor::Anchor;
 
@@ -32,6 +32,9 @@ const EARLY: f64 = 0.06;
 /// A foot that finds no floor counts as planted after this time, s; until then it goes down at this speed, m/s.
 const LATE: f64 = 0.15;
 const LOWERING: f64 = 0.5;
+/// Rate at which a figure that is behind its stream makes up for it, and how far it may fall behind in a step of its own, s.
+const CATCH_UP: f64 = 1.05;
+const MOST_BEHIND: f64 = 0.5;
 /// Time over which a lifting foot gives up its offset from the plan, s.
 const RELEASE: f64 = 0.25;
 /// Part of a swing in which the foot is led to its displaced foothold.
@@ -190,6 +193,30 @@ impl Gait {
         self.reset();
     }
 
+    /// Goes on with another plan in the middle of a motion: feet, places and lag stay. The new plan's time 0 is time `begin` (s) of the present one;
+    /// its coordinates are those of the present motion where its origin puts it.
+    pub fn go_on(&mut self, plan: StepPlan, begin: f64) {
+        for foot in &mut self.feet {
+            foot.lifted = (foot.lifted - begin) / self.speed;
+        }
+        self.plan = Some(plan);
+        self.speed = 1.0;
+        self.origin = PlanarTransform::default();
+        self.ended = None;
+    }
+
+    /// True while it follows a motion that steps.
+    pub fn is_walking(&self) -> bool {
+        self.walks()
+    }
+
+    /// Takes over what is known now of the stream that is followed.
+    pub fn follow_stream(&mut self, motion: &LiveMotion) {
+        if let Some(plan) = &mut self.plan {
+            plan.refresh(motion);
+        }
+    }
+
     /// Forgets the past: the motion lies where it was planned.
     pub fn reset(&mut self) {
         self.anchor = Anchor::default();
@@ -214,8 +241,17 @@ impl Gait {
 
     /// Distance of the capture point from where a motion that steps has it, m; `None` while the figure follows no such motion.
     pub fn off_plan(&self) -> Option<f64> {
-        let walks = self.plan.is_some() && self.ended.is_none();
-        walks.then(|| self.capture.off())
+        self.walks().then(|| self.capture.off())
+    }
+
+    /// True while steps are made that a plan has. A stream that stands has none; a step that is under way already is finished first.
+    fn walks(&self) -> bool {
+        let stands = |p: &StepPlan| self.step.is_some() || p.rests(self.phase);
+        self.ended.is_none()
+            && self
+                .plan
+                .as_ref()
+                .is_some_and(|p| !(p.is_live() && stands(p)))
     }
 
     /// The foot that came down in this tick.
@@ -326,7 +362,12 @@ impl Gait {
 
     /// Contact by events: lifts feet when planned, plants them when they touch. Returns the rate at which the plan goes on.
     fn schedule(&mut self, terms: &Terms, dt: f64, sample: impl Fn() -> Target) -> f64 {
-        let mut rate = 1.0;
+        // A stream does not wait for its figure: what it is behind it makes up for.
+        let behind = self.lag > 0.0 && self.plan.as_ref().is_some_and(StepPlan::is_live);
+        let mut rate = if behind { CATCH_UP } else { 1.0 };
+        if self.step.is_some() {
+            return if self.lag < MOST_BEHIND { 0.0 } else { rate };
+        }
         let mut lifted = [false; 2];
         if !self.started {
             self.started = true;
@@ -434,7 +475,7 @@ impl Gait {
     ) -> Option<Balance> {
         self.capture
             .update(terms, tasks.com, support.polygon(), gravity, dt);
-        if self.plan.is_some() && self.ended.is_none() {
+        if self.walks() {
             for side in 0..2 {
                 self.lead_planned(terms, side, dt, &mut tasks.feet[side]);
             }
@@ -461,7 +502,7 @@ impl Gait {
     fn keep_headings(&self, terms: &Terms, feet: &mut [(PointTarget, RotationTarget); 2]) {
         for (side, (_, target)) in feet.iter_mut().enumerate() {
             let swings = self.step.is_some_and(|s| s.side == side)
-                || (self.plan.is_some() && self.ended.is_none() && !self.feet[side].down);
+                || (self.walks() && !self.feet[side].down);
             if swings {
                 continue;
             }

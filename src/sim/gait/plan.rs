@@ -7,6 +7,7 @@ use crate::sim::motion::Clip;
 use crate::sim::motion::clip::PlanarTransform;
 use crate::sim::motion::foot_lock::Sole;
 use crate::sim::motion::leg_ik::forward;
+use crate::sim::motion::live::{self, LiveMotion};
 
 /// A stance of one foot as the clip has it. Times in clip seconds, place and heading in clip coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -143,9 +144,55 @@ impl StepPlan {
         }
     }
 
+    /// The plan of a stream: nothing is known yet.
+    pub fn live() -> Self {
+        Self {
+            stances: std::array::from_fn(|_| Vec::with_capacity(live::MOST_STANCES)),
+            begin: 0.0,
+            duration: f64::INFINITY,
+            round: None,
+            lead: None,
+        }
+    }
+
+    /// True for the plan of a stream.
+    pub fn is_live(&self) -> bool {
+        self.duration == f64::INFINITY
+    }
+
+    /// What is known of a stream now. No allocation.
+    pub fn refresh(&mut self, motion: &LiveMotion) {
+        for (side, known) in self.stances.iter_mut().enumerate() {
+            known.clear();
+            let seconds = |sample: i64| (sample as f64 - 0.5) / live::RATE;
+            known.extend(motion.stances(side).map(|s| Footfall {
+                on: seconds(s.start),
+                off: if s.end == i64::MAX {
+                    f64::INFINITY
+                } else {
+                    seconds(s.end)
+                },
+                place: s.place,
+                yaw: s.yaw,
+            }));
+        }
+    }
+
+    /// True if it is the plan of a stream that stands on both feet at time `t` (s), has done so for a while and goes on doing so as far as is known.
+    pub fn rests(&self, t: f64) -> bool {
+        const BEFORE: f64 = 0.5;
+        const AFTER: f64 = 0.25;
+        self.is_live()
+            && (0..2).all(|side| {
+                self.current(side, t)
+                    .is_some_and(|f| f.on < t - BEFORE && f.off > t + AFTER)
+            })
+    }
+
     /// True if a foot leaves the floor anywhere.
     pub fn steps(&self) -> bool {
-        self.lead.as_ref().is_some_and(|l| l.steps())
+        self.is_live()
+            || self.lead.as_ref().is_some_and(|l| l.steps())
             || self
                 .stances
                 .iter()

@@ -26,6 +26,8 @@ pub struct MassTrack {
     pub omega2: Vec<f64>,
     /// Vertical ground force over weight.
     pub load: Vec<f64>,
+    /// What the ground has to give: force, N, and moment about the centre of mass, N·m.
+    pub wrench: Vec<(Vec3, Vec3)>,
 }
 
 /// Computes [`MassTrack`] by central differences of the postures.
@@ -65,6 +67,7 @@ pub fn mass_track(body: &Body, postures: &[Posture], rate_hz: f64) -> MassTrack 
         zmp: com.iter().map(|c| [c.x, c.y]).collect(),
         omega2: com.iter().map(|c| GRAVITY / c.z.max(0.2)).collect(),
         load: vec![1.0; n],
+        wrench: vec![(Vec3::Z * (mass * GRAVITY), Vec3::zero()); n],
         com,
     };
     if n < 5 {
@@ -76,6 +79,7 @@ pub fn mass_track(body: &Body, postures: &[Posture], rate_hz: f64) -> MassTrack 
         let rate = (momentum[i + 1] - momentum[i - 1]) * (0.5 / h);
         let force = mass * (GRAVITY + acc.z);
         out.load[i] = force / (mass * GRAVITY);
+        out.wrench[i] = ((acc + Vec3::Z * GRAVITY) * mass, rate - c.cross(acc) * mass);
         out.omega2[i] = ((GRAVITY + acc.z) / c.z.max(0.2)).clamp(3.0, 40.0);
         // Near flight there is no zero-moment point to speak of; the centre of mass stands in.
         if out.load[i] > LIGHT {
@@ -87,6 +91,7 @@ pub fn mass_track(body: &Body, postures: &[Posture], rate_hz: f64) -> MassTrack 
     for (i, from) in [(0, 2), (1, 2), (n - 2, n - 3), (n - 1, n - 3)] {
         let z = out.zmp[from];
         (out.zmp[i], out.omega2[i], out.load[i]) = (z, out.omega2[from], out.load[from]);
+        out.wrench[i] = out.wrench[from];
     }
     out
 }

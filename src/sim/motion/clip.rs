@@ -148,13 +148,30 @@ pub enum ClipError {
     },
 }
 
-/// Rates at a sample in the layout of a state's velocity, but with the pelvis's angular part in pelvis axes.
+/// A sample with its rates, in the layout of a state's velocity, but with the pelvis's angular part in pelvis axes.
 #[derive(Clone, Debug)]
-struct Knot {
-    posture: Posture,
-    first: [f64; NV],
-    second: [f64; NV],
-    planted: [bool; 2],
+pub(super) struct Knot {
+    /// Posture.
+    pub posture: Posture,
+    /// First derivative.
+    pub first: [f64; NV],
+    /// Second derivative.
+    pub second: [f64; NV],
+    /// Feet that the motion keeps on the floor.
+    pub planted: [bool; 2],
+}
+
+impl Knot {
+    /// Sample `i` of `postures`, `h` seconds apart, with rates from its neighbours. No allocation.
+    pub fn of(postures: &[Posture], i: usize, h: f64, planted: [bool; 2]) -> Self {
+        let (first, second) = differences(postures, i, h);
+        Self {
+            posture: postures[i],
+            first,
+            second,
+            planted,
+        }
+    }
 }
 
 /// The end of a loop: what brings the last posture to the first one, moved on by one loop.
@@ -219,15 +236,7 @@ impl Clip {
         }
         let h = 1.0 / rate_hz;
         let knots: Vec<Knot> = (0..count)
-            .map(|i| {
-                let (first, second) = differences(&postures, i, h);
-                Knot {
-                    posture: postures[i],
-                    first,
-                    second,
-                    planted: planted[i],
-                }
-            })
+            .map(|i| Knot::of(&postures, i, h, planted[i]))
             .collect();
         let mut clip = Self {
             name: name.to_owned(),
@@ -352,56 +361,8 @@ impl Clip {
         let Some(b) = self.knots.get(i + 1) else {
             return self.rest(i);
         };
-        let a = &self.knots[i];
-        let h = 1.0 / self.rate_hz;
         let u = (position - i as f64).clamp(0.0, 1.0);
-        let x = u * h;
-        let step = local_difference(&a.posture, &b.posture);
-        let mut target = Target {
-            posture: a.posture,
-            velocity: [0.0; NV],
-            acceleration: [0.0; NV],
-            planted: if u < 0.5 { a.planted } else { b.planted },
-        };
-        let fifth = |k: usize, end: [f64; 3]| {
-            chart::quintic(h, x, a.first[k], a.second[k], end[0], end[1], end[2])
-        };
-        for_each_part(|part| match part {
-            Part::Scalar(k) => {
-                let [p, v, w] = fifth(k, [step[k], b.first[k], b.second[k]]);
-                add_scalar(&mut target.posture, k, p);
-                target.velocity[k] = v;
-                target.acceleration[k] = w;
-            }
-            Part::Rotation { start, ball } => {
-                let phi = vector(ball, start, &step);
-                let (d1, a1) = chart::vector_rates(
-                    phi,
-                    vector(ball, start, &b.first),
-                    vector(ball, start, &b.second),
-                );
-                let (d0, a0) = (
-                    vector(ball, start, &a.first).to_array(),
-                    vector(ball, start, &a.second).to_array(),
-                );
-                let (phi, d1, a1) = (phi.to_array(), d1.to_array(), a1.to_array());
-                let curve: [[f64; 3]; 3] = std::array::from_fn(|c| {
-                    chart::quintic(h, x, d0[c], a0[c], phi[c], d1[c], a1[c])
-                });
-                let row = |r: usize| Vec3 {
-                    x: curve[0][r],
-                    y: curve[1][r],
-                    z: curve[2][r],
-                };
-                let (omega, alpha) = chart::rates(row(0), row(1), row(2));
-                let q = rotation_mut(&mut target.posture, ball);
-                *q = (*q * Quat::exp(row(0))).normalized();
-                set_vector(ball, start, omega, &mut target.velocity);
-                set_vector(ball, start, alpha, &mut target.acceleration);
-            }
-        });
-        turn_root_rates(&mut target);
-        target
+        between(&self.knots[i], b, 1.0 / self.rate_hz, u)
     }
 
     fn make_seam(&self) -> Option<Box<Seam>> {
@@ -458,6 +419,56 @@ impl Clip {
             end: ends,
         }))
     }
+}
+
+/// The motion at share `u` (0…1) of the `h` seconds from knot `a` to knot `b`. No allocation.
+pub(super) fn between(a: &Knot, b: &Knot, h: f64, u: f64) -> Target {
+    let x = u * h;
+    let step = local_difference(&a.posture, &b.posture);
+    let mut target = Target {
+        posture: a.posture,
+        velocity: [0.0; NV],
+        acceleration: [0.0; NV],
+        planted: if u < 0.5 { a.planted } else { b.planted },
+    };
+    let fifth = |k: usize, end: [f64; 3]| {
+        chart::quintic(h, x, a.first[k], a.second[k], end[0], end[1], end[2])
+    };
+    for_each_part(|part| match part {
+        Part::Scalar(k) => {
+            let [p, v, w] = fifth(k, [step[k], b.first[k], b.second[k]]);
+            add_scalar(&mut target.posture, k, p);
+            target.velocity[k] = v;
+            target.acceleration[k] = w;
+        }
+        Part::Rotation { start, ball } => {
+            let phi = vector(ball, start, &step);
+            let (d1, a1) = chart::vector_rates(
+                phi,
+                vector(ball, start, &b.first),
+                vector(ball, start, &b.second),
+            );
+            let (d0, a0) = (
+                vector(ball, start, &a.first).to_array(),
+                vector(ball, start, &a.second).to_array(),
+            );
+            let (phi, d1, a1) = (phi.to_array(), d1.to_array(), a1.to_array());
+            let curve: [[f64; 3]; 3] =
+                std::array::from_fn(|c| chart::quintic(h, x, d0[c], a0[c], phi[c], d1[c], a1[c]));
+            let row = |r: usize| Vec3 {
+                x: curve[0][r],
+                y: curve[1][r],
+                z: curve[2][r],
+            };
+            let (omega, alpha) = chart::rates(row(0), row(1), row(2));
+            let q = rotation_mut(&mut target.posture, ball);
+            *q = (*q * Quat::exp(row(0))).normalized();
+            set_vector(ball, start, omega, &mut target.velocity);
+            set_vector(ball, start, alpha, &mut target.acceleration);
+        }
+    });
+    turn_root_rates(&mut target);
+    target
 }
 
 impl Seam {

@@ -133,7 +133,12 @@ const LOW: f64 = 0.015;
 const SLOW: f64 = 0.3;
 
 /// Feet on the floor: the planted ones, and those that a former preparation set free because the leg could not hold them exactly.
-fn label(body: &Body, rate: f64, postures: &[Posture], planted: &[[bool; 2]]) -> Vec<[bool; 2]> {
+pub(super) fn label(
+    body: &Body,
+    rate: f64,
+    postures: &[Posture],
+    planted: &[[bool; 2]],
+) -> Vec<[bool; 2]> {
     let soles = [Sole::new(body, 0), Sole::new(body, 1)];
     let feet: Vec<[(Vec3, f64); 2]> = postures
         .iter()

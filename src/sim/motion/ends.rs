@@ -712,6 +712,16 @@ impl Draft {
         count
     }
 
+    /// Continues a draft of whole postures to a stand, wherever that is. Returns how many samples it took; none if it stands, sits or lies.
+    pub fn end_standing(&mut self, body: &Body) -> usize {
+        let after = tail(body, self, None);
+        let count = after.as_ref().map_or(0, |a| a.postures.len());
+        if let Some(after) = after {
+            self.append(after);
+        }
+        count
+    }
+
     /// Continues a draft of whole postures to a stand and lets it begin from one, where it does not stand, sit or lie anyway. Returns how
     /// many samples came before and after.
     pub fn add_ends(&mut self, body: &Body) -> (usize, usize) {

@@ -179,8 +179,25 @@ impl Sole {
         }
     }
 
-    /// Adds the floor polygon corners (x, y) that carry a foot standing at `at`: heel while not heel-up, toes while not toe-up.
-    pub fn footprint(&self, at: &Anchor, out: &mut Vec<[f64; 2]>) {
+    /// Middle of the front edge of the toes, toe frame, m.
+    pub fn toe_tip(&self) -> Vec3 {
+        let front = self.toes.iter().map(|p| p.x).fold(0.0, f64::max);
+        let low = self.toes.iter().map(|p| p.z).fold(0.0, f64::min);
+        Vec3 {
+            x: front,
+            y: 0.0,
+            z: low,
+        }
+    }
+
+    /// Heights of ankle, toe joint and toe tip of a foot that stands flat, m.
+    pub fn standing_heights(&self) -> [f64; 3] {
+        let joint = self.ankle_height + self.toe_joint.z;
+        [self.ankle_height, joint, joint + self.toe_tip().z]
+    }
+
+    /// Visits the floor polygon corners (x, y) that carry a foot standing at `at`: heel while not heel-up, toes while not toe-up.
+    pub fn each_corner(&self, at: &Anchor, mut visit: impl FnMut([f64; 2])) {
         let Anchor {
             place: anchor,
             yaw,
@@ -190,7 +207,7 @@ impl Sole {
         let ball = self.toe_joint.x;
         let mut push = |p: Vec3| {
             let w = anchor + heading.rotate(p);
-            out.push([w.x, w.y]);
+            visit([w.x, w.y]);
         };
         for p in &self.foot {
             let front = p.x > 0.5 * ball;
@@ -203,6 +220,11 @@ impl Sole {
                 push(self.toe_joint + *p);
             }
         }
+    }
+
+    /// Adds the corners of [`Self::each_corner`].
+    pub fn footprint(&self, at: &Anchor, out: &mut Vec<[f64; 2]>) {
+        self.each_corner(at, |p| out.push(p));
     }
 }
 
@@ -308,7 +330,7 @@ impl Track {
 }
 
 /// A quintic that takes value, slope and curvature to zero over unit time, at `u` in 0…1.
-fn fade(value: f64, slope: f64, curvature: f64, u: f64) -> f64 {
+pub(super) fn fade(value: f64, slope: f64, curvature: f64, u: f64) -> f64 {
     let v = 1.0 - u;
     let v3 = v * v * v;
     v3 * (value * (1.0 + 3.0 * u + 6.0 * u * u)

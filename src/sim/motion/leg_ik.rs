@@ -3,14 +3,14 @@
 //! A leg is a ball hip, a hinge knee and a ball ankle: the knee angle follows from the distance between hip and ankle (law of
 //! cosines, for any offsets between the joints), the hip points the leg at the ankle and turns the knee's hinge axis as near as it
 //! can to a given direction, the ankle does the rest. Every step is closed form, so the foot pose is met to rounding.
-//! This is offline preparation: it uses the platform's functions freely.
+//! Rounds alike everywhere: live streams are prepared within the tick.
 
 use crate::sim::body::topology::{
     DOF_AXIS, DOF_LEN, DOF_START, JOINT, Joint, L_FOOT, L_SHANK, L_THIGH, L_TOES, PARENT, R_FOOT,
     R_SHANK, R_THIGH, R_TOES, SEGMENT_COUNT,
 };
 use crate::sim::body::{Body, Posture, SegmentId};
-use crate::sim::math::{Mat3, Quat, Vec3};
+use crate::sim::math::{Mat3, Quat, Vec3, trig};
 
 /// What became of a leg target.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -162,11 +162,11 @@ pub(super) fn hinge_for_distance(a: Vec3, b: Vec3, n: Vec3, distance: f64) -> f6
     let (across_a, across_b) = (a - n * an, b - n * bn);
     let cosine_part = across_a.dot(across_b);
     let sine_part = across_a.dot(n.cross(across_b));
-    let amplitude = cosine_part.hypot(sine_part);
-    let stretched = sine_part.atan2(cosine_part);
+    let amplitude = (cosine_part * cosine_part + sine_part * sine_part).sqrt();
+    let stretched = trig::atan2(sine_part, cosine_part);
     let constant = a.dot(a) + b.dot(b) + 2.0 * an * bn;
     let cosine = ((distance * distance - constant) / (2.0 * amplitude)).clamp(-1.0, 1.0);
-    stretched + cosine.acos()
+    stretched + trig::atan2((1.0 - cosine * cosine).sqrt(), cosine)
 }
 
 /// Rotation that takes `reach` to the unit vector `direction` and turns `n` as near to `axis` as that leaves open (`spare` where

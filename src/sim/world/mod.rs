@@ -5,7 +5,9 @@ mod validate;
 
 pub use collisions::CollisionReport;
 
-pub use crate::sim::figure::{ClipPlayback, Drive, Figure, FigureEvent, FigureKey, FigureSetup};
+pub use crate::sim::figure::{
+    ClipPlayback, Drive, Figure, FigureEvent, FigureKey, FigureSetup, LivePlayback,
+};
 
 use crate::sim::body::{SegmentId, State};
 use crate::sim::collide::{MAX_OBSTACLES, Obstacle, ObstacleKey, ObstacleSetup};

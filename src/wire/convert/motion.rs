@@ -187,8 +187,21 @@ pub fn drive_open(field: &str, h: &pb::DriveHeader) -> Result<DriveOpen, Fault> 
             hold: ms("hold_limit_ms", h.hold_limit_ms, 5000.0, 600_000.0)?,
             grace: ms("grace_ms", h.grace_ms, 5000.0, 60_000.0)?,
             reset: h.reset,
+            window: h
+                .preparation_window_ms
+                .map(|w| window(&at("preparation_window_ms"), w))
+                .transpose()?,
         },
     })
+}
+
+/// A window in ms as seconds: none, or one that is long enough to be of use.
+fn window(field: &str, ms: f64) -> Result<f64, Fault> {
+    let (least, most) = crate::sim::motion::live::WINDOW;
+    if ms == 0.0 {
+        return Ok(0.0);
+    }
+    within(field, ms, least * 1e3, most * 1e3).map(|w| w / 1e3)
 }
 
 /// Desired motion of one figure.
@@ -429,6 +442,7 @@ pub fn feedback_out(f: &Feedback) -> pb::DriveFeedback {
                 late_count: g.late as i64,
                 stale_count: g.stale as i64,
                 overflow_count: g.overflow as i64,
+                preparation_window_ms: g.window * 1e3,
             })
             .collect(),
     }

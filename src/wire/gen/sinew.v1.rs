@@ -2612,7 +2612,7 @@ pub struct StopClipRequest {
     #[prost(string, tag = "1")]
     pub figure: ::prost::alloc::string::String,
 }
-/// The figure holds its posture.
+/// The figure stands, or comes to a stand.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct StopClipResponse {}
 /// Rotation of one bone.
@@ -2701,6 +2701,11 @@ pub struct DriveHeader {
     /// Puts each figure into its first desired posture when the drive begins. Default: false, it moves there by itself.
     #[prost(bool, tag = "11")]
     pub reset: bool,
+    /// How far behind the newest frame motion is prepared for the body, ms: 0, or 300…1000. Within this window planted feet are locked, swings
+    /// clear the floor and the zero-moment point is brought over the feet, so that a stream may walk; steps then follow events. It is added to
+    /// the playout delay. 0 uses frames as they come, without that delay, for streams that stand. Absent: the server's `live_window_ms`.
+    #[prost(double, optional, tag = "12")]
+    pub preparation_window_ms: ::core::option::Option<f64>,
 }
 /// Batch of desired motion.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -2787,7 +2792,7 @@ pub struct FigureFeedback {
     /// Desired motion that is held but not used yet, ms.
     #[prost(double, tag = "4")]
     pub buffered_ms: f64,
-    /// Delay between arrival and use at present, ms.
+    /// Delay between arrival and use at present, with the preparation window, ms.
     #[prost(double, tag = "5")]
     pub playout_delay_ms: f64,
     /// Measured arrival jitter, p99 of the last frames, ms.
@@ -2820,6 +2825,9 @@ pub struct FigureFeedback {
     /// Frames dropped because the buffer was full.
     #[prost(int64, tag = "15")]
     pub overflow_count: i64,
+    /// Length of the window in which motion is prepared, ms; contained in `playout_delay_ms`. 0: frames are used as they come.
+    #[prost(double, tag = "16")]
+    pub preparation_window_ms: f64,
 }
 /// What a bone rotation is relative to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
@@ -3153,7 +3161,7 @@ pub mod motion_service_client {
                 .insert(GrpcMethod::new("sinew.v1.MotionService", "PlayClip"));
             self.inner.unary(req, path, codec).await
         }
-        /// Lets a figure hold the posture that is asked of it now.
+        /// Ends a clip: a figure that walks finishes its step and comes to a stand, any other holds the posture that is asked of it now.
         pub async fn stop_clip(
             &mut self,
             request: impl tonic::IntoRequest<super::StopClipRequest>,
@@ -3283,7 +3291,7 @@ pub mod motion_service_server {
             tonic::Response<super::PlayClipResponse>,
             tonic::Status,
         >;
-        /// Lets a figure hold the posture that is asked of it now.
+        /// Ends a clip: a figure that walks finishes its step and comes to a stand, any other holds the posture that is asked of it now.
         async fn stop_clip(
             &self,
             request: tonic::Request<super::StopClipRequest>,

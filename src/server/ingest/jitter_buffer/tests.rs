@@ -13,6 +13,7 @@ fn settings(delay: Delay) -> DriveSettings {
         hold: 0.5,
         grace: 5.0,
         reset: true,
+        window: None,
     }
 }
 
@@ -33,6 +34,7 @@ fn frame(i: i64, with_velocity: bool) -> Frame {
         posture,
         velocity: with_velocity.then_some(v),
         planted: [true; 2],
+        labelled: false,
     }
 }
 

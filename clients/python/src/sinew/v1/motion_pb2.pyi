@@ -591,7 +591,7 @@ Global___StopClipRequest: _TypeAlias = StopClipRequest  # noqa: Y015
 
 @_typing.final
 class StopClipResponse(_message.Message):
-    """The figure holds its posture."""
+    """The figure stands, or comes to a stand."""
 
     DESCRIPTOR: _descriptor.Descriptor
 
@@ -739,6 +739,7 @@ class DriveHeader(_message.Message):
     HOLD_LIMIT_MS_FIELD_NUMBER: _builtins.int
     GRACE_MS_FIELD_NUMBER: _builtins.int
     RESET_FIELD_NUMBER: _builtins.int
+    PREPARATION_WINDOW_MS_FIELD_NUMBER: _builtins.int
     world: _builtins.str
     """World: resource name `worlds/{world}`."""
     driver_id: _builtins.str
@@ -763,6 +764,11 @@ class DriveHeader(_message.Message):
     """How long the figures are kept for this driver after its connection is lost or after its last push, ms, 0…60000. Absent: 5000."""
     reset: _builtins.bool
     """Puts each figure into its first desired posture when the drive begins. Default: false, it moves there by itself."""
+    preparation_window_ms: _builtins.float
+    """How far behind the newest frame motion is prepared for the body, ms: 0, or 300…1000. Within this window planted feet are locked, swings
+    clear the floor and the zero-moment point is brought over the feet, so that a stream may walk; steps then follow events. It is added to
+    the playout delay. 0 uses frames as they come, without that delay, for streams that stand. Absent: the server's `live_window_ms`.
+    """
     @_builtins.property
     def figures(self) -> _containers.RepeatedScalarFieldContainer[_builtins.str]:
         """Figures that are driven: last parts of their names. At least one."""
@@ -781,10 +787,11 @@ class DriveHeader(_message.Message):
         hold_limit_ms: _builtins.float | None = ...,
         grace_ms: _builtins.float | None = ...,
         reset: _builtins.bool = ...,
+        preparation_window_ms: _builtins.float | None = ...,
     ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _typing.Literal["_extrapolation_limit_ms", b"_extrapolation_limit_ms", "_grace_ms", b"_grace_ms", "_hold_limit_ms", b"_hold_limit_ms", "_playout_delay_ms", b"_playout_delay_ms", "extrapolation_limit_ms", b"extrapolation_limit_ms", "grace_ms", b"grace_ms", "hold_limit_ms", b"hold_limit_ms", "playout_delay_ms", b"playout_delay_ms"]  # noqa: Y015
+    _HasFieldArgType: _TypeAlias = _typing.Literal["_extrapolation_limit_ms", b"_extrapolation_limit_ms", "_grace_ms", b"_grace_ms", "_hold_limit_ms", b"_hold_limit_ms", "_playout_delay_ms", b"_playout_delay_ms", "_preparation_window_ms", b"_preparation_window_ms", "extrapolation_limit_ms", b"extrapolation_limit_ms", "grace_ms", b"grace_ms", "hold_limit_ms", b"hold_limit_ms", "playout_delay_ms", b"playout_delay_ms", "preparation_window_ms", b"preparation_window_ms"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["_extrapolation_limit_ms", b"_extrapolation_limit_ms", "_grace_ms", b"_grace_ms", "_hold_limit_ms", b"_hold_limit_ms", "_playout_delay_ms", b"_playout_delay_ms", "driver_id", b"driver_id", "extrapolation_limit_ms", b"extrapolation_limit_ms", "figures", b"figures", "grace_ms", b"grace_ms", "hold_limit_ms", b"hold_limit_ms", "max_playout_delay_ms", b"max_playout_delay_ms", "nominal_rate_hz", b"nominal_rate_hz", "playout_delay_ms", b"playout_delay_ms", "reset", b"reset", "underrun", b"underrun", "world", b"world"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_extrapolation_limit_ms", b"_extrapolation_limit_ms", "_grace_ms", b"_grace_ms", "_hold_limit_ms", b"_hold_limit_ms", "_playout_delay_ms", b"_playout_delay_ms", "_preparation_window_ms", b"_preparation_window_ms", "driver_id", b"driver_id", "extrapolation_limit_ms", b"extrapolation_limit_ms", "figures", b"figures", "grace_ms", b"grace_ms", "hold_limit_ms", b"hold_limit_ms", "max_playout_delay_ms", b"max_playout_delay_ms", "nominal_rate_hz", b"nominal_rate_hz", "playout_delay_ms", b"playout_delay_ms", "preparation_window_ms", b"preparation_window_ms", "reset", b"reset", "underrun", b"underrun", "world", b"world"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     _WhichOneofReturnType__extrapolation_limit_ms: _TypeAlias = _typing.Literal["extrapolation_limit_ms"]  # noqa: Y015
     _WhichOneofArgType__extrapolation_limit_ms: _TypeAlias = _typing.Literal["_extrapolation_limit_ms", b"_extrapolation_limit_ms"]  # noqa: Y015
@@ -794,6 +801,8 @@ class DriveHeader(_message.Message):
     _WhichOneofArgType__hold_limit_ms: _TypeAlias = _typing.Literal["_hold_limit_ms", b"_hold_limit_ms"]  # noqa: Y015
     _WhichOneofReturnType__playout_delay_ms: _TypeAlias = _typing.Literal["playout_delay_ms"]  # noqa: Y015
     _WhichOneofArgType__playout_delay_ms: _TypeAlias = _typing.Literal["_playout_delay_ms", b"_playout_delay_ms"]  # noqa: Y015
+    _WhichOneofReturnType__preparation_window_ms: _TypeAlias = _typing.Literal["preparation_window_ms"]  # noqa: Y015
+    _WhichOneofArgType__preparation_window_ms: _TypeAlias = _typing.Literal["_preparation_window_ms", b"_preparation_window_ms"]  # noqa: Y015
     @_typing.overload
     def WhichOneof(self, oneof_group: _WhichOneofArgType__extrapolation_limit_ms) -> _WhichOneofReturnType__extrapolation_limit_ms | None: ...
     @_typing.overload
@@ -802,6 +811,8 @@ class DriveHeader(_message.Message):
     def WhichOneof(self, oneof_group: _WhichOneofArgType__hold_limit_ms) -> _WhichOneofReturnType__hold_limit_ms | None: ...
     @_typing.overload
     def WhichOneof(self, oneof_group: _WhichOneofArgType__playout_delay_ms) -> _WhichOneofReturnType__playout_delay_ms | None: ...
+    @_typing.overload
+    def WhichOneof(self, oneof_group: _WhichOneofArgType__preparation_window_ms) -> _WhichOneofReturnType__preparation_window_ms | None: ...
 
 Global___DriveHeader: _TypeAlias = DriveHeader  # noqa: Y015
 
@@ -1000,6 +1011,7 @@ class FigureFeedback(_message.Message):
     LATE_COUNT_FIELD_NUMBER: _builtins.int
     STALE_COUNT_FIELD_NUMBER: _builtins.int
     OVERFLOW_COUNT_FIELD_NUMBER: _builtins.int
+    PREPARATION_WINDOW_MS_FIELD_NUMBER: _builtins.int
     figure: _builtins.str
     """Last part of the figure's name."""
     applied_sequence: _builtins.int
@@ -1009,7 +1021,7 @@ class FigureFeedback(_message.Message):
     buffered_ms: _builtins.float
     """Desired motion that is held but not used yet, ms."""
     playout_delay_ms: _builtins.float
-    """Delay between arrival and use at present, ms."""
+    """Delay between arrival and use at present, with the preparation window, ms."""
     jitter_ms: _builtins.float
     """Measured arrival jitter, p99 of the last frames, ms."""
     supply: Global___Supply.ValueType
@@ -1030,6 +1042,8 @@ class FigureFeedback(_message.Message):
     """Frames dropped because they were not newer than what was there."""
     overflow_count: _builtins.int
     """Frames dropped because the buffer was full."""
+    preparation_window_ms: _builtins.float
+    """Length of the window in which motion is prepared, ms; contained in `playout_delay_ms`. 0: frames are used as they come."""
     def __init__(
         self,
         *,
@@ -1048,10 +1062,11 @@ class FigureFeedback(_message.Message):
         late_count: _builtins.int = ...,
         stale_count: _builtins.int = ...,
         overflow_count: _builtins.int = ...,
+        preparation_window_ms: _builtins.float = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["applied_sequence", b"applied_sequence", "applied_source_time_ns", b"applied_source_time_ns", "buffered_ms", b"buffered_ms", "extrapolated_count", b"extrapolated_count", "figure", b"figure", "held_count", b"held_count", "interpolated_count", b"interpolated_count", "jitter_ms", b"jitter_ms", "late_count", b"late_count", "overflow_count", b"overflow_count", "playout_delay_ms", b"playout_delay_ms", "present_count", b"present_count", "relaxed_count", b"relaxed_count", "stale_count", b"stale_count", "supply", b"supply"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["applied_sequence", b"applied_sequence", "applied_source_time_ns", b"applied_source_time_ns", "buffered_ms", b"buffered_ms", "extrapolated_count", b"extrapolated_count", "figure", b"figure", "held_count", b"held_count", "interpolated_count", b"interpolated_count", "jitter_ms", b"jitter_ms", "late_count", b"late_count", "overflow_count", b"overflow_count", "playout_delay_ms", b"playout_delay_ms", "preparation_window_ms", b"preparation_window_ms", "present_count", b"present_count", "relaxed_count", b"relaxed_count", "stale_count", b"stale_count", "supply", b"supply"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 

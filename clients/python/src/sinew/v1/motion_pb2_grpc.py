@@ -117,7 +117,7 @@ class MotionServiceServicer:
         raise NotImplementedError('Method not implemented!')
 
     def StopClip(self, request, context):
-        """Lets a figure hold the posture that is asked of it now.
+        """Ends a clip: a figure that walks finishes its step and comes to a stand, any other holds the posture that is asked of it now.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')

@@ -44,7 +44,7 @@ class MotionServiceStub:
     PlayClip: _grpc.UnaryUnaryMultiCallable[_motion_pb2.PlayClipRequest, _motion_pb2.PlayClipResponse]
     """Lets a figure play a clip. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it live."""
     StopClip: _grpc.UnaryUnaryMultiCallable[_motion_pb2.StopClipRequest, _motion_pb2.StopClipResponse]
-    """Lets a figure hold the posture that is asked of it now."""
+    """Ends a clip: a figure that walks finishes its step and comes to a stand, any other holds the posture that is asked of it now."""
     PushMotion: _grpc.UnaryUnaryMultiCallable[_motion_pb2.PushMotionRequest, _motion_pb2.PushMotionResponse]
     """A batch of live desired motion: the unary twin of `DriveFigures`."""
     DriveFigures: _grpc.StreamStreamMultiCallable[_motion_pb2.DriveFiguresRequest, _motion_pb2.DriveFiguresResponse]
@@ -68,7 +68,7 @@ class MotionServiceAsyncStub(MotionServiceStub):
     PlayClip: _aio.UnaryUnaryMultiCallable[_motion_pb2.PlayClipRequest, _motion_pb2.PlayClipResponse]  # type: ignore[assignment]
     """Lets a figure play a clip. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it live."""
     StopClip: _aio.UnaryUnaryMultiCallable[_motion_pb2.StopClipRequest, _motion_pb2.StopClipResponse]  # type: ignore[assignment]
-    """Lets a figure hold the posture that is asked of it now."""
+    """Ends a clip: a figure that walks finishes its step and comes to a stand, any other holds the posture that is asked of it now."""
     PushMotion: _aio.UnaryUnaryMultiCallable[_motion_pb2.PushMotionRequest, _motion_pb2.PushMotionResponse]  # type: ignore[assignment]
     """A batch of live desired motion: the unary twin of `DriveFigures`."""
     DriveFigures: _aio.StreamStreamMultiCallable[_motion_pb2.DriveFiguresRequest, _motion_pb2.DriveFiguresResponse]  # type: ignore[assignment]
@@ -125,7 +125,7 @@ class MotionServiceServicer(metaclass=_abc_1.ABCMeta):
         request: _motion_pb2.StopClipRequest,
         context: _ServicerContext,
     ) -> _typing.Union[_motion_pb2.StopClipResponse, _abc.Awaitable[_motion_pb2.StopClipResponse]]:
-        """Lets a figure hold the posture that is asked of it now."""
+        """Ends a clip: a figure that walks finishes its step and comes to a stand, any other holds the posture that is asked of it now."""
 
     @_abc_1.abstractmethod
     def PushMotion(

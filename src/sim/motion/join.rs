@@ -1,0 +1,182 @@
+//! From one motion into another while it goes on: into a stand, or into a clip at the place where that looks most alike.
+//!
+//! The seam is a draft like any other: what was planned so far, then what comes, prepared together so that feet are locked and the
+//! zero-moment point is kept across it. Planned once when a figure is told to do something else; allocates, some milliseconds.
+
+use super::clip::{Clip, PlanarTransform};
+use super::consistency::consistency;
+use super::cycle::label;
+use super::foot_lock::{fade, turn, yaw_pitch};
+use super::prepare::{Draft, PrepareOptions, prepare};
+use crate::sim::body::{Body, Posture};
+
+/// Samples per second of what is planned here.
+pub const RATE: f64 = 60.0;
+/// Time of the motion so far that takes part in the seam, s.
+pub const RUN_UP: f64 = 1.4;
+/// Rates count this much against angles, s; moments are alike up to this unlikeness, rad rms; a step is at least so many samples long.
+const RATE_SHARE: f64 = 0.05;
+const ALIKE: f64 = 0.3;
+const LEAST_BACK: usize = 48;
+/// Time over which one motion turns into another, s.
+const BLEND: f64 = 0.3;
+/// How far ahead it is looked for a place to stop, s, and samples between the places that are tried.
+const STEP: f64 = 0.55;
+const APART: usize = 14;
+/// Time of the motion so far that is prepared with its end, s.
+const TAKES_PART: f64 = 0.4;
+/// Samples per second of what is prepared.
+const FINE: f64 = 2.0 * RATE;
+
+const HOW: PrepareOptions = PrepareOptions {
+    lock_feet: true,
+    balance: true,
+};
+
+/// Ends a motion by the steps that bring it to a stand. `None` if it stands, sits or lies anyway. Time 0 of the clip is the first sample given.
+///
+/// * `known`: the motion so far and as far ahead as it is known, samples at [`RATE`]; it goes on at least up to sample `now`.
+///
+/// Several moments of the step to come are tried as the beginning of the end, and the one that asks least of the ground is taken.
+pub fn stop(body: &Body, known: &[(Posture, [bool; 2])], now: usize) -> Option<Clip> {
+    if known.len() < 4 {
+        return None;
+    }
+    let (known, now) = (&finer(known)?[..], 2 * now);
+    let (mut postures, planted): (Vec<_>, Vec<_>) = known.iter().copied().unzip();
+    let mut label = label(body, FINE, &postures, &planted);
+    if (now..label.len()).all(|i| label[i] != [true; 2]) {
+        finish_step(&mut postures, &mut label);
+    }
+    // Where in a step a body can be stopped best shows only when it is worked out.
+    let last = postures.len() - 1;
+    let latest = (now + (STEP * FINE) as usize).min(last);
+    (now.min(last)..=latest)
+        .step_by(APART)
+        .filter_map(|end| ending(body, known, (&postures, &label), (now, end)))
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, clip)| clip)
+}
+
+/// The motion up to sample `end`, then to a stand, and how hard that is for a body.
+fn ending(
+    body: &Body,
+    known: &[(Posture, [bool; 2])],
+    (postures, label): (&[Posture], &[[bool; 2]]),
+    (now, end): (usize, usize),
+) -> Option<(f64, Clip)> {
+    // What was long ago has no part in it.
+    let cut = now.saturating_sub((TAKES_PART * FINE) as usize);
+    let part = (postures[cut..=end].to_vec(), label[cut..=end].to_vec());
+    let mut draft = Draft::of_postures(body, FINE, part.0, part.1);
+    if draft.end_standing(body) == 0 {
+        return None;
+    }
+    let mut whole = prepare(body, &draft, HOW);
+    hold_on(&mut whole.postures, &known[cut..], now - cut);
+    let from = (now - cut).saturating_sub(4);
+    let asks = consistency(body, &whole.postures[from..], &draft.label[from..], FINE);
+    let (mut all, mut planted): (Vec<_>, Vec<_>) = known[..cut].iter().copied().unzip();
+    all.extend(whole.postures);
+    planted.extend(whole.planted);
+    let clip = Clip::from_postures("stop", FINE, all, planted).ok()?;
+    Some((asks.force.rms + asks.moment.rms, clip))
+}
+
+/// The same motion with as many samples again in between.
+fn finer(known: &[(Posture, [bool; 2])]) -> Option<Vec<(Posture, [bool; 2])>> {
+    let (postures, planted) = known.iter().copied().unzip();
+    let clip = Clip::from_postures("", RATE, postures, planted).ok()?;
+    let count = 2 * (known.len() - 1);
+    let at = |i: usize| clip.sample(i as f64 / FINE);
+    Some(
+        (0..=count)
+            .map(|i| {
+                let t = at(i);
+                (t.posture, t.planted)
+            })
+            .collect(),
+    )
+}
+
+/// What is played already stays as it was: the difference that preparation makes to the samples `before` up to `now` grows in after that.
+fn hold_on(postures: &mut [Posture], before: &[(Posture, [bool; 2])], now: usize) {
+    if now < 1 || now >= postures.len().min(before.len()) {
+        return;
+    }
+    let off = |i: usize| postures[i].difference(&before[i].0);
+    let (last, off) = (off(now - 1), off(now));
+    let span = BLEND * FINE;
+    for (p, b) in postures.iter_mut().zip(before).take(now) {
+        *p = b.0;
+    }
+    for (i, p) in postures.iter_mut().enumerate().skip(now) {
+        let u = (i - now) as f64 / span;
+        if u >= 1.0 {
+            break;
+        }
+        let left: Vec<f64> = (0..off.len())
+            .map(|k| fade(off[k], (off[k] - last[k]) * span, 0.0, u))
+            .collect();
+        let mut e = off;
+        e.copy_from_slice(&left);
+        p.integrate(&e, 1.0);
+    }
+}
+
+/// Goes on with a motion that breaks off in mid-step as it went on the last time that it was like that, until both feet stand. Does nothing
+/// where it never was.
+fn finish_step(postures: &mut Vec<Posture>, label: &mut Vec<[bool; 2]>) {
+    let end = postures.len() - 1;
+    let rates = |i: usize| postures[i - 1].joint_difference(&postures[i]);
+    let last = rates(end);
+    let unlike = |i: usize| -> f64 {
+        let angles = postures[i].joint_difference(&postures[end]);
+        let rates = rates(i);
+        let sum: f64 = (0..angles.len())
+            .map(|k| angles[k].powi(2) + (RATE_SHARE * FINE * (rates[k] - last[k])).powi(2))
+            .sum();
+        (sum / angles.len() as f64).sqrt()
+    };
+    let best = (1..end.saturating_sub(LEAST_BACK))
+        .filter(|i| label[*i] == label[end])
+        .map(|i| (unlike(i), i))
+        .min_by(|a, b| a.0.total_cmp(&b.0));
+    let Some((_, from)) = best.filter(|(u, _)| *u < ALIKE) else {
+        return;
+    };
+    let moved = between(&postures[from], &postures[end]);
+    let placed = |p: &Posture| {
+        let mut p = *p;
+        moved.apply_posture(&mut p);
+        p
+    };
+    let off = placed(&postures[from]).difference(&postures[end]);
+    for i in from + 1..=end {
+        let u = ((i - from) as f64 / (BLEND * FINE)).min(1.0);
+        let s = 1.0 - u * u * u * (10.0 - 15.0 * u + 6.0 * u * u);
+        let mut p = placed(&postures[i]);
+        p.integrate(&off.map(|e| e * s), 1.0);
+        postures.push(p);
+        label.push(label[i]);
+        if label[i] == [true; 2] {
+            return;
+        }
+    }
+}
+
+/// What moves a posture to the place and heading of another one.
+pub fn between(from: &Posture, to: &Posture) -> PlanarTransform {
+    let heading = |p: &Posture| yaw_pitch(p.root_rotation).0;
+    let turn = PlanarTransform {
+        x: 0.0,
+        y: 0.0,
+        yaw: turn(heading(from), heading(to)),
+    };
+    let at = turn.point(from.root_position);
+    PlanarTransform {
+        x: to.root_position.x - at.x,
+        y: to.root_position.y - at.y,
+        ..turn
+    }
+}

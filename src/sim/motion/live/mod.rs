@@ -1,0 +1,747 @@
+//! A stream made into a motion that a body can follow, while it comes (WALKING §1, sliding window).
+//!
+//! What [`prepare`](super::prepare) does with a whole clip happens here sample by sample, a window behind the newest one: smoothing,
+//! labels of planted feet, foot lock, swings that clear the floor and meet the next foothold, a pelvis that both legs reach, and the
+//! shift of the trunk that keeps the zero-moment point over the feet, solved over the window again with every sample. Memory is a ring,
+//! time per sample is bounded, nothing allocates. Rounds alike everywhere: it is part of the tick.
+//!
+//! Places of a sample on its way, in samples behind the newest: smoothed (`SMOOTH`), labelled and balanced (`LABEL`), feet posed (`POSED`
+//! before the output), put out (the window).
+
+mod foot;
+mod polygon;
+
+use super::clip::{Knot, PlanarTransform, between};
+use super::foot_lock::{FootPose, Sole};
+use super::leg_ik::{center_of_mass, forward, knee_axis, solve_leg_in_plane};
+use super::target::Target;
+use crate::sim::body::angles::clamp_to_limits;
+use crate::sim::body::topology::{
+    L_FOOT, L_THIGH, L_TOES, NV, R_FOOT, R_THIGH, R_TOES, SEGMENT_COUNT,
+};
+use crate::sim::body::{Body, Posture};
+use crate::sim::math::exp::exp;
+use crate::sim::math::{Quat, Vec3, trig};
+use foot::Foot;
+pub use foot::Stance;
+use polygon::Polygon;
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+/// Samples per second of the grid that a stream is prepared on.
+pub const RATE: f64 = 60.0;
+/// Shortest and longest window, s.
+pub const WINDOW: (f64, f64) = (0.3, 1.0);
+/// Most stances of a foot that are known at a time.
+pub const MOST_STANCES: usize = foot::STANCES + 1;
+const H: f64 = 1.0 / RATE;
+/// Standard gravity, m/s².
+const GRAVITY: f64 = 9.81;
+
+/// Half width of the smoothing, samples, and its standard deviation: the amplitude is half at 7 Hz.
+const SMOOTH: i64 = 4;
+const SIGMA: f64 = 1.6;
+/// A foot is labelled as on the floor or off it once it has been so for this many samples.
+pub(super) const STEADY: i64 = 4;
+/// Samples between the newest one and the one that is labelled.
+const LABEL: i64 = SMOOTH + 1 + STEADY;
+/// Samples between the one whose feet are posed and the output: clearance and pelvis height are smooth over them.
+const POSED: i64 = 2;
+/// Samples behind the output that balance looks back on, and that a figure which is late may still ask for.
+const PAST: i64 = 90;
+/// The zero-moment point is kept this far inside the soles, m.
+const INSET: f64 = 0.03;
+/// How much farther the pelvis moves than the centre of mass: the feet stay.
+const LEAD: f64 = 1.15;
+/// Share by which the shift turns to the newest solution per sample: an error dies away as fast as it would grow by itself.
+const TURN: f64 = 0.1;
+/// Most shift of the centre of mass, m, and largest distance of a zero-moment point that is corrected at all.
+const MOST_SHIFT: f64 = 0.12;
+const MOST_OFF: f64 = 0.3;
+/// Outside by this much for about a second, m: something other than the feet carries the body.
+const CARRIED: f64 = 0.15;
+/// A leg reaches this share of its length; for a swinging one the pelvis is lowered by no more than this, m.
+const REACH: f64 = 0.98;
+const SWING_DROP: f64 = 0.04;
+/// How fast a lowered pelvis comes up again, m/s, and how fast it goes down, 1/s.
+const FORGET: f64 = 0.01;
+const STIFF: f64 = 8.0;
+/// A pelvis below this share of standing height is not one that stands on feet.
+const UPRIGHT: f64 = 0.45;
+/// Angles are kept this far from their limits, rad.
+const LIMIT_MARGIN: f64 = 0.005;
+/// A stream that is this far from where its last samples were leading has jumped: joints and tilt, rad; pelvis, m.
+const JUMP: (f64, f64) = (0.25, 0.06);
+/// So many coordinates of the joints jump together.
+const SEVERAL: usize = 4;
+/// Time over which a jump is spread, s.
+const FADE: f64 = 0.4;
+/// Samples that may wait to be prepared: ten seconds.
+pub const MOST_PENDING: usize = 600;
+
+/// Lowering of the pelvis: as low as was needed in the last seconds, so that it does not add to the ups and downs of the gait.
+#[derive(Clone, Copy, Debug, Default)]
+struct Drop {
+    /// What is needed, forgotten slowly, m.
+    needed: f64,
+    at: f64,
+    speed: f64,
+}
+
+impl Drop {
+    /// Takes the next need; the first one holds at once.
+    fn take(&mut self, need: f64, first: bool) {
+        if first {
+            (self.needed, self.at) = (need, need);
+        }
+        self.needed = need.min(self.needed + FORGET * H).min(0.0);
+        let pull = STIFF * STIFF * (self.needed - self.at) - 2.0 * STIFF * self.speed;
+        self.speed += pull * H;
+        self.at += self.speed * H;
+    }
+}
+
+/// A sample as it came.
+#[derive(Clone, Copy, Debug)]
+struct Raw {
+    posture: Posture,
+    planted: Option<[bool; 2]>,
+}
+
+/// A sample on its way through the window.
+#[derive(Clone, Debug)]
+struct Sample {
+    /// As it came, where the stream lies now, jumps spread.
+    raw: Posture,
+    /// Points of the feet as they came: ankle, toe joint, toe tip.
+    points: [[Vec3; 3]; 2],
+    /// Labels that came with it.
+    planted: Option<[bool; 2]>,
+    /// The stream jumped just before.
+    broken: bool,
+    smooth: Posture,
+    poses: [(Vec3, Quat); SEGMENT_COUNT],
+    com: Vec3,
+    /// Angular momentum about the world origin, kg·m²/s.
+    momentum: Vec3,
+    omega2: f64,
+    /// From the zero-moment point to the nearest place where the feet could have it, m.
+    off: [f64; 2],
+    /// Foot poses as they are to be, heights still without clearance.
+    feet: [FootPose; 2],
+    down: [bool; 2],
+    /// What each sole lacks to clear the floor, m.
+    lift: [f64; 2],
+    /// How much the pelvis has to come down, m (≤ 0).
+    drop: f64,
+}
+
+impl Sample {
+    fn new(posture: &Posture, poses: [(Vec3, Quat); SEGMENT_COUNT]) -> Self {
+        let still = FootPose {
+            ankle: Vec3::zero(),
+            rotation: Quat::identity(),
+            toe: 0.0,
+        };
+        Self {
+            raw: *posture,
+            points: [[Vec3::zero(); 3]; 2],
+            planted: None,
+            broken: false,
+            smooth: *posture,
+            poses,
+            com: Vec3::zero(),
+            momentum: Vec3::zero(),
+            omega2: GRAVITY,
+            off: [0.0; 2],
+            feet: [still; 2],
+            down: [false; 2],
+            lift: [0.0; 2],
+            drop: 0.0,
+        }
+    }
+}
+
+/// A stream of one figure on its way to a motion. Times count from the first sample, s.
+#[derive(Clone, Debug)]
+pub struct LiveMotion {
+    body: Arc<Body>,
+    soles: [Sole; 2],
+    window: i64,
+    pending: VecDeque<Raw>,
+    /// Number of samples taken into the ring.
+    count: i64,
+    ring: Vec<Sample>,
+    knots: Vec<Knot>,
+    /// Last five postures that were put out, for their rates.
+    recent: [Posture; 5],
+    out: i64,
+    feet: [Foot; 2],
+    /// Shift of the centre of mass for balance, at the output and one sample before, newest last, m.
+    shift: [[f64; 2]; 2],
+    drop: Drop,
+    lasting: f64,
+    /// Where the stream lies: a stream that jumps goes on from where it was.
+    frame: PlanarTransform,
+    /// What is left of a jump, and the samples since.
+    fade: Option<([f64; NV], i64)>,
+    weights: [f64; SMOOTH as usize + 1],
+}
+
+fn level(v: Vec3) -> Vec3 {
+    Vec3 { z: 0.0, ..v }
+}
+
+/// Heading of a rotation about the vertical, rad.
+fn heading(q: Quat) -> f64 {
+    let x = q.rotate(Vec3::X);
+    trig::atan2(x.y, x.x)
+}
+
+impl LiveMotion {
+    /// A stream without samples, prepared `window` seconds behind its newest one (within [`WINDOW`]). Allocates all it will ever need.
+    pub fn new(body: Arc<Body>, window: f64) -> Self {
+        let window = (window.clamp(WINDOW.0, WINDOW.1) * RATE).floor() as i64;
+        let length = (PAST + window + 8) as usize;
+        let posture = Posture::default();
+        let blank = Sample::new(&posture, forward(&body, &posture));
+        let knot = Knot::of(&[posture], 0, H, [true; 2]);
+        let mut weights: [f64; SMOOTH as usize + 1] =
+            std::array::from_fn(|k| exp(-0.5 * (k as f64 / SIGMA) * (k as f64 / SIGMA)));
+        let sum = weights[0] + 2.0 * weights[1..].iter().sum::<f64>();
+        weights.iter_mut().for_each(|w| *w /= sum);
+        Self {
+            soles: [Sole::new(&body, 0), Sole::new(&body, 1)],
+            window,
+            pending: VecDeque::with_capacity(MOST_PENDING),
+            count: 0,
+            ring: vec![blank; length],
+            knots: vec![knot; PAST as usize],
+            recent: [posture; 5],
+            out: -1,
+            feet: [Foot::new(), Foot::new()],
+            shift: [[0.0; 2]; 2],
+            drop: Drop::default(),
+            lasting: 0.0,
+            frame: PlanarTransform::default(),
+            fade: None,
+            weights,
+            body,
+        }
+    }
+
+    /// Length of the window, s.
+    pub fn window(&self) -> f64 {
+        self.window as f64 * H
+    }
+
+    /// Where the stream lies in the world: it moves when the stream jumps.
+    pub fn frame(&self) -> PlanarTransform {
+        self.frame
+    }
+
+    /// Number of samples that were taken or wait.
+    pub fn fed(&self) -> i64 {
+        self.count + self.pending.len() as i64
+    }
+
+    /// The next sample, 1/[`RATE`] s after the last one.
+    ///
+    /// * `planted`: feet on the floor (left, right), if the sender knows.
+    ///
+    /// A sample that is not finite is taken for a repetition of the last one.
+    pub fn push(&mut self, posture: &Posture, planted: Option<[bool; 2]>) {
+        if posture.is_finite() {
+            self.wait(Raw {
+                posture: *posture,
+                planted,
+            });
+        }
+    }
+
+    fn wait(&mut self, raw: Raw) {
+        if self.pending.len() == MOST_PENDING {
+            self.pending.pop_front();
+        }
+        self.pending.push_back(raw);
+    }
+
+    /// Prepares what has come, up to time `t` (s) of the motion. Where the stream has not come that far it stands still in its last posture.
+    pub fn advance(&mut self, t: f64) {
+        let needed = ((t * RATE - 1e-6).ceil() as i64).saturating_add(self.window);
+        // Time jumps of hostile clocks are not made up for sample by sample.
+        let most = self.count + self.window + PAST;
+        while self.count < needed.min(most) {
+            match self.pending.pop_front() {
+                Some(raw) => self.take(&raw.posture, raw.planted),
+                None if self.count > 0 => {
+                    let last = self.at(self.count - 1).raw;
+                    let back = self.unframed(&last);
+                    self.take(&back, None);
+                }
+                None => return,
+            }
+        }
+    }
+
+    fn unframed(&self, posture: &Posture) -> Posture {
+        let mut p = *posture;
+        self.frame.power(-1.0).apply_posture(&mut p);
+        p
+    }
+
+    fn slot(&self, i: i64) -> usize {
+        i.rem_euclid(self.ring.len() as i64) as usize
+    }
+
+    /// Sample `i`; the first one for those before it.
+    fn at(&self, i: i64) -> &Sample {
+        &self.ring[self.slot(i.max(0))]
+    }
+
+    fn at_mut(&mut self, i: i64) -> &mut Sample {
+        let k = self.slot(i);
+        &mut self.ring[k]
+    }
+
+    /// Moves the stream to where the last samples were leading if it has jumped, and spreads what is left of the jump.
+    fn placed(&mut self, posture: &Posture) -> (Posture, bool) {
+        let mut p = *posture;
+        self.frame.apply_posture(&mut p);
+        if self.count < 2 {
+            return (p, false);
+        }
+        let (a, b) = (self.at(self.count - 2).raw, self.at(self.count - 1).raw);
+        let mut led = b;
+        let going = a.difference(&b);
+        led.integrate(&going, 1.0);
+        let mut faded = self.faded(&p);
+        let off = led.difference(&faded);
+        let far = (off[3] * off[3] + off[4] * off[4] + off[5] * off[5]).sqrt();
+        let beyond = |e: &&f64| e.abs() > JUMP.0;
+        // One joint alone that snaps is a glitch of its own; a stream that jumps takes the body along.
+        let jumped = far > JUMP.1
+            || off[..3].iter().any(|e| beyond(&e))
+            || off[6..].iter().filter(beyond).count() >= SEVERAL;
+        if jumped {
+            // The place of the pelvis over the floor and its heading go on as they were; the rest is spread.
+            let yaw = heading(led.root_rotation) - heading(p.root_rotation);
+            let turn = PlanarTransform {
+                x: 0.0,
+                y: 0.0,
+                yaw,
+            };
+            let turned = turn.point(p.root_position);
+            let step = PlanarTransform {
+                x: led.root_position.x - turned.x,
+                y: led.root_position.y - turned.y,
+                yaw,
+            };
+            self.frame = step.after(self.frame);
+            step.apply_posture(&mut p);
+            self.fade = Some((p.difference(&led), 0));
+            faded = self.faded(&p);
+        }
+        if let Some((_, since)) = &mut self.fade {
+            *since += 1;
+            if *since as f64 * H >= FADE {
+                self.fade = None;
+            }
+        }
+        (faded, jumped)
+    }
+
+    fn faded(&self, posture: &Posture) -> Posture {
+        let mut p = *posture;
+        if let Some((e, since)) = &self.fade {
+            let u = (*since as f64 * H / FADE).min(1.0);
+            let s = 1.0 - u * u * u * (10.0 - 15.0 * u + 6.0 * u * u);
+            p.integrate(&e.map(|e| e * s), 1.0);
+        }
+        p
+    }
+
+    /// One sample through all stages.
+    fn take(&mut self, posture: &Posture, planted: Option<[bool; 2]>) {
+        let mut given = *posture;
+        let (raw, broken) = self.placed(posture);
+        self.frame.apply_posture(&mut given);
+        let k = self.count;
+        let poses = forward(&self.body, &raw);
+        let mut sample = Sample::new(&raw, poses);
+        let own = forward(&self.body, &given);
+        sample.points = [(L_FOOT, L_TOES), (R_FOOT, R_TOES)].map(|(foot, toes)| {
+            let tip = self.soles[usize::from(foot == R_FOOT)].toe_tip();
+            let (at, q) = own[toes.index()];
+            [own[foot.index()].0, at, at + q.rotate(tip)]
+        });
+        sample.planted = planted;
+        sample.broken = broken;
+        *self.at_mut(k) = sample;
+        self.count += 1;
+        if k == 0 {
+            self.measure(0);
+        }
+        let s = k - SMOOTH;
+        if s < 0 {
+            return;
+        }
+        self.smooth(s);
+        self.measure(s);
+        self.touch(s - 1);
+        self.momentum(s - 1);
+        let j = k - LABEL;
+        if j >= 0 {
+            self.label(j, s - 1);
+            self.balance(j);
+        }
+        let out = k + 3 - self.window;
+        let f = out + POSED;
+        if f >= 0 {
+            self.pose_feet(f, s - 1, j);
+        }
+        if out >= 0 {
+            self.put_out(out, j);
+        }
+    }
+
+    /// Gaussian average about sample `i`, in its tangent space.
+    fn smooth(&mut self, i: i64) {
+        let centre = self.at(i).raw;
+        let mut e = [0.0; NV];
+        // At the beginning the past is taken to mirror what follows.
+        for (k, w) in (1..=SMOOTH.min(i)).zip(&self.weights[1..]) {
+            for j in [i - k, i + k] {
+                let d = centre.difference(&self.at(j).raw);
+                for (e, d) in e.iter_mut().zip(d) {
+                    *e += w * d;
+                }
+            }
+        }
+        let mut smooth = centre;
+        smooth.integrate(&e, 1.0);
+        self.at_mut(i).smooth = smooth;
+    }
+
+    /// Poses and centre of mass of a smoothed sample.
+    fn measure(&mut self, i: i64) {
+        let poses = forward(&self.body, &self.at(i).smooth);
+        let com = center_of_mass(&self.body, &poses);
+        let s = self.at_mut(i);
+        (s.poses, s.com) = (poses, com);
+        s.feet = std::array::from_fn(|k| {
+            let (ankle, rotation) = poses[[L_FOOT, R_FOOT][k].index()];
+            FootPose {
+                ankle,
+                rotation,
+                toe: 0.0,
+            }
+        });
+    }
+
+    /// Which points of the feet touch in sample `i`, as they came.
+    fn touch(&mut self, i: i64) {
+        if i < 0 {
+            return;
+        }
+        // The jump of a stream is not a movement of its feet.
+        let broken = self.at(i).broken || self.at(i + 1).broken;
+        let hint = self.at(i).planted;
+        for side in 0..2 {
+            let (a, b, c) = (
+                self.at(i - 1).points[side],
+                self.at(i).points[side],
+                self.at(i + 1).points[side],
+            );
+            let standing = self.soles[side].standing_heights();
+            let speed = |k: usize| {
+                if broken {
+                    None
+                } else {
+                    Some((c[k] - a[k]).norm() * 0.5 * RATE)
+                }
+            };
+            self.feet[side].touch(i, b, standing, speed, hint.map(|h| h[side]));
+        }
+    }
+
+    /// Angular momentum of sample `i` by central differences.
+    fn momentum(&mut self, i: i64) {
+        let mut sum = Vec3::zero();
+        if i >= 1 {
+            let (a, b, c) = (self.at(i - 1), self.at(i), self.at(i + 1));
+            for (s, segment) in self.body.segments.iter().enumerate() {
+                let centre = |p: &Sample| p.poses[s].0 + p.poses[s].1.rotate(segment.com);
+                let v = (centre(c) - centre(a)) * (0.5 * RATE);
+                let q = b.poses[s].1;
+                let turn = (c.poses[s].1 * a.poses[s].1.conjugate()).log() * (0.5 * RATE);
+                let spin = q.conjugate().rotate(turn);
+                sum += centre(b).cross(v) * segment.mass + q.rotate(segment.inertia * spin);
+            }
+        }
+        if i >= 0 {
+            self.at_mut(i).momentum = sum;
+        }
+    }
+
+    /// Settles which feet stand in sample `j`; `last` is the newest one that was looked at.
+    fn label(&mut self, j: i64, last: i64) {
+        let upright =
+            self.at(j).smooth.root_position.z > UPRIGHT * self.body.standing_root_height();
+        for side in 0..2 {
+            let other = self.feet[1 - side].touches(j);
+            let mut foot = std::mem::replace(&mut self.feet[side], Foot::new());
+            foot.label(j, last, upright, other, |i| self.standing(side, i));
+            self.feet[side] = foot;
+        }
+    }
+
+    /// Place, heading and pitch of a foot of a smoothed sample, and how fast its place moves, m/s.
+    fn standing(&self, side: usize, i: i64) -> foot::Standing {
+        let at = |i: i64| {
+            let (ankle, rotation) = self.at(i).poses[[L_FOOT, R_FOOT][side].index()];
+            foot::place(&self.soles[side], ankle, rotation)
+        };
+        let (place, yaw, pitch) = at(i);
+        foot::Standing {
+            place,
+            yaw,
+            pitch,
+            speed: (place - at(i - 1).0).norm() * RATE,
+        }
+    }
+
+    /// How far the zero-moment point of sample `j` is from where the feet could have it.
+    fn balance(&mut self, j: i64) {
+        let (a, b, c) = (self.at(j - 1), self.at(j), self.at(j + 1));
+        let acc = (c.com - b.com * 2.0 + a.com) * (RATE * RATE);
+        let rate = (c.momentum - a.momentum) * (0.5 * RATE);
+        let mass: f64 = self.body.segments.iter().map(|s| s.mass).sum();
+        let load = 1.0 + acc.z / GRAVITY;
+        let omega2 = ((GRAVITY + acc.z) / b.com.z.max(0.2)).clamp(3.0, 40.0);
+        let mut off = [0.0; 2];
+        if load > super::balance::LIGHT && j >= 2 {
+            let force = mass * GRAVITY * load;
+            let m_x = rate.x + mass * GRAVITY * b.com.y;
+            let m_y = rate.y - mass * GRAVITY * b.com.x;
+            let z = [-m_y / force, m_x / force];
+            let mut polygon = Polygon::default();
+            for side in 0..2 {
+                if let Some(anchor) = self.feet[side].anchor(j, |i| self.standing(side, i)) {
+                    self.soles[side].each_corner(&anchor, |p| polygon.add(p));
+                }
+            }
+            if let Some(p) = polygon.inside(z, INSET) {
+                off = std::array::from_fn(|k| (p[k] - z[k]).clamp(-MOST_OFF, MOST_OFF));
+            }
+        }
+        let far = (off[0] * off[0] + off[1] * off[1]).sqrt();
+        // About a second: peaks of gait are corrected, a chair is not.
+        self.lasting += (far - self.lasting) * (1.0 - exp(-H));
+        let u = ((self.lasting - 0.7 * CARRIED) / (0.6 * CARRIED)).clamp(0.0, 1.0);
+        let trust = 1.0 - u * u * (3.0 - 2.0 * u);
+        let s = self.at_mut(j);
+        s.omega2 = omega2;
+        s.off = off.map(|o| o * trust);
+    }
+
+    /// Poses of the feet of sample `f`, and what they ask of the pelvis.
+    fn pose_feet(&mut self, f: i64, seen: i64, labelled: i64) {
+        for side in 0..2 {
+            let mut foot = std::mem::replace(&mut self.feet[side], Foot::new());
+            let sole = &self.soles[side];
+            let raw = |i: i64| self.at(i).poses[[L_FOOT, R_FOOT][side].index()];
+            let posed = foot.pose(sole, f, (labelled, seen), raw, |i| self.standing(side, i));
+            self.feet[side] = foot;
+            let s = self.at_mut(f);
+            s.feet[side] = posed.pose;
+            s.down[side] = posed.down;
+            s.lift[side] = posed.lift;
+        }
+        let s = self.at(f);
+        let mut drop = 0.0f64;
+        for (side, thigh) in [L_THIGH, R_THIGH].into_iter().enumerate() {
+            let t = thigh.index();
+            let length =
+                self.body.joint_offset[t + 1].norm() + self.body.joint_offset[t + 2].norm();
+            let hip = s.smooth.root_position
+                + s.smooth.root_rotation.rotate(self.body.joint_offset[t])
+                + Vec3 {
+                    x: LEAD * self.shift[1][0],
+                    y: LEAD * self.shift[1][1],
+                    z: 0.0,
+                };
+            let d = hip - s.feet[side].ankle;
+            let most = REACH * length;
+            let along = level(d).norm();
+            let height = (most * most - along * along).max(0.04 * most * most).sqrt();
+            let need = (height - d.z).min(0.0);
+            drop = drop.min(if s.down[side] {
+                need
+            } else {
+                need.max(-SWING_DROP) * ((0.6 - along / most) / 0.15).clamp(0.0, 1.0)
+            });
+        }
+        self.drop.take(drop, f == 0);
+        self.at_mut(f).drop = self.drop.at;
+    }
+
+    /// Moves the shift of the trunk on to sample `i`, with what is known up to sample `j`.
+    ///
+    /// Δ obeys `Δ − Δ̈/ω² = off`, which keeps the zero-moment point inside the soles. Of its solutions from where Δ is now the one with Δ̇ = 0
+    /// at the far end of the window is wanted: elimination from there says where it goes next. The window moves on, so that end is never
+    /// reached; Δ turns to each new solution as fast as a pendulum falls, and stays smooth.
+    fn shift_on(&mut self, out: i64, j: i64) {
+        let i = (out - 1).max(0);
+        let smooth = |i: i64| -> [f64; 2] {
+            let (a, b, c) = (
+                self.at(i - 1).off,
+                self.at(i).off,
+                self.at((i + 1).min(j)).off,
+            );
+            std::array::from_fn(|k| 0.25 * (a[k] + c[k]) + 0.5 * b[k])
+        };
+        // x_n = p·x_(n−1) + q, from the far end on.
+        // Beyond it nothing is known to be off, so Δ dies away as a pendulum at rest does.
+        let fade = exp(-self.at(j).omega2.sqrt() * H);
+        let (mut p, mut q) = (fade, [0.0; 2]);
+        for n in (i + 1..=j).rev() {
+            let al = RATE * RATE / self.at(n).omega2;
+            let w = 1.0 / (1.0 + 2.0 * al - al * p);
+            let off = smooth(n);
+            q = std::array::from_fn(|k| (off[k] + al * q[k]) * w);
+            p = al * w;
+        }
+        let bend = self.at(i).omega2 * H * H;
+        let off = smooth(i);
+        if out == 0 {
+            // The beginning is free: the shift is there already, and at rest.
+            let begin: [f64; 2] =
+                std::array::from_fn(|k| (bend * off[k] + 2.0 * q[k]) / (bend + 2.0 * (1.0 - p)));
+            self.shift = [begin; 2];
+            return;
+        }
+        for k in 0..2 {
+            let [before, now] = [self.shift[0][k], self.shift[1][k]];
+            let free = 2.0 * now - before + bend * (now - off[k]);
+            let wanted = p * now + q[k];
+            let next = free + TURN * (wanted - free);
+            self.shift[0][k] = now;
+            self.shift[1][k] = next.clamp(-MOST_SHIFT, MOST_SHIFT);
+        }
+    }
+
+    /// The whole posture of sample `out`.
+    fn put_out(&mut self, out: i64, j: i64) {
+        self.shift_on(out, j);
+        let shift = self.shift[1].map(|d| d * LEAD);
+        let s = self.at(out);
+        let mut posture = s.smooth;
+        posture.root_position += Vec3 {
+            x: shift[0],
+            y: shift[1],
+            z: s.drop,
+        };
+        for side in 0..2 {
+            let left = side == 0;
+            let lift = (-2..=2i64)
+                .map(|d| {
+                    [3.0, 2.0, 1.0][d.unsigned_abs() as usize] / 9.0 * self.at(out + d).lift[side]
+                })
+                .sum::<f64>();
+            let mut pose = s.feet[side];
+            if !s.down[side] {
+                pose.ankle.z += lift;
+            }
+            let axis = knee_axis(&s.smooth, left);
+            let foot = (pose.ankle, pose.rotation);
+            solve_leg_in_plane(&self.body, &mut posture, left, foot, pose.toe, axis);
+        }
+        clamp_to_limits(&self.body, &mut posture, LIMIT_MARGIN);
+        let down = s.down;
+        if out == 0 {
+            self.recent = [posture; 5];
+        }
+        self.recent.rotate_left(1);
+        self.recent[4] = posture;
+        self.out = out;
+        let n = self.knots.len() as i64;
+        self.knots[out.rem_euclid(n) as usize] = Knot::of(&[posture], 0, H, down);
+        // Rates need two neighbours on either side, where there are any.
+        let known = (out + 1).min(5) as usize;
+        let recent = &self.recent[5 - known..];
+        for back in [2, 1] {
+            let i = out - back;
+            if i >= 0 {
+                let down = self.at(i).down;
+                let knot = Knot::of(recent, known - 1 - back as usize, H, down);
+                let n = self.knots.len() as i64;
+                self.knots[i.rem_euclid(n) as usize] = knot;
+            }
+        }
+    }
+
+    /// The motion at time `t`, s; clamped to what was put out and is still held.
+    pub fn sample(&self, t: f64) -> Target {
+        if self.count == 0 {
+            return Target::still(Posture::default());
+        }
+        if self.out < 0 {
+            return Target::still(self.at(0).raw);
+        }
+        if t < 0.0 {
+            return Target::still(self.sample(0.0).posture);
+        }
+        let n = self.knots.len() as i64;
+        // The newest two have no rates of their own yet.
+        let last = (self.out - 2).max(0) as f64;
+        let first = (self.out - n + 1).max(0) as f64;
+        let x = (t * RATE).clamp(first, last.max(first));
+        let i = (x as i64).min((last as i64 - 1).max(0));
+        let knot = |i: i64| &self.knots[i.rem_euclid(n) as usize];
+        between(knot(i), knot(i + 1), H, (x - i as f64).clamp(0.0, 1.0))
+    }
+
+    /// Latest time that can be sampled, s.
+    pub fn ready(&self) -> f64 {
+        (self.out - 2).max(0) as f64 * H
+    }
+
+    /// Stances of a foot (0 left, 1 right) that are known, oldest first; times in samples.
+    pub fn stances(&self, side: usize) -> impl Iterator<Item = &Stance> {
+        self.feet[side].stances()
+    }
+
+    /// The motion from time `from` (s) on as far as it has come, with its feet: what was put out, then what is still in the window as it came,
+    /// led over from there. Samples are 1/[`RATE`] s apart; the first is at the time returned with them.
+    pub fn known(&self, from: f64) -> (f64, Vec<(Posture, [bool; 2])>) {
+        let n = self.knots.len() as i64;
+        let last = self.count - 1;
+        let done = (self.out - 2).max(0);
+        let first = ((from * RATE) as i64).clamp((self.out - n + 1).max(0), done);
+        let mut all: Vec<(Posture, [bool; 2])> = (first..=done)
+            .map(|i| {
+                let knot = &self.knots[i.rem_euclid(n) as usize];
+                (knot.posture, knot.planted)
+            })
+            .collect();
+        let Some(&(end, _)) = all.last() else {
+            return (0.0, all);
+        };
+        let moved = self.at(done).raw.difference(&end);
+        let (labelled, seen) = (last - LABEL, last - SMOOTH - 1);
+        for i in done + 1..=last {
+            let mut p = self.at(i).raw;
+            p.integrate(&moved, 1.0);
+            let down = std::array::from_fn(|s| match i {
+                i if i <= labelled => self.feet[s].is_down(i),
+                i => self.feet[s].touches(i.min(seen)),
+            });
+            all.push((p, down));
+        }
+        (first as f64 * H, all)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,154 @@
+use super::*;
+use crate::sim::motion::builtin::{at_ease, builtin};
+use crate::sim::motion::leg_ik::forward;
+
+/// Feeds `posture` sample by sample and gives what comes out, one target per sample.
+fn through(
+    body: &Arc<Body>,
+    window: f64,
+    samples: usize,
+    posture: impl Fn(usize) -> Posture,
+) -> (LiveMotion, Vec<Target>) {
+    let mut live = LiveMotion::new(Arc::clone(body), window);
+    let mut out = Vec::new();
+    for i in 0..samples {
+        live.push(&posture(i), None);
+        let t = (i + 1) as f64 / RATE - live.window();
+        live.advance(t);
+        if t >= 0.0 {
+            assert!(
+                live.ready() >= t - 1e-9,
+                "{t}: only {} is ready",
+                live.ready()
+            );
+            out.push(live.sample(t));
+        }
+    }
+    (live, out)
+}
+
+#[test]
+fn who_stands_stays_as_he_is() {
+    let body = Arc::new(Body::adult_man());
+    let stand = at_ease(&body);
+    for window in [0.3, 0.5, 1.0] {
+        let (live, out) = through(&body, window, 150, |_| stand);
+        assert!((live.window() - window).abs() < 1e-9);
+        for t in &out {
+            assert_eq!(t.planted, [true; 2]);
+            // Legs that are nearly straight are bent a little: the pelvis comes down by a centimetre.
+            let off = stand.difference(&t.posture);
+            assert!(off[..29].iter().all(|e| e.abs() < 0.012), "{off:?}");
+            assert!(off.iter().all(|e| e.abs() < 0.15), "{off:?}");
+            assert!(t.velocity.iter().all(|v| v.abs() < 1e-2));
+        }
+    }
+}
+
+#[test]
+fn planted_feet_do_not_slide_and_the_motion_is_its_own_derivative() {
+    let body = Arc::new(Body::adult_man());
+    let walk = builtin(&body, "walk").unwrap();
+    // As a camera sees it: a slow wobble of a centimetre over everything.
+    let seen = |i: usize| {
+        let t = i as f64 / RATE;
+        let mut p = walk.sample(t).posture;
+        p.root_position += Vec3 {
+            x: 0.01 * (2.0 * t).sin(),
+            y: 0.01 * (1.3 * t).cos(),
+            z: 0.005 * (1.7 * t).sin(),
+        };
+        p
+    };
+    let (_, out) = through(&body, 1.0, 400, seen);
+    let mut stands: [Option<Vec3>; 2] = [None; 2];
+    let mut steps = 0;
+    for pair in out.windows(2) {
+        let e = pair[0].posture.difference(&pair[1].posture);
+        for k in 0..NV {
+            let v = 0.5 * (pair[0].velocity[k] + pair[1].velocity[k]);
+            let bend = (pair[0].acceleration[k] - pair[1].acceleration[k]).abs();
+            let allowed = 2e-3 + 0.01 * bend / RATE;
+            assert!(
+                (e[k] - v / RATE).abs() < allowed,
+                "{k}: {} {}",
+                e[k],
+                v / RATE
+            );
+        }
+        let poses = forward(&body, &pair[1].posture);
+        for (side, foot) in [L_FOOT, R_FOOT].into_iter().enumerate() {
+            let (ankle, rotation) = poses[foot.index()];
+            let at = foot::place(&Sole::new(&body, side), ankle, rotation).0;
+            if !pair[1].planted[side] {
+                steps += usize::from(stands[side].is_some());
+                stands[side] = None;
+            } else if pair[0].planted[side] {
+                let place = *stands[side].get_or_insert(at);
+                assert!((at - place).norm() < 4e-3, "{}", (at - place).norm());
+            }
+        }
+    }
+    assert!(steps >= 5, "{steps} steps");
+}
+
+#[test]
+fn a_stream_that_jumps_goes_on_from_where_it_was() {
+    let body = Arc::new(Body::adult_man());
+    let stand = at_ease(&body);
+    let elsewhere = |i: usize| {
+        let mut p = stand;
+        let place = PlanarTransform {
+            x: 7.0,
+            y: -3.0,
+            yaw: 2.0,
+        };
+        if (60..120).contains(&i) {
+            place.apply_posture(&mut p);
+        }
+        if (120..122).contains(&i) {
+            p.root_position.z = f64::NAN;
+        }
+        p
+    };
+    let (_, out) = through(&body, 0.5, 240, elsewhere);
+    for t in &out {
+        let e = stand.difference(&t.posture);
+        assert!(e.iter().all(|e| e.abs() < 0.15), "{e:?}");
+        assert!(e[3..5].iter().all(|e| e.abs() < 0.02), "{e:?}");
+        assert!(t.velocity.iter().all(|v| v.abs() < 0.3), "{:?}", t.velocity);
+    }
+}
+
+#[test]
+fn wild_streams_stay_finite_and_bounded() {
+    use rand::{Rng, SeedableRng};
+    let body = Arc::new(Body::adult_man());
+    let mut random = rand_pcg::Pcg64::seed_from_u64(3);
+    let mut live = LiveMotion::new(Arc::clone(&body), 0.3);
+    for i in 0..600 {
+        let mut p = at_ease(&body);
+        p.root_position = Vec3::from_array([0; 3].map(|_| random.random_range(-1e4..1e4)));
+        for q in &mut p.ball {
+            *q = Quat::exp(Vec3::from_array(
+                [0; 3].map(|_| random.random_range(-3.0..3.0)),
+            ));
+        }
+        live.push(&p, Some([random.random(), random.random()]));
+        live.advance(i as f64 / RATE - 0.3);
+        let t = live.sample(i as f64 / RATE - 0.3);
+        assert!(t.posture.is_finite());
+        assert!(
+            t.velocity
+                .iter()
+                .chain(&t.acceleration)
+                .all(|v| v.is_finite())
+        );
+    }
+    // Clocks that leap do not make it work for ever.
+    live.advance(1e9);
+    for _ in 0..3 * MOST_PENDING {
+        live.push(&at_ease(&body), None);
+    }
+    assert!(live.fed() < 10_000);
+}

@@ -1,0 +1,284 @@
+//! Goal: streams that come while they are followed are prepared behind a window well enough to be walked, and figures whose driver falls
+//! silent, or whose clip is stopped, finish their step and stand.
+//! Method: recordings as a capture system would send them (fitted to the body, nothing else), sample by sample, into a figure in torque
+//! simulation; compared with the same recording prepared as a whole.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use common::{figure, man, recorded, recorded_with};
+use sinew::sim::body::{Body, Posture, State};
+use sinew::sim::figure::{ControllerKind, Flags};
+use sinew::sim::motion::consistency::consistency;
+use sinew::sim::motion::live::{LiveMotion, RATE};
+use sinew::sim::motion::{Clip, PlanarTransform, RetargetOptions, cycle};
+use sinew::sim::world::{ClipPlayback, Drive, LivePlayback, World, WorldParams};
+use std::sync::Arc;
+
+/// A recording as it would be streamed.
+fn bare(body: &Body, name: &str) -> Arc<Clip> {
+    let options = RetargetOptions {
+        lock_feet: false,
+        balance: false,
+        ends: false,
+        ..RetargetOptions::default()
+    };
+    recorded_with(body, name, &options)
+}
+
+/// Everything that comes out of a stream, and when its feet stand.
+fn prepared(
+    body: &Arc<Body>,
+    posture: impl Fn(f64) -> Posture,
+    seconds: f64,
+    window: f64,
+) -> (Vec<Posture>, Vec<[bool; 2]>) {
+    let mut live = LiveMotion::new(Arc::clone(body), window);
+    let n = (seconds * RATE) as usize;
+    let mut out = (Vec::new(), Vec::new());
+    for i in 0..n {
+        live.push(&posture(i as f64 / RATE), None);
+        let t = (i as f64 + 1.0) / RATE - live.window();
+        live.advance(t);
+        if t > -1e-9 {
+            let s = live.sample(t.max(0.0));
+            out.0.push(s.posture);
+            out.1.push(s.planted);
+        }
+    }
+    out
+}
+
+/// How a figure followed.
+struct Followed {
+    /// When it fell, s.
+    fell: Option<f64>,
+    /// Errors of the joints, degrees rms.
+    joints: f64,
+    /// Largest error of the capture point, m.
+    capture: f64,
+    /// Speed of the pelvis in the end, m/s.
+    speed: f64,
+    /// Farthest of the feet from each other in the end, m.
+    apart: f64,
+}
+
+/// Steps a world with one figure; `each` is called before each tick with the time, s.
+fn watch(world: &mut World, seconds: f64, mut each: impl FnMut(&mut World, f64)) -> Followed {
+    let key = world.figures().next().unwrap().0;
+    let mut out = Followed {
+        fell: None,
+        joints: 0.0,
+        capture: 0.0,
+        speed: 0.0,
+        apart: 0.0,
+    };
+    let mut count = 0.0;
+    for i in 0..(seconds * RATE) as usize {
+        let time = i as f64 / RATE;
+        each(world, time);
+        world.step();
+        let f = world.figure(key).unwrap();
+        let r = f.report().unwrap();
+        assert!(r.over_limit <= 1e-9 && !r.flags.has(Flags::QUARANTINED));
+        if f.is_fallen() {
+            out.fell = Some(time);
+            break;
+        }
+        count += r.joint_error.len() as f64;
+        out.joints += r.joint_error.iter().map(|e| e * e).sum::<f64>();
+        let e = f.gait().capture().error;
+        out.capture = out.capture.max(e[0].hypot(e[1]));
+    }
+    out.joints = (out.joints / count).sqrt().to_degrees();
+    let f = world.figure(key).unwrap();
+    let v = &f.state().velocity;
+    out.speed = v[3].hypot(v[4]);
+    let poses = sinew::sim::motion::leg_ik::forward(f.body(), &f.state().posture);
+    let foot = |s: sinew::sim::body::SegmentId| poses[s.index()].0;
+    use sinew::sim::body::topology::{L_FOOT, R_FOOT};
+    out.apart = (foot(L_FOOT) - foot(R_FOOT)).norm();
+    out
+}
+
+/// A world with a figure in the state in which a motion begins.
+fn beginning(body: &Arc<Body>, drive: Drive) -> World {
+    let mut world = World::new(WorldParams::default()).unwrap();
+    let first = drive.targets(0.0, 1.0 / RATE).now;
+    let state = State {
+        posture: first.posture,
+        velocity: first.velocity,
+    };
+    let key = world
+        .add_figure(figure(body, ControllerKind::Modern, state))
+        .unwrap();
+    world.figure_mut(key).unwrap().set_drive(drive);
+    world
+}
+
+/// Streams `posture` into a figure, which stops where there is none.
+fn follow(
+    body: &Arc<Body>,
+    posture: impl Fn(f64) -> Option<Posture>,
+    seconds: f64,
+    window: f64,
+) -> Followed {
+    let mut motion = LiveMotion::new(Arc::clone(body), window);
+    let mut fed = 0.0;
+    while fed / RATE <= motion.window() {
+        motion.push(&posture(fed / RATE).unwrap(), None);
+        fed += 1.0;
+    }
+    motion.advance(1.0 / RATE);
+    let live = Box::new(LivePlayback {
+        motion,
+        offset: 0.0,
+    });
+    let mut world = beginning(body, Drive::Live(live));
+    watch(&mut world, seconds, |world, time| {
+        let key = world.figures().next().unwrap().0;
+        let f = world.figure_mut(key).unwrap();
+        if let Some(live) = f.stream_mut() {
+            match posture(fed / RATE) {
+                Some(p) => live.motion.push(&p, None),
+                None => f.stop(time),
+            }
+        }
+        fed += 1.0;
+    })
+}
+
+/// Differences of two motions: joints, degrees rms, and pelvis, m rms.
+fn apart(a: &[Posture], b: &[Posture]) -> (f64, f64) {
+    let (mut joints, mut root) = (0.0, 0.0);
+    for (p, q) in a.iter().zip(b) {
+        let d = p.difference(q);
+        joints += d[6..].iter().map(|e| e * e).sum::<f64>() / 39.0;
+        root += d[3..6].iter().map(|e| e * e).sum::<f64>();
+    }
+    let n = a.len().max(1) as f64;
+    ((joints / n).sqrt().to_degrees(), (root / n).sqrt())
+}
+
+#[test]
+fn windows_compared_with_the_whole_recording() {
+    let body = man();
+    println!(
+        "| clip | window, s | joints from offline, deg rms | pelvis from offline, mm rms | outside as it came, % | outside, % | offline, % | outside, mm rms | stands, s of | joints, deg rms | capture point, mm |"
+    );
+    for name in ["walk", "turn", "walk-around", "wave", "idle", "dance"] {
+        let (raw, whole) = (bare(&body, name), recorded(&body, name));
+        let seconds = raw.duration();
+        for window in [0.3, 0.5, 1.0] {
+            let (out, label) = prepared(&body, |t| raw.sample(t).posture, seconds, window);
+            let at = |clip: &Clip| -> Vec<_> {
+                (0..out.len())
+                    .map(|i| clip.sample(i as f64 / RATE))
+                    .collect()
+            };
+            let postures = |clip: &Clip| at(clip).iter().map(|t| t.posture).collect::<Vec<_>>();
+            let whole_label: Vec<_> = at(&whole).iter().map(|t| t.planted).collect();
+            let offline = postures(&whole);
+            let (joints, root) = apart(&out, &offline);
+            let before = consistency(&body, &postures(&raw), &label, RATE);
+            let after = consistency(&body, &out, &label, RATE);
+            let goal = consistency(&body, &offline, &whole_label, RATE);
+            let f = follow(&body, |t| Some(raw.sample(t).posture), seconds, window);
+            println!(
+                "| {name} | {window} | {joints:.1} | {:.0} | {:.0} | {:.0} | {:.0} | {:.0} | {} of {seconds:.1} | {:.1} | {:.0} |",
+                1e3 * root,
+                100.0 * before.outside,
+                100.0 * after.outside,
+                100.0 * goal.outside,
+                1e3 * after.distance.rms,
+                f.fell.map_or("all".into(), |t| format!("{t:.1}")),
+                f.joints,
+                1e3 * f.capture
+            );
+            // What the tables promise.
+            let walks = name == "walk" || (name == "turn" && window == 1.0);
+            let stands = name == "idle" || (name == "wave" && window > 0.4);
+            if walks || stands {
+                assert_eq!(f.fell, None, "{name}, {window} s");
+                assert!(f.joints < 3.5, "{name}, {window} s: {} deg", f.joints);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_streamed_walk_goes_on() {
+    let body = man();
+    let walk = cycle(&body, &recorded(&body, "walk")).unwrap();
+    for window in [0.3, 0.5, 1.0] {
+        let f = follow(&body, |t| Some(walk.sample_looped(t).posture), 20.0, window);
+        println!(
+            "{window} s: joints {:.2} deg rms, capture point within {:.0} mm",
+            f.joints,
+            1e3 * f.capture
+        );
+        assert_eq!(f.fell, None, "{window} s");
+        assert!(f.joints < 3.5 && f.capture < 0.15);
+    }
+}
+
+#[test]
+fn a_driver_that_goes_silent_leaves_its_figure_standing() {
+    let body = man();
+    let walk = cycle(&body, &recorded(&body, "walk")).unwrap();
+    for (window, least) in [(0.3, 4), (0.5, 6), (1.0, 7)] {
+        let mut standing = 0;
+        print!("{window} s:");
+        for phase in 0..8 {
+            let silent = 4.0 + 0.14 * f64::from(phase);
+            let given = |t: f64| (t < silent).then(|| walk.sample_looped(t).posture);
+            let f = follow(&body, given, 10.0, window);
+            let stands = f.fell.is_none() && f.speed < 0.1 && f.apart < 0.5;
+            standing += usize::from(stands);
+            print!(" {}", if stands { '+' } else { '-' });
+        }
+        println!(" {standing} of 8");
+        assert!(standing >= least, "{window} s: {standing} of 8");
+    }
+}
+
+#[test]
+fn a_clip_that_is_stopped_ends_in_a_stand() {
+    let body = man();
+    let walk = Arc::new(cycle(&body, &recorded(&body, "walk")).unwrap());
+    let mut standing = 0;
+    for phase in 0..8 {
+        let stop = 3.0 + 0.14 * f64::from(phase);
+        let mut world = beginning(
+            &body,
+            Drive::Clip(ClipPlayback {
+                clip: Arc::clone(&walk),
+                start: 0.0,
+                speed: 1.0,
+                looped: true,
+                origin: PlanarTransform::default(),
+            }),
+        );
+        let mut told = false;
+        let f = watch(&mut world, 9.0, |world, time| {
+            if !told && time >= stop {
+                told = true;
+                let key = world.figures().next().unwrap().0;
+                let began = std::time::Instant::now();
+                world.figure_mut(key).unwrap().stop(time);
+                println!("planned in {:.0} ms", 1e3 * began.elapsed().as_secs_f64());
+            }
+        });
+        let stands = f.fell.is_none() && f.speed < 0.1 && f.apart < 0.5;
+        println!(
+            "stopped at {stop:.2} s: fell {:?}, {:.2} m/s, feet {:.2} m apart, joints {:.1} deg, capture point within {:.0} mm",
+            f.fell,
+            f.speed,
+            f.apart,
+            f.joints,
+            1e3 * f.capture
+        );
+        standing += i32::from(stands);
+    }
+    assert!(standing >= 6, "{standing} of 8");
+}

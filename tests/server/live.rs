@@ -1,0 +1,194 @@
+//! Streams that walk: a window prepares them, whatever the network does. World time is stepped, so that all of it is the same every time.
+
+use crate::support::{TestServer, header, recording, refusal};
+use sinew::cli::push::Network;
+use sinew::sim::body::{Body, Posture};
+use sinew::sim::motion::{Bvh, Clip, RetargetOptions, cycle, retarget};
+use sinew::wire::convert::motion::figure_motion;
+use sinew::wire::pb;
+use tonic::Code;
+
+/// Bits of `status.flags`.
+const FALLEN: i32 = 1 << 6;
+const FROZEN: i32 = 1 << 7;
+
+fn walk(body: &Body) -> Clip {
+    let bvh = Bvh::parse(&recording("walk.bvh")).unwrap();
+    let clip = retarget(&bvh, body, &RetargetOptions::default())
+        .unwrap()
+        .clip;
+    cycle(body, &clip).unwrap()
+}
+
+struct Streamed {
+    /// World time at which it fell, s.
+    fell: Option<f64>,
+    feedback: pb::FigureFeedback,
+    /// Time from capture to use: mean and largest, s.
+    delay: (f64, f64),
+    /// Farthest from the start, m.
+    far: f64,
+    /// Speed of the pelvis in the end, m/s.
+    speed: f64,
+}
+
+/// Streams `posture` for `seconds`, with 120 frames per second, through a network; then `silence` seconds more without it.
+async fn stream(
+    id: &str,
+    posture: impl Fn(f64) -> Option<Posture>,
+    (seconds, silence): (f64, f64),
+    network: &mut Network,
+    window_ms: f64,
+) -> Streamed {
+    let server = TestServer::start().await;
+    let world = server.paused_world(id).await;
+    server.figure(&world, "a").await;
+    let header = pb::DriveHeader {
+        playout_delay_ms: None,
+        nominal_rate_hz: 120.0,
+        reset: true,
+        grace_ms: Some(60_000.0),
+        preparation_window_ms: Some(window_ms),
+        ..header(&world, "a", "me")
+    };
+    let mut client = server.client.motions();
+    let mut out = Streamed {
+        fell: None,
+        feedback: pb::FigureFeedback::default(),
+        delay: (0.0, 0.0),
+        far: 0.0,
+        speed: 0.0,
+    };
+    let (mut sequence, mut count) = (0i64, 0);
+    let mut waiting: Option<(f64, pb::MotionFrame)> = None;
+    let step = 3;
+    for tick in (0..((seconds + silence) * 60.0) as i64).step_by(step) {
+        let now = tick as f64 / 60.0;
+        let mut frames = Vec::new();
+        loop {
+            if let Some((at, frame)) = waiting.take() {
+                if at > now {
+                    waiting = Some((at, frame));
+                    break;
+                }
+                frames.push(frame);
+            }
+            let t = sequence as f64 / 120.0;
+            if t > now || t > seconds {
+                break;
+            }
+            let arrival = network.arrival(t);
+            if let (Some(at), Some(p)) = (arrival, posture(t)) {
+                let frame = pb::MotionFrame {
+                    sequence,
+                    source_time_ns: (t * 1e9) as i64,
+                    figures: vec![figure_motion("a", &p, &[0.0; 45], None)],
+                };
+                let mut frame = frame;
+                frame.figures[0].velocity.clear();
+                waiting = Some((at, frame));
+            }
+            sequence += 1;
+        }
+        let response = client
+            .push_motion(pb::PushMotionRequest {
+                header: Some(header.clone()),
+                batch: Some(pb::MotionBatch { frames }),
+            })
+            .await
+            .unwrap()
+            .into_inner();
+        let feedback = response.feedback.unwrap();
+        assert_eq!(feedback.refused_batch_count, 0);
+        out.feedback = feedback.figures[0].clone();
+        if out.feedback.applied_sequence > 0 && now < seconds {
+            let delay = now - out.feedback.applied_source_time_ns as f64 * 1e-9;
+            out.delay.0 += delay;
+            out.delay.1 = out.delay.1.max(delay);
+            count += 1;
+        }
+        server.step(&world, step as i32).await;
+        let frame = server
+            .frame(&world, &["status", "root_pose", "velocity"])
+            .await;
+        let f = &frame.figures[0];
+        let flags = f.status.as_ref().unwrap().flags;
+        assert_eq!(flags & FROZEN, 0);
+        let v = sinew::wire::frame::values(f.velocity.as_ref().unwrap());
+        let p = sinew::wire::frame::values(f.root_pose.as_ref().unwrap());
+        out.speed = v[3].hypot(v[4]);
+        out.far = out.far.max(p[0].hypot(p[1]));
+        if flags & FALLEN != 0 && out.fell.is_none() {
+            out.fell = Some(now);
+            break;
+        }
+    }
+    out.delay.0 /= f64::from(count.max(1));
+    server.stop().await;
+    out
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_walk_comes_through_jitter_and_loss() {
+    let body = Body::adult_man();
+    let walk = walk(&body);
+    let seconds: f64 = std::env::var("SINEW_LIVE_SECONDS").map_or(12.0, |s| s.parse().unwrap());
+    let windows = std::env::var("SINEW_LIVE_WINDOW")
+        .map_or(vec![300.0, 500.0, 1000.0], |w| vec![w.parse().unwrap()]);
+    for window in windows {
+        let mut network = Network::new(0.05, 0.02, 7);
+        let s = stream(
+            "w",
+            |t| Some(walk.sample_looped(t).posture),
+            (seconds, 3.0),
+            &mut network,
+            window,
+        )
+        .await;
+        println!(
+            "window {window} ms: fell {:?}, capture to use {:.0} ms mean, {:.0} ms at most, {} interpolated, {} extrapolated, {} late, {:.1} m, {:.2} m/s in the end",
+            s.fell,
+            1e3 * s.delay.0,
+            1e3 * s.delay.1,
+            s.feedback.interpolated_count + s.feedback.present_count,
+            s.feedback.extrapolated_count,
+            s.feedback.late_count,
+            s.far,
+            s.speed
+        );
+        // What comes after the stream is the subject of `tests/live.rs`, at every phase of the gait.
+        assert!(
+            s.fell.is_none_or(|t| t > seconds),
+            "window {window} ms: fell at {:?} s",
+            s.fell
+        );
+        assert!(s.far > 0.9 * seconds, "{} m", s.far);
+        assert_eq!(s.feedback.preparation_window_ms, window);
+    }
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_window_that_is_too_short_or_long_is_refused() {
+    let server = TestServer::start().await;
+    let world = server.paused_world("w").await;
+    server.figure(&world, "a").await;
+    for window in [1.0, 299.0, 1001.0, f64::NAN, -5.0] {
+        let e = server
+            .client
+            .drive(pb::DriveHeader {
+                preparation_window_ms: Some(window),
+                ..header(&world, "a", "me")
+            })
+            .await
+            .unwrap_err();
+        assert_eq!(
+            refusal(&e),
+            (
+                Code::InvalidArgument,
+                "INVALID_FIELD".into(),
+                "header.preparation_window_ms".into()
+            )
+        );
+    }
+    server.stop().await;
+}
