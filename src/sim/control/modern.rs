@@ -255,7 +255,7 @@ impl Modern {
             return 1.0;
         }
         let off = (t.com - goal.now) + (t.com_velocity - goal.now_velocity) * time;
-        let danger = 1.0 - smooth_step(off.x.hypot(off.y), DANGER);
+        let danger = 1.0 - smooth_step((off.x * off.x + off.y * off.y).sqrt(), DANGER);
         1.0 + (DANGER_FACTOR - 1.0) * danger
     }
 
@@ -679,4 +679,4 @@ fn kernel(c: &mut Modern, t: &Terms, diagonal: &[f64; NV], linear: &mut [f64; WI
 }
 
 #[cfg(test)]
-mod oracle;
+mod tests;

@@ -40,15 +40,16 @@ const CLOSEST: f64 = 0.8;
 /// The zero-moment point stays this far inside the soles, m; it keeps the capture point this far inside where it can.
 const INSET: f64 = 0.01;
 const INNER: f64 = 0.035;
-/// The capture point counts as caught this far inside the soles, m.
-const CAUGHT: f64 = 0.015;
+/// The capture point counts as caught this far inside the soles, m, and so much more per m/s: a body stops less well than a pendulum.
+const CAUGHT: (f64, f64) = (0.015, 0.05);
 /// Gain of the zero-moment point on the way to a place, how close counts as there, m, and when patience ends, s.
 const LEAN: (f64, f64, f64) = (2.0, 0.015, 0.9);
 /// A foot this close to where it belongs stays, m and rad.
 const HOME: (f64, f64) = (0.04, 0.15);
 /// Most steps of an end.
 const MOST_STEPS: usize = 8;
-/// Longest flight that is believed, s.
+/// Shortest and longest flight that is believed, s.
+const SHORTEST_FLIGHT: f64 = 0.08;
 const LONGEST_FLIGHT: f64 = 0.5;
 /// Distance of the middle of the sole before the ankle, m.
 const SOLE_MIDDLE: f64 = 0.05;
@@ -148,7 +149,14 @@ impl State {
             place[s].z = 0.0;
             yaw[s] = y;
         }
-        let down = draft.label[last];
+        // A foot that is about to come down, or has just left, may look as if both were in the air.
+        let flight = draft.label.iter().rev();
+        let flight = flight.take_while(|l| **l == [false; 2]).count();
+        let down = if flight <= last && (flight as f64) < SHORTEST_FLIGHT * draft.rate_hz {
+            draft.label[last - flight]
+        } else {
+            [false; 2]
+        };
         let pelvis = yaw_pitch(b.root_rotation).0;
         let feet: Vec<f64> = (0..2)
             .filter(|s| down[*s])
@@ -416,7 +424,9 @@ impl Stop<'_> {
     }
 
     fn is_caught(&self) -> bool {
-        margin(&self.feet.support([true; 2]), flat(self.capture)) > CAUGHT
+        let away = self.capture - self.mass();
+        let speed = self.omega * away.x.hypot(away.y);
+        margin(&self.feet.support([true; 2]), flat(self.capture)) > CAUGHT.0 + CAUGHT.1 * speed
     }
 
     /// All of it; false if the body runs away.
