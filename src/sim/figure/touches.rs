@@ -57,6 +57,10 @@ struct Entry {
     touch: Touch,
     /// Sum of normal forces, weight of the mean position, N.
     weight: f64,
+    /// Mean place on the segment, segment frame, m.
+    local: Vec3,
+    /// Reaction that controllers count on, N.
+    expected: Vec3,
     spots: [Spot; SPOTS],
     /// How many of them count.
     count: usize,
@@ -131,24 +135,22 @@ impl Entry {
                 self.count += 1;
             }
         }
-        let total = self.expected().norm();
-        if total > MOST {
+        let before = old.map_or_else(Vec3::zero, |o| o.expected);
+        if old.is_some() {
+            self.expected = before + (self.touch.force - before) * LEARN;
+        }
+        let size = self.expected.norm();
+        if size > MOST {
+            self.expected = self.expected * (MOST / size);
             for spot in &mut self.spots[..self.count] {
-                spot.expected = spot.expected * (MOST / total);
+                spot.expected = spot.expected * (MOST / size);
             }
         }
     }
 
-    /// Reaction that controllers count on, N.
-    fn expected(&self) -> Vec3 {
-        self.spots()
-            .iter()
-            .fold(Vec3::zero(), |sum, s| sum + s.expected)
-    }
-
     /// True if it carries more than `least` N.
     fn carries(&self, least: f64) -> bool {
-        self.firm && self.expected().dot(self.touch.normal) > least
+        self.firm && self.expected.dot(self.touch.normal) > least
     }
 }
 
@@ -194,6 +196,7 @@ impl Touches {
             if total > 0.0 {
                 let share = weight / total;
                 e.touch.position += (c.position - e.touch.position) * share;
+                e.local += (local - e.local) * share;
             }
             e.press(local, force, weight);
             e.weight = total;
@@ -210,6 +213,8 @@ impl Touches {
                     depth: c.depth,
                 },
                 weight,
+                local,
+                expected: Vec3::zero(),
                 spots: [Spot::default(); SPOTS],
                 count: 0,
                 firm: c.firm,
@@ -266,15 +271,13 @@ impl Touches {
     pub fn lean(&self, terms: &mut Terms, least: Option<f64>) {
         for e in &self.now {
             let chosen = least.is_some_and(|l| Rest::level(e.touch.normal) && e.carries(l));
-            if chosen {
+            if chosen || e.expected == Vec3::zero() {
                 continue;
             }
             let s = e.touch.segment.index();
             let Terms { kin, h, .. } = terms;
-            for spot in e.spots() {
-                let r = kin.position[s] + kin.rotation[s] * spot.local;
-                for_each_column(kin, s, r, |i, _, v| h[i] -= v.dot(spot.expected));
-            }
+            let r = kin.position[s] + kin.rotation[s] * e.local;
+            for_each_column(kin, s, r, |i, _, v| h[i] -= v.dot(e.expected));
         }
     }
 }

@@ -41,7 +41,7 @@ const CLOSEST: f64 = 0.8;
 const INSET: f64 = 0.01;
 const INNER: f64 = 0.035;
 /// The capture point counts as caught this far inside the soles, m, and so much more per m/s: a body stops less well than a pendulum.
-const CAUGHT: (f64, f64) = (0.015, 0.05);
+const CAUGHT: (f64, f64) = (0.015, 0.03);
 /// Gain of the zero-moment point on the way to a place, how close counts as there, m, and when patience ends, s.
 const LEAN: (f64, f64, f64) = (2.0, 0.015, 0.9);
 /// A foot this close to where it belongs stays, m and rad.
