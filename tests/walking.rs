@@ -205,3 +205,88 @@ fn people_of_other_sizes_walk_the_same_recording() {
         assert!(rms < 4.0 && capture < 0.1, "{name}: {rms} deg, {capture} m");
     }
 }
+
+/// From one clip to another that is asked for at `at` seconds. How it went: fallen, when the other one began and was over, speed in the end, m/s.
+fn passes(
+    body: &Arc<Body>,
+    (first, first_loops): (&Arc<Clip>, bool),
+    second: Option<&Arc<Clip>>,
+    at: f64,
+) -> (bool, f64, f64) {
+    let from = if first_loops { 0.0 } else { -first.lead_in() };
+    let (mut world, key) = playing(body, "passes", Arc::clone(first), from, first_loops);
+    let (mut began, mut since) = (None, 0.0);
+    let mut asked = false;
+    for tick in 0.. {
+        let time = f64::from(tick) / RATE;
+        let figure = world.figure_mut(key).unwrap();
+        if !asked && time >= at {
+            asked = true;
+            let clock = std::time::Instant::now();
+            match second {
+                Some(clip) => {
+                    let play = ClipPlayback {
+                        clip: Arc::clone(clip),
+                        start: time + clip.lead_in(),
+                        speed: 1.0,
+                        looped: false,
+                        origin: PlanarTransform::default(),
+                    };
+                    let start = figure.play(play, false, time);
+                    assert!(start >= time + clip.lead_in());
+                }
+                None => figure.stop(time),
+            }
+            print!(" [{:.0} ms]", 1e3 * clock.elapsed().as_secs_f64());
+        }
+        if asked && began.is_none() && figure.queued().is_none() {
+            began = Some(time - at);
+        }
+        world.step();
+        let figure = world.figure(key).unwrap();
+        if figure.is_fallen() {
+            print!(" fell {:.2} s later", time - at);
+            return (true, began.unwrap_or(f64::NAN), f64::NAN);
+        }
+        if began.is_some() {
+            since += 1.0 / RATE;
+        }
+        let long = second.map_or(5.0, |c| c.lead_in() + c.duration() + c.lead_out() + 1.5);
+        if since > long || time > 60.0 {
+            let v = &figure.state().velocity;
+            let speed = v[3].hypot(v[4]);
+            return (false, began.unwrap_or(f64::NAN), speed);
+        }
+    }
+    unreachable!()
+}
+
+#[test]
+fn one_clip_follows_another_in_motion() {
+    let body = Arc::new(Body::adult_man());
+    let [walk, turn, around, idle, wave] =
+        ["walk", "turn", "walk-around", "idle", "wave"].map(|name| Arc::new(clip(&body, name)));
+    let walks = Arc::new(cycle(&body, &walk).unwrap());
+    let mut bad = Vec::new();
+    for (what, first, second, at) in [
+        ("walk to turn", (&walks, true), Some(&turn), 3.0),
+        ("walk to walk-around", (&walks, true), Some(&around), 3.0),
+        ("turn to walk", (&turn, false), Some(&walk), 3.0),
+        ("walk to idle", (&walks, true), Some(&idle), 3.0),
+        ("walk to standing", (&walks, true), None, 3.0),
+        ("wave to walk", (&wave, false), Some(&walk), 3.0),
+        ("idle to wave", (&idle, false), Some(&wave), 3.0),
+    ] {
+        print!("{what}:");
+        for phase in 0..4 {
+            let at = at + 0.28 * f64::from(phase);
+            let (fell, began, speed) = passes(&body, first, second, at);
+            print!(" {}{began:.1} s {speed:.2} m/s,", if fell { '-' } else { '+' });
+            if fell || !(speed < 0.1) || !(began < 5.0) {
+                bad.push(format!("{what} at {at:.2} s"));
+            }
+        }
+        println!();
+    }
+    assert!(bad.is_empty(), "{bad:?}");
+}

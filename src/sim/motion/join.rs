@@ -36,9 +36,15 @@ const HOW: PrepareOptions = PrepareOptions {
 /// Ends a motion by the steps that bring it to a stand. `None` if it stands, sits or lies anyway. Time 0 of the clip is the first sample given.
 ///
 /// * `known`: the motion so far and as far ahead as it is known, samples at [`RATE`]; it goes on at least up to sample `now`.
+/// * `goal`: how it stands in the end, wherever that is; at ease if not given.
 ///
 /// Several moments of the step to come are tried as the beginning of the end, and the one that asks least of the ground is taken.
-pub fn stop(body: &Body, known: &[(Posture, [bool; 2])], now: usize) -> Option<Clip> {
+pub fn stop(
+    body: &Body,
+    known: &[(Posture, [bool; 2])],
+    now: usize,
+    goal: Option<&Posture>,
+) -> Option<Clip> {
     if known.len() < 4 {
         return None;
     }
@@ -53,7 +59,7 @@ pub fn stop(body: &Body, known: &[(Posture, [bool; 2])], now: usize) -> Option<C
     let latest = (now + (STEP * FINE) as usize).min(last);
     (now.min(last)..=latest)
         .step_by(APART)
-        .filter_map(|end| ending(body, known, (&postures, &label), (now, end)))
+        .filter_map(|end| ending(body, known, (&postures, &label), (now, end), goal))
         .min_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, clip)| clip)
 }
@@ -64,12 +70,17 @@ fn ending(
     known: &[(Posture, [bool; 2])],
     (postures, label): (&[Posture], &[[bool; 2]]),
     (now, end): (usize, usize),
+    goal: Option<&Posture>,
 ) -> Option<(f64, Clip)> {
     // What was long ago has no part in it.
     let cut = now.saturating_sub((TAKES_PART * FINE) as usize);
     let part = (postures[cut..=end].to_vec(), label[cut..=end].to_vec());
     let mut draft = Draft::of_postures(body, FINE, part.0, part.1);
-    if draft.end_standing(body) == 0 {
+    let added = match goal {
+        Some(goal) => draft.end_like(body, goal),
+        None => draft.end_standing(body),
+    };
+    if added == 0 {
         return None;
     }
     let mut whole = prepare(body, &draft, HOW);
