@@ -84,6 +84,8 @@ const STOP_AFTER: usize = 3;
 /// A clip that waits begins so long before the motion that leads to it is over, if the figure has settled, and at the latest so long after, s.
 const SOONER: f64 = 0.4;
 const PATIENCE: f64 = 2.0;
+/// A body slower than this is led into the posture in which the next clip begins; a faster one comes to its ease first, m/s.
+const SLOW: f64 = 0.2;
 /// A clip that begins with the pelvis above this share of its standing height, on both feet, begins standing.
 const UPRIGHT: f64 = 0.9;
 /// A part rests on something that carries this share of the weight.
@@ -904,8 +906,8 @@ impl Figure {
         let begin = play.clip.sample(first);
         let holds = matches!(self.drive, Drive::Hold(_) | Drive::External(_));
         if !self.ending && !holds {
-            let upright = begin.posture.root_position.z
-                > UPRIGHT * self.setup.body.standing_root_height();
+            let upright =
+                begin.posture.root_position.z > UPRIGHT * self.setup.body.standing_root_height();
             let goal = (upright && begin.planted == [true; 2]).then_some(&begin.posture);
             self.end_motion(time, goal);
         }
@@ -978,7 +980,8 @@ impl Figure {
         }
         self.end_motion(time, None);
     }
-    /// Leads the motion to a stand like `goal`, or at ease; holds it as it is where that needs no steps or cannot be done.
+    /// Leads the motion to a stand at ease, or like `goal` if it hardly moves or stands in another way; holds it as it is where that takes no
+    /// movement or cannot be done.
     fn end_motion(&mut self, time: f64, goal: Option<&Posture>) {
         let from = time - self.gait.lag();
         let (begin, so_far) = match &self.drive {
@@ -1000,7 +1003,15 @@ impl Figure {
             _ => (0.0, Vec::new()),
         };
         let now = ((from - begin) * join::RATE).max(0.0) as usize + STOP_AFTER;
-        let Some(clip) = join::stop(&self.setup.body, &so_far, now, goal) else {
+        let v = self.terms.com_velocity;
+        let slow = (v.x * v.x + v.y * v.y).sqrt() < SLOW || !self.gait.is_walking();
+        let stop = |goal| join::stop(&self.setup.body, &so_far, now, goal);
+        let ease = if slow && goal.is_some() {
+            None
+        } else {
+            stop(None)
+        };
+        let Some(clip) = ease.or_else(|| goal.and_then(|g| stop(Some(g)))) else {
             let posture = self.target.next.posture;
             self.set_drive(Drive::Hold(posture));
             return;
