@@ -10,7 +10,9 @@ use sinew::sim::body::SegmentId;
 use sinew::sim::body::topology::{CHEST, L_HAND, R_HAND};
 use sinew::sim::figure::{Constrained, Constraint, ControllerKind, Flags, Perturbation};
 use sinew::sim::math::{Quat, Vec3};
-use sinew::sim::world::{Drive, World};
+use sinew::sim::motion::live::{LiveMotion, RATE};
+use sinew::sim::world::{Drive, LivePlayback, World};
+use std::sync::Arc;
 
 const KINDS: [ControllerKind; 3] = [
     ControllerKind::Modern,
@@ -202,4 +204,49 @@ fn the_strongest_blow_allocates_nothing() {
         braked |= flags.has(Flags::SPEED_BOUND);
     }
     assert!(braked);
+}
+
+#[test]
+fn a_prepared_stream_allocates_nothing() {
+    let body = man();
+    let walk = authored(&body, "walk");
+    let lead = walk.lead_in();
+    let posture = |i: f64| walk.sample(i / RATE - lead).posture;
+    let mut motion = LiveMotion::new(Arc::clone(&body), 0.5);
+    let mut fed = 0.0;
+    while fed / RATE <= motion.window() + 0.1 {
+        motion.push(&posture(fed), None);
+        fed += 1.0;
+    }
+    motion.advance(1.0 / RATE);
+    let mut scene = Scene::of(figure(&body, ControllerKind::Modern, still(posture(0.0))));
+    let live = LivePlayback {
+        motion,
+        offset: 0.0,
+    };
+    scene.figure_mut().set_drive(Drive::Live(Box::new(live)));
+    let mut walked = false;
+    for tick in 0..scene.ticks(walk.duration()) {
+        let (world, key) = (&mut scene.world, scene.key);
+        // Taking a sample is part of the tick.
+        let counted = measure(|| {
+            let figure = world.figure_mut(key).unwrap();
+            figure
+                .stream_mut()
+                .unwrap()
+                .motion
+                .push(&posture(fed), None);
+            world.step();
+        });
+        fed += 1.0;
+        walked |= scene.figure().gait().is_walking();
+        if tick >= WARM_UP as u64 {
+            assert_eq!(
+                (counted.count_total, counted.bytes_total),
+                (0, 0),
+                "tick {tick}"
+            );
+        }
+    }
+    assert!(walked && !scene.figure().is_fallen());
 }

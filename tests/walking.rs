@@ -10,6 +10,7 @@ use sinew::sim::figure::{
     StrengthScale,
 };
 use sinew::sim::math::Vec3;
+use sinew::sim::motion::builtin::builtin;
 use sinew::sim::motion::{Bvh, Clip, PlanarTransform, RetargetOptions, cycle, retarget};
 use sinew::sim::world::{ClipPlayback, Drive, FigureKey, World, WorldParams};
 use std::f64::consts::FRAC_PI_4;
@@ -204,4 +205,150 @@ fn people_of_other_sizes_walk_the_same_recording() {
         let (rms, capture) = walk(&Arc::new(body), name, walk_cycle, true, 20.0);
         assert!(rms < 4.0 && capture < 0.1, "{name}: {rms} deg, {capture} m");
     }
+}
+
+/// From one clip to another, or to a stand, asked for at `at` seconds.
+struct Passed {
+    /// When it fell, s after that.
+    fell: Option<f64>,
+    /// When the other clip began, s after that.
+    began: f64,
+    /// Speed of the pelvis in the end, m/s.
+    speed: f64,
+    /// Time that the planning took, ms.
+    planning: f64,
+}
+
+fn passes(
+    body: &Arc<Body>,
+    (first, looped): (&Arc<Clip>, bool),
+    second: Option<&Arc<Clip>>,
+    at: f64,
+) -> Passed {
+    let from = if looped { 0.0 } else { -first.lead_in() };
+    let (mut world, key) = playing(body, "passes", Arc::clone(first), from, looped);
+    for _ in 0..(at * RATE) as usize {
+        world.step();
+    }
+    let time = world.time();
+    let clock = std::time::Instant::now();
+    let figure = world.figure_mut(key).unwrap();
+    match second {
+        Some(clip) => {
+            let play = ClipPlayback {
+                clip: Arc::clone(clip),
+                start: time + clip.lead_in(),
+                speed: 1.0,
+                looped: false,
+                origin: PlanarTransform::default(),
+            };
+            let start = figure.play(play, false, time);
+            assert!(start >= time + clip.lead_in());
+        }
+        None => figure.stop(time),
+    }
+    let planning = 1e3 * clock.elapsed().as_secs_f64();
+    let long = second.map_or(4.0, |c| c.lead_in() + c.duration() + c.lead_out() + 2.0);
+    let mut out = Passed {
+        fell: None,
+        began: f64::NAN,
+        speed: f64::NAN,
+        planning,
+    };
+    while out.began.is_nan() || world.time() < time + out.began + long {
+        let figure = world.figure(key).unwrap();
+        if out.began.is_nan() && figure.queued().is_none() {
+            out.began = world.time() - time;
+        }
+        world.step();
+        let figure = world.figure(key).unwrap();
+        assert!(figure.report().unwrap().over_limit <= 1e-9);
+        if figure.is_fallen() {
+            out.fell = Some(world.time() - time);
+            return out;
+        }
+        assert!(world.time() < time + 60.0, "the other clip never begins");
+    }
+    let v = &world.figure(key).unwrap().state().velocity;
+    out.speed = v[3].hypot(v[4]);
+    out
+}
+
+#[test]
+fn one_clip_follows_another_in_motion() {
+    let body = Arc::new(Body::adult_man());
+    let [walk, turn, around, idle, wave] =
+        ["walk", "turn", "walk-around", "idle", "wave"].map(|name| Arc::new(clip(&body, name)));
+    let walks = Arc::new(cycle(&body, &walk).unwrap());
+    let squat = Arc::new(builtin(&body, "squat").unwrap());
+    let (mut all, mut fallen) = (0, Vec::new());
+    for (what, first, second, at) in [
+        ("walk to turn", (&walks, true), Some(&turn), 3.0),
+        ("walk to walk-around", (&walks, true), Some(&around), 3.0),
+        ("turn to walk", (&turn, false), Some(&walk), 3.0),
+        ("walk to idle", (&walks, true), Some(&idle), 3.0),
+        ("walk to standing", (&walks, true), None, 3.0),
+        ("wave to walk", (&wave, false), Some(&walk), 3.0),
+        ("wave to turn", (&wave, false), Some(&turn), 1.0),
+        ("squat to walk", (&squat, false), Some(&walk), 1.0),
+    ] {
+        print!("{what}:");
+        for phase in 0..4 {
+            let at = at + 0.28 * f64::from(phase);
+            let p = passes(&body, first, second, at);
+            print!(" after {:.1} s ({:.0} ms)", p.began, p.planning);
+            all += 1;
+            match p.fell {
+                Some(t) => {
+                    print!(" fell at {t:.1} s");
+                    // The other clip has been walked for long by then, or the transition is to blame.
+                    assert!(
+                        t > p.began + 5.0,
+                        "{what} at {at:.2} s: fell after {t:.2} s"
+                    );
+                    fallen.push(format!("{what} at {at:.2} s"));
+                }
+                None => assert!(p.speed < 0.1, "{what} at {at:.2} s: {} m/s", p.speed),
+            }
+            assert!(p.began < 4.0, "{what} at {at:.2} s: {} s", p.began);
+            print!(",");
+        }
+        println!();
+    }
+    println!("fell later, in the clip: {fallen:?} of {all}");
+    assert!(fallen.len() <= 1);
+}
+
+#[test]
+fn what_waits_can_be_taken_back_and_what_stands_begins_at_once() {
+    let body = Arc::new(Body::adult_man());
+    let walk = Arc::new(clip(&body, "walk"));
+    let again = |time: f64| ClipPlayback {
+        clip: Arc::clone(&walk),
+        start: time + walk.lead_in(),
+        speed: 1.0,
+        looped: false,
+        origin: PlanarTransform::default(),
+    };
+    let (mut world, key) = playing(&body, "waits", Arc::clone(&walk), -walk.lead_in(), false);
+    for _ in 0..150 {
+        world.step();
+    }
+    let time = world.time();
+    let figure = world.figure_mut(key).unwrap();
+    let expected = figure.play(again(time), false, time);
+    assert!(expected > time + walk.lead_in() + 0.5);
+    // Once more: it is on its way to a stand already, and only what comes then is replaced.
+    assert_eq!(figure.play(again(time), false, time), expected);
+    assert!(figure.queued().is_some());
+    figure.stop(time);
+    assert!(figure.queued().is_none());
+    for _ in 0..300 {
+        world.step();
+    }
+    let time = world.time();
+    let figure = world.figure_mut(key).unwrap();
+    assert!(!figure.is_fallen());
+    assert_eq!(figure.play(again(time), false, time), time + walk.lead_in());
+    assert!(figure.queued().is_none());
 }

@@ -260,11 +260,14 @@ impl Shard {
     }
 
     fn figure_info(&self, m: &Member) -> FigureInfo {
+        // It comes to a stand for a clip that waits.
+        let waits = |f: &engine::Figure| f.queued().is_some();
+        let waits = self.world.figure(m.key).is_some_and(waits);
         FigureInfo {
             world: self.id.to_string(),
             id: m.id.clone(),
             settings: m.settings.clone(),
-            clip: m.clip.clone(),
+            clip: m.clip.clone().filter(|_| !waits),
             driver: self
                 .drives
                 .iter()
@@ -617,13 +620,16 @@ impl Shard {
             .place
             .unwrap_or_else(|| engine::place_of(&f.state().posture));
         let state = engine::first_state(&clip, place);
-        // A figure that is put into the clip is in motion at once; one that stands comes into it by the clip's lead-in.
+        // A figure that is put into the clip is in motion at once; one that stands comes into it by the clip's lead-in, and one that moves
+        // comes to a stand before that.
         let playback = engine::playback(clip, begin, p.speed, p.looped, (place, !p.reset));
-        let start = playback.start;
-        f.set_drive(Motion::Clip(playback));
+        let mut start = playback.start;
         if p.reset {
+            f.set_drive(Motion::Clip(playback));
             engine::reset(&mut self.world, m.key, state)?;
             self.changed = true;
+        } else {
+            start = f.play(playback, p.place.is_some(), now);
         }
         m.clip = Some(clip_id.to_owned());
         Ok(start)

@@ -1,6 +1,9 @@
 //! Where a figure's desired motion comes from.
 
 use crate::sim::body::Posture;
+use crate::sim::gait::StepPlan;
+use crate::sim::gait::anchor::Anchor;
+use crate::sim::math::Vec3;
 use crate::sim::motion::clip::{Clip, PlanarTransform};
 use crate::sim::motion::{LiveMotion, Target, TargetPair};
 use std::sync::Arc;
@@ -72,6 +75,34 @@ impl ClipPlayback {
         }
         self.origin.apply_to(&mut target);
         target
+    }
+}
+
+/// A clip that begins as soon as its figure stands.
+#[derive(Clone, Debug)]
+pub(super) struct Queued {
+    /// The clip, as it would play if it began now.
+    pub play: ClipPlayback,
+    /// Its steps.
+    pub plan: StepPlan,
+    /// Clip time at which it begins, s.
+    pub first: f64,
+    /// World time before which it does not, s.
+    pub from: f64,
+    /// Where its feet stand then, in clip coordinates: the middle between them, and their heading. `None`: the caller fixed its origin.
+    pub stance: Option<(Vec3, f64)>,
+    /// When the figure should stand, s.
+    pub due: f64,
+}
+
+impl Queued {
+    /// Begins at world time `time`, for a figure whose feet stand at `stance`.
+    pub fn begin(mut self, time: f64, stance: (Vec3, f64)) -> (ClipPlayback, StepPlan) {
+        self.play.start = time - self.first / self.play.speed;
+        if let Some(planned) = self.stance {
+            self.play.origin = Anchor::between(planned, stance).transform();
+        }
+        (self.play, self.plan)
     }
 }
 

@@ -19,6 +19,7 @@ use crate::sim::dynamics::Terms;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::builtin::at_ease;
 use crate::sim::motion::foot_lock::Sole;
+use crate::sim::motion::leg_ik::forward;
 use crate::sim::motion::{LiveMotion, PlanarTransform, Target, TargetPair};
 use crate::sim::support::Support;
 use anchor::Anchor;
@@ -113,6 +114,12 @@ fn stance_points(support: &Support, side: usize) -> impl Iterator<Item = [f64; 2
     points
         .filter(move |p| stance.contains(&p.segment))
         .map(|p| [p.position.x, p.position.y])
+}
+
+/// The middle between two feet, and the mean of their headings, rad.
+fn middle(feet: &catch::Places) -> (Vec3, f64) {
+    let yaw = feet[0].1 + 0.5 * anchor::wrapped(feet[1].1 - feet[0].1);
+    ((feet[0].0 + feet[1].0) * 0.5, yaw)
 }
 
 /// A point of the floor.
@@ -244,6 +251,34 @@ impl Gait {
         self.walks().then(|| self.capture.off())
     }
 
+    /// True if it stands: no step is under way, none is to come, and the body is slow enough and near enough to where it should be to begin
+    /// something else.
+    pub fn is_settled(&self, terms: &Terms) -> bool {
+        let v = terms.com_velocity;
+        let to_come = |side: usize| {
+            let plan = self.plan.as_ref().filter(|_| self.ended.is_none());
+            plan.is_some_and(|_| !self.feet[side].down || self.next(side).is_some())
+        };
+        self.step.is_none()
+            && !(0..2).any(to_come)
+            && (v.x * v.x + v.y * v.y).sqrt() < SETTLED.0
+            && self.capture.off() < SETTLED.1
+    }
+
+    /// Where the feet stand: the middle between them and the mean of their headings, rad.
+    pub fn stance(&self, terms: &Terms) -> (Vec3, f64) {
+        middle(&self.places(terms))
+    }
+
+    /// The same of a posture.
+    pub fn stance_of(&self, body: &Body, posture: &Posture) -> (Vec3, f64) {
+        let poses = forward(body, posture);
+        middle(&std::array::from_fn(|k| {
+            let (ankle, rotation) = poses[FOOT[k].index()];
+            plan::place(&self.soles[k], ankle, rotation)
+        }))
+    }
+
     /// True while steps are made that a plan has. A stream that stands has none; a step that is under way already is finished first.
     fn walks(&self) -> bool {
         let stands = |p: &StepPlan| self.step.is_some() || p.rests(self.phase);
@@ -336,8 +371,7 @@ impl Gait {
             [false, true] => 1,
             _ => usize::from(far(1) < far(0)),
         };
-        let heading = now[0].1 + 0.5 * anchor::wrapped(now[1].1 - now[0].1);
-        let planned = home[0].1 + 0.5 * anchor::wrapped(home[1].1 - home[0].1);
+        let (heading, planned) = (middle(&now).1, middle(&home).1);
         self.anchor = Anchor::between((home[side].0, planned), (now[side].0, heading));
         self.ended = Some((*last, 0.0));
         for side in 0..2 {

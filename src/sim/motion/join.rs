@@ -7,7 +7,7 @@ use super::clip::{Clip, PlanarTransform};
 use super::consistency::consistency;
 use super::cycle::label;
 use super::foot_lock::{fade, turn, yaw_pitch};
-use super::prepare::{Draft, PrepareOptions, prepare};
+use super::prepare::{Draft, PrepareOptions, prepare_in};
 use crate::sim::body::{Body, Posture};
 
 /// Samples per second of what is planned here.
@@ -23,6 +23,11 @@ const BLEND: f64 = 0.3;
 /// How far ahead it is looked for a place to stop, s, and samples between the places that are tried.
 const STEP: f64 = 0.55;
 const APART: usize = 14;
+/// An end that asks for no more than this force and moment from nothing, shares of what a body weighs, is not worth bettering. Of
+/// those above 0.6 most fall, of those above 0.05 some.
+const EASY: f64 = 0.03;
+/// Rounds of preparation: what is known so far has been prepared, or comes off a window.
+const ROUNDS: usize = 4;
 /// Time of the motion so far that is prepared with its end, s.
 const TAKES_PART: f64 = 0.4;
 /// Samples per second of what is prepared.
@@ -36,9 +41,16 @@ const HOW: PrepareOptions = PrepareOptions {
 /// Ends a motion by the steps that bring it to a stand. `None` if it stands, sits or lies anyway. Time 0 of the clip is the first sample given.
 ///
 /// * `known`: the motion so far and as far ahead as it is known, samples at [`RATE`]; it goes on at least up to sample `now`.
+/// * `goal`: how it stands in the end, wherever that is; at ease if not given.
 ///
-/// Several moments of the step to come are tried as the beginning of the end, and the one that asks least of the ground is taken.
-pub fn stop(body: &Body, known: &[(Posture, [bool; 2])], now: usize) -> Option<Clip> {
+/// The moments of the step to come are tried as the beginning of the end, in turn, until one asks little of the ground; else the one that asks
+/// least is taken. At most five are worked out.
+pub fn stop(
+    body: &Body,
+    known: &[(Posture, [bool; 2])],
+    now: usize,
+    goal: Option<&Posture>,
+) -> Option<Clip> {
     if known.len() < 4 {
         return None;
     }
@@ -51,11 +63,19 @@ pub fn stop(body: &Body, known: &[(Posture, [bool; 2])], now: usize) -> Option<C
     // Where in a step a body can be stopped best shows only when it is worked out.
     let last = postures.len() - 1;
     let latest = (now + (STEP * FINE) as usize).min(last);
-    (now.min(last)..=latest)
-        .step_by(APART)
-        .filter_map(|end| ending(body, known, (&postures, &label), (now, end)))
-        .min_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, clip)| clip)
+    let mut best: Option<(f64, Clip)> = None;
+    for end in (now.min(last)..=latest).step_by(APART) {
+        if let Some(found) = ending(body, known, (&postures, &label), (now, end), goal)
+            && best.as_ref().is_none_or(|b| found.0 < b.0)
+        {
+            let easy = found.0 < EASY;
+            best = Some(found);
+            if easy {
+                break;
+            }
+        }
+    }
+    best.map(|(_, clip)| clip)
 }
 
 /// The motion up to sample `end`, then to a stand, and how hard that is for a body.
@@ -64,15 +84,20 @@ fn ending(
     known: &[(Posture, [bool; 2])],
     (postures, label): (&[Posture], &[[bool; 2]]),
     (now, end): (usize, usize),
+    goal: Option<&Posture>,
 ) -> Option<(f64, Clip)> {
     // What was long ago has no part in it.
     let cut = now.saturating_sub((TAKES_PART * FINE) as usize);
     let part = (postures[cut..=end].to_vec(), label[cut..=end].to_vec());
     let mut draft = Draft::of_postures(body, FINE, part.0, part.1);
-    if draft.end_standing(body) == 0 {
+    let added = match goal {
+        Some(goal) => draft.end_like(body, goal),
+        None => draft.end_standing(body),
+    };
+    if added == 0 {
         return None;
     }
-    let mut whole = prepare(body, &draft, HOW);
+    let mut whole = prepare_in(body, &draft, HOW, ROUNDS);
     hold_on(&mut whole.postures, &known[cut..], now - cut);
     let from = (now - cut).saturating_sub(4);
     let asks = consistency(body, &whole.postures[from..], &draft.label[from..], FINE);

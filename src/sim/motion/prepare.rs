@@ -192,6 +192,11 @@ impl Relief {
 ///
 /// Memory and time are linear in the number of samples (times a handful of balancing rounds).
 pub fn prepare(body: &Body, draft: &Draft, options: PrepareOptions) -> Prepared {
+    prepare_in(body, draft, options, ROUNDS)
+}
+
+/// The same with another number of rounds in which ankles are relieved and the trunk is shifted.
+pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: usize) -> Prepared {
     let n = draft.postures.len();
     let rate = draft.rate_hz;
     let soles = [Sole::new(body, 0), Sole::new(body, 1)];
@@ -243,11 +248,11 @@ pub fn prepare(body: &Body, draft: &Draft, options: PrepareOptions) -> Prepared 
     let mut track = mass_track(body, &postures, rate);
     let before = zmp_outside(&track, &carriers);
     for round in 0..if options.lock_feet && n >= 8 {
-        ROUNDS
+        rounds
     } else {
         0
     } {
-        if round + 2 < ROUNDS {
+        if round + 2 < rounds {
             relief.add(
                 body,
                 &postures,
