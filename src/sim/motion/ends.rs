@@ -40,8 +40,10 @@ const CLOSEST: f64 = 0.8;
 /// The zero-moment point stays this far inside the soles, m; it keeps the capture point this far inside where it can.
 const INSET: f64 = 0.01;
 const INNER: f64 = 0.035;
-/// The capture point counts as caught this far inside the soles, m, and so much more per m/s: a body stops less well than a pendulum.
-const CAUGHT: (f64, f64) = (0.015, 0.03);
+/// The capture point counts as caught this far inside the soles, m.
+const CAUGHT: f64 = 0.015;
+/// And so much more per m/s, s, where the moment is given and not chosen: a body stops less well than a pendulum.
+const SPARE: f64 = 0.03;
 /// Gain of the zero-moment point on the way to a place, how close counts as there, m, and when patience ends, s.
 const LEAN: (f64, f64, f64) = (2.0, 0.015, 0.9);
 /// A foot this close to where it belongs stays, m and rad.
@@ -273,6 +275,8 @@ struct Stop<'a> {
     omega: f64,
     dt: f64,
     capture: Vec3,
+    /// What has to be in hand beyond [`CAUGHT`], s.
+    spare: f64,
     steps: Vec<Step>,
     path: Vec<Vec3>,
 }
@@ -426,7 +430,7 @@ impl Stop<'_> {
     fn is_caught(&self) -> bool {
         let away = self.capture - self.mass();
         let speed = self.omega * away.x.hypot(away.y);
-        margin(&self.feet.support([true; 2]), flat(self.capture)) > CAUGHT.0 + CAUGHT.1 * speed
+        margin(&self.feet.support([true; 2]), flat(self.capture)) > CAUGHT + self.spare * speed
     }
 
     /// All of it; false if the body runs away.
@@ -522,7 +526,7 @@ impl Stop<'_> {
 
 /// Samples after the last one of `draft`, from its motion to standing as `goal` does, or at ease. `None` if it stands like that already, or at
 /// all if there is no goal, if it does not walk, or if no steps are found that stop it.
-fn tail(body: &Body, draft: &Draft, goal: Option<&Posture>) -> Option<Draft> {
+fn tail(body: &Body, draft: &Draft, goal: Option<&Posture>, spare: f64) -> Option<Draft> {
     let rate = draft.rate_hz;
     if draft.postures.len() < 3 {
         return None;
@@ -550,6 +554,7 @@ fn tail(body: &Body, draft: &Draft, goal: Option<&Posture>) -> Option<Draft> {
         omega,
         dt: 1.0 / rate,
         capture: ground(from.com + from.velocity * (1.0 / omega)),
+        spare,
         steps: Vec::new(),
         path: vec![ground(from.com)],
     };
@@ -714,7 +719,7 @@ impl Draft {
 
     /// Continues a draft of whole postures so that it ends standing like `goal`, wherever that is. Returns how many samples it took.
     pub fn end_like(&mut self, body: &Body, goal: &Posture) -> usize {
-        let Some(after) = tail(body, self, Some(goal)) else {
+        let Some(after) = tail(body, self, Some(goal), 0.0) else {
             return 0;
         };
         let count = after.postures.len();
@@ -724,7 +729,7 @@ impl Draft {
 
     /// Continues a draft of whole postures to a stand, wherever that is. Returns how many samples it took; none if it stands, sits or lies.
     pub fn end_standing(&mut self, body: &Body) -> usize {
-        let after = tail(body, self, None);
+        let after = tail(body, self, None, 0.0);
         let count = after.as_ref().map_or(0, |a| a.postures.len());
         if let Some(after) = after {
             self.append(after);
@@ -735,8 +740,8 @@ impl Draft {
     /// Continues a draft of whole postures to a stand and lets it begin from one, where it does not stand, sit or lie anyway. Returns how
     /// many samples came before and after.
     pub fn add_ends(&mut self, body: &Body) -> (usize, usize) {
-        let after = tail(body, self, None);
-        let before = tail(body, &self.clone().reversed(), None).map(Self::reversed);
+        let after = tail(body, self, None, SPARE);
+        let before = tail(body, &self.clone().reversed(), None, SPARE).map(Self::reversed);
         let count = |d: &Option<Self>| d.as_ref().map_or(0, |d| d.postures.len());
         let counts = (count(&before), count(&after));
         let mut all = before.unwrap_or_else(|| Self::empty(self.rate_hz));
