@@ -1,0 +1,165 @@
+//! From one motion to another while the figure moves: what is under way is led to a stand, and what was asked for waits until it stands.
+
+use super::Figure;
+use crate::sim::body::Posture;
+use crate::sim::figure::drive::{ClipPlayback, Drive, Queued};
+use crate::sim::gait::StepPlan;
+use crate::sim::motion::join::{self, RUN_UP};
+use crate::sim::motion::{Clip, PlanarTransform};
+use std::sync::Arc;
+
+/// How far ahead a clip is looked at for a place to stop, s, and samples that still play before it is led there.
+const STOP_AHEAD: f64 = 0.8;
+const STOP_AFTER: usize = 3;
+/// A clip that waits begins so long before the motion that leads to it is over, if the figure has settled, and at the latest so long after, s.
+const SOONER: f64 = 0.4;
+const PATIENCE: f64 = 2.0;
+/// A body slower than this is led into the posture in which the next clip begins; a faster one comes to its ease first, m/s.
+const SLOW: f64 = 0.2;
+/// A clip that begins with the pelvis above this share of its standing height, on both feet, begins standing.
+const UPRIGHT: f64 = 0.9;
+
+impl Figure {
+    /// Plays a clip from world time `time` on. A figure that walks, or is in the middle of another clip, finishes its step and stands first, as
+    /// the clip begins; then the clip begins where its feet are, unless `fixed` says that its origin is meant. One that stands already, has
+    /// fallen, or makes no steps begins at once. Returns the world time at which the clip's time 0 plays, s: expected, if the figure has to
+    /// stand first. Plans like [`Figure::stop`].
+    pub fn play(&mut self, play: ClipPlayback, fixed: bool, time: f64) -> f64 {
+        if !self.steps() || !self.is_busy(time) {
+            let start = play.start;
+            self.set_drive(Drive::Clip(play));
+            return start;
+        }
+        let lead = play.clip.lead_in();
+        let first = play.clip_time(time).clamp(-lead, 0.0);
+        let begin = play.clip.sample(first);
+        let holds = matches!(self.drive, Drive::Hold(_) | Drive::External(_));
+        if !self.ending && !holds {
+            let upright =
+                begin.posture.root_position.z > UPRIGHT * self.setup.body.standing_root_height();
+            let goal = (upright && begin.planted == [true; 2]).then_some(&begin.posture);
+            self.end_motion(time, goal);
+        }
+        let due = match &self.drive {
+            Drive::Clip(end) if self.ending => end.start + end.clip.duration() + self.gait.lag(),
+            _ => time,
+        };
+        let from = play.start + first / play.speed;
+        let plan = StepPlan::new(&self.setup.body, &play.clip, play.looped);
+        let stance = self.gait.stance_of(&self.setup.body, &begin.posture);
+        let expected = due.max(from) - first / play.speed;
+        self.queued = Some(Box::new(Queued {
+            plan,
+            first,
+            from,
+            stance: (!fixed).then_some(stance),
+            due,
+            play,
+        }));
+        expected
+    }
+    /// The clip that begins as soon as the figure stands, if one waits.
+    pub fn queued(&self) -> Option<&Arc<Clip>> {
+        self.queued.as_ref().map(|q| &q.play.clip)
+    }
+    /// True in the middle of a clip or of a step.
+    fn is_busy(&self, time: f64) -> bool {
+        let plays = match &self.drive {
+            Drive::Clip(play) => {
+                let over = play.clip.duration() + play.clip.lead_out();
+                play.looped || play.clip_time(time - self.gait.lag()) < over
+            }
+            Drive::Live(_) => self.gait.is_walking(),
+            Drive::Hold(_) | Drive::External(_) => false,
+        };
+        plays || self.gait.unplanned().is_some()
+    }
+    /// Begins the clip that waits, once the figure stands.
+    pub(super) fn begin_queued(&mut self, time: f64) {
+        let Some(q) = &self.queued else { return };
+        let ready = if self.balance.lost() && !self.fallen {
+            false
+        } else if !self.steps() || time > q.due + PATIENCE {
+            true
+        } else {
+            time >= q.from.max(q.due - SOONER) && self.gait.is_settled(&self.terms)
+        };
+        if !ready {
+            return;
+        }
+        let stance = self.gait.stance(&self.terms);
+        if let Some(q) = self.queued.take() {
+            let (play, plan) = q.begin(time, stance);
+            self.gait.follow(Some((plan, play.speed, play.origin)));
+            self.drive = Drive::Clip(play);
+            self.ending = false;
+        }
+    }
+    /// Comes to a stand from world time `time` on: a walk is ended by the steps that takes, everything else is held as it is. Plans like the
+    /// preparation of a clip does: some milliseconds, allocates.
+    pub fn stop(&mut self, time: f64) {
+        self.queued = None;
+        // It does so already: a step that is under way is finished.
+        if self.ending || matches!(self.drive, Drive::Hold(_)) {
+            return;
+        }
+        if !self.steps() || !self.gait.is_walking() {
+            let posture = self.target.next.posture;
+            self.set_drive(Drive::Hold(posture));
+            return;
+        }
+        self.end_motion(time, None);
+    }
+    /// Leads the motion to a stand at ease, or like `goal` if it hardly moves or stands in another way; holds it as it is where that takes no
+    /// movement or cannot be done.
+    fn end_motion(&mut self, time: f64, goal: Option<&Posture>) {
+        let from = time - self.gait.lag();
+        let (begin, so_far) = match &self.drive {
+            Drive::Clip(play) => {
+                let count = (RUN_UP * join::RATE) as usize;
+                let at = |i: usize| from + (i as f64 - count as f64) / join::RATE;
+                let ahead = (STOP_AHEAD * join::RATE) as usize;
+                let so_far = (0..=count + ahead)
+                    .map(|i| play.sample(at(i)))
+                    .map(|t| (t.posture, t.planted))
+                    .collect();
+                (at(0), so_far)
+            }
+            Drive::Live(live) => {
+                let t = live.stream_time(from);
+                let (first, so_far) = live.motion.known(t - RUN_UP);
+                (from + first - t, so_far)
+            }
+            _ => (0.0, Vec::new()),
+        };
+        let now = ((from - begin) * join::RATE).max(0.0) as usize + STOP_AFTER;
+        let v = self.terms.com_velocity;
+        let slow = (v.x * v.x + v.y * v.y).sqrt() < SLOW || !self.gait.is_walking();
+        let stop = |goal| join::stop(&self.setup.body, &so_far, now, goal);
+        let ease = if slow && goal.is_some() {
+            None
+        } else {
+            stop(None)
+        };
+        let Some(clip) = ease.or_else(|| goal.and_then(|g| stop(Some(g)))) else {
+            let posture = self.target.next.posture;
+            self.set_drive(Drive::Hold(posture));
+            return;
+        };
+        let before = match &self.drive {
+            Drive::Clip(play) => play.clip_time(begin),
+            Drive::Live(live) => live.stream_time(begin),
+            _ => 0.0,
+        };
+        let plan = StepPlan::new(&self.setup.body, &clip, false);
+        self.gait.go_on(plan, before);
+        self.drive = Drive::Clip(ClipPlayback {
+            clip: Arc::new(clip),
+            start: begin,
+            speed: 1.0,
+            looped: false,
+            origin: PlanarTransform::default(),
+        });
+        self.ending = true;
+    }
+}
