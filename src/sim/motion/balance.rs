@@ -4,6 +4,7 @@
 //! feet. Where the zero-moment point leaves the polygon, the centre of mass that belongs to a point inside solves, per axis,
 //! `Δ − Δ̈/ω² = p − z`, `ω² = (g + c̈_z)/c_z`, a tridiagonal system over the clip (cart-table model of Kajita et al. 2003).
 
+use super::banded::Pentadiagonal;
 use super::filter::low_pass;
 use super::leg_ik::forward;
 use crate::sim::body::topology::SEGMENT_COUNT;
@@ -169,18 +170,16 @@ fn closest(polygon: &[[f64; 2]], z: [f64; 2]) -> [f64; 2] {
     best.1
 }
 
-/// The nearest point that is at least `inset` inside a convex polygon; its middle if the polygon is too narrow for that.
-pub fn clip_inside(polygon: &[[f64; 2]], z: [f64; 2], inset: f64) -> [f64; 2] {
+/// The part of a convex polygon that is at least `inset` inside; its middle if it is too narrow for that.
+pub fn inner_polygon(polygon: &[[f64; 2]], inset: f64) -> Vec<[f64; 2]> {
     let n = polygon.len();
     if n == 0 {
-        return z;
+        return Vec::new();
     }
-    let middle = {
-        let s = polygon
-            .iter()
-            .fold([0.0; 2], |s, p| [s[0] + p[0], s[1] + p[1]]);
-        [s[0] / n as f64, s[1] / n as f64]
-    };
+    let sum = polygon
+        .iter()
+        .fold([0.0; 2], |s, p| [s[0] + p[0], s[1] + p[1]]);
+    let middle = vec![[sum[0] / n as f64, sum[1] / n as f64]];
     if n < 3 {
         return middle;
     }
@@ -205,11 +204,23 @@ pub fn clip_inside(polygon: &[[f64; 2]], z: [f64; 2], inset: f64) -> [f64; 2] {
             return middle;
         }
     }
-    let m = inner.len();
-    if m >= 3 && (0..m).all(|i| edge_distance(inner[i], inner[(i + 1) % m], z) >= 0.0) {
+    inner
+}
+
+/// The nearest point of a convex counter-clockwise polygon; `z` itself if there is none.
+fn nearest(polygon: &[[f64; 2]], z: [f64; 2]) -> [f64; 2] {
+    let n = polygon.len();
+    if n == 0
+        || (n >= 3 && (0..n).all(|i| edge_distance(polygon[i], polygon[(i + 1) % n], z) >= 0.0))
+    {
         return z;
     }
-    closest(&inner, z)
+    closest(polygon, z)
+}
+
+/// The nearest point that is at least `inset` inside a convex polygon; its middle if the polygon is too narrow for that.
+pub fn clip_inside(polygon: &[[f64; 2]], z: [f64; 2], inset: f64) -> [f64; 2] {
+    nearest(&inner_polygon(polygon, inset), z)
 }
 
 /// What carries the body in one sample.
@@ -223,88 +234,156 @@ pub enum Carrier {
     Other,
 }
 
-/// Shift of the centre of mass, per sample, that brings the zero-moment point `inset` (m) inside the support.
+/// Pelvis and trunk move by this much more than the centre of mass, because the feet stay.
+const LEAD: f64 = 1.15;
+/// A zero-moment point this much outside costs as much as a shift of one metre, m.
+const COST: f64 = 0.1;
+/// Time below which a shift is not to change, s.
+const BEND: f64 = 0.08;
+/// Price of bending the path of a body in the air, against that of a zero-moment point outside, s⁴.
+const FREE: f64 = 1.0;
+/// Alternations between trajectory and polygons.
+const ALTERNATIONS: usize = 150;
+/// Most of a correction of the zero-moment point, m.
+const MOST_OFF: f64 = 0.4;
+
+/// How the zero-moment point answers to a shift of the centre of mass: Δ − Δ̈/ω², tridiagonal, the motion mirrored at both ends.
+fn answer(omega2: f64, rate_hz: f64, i: usize, n: usize) -> [f64; 3] {
+    let a = rate_hz * rate_hz / omega2;
+    let side = |edge: bool, other: bool| match (edge, other) {
+        (true, _) => 0.0,
+        (_, true) => -2.0 * a,
+        _ => -a,
+    };
+    let (first, last) = (i == 0, i + 1 == n);
+    [side(first, last), 1.0 + 2.0 * a, side(last, first)]
+}
+
+/// The answer of every sample to a shift.
+fn answers(rows: &[[f64; 3]], shift: &[f64]) -> Vec<f64> {
+    let n = shift.len();
+    (0..n)
+        .map(|i| {
+            let [l, d, r] = rows[i];
+            let at = |k: usize| shift[k.min(n - 1)];
+            l * at(i.wrapping_sub(1).min(i)) + d * at(i) + r * at(i + 1)
+        })
+        .collect()
+}
+
+/// Shift of the pelvis, per sample, that brings the zero-moment point `inset` (m) inside the support: the least one, and the smoothest.
 ///
-/// Solves Δ − Δ̈/ω² = p − z per axis with Δ̇ = 0 at both ends, Δ̈ = 0 in flight; p is z clipped to the inset polygon and smoothed.
-/// Samples that are far outside for long (`reach`, m) are carried by something else and are left alone. O(n).
-pub fn com_shift(
+/// Minimises `Σ s² + τ⁴ s̈² + Σ (outside/COST)²` where the zero-moment point answers to a shift Δ = s/LEAD of the centre of mass by Δ − Δ̈/ω²
+/// (cart-table model of Kajita et al. 2003), by alternating between the trajectory (a banded solve per axis) and the polygons (alternating
+/// direction method of multipliers).
+///
+/// * `track`: of the motion as shifted by `so_far`, m.
+/// * `elsewhere`: per sample from 0 to 1, how well something other than the feet may carry the body. Where it does, for the zero-moment point is
+///   outside by more than `reach` (m) for long, the motion is left alone, as is flight.
+///
+/// O(n).
+pub fn pelvis_shift(
     track: &MassTrack,
+    so_far: &[[f64; 2]],
     carriers: &[Carrier],
-    inset: f64,
-    reach: f64,
+    elsewhere: &[f64],
+    (inset, reach): (f64, f64),
     rate_hz: f64,
 ) -> Vec<[f64; 2]> {
     let n = track.com.len();
-    let mut off: [Vec<f64>; 2] = [vec![0.0; n], vec![0.0; n]];
-    for i in 0..n {
-        if let Carrier::Feet(p) = &carriers[i] {
-            let z = track.zmp[i];
-            let c = clip_inside(p, z, inset);
-            for axis in 0..2 {
-                off[axis][i] = (c[axis] - z[axis]).clamp(-0.3, 0.3);
-            }
-        }
-    }
+    let rows: Vec<[f64; 3]> = (0..n)
+        .map(|i| answer(track.omega2[i], rate_hz, i, n).map(|x| x / LEAD))
+        .collect();
+    // Where the zero-moment point would be without any shift.
+    let plain: [Vec<f64>; 2] = std::array::from_fn(|axis| {
+        let s: Vec<f64> = so_far.iter().map(|s| s[axis]).collect();
+        let a = answers(&rows, &s);
+        (0..n).map(|i| track.zmp[i][axis] - a[i]).collect()
+    });
+    let inner: Vec<Option<Vec<[f64; 2]>>> = carriers
+        .iter()
+        .map(|c| match c {
+            Carrier::Feet(p) => Some(inner_polygon(p, inset)),
+            _ => None,
+        })
+        .collect();
     // How far outside for about a second: peaks of gait are corrected, a chair is not.
-    let mut lasting: Vec<f64> = (0..n).map(|i| off[0][i].hypot(off[1][i])).collect();
+    let mut lasting: Vec<f64> = (0..n)
+        .map(|i| match &carriers[i] {
+            Carrier::Feet(p) => (-margin(p, [plain[0][i], plain[1][i]])).clamp(0.0, MOST_OFF),
+            _ => 0.0,
+        })
+        .collect();
     low_pass(&mut lasting, 0.5, rate_hz);
-    let mut out = vec![[0.0; 2]; n];
-    for axis in 0..2 {
-        let mut rhs = off[axis].clone();
-        for i in 0..n {
+    let price = 1.0 / (COST * COST);
+    let yields: Vec<f64> = (0..n)
+        .map(|i| {
             let u = ((lasting[i] - 0.7 * reach) / (0.6 * reach)).clamp(0.0, 1.0);
-            rhs[i] *= 1.0 - u * u * (3.0 - 2.0 * u);
+            let meant = if inner[i].is_some() {
+                1.0 - elsewhere[i] * u * u * (3.0 - 2.0 * u)
+            } else {
+                0.0
+            };
+            // A light body's zero-moment point says little.
+            let load = track.load[i].clamp(0.0, 1.0);
+            let sigma = price * meant * load * load;
+            sigma / (sigma + price)
+        })
+        .collect();
+    let mut matrix = Pentadiagonal::new(vec![1.0; n]);
+    let bend = (BEND * rate_hz).powi(4);
+    for i in 0..n {
+        matrix.add_row(i as isize - 1, rows[i], price);
+        if i > 0 && i + 1 < n {
+            // Nothing bends the path of a body in the air.
+            let free = carriers[i] == Carrier::Air;
+            let weight = if free {
+                FREE * price * rate_hz.powi(4)
+            } else {
+                bend
+            };
+            matrix.add_row(i as isize - 1, [1.0, -2.0, 1.0], weight);
         }
-        low_pass(&mut rhs, 8.0, rate_hz);
-        for (r, c) in rhs.iter_mut().zip(carriers) {
-            if *c == Carrier::Air {
-                *r = 0.0;
+    }
+    let factor = matrix.factor();
+    let mut shift: [Vec<f64>; 2] = [vec![0.0; n], vec![0.0; n]];
+    let mut goal = plain.clone();
+    let mut debt: [Vec<f64>; 2] = [vec![0.0; n], vec![0.0; n]];
+    for _ in 0..ALTERNATIONS {
+        let mut zmp: [Vec<f64>; 2] = Default::default();
+        for axis in 0..2 {
+            let mut x = vec![0.0; n];
+            for i in 0..n {
+                let want = price * (goal[axis][i] - debt[axis][i] - plain[axis][i]);
+                let [l, d, r] = rows[i];
+                x[i] += d * want;
+                if i > 0 {
+                    x[i - 1] += l * want;
+                }
+                if i + 1 < n {
+                    x[i + 1] += r * want;
+                }
+            }
+            factor.solve(&mut x);
+            zmp[axis] = answers(&rows, &x);
+            for (z, p) in zmp[axis].iter_mut().zip(&plain[axis]) {
+                *z += p;
+            }
+            shift[axis] = x;
+        }
+        for i in 0..n {
+            let v = [zmp[0][i] + debt[0][i], zmp[1][i] + debt[1][i]];
+            let inside = match &inner[i] {
+                Some(p) => nearest(p, v),
+                None => v,
+            };
+            for axis in 0..2 {
+                goal[axis][i] = v[axis] + yields[i] * (inside[axis] - v[axis]);
+                debt[axis][i] = v[axis] - goal[axis][i];
             }
         }
-        let shift = cart_table(&rhs, &track.omega2, carriers, rate_hz);
-        for (o, s) in out.iter_mut().zip(shift) {
-            o[axis] = s;
-        }
     }
-    out
-}
-
-/// Solves `Δ − Δ̈/ω² = rhs` (Δ̈ = 0 in flight) with Δ̇ = 0 at both ends (the clip mirrored there): Thomas algorithm.
-fn cart_table(rhs: &[f64], omega2: &[f64], carriers: &[Carrier], rate_hz: f64) -> Vec<f64> {
-    let n = rhs.len();
-    let mut upper = vec![0.0; n];
-    let mut x = vec![0.0; n];
-    for i in 0..n {
-        let flight = carriers[i] == Carrier::Air;
-        // A trace of the stance equation keeps a clip that is all flight solvable.
-        let one = if flight { 1e-6 } else { 1.0 };
-        let al = if flight {
-            1.0
-        } else {
-            rate_hz * rate_hz / omega2[i]
-        };
-        let (lower, diagonal, up) = if n == 1 {
-            (0.0, one, 0.0)
-        } else if i == 0 {
-            (0.0, one + 2.0 * al, -2.0 * al)
-        } else if i == n - 1 {
-            (-2.0 * al, one + 2.0 * al, 0.0)
-        } else {
-            (-al, one + 2.0 * al, -al)
-        };
-        let before = if i > 0 {
-            (upper[i - 1], x[i - 1])
-        } else {
-            (0.0, 0.0)
-        };
-        let w = 1.0 / (diagonal - lower * before.0);
-        upper[i] = up * w;
-        x[i] = (rhs[i] - lower * before.1) * w;
-    }
-    for i in (0..n.saturating_sub(1)).rev() {
-        x[i] -= upper[i] * x[i + 1];
-    }
-    x
+    (0..n).map(|i| [shift[0][i], shift[1][i]]).collect()
 }
 
 #[cfg(test)]
@@ -312,22 +391,18 @@ mod tests {
     use super::*;
 
     #[test]
-    fn cart_table_inverts_the_pendulum() {
-        // c = cos(at) has z = (1 + a²/ω²) c; the mean-free start and end slopes vanish over whole periods.
+    fn the_answer_to_a_shift_is_that_of_the_pendulum() {
+        // c = cos(at) has z = (1 + a²/ω²) c; the slopes at both ends vanish over whole periods.
         let (rate, a, w2) = (120.0, std::f64::consts::TAU / 2.0, 11.0);
         let n = 481;
-        let c: Vec<f64> = (0..n).map(|i| (a * f64::from(i) / rate).cos()).collect();
-        let z: Vec<f64> = c.iter().map(|c| (1.0 + a * a / w2) * c).collect();
-        let ground = vec![Carrier::Other; n as usize];
-        let x = cart_table(&z, &vec![w2; n as usize], &ground, rate);
-        let worst = x
+        let c: Vec<f64> = (0..n).map(|i| (a * i as f64 / rate).cos()).collect();
+        let rows: Vec<_> = (0..n).map(|i| answer(w2, rate, i, n)).collect();
+        let worst = answers(&rows, &c)
             .iter()
             .zip(&c)
-            .map(|(a, b)| (a - b).abs())
+            .map(|(z, c)| (z - (1.0 + a * a / w2) * c).abs())
             .fold(0.0, f64::max);
         assert!(worst < 1e-3, "{worst}");
-        let flat = cart_table(&[0.05; 50], &[11.0; 50], &vec![Carrier::Other; 50], rate);
-        assert!(flat.iter().all(|x| (x - 0.05).abs() < 1e-12));
     }
 
     #[test]

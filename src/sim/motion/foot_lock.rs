@@ -78,6 +78,10 @@ const DEAD_BAND_LONG: f64 = 0.16;
 const LONG_STANCE: f64 = 1.5;
 /// A recorded foot that strays further than this from its anchor has stepped or pivoted, m and rad.
 const STRAY: (f64, f64) = (0.06, 0.40);
+/// Half of the time that a shuffle is given, s: the first of these that fits.
+const HALF_SHUFFLE: [f64; 3] = [0.14, 0.11, 0.08];
+/// Least way of a shuffle, in units of [`STRAY`].
+const SHUFFLES: f64 = 0.25;
 /// A foot steeper or more rolled than this does not stand on its sole, rad.
 const STEEPEST: (f64, f64, f64) = (-1.05, 0.6, 0.6);
 /// A swinging sole passes at least this high, m, for a step of normal length.
@@ -297,8 +301,15 @@ impl Track {
         ((self.point[i] - anchor).norm() / STRAY.0).max((self.yaw[i] - yaw).abs() / STRAY.1)
     }
 
-    /// Splits a stance in which the foot visibly shuffles or pivots into stances joined by short steps.
-    fn split(&self, start: usize, end: usize, rate_hz: f64, out: &mut Vec<(usize, usize)>) {
+    /// Splits a stance in which the foot visibly shuffles or pivots into stances joined by short steps, or begins it after, or ends it before it
+    /// does, while the `other` foot is on the floor: a foot that shuffles alone stays.
+    fn split(
+        &self,
+        (start, end): (usize, usize),
+        other: &[bool],
+        rate_hz: f64,
+        out: &mut Vec<(usize, usize)>,
+    ) {
         let shortest = (0.15 * rate_hz) as usize;
         let (anchor, yaw) = self.anchor(start, end);
         let inner = start + (end - start) / 12..end - (end - start) / 12;
@@ -306,25 +317,42 @@ impl Track {
             .clone()
             .map(|i| self.stray(i, anchor, yaw))
             .fold(0.0, f64::max);
-        let step = (0.14 * rate_hz) as usize; // half of the time that the shuffle is given
-        if worst <= 1.0 || end - start < 2 * (shortest + step) + 1 {
+        if worst <= 1.0 {
             out.push((start, end));
             return;
         }
-        // Split where the foot moves fastest over one shuffle's time.
-        let moved = |i: usize| {
-            let (a, b) = (i - step, i + step);
+        let moved = |a: usize, b: usize| {
             ((self.point[b] - self.point[a]).norm() / STRAY.0)
                 .max((self.yaw[b] - self.yaw[a]).abs() / STRAY.1)
         };
-        let at = (start + shortest + step..end - shortest - step)
-            .max_by(|a, b| moved(*a).total_cmp(&moved(*b)).then(b.cmp(a)));
-        match at.filter(|i| moved(*i) > 0.25) {
-            Some(i) => {
-                self.split(start, i - step, rate_hz, out);
-                self.split(i + step, end, rate_hz, out);
+        // Where the foot moves fastest over one shuffle's time.
+        for half in HALF_SHUFFLE {
+            let half = (half * rate_hz) as usize;
+            let at = (start + shortest + half..(end - half).saturating_sub(shortest))
+                .filter(|i| other[i - half..=i + half].iter().all(|o| *o))
+                .map(|i| (i, moved(i - half, i + half)))
+                .max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
+            if let Some((i, _)) = at.filter(|(_, far)| *far > SHUFFLES) {
+                self.split((start, i - half), other, rate_hz, out);
+                self.split((i + half, end), other, rate_hz, out);
+                return;
             }
-            None => out.push((start, end)),
+        }
+        // A foot that drags on after the other has landed is lifted there; one that slides on while the other still stands comes down later.
+        let alone_until = (start..end)
+            .rev()
+            .find(|i| !other[*i])
+            .map_or(start, |i| i + 1);
+        let alone_from = (start..end).find(|i| !other[*i]).unwrap_or(end);
+        let least = shortest.max((end - start) / 3);
+        let tail = alone_until.max(start + least);
+        let head = alone_from.min(end.saturating_sub(least));
+        if tail < end && moved(tail, end - 1) > SHUFFLES {
+            self.split((start, tail), other, rate_hz, out);
+        } else if head > start && moved(start, head) > SHUFFLES {
+            self.split((head, end), other, rate_hz, out);
+        } else {
+            out.push((start, end));
         }
     }
 }
@@ -349,7 +377,7 @@ fn offset(locked: &FootPose, ankle: Vec3, rotation: Quat, toe: f64) -> Channels 
 /// Locks one foot.
 ///
 /// * `ankles`, `rotations`: recorded ankle (m) and `world_from_foot` per sample, floor at z = 0, body scale.
-/// * `label`: where the foot is on the floor (from [`super::contacts`]).
+/// * `label`, `other`: where this foot and the other one are on the floor (from [`super::contacts`]).
 /// * `heel_up`, `toe_out`: by how much more the heel is raised and the foot turned outwards in stance than recorded, rad per sample.
 /// * `side`: 0 left, 1 right.
 /// * `rate_hz`: samples per second.
@@ -360,7 +388,7 @@ pub fn lock_foot(
     sole: &Sole,
     ankles: &[Vec3],
     rotations: &[Quat],
-    label: &[bool],
+    (label, other): (&[bool], &[bool]),
     (heel_up, toe_out): (&[f64], &[f64]),
     side: usize,
     rate_hz: f64,
@@ -390,7 +418,7 @@ pub fn lock_foot(
         let of = |v: &[f64]| median(v[i..j].to_vec());
         let (pitch, roll) = (of(&track.pitch), of(&track.roll));
         if on && pitch > STEEPEST.0 && pitch < STEEPEST.1 && roll.abs() < STEEPEST.2 {
-            track.split(i, j, rate_hz, &mut pieces);
+            track.split((i, j), other, rate_hz, &mut pieces);
         }
     }
     for &(i, j) in &pieces {
@@ -639,7 +667,7 @@ mod tests {
             &s,
             &ankles,
             &rotations,
-            &label,
+            (&label, &vec![true; n as usize]),
             (&vec![0.0; n as usize], &vec![0.0; n as usize]),
             0,
             120.0,

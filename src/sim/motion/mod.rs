@@ -1,6 +1,7 @@
 //! Desired motion: reading, retargeting, preparing, sampling (paper §3.2).
 
 pub mod balance;
+mod banded;
 pub mod builtin;
 pub mod bvh;
 pub mod bvh_write;
@@ -10,6 +11,7 @@ pub mod consistency;
 pub mod contacts;
 pub mod cycle;
 pub mod ends;
+pub mod envelope;
 pub mod filter;
 pub mod foot_lock;
 pub mod join;

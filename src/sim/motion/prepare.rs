@@ -1,6 +1,7 @@
 //! From a recorded motion in body scale to a reference that a body can follow: feet locked, legs reaching, balance kept.
 
-use super::balance::{Carrier, LIGHT, MassTrack, com_shift, hull, margin, mass_track};
+use super::balance::{Carrier, LIGHT, MassTrack, hull, margin, mass_track, pelvis_shift};
+use super::envelope::smoothest_below;
 use super::filter::{low_pass, low_pass_points, percentile, smooth_minimum};
 use super::foot_lock::{LockedFoot, Sole, Stance, lock_foot};
 use super::leg_ik::{forward, solve_leg_in_plane};
@@ -16,6 +17,8 @@ use crate::sim::math::{Quat, Vec3};
 const REACH: f64 = 0.98;
 /// For a swinging leg the pelvis is lowered by no more than this, m.
 const SWING_DROP: f64 = 0.04;
+/// The pelvis is lowered over about this time, s.
+const DROP_TIME: f64 = 0.15;
 /// Rounds of shifting the trunk and solving the legs again.
 const ROUNDS: usize = 8;
 /// The zero-moment point is kept this far inside the support polygon, m.
@@ -23,7 +26,11 @@ const INSET: f64 = 0.03;
 /// A zero-moment point outside by more than this for long means that something other than the feet carries the body, m.
 const CARRIED: f64 = 0.15;
 /// The trunk is never moved further than this for balance, m.
-const MOST_SHIFT: f64 = 0.12;
+const MOST_SHIFT: f64 = 0.2;
+/// A pelvis below the first share of its standing height may sit, one above the second does not.
+const SITS: (f64, f64) = (0.65, 0.8);
+/// Feet that stay for so long before and after a moment do not step, s.
+const STAYS: f64 = 0.5;
 /// Angles are kept this far from their limits, rad.
 const LIMIT_MARGIN: f64 = 0.01;
 /// Ankles of planted feet are kept this far from their limits, rad.
@@ -220,7 +227,7 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
                 &soles[s],
                 &draft.ankle[s],
                 &draft.foot[s],
-                &label[s],
+                (&label[s], &label[1 - s]),
                 (&relief.heel_up[s], &relief.toe_out[s]),
                 s,
                 rate,
@@ -243,10 +250,11 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
 
     // Legs as recorded first; then rounds in which ankles are relieved and the trunk is shifted over the feet.
     let mut shift = vec![[0.0f64; 2]; n];
-    let (mut postures, mut drop_max) = assemble(body, &upper, &locked, draft, &relief, &shift);
+    let (mut postures, mut drop) = assemble(body, &upper, &locked, draft, &relief, &shift);
     let mut carriers = carriers_of(body, &soles, &upper, &locked, draft);
     let mut track = mass_track(body, &postures, rate);
     let before = zmp_outside(&track, &carriers);
+    let elsewhere = may_rest(body, &upper, &planted, rate);
     for round in 0..if options.lock_feet && n >= 8 {
         rounds
     } else {
@@ -264,20 +272,22 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
             carriers = carriers_of(body, &soles, &upper, &locked, draft);
         }
         if options.balance && round > 0 {
-            let delta = com_shift(&track, &carriers, INSET, CARRIED, rate);
-            for (s, d) in shift.iter_mut().zip(&delta) {
-                // The feet stay behind, so the centre of mass follows the pelvis by some 85 %.
-                let (x, y) = (s[0] + 1.15 * d[0], s[1] + 1.15 * d[1]);
-                let far = x.hypot(y);
-                let k = if far > MOST_SHIFT {
-                    MOST_SHIFT / far
-                } else {
-                    1.0
-                };
-                *s = [x * k, y * k];
+            shift = pelvis_shift(
+                &track,
+                &shift,
+                &carriers,
+                &elsewhere,
+                (INSET, CARRIED),
+                rate,
+            );
+            for s in &mut shift {
+                let far = s[0].hypot(s[1]);
+                if far > MOST_SHIFT {
+                    *s = s.map(|x| x * MOST_SHIFT / far);
+                }
             }
         }
-        (postures, drop_max) = assemble(body, &upper, &locked, draft, &relief, &shift);
+        (postures, drop) = assemble(body, &upper, &locked, draft, &relief, &shift);
         track = mass_track(body, &postures, rate);
     }
 
@@ -326,7 +336,7 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
         penetration: (penetration_before, penetration_after),
         zmp: (before, after),
         shift_max: shift.iter().map(|s| s[0].hypot(s[1])).fold(0.0, f64::max),
-        drop_max,
+        drop_max: -drop.iter().copied().fold(0.0, f64::min),
         carried: far as f64 / n.max(1) as f64,
         freed: freed as f64 / (2 * n).max(1) as f64,
     }
@@ -366,6 +376,25 @@ fn carriers_of(
             }
         })
         .collect()
+}
+
+/// How well something other than the feet may carry the body, from 0 to 1: a chair where the pelvis is low, hands where both feet stay for a
+/// while. Who steps walks on his feet.
+fn may_rest(body: &Body, upper: &[Posture], planted: &[[bool; 2]], rate_hz: f64) -> Vec<f64> {
+    let standing = body.standing_root_height();
+    let n = upper.len();
+    let half = (STAYS * rate_hz) as usize;
+    let mut out: Vec<f64> = (0..n)
+        .map(|i| {
+            let low = (SITS.1 - upper[i].root_position.z / standing) / (SITS.1 - SITS.0);
+            let stays = planted[i.saturating_sub(half)..(i + half).min(n)]
+                .iter()
+                .all(|p| *p == [true; 2]);
+            if stays { 1.0 } else { low.clamp(0.0, 1.0) }
+        })
+        .collect();
+    low_pass(&mut out, 2.0, rate_hz);
+    out.iter().map(|x| x.clamp(0.0, 1.0)).collect()
 }
 
 fn note_clamped(clamped: &mut [(f64, f64); DOF_COUNT], off: &[f64; DOF_COUNT], n: usize) {
@@ -421,11 +450,11 @@ fn assemble(
     draft: &Draft,
     relief: &Relief,
     shift: &[[f64; 2]],
-) -> (Vec<Posture>, f64) {
+) -> (Vec<Posture>, Vec<f64>) {
     let n = upper.len();
     let legs = leg_geometry(body);
     let mut out = upper.to_vec();
-    let mut drop = vec![0.0f64; n];
+    let mut drop = vec![f64::INFINITY; n];
     for i in 0..n {
         out[i].root_position.x += shift[i][0];
         out[i].root_position.y += shift[i][1];
@@ -434,14 +463,14 @@ fn assemble(
             let most = REACH * length;
             let level = d.x.hypot(d.y);
             let height = (most * most - level * level).max(0.04 * most * most).sqrt();
-            let need = (height - d.z).min(0.0);
+            let need = height - d.z;
             // A swinging leg must not be straight when it lands either; one that kicks or lies is its own affair.
             let weight = if foot.planted[i] {
                 1.0
             } else {
                 ((0.6 - level / most) / 0.15).clamp(0.0, 1.0)
             };
-            let need = if foot.planted[i] {
+            let need = if foot.planted[i] || need > 0.0 {
                 need
             } else {
                 need.max(-SWING_DROP) * weight
@@ -449,8 +478,7 @@ fn assemble(
             drop[i] = drop[i].min(need);
         }
     }
-    let drop = smooth_minimum(&drop, (0.1 * draft.rate_hz) as usize);
-    // The moving average leaves corners of its own; a light low-pass of the pelvis path takes them out.
+    let drop = smoothest_below(&drop, DROP_TIME, draft.rate_hz);
     let mut path: Vec<Vec3> = (0..n)
         .map(|i| {
             let mut p = out[i].root_position;
@@ -459,7 +487,6 @@ fn assemble(
         })
         .collect();
     low_pass_points(&mut path, 10.0, draft.rate_hz);
-    let lowest = drop.iter().copied().fold(0.0, f64::min);
     for i in 0..n {
         out[i].root_position = path[i];
         for (s, (hip, length)) in legs.iter().enumerate() {
@@ -489,7 +516,7 @@ fn assemble(
             );
         }
     }
-    (out, -lowest)
+    (out, drop)
 }
 
 fn zmp_outside(track: &MassTrack, carriers: &[Carrier]) -> ZmpOutside {
