@@ -37,6 +37,9 @@ const BOTH: f64 = 0.1;
 /// Longest step, forward and to the side, leg lengths; least distance of the feet to the side, share of that at ease.
 const LONGEST: (f64, f64) = (0.8, 0.65);
 const CLOSEST: f64 = 0.8;
+/// Between these distances before or behind the other foot, m, a step may come to cross its line by up to this, m.
+const CROSS_FROM: (f64, f64) = (0.2, 0.35);
+const CROSS: f64 = 0.12;
 /// The zero-moment point stays this far inside the soles, m; it keeps the capture point this far inside where it can.
 const INSET: f64 = 0.01;
 const INNER: f64 = 0.035;
@@ -44,6 +47,8 @@ const INNER: f64 = 0.035;
 const CAUGHT: f64 = 0.015;
 /// And so much more per m/s, s, where the moment is given and not chosen: a body stops less well than a pendulum.
 const SPARE: f64 = 0.03;
+/// A foot that catches lands this far beyond the capture point, m, so that the body comes to rest between the feet.
+const BEYOND: f64 = 0.05;
 /// Gain of the zero-moment point on the way to a place, how close counts as there, m, and when patience ends, s.
 const LEAN: (f64, f64, f64) = (2.0, 0.015, 0.9);
 /// A foot this close to where it belongs stays, m and rad.
@@ -64,6 +69,11 @@ const EASE: f64 = 1.0;
 const ALIKE: f64 = 0.03;
 /// Height of the ankle's arc, m. Clearance proper is the preparation's business.
 const ARC: f64 = 0.05;
+/// The heel of a foot that is left behind by more than this, m, rises by so much per m, up to the last, rad, within this time, s.
+const ROLL_FROM: f64 = 0.15;
+const ROLL_GAIN: f64 = 1.0;
+const MOST_ROLL: f64 = 0.5;
+const ROLL: f64 = 0.2;
 /// How long the motion goes on after the feet have come to rest, s.
 const REST: f64 = 0.8;
 
@@ -277,6 +287,8 @@ struct Stop<'a> {
     capture: Vec3,
     /// What has to be in hand beyond [`CAUGHT`], s.
     spare: f64,
+    /// Foot that steps first where both are down; otherwise the one that catches best.
+    first: Option<usize>,
     steps: Vec<Step>,
     path: Vec<Vec3>,
 }
@@ -361,10 +373,11 @@ impl Stop<'_> {
         let p = level(self.hold(&self.feet.support(down)));
         let away = self.capture - p;
         let landing = |time: f64| p + away * (self.omega * time).exp();
+        let beyond = away.normalized_or(Vec3::zero()) * BEYOND;
         let mut best = (f64::INFINITY, least, Vec3::zero());
         let mut time = least;
         while time <= SWING.1.max(least) {
-            let place = self.reachable(side, landing(time));
+            let place = self.reachable(side, landing(time) + beyond);
             let far = place - ankle;
             let speed = far.x.hypot(far.y) / time;
             if speed < best.0 {
@@ -395,12 +408,15 @@ impl Stop<'_> {
         let outward = if side == 0 { 1.0 } else { -1.0 };
         let apart = (self.stand.home[0].y - self.stand.home[1].y).abs();
         let (far, wide) = (LONGEST.0 * self.leg, LONGEST.1 * self.leg);
+        let x = (local.x - SOLE_MIDDLE).clamp(-far, far);
+        // Far before or behind the other foot there is room to cross.
+        let room = ((x.abs() - CROSS_FROM.0) / (CROSS_FROM.1 - CROSS_FROM.0)).clamp(0.0, 1.0);
+        let closest = CLOSEST * apart * (1.0 - room) - CROSS * room;
         let mut place = Vec3 {
-            x: (local.x - SOLE_MIDDLE).clamp(-far, far),
-            y: (local.y * outward).clamp(CLOSEST * apart, wide.max(apart)) * outward,
+            x,
+            y: (local.y * outward).clamp(closest, wide.max(apart)) * outward,
             z: 0.0,
         };
-        // A body that moves inwards is caught behind or before the other foot, never across it.
         if place.x.abs() < 0.02 {
             place.x = 0.0;
         }
@@ -488,11 +504,11 @@ impl Stop<'_> {
                 break;
             }
             let [left, right] = [0, 1].map(|s: usize| self.catching(s, ankle[s], SWING.0));
-            let (side, (time, place, _)) = if right.2 > left.2 {
-                (1, right)
-            } else {
-                (0, left)
+            let right_first = match self.first.take() {
+                Some(side) => side == 1,
+                None => right.2 > left.2,
             };
+            let (side, (time, place, _)) = if right_first { (1, right) } else { (0, left) };
             self.swing(side, time, place);
             self.both(BOTH);
         }
@@ -542,26 +558,32 @@ fn tail(body: &Body, draft: &Draft, goal: Option<&Posture>, spare: f64) -> Optio
         return None;
     }
     let ground = |v: Vec3| Vec3 { z: 0.0, ..v };
-    let mut stop = Stop {
-        from: &from,
-        feet: Feet {
-            place: from.place,
-            yaw: from.yaw,
-            soles: &soles,
-        },
-        stand: &stand,
-        leg: leg_length(body),
-        omega,
-        dt: 1.0 / rate,
-        capture: ground(from.com + from.velocity * (1.0 / omega)),
-        spare,
-        steps: Vec::new(),
-        path: vec![ground(from.com)],
+    let plan = |(spare, first): (f64, Option<usize>)| {
+        let mut stop = Stop {
+            from: &from,
+            feet: Feet {
+                place: from.place,
+                yaw: from.yaw,
+                soles: &soles,
+            },
+            stand: &stand,
+            leg: leg_length(body),
+            omega,
+            dt: 1.0 / rate,
+            capture: ground(from.com + from.velocity * (1.0 / omega)),
+            spare,
+            first,
+            steps: Vec::new(),
+            path: vec![ground(from.com)],
+        };
+        stop.run().then_some(stop)
     };
-    let stands = stop.run();
-    if !stands {
-        return None;
-    }
+    // With as much in hand as there is a way for, and with the foot first that catches best, or else with either.
+    let hands = [spare, 0.5 * spare, 0.0];
+    let ways = hands
+        .into_iter()
+        .flat_map(|h| [None, Some(0), Some(1)].map(|first| (h, first)));
+    let stop = { ways }.find_map(plan)?;
     let upright = Quat::exp(Vec3::Z * (from.heading - stand.heading)) * stand.posture.root_rotation;
     // The zero-moment point of the pendulum jumps from foot to foot; a body's does not.
     let mut path = stop.path;
@@ -623,6 +645,36 @@ fn alike(a: &Posture, b: &Posture) -> bool {
     a.joint_difference(b).iter().all(|e| e.abs() < ALIKE)
 }
 
+/// Stance of a foot between two of its steps.
+struct Stance {
+    place: Vec3,
+    yaw: f64,
+    /// From when to when, s.
+    on: f64,
+    off: f64,
+    /// Pitch when it comes down, in the middle, and when it is lifted, rad.
+    pitch: [f64; 3],
+}
+
+impl Stance {
+    /// Pose `t` seconds into the end. The heel of a foot that is left behind rises before it is lifted, over [`ROLL`].
+    fn pose(&self, sole: &Sole, t: f64) -> (Vec3, Quat) {
+        let [first, middle, last] = self.pitch;
+        let half = 0.5 * (self.off - self.on);
+        let rise = smooth(1.0 - (self.off - t) / ROLL.min(half).max(1e-9));
+        let settle = smooth((t - self.on) / ROLL.min(half).max(1e-9));
+        let pitch = first + (middle - first) * settle + (last - middle) * rise;
+        let pose = sole.stand(self.place, self.yaw, pitch);
+        (pose.ankle, pose.rotation)
+    }
+}
+
+/// Pitch of a foot at `place` that is left behind by the other one at `other`, rad: heel up.
+fn left_behind(place: Vec3, other: Vec3, heading: f64) -> f64 {
+    let behind = turned(-heading, other - place).x;
+    -(ROLL_GAIN * (behind - ROLL_FROM)).clamp(0.0, MOST_ROLL)
+}
+
 /// Ankle and rotation of a foot `t` seconds into the end, and whether it is down.
 fn swing(
     from: &State,
@@ -631,33 +683,80 @@ fn swing(
     (side, yaw): (usize, f64),
     t: f64,
 ) -> (Vec3, Quat, bool) {
-    let flat = Quat::exp(Vec3::Z * yaw);
-    let mut ankle = from.ankle[side];
-    let mut rotation = from.foot[side];
-    let mut velocity = if from.down[side] {
-        Vec3::zero()
-    } else {
-        from.ankle_velocity[side]
+    let other = |t: f64| {
+        let landed = steps.iter().rev().find(|s| s.side != side && s.on <= t);
+        landed.map_or(from.place[1 - side], |s| s.place)
     };
-    for s in steps.iter().filter(|s| s.side == side) {
-        if t <= s.off {
-            return (ankle, rotation, true);
+    let mine: Vec<&Step> = steps.iter().filter(|s| s.side == side).collect();
+    let pitch = yaw_pitch(from.foot[side]).1;
+    let stance = |k: usize| {
+        let off = mine.get(k).map_or(f64::INFINITY, |s| s.off);
+        let lifted = |place: Vec3| left_behind(place, other(off), from.heading);
+        match k.checked_sub(1) {
+            None => {
+                let place = from.place[side];
+                let last = if off.is_finite() {
+                    lifted(place).min(pitch)
+                } else {
+                    pitch
+                };
+                Stance {
+                    place,
+                    yaw: from.yaw[side],
+                    on: 0.0,
+                    off,
+                    pitch: [pitch, pitch, last],
+                }
+            }
+            Some(before) => {
+                let Step { place, on, .. } = *mine[before];
+                let first = left_behind(place, other(on), from.heading);
+                let last = if off.is_finite() { lifted(place) } else { 0.0 };
+                Stance {
+                    place,
+                    yaw,
+                    on,
+                    off,
+                    pitch: [first, 0.0, last],
+                }
+            }
         }
-        let goal = Vec3 {
-            z: sole.ankle_height,
-            ..s.place
-        };
-        let long = s.on - s.off;
-        if t < s.on {
-            let u = (t - s.off) / long;
-            let mut p = min_jerk_3(ankle, velocity, goal, long, t - s.off);
-            p.z += ARC * 16.0 * u * u * (1.0 - u) * (1.0 - u);
-            let spin = (flat * rotation.conjugate()).log() * smooth(u);
-            return (p, Quat::exp(spin) * rotation, false);
+    };
+    let begins = |k: usize| mine.get(k).map_or(f64::INFINITY, |s| s.off);
+    let k = (0..=mine.len())
+        .find(|k| t <= begins(*k))
+        .unwrap_or(mine.len());
+    let under_way = k
+        .checked_sub(1)
+        .map(|k| (k, mine[k]))
+        .filter(|(_, s)| t < s.on);
+    let Some((k, step)) = under_way else {
+        if k == 0 && !from.down[side] {
+            return (from.ankle[side], from.foot[side], true);
         }
-        (ankle, rotation, velocity) = (goal, flat, Vec3::zero());
-    }
-    (ankle, rotation, true)
+        let (ankle, rotation) = stance(k).pose(sole, t);
+        return (ankle, rotation, true);
+    };
+    let in_air = k == 0 && !from.down[side];
+    let (start, rotation, velocity) = if in_air {
+        (from.ankle[side], from.foot[side], from.ankle_velocity[side])
+    } else {
+        let (ankle, rotation) = stance(k).pose(sole, step.off);
+        (ankle, rotation, Vec3::zero())
+    };
+    let (goal, flat) = stance(k + 1).pose(sole, step.on);
+    let long = step.on - step.off;
+    let u = (t - step.off) / long;
+    let mut p = min_jerk_3(start, velocity, goal, long, t - step.off);
+    // What is left of a swing rises no more.
+    let arc = if in_air {
+        ARC * ((long - SWING.0) / SWING.0).clamp(0.0, 1.0)
+    } else {
+        ARC
+    };
+    p.z += arc * 16.0 * u * u * (1.0 - u) * (1.0 - u);
+    let spin = (flat * rotation.conjugate()).log() * smooth(u);
+    (p, Quat::exp(spin) * rotation, false)
 }
 
 impl Draft {
