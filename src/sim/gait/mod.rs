@@ -279,14 +279,19 @@ impl Gait {
         }))
     }
 
-    /// True while steps are made that a plan has. A stream that stands has none; a step that is under way already is finished first.
+    /// True while steps are made that a plan has: not while a stream stands, nor while the feet of a clip stay for a while, nor until a step
+    /// that nobody planned is finished.
     fn walks(&self) -> bool {
-        let stands = |p: &StepPlan| self.step.is_some() || p.rests(self.phase);
-        self.ended.is_none()
-            && self
-                .plan
-                .as_ref()
-                .is_some_and(|p| !(p.is_live() && stands(p)))
+        let down = self.feet[0].down && self.feet[1].down;
+        let stands = |p: &StepPlan| {
+            let rests = if p.is_live() {
+                p.rests(self.phase)
+            } else {
+                down && p.pauses(self.phase)
+            };
+            self.step.is_some() || rests
+        };
+        self.ended.is_none() && self.plan.as_ref().is_some_and(|p| !stands(p))
     }
 
     /// The foot that came down in this tick.
@@ -674,7 +679,9 @@ impl Gait {
             let y = Quat::exp(Vec3::Z * -yaw).rotate(p - at).y;
             if side == 0 { y } else { -y }
         };
-        let crossed = outward(now[side].0) < 0.5 * catch::BESIDE;
+        // Feet that a clip is about to move again stay where it has them, if they hold the body.
+        let own = self.ended.is_none() && self.plan.as_ref().is_some_and(|p| !p.is_live());
+        let crossed = !own && outward(now[side].0) < 0.5 * catch::BESIDE;
         if margin < -catch::LOST || crossed {
             self.tidying = None;
             self.step = start(
@@ -685,6 +692,9 @@ impl Gait {
                     Purpose::Catch
                 },
             );
+            return;
+        }
+        if own {
             return;
         }
         if let Some(side) = self.tidying {

@@ -5,6 +5,7 @@ use crate::sim::body::{Body, Posture, SegmentId};
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::Clip;
 use crate::sim::motion::clip::PlanarTransform;
+use crate::sim::motion::contacts::runs;
 use crate::sim::motion::foot_lock::Sole;
 use crate::sim::motion::leg_ik::forward;
 use crate::sim::motion::live::{self, LiveMotion};
@@ -52,6 +53,8 @@ pub fn place(sole: &Sole, ankle: Vec3, rotation: Quat) -> (Vec3, f64) {
     (p, yaw)
 }
 
+/// Feet that stay at least so long leave time for a step that nobody planned, s.
+const PAUSE: f64 = 0.35;
 /// A foot this close to the floor carries the body if no other does, m.
 const NEAR_FLOOR: f64 = 0.03;
 
@@ -85,6 +88,22 @@ fn carried(body: &Body, samples: &[(&Posture, [bool; 2])]) -> Vec<[bool; 2]> {
         .collect()
 }
 
+/// A foot that leaves the floor or touches it for less than this does not step, s.
+const SHORTEST: f64 = 0.05;
+
+/// Takes out what is too short for a step: first gaps of a stance, then stances.
+fn steady(planted: &mut [[bool; 2]], side: usize, rate_hz: f64) {
+    let shortest = (SHORTEST * rate_hz) as usize;
+    for short in [false, true] {
+        let label: Vec<bool> = planted.iter().map(|p| p[side]).collect();
+        for (i, j, on) in runs(&label) {
+            if on == short && j - i < shortest && i > 0 && j < label.len() {
+                planted[i..j].iter_mut().for_each(|p| p[side] = !short);
+            }
+        }
+    }
+}
+
 impl StepPlan {
     /// The plan of `clip` on `body`; `looped` if it repeats.
     pub fn new(body: &Body, clip: &Clip, looped: bool) -> Self {
@@ -99,7 +118,10 @@ impl StepPlan {
         };
         let n = ((duration - begin) * rate).round() as usize + 1;
         let samples: Vec<_> = clip.samples().skip(skipped).take(n).collect();
-        let planted = carried(body, &samples);
+        let mut planted = carried(body, &samples);
+        for side in 0..2 {
+            steady(&mut planted, side, rate);
+        }
         let stances = std::array::from_fn(|side| {
             let sole = Sole::new(body, side);
             let mut out = Vec::new();
@@ -187,6 +209,14 @@ impl StepPlan {
                 self.current(side, t)
                     .is_some_and(|f| f.on < t - BEFORE && f.off > t + AFTER)
             })
+    }
+
+    /// True if both feet stand at time `t` (s) and go on standing for a while.
+    pub fn pauses(&self, t: f64) -> bool {
+        (0..2).all(|side| {
+            self.current(side, t)
+                .is_some_and(|f| f.on < t && f.off > t + PAUSE)
+        })
     }
 
     /// True if a foot leaves the floor anywhere.
