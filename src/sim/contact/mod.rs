@@ -4,6 +4,7 @@
 //! and A as inertia; the controller reads x as the price of the dynamics. Every iterate respects strength and friction.
 
 pub mod dense;
+pub(crate) mod interior;
 pub mod limits;
 pub mod newton;
 pub mod projection;

@@ -1,5 +1,6 @@
 //! Semi-smooth Newton method with exact line search, warm start and a bound on its work (ALGORITHM §14.2).
 
+use super::interior::Interior;
 use super::limits::{LIMIT_STIFFNESS, LimitRows};
 use super::projection::Region;
 use super::rows::{CHAIN_WIDTH, ContactRows, SegmentRows, add_point_stiffness};
@@ -75,6 +76,7 @@ pub struct NewtonWorkspace {
     pub(crate) velocity: Box<[Vec3; MAX_CONTACTS]>,
     pub(crate) direction: Box<[Vec3; MAX_CONTACTS]>,
     pub(crate) region: Box<[Region; MAX_CONTACTS]>,
+    pub(crate) interior: Interior,
 }
 
 impl Default for NewtonWorkspace {
@@ -87,6 +89,7 @@ impl Default for NewtonWorkspace {
             velocity: z(),
             direction: z(),
             region: Box::new([Region::Open; MAX_CONTACTS]),
+            interior: Interior::default(),
         }
     }
 }
@@ -100,6 +103,16 @@ pub struct Outcome {
     pub residual: f64,
     /// Residual below the tolerance.
     pub converged: bool,
+}
+
+/// Largest entry of a gradient, or length of its part on the root's angular or linear velocity: those are in world axes, and when to stop
+/// must not depend on which way north is. Entries that are no numbers are left out: such states are found where they are stored.
+pub(crate) fn largest(gradient: &[f64; NV]) -> f64 {
+    let length = |g: &[f64]| g.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let root = 0f64
+        .max(length(&gradient[..3]))
+        .max(length(&gradient[3..6]));
+    gradient[6..].iter().fold(root, |m, g| m.max(g.abs()))
 }
 
 /// Most evaluations of one line search.
@@ -155,7 +168,7 @@ pub fn minimise<S: System>(
             (ws.force[k], ws.region[k]) = contacts.force(k, ws.velocity[k]);
         }
         contacts.add_transposed(&ws.force, -1.0, &mut grad);
-        out.residual = grad.iter().fold(0.0, |m: f64, g| m.max(g.abs()));
+        out.residual = largest(&grad);
         out.converged = out.residual < tolerance;
         if out.converged || out.iterations >= max_iterations || !out.residual.is_finite() {
             return out;

@@ -17,6 +17,8 @@ use clarabel::solver::{
 };
 
 const DT: f64 = 1.0 / 60.0;
+/// Problems.
+const ROUNDS: usize = 320;
 /// Friction of the ground; the controller plans with less.
 const FRICTION: f64 = 0.9;
 
@@ -498,10 +500,10 @@ fn scene(rng: &mut Rng, kind: usize, round: usize) -> Scene {
 fn the_kernel_solves_the_problem_that_an_interior_point_method_solves() {
     let mut rng = Rng::new(77);
     let mut c = Modern::new(FRICTION);
-    let (mut compared, mut bound, mut stuck, mut saturated, mut sliding, mut flying) =
-        (0, 0, 0, 0, 0, 0);
+    let (mut jammed, mut saturated, mut sliding, mut flying) = (0, 0, 0, 0);
+    let mut counts = Vec::new();
     let (mut cost, mut torque, mut force, mut acceleration) = (0.0f64, 0.0f64, 0.0f64, 0.0f64);
-    for round in 0..320 {
+    for round in 0..ROUNDS {
         let s = scene(&mut rng, round % 8, round);
         if round % 5 == 0 {
             c.reset();
@@ -509,6 +511,7 @@ fn the_kernel_solves_the_problem_that_an_interior_point_method_solves() {
         let (torques, forces) = (c.last_torque, c.last_force.clone());
         c.control(&s.input());
         let forces: [Vec3; MAX_CONTACTS] = *forces;
+        counts.push(c.command.iterations);
         // Within limits and cones whatever the residual.
         let primal = Primal::new(&c, &s, &torques, &forces);
         let ours = decided(&c);
@@ -517,18 +520,9 @@ fn the_kernel_solves_the_problem_that_an_interior_point_method_solves() {
             "{round}: {}",
             primal.excess(&ours)
         );
-        if c.command.flags.has(Flags::CONTROL_BOUND) {
-            // The prices of another figure's problem are a bad start. The next tick begins with none.
-            bound += 1;
-            (c.last_torque, *c.last_force) = (torques, forces);
-            c.control(&s.input());
-            if c.command.flags.has(Flags::CONTROL_BOUND) {
-                stuck += 1;
-                continue;
-            }
-        }
-        let primal = Primal::new(&c, &s, &torques, &forces);
-        let ours = decided(&c);
+        // Whatever the prices that it starts with, of another figure's problem more often than not, it gets done.
+        assert!(!c.command.flags.has(Flags::CONTROL_BOUND), "{round}");
+        jammed += usize::from(c.command.iterations > NEWTON_ITERATIONS);
         let exact = primal.solve();
         assert!(primal.excess(&exact) < 1e-4, "{round}: the oracle itself");
         assert!(primal.residual(&exact) < 1e-4, "{round}: the oracle itself");
@@ -550,19 +544,22 @@ fn the_kernel_solves_the_problem_that_an_interior_point_method_solves() {
         for (x, y) in ours.acceleration.iter().zip(&exact.acceleration) {
             acceleration = acceleration.max((x - y).abs() / scale);
         }
-        compared += 1;
         saturated += usize::from(c.command.saturated != 0);
         flying += usize::from(ours.force.is_empty());
         let edge = |f: &&Vec3| f.z > 1.0 && f.x.hypot(f.y) > 0.999 * primal.mu * f.z;
         sliding += usize::from(ours.force.iter().any(|f| edge(&f)));
     }
+    counts.sort_unstable();
     let text = format!(
-        "{compared} compared ({saturated} saturated, {sliding} at the cone, {flying} in flight), {bound} stopped at the bound, {stuck} of them with a cold start too; \
-         cost {cost:.1e}, torque {torque:.1e} of its range, force {force:.1e} of the weight, acceleration {acceleration:.1e} of the largest"
+        "{ROUNDS} compared ({saturated} saturated, {sliding} at the cone, {flying} in flight); iterations: median {}, 99 % {}, {} at most, {jammed} through the interior; \
+         cost {cost:.1e}, torque {torque:.1e} of its range, force {force:.1e} of the weight, acceleration {acceleration:.1e} of the largest",
+        counts[ROUNDS / 2],
+        counts[ROUNDS * 99 / 100],
+        counts[ROUNDS - 1],
     );
     println!("{text}");
     assert!(
-        compared > 280 && saturated > 60 && sliding > 20 && flying > 20,
+        jammed > 60 && saturated > 60 && sliding > 20 && flying > 20,
         "{text}"
     );
     assert!(cost < 1e-6, "{text}");
