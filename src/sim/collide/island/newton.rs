@@ -1,0 +1,216 @@
+//! Newton's method for an island: gradients, line search and when to stop.
+
+use super::{Articulated, Island, Kind, dot, relative};
+use crate::sim::body::topology::{DOF_COUNT, NV};
+use crate::sim::contact::Outcome;
+use crate::sim::contact::newton::largest;
+use crate::sim::contact::projection::Region;
+
+/// Most Newton iterations of one island. 5 to 15 are typical; heads, arms and trunks that fall onto each other take up to 100, and a step
+/// cut short lets them sink in.
+const MAX_ITERATIONS: u32 = 120;
+/// Most evaluations of one line search.
+const LINE_SEARCH: usize = 16;
+/// Residual at which the island counts as solved, N·m·s.
+const TOLERANCE: f64 = 1e-6;
+
+impl Island {
+    /// Solves from the velocities that the figures hold and leaves the solution there. Bounded work.
+    pub fn solve<F: Articulated>(&mut self, figures: &mut [F]) -> Outcome {
+        self.start(figures);
+        let mut out = Outcome::default();
+        loop {
+            self.gradients(figures);
+            out.residual = self
+                .blocks
+                .iter()
+                .fold(0.0, |m: f64, b| m.max(largest(&b.grad)));
+            out.converged = out.residual < TOLERANCE;
+            if out.converged || out.iterations >= MAX_ITERATIONS || !out.residual.is_finite() {
+                break;
+            }
+            out.iterations += 1;
+            if !self.direction(figures) {
+                break;
+            }
+            self.line_search(figures);
+        }
+        for b in &self.blocks {
+            if let Kind::Figure(i) = b.kind {
+                *figures[i].parts().x = b.x;
+            }
+        }
+        out
+    }
+
+    /// Takes in the velocities that the figures hold.
+    pub(super) fn start<F: Articulated>(&mut self, figures: &mut [F]) {
+        for b in &mut self.blocks {
+            match b.kind {
+                Kind::Figure(i) => {
+                    let p = figures[i].parts();
+                    b.x = *p.x;
+                    p.m.mul(&b.x, &mut b.ax);
+                    p.contacts.velocities(&b.x, &mut p.newton.velocity);
+                }
+                Kind::Free(_) => {
+                    b.ax = [0.0; NV];
+                    for i in 0..6 {
+                        b.ax[i] = (0..6).map(|j| b.a[i][j] * b.x[j]).sum();
+                    }
+                }
+            }
+        }
+        self.velocities();
+    }
+
+    pub(super) fn gradients<F: Articulated>(&mut self, figures: &mut [F]) {
+        for b in &mut self.blocks {
+            match b.kind {
+                Kind::Figure(i) => {
+                    let p = figures[i].parts();
+                    for k in 0..NV {
+                        b.grad[k] = b.ax[k] - p.b[k];
+                    }
+                    for j in 0..DOF_COUNT {
+                        let (t, s) = p.motors.value(j, b.x[6 + j]);
+                        p.newton.motor[j] = t;
+                        b.slope[j] = s;
+                        b.grad[6 + j] -= t;
+                    }
+                    p.newton.limit.fill(0.0);
+                    for row in &p.limits.rows {
+                        let q = row.impulse(row.rate(&b.x));
+                        if q > 0.0 {
+                            for k in 0..row.len {
+                                p.newton.limit[row.first - 6 + k] += q * row.coefficients[k];
+                            }
+                        }
+                    }
+                    for j in 0..DOF_COUNT {
+                        b.grad[6 + j] -= p.newton.limit[j];
+                    }
+                    for k in 0..p.contacts.points.len() {
+                        (p.newton.force[k], p.newton.region[k]) =
+                            p.contacts.force(k, p.newton.velocity[k]);
+                    }
+                    p.contacts
+                        .add_transposed(&p.newton.force, -1.0, &mut b.grad);
+                }
+                Kind::Free(_) => {
+                    for k in 0..6 {
+                        b.grad[k] = b.ax[k] - b.b[k];
+                    }
+                }
+            }
+        }
+        for c in &mut self.contacts {
+            (c.impulse, c.region) = c.at(c.u);
+            if c.region == Region::Open {
+                continue;
+            }
+            for side in 0..2 {
+                if let Some(b) = c.block[side] {
+                    for (row, f) in c.rows[side].iter().zip(c.impulse.to_array()) {
+                        for (g, r) in self.blocks[b].grad.iter_mut().zip(row) {
+                            *g -= f * r;
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Exact line search along the common direction, and the step.
+    fn line_search<F: Articulated>(&mut self, figures: &mut [F]) {
+        let (mut q0, mut q1, mut slope0) = (0.0, 0.0, 0.0);
+        for b in &mut self.blocks {
+            match b.kind {
+                Kind::Figure(i) => {
+                    let p = figures[i].parts();
+                    p.m.mul(&b.d, &mut b.ad);
+                    p.contacts.velocities(&b.d, &mut p.newton.direction);
+                    for k in 0..NV {
+                        q0 += b.d[k] * (b.ax[k] - p.b[k]);
+                    }
+                }
+                Kind::Free(_) => {
+                    b.ad = [0.0; NV];
+                    for k in 0..6 {
+                        b.ad[k] = (0..6).map(|j| b.a[k][j] * b.d[j]).sum();
+                        q0 += b.d[k] * (b.ax[k] - b.b[k]);
+                    }
+                }
+            }
+            q1 += dot(&b.d, &b.ad);
+            slope0 += dot(&b.d, &b.grad);
+        }
+        let blocks = &self.blocks;
+        for c in &mut self.contacts {
+            c.du = relative(c, |b| &blocks[b].d);
+        }
+        let contacts = &self.contacts;
+        let mut phi = |a: f64| {
+            let mut z = q0 + a * q1;
+            for b in blocks {
+                if let Kind::Figure(i) = b.kind {
+                    let p = figures[i].parts();
+                    for j in 0..DOF_COUNT {
+                        z -= b.d[6 + j] * p.motors.value(j, b.x[6 + j] + a * b.d[6 + j]).0;
+                    }
+                    for row in &p.limits.rows {
+                        let r = row.rate(&b.d);
+                        if r != 0.0 {
+                            z -= r * row.impulse(row.rate(&b.x) + a * r);
+                        }
+                    }
+                    for k in 0..p.contacts.points.len() {
+                        let v = p.newton.velocity[k] + p.newton.direction[k] * a;
+                        z -= p.newton.direction[k].dot(p.contacts.force(k, v).0);
+                    }
+                }
+            }
+            for c in contacts {
+                z -= c.du.dot(c.at(c.u + c.du * a).0);
+            }
+            z
+        };
+        let mut a = 1.0;
+        let full = phi(1.0);
+        if full > 0.1 * slope0.abs() {
+            let (mut lo, mut flo, mut hi, mut fhi) = (0.0, slope0, 1.0, full);
+            for _ in 0..LINE_SEARCH {
+                a = lo - flo * (hi - lo) / (fhi - flo);
+                if a.is_nan() || a <= lo + 1e-3 * (hi - lo) {
+                    a = lo + 1e-2 * (hi - lo);
+                }
+                let p = phi(a);
+                if p.abs() < 0.05 * slope0.abs() {
+                    break;
+                }
+                if p < 0.0 {
+                    (lo, flo) = (a, p);
+                    fhi *= 0.5;
+                } else {
+                    (hi, fhi) = (a, p);
+                    flo *= 0.5;
+                }
+            }
+        }
+        for b in &mut self.blocks {
+            for k in 0..NV {
+                b.x[k] += a * b.d[k];
+                b.ax[k] += a * b.ad[k];
+            }
+            if let Kind::Figure(i) = b.kind {
+                let p = figures[i].parts();
+                for k in 0..p.contacts.points.len() {
+                    p.newton.velocity[k] += p.newton.direction[k] * a;
+                }
+            }
+        }
+        for c in &mut self.contacts {
+            c.u += c.du * a;
+        }
+    }
+}
