@@ -2,6 +2,7 @@
 
 pub mod args;
 pub mod bodies;
+pub mod compare;
 pub mod convert;
 pub mod lint;
 pub mod noise;

@@ -48,7 +48,15 @@ impl Page {
     /// # Errors
     /// A file that cannot be written, a folder that cannot be read.
     pub fn finish(self) -> Result<()> {
-        let path = self.folder.join("README.md");
+        self.finish_as("README.md")
+    }
+
+    /// Writes the page under `name` and says where, with how many files of what size are there.
+    ///
+    /// # Errors
+    /// A file that cannot be written, a folder that cannot be read.
+    pub fn finish_as(self, name: &str) -> Result<()> {
+        let path = self.folder.join(name);
         write(&path, self.text.trim_end().to_owned() + "\n")?;
         println!("{} ({})", path.display(), size(&self.folder)?);
         Ok(())

@@ -1,8 +1,13 @@
 //! `sinew paper`: runs every experiment of the paper again and writes a page with tables, plots and motion strips.
 
 use super::args::person_name;
+use super::compare;
 use super::page::{Page, progress};
-use crate::evaluate::experiments::fall::{DIRECTIONS, Fall, LOW, fall, leaning, pendulum};
+use super::source::load;
+use crate::evaluate::experiments::compare::Motion;
+use crate::evaluate::experiments::fall::{
+    DIRECTIONS, Fall, LOW, fall, fall_on_toes, leaning, pendulum, pendulum_about_the_balls,
+};
 use crate::evaluate::experiments::lift::{Lift, lift, scene, weak_arm};
 use crate::evaluate::experiments::push::{Push, push, recovered};
 use crate::evaluate::experiments::statics::{Hold, hold};
@@ -13,6 +18,7 @@ use crate::evaluate::strip::View;
 use crate::sim::body::topology::DOF_NAMES;
 use crate::sim::body::{Body, Profile, Sex};
 use crate::sim::motion::builtin::builtin;
+use crate::sim::motion::retarget::RetargetOptions;
 use anyhow::Result;
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -24,7 +30,10 @@ const PANELS: usize = 7;
 /// Loads of the lift, kg: the paper's text says 1, 3 and 4, the caption of its figure 1, 3 and 5.
 const LOADS: [f64; 4] = [1.0, 3.0, 4.0, 5.0];
 /// Experiments, for the progress bar.
-const STEPS: u64 = 9;
+const STEPS: u64 = 10;
+/// Built-in motions that the controllers are compared on, and those during which they are pushed.
+const COMPARED: [&str; 5] = ["idle", "wave", "lift", "crate", "squat"];
+const PUSHED: [&str; 2] = ["idle", "wave"];
 
 /// Runs the paper's experiments again and writes a page about them.
 #[derive(Clone, Debug, clap::Args)]
@@ -32,14 +41,21 @@ pub struct PaperArgs {
     /// Folder for the page (README.md), its plots and strips; files of the same names are replaced.
     #[arg(long, value_name = "FOLDER", default_value = "docs/paper")]
     pub out: PathBuf,
+    /// Standing recordings (BVH) on which to compare the controllers: writes that page (recorded.md) and nothing else. A recording called
+    /// sit-stand gets the stool that it sits on.
+    #[arg(long, value_name = "FILES", num_args = 1..)]
+    pub recordings: Vec<String>,
 }
 
 /// Runs the command.
 ///
 /// # Errors
-/// Files that cannot be written.
+/// Recordings that cannot be read, files that cannot be written.
 pub fn run(args: &PaperArgs) -> Result<()> {
     let mut page = Page::new(&args.out)?;
+    if !args.recordings.is_empty() {
+        return recorded(args, page);
+    }
     let bar = progress("paper", STEPS);
     let body = Arc::new(Body::adult_man());
     introduction(&mut page);
@@ -52,6 +68,7 @@ pub fn run(args: &PaperArgs) -> Result<()> {
         ("collision", bumps),
         ("step size", step_size),
         ("as printed", as_printed),
+        ("comparison", comparison),
         ("time", time),
     ];
     for (name, part) in parts {
@@ -61,6 +78,47 @@ pub fn run(args: &PaperArgs) -> Result<()> {
     }
     bar.finish_and_clear();
     page.finish()
+}
+
+/// The comparison on recordings: a page of its own, because not everybody has them.
+fn recorded(args: &PaperArgs, mut page: Page) -> Result<()> {
+    let body = Arc::new(Body::adult_man());
+    let mut motions = Vec::new();
+    for spec in &args.recordings {
+        let source = load(spec, &body, &RetargetOptions::default())?;
+        motions.push(Motion::new(&source.name, Arc::new(source.clip)));
+    }
+    let names: Vec<String> = motions.iter().map(|m| m.name.clone()).collect();
+    let pushed: Vec<&str> = names
+        .iter()
+        .map(String::as_str)
+        .filter(|n| PUSHED.contains(n))
+        .collect();
+    page.say("# Controllers compared on recordings");
+    page.say(&format!(
+        "The comparison of [the page](README.md#the-controllers-compared) on recorded motion, by `sinew paper --recordings` with {}, fitted to the \
+         same man, nothing adjusted. `sit-stand` has a stool of 0.34 × 0.34 × 0.38 m where it sits and ends when it begins to walk away.",
+        names.join(", ")
+    ));
+    compare::section(&mut page, &body, &motions, &pushed);
+    page.finish_as("recorded.md")
+}
+
+fn comparison(page: &mut Page, body: &Arc<Body>) -> Result<()> {
+    page.say("## The controllers compared");
+    page.say(
+        "All pairs of controller and stepper that apply, on the built-in motions that keep both feet in place; the same on recorded motion: \
+         [recorded.md](recorded.md). *Modern, kinematic* is left out: prescribed accelerations make nothing of its contact forces.",
+    );
+    let motions: Vec<Motion> = COMPARED
+        .iter()
+        .map(|name| {
+            let clip = builtin(body, name).expect("built-in motions exist");
+            Motion::new(name, Arc::new(clip))
+        })
+        .collect();
+    compare::section(page, body, &motions, &PUSHED);
+    Ok(())
 }
 
 fn introduction(page: &mut Page) {
@@ -385,7 +443,46 @@ fn falls(page: &mut Page, body: &Arc<Body>) -> Result<()> {
         "One tick is 0.017 s. At human strength toes and ankles cannot hold a body that leans over its toes or heels, so the figure bends and is no \
          pendulum; energy may then grow by the work of its muscles.",
     );
+    toes(page, body);
     Ok(())
+}
+
+/// Why the forward fall ends early at human strength.
+fn toes(page: &mut Page, body: &Arc<Body>) {
+    let (name, forward) = DIRECTIONS[0];
+    let start = leaning(body, forward);
+    let tips = pendulum(body, &start).last().map_or(0.0, |p| p[0]);
+    let balls = pendulum_about_the_balls(body, &start);
+    page.say(&format!("### Why {name} is early"));
+    page.say(&format!(
+        "The edge in front is that of the tips of the toes. To fall about it, the toes must carry the whole body; where they give, the body tips about \
+         the balls of the feet, which lie behind, and starts farther beyond its balance. Rigid, that takes {balls:.3} s instead of {tips:.3} s. \
+         The same fall with stronger toes, everything else at human strength:"
+    ));
+    let mut rows = Vec::new();
+    for factor in [0.5, 1.0, 2.0, 4.0, 8.0] {
+        let mut row = vec![format!("×{factor}")];
+        for pair in [Pair::paper_torque(), Pair::motors()] {
+            let f = fall_on_toes(body, &pair, forward, [1.0, factor], 0);
+            let off = f.time_s.map(|t| 100.0 * (t / tips - 1.0));
+            row.push(or_dash(f.time_s, 3));
+            row.push(off.map_or_else(|| "–".into(), |o| format!("{o:+.1}")));
+            row.push(format!("{:.1}", f.bent_deg));
+        }
+        rows.push(row);
+    }
+    page.table(
+        &[
+            "strength of the toes",
+            "paper, torque: s",
+            "off, %",
+            "joints off, °",
+            "motors alone: s",
+            "off, %",
+            "joints off, °",
+        ],
+        &rows,
+    );
 }
 
 fn pushes(page: &mut Page, body: &Arc<Body>) -> Result<()> {

@@ -2,7 +2,7 @@
 
 use super::{Pair, Record, record};
 use crate::evaluate::pose::segment_poses;
-use crate::sim::body::topology::{DOF_COUNT, L_FOOT, L_TOES, R_FOOT, R_TOES};
+use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES, L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::body::{Body, Links, Posture, State};
 use crate::sim::dynamics::{Kinematics, center_of_mass, kinetic_energy};
 use crate::sim::figure::StrengthScale;
@@ -190,13 +190,41 @@ pub struct Fall {
     pub record: Record,
 }
 
+/// How long the figure takes as a pendulum about the balls of its feet instead of the edge that it leans over, s: what remains of the
+/// support when the toes give.
+pub fn pendulum_about_the_balls(body: &Body, start: &Leaning) -> f64 {
+    let poses = segment_poses(&body.joint_offset, &start.state.posture);
+    let ball = (poses[L_TOES.index()].position + poses[R_TOES.index()].position) * 0.5;
+    let start = Leaning {
+        pivot: ball,
+        ..start.clone()
+    };
+    pendulum(body, &start).last().map_or(0.0, |p| p[0])
+}
+
 /// Lets a figure fall with `strength` times its own.
 pub fn fall(body: &Arc<Body>, pair: &Pair, direction: Vec3, strength: f64, panels: usize) -> Fall {
+    fall_on_toes(body, pair, direction, [strength, 1.0], panels)
+}
+
+/// The same with a further factor on the strength of the toes.
+pub fn fall_on_toes(
+    body: &Arc<Body>,
+    pair: &Pair,
+    direction: Vec3,
+    [strength, toes]: [f64; 2],
+    panels: usize,
+) -> Fall {
     let start = leaning(body, direction);
-    let scale = StrengthScale {
+    let mut scale = StrengthScale {
         all: strength,
         ..StrengthScale::default()
     };
+    for (factor, name) in scale.dof.iter_mut().zip(DOF_NAMES) {
+        if name.ends_with("toe_extension") {
+            *factor = toes;
+        }
+    }
     let pendulum_s = pendulum(body, &start).last().map_or(0.0, |p| p[0]);
     // Energies come from the state, which the recording does not keep: a second world is cheaper than all states.
     let (mut world, key) = pair.world(body, start.state, scale.clone());

@@ -1,6 +1,7 @@
 //! Experiments as functions: build the scene, run it, return what was measured. `sinew paper` and `sinew walking` print them; nothing here
 //! reads a clock or a file.
 
+pub mod compare;
 pub mod fall;
 pub mod lift;
 pub mod push;

@@ -39,6 +39,9 @@ const GHOST_RANGE: f64 = 1.5;
 /// A thing whose nearest corner is farther from the figure than the first is not drawn; a panel widens for things up to the second, m.
 const THING_RANGE: f64 = 1.3;
 const THING_WIDTH: f64 = 1.6;
+/// The same for the parts of another figure: what two do with each other is the picture, until they have gone separate ways.
+const OTHER_RANGE: f64 = 3.5;
+const OTHER_WIDTH: f64 = 3.5;
 /// Surface of a limb without a mesh, m.
 const BARE_RADIUS: f64 = 0.04;
 
@@ -278,12 +281,13 @@ fn extent(body: &Body, skins: &[Skin], frame: &Frame, camera: Camera) -> [f64; 3
         }
     }
     for t in near(frame) {
+        let (_, width) = reach_of(t);
         for v in &t.mesh.vertices {
             let d = t.pose.point(*v) - centre;
             let (x, y) = (d.dot(camera.right), d.dot(camera.up));
-            out[0] = out[0].max((0.06 - x).min(THING_WIDTH));
-            out[1] = out[1].max((0.06 + x).min(THING_WIDTH));
-            if x.abs() < THING_WIDTH {
+            out[0] = out[0].max((0.06 - x).min(width));
+            out[1] = out[1].max((0.06 + x).min(width));
+            if x.abs() < width {
                 out[2] = out[2].max(y.min(THING_RANGE));
             }
         }
@@ -291,12 +295,21 @@ fn extent(body: &Body, skins: &[Skin], frame: &Frame, camera: Camera) -> [f64; 3
     out
 }
 
+/// How near a thing must be to be drawn, and how far a panel widens for it, m.
+fn reach_of(thing: &Thing) -> (f64, f64) {
+    match thing.kind {
+        Kind::Obstacle => (THING_RANGE, THING_WIDTH),
+        Kind::Other(_) => (OTHER_RANGE, OTHER_WIDTH),
+    }
+}
+
 /// Things near the figure.
 fn near(frame: &Frame) -> impl Iterator<Item = &Thing> {
     let at = frame.posture.root_position;
     frame.things.iter().filter(move |t| {
+        let (range, _) = reach_of(t);
         let mut corners = t.mesh.vertices.iter();
-        corners.any(|v| (t.pose.point(*v) - at).norm() < THING_RANGE)
+        corners.any(|v| (t.pose.point(*v) - at).norm() < range)
     })
 }
 
@@ -396,7 +409,7 @@ fn tile(items: &mut Vec<Item>, place: &Place, sides: [f64; 2]) {
     });
     for axis in [Vec3::X, Vec3::Y] {
         let c = place.centre.dot(axis);
-        for k in ((c - 2.0) * 2.0).floor() as i64..=((c + 2.0) * 2.0).ceil() as i64 {
+        for k in ((c - 4.0) * 2.0).floor() as i64..=((c + 4.0) * 2.0).ceil() as i64 {
             // The line {p: p·axis = k/2} in tile coordinates, clipped to the tile.
             let foot = axis * (k as f64 / 2.0 - c);
             let along = Vec3::Z.cross(axis);

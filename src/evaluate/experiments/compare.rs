@@ -1,0 +1,223 @@
+//! Controllers against each other: the same motions, loads and pushes for every pair of controller and stepper.
+
+use super::Pair;
+use crate::sim::body::topology::{CHEST, DOF_COUNT, L_HAND, R_HAND};
+use crate::sim::body::{Body, SegmentId, State};
+use crate::sim::collide::{Mobility, ObstacleSetup, Shape};
+use crate::sim::figure::{HeldLoad, Perturbation, StrengthScale, TickReport};
+use crate::sim::math::{Quat, Vec3};
+use crate::sim::motion::{Clip, PlanarTransform};
+use crate::sim::world::{ClipPlayback, Drive, FigureKey, World};
+use std::sync::Arc;
+
+/// A push begins at this time and lasts this long, s.
+const PUSH: (f64, f64) = (1.0, 0.1);
+/// What is watched beyond the end of the clip, s.
+const AFTERWARDS: f64 = 1.0;
+
+/// Loads that are compared: kg, and whether in two hands, half in each.
+pub const LOADS: [(f64, bool); 7] = [
+    (0.0, false),
+    (2.0, false),
+    (5.0, false),
+    (10.0, false),
+    (2.0, true),
+    (5.0, true),
+    (10.0, true),
+];
+/// Pushes that are compared, N·s.
+pub const IMPULSES: [f64; 3] = [10.0, 20.0, 30.0];
+
+/// A motion, with what it needs to stand or sit on.
+#[derive(Clone, Debug)]
+pub struct Motion {
+    /// What it is called.
+    pub name: String,
+    /// The motion.
+    pub clip: Arc<Clip>,
+    /// What it sits on.
+    pub seat: Option<ObstacleSetup>,
+    /// How much of it is compared, s.
+    pub seconds: f64,
+}
+
+impl Motion {
+    /// The whole of `clip`, called `name`, and a second afterwards. The recording called `sit-stand` gets the stool that it lacks, and ends where it
+    /// begins to walk away: what becomes of that depends on luck (docs/limits.md).
+    pub fn new(name: &str, clip: Arc<Clip>) -> Self {
+        let sits = name == "sit-stand";
+        let half = Vec3 {
+            x: 0.17,
+            y: 0.17,
+            z: 0.19,
+        };
+        let seat = ObstacleSetup {
+            name: "stool".into(),
+            shape: Shape::Box { half },
+            mobility: Mobility::Fixed,
+            friction: 0.8,
+            position: Vec3 {
+                x: 0.389,
+                y: 0.545,
+                z: half.z,
+            },
+            rotation: Quat::from_axis_angle(Vec3::Z, -51f64.to_radians()),
+            velocity: Vec3::zero(),
+            angular_velocity: Vec3::zero(),
+        };
+        Self {
+            name: name.to_owned(),
+            seconds: if sits {
+                8.0
+            } else {
+                clip.duration() + AFTERWARDS
+            },
+            seat: sits.then_some(seat),
+            clip,
+        }
+    }
+}
+
+/// What is added to a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Burden {
+    /// Mass in the right hand or, half in each, in both, kg.
+    Load(f64, bool),
+    /// Impulse at the chest, N·s.
+    Push(Vec3),
+}
+
+/// What came of it; errors are those before a fall.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Outcome {
+    /// When it fell, s.
+    pub fell_s: Option<f64>,
+    /// Ticks that were measured.
+    pub ticks: u32,
+    /// Sum over the ticks of the mean square error of the joints, rad².
+    pub joints: f64,
+    /// Sum of the square distance of the centre of mass from the desired one, m².
+    pub com: f64,
+    /// Sum of the changes of torque from tick to tick, as a share of the range, of joints at their limit before or after, and how many.
+    pub chatter: (f64, u32),
+}
+
+impl Outcome {
+    /// Joint error, rms, degrees.
+    pub fn joints_deg(&self) -> f64 {
+        (self.joints / f64::from(self.ticks.max(1)))
+            .sqrt()
+            .to_degrees()
+    }
+    /// Error of the centre of mass, rms, mm.
+    pub fn com_mm(&self) -> f64 {
+        1e3 * (self.com / f64::from(self.ticks.max(1))).sqrt()
+    }
+    /// Mean change of torque of a saturated joint from tick to tick, as a share of its range; `None` if none was ever saturated.
+    pub fn chatter(&self) -> Option<f64> {
+        let (sum, count) = self.chatter;
+        (count > 0).then(|| sum / f64::from(count))
+    }
+    /// Both together; the earlier fall.
+    pub fn add(&mut self, other: &Self) {
+        self.fell_s = match (self.fell_s, other.fell_s) {
+            (Some(a), Some(b)) => Some(a.min(b)),
+            (a, b) => a.or(b),
+        };
+        self.ticks += other.ticks;
+        self.joints += other.joints;
+        self.com += other.com;
+        self.chatter.0 += other.chatter.0;
+        self.chatter.1 += other.chatter.1;
+    }
+
+    fn observe(&mut self, r: &TickReport, before: &mut ([f64; DOF_COUNT], u64)) {
+        let mean = r.joint_error.iter().map(|e| e * e).sum::<f64>() / DOF_COUNT as f64;
+        let off = r.com - r.com_desired;
+        if self.ticks > 0 {
+            let at_limit = r.saturated | before.1;
+            for j in (0..DOF_COUNT).filter(|j| at_limit >> j & 1 == 1) {
+                let range = r.torque_upper[j] - r.torque_lower[j];
+                self.chatter.0 += (r.torque[j] - before.0[j]).abs() / range;
+                self.chatter.1 += 1;
+            }
+        }
+        *before = (r.torque, r.saturated);
+        self.ticks += 1;
+        self.joints += mean;
+        self.com += off.dot(off);
+    }
+}
+
+fn scene(body: &Arc<Body>, pair: &Pair, motion: &Motion, burden: Burden) -> (World, FigureKey) {
+    let first = motion.clip.sample(0.0);
+    let state = State {
+        posture: first.posture,
+        velocity: first.velocity,
+    };
+    let (mut world, key) = pair.world(body, state, StrengthScale::default());
+    if let Some(seat) = &motion.seat {
+        world.add_obstacle(seat.clone()).expect("seats are valid");
+    }
+    let figure = world.figure_mut(key).expect("the figure was just added");
+    figure.set_drive(Drive::Clip(ClipPlayback {
+        clip: Arc::clone(&motion.clip),
+        start: 0.0,
+        speed: 1.0,
+        looped: false,
+        origin: PlanarTransform::default(),
+    }));
+    let held = |segment: SegmentId, mass: f64| {
+        Perturbation::Held(HeldLoad {
+            segment,
+            point: body.segment(segment).com,
+            mass,
+            velocity: Vec3::zero(),
+            second: None,
+            grip: f64::INFINITY,
+            from: 0.0,
+            to: f64::INFINITY,
+        })
+    };
+    let what = match burden {
+        Burden::Load(0.0, _) => Vec::new(),
+        Burden::Load(mass, false) => vec![held(R_HAND, mass)],
+        Burden::Load(mass, true) => vec![held(L_HAND, 0.5 * mass), held(R_HAND, 0.5 * mass)],
+        Burden::Push(impulse) => vec![Perturbation::Force {
+            segment: CHEST,
+            point: Vec3::Z * 0.1,
+            force: impulse * (1.0 / PUSH.1),
+            from: PUSH.0,
+            to: PUSH.0 + PUSH.1,
+        }],
+    };
+    for p in what {
+        world.perturb(key, p).expect("loads and pushes are valid");
+    }
+    (world, key)
+}
+
+/// One run, to its end or a fall. `step` makes a tick, and may time it.
+pub fn compare(
+    body: &Arc<Body>,
+    pair: &Pair,
+    motion: &Motion,
+    burden: Burden,
+    step: &mut dyn FnMut(&mut World),
+) -> Outcome {
+    let (mut world, key) = scene(body, pair, motion, burden);
+    let mut out = Outcome::default();
+    let mut before = ([0.0; DOF_COUNT], 0);
+    let ticks = (motion.seconds * pair.rate_hz).round() as u64;
+    for _ in 0..ticks {
+        step(&mut world);
+        let figure = world.figure(key).expect("nobody removes the figure");
+        if figure.is_fallen() {
+            out.fell_s = Some(world.time());
+            break;
+        }
+        let report = figure.report().expect("a stepped figure has a report");
+        out.observe(report, &mut before);
+    }
+    out
+}
