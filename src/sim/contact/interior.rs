@@ -332,7 +332,7 @@ pub(crate) fn approach<S: System>(
             q[0][0] += r;
             q[1][1] += r;
             q[2][2] += r / (mu * mu);
-            c.df = c.df - times(&inverse(&q), to_cone(p.turn.as_ref(), mu, ws.direction[k]));
+            c.df -= times(&inverse(&q), to_cone(p.turn.as_ref(), mu, ws.direction[k]));
             c.dl = mirrored(c.f) * (aim / square(c.f)) - c.l - times(&w, c.df);
             step = way_to_boundary(c.f, c.df, step);
             step = way_to_boundary(c.l, c.dl, step);
