@@ -166,7 +166,13 @@ pub(crate) fn approach<S: System>(
 ) -> u32 {
     let n = contacts.points.len();
     let mu = contacts.friction;
-    let mut inner = std::mem::take(&mut ws.interior);
+    let NewtonWorkspace {
+        interior: inner,
+        force,
+        velocity,
+        direction,
+        ..
+    } = ws;
     let mut start = 0.0;
     let mut shorter = 1.0f64;
     let mut done = 0;
@@ -175,7 +181,7 @@ pub(crate) fn approach<S: System>(
     let mut ax = [0.0; NV];
     for round in 0..iterations {
         let first = round == 0;
-        contacts.velocities(x, &mut ws.velocity);
+        contacts.velocities(x, velocity);
         if round == 1 {
             // Middle of everything, multipliers of the size of the prices.
             let mut size = 0.0;
@@ -196,7 +202,7 @@ pub(crate) fn approach<S: System>(
                 };
             }
             for (k, p) in contacts.points.iter().enumerate() {
-                let v = to_cone(p.turn.as_ref(), mu, ws.velocity[k] + p.c);
+                let v = to_cone(p.turn.as_ref(), mu, velocity[k] + p.c);
                 inner.cones[k] = Cone {
                     f: Vec3::Z * widest,
                     l: Vec3::Z * (size + v.norm()),
@@ -254,7 +260,7 @@ pub(crate) fn approach<S: System>(
                 c.f = Vec3::zero();
             } else {
                 let w = scaling(c.f, c.l);
-                let v = to_cone(turn, mu, ws.velocity[k] + p.c);
+                let v = to_cone(turn, mu, velocity[k] + p.c);
                 let residual = times(&q, c.f) + v - mirrored(c.f) * (aim / square(c.f));
                 for a in 0..3 {
                     for b in 0..3 {
@@ -263,7 +269,7 @@ pub(crate) fn approach<S: System>(
                 }
                 c.df = times(&inverse(&q), residual) * -1.0;
             }
-            ws.force[k] = to_world(turn, mu, c.f + c.df);
+            force[k] = to_world(turn, mu, c.f + c.df);
             let h = inverse(&q);
             // To world axes on both sides.
             let axes = turn.map_or([Vec3::X, Vec3::Y, Vec3::Z], |t| [t.x, t.y, t.z]);
@@ -280,7 +286,7 @@ pub(crate) fn approach<S: System>(
             }
             add_point_stiffness(&mut stiffness[p.slot], p.r, &d);
         }
-        contacts.add_transposed(&ws.force, 1.0, &mut rhs);
+        contacts.add_transposed(force, 1.0, &mut rhs);
         for (slot, s) in contacts.segments.iter().enumerate() {
             let mut kj = [[0.0; CHAIN_WIDTH]; 6];
             for a in 0..6 {
@@ -304,7 +310,7 @@ pub(crate) fn approach<S: System>(
             continue;
         }
         // Steps of the rest, and how far all may go.
-        contacts.velocities(&d, &mut ws.direction);
+        contacts.velocities(&d, direction);
         let mut step = 1.0 / TO_BOUNDARY;
         for (j, m) in inner.motors.iter_mut().enumerate() {
             m.dt -= slope[j] * d[6 + j];
@@ -332,7 +338,7 @@ pub(crate) fn approach<S: System>(
             q[0][0] += r;
             q[1][1] += r;
             q[2][2] += r / (mu * mu);
-            c.df -= times(&inverse(&q), to_cone(p.turn.as_ref(), mu, ws.direction[k]));
+            c.df -= times(&inverse(&q), to_cone(p.turn.as_ref(), mu, direction[k]));
             c.dl = mirrored(c.f) * (aim / square(c.f)) - c.l - times(&w, c.df);
             step = way_to_boundary(c.f, c.df, step);
             step = way_to_boundary(c.l, c.dl, step);
@@ -359,6 +365,5 @@ pub(crate) fn approach<S: System>(
             break;
         }
     }
-    ws.interior = inner;
     done
 }
