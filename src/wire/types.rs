@@ -168,6 +168,8 @@ pub struct FigureInfo {
     pub settings: FigureSettings,
     /// Last part of the name of the clip it plays.
     pub clip: Option<String>,
+    /// Last part of the name of the clip that begins once it stands.
+    pub next_clip: Option<String>,
     /// Who drives it.
     pub driver: Option<String>,
     /// Index in frames.

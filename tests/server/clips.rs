@@ -1,12 +1,13 @@
 //! Files to clips, playing them, simulating without a world.
 
-use crate::support::{TestServer, recording};
+use crate::mocap;
+use crate::support::{FALLEN, TestServer};
 use sinew::wire::pb;
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_recording_is_uploaded_played_and_simulated() {
     let server = TestServer::start().await;
-    let data = recording("wave.bvh");
+    let data = mocap::read("wave.bvh");
     let clip = server
         .client
         .motions()
@@ -60,17 +61,8 @@ async fn a_recording_is_uploaded_played_and_simulated() {
             })
             .await
             .unwrap();
-        server
-            .client
-            .motions()
-            .play_clip(pb::PlayClipRequest {
-                figure: format!("{world}/figures/{id}"),
-                clip: clip.name.clone(),
-                reset: true,
-                ..Default::default()
-            })
-            .await
-            .unwrap();
+        let figure = format!("{world}/figures/{id}");
+        server.play(&figure, &clip.name, true).await;
     }
     server.step(&world, 120).await;
     let frame = server.frame(&world, &["status"]).await;
@@ -122,6 +114,60 @@ async fn a_recording_is_uploaded_played_and_simulated() {
         .await
         .unwrap_err();
     assert_eq!(gone.code(), tonic::Code::NotFound);
+    server.stop().await;
+}
+
+/// Asked for in mid-walk: the figure stands first. Until then the clip is seen as the next one; it can be replaced and taken back.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_clip_waits_until_a_walking_figure_stands() {
+    let server = TestServer::start().await;
+    let world = server.paused_world("w").await;
+    let (goes_on, stays) = (
+        server.figure(&world, "goes-on").await.name,
+        server.figure(&world, "stays").await.name,
+    );
+    let plays = |f: pb::Figure| (f.clip, f.next_clip);
+    for figure in [&goes_on, &stays] {
+        server.play(figure, "clips/walk", true).await;
+        let now = plays(server.look(figure).await);
+        assert_eq!(now, ("clips/walk".into(), String::new()));
+    }
+    let asked = server.step(&world, 90).await.time_s;
+    for figure in [&goes_on, &stays] {
+        server.play(figure, "clips/lift", false).await;
+        let expected = server.play(figure, "clips/wave", false).await;
+        assert!(
+            (asked..asked + 4.0).contains(&expected) && expected > asked + 0.2,
+            "asked at {asked} s, expected at {expected} s"
+        );
+        let now = plays(server.look(figure).await);
+        assert_eq!(now, (String::new(), "clips/wave".into()));
+    }
+    let name = stays.clone();
+    let request = pb::StopClipRequest { figure: name };
+    server.client.motions().stop_clip(request).await.unwrap();
+    let expected = server.play(&goes_on, "clips/wave", false).await;
+    let mut began = None;
+    while began.is_none() {
+        let now = server.step(&world, 3).await.time_s;
+        assert!(now < expected + 2.1, "still waits at {now} s");
+        match plays(server.look(&goes_on).await) {
+            (clip, next) if next.is_empty() => {
+                assert_eq!(clip, "clips/wave");
+                began = Some(now);
+            }
+            (clip, _) => assert_eq!(clip, ""),
+        }
+        let idle = plays(server.look(&stays).await);
+        assert_eq!(idle, (String::new(), String::new()));
+    }
+    let began = began.unwrap();
+    assert!(began > expected - 0.5, "began at {began} of {expected} s");
+    server.step(&world, 120).await;
+    let frame = server.frame(&world, &["status", "positions"]).await;
+    for f in &frame.figures {
+        assert_eq!(f.status.as_ref().unwrap().flags & FALLEN, 0);
+    }
     server.stop().await;
 }
 

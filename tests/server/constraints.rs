@@ -92,9 +92,7 @@ async fn a_client_holds_a_hand_moves_it_and_lets_it_go() {
     // The one on the centre of mass ends by itself.
     server.step(&world, 30).await;
     assert_eq!(missing(&server, &world).await.len(), 2);
-    let request = pb::GetFigureRequest { name: name.clone() };
-    let f = server.client.figures().get_figure(request).await.unwrap();
-    assert_eq!(f.into_inner().figure.unwrap().constraints.len(), 1);
+    assert_eq!(server.look(&name).await.constraints.len(), 1);
 
     constrain(&server, &name, vec![hand(1.2)]).await.unwrap();
     server.step(&world, 90).await;
@@ -198,9 +196,7 @@ async fn what_is_wrong_names_its_field_and_changes_nothing() {
         let (code, _, at) = refusal(&e);
         assert_eq!((code, at.as_str()), (Code::InvalidArgument, field));
     }
-    let request = pb::GetFigureRequest { name };
-    let f = server.client.figures().get_figure(request).await.unwrap();
-    let kept = f.into_inner().figure.unwrap().constraints;
+    let kept = server.look(&name).await.constraints;
     assert_eq!(kept[0].position_m, at(0.35, -0.25, 1.1));
     server.stop().await;
 }

@@ -1,6 +1,7 @@
 //! Streams that walk: a window prepares them, whatever the network does. World time is stepped, so that all of it is the same every time.
 
-use crate::support::{TestServer, header, recording, refusal};
+use crate::mocap;
+use crate::support::{FALLEN, FROZEN, TestServer, header, refusal};
 use sinew::cli::push::Network;
 use sinew::sim::body::{Body, Posture};
 use sinew::sim::motion::{Bvh, Clip, RetargetOptions, cycle, retarget};
@@ -8,12 +9,8 @@ use sinew::wire::convert::motion::figure_motion;
 use sinew::wire::pb;
 use tonic::Code;
 
-/// Bits of `status.flags`.
-const FALLEN: i32 = 1 << 6;
-const FROZEN: i32 = 1 << 7;
-
 fn walk(body: &Body) -> Clip {
-    let bvh = Bvh::parse(&recording("walk.bvh")).unwrap();
+    let bvh = Bvh::parse(&mocap::read("walk.bvh")).unwrap();
     let clip = retarget(&bvh, body, &RetargetOptions::default())
         .unwrap()
         .clip;

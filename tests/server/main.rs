@@ -6,6 +6,9 @@ mod clips;
 mod constraints;
 mod drives;
 mod live;
+#[allow(dead_code)] // the list of clips
+#[path = "../common/mocap.rs"]
+mod mocap;
 mod obstacles;
 mod support;
 mod watching;

@@ -9,6 +9,10 @@ use std::sync::Arc;
 use tonic::{Code, Status};
 use tonic_types::StatusExt;
 
+/// Bits of `status.flags`.
+pub const FALLEN: i32 = 1 << 6;
+pub const FROZEN: i32 = 1 << 7;
+
 /// A server that ends when it is dropped.
 pub struct TestServer {
     pub address: SocketAddr,
@@ -108,6 +112,26 @@ impl TestServer {
             .into_inner()
     }
 
+    /// A figure as it is now.
+    pub async fn look(&self, name: &str) -> pb::Figure {
+        let name = name.into();
+        let request = pb::GetFigureRequest { name };
+        let got = self.client.figures().get_figure(request).await;
+        got.unwrap().into_inner().figure.unwrap()
+    }
+
+    /// Plays a clip; the world time of its first frame, s.
+    pub async fn play(&self, figure: &str, clip: &str, reset: bool) -> f64 {
+        let request = pb::PlayClipRequest {
+            figure: figure.into(),
+            clip: clip.into(),
+            reset,
+            ..Default::default()
+        };
+        let played = self.client.motions().play_clip(request).await;
+        played.unwrap().into_inner().start_time_s
+    }
+
     /// The latest frame in double precision.
     pub async fn frame(&self, world: &str, fields: &[&str]) -> pb::WorldFrame {
         self.client
@@ -149,16 +173,6 @@ pub fn refusal(status: &Status) -> (Code, String, String) {
         .map(|v| v.field.clone())
         .unwrap_or_default();
     (status.code(), reason, field)
-}
-
-/// Bytes of a recording.
-pub fn recording(name: &str) -> Vec<u8> {
-    let dir = std::env::var_os("SINEW_MOCAP_DIR").map_or_else(
-        || std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/mocap"),
-        Into::into,
-    );
-    let path = dir.join(name);
-    std::fs::read(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
 }
 
 /// Desired motion of a lifted right arm, one frame per 1/60 s.

@@ -342,14 +342,7 @@ async fn bad_requests_name_the_field_and_change_nothing() {
         Code::NotFound,
         "",
     );
-    let driven = c
-        .figures()
-        .get_figure(pb::GetFigureRequest { name: a.clone() })
-        .await
-        .unwrap()
-        .into_inner()
-        .figure
-        .unwrap();
+    let driven = server.look(&a).await;
     assert_eq!(driven.driver_id, "", "a refused push takes no control");
 
     let frame = |view: pb::View, tick| pb::GetWorldFrameRequest {

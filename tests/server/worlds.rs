@@ -14,16 +14,8 @@ async fn a_stepped_world_is_exact_and_reproducible() {
         let world = server.paused_world(id).await;
         server.figure(&world, "a").await;
         server
-            .client
-            .motions()
-            .play_clip(pb::PlayClipRequest {
-                figure: format!("{world}/figures/a"),
-                clip: "clips/wave".into(),
-                reset: true,
-                ..Default::default()
-            })
-            .await
-            .unwrap();
+            .play(&format!("{world}/figures/a"), "clips/wave", true)
+            .await;
         let r = server.step(&world, 30).await;
         assert_eq!((r.tick, r.time_s), (30, 0.5));
         hashes.push(r.state_hash);

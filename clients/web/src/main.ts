@@ -358,6 +358,7 @@ async function makeAnew(p: Person, change: Anew): Promise<void> {
   const load = p.loadKg();
   wantedFigure = p.name;
   const parent = f.name.slice(0, f.name.indexOf("/figures/"));
+  const { clip } = p;
   await session.api.figures.deleteFigure({ name: f.name });
   const same = { body: p.body.name, stepper: f.stepper, controller: f.controller, strength: f.strength, assist: f.assist, fatigueTimeScale: f.fatigueTimeScale, paper: f.paper, placement: f.placement };
   const figure = { ...same, ...(change.body && { body: `bodies/${change.body}` }), ...(change.profile && { body: "", profile: change.profile }), ...(change.stepper && { stepper: change.stepper }) };
@@ -368,7 +369,7 @@ async function makeAnew(p: Person, change: Anew): Promise<void> {
     say(message(error), true);
     made = (await session.api.figures.createFigure({ parent, figureId: p.name, figure: same })).figure;
   }
-  if (made && f.clip) await session.api.motion.playClip({ figure: made.name, clip: f.clip, loop: true, reset: true });
+  if (made && clip) await session.api.motion.playClip({ figure: made.name, clip, loop: true, reset: true });
   await until(() => chosen !== p && chosen?.name === p.name);
   if (chosen && load > 0) await session.carry([chosen], load);
   await session.refresh();

@@ -75,10 +75,15 @@ export class Person {
     return (this.frame?.status?.loads ?? []).reduce((sum, l) => sum + l.massKg, 0);
   }
 
+  /** The clip that was asked for last, `clips/{clip}`: it plays, or begins once the figure stands. Empty if none. */
+  get clip(): string {
+    return this.figure.clip || this.figure.nextClip;
+  }
+
   /** Whether its hands are where a crate is held, in a motion that lifts one. */
   holdsCrate(): boolean {
     const poses = numbers(this.frame?.segmentTransforms);
-    if (this.figure.clip !== "clips/crate" || !poses.length) return false;
+    if (this.clip !== "clips/crate" || !poses.length) return false;
     const [l, r] = [this.segment("l_hand") * POSE, this.segment("r_hand") * POSE];
     return Math.hypot(poses[l] - poses[r], poses[l + 1] - poses[r + 1], poses[l + 2] - poses[r + 2]) < 0.5;
   }

@@ -257,7 +257,7 @@ export class Panel {
     );
     if (focused) [...this.figures.children].find((b): b is HTMLElement => b instanceof HTMLElement && b.dataset.figure === focused)?.focus();
     const same = (v: string): { value: string; text: string } => ({ value: v, text: plain(v) });
-    const clip = person?.figure.clip.slice("clips/".length) ?? "";
+    const clip = person?.clip.slice("clips/".length) ?? "";
     fill(this.clip, [...(clip ? [] : [{ value: "", text: person?.figure.driverId ? "driven live" : "holds still" }]), ...this.session.clips.map(same)], clip);
     fill(this.body, [...new Set([...this.session.bodies, ...(person ? [person.body.name.slice("bodies/".length)] : [])])].map(same), person?.body.name.slice("bodies/".length) ?? "");
     const can = (name: string): boolean => !this.session.capabilities.length || this.session.capabilities.includes(name);

@@ -256,7 +256,7 @@ export class Session {
   /** Lets a figure begin its clip anew, standing. */
   async standUp(p: Person): Promise<void> {
     const load = p.loadKg();
-    const clip = p.figure.clip;
+    const { clip } = p;
     await this.api.figures.resetFigure({ name: p.figure.name });
     if (clip) await this.api.motion.playClip({ figure: p.figure.name, clip, loop: true, reset: true, placement: p.figure.placement });
     if (load > 0) await this.carry([p], load);

@@ -44,7 +44,7 @@ export function cast(p: Person): Cast {
     body: id(p.body.name),
     controller: controllerName(f.controller),
     strength: rounded(strengthOf(f)),
-    clip: id(f.clip),
+    clip: id(p.clip),
     x: rounded(f.placement?.xM ?? 0),
     y: rounded(f.placement?.yM ?? 0),
     stepper: f.stepper === Stepper.KINEMATIC ? "kinematic" : "",
@@ -172,7 +172,7 @@ export function asPython(address: string, people: Person[], chosen: Person | und
     if (c.clip) lines.push(`    ${name}.play(${text(c.clip)}, loop=True, reset=True, position=(${c.x}, ${c.y}))`);
     for (const l of p.loads()) lines.push(`    ${name}.carry(${[rounded(l.massKg), ...l.segments.map((s) => text(s))].join(", ")})`);
   }
-  const longest = Math.max(4, ...people.map((p) => clips.find((k) => k.name === p.figure.clip)?.durationS ?? 0));
+  const longest = Math.max(4, ...people.map((p) => clips.find((k) => k.name === p.clip)?.durationS ?? 0));
   lines.push(`    recordings = world.record(${Math.min(60, Math.ceil(longest))}.0)`);
   if (chosen) lines.push("", `recordings[${text(chosen.name)}].plot_torques().savefig("torques.png")`);
   return lines.join("\n") + "\n";

@@ -260,25 +260,25 @@ impl Shard {
     }
 
     fn figure_info(&self, m: &Member) -> FigureInfo {
-        // It comes to a stand for a clip that waits.
-        let waits = |f: &engine::Figure| f.queued().is_some();
-        let waits = self.world.figure(m.key).is_some_and(waits);
+        let f = self.world.figure(m.key).expect("members are in the world");
+        // Of two clips the one that was asked for last is known by name: it plays, or the figure comes to a stand for it.
+        let (next_clip, clip) = match f.next_clip() {
+            Some(_) => (m.clip.clone(), None),
+            None => (None, m.clip.clone()),
+        };
         FigureInfo {
             world: self.id.to_string(),
             id: m.id.clone(),
             settings: m.settings.clone(),
-            clip: m.clip.clone().filter(|_| !waits),
+            clip,
+            next_clip,
             driver: self
                 .drives
                 .iter()
                 .find(|d| d.has(&m.id))
                 .map(|d| d.driver.clone()),
             index: m.index,
-            constraints: self
-                .world
-                .figure(m.key)
-                .map(|f| engine::constraints(f, self.world.time()))
-                .unwrap_or_default(),
+            constraints: engine::constraints(f, self.world.time()),
         }
     }
 
@@ -429,10 +429,7 @@ impl Shard {
         f.clear_perturbations();
         f.clear_constraints();
         f.set_drive(Motion::Hold(posture));
-        let state = State {
-            posture,
-            ..State::default()
-        };
+        let state = State::at_rest(posture);
         engine::reset(&mut self.world, m.key, state)?;
         m.clip = None;
         self.changed = true;
@@ -834,10 +831,7 @@ impl Shard {
                     continue;
                 };
                 if reset {
-                    let state = State {
-                        posture: pair.now.posture,
-                        velocity: pair.now.velocity,
-                    };
+                    let state = pair.now.state();
                     // What came over the wire was checked there, so there is nothing left to refuse.
                     let _ = engine::reset(&mut self.world, key, state);
                 }

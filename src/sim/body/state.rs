@@ -155,6 +155,14 @@ impl Posture<f64> {
 }
 
 impl State<f64> {
+    /// At rest in `posture`.
+    pub fn at_rest(posture: Posture) -> Self {
+        Self {
+            posture,
+            ..Self::default()
+        }
+    }
+
     /// True if every number is finite.
     pub fn is_finite(&self) -> bool {
         self.posture.is_finite() && self.velocity.iter().all(|v| v.is_finite())

@@ -54,6 +54,17 @@ pub enum Drive {
 }
 
 impl ClipPlayback {
+    /// `clip` once, at its own pace and place, with its time 0 at world time `start`, s.
+    pub fn new(clip: Arc<Clip>, start: f64) -> Self {
+        Self {
+            clip,
+            start,
+            speed: 1.0,
+            looped: false,
+            origin: PlanarTransform::default(),
+        }
+    }
+
     /// Clip time at world time `t`, s.
     pub fn clip_time(&self, t: f64) -> f64 {
         (t - self.start) * self.speed

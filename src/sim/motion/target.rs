@@ -1,6 +1,6 @@
 //! What a figure is asked to do at one instant.
 
-use crate::sim::body::{NV, Posture};
+use crate::sim::body::{NV, Posture, State};
 
 /// Desired positions, velocities and accelerations at one instant.
 ///
@@ -26,6 +26,14 @@ impl Target {
             velocity: [0.0; NV],
             acceleration: [0.0; NV],
             planted: [true; 2],
+        }
+    }
+
+    /// The state of a body that does exactly this.
+    pub fn state(&self) -> State {
+        State {
+            posture: self.posture,
+            velocity: self.velocity,
         }
     }
 }

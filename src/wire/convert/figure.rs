@@ -3,7 +3,7 @@
 use super::super::pb;
 use super::super::status::Fault;
 use super::super::types::{FigureInfo, FigureSettings, FigureUpdate};
-use super::{body, clip_text, constraint, display_name, or_default, place, place_out, within};
+use super::{body, constraint, display_name, or_default, place, place_out, shortened, within};
 use crate::sim::body::topology::DOF_NAMES;
 use crate::sim::figure::{
     ControlParams, ControllerKind, FigureOptions, Metric, Priority, Share, StepperKind,
@@ -143,7 +143,7 @@ pub fn strength(field: &str, s: Option<&pb::StrengthScale>) -> Result<StrengthSc
                 at("dof"),
                 format!(
                     "must be a DOF name as GetBody lists it, got {:?}",
-                    clip_text(&d.dof)
+                    shortened(&d.dof)
                 ),
             )
         })?;
@@ -190,14 +190,7 @@ pub fn update(
     mask: Option<&prost_types::FieldMask>,
 ) -> Result<FigureUpdate, Fault> {
     let mut out = FigureUpdate::default();
-    let paths = mask.map(|m| m.paths.as_slice()).unwrap_or_default();
-    if paths.is_empty() {
-        return Err(Fault::invalid(
-            "update_mask",
-            "must name at least one field",
-        ));
-    }
-    for (i, path) in paths.iter().enumerate() {
+    for (i, path) in super::mask_paths(mask)?.iter().enumerate() {
         match path.as_str() {
             "display_name" => {
                 out.display_name = Some(display_name("figure.display_name", &f.display_name)?)
@@ -219,13 +212,19 @@ pub fn update(
                     format!("update_mask.paths[{i}]"),
                     format!(
                         "must be display_name, strength, controller, paper, fatigue_time_scale, assist, constraints or protective_steps, got {:?}",
-                        clip_text(other)
+                        shortened(other)
                     ),
                 ));
             }
         }
     }
     Ok(out)
+}
+
+/// Resource name of a clip, if there is one.
+fn clip_resource(id: &Option<String>) -> String {
+    id.as_ref()
+        .map_or_else(String::new, |c| format!("clips/{c}"))
 }
 
 /// A figure for a response.
@@ -264,11 +263,8 @@ pub fn figure_out(f: &FigureInfo) -> pb::Figure {
         }
         .into(),
         placement: Some(place_out(s.place)),
-        clip: f
-            .clip
-            .as_ref()
-            .map(|c| format!("clips/{c}"))
-            .unwrap_or_default(),
+        clip: clip_resource(&f.clip),
+        next_clip: clip_resource(&f.next_clip),
         driver_id: f.driver.clone().unwrap_or_default(),
         figure_index: f.index,
         fatigue_time_scale: s.options.fatigue_time_scale,

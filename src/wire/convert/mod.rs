@@ -121,6 +121,18 @@ pub fn place_out(p: Place) -> pb::Placement {
     }
 }
 
+/// The paths of an update mask; it must name some.
+pub(crate) fn mask_paths(mask: Option<&prost_types::FieldMask>) -> Result<&[String], Fault> {
+    let paths = mask.map(|m| m.paths.as_slice()).unwrap_or_default();
+    if paths.is_empty() {
+        return Err(Fault::invalid(
+            "update_mask",
+            "must name at least one field",
+        ));
+    }
+    Ok(paths)
+}
+
 /// A name for people.
 pub(crate) fn display_name(field: &str, name: &str) -> Result<String, Fault> {
     if name.len() > 128 {
@@ -152,7 +164,7 @@ pub(crate) fn new_id(field: &str, id: &str) -> Result<Option<String>, Fault> {
             field,
             format!(
                 "must be 1 to 63 of a-z, 0-9 and -, beginning with a letter, got {:?}",
-                clip_text(id)
+                shortened(id)
             ),
         ))
     }
@@ -170,7 +182,7 @@ pub(crate) fn client_id(field: &str, id: &str) -> Result<String, Fault> {
 }
 
 /// The start of a text that came from outside, short enough for a message.
-pub(crate) fn clip_text(text: &str) -> &str {
+pub(crate) fn shortened(text: &str) -> &str {
     match text.char_indices().nth(80) {
         Some((end, _)) => &text[..end],
         None => text,
@@ -189,7 +201,7 @@ fn last_part<'a>(
             field,
             format!(
                 "must be a resource name {pattern}, got {:?}",
-                clip_text(name)
+                shortened(name)
             ),
         )),
     }
@@ -216,7 +228,7 @@ pub fn figure_name<'a>(field: &str, name: &'a str) -> Result<(&'a str, &'a str),
             field,
             format!(
                 "must be a resource name worlds/{{world}}/figures/{{figure}}, got {:?}",
-                clip_text(name)
+                shortened(name)
             ),
         )),
     }

@@ -1069,7 +1069,7 @@ pub struct Figure {
     /// Where it stands at creation and after a reset without a place.
     #[prost(message, optional, tag = "8")]
     pub placement: ::core::option::Option<Placement>,
-    /// Clip that is playing, `clips/{clip}`; empty if none. Output only.
+    /// Clip that is playing, `clips/{clip}`; empty if none, and while the figure comes to a stand. Output only.
     #[prost(string, tag = "9")]
     pub clip: ::prost::alloc::string::String,
     /// Driver that moves it live; empty if none. Output only.
@@ -1095,6 +1095,9 @@ pub struct Figure {
     /// Step when the capture point has left the feet (CONTROLLER_MODERN). Absent: true.
     #[prost(bool, optional, tag = "18")]
     pub protective_steps: ::core::option::Option<bool>,
+    /// Clip that begins as soon as the figure stands, `clips/{clip}`; empty if none waits. Output only.
+    #[prost(string, tag = "19")]
+    pub next_clip: ::prost::alloc::string::String,
 }
 /// Where the centre of mass or a point of a segment is wanted, and how the segment is wanted to be turned, while the rest of the body follows
 /// its motion. At least one of `position_m` and `rotation` must be given. The part moves there from wherever it is; an arm reaches as far as
@@ -2587,21 +2590,22 @@ pub struct PlayClipRequest {
     /// led back to it by steps. Default: false.
     #[prost(bool, tag = "4")]
     pub r#loop: bool,
-    /// World time at which the clip starts, s. Absent: at the next tick.
+    /// World time at which the clip starts, s, or later if the figure does not stand by then. Absent: at the next tick.
     #[prost(double, optional, tag = "5")]
     pub start_time_s: ::core::option::Option<f64>,
-    /// Puts the figure into the clip's first posture and velocity before it starts. Default: false, it comes into it from standing, by steps of
-    /// its own if the recording begins in motion. Without `loop` it ends standing in the same way.
+    /// Puts the figure into the clip's first posture and velocity at once. Default: false, it comes into it from standing, by steps of its own if
+    /// the recording begins in motion. Without `loop` it ends standing in the same way.
     #[prost(bool, tag = "6")]
     pub reset: bool,
-    /// Where the clip begins, with the steps that lead into it. Absent: where the figure is.
+    /// Where the clip begins, with the steps that lead into it. Absent: where the figure is, or where its feet are once it stands.
     #[prost(message, optional, tag = "7")]
     pub placement: ::core::option::Option<Placement>,
 }
-/// The clip plays.
+/// The clip plays, or waits until the figure stands.
 #[derive(Clone, Copy, PartialEq, ::prost::Message)]
 pub struct PlayClipResponse {
-    /// World time at which its first frame plays, s: later than asked for by the length of the steps that lead into it.
+    /// World time at which its first frame plays, s: later than asked for by the length of the steps that lead into it. If the figure has to
+    /// stand first, when that is expected; the clip begins up to 0.4 s sooner, as soon as the figure has settled, and at most 2 s later.
     #[prost(double, tag = "1")]
     pub start_time_s: f64,
 }
@@ -3136,7 +3140,9 @@ pub mod motion_service_client {
                 .insert(GrpcMethod::new("sinew.v1.MotionService", "DeleteClip"));
             self.inner.unary(req, path, codec).await
         }
-        /// Lets a figure play a clip. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it live.
+        /// Lets a figure play a clip. One that walks, or is in the middle of another clip, finishes its step and stands first; until then the clip is
+        /// `Figure.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it
+        /// live.
         pub async fn play_clip(
             &mut self,
             request: impl tonic::IntoRequest<super::PlayClipRequest>,
@@ -3161,7 +3167,8 @@ pub mod motion_service_client {
                 .insert(GrpcMethod::new("sinew.v1.MotionService", "PlayClip"));
             self.inner.unary(req, path, codec).await
         }
-        /// Ends a clip: a figure that walks finishes its step and comes to a stand, any other holds the posture that is asked of it now.
+        /// Ends a clip, and takes back the one that waits: a figure that walks finishes its step and comes to a stand, any other holds the posture
+        /// that is asked of it now.
         pub async fn stop_clip(
             &mut self,
             request: impl tonic::IntoRequest<super::StopClipRequest>,
@@ -3283,7 +3290,9 @@ pub mod motion_service_server {
             tonic::Response<super::DeleteClipResponse>,
             tonic::Status,
         >;
-        /// Lets a figure play a clip. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it live.
+        /// Lets a figure play a clip. One that walks, or is in the middle of another clip, finishes its step and stands first; until then the clip is
+        /// `Figure.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it
+        /// live.
         async fn play_clip(
             &self,
             request: tonic::Request<super::PlayClipRequest>,
@@ -3291,7 +3300,8 @@ pub mod motion_service_server {
             tonic::Response<super::PlayClipResponse>,
             tonic::Status,
         >;
-        /// Ends a clip: a figure that walks finishes its step and comes to a stand, any other holds the posture that is asked of it now.
+        /// Ends a clip, and takes back the one that waits: a figure that walks finishes its step and comes to a stand, any other holds the posture
+        /// that is asked of it now.
         async fn stop_clip(
             &self,
             request: tonic::Request<super::StopClipRequest>,

@@ -691,7 +691,7 @@ class Figure:
         return await self._client.body(self.message.body)
 
     async def get(self) -> figure_pb2.Figure:
-        """Settings, clip and driver, as they are now."""
+        """Settings, clip, the clip that waits, and driver, as they are now."""
         request = figure_pb2.GetFigureRequest(name=self.message.name)
         return (await call(self._client.figures_stub.GetFigure, request, self._client.timeout_s)).figure
 
@@ -765,10 +765,11 @@ class Figure:
         position: tuple[float, float] | None = None,
         yaw: float | None = None,
     ) -> float:
-        """Plays a clip from the next tick on, or from world time `start_s`; returns when it starts, s.
+        """Plays a clip from the next tick on, or from world time `start_s`; returns when its first frame plays, s.
 
-        `reset` puts the figure into the first posture; otherwise it moves there by itself. It begins where the figure is, unless
-        `position` and `yaw` are given.
+        A figure that walks, or is in the middle of another clip, finishes its step and stands first: the time is what is expected, and
+        until then `next_clip` of `get()` names the clip. `reset` puts the figure into the first posture at once; otherwise it moves there
+        by itself. It begins where the figure is, unless `position` and `yaw` are given.
         """
         named = clip.name if isinstance(clip, Clip) else clip
         request = motion_pb2.PlayClipRequest(
@@ -783,7 +784,7 @@ class Figure:
         return (await call(self._client.motions_stub.PlayClip, request, self._client.timeout_s)).start_time_s
 
     async def stop(self) -> None:
-        """Holds the posture that is asked of it now."""
+        """Ends its clip, and takes back one that waits: it finishes its step and stands, or holds the posture that is asked of it now."""
         request = motion_pb2.StopClipRequest(figure=self.message.name)
         await call(self._client.motions_stub.StopClip, request, self._client.timeout_s)
 

@@ -4,8 +4,8 @@ use super::Figure;
 use crate::sim::body::Posture;
 use crate::sim::figure::drive::{ClipPlayback, Drive, Queued};
 use crate::sim::gait::StepPlan;
+use crate::sim::motion::Clip;
 use crate::sim::motion::join::{self, RUN_UP};
-use crate::sim::motion::{Clip, PlanarTransform};
 use std::sync::Arc;
 
 /// How far ahead a clip is looked at for a place to stop, s, and samples that still play before it is led there.
@@ -59,7 +59,7 @@ impl Figure {
         expected
     }
     /// The clip that begins as soon as the figure stands, if one waits.
-    pub fn queued(&self) -> Option<&Arc<Clip>> {
+    pub fn next_clip(&self) -> Option<&Arc<Clip>> {
         self.queued.as_ref().map(|q| &q.play.clip)
     }
     /// True in the middle of a clip or of a step.
@@ -153,13 +153,7 @@ impl Figure {
         };
         let plan = StepPlan::new(&self.setup.body, &clip, false);
         self.gait.go_on(plan, before);
-        self.drive = Drive::Clip(ClipPlayback {
-            clip: Arc::new(clip),
-            start: begin,
-            speed: 1.0,
-            looped: false,
-            origin: PlanarTransform::default(),
-        });
+        self.drive = Drive::Clip(ClipPlayback::new(Arc::new(clip), begin));
         self.ending = true;
     }
 }

@@ -27,25 +27,25 @@ from sinew.v1 import body_pb2 as sinew_dot_v1_dot_body__pb2
 from sinew.v1 import types_pb2 as sinew_dot_v1_dot_types__pb2
 
 
-DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x15sinew/v1/figure.proto\x12\x08sinew.v1\x1a google/protobuf/field_mask.proto\x1a\x13sinew/v1/body.proto\x1a\x14sinew/v1/types.proto\"\xd2\x03\n\x0cPaperOptions\x12%\n\x06preset\x18\x01 \x01(\x0e\x32\x15.sinew.v1.PaperPreset\x12\x12\n\x05\x61lpha\x18\x02 \x01(\x01H\x00\x88\x01\x01\x12\x16\n\thorizon_s\x18\x03 \x01(\x01H\x01\x88\x01\x01\x12%\n\x06metric\x18\x04 \x01(\x0e\x32\x15.sinew.v1.PaperMetric\x12)\n\x08priority\x18\x05 \x01(\x0e\x32\x17.sinew.v1.PaperPriority\x12#\n\x05share\x18\x06 \x01(\x0e\x32\x14.sinew.v1.PaperShare\x12\x15\n\x08to_limit\x18\x07 \x01(\x08H\x02\x88\x01\x01\x12\x11\n\x04tilt\x18\x08 \x01(\x08H\x03\x88\x01\x01\x12\x19\n\x0czmp_feasible\x18\t \x01(\x08H\x04\x88\x01\x01\x12\x18\n\x0btrack_hands\x18\n \x01(\x08H\x05\x88\x01\x01\x12\x16\n\ttrack_com\x18\x0b \x01(\x08H\x06\x88\x01\x01\x12\x16\n\thand_over\x18\x0c \x01(\x08H\x07\x88\x01\x01\x42\x08\n\x06_alphaB\x0c\n\n_horizon_sB\x0b\n\t_to_limitB\x07\n\x05_tiltB\x0f\n\r_zmp_feasibleB\x0e\n\x0c_track_handsB\x0c\n\n_track_comB\x0c\n\n_hand_over\"u\n\rStrengthScale\x12\x0b\n\x03\x61ll\x18\x01 \x01(\x01\x12#\n\x04\x64ofs\x18\x02 \x03(\x0b\x32\x15.sinew.v1.DofStrength\x12\x12\n\npercentile\x18\x03 \x01(\x01\x12\x13\n\x06\x65\x66\x66ort\x18\x04 \x01(\x01H\x00\x88\x01\x01\x42\t\n\x07_effort\"*\n\x0b\x44ofStrength\x12\x0b\n\x03\x64of\x18\x01 \x01(\t\x12\x0e\n\x06\x66\x61\x63tor\x18\x02 \x01(\x01\"S\n\x0b\x43\x61rriedLoad\x12\x0f\n\x07segment\x18\x01 \x01(\x05\x12\"\n\x07point_m\x18\x02 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12\x0f\n\x07mass_kg\x18\x03 \x01(\x01\"\xec\x03\n\x06\x46igure\x12\x0c\n\x04name\x18\x01 \x01(\t\x12\x14\n\x0c\x64isplay_name\x18\x02 \x01(\t\x12\x0c\n\x04\x62ody\x18\x03 \x01(\t\x12&\n\x07profile\x18\x04 \x01(\x0b\x32\x15.sinew.v1.BodyProfile\x12)\n\x08strength\x18\x05 \x01(\x0b\x32\x17.sinew.v1.StrengthScale\x12(\n\ncontroller\x18\x06 \x01(\x0e\x32\x14.sinew.v1.Controller\x12\"\n\x07stepper\x18\x07 \x01(\x0e\x32\x11.sinew.v1.Stepper\x12&\n\tplacement\x18\x08 \x01(\x0b\x32\x13.sinew.v1.Placement\x12\x0c\n\x04\x63lip\x18\t \x01(\t\x12\x11\n\tdriver_id\x18\n \x01(\t\x12\x14\n\x0c\x66igure_index\x18\x0b \x01(\x05\x12\x1a\n\x12\x66\x61tigue_time_scale\x18\x0e \x01(\x01\x12\x0e\n\x06\x61ssist\x18\x0f \x01(\x01\x12%\n\x05paper\x18\x10 \x01(\x0b\x32\x16.sinew.v1.PaperOptions\x12)\n\x0b\x63onstraints\x18\x11 \x03(\x0b\x32\x14.sinew.v1.Constraint\x12\x1d\n\x10protective_steps\x18\x12 \x01(\x08H\x00\x88\x01\x01\x42\x13\n\x11_protective_steps\"\xb0\x02\n\nConstraint\x12\x11\n\x07segment\x18\x01 \x01(\tH\x00\x12\x18\n\x0e\x63\x65nter_of_mass\x18\x02 \x01(\x08H\x00\x12\"\n\x07point_m\x18\x03 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12%\n\nposition_m\x18\x04 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12(\n\rposition_axes\x18\x05 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12&\n\x08rotation\x18\x06 \x01(\x0b\x32\x14.sinew.v1.Quaternion\x12\x13\n\x06weight\x18\x07 \x01(\x01H\x01\x88\x01\x01\x12\x13\n\x06\x65\x61se_s\x18\x08 \x01(\x01H\x02\x88\x01\x01\x12\x12\n\nduration_s\x18\t \x01(\x01\x42\x04\n\x02onB\t\n\x07_weightB\t\n\x07_ease_s\"Z\n\x13\x43reateFigureRequest\x12\x0e\n\x06parent\x18\x01 \x01(\t\x12\x11\n\tfigure_id\x18\x02 \x01(\t\x12 \n\x06\x66igure\x18\x03 \x01(\x0b\x32\x10.sinew.v1.Figure\"8\n\x14\x43reateFigureResponse\x12 \n\x06\x66igure\x18\x01 \x01(\x0b\x32\x10.sinew.v1.Figure\" \n\x10GetFigureRequest\x12\x0c\n\x04name\x18\x01 \x01(\t\"5\n\x11GetFigureResponse\x12 \n\x06\x66igure\x18\x01 \x01(\x0b\x32\x10.sinew.v1.Figure\"K\n\x12ListFiguresRequest\x12\x0e\n\x06parent\x18\x01 \x01(\t\x12\x11\n\tpage_size\x18\x02 \x01(\x05\x12\x12\n\npage_token\x18\x03 \x01(\t\"Q\n\x13ListFiguresResponse\x12!\n\x07\x66igures\x18\x01 \x03(\x0b\x32\x10.sinew.v1.Figure\x12\x17\n\x0fnext_page_token\x18\x02 \x01(\t\"h\n\x13UpdateFigureRequest\x12 \n\x06\x66igure\x18\x01 \x01(\x0b\x32\x10.sinew.v1.Figure\x12/\n\x0bupdate_mask\x18\x02 \x01(\x0b\x32\x1a.google.protobuf.FieldMask\"8\n\x14UpdateFigureResponse\x12 \n\x06\x66igure\x18\x01 \x01(\x0b\x32\x10.sinew.v1.Figure\"#\n\x13\x44\x65leteFigureRequest\x12\x0c\n\x04name\x18\x01 \x01(\t\"\x16\n\x14\x44\x65leteFigureResponse\"J\n\x12ResetFigureRequest\x12\x0c\n\x04name\x18\x01 \x01(\t\x12&\n\tplacement\x18\x02 \x01(\x0b\x32\x13.sinew.v1.Placement\"7\n\x13ResetFigureResponse\x12 \n\x06\x66igure\x18\x01 \x01(\x0b\x32\x10.sinew.v1.Figure*l\n\nController\x12\x1a\n\x16\x43ONTROLLER_UNSPECIFIED\x10\x00\x12\x14\n\x10\x43ONTROLLER_PAPER\x10\x01\x12\x15\n\x11\x43ONTROLLER_MODERN\x10\x02\x12\x15\n\x11\x43ONTROLLER_MOTORS\x10\x03*M\n\x07Stepper\x12\x17\n\x13STEPPER_UNSPECIFIED\x10\x00\x12\x12\n\x0eSTEPPER_TORQUE\x10\x01\x12\x15\n\x11STEPPER_KINEMATIC\x10\x02*`\n\x0bPaperPreset\x12\x1c\n\x18PAPER_PRESET_UNSPECIFIED\x10\x00\x12\x1c\n\x18PAPER_PRESET_SAFEGUARDED\x10\x01\x12\x15\n\x11PAPER_PRESET_2000\x10\x02*y\n\x0bPaperMetric\x12\x1c\n\x18PAPER_METRIC_UNSPECIFIED\x10\x00\x12\x19\n\x15PAPER_METRIC_IDENTITY\x10\x01\x12\x18\n\x14PAPER_METRIC_INERTIA\x10\x02\x12\x17\n\x13PAPER_METRIC_TORQUE\x10\x03*f\n\rPaperPriority\x12\x1e\n\x1aPAPER_PRIORITY_UNSPECIFIED\x10\x00\x12\x1a\n\x16PAPER_PRIORITY_PRINTED\x10\x01\x12\x19\n\x15PAPER_PRIORITY_NESTED\x10\x02*Z\n\nPaperShare\x12\x1b\n\x17PAPER_SHARE_UNSPECIFIED\x10\x00\x12\x15\n\x11PAPER_SHARE_RATIO\x10\x01\x12\x18\n\x14PAPER_SHARE_BALANCED\x10\x02\x32\xda\x03\n\rFigureService\x12M\n\x0c\x43reateFigure\x12\x1d.sinew.v1.CreateFigureRequest\x1a\x1e.sinew.v1.CreateFigureResponse\x12\x44\n\tGetFigure\x12\x1a.sinew.v1.GetFigureRequest\x1a\x1b.sinew.v1.GetFigureResponse\x12J\n\x0bListFigures\x12\x1c.sinew.v1.ListFiguresRequest\x1a\x1d.sinew.v1.ListFiguresResponse\x12M\n\x0cUpdateFigure\x12\x1d.sinew.v1.UpdateFigureRequest\x1a\x1e.sinew.v1.UpdateFigureResponse\x12M\n\x0c\x44\x65leteFigure\x12\x1d.sinew.v1.DeleteFigureRequest\x1a\x1e.sinew.v1.DeleteFigureResponse\x12J\n\x0bResetFigure\x12\x1c.sinew.v1.ResetFigureRequest\x1a\x1d.sinew.v1.ResetFigureResponseb\x06proto3')
+DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x15sinew/v1/figure.proto\x12\x08sinew.v1\x1a google/protobuf/field_mask.proto\x1a\x13sinew/v1/body.proto\x1a\x14sinew/v1/types.proto\"\xd2\x03\n\x0cPaperOptions\x12%\n\x06preset\x18\x01 \x01(\x0e\x32\x15.sinew.v1.PaperPreset\x12\x12\n\x05\x61lpha\x18\x02 \x01(\x01H\x00\x88\x01\x01\x12\x16\n\thorizon_s\x18\x03 \x01(\x01H\x01\x88\x01\x01\x12%\n\x06metric\x18\x04 \x01(\x0e\x32\x15.sinew.v1.PaperMetric\x12)\n\x08priority\x18\x05 \x01(\x0e\x32\x17.sinew.v1.PaperPriority\x12#\n\x05share\x18\x06 \x01(\x0e\x32\x14.sinew.v1.PaperShare\x12\x15\n\x08to_limit\x18\x07 \x01(\x08H\x02\x88\x01\x01\x12\x11\n\x04tilt\x18\x08 \x01(\x08H\x03\x88\x01\x01\x12\x19\n\x0czmp_feasible\x18\t \x01(\x08H\x04\x88\x01\x01\x12\x18\n\x0btrack_hands\x18\n \x01(\x08H\x05\x88\x01\x01\x12\x16\n\ttrack_com\x18\x0b \x01(\x08H\x06\x88\x01\x01\x12\x16\n\thand_over\x18\x0c \x01(\x08H\x07\x88\x01\x01\x42\x08\n\x06_alphaB\x0c\n\n_horizon_sB\x0b\n\t_to_limitB\x07\n\x05_tiltB\x0f\n\r_zmp_feasibleB\x0e\n\x0c_track_handsB\x0c\n\n_track_comB\x0c\n\n_hand_over\"u\n\rStrengthScale\x12\x0b\n\x03\x61ll\x18\x01 \x01(\x01\x12#\n\x04\x64ofs\x18\x02 \x03(\x0b\x32\x15.sinew.v1.DofStrength\x12\x12\n\npercentile\x18\x03 \x01(\x01\x12\x13\n\x06\x65\x66\x66ort\x18\x04 \x01(\x01H\x00\x88\x01\x01\x42\t\n\x07_effort\"*\n\x0b\x44ofStrength\x12\x0b\n\x03\x64of\x18\x01 \x01(\t\x12\x0e\n\x06\x66\x61\x63tor\x18\x02 \x01(\x01\"S\n\x0b\x43\x61rriedLoad\x12\x0f\n\x07segment\x18\x01 \x01(\x05\x12\"\n\x07point_m\x18\x02 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12\x0f\n\x07mass_kg\x18\x03 \x01(\x01\"\xff\x03\n\x06\x46igure\x12\x0c\n\x04name\x18\x01 \x01(\t\x12\x14\n\x0c\x64isplay_name\x18\x02 \x01(\t\x12\x0c\n\x04\x62ody\x18\x03 \x01(\t\x12&\n\x07profile\x18\x04 \x01(\x0b\x32\x15.sinew.v1.BodyProfile\x12)\n\x08strength\x18\x05 \x01(\x0b\x32\x17.sinew.v1.StrengthScale\x12(\n\ncontroller\x18\x06 \x01(\x0e\x32\x14.sinew.v1.Controller\x12\"\n\x07stepper\x18\x07 \x01(\x0e\x32\x11.sinew.v1.Stepper\x12&\n\tplacement\x18\x08 \x01(\x0b\x32\x13.sinew.v1.Placement\x12\x0c\n\x04\x63lip\x18\t \x01(\t\x12\x11\n\tdriver_id\x18\n \x01(\t\x12\x14\n\x0c\x66igure_index\x18\x0b \x01(\x05\x12\x1a\n\x12\x66\x61tigue_time_scale\x18\x0e \x01(\x01\x12\x0e\n\x06\x61ssist\x18\x0f \x01(\x01\x12%\n\x05paper\x18\x10 \x01(\x0b\x32\x16.sinew.v1.PaperOptions\x12)\n\x0b\x63onstraints\x18\x11 \x03(\x0b\x32\x14.sinew.v1.Constraint\x12\x1d\n\x10protective_steps\x18\x12 \x01(\x08H\x00\x88\x01\x01\x12\x11\n\tnext_clip\x18\x13 \x01(\tB\x13\n\x11_protective_steps\"\xb0\x02\n\nConstraint\x12\x11\n\x07segment\x18\x01 \x01(\tH\x00\x12\x18\n\x0e\x63\x65nter_of_mass\x18\x02 \x01(\x08H\x00\x12\"\n\x07point_m\x18\x03 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12%\n\nposition_m\x18\x04 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12(\n\rposition_axes\x18\x05 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12&\n\x08rotation\x18\x06 \x01(\x0b\x32\x14.sinew.v1.Quaternion\x12\x13\n\x06weight\x18\x07 \x01(\x01H\x01\x88\x01\x01\x12\x13\n\x06\x65\x61se_s\x18\x08 \x01(\x01H\x02\x88\x01\x01\x12\x12\n\nduration_s\x18\t \x01(\x01\x42\x04\n\x02onB\t\n\x07_weightB\t\n\x07_ease_s\"Z\n\x13\x43reateFigureRequest\x12\x0e\n\x06parent\x18\x01 \x01(\t\x12\x11\n\tfigure_id\x18\x02 \x01(\t\x12 \n\x06\x66igure\x18\x03 \x01(\x0b\x32\x10.sinew.v1.Figure\"8\n\x14\x43reateFigureResponse\x12 \n\x06\x66igure\x18\x01 \x01(\x0b\x32\x10.sinew.v1.Figure\" \n\x10GetFigureRequest\x12\x0c\n\x04name\x18\x01 \x01(\t\"5\n\x11GetFigureResponse\x12 \n\x06\x66igure\x18\x01 \x01(\x0b\x32\x10.sinew.v1.Figure\"K\n\x12ListFiguresRequest\x12\x0e\n\x06parent\x18\x01 \x01(\t\x12\x11\n\tpage_size\x18\x02 \x01(\x05\x12\x12\n\npage_token\x18\x03 \x01(\t\"Q\n\x13ListFiguresResponse\x12!\n\x07\x66igures\x18\x01 \x03(\x0b\x32\x10.sinew.v1.Figure\x12\x17\n\x0fnext_page_token\x18\x02 \x01(\t\"h\n\x13UpdateFigureRequest\x12 \n\x06\x66igure\x18\x01 \x01(\x0b\x32\x10.sinew.v1.Figure\x12/\n\x0bupdate_mask\x18\x02 \x01(\x0b\x32\x1a.google.protobuf.FieldMask\"8\n\x14UpdateFigureResponse\x12 \n\x06\x66igure\x18\x01 \x01(\x0b\x32\x10.sinew.v1.Figure\"#\n\x13\x44\x65leteFigureRequest\x12\x0c\n\x04name\x18\x01 \x01(\t\"\x16\n\x14\x44\x65leteFigureResponse\"J\n\x12ResetFigureRequest\x12\x0c\n\x04name\x18\x01 \x01(\t\x12&\n\tplacement\x18\x02 \x01(\x0b\x32\x13.sinew.v1.Placement\"7\n\x13ResetFigureResponse\x12 \n\x06\x66igure\x18\x01 \x01(\x0b\x32\x10.sinew.v1.Figure*l\n\nController\x12\x1a\n\x16\x43ONTROLLER_UNSPECIFIED\x10\x00\x12\x14\n\x10\x43ONTROLLER_PAPER\x10\x01\x12\x15\n\x11\x43ONTROLLER_MODERN\x10\x02\x12\x15\n\x11\x43ONTROLLER_MOTORS\x10\x03*M\n\x07Stepper\x12\x17\n\x13STEPPER_UNSPECIFIED\x10\x00\x12\x12\n\x0eSTEPPER_TORQUE\x10\x01\x12\x15\n\x11STEPPER_KINEMATIC\x10\x02*`\n\x0bPaperPreset\x12\x1c\n\x18PAPER_PRESET_UNSPECIFIED\x10\x00\x12\x1c\n\x18PAPER_PRESET_SAFEGUARDED\x10\x01\x12\x15\n\x11PAPER_PRESET_2000\x10\x02*y\n\x0bPaperMetric\x12\x1c\n\x18PAPER_METRIC_UNSPECIFIED\x10\x00\x12\x19\n\x15PAPER_METRIC_IDENTITY\x10\x01\x12\x18\n\x14PAPER_METRIC_INERTIA\x10\x02\x12\x17\n\x13PAPER_METRIC_TORQUE\x10\x03*f\n\rPaperPriority\x12\x1e\n\x1aPAPER_PRIORITY_UNSPECIFIED\x10\x00\x12\x1a\n\x16PAPER_PRIORITY_PRINTED\x10\x01\x12\x19\n\x15PAPER_PRIORITY_NESTED\x10\x02*Z\n\nPaperShare\x12\x1b\n\x17PAPER_SHARE_UNSPECIFIED\x10\x00\x12\x15\n\x11PAPER_SHARE_RATIO\x10\x01\x12\x18\n\x14PAPER_SHARE_BALANCED\x10\x02\x32\xda\x03\n\rFigureService\x12M\n\x0c\x43reateFigure\x12\x1d.sinew.v1.CreateFigureRequest\x1a\x1e.sinew.v1.CreateFigureResponse\x12\x44\n\tGetFigure\x12\x1a.sinew.v1.GetFigureRequest\x1a\x1b.sinew.v1.GetFigureResponse\x12J\n\x0bListFigures\x12\x1c.sinew.v1.ListFiguresRequest\x1a\x1d.sinew.v1.ListFiguresResponse\x12M\n\x0cUpdateFigure\x12\x1d.sinew.v1.UpdateFigureRequest\x1a\x1e.sinew.v1.UpdateFigureResponse\x12M\n\x0c\x44\x65leteFigure\x12\x1d.sinew.v1.DeleteFigureRequest\x1a\x1e.sinew.v1.DeleteFigureResponse\x12J\n\x0bResetFigure\x12\x1c.sinew.v1.ResetFigureRequest\x1a\x1d.sinew.v1.ResetFigureResponseb\x06proto3')
 
 _globals = globals()
 _builder.BuildMessageAndEnumDescriptors(DESCRIPTOR, _globals)
 _builder.BuildTopDescriptorsAndMessages(DESCRIPTOR, 'sinew.v1.figure_pb2', _globals)
 if not _descriptor._USE_C_DESCRIPTORS:
   DESCRIPTOR._loaded_options = None
-  _globals['_CONTROLLER']._serialized_start=2388
-  _globals['_CONTROLLER']._serialized_end=2496
-  _globals['_STEPPER']._serialized_start=2498
-  _globals['_STEPPER']._serialized_end=2575
-  _globals['_PAPERPRESET']._serialized_start=2577
-  _globals['_PAPERPRESET']._serialized_end=2673
-  _globals['_PAPERMETRIC']._serialized_start=2675
-  _globals['_PAPERMETRIC']._serialized_end=2796
-  _globals['_PAPERPRIORITY']._serialized_start=2798
-  _globals['_PAPERPRIORITY']._serialized_end=2900
-  _globals['_PAPERSHARE']._serialized_start=2902
-  _globals['_PAPERSHARE']._serialized_end=2992
+  _globals['_CONTROLLER']._serialized_start=2407
+  _globals['_CONTROLLER']._serialized_end=2515
+  _globals['_STEPPER']._serialized_start=2517
+  _globals['_STEPPER']._serialized_end=2594
+  _globals['_PAPERPRESET']._serialized_start=2596
+  _globals['_PAPERPRESET']._serialized_end=2692
+  _globals['_PAPERMETRIC']._serialized_start=2694
+  _globals['_PAPERMETRIC']._serialized_end=2815
+  _globals['_PAPERPRIORITY']._serialized_start=2817
+  _globals['_PAPERPRIORITY']._serialized_end=2919
+  _globals['_PAPERSHARE']._serialized_start=2921
+  _globals['_PAPERSHARE']._serialized_end=3011
   _globals['_PAPEROPTIONS']._serialized_start=113
   _globals['_PAPEROPTIONS']._serialized_end=579
   _globals['_STRENGTHSCALE']._serialized_start=581
@@ -55,33 +55,33 @@ if not _descriptor._USE_C_DESCRIPTORS:
   _globals['_CARRIEDLOAD']._serialized_start=744
   _globals['_CARRIEDLOAD']._serialized_end=827
   _globals['_FIGURE']._serialized_start=830
-  _globals['_FIGURE']._serialized_end=1322
-  _globals['_CONSTRAINT']._serialized_start=1325
-  _globals['_CONSTRAINT']._serialized_end=1629
-  _globals['_CREATEFIGUREREQUEST']._serialized_start=1631
-  _globals['_CREATEFIGUREREQUEST']._serialized_end=1721
-  _globals['_CREATEFIGURERESPONSE']._serialized_start=1723
-  _globals['_CREATEFIGURERESPONSE']._serialized_end=1779
-  _globals['_GETFIGUREREQUEST']._serialized_start=1781
-  _globals['_GETFIGUREREQUEST']._serialized_end=1813
-  _globals['_GETFIGURERESPONSE']._serialized_start=1815
-  _globals['_GETFIGURERESPONSE']._serialized_end=1868
-  _globals['_LISTFIGURESREQUEST']._serialized_start=1870
-  _globals['_LISTFIGURESREQUEST']._serialized_end=1945
-  _globals['_LISTFIGURESRESPONSE']._serialized_start=1947
-  _globals['_LISTFIGURESRESPONSE']._serialized_end=2028
-  _globals['_UPDATEFIGUREREQUEST']._serialized_start=2030
-  _globals['_UPDATEFIGUREREQUEST']._serialized_end=2134
-  _globals['_UPDATEFIGURERESPONSE']._serialized_start=2136
-  _globals['_UPDATEFIGURERESPONSE']._serialized_end=2192
-  _globals['_DELETEFIGUREREQUEST']._serialized_start=2194
-  _globals['_DELETEFIGUREREQUEST']._serialized_end=2229
-  _globals['_DELETEFIGURERESPONSE']._serialized_start=2231
-  _globals['_DELETEFIGURERESPONSE']._serialized_end=2253
-  _globals['_RESETFIGUREREQUEST']._serialized_start=2255
-  _globals['_RESETFIGUREREQUEST']._serialized_end=2329
-  _globals['_RESETFIGURERESPONSE']._serialized_start=2331
-  _globals['_RESETFIGURERESPONSE']._serialized_end=2386
-  _globals['_FIGURESERVICE']._serialized_start=2995
-  _globals['_FIGURESERVICE']._serialized_end=3469
+  _globals['_FIGURE']._serialized_end=1341
+  _globals['_CONSTRAINT']._serialized_start=1344
+  _globals['_CONSTRAINT']._serialized_end=1648
+  _globals['_CREATEFIGUREREQUEST']._serialized_start=1650
+  _globals['_CREATEFIGUREREQUEST']._serialized_end=1740
+  _globals['_CREATEFIGURERESPONSE']._serialized_start=1742
+  _globals['_CREATEFIGURERESPONSE']._serialized_end=1798
+  _globals['_GETFIGUREREQUEST']._serialized_start=1800
+  _globals['_GETFIGUREREQUEST']._serialized_end=1832
+  _globals['_GETFIGURERESPONSE']._serialized_start=1834
+  _globals['_GETFIGURERESPONSE']._serialized_end=1887
+  _globals['_LISTFIGURESREQUEST']._serialized_start=1889
+  _globals['_LISTFIGURESREQUEST']._serialized_end=1964
+  _globals['_LISTFIGURESRESPONSE']._serialized_start=1966
+  _globals['_LISTFIGURESRESPONSE']._serialized_end=2047
+  _globals['_UPDATEFIGUREREQUEST']._serialized_start=2049
+  _globals['_UPDATEFIGUREREQUEST']._serialized_end=2153
+  _globals['_UPDATEFIGURERESPONSE']._serialized_start=2155
+  _globals['_UPDATEFIGURERESPONSE']._serialized_end=2211
+  _globals['_DELETEFIGUREREQUEST']._serialized_start=2213
+  _globals['_DELETEFIGUREREQUEST']._serialized_end=2248
+  _globals['_DELETEFIGURERESPONSE']._serialized_start=2250
+  _globals['_DELETEFIGURERESPONSE']._serialized_end=2272
+  _globals['_RESETFIGUREREQUEST']._serialized_start=2274
+  _globals['_RESETFIGUREREQUEST']._serialized_end=2348
+  _globals['_RESETFIGURERESPONSE']._serialized_start=2350
+  _globals['_RESETFIGURERESPONSE']._serialized_end=2405
+  _globals['_FIGURESERVICE']._serialized_start=3014
+  _globals['_FIGURESERVICE']._serialized_end=3488
 # @@protoc_insertion_point(module_scope)

@@ -389,6 +389,7 @@ class Figure(_message.Message):
     PAPER_FIELD_NUMBER: _builtins.int
     CONSTRAINTS_FIELD_NUMBER: _builtins.int
     PROTECTIVE_STEPS_FIELD_NUMBER: _builtins.int
+    NEXT_CLIP_FIELD_NUMBER: _builtins.int
     name: _builtins.str
     """Resource name `worlds/{world}/figures/{figure}`. Ignored in requests to create one."""
     display_name: _builtins.str
@@ -400,7 +401,7 @@ class Figure(_message.Message):
     stepper: Global___Stepper.ValueType
     """Stepper. Fixed at creation."""
     clip: _builtins.str
-    """Clip that is playing, `clips/{clip}`; empty if none. Output only."""
+    """Clip that is playing, `clips/{clip}`; empty if none, and while the figure comes to a stand. Output only."""
     driver_id: _builtins.str
     """Driver that moves it live; empty if none. Output only."""
     figure_index: _builtins.int
@@ -413,6 +414,8 @@ class Figure(_message.Message):
     """
     protective_steps: _builtins.bool
     """Step when the capture point has left the feet (CONTROLLER_MODERN). Absent: true."""
+    next_clip: _builtins.str
+    """Clip that begins as soon as the figure stands, `clips/{clip}`; empty if none waits. Output only."""
     @_builtins.property
     def profile(self) -> _body_pb2.BodyProfile:
         """Body by profile; only when `body` is empty. Fixed at creation."""
@@ -454,10 +457,11 @@ class Figure(_message.Message):
         paper: Global___PaperOptions | None = ...,
         constraints: _abc.Iterable[Global___Constraint] | None = ...,
         protective_steps: _builtins.bool | None = ...,
+        next_clip: _builtins.str = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["_protective_steps", b"_protective_steps", "paper", b"paper", "placement", b"placement", "profile", b"profile", "protective_steps", b"protective_steps", "strength", b"strength"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["_protective_steps", b"_protective_steps", "assist", b"assist", "body", b"body", "clip", b"clip", "constraints", b"constraints", "controller", b"controller", "display_name", b"display_name", "driver_id", b"driver_id", "fatigue_time_scale", b"fatigue_time_scale", "figure_index", b"figure_index", "name", b"name", "paper", b"paper", "placement", b"placement", "profile", b"profile", "protective_steps", b"protective_steps", "stepper", b"stepper", "strength", b"strength"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_protective_steps", b"_protective_steps", "assist", b"assist", "body", b"body", "clip", b"clip", "constraints", b"constraints", "controller", b"controller", "display_name", b"display_name", "driver_id", b"driver_id", "fatigue_time_scale", b"fatigue_time_scale", "figure_index", b"figure_index", "name", b"name", "next_clip", b"next_clip", "paper", b"paper", "placement", b"placement", "profile", b"profile", "protective_steps", b"protective_steps", "stepper", b"stepper", "strength", b"strength"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     _WhichOneofReturnType__protective_steps: _TypeAlias = _typing.Literal["protective_steps"]  # noqa: Y015
     _WhichOneofArgType__protective_steps: _TypeAlias = _typing.Literal["_protective_steps", b"_protective_steps"]  # noqa: Y015

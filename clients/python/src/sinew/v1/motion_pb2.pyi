@@ -515,14 +515,14 @@ class PlayClipRequest(_message.Message):
     led back to it by steps. Default: false.
     """
     start_time_s: _builtins.float
-    """World time at which the clip starts, s. Absent: at the next tick."""
+    """World time at which the clip starts, s, or later if the figure does not stand by then. Absent: at the next tick."""
     reset: _builtins.bool
-    """Puts the figure into the clip's first posture and velocity before it starts. Default: false, it comes into it from standing, by steps of
-    its own if the recording begins in motion. Without `loop` it ends standing in the same way.
+    """Puts the figure into the clip's first posture and velocity at once. Default: false, it comes into it from standing, by steps of its own if
+    the recording begins in motion. Without `loop` it ends standing in the same way.
     """
     @_builtins.property
     def placement(self) -> _types_pb2.Placement:
-        """Where the clip begins, with the steps that lead into it. Absent: where the figure is."""
+        """Where the clip begins, with the steps that lead into it. Absent: where the figure is, or where its feet are once it stands."""
 
     def __init__(
         self,
@@ -547,13 +547,15 @@ Global___PlayClipRequest: _TypeAlias = PlayClipRequest  # noqa: Y015
 
 @_typing.final
 class PlayClipResponse(_message.Message):
-    """The clip plays."""
+    """The clip plays, or waits until the figure stands."""
 
     DESCRIPTOR: _descriptor.Descriptor
 
     START_TIME_S_FIELD_NUMBER: _builtins.int
     start_time_s: _builtins.float
-    """World time at which its first frame plays, s: later than asked for by the length of the steps that lead into it."""
+    """World time at which its first frame plays, s: later than asked for by the length of the steps that lead into it. If the figure has to
+    stand first, when that is expected; the clip begins up to 0.4 s sooner, as soon as the figure has settled, and at most 2 s later.
+    """
     def __init__(
         self,
         *,

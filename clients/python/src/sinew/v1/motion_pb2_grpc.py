@@ -110,14 +110,17 @@ class MotionServiceServicer:
         raise NotImplementedError('Method not implemented!')
 
     def PlayClip(self, request, context):
-        """Lets a figure play a clip. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it live.
+        """Lets a figure play a clip. One that walks, or is in the middle of another clip, finishes its step and stands first; until then the clip is
+        `Figure.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it
+        live.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')
         raise NotImplementedError('Method not implemented!')
 
     def StopClip(self, request, context):
-        """Ends a clip: a figure that walks finishes its step and comes to a stand, any other holds the posture that is asked of it now.
+        """Ends a clip, and takes back the one that waits: a figure that walks finishes its step and comes to a stand, any other holds the posture
+        that is asked of it now.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')

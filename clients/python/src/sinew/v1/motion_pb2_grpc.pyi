@@ -42,9 +42,14 @@ class MotionServiceStub:
     DeleteClip: _grpc.UnaryUnaryMultiCallable[_motion_pb2.DeleteClipRequest, _motion_pb2.DeleteClipResponse]
     """Forgets a clip. Figures that play it go on. Built-in clips cannot be deleted."""
     PlayClip: _grpc.UnaryUnaryMultiCallable[_motion_pb2.PlayClipRequest, _motion_pb2.PlayClipResponse]
-    """Lets a figure play a clip. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it live."""
+    """Lets a figure play a clip. One that walks, or is in the middle of another clip, finishes its step and stands first; until then the clip is
+    `Figure.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it
+    live.
+    """
     StopClip: _grpc.UnaryUnaryMultiCallable[_motion_pb2.StopClipRequest, _motion_pb2.StopClipResponse]
-    """Ends a clip: a figure that walks finishes its step and comes to a stand, any other holds the posture that is asked of it now."""
+    """Ends a clip, and takes back the one that waits: a figure that walks finishes its step and comes to a stand, any other holds the posture
+    that is asked of it now.
+    """
     PushMotion: _grpc.UnaryUnaryMultiCallable[_motion_pb2.PushMotionRequest, _motion_pb2.PushMotionResponse]
     """A batch of live desired motion: the unary twin of `DriveFigures`."""
     DriveFigures: _grpc.StreamStreamMultiCallable[_motion_pb2.DriveFiguresRequest, _motion_pb2.DriveFiguresResponse]
@@ -66,9 +71,14 @@ class MotionServiceAsyncStub(MotionServiceStub):
     DeleteClip: _aio.UnaryUnaryMultiCallable[_motion_pb2.DeleteClipRequest, _motion_pb2.DeleteClipResponse]  # type: ignore[assignment]
     """Forgets a clip. Figures that play it go on. Built-in clips cannot be deleted."""
     PlayClip: _aio.UnaryUnaryMultiCallable[_motion_pb2.PlayClipRequest, _motion_pb2.PlayClipResponse]  # type: ignore[assignment]
-    """Lets a figure play a clip. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it live."""
+    """Lets a figure play a clip. One that walks, or is in the middle of another clip, finishes its step and stands first; until then the clip is
+    `Figure.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it
+    live.
+    """
     StopClip: _aio.UnaryUnaryMultiCallable[_motion_pb2.StopClipRequest, _motion_pb2.StopClipResponse]  # type: ignore[assignment]
-    """Ends a clip: a figure that walks finishes its step and comes to a stand, any other holds the posture that is asked of it now."""
+    """Ends a clip, and takes back the one that waits: a figure that walks finishes its step and comes to a stand, any other holds the posture
+    that is asked of it now.
+    """
     PushMotion: _aio.UnaryUnaryMultiCallable[_motion_pb2.PushMotionRequest, _motion_pb2.PushMotionResponse]  # type: ignore[assignment]
     """A batch of live desired motion: the unary twin of `DriveFigures`."""
     DriveFigures: _aio.StreamStreamMultiCallable[_motion_pb2.DriveFiguresRequest, _motion_pb2.DriveFiguresResponse]  # type: ignore[assignment]
@@ -117,7 +127,10 @@ class MotionServiceServicer(metaclass=_abc_1.ABCMeta):
         request: _motion_pb2.PlayClipRequest,
         context: _ServicerContext,
     ) -> _typing.Union[_motion_pb2.PlayClipResponse, _abc.Awaitable[_motion_pb2.PlayClipResponse]]:
-        """Lets a figure play a clip. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it live."""
+        """Lets a figure play a clip. One that walks, or is in the middle of another clip, finishes its step and stands first; until then the clip is
+        `Figure.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it
+        live.
+        """
 
     @_abc_1.abstractmethod
     def StopClip(
@@ -125,7 +138,9 @@ class MotionServiceServicer(metaclass=_abc_1.ABCMeta):
         request: _motion_pb2.StopClipRequest,
         context: _ServicerContext,
     ) -> _typing.Union[_motion_pb2.StopClipResponse, _abc.Awaitable[_motion_pb2.StopClipResponse]]:
-        """Ends a clip: a figure that walks finishes its step and comes to a stand, any other holds the posture that is asked of it now."""
+        """Ends a clip, and takes back the one that waits: a figure that walks finishes its step and comes to a stand, any other holds the posture
+        that is asked of it now.
+        """
 
     @_abc_1.abstractmethod
     def PushMotion(

@@ -454,22 +454,22 @@ export type PlayClipRequest = Message<"sinew.v1.PlayClipRequest"> & {
   loop: boolean;
 
   /**
-   * World time at which the clip starts, s. Absent: at the next tick.
+   * World time at which the clip starts, s, or later if the figure does not stand by then. Absent: at the next tick.
    *
    * @generated from field: optional double start_time_s = 5;
    */
   startTimeS?: number | undefined;
 
   /**
-   * Puts the figure into the clip's first posture and velocity before it starts. Default: false, it comes into it from standing, by steps of
-   * its own if the recording begins in motion. Without `loop` it ends standing in the same way.
+   * Puts the figure into the clip's first posture and velocity at once. Default: false, it comes into it from standing, by steps of its own if
+   * the recording begins in motion. Without `loop` it ends standing in the same way.
    *
    * @generated from field: bool reset = 6;
    */
   reset: boolean;
 
   /**
-   * Where the clip begins, with the steps that lead into it. Absent: where the figure is.
+   * Where the clip begins, with the steps that lead into it. Absent: where the figure is, or where its feet are once it stands.
    *
    * @generated from field: sinew.v1.Placement placement = 7;
    */
@@ -484,13 +484,14 @@ export const PlayClipRequestSchema: GenMessage<PlayClipRequest> = /*@__PURE__*/
   messageDesc(file_sinew_v1_motion, 12);
 
 /**
- * The clip plays.
+ * The clip plays, or waits until the figure stands.
  *
  * @generated from message sinew.v1.PlayClipResponse
  */
 export type PlayClipResponse = Message<"sinew.v1.PlayClipResponse"> & {
   /**
-   * World time at which its first frame plays, s: later than asked for by the length of the steps that lead into it.
+   * World time at which its first frame plays, s: later than asked for by the length of the steps that lead into it. If the figure has to
+   * stand first, when that is expected; the clip begins up to 0.4 s sooner, as soon as the figure has settled, and at most 2 s later.
    *
    * @generated from field: double start_time_s = 1;
    */
@@ -1248,7 +1249,9 @@ export const MotionService: GenService<{
     output: typeof DeleteClipResponseSchema;
   },
   /**
-   * Lets a figure play a clip. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it live.
+   * Lets a figure play a clip. One that walks, or is in the middle of another clip, finishes its step and stands first; until then the clip is
+   * `Figure.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it
+   * live.
    *
    * @generated from rpc sinew.v1.MotionService.PlayClip
    */
@@ -1258,7 +1261,8 @@ export const MotionService: GenService<{
     output: typeof PlayClipResponseSchema;
   },
   /**
-   * Ends a clip: a figure that walks finishes its step and comes to a stand, any other holds the posture that is asked of it now.
+   * Ends a clip, and takes back the one that waits: a figure that walks finishes its step and comes to a stand, any other holds the posture
+   * that is asked of it now.
    *
    * @generated from rpc sinew.v1.MotionService.StopClip
    */
