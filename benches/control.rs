@@ -42,10 +42,7 @@ impl Bench {
         let clip = builtin(&body, "squat").expect("a built-in motion");
         let now = clip.sample(1.5);
         let next = clip.sample(1.5 + DT);
-        let state = State {
-            posture: now.posture,
-            velocity: now.velocity,
-        };
+        let state = now.state();
         Self {
             links: Links::new(&body),
             strength: Strength::for_body(&body),

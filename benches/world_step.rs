@@ -2,11 +2,8 @@
 #![allow(missing_docs)] // criterion's macro writes undocumented functions
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use sinew::sim::body::{Body, State};
-use sinew::sim::figure::{
-    ControlParams, ControllerKind, FigureOptions, StepperKind, StrengthScale,
-};
-use sinew::sim::motion::PlanarTransform;
+use sinew::sim::body::Body;
+use sinew::sim::figure::ControllerKind;
 use sinew::sim::motion::builtin::builtin;
 use sinew::sim::world::{ClipPlayback, Drive, FigureSetup, World, WorldParams};
 use std::sync::Arc;
@@ -21,26 +18,14 @@ fn world(controller: ControllerKind, count: usize) -> World {
         let start = clip.sample_looped(lead);
         let key = world
             .add_figure(FigureSetup {
-                body: Arc::clone(&body),
-                strength: StrengthScale::default(),
-                controller,
-                stepper: StepperKind::Torque,
-                params: ControlParams::default(),
-                options: FigureOptions::default(),
-                state: State {
-                    posture: start.posture,
-                    velocity: start.velocity,
-                },
                 name: format!("figure {i}"),
+                ..FigureSetup::new(Arc::clone(&body), controller, start.state())
             })
             .expect("a valid figure");
         let figure = world.figure_mut(key).expect("just added");
         figure.set_drive(Drive::Clip(ClipPlayback {
-            clip: Arc::clone(&clip),
-            start: -lead,
-            speed: 1.0,
             looped: true,
-            origin: PlanarTransform::default(),
+            ..ClipPlayback::new(Arc::clone(&clip), -lead)
         }));
     }
     world

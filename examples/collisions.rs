@@ -5,12 +5,10 @@
 //! ```
 use sinew::evaluate::Tick;
 use sinew::evaluate::strip::{Frame, StripOptions, Thing, View, draw, evenly_spaced, svg};
-use sinew::sim::body::Body;
 use sinew::sim::body::topology::CHEST;
+use sinew::sim::body::{Body, State};
 use sinew::sim::collide::{Mobility, ObstacleSetup, Shape};
-use sinew::sim::figure::{
-    ControlParams, ControllerKind, FigureOptions, Perturbation, StepperKind, StrengthScale,
-};
+use sinew::sim::figure::{ControllerKind, Perturbation};
 use sinew::sim::math::{Quat, Vec3};
 use sinew::sim::motion::builtin::builtin;
 use sinew::sim::world::{FigureKey, FigureSetup, World, WorldParams};
@@ -25,24 +23,12 @@ fn at(x: f64, y: f64, z: f64) -> Vec3 {
 fn stander(world: &mut World, x: f64, y: f64, yaw: f64) -> FigureKey {
     let body = Arc::new(Body::adult_man());
     let idle = builtin(&body, "idle").expect("a built-in motion");
-    let mut state = sinew::sim::body::State {
-        posture: *idle.posture(0),
-        ..Default::default()
-    };
+    let mut state = State::at_rest(*idle.posture(0));
     let turn = Quat::exp(Vec3::Z * yaw);
     let p = &mut state.posture;
     p.root_position = turn.rotate(p.root_position) + at(x, y, 0.0);
     p.root_rotation = turn * p.root_rotation;
-    let setup = FigureSetup {
-        name: "stander".to_owned(),
-        body,
-        strength: StrengthScale::default(),
-        controller: ControllerKind::Modern,
-        stepper: StepperKind::Torque,
-        params: ControlParams::default(),
-        options: FigureOptions::default(),
-        state,
-    };
+    let setup = FigureSetup::new(body, ControllerKind::Modern, state);
     world.add_figure(setup).expect("a valid figure")
 }
 

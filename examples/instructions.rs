@@ -6,11 +6,8 @@ use sinew::sim::dynamics::lanes::rnea_x8;
 use sinew::sim::dynamics::{
     CompositeInertia, Kinematics, MassMatrix, RneaWorkspace, Terms, crba, factor, rnea, solve,
 };
-use sinew::sim::figure::{
-    ControlParams, ControllerKind, FigureOptions, StepperKind, StrengthScale,
-};
+use sinew::sim::figure::ControllerKind;
 use sinew::sim::math::{F64x8, Lane};
-use sinew::sim::motion::PlanarTransform;
 use sinew::sim::motion::builtin::builtin;
 use sinew::sim::world::{ClipPlayback, Drive, FigureSetup, World, WorldParams};
 use std::hint::black_box;
@@ -34,28 +31,12 @@ fn squatting(controller: ControllerKind) -> World {
     let start = clip.sample_looped(0.0);
     let mut world = World::new(WorldParams::default()).expect("default parameters");
     let key = world
-        .add_figure(FigureSetup {
-            body,
-            strength: StrengthScale::default(),
-            controller,
-            stepper: StepperKind::Torque,
-            params: ControlParams::default(),
-            options: FigureOptions::default(),
-            state: State {
-                posture: start.posture,
-                velocity: start.velocity,
-            },
-            name: "figure".to_owned(),
-        })
+        .add_figure(FigureSetup::new(body, controller, start.state()))
         .expect("a valid figure");
     let figure = world.figure_mut(key).expect("just added");
-    let origin = PlanarTransform::default();
     figure.set_drive(Drive::Clip(ClipPlayback {
-        clip,
-        start: 0.0,
-        speed: 1.0,
         looped: true,
-        origin,
+        ..ClipPlayback::new(clip, 0.0)
     }));
     world
 }

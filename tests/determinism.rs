@@ -6,7 +6,7 @@
 
 mod common;
 
-use common::{Scene, authored, bent, figure, man, play, still};
+use common::{Scene, authored, bent, figure, man, people, play, still};
 use sinew::sim::body::angles::{anatomical_angles, set_anatomical_angles};
 use sinew::sim::body::topology::{CHEST, DOF_NAMES, R_HAND};
 use sinew::sim::body::{Body, Posture, Profile, Sex};
@@ -119,22 +119,11 @@ fn subject(kind: ControllerKind, newtons: f64) -> Actor {
 
 /// Different people who do different things, some of them falling.
 fn crowd(count: usize) -> Vec<Actor> {
-    let bodies: Vec<Arc<Body>> = [
+    let bodies = people(&[
         (Sex::Male, 25.0, 1.88, 92.0),
         (Sex::Female, 34.0, 1.62, 58.0),
         (Sex::Male, 61.0, 1.70, 81.0),
-    ]
-    .into_iter()
-    .map(|(sex, age, height, mass)| {
-        let profile = Profile {
-            sex,
-            age,
-            height,
-            mass,
-        };
-        Arc::new(Body::humanoid(profile).unwrap())
-    })
-    .collect();
+    ]);
     let clips: Vec<Vec<Arc<Clip>>> = bodies
         .iter()
         .map(|b| ["idle", "lift", "walk"].map(|n| authored(b, n)).to_vec())

@@ -7,11 +7,11 @@
 mod common;
 
 use common::{figure, man, recorded, recorded_with};
-use sinew::sim::body::{Body, Posture, State};
+use sinew::sim::body::{Body, Posture};
 use sinew::sim::figure::{ControllerKind, Flags};
 use sinew::sim::motion::consistency::consistency;
 use sinew::sim::motion::live::{LiveMotion, RATE};
-use sinew::sim::motion::{Clip, PlanarTransform, RetargetOptions, cycle};
+use sinew::sim::motion::{Clip, RetargetOptions, cycle};
 use sinew::sim::world::{ClipPlayback, Drive, LivePlayback, World, WorldParams};
 use std::sync::Arc;
 
@@ -105,10 +105,7 @@ fn watch(world: &mut World, seconds: f64, mut each: impl FnMut(&mut World, f64))
 fn beginning(body: &Arc<Body>, drive: Drive) -> World {
     let mut world = World::new(WorldParams::default()).unwrap();
     let first = drive.targets(0.0, 1.0 / RATE).now;
-    let state = State {
-        posture: first.posture,
-        velocity: first.velocity,
-    };
+    let state = first.state();
     let key = world
         .add_figure(figure(body, ControllerKind::Modern, state))
         .unwrap();
@@ -252,11 +249,8 @@ fn a_clip_that_is_stopped_ends_in_a_stand() {
         let mut world = beginning(
             &body,
             Drive::Clip(ClipPlayback {
-                clip: Arc::clone(&walk),
-                start: 0.0,
-                speed: 1.0,
                 looped: true,
-                origin: PlanarTransform::default(),
+                ..ClipPlayback::new(Arc::clone(&walk), 0.0)
             }),
         );
         let mut told = false;

@@ -3,23 +3,15 @@
 
 #![allow(clippy::unwrap_used)]
 
+#[allow(dead_code)] // the list of clips
+#[path = "common/mocap.rs"]
+mod mocap;
+
+use mocap::read;
 use sinew::sim::motion::bvh::Bvh;
-use std::path::PathBuf;
 
 /// Half a unit of the fifth decimal, with room for the rounding of both readers.
 const ROUNDING: f64 = 5.0e-6 + 1e-9;
-
-fn mocap() -> PathBuf {
-    std::env::var_os("SINEW_MOCAP_DIR").map_or_else(
-        || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/mocap"),
-        PathBuf::from,
-    )
-}
-
-fn read(name: &str) -> Vec<u8> {
-    let path = mocap().join(name);
-    std::fs::read(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
-}
 
 #[test]
 fn every_clip_agrees_with_the_independent_reader() {

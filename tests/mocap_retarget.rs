@@ -5,6 +5,10 @@
 
 #![allow(clippy::unwrap_used)]
 
+#[path = "common/mocap.rs"]
+mod mocap;
+
+use mocap::CLIPS;
 use sinew::sim::body::angles::anatomical_angles;
 use sinew::sim::body::topology::{DOF_NAMES, L_FOOT, L_THIGH, L_TOES, R_FOOT, R_THIGH, R_TOES};
 use sinew::sim::body::{Body, Posture};
@@ -14,47 +18,16 @@ use sinew::sim::motion::contacts::ContactPhase;
 use sinew::sim::motion::foot_lock::Sole;
 use sinew::sim::motion::leg_ik::forward;
 use sinew::sim::motion::{Bvh, RetargetError, RetargetOptions, Retargeted, UpAxis, retarget};
-use std::path::PathBuf;
 
-const CLIPS: [&str; 18] = [
-    "carry",
-    "dance",
-    "fall-rise",
-    "get-up",
-    "hit",
-    "idle",
-    "jump",
-    "lift",
-    "punch",
-    "quick-stop",
-    "run",
-    "salsa-a",
-    "salsa-b",
-    "sit-stand",
-    "turn",
-    "walk",
-    "walk-around",
-    "wave",
-];
 /// Clips in which the person stands on the spot: they must stay on their feet.
 const STANDING: [&str; 4] = ["idle", "lift", "punch", "wave"];
 
-fn mocap() -> PathBuf {
-    std::env::var_os("SINEW_MOCAP_DIR").map_or_else(
-        || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/mocap"),
-        PathBuf::from,
-    )
-}
-
 fn text(name: &str) -> String {
-    let path = mocap().join(format!("{name}.bvh"));
-    std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+    String::from_utf8(mocap::read(&format!("{name}.bvh"))).unwrap()
 }
 
 fn stats() -> serde_json::Value {
-    let path = mocap().join("stats.json");
-    let bytes = std::fs::read(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
-    serde_json::from_slice(&bytes).unwrap()
+    serde_json::from_slice(&mocap::read("stats.json")).unwrap()
 }
 
 fn take(text: &str, body: &Body, options: &RetargetOptions) -> Result<Retargeted, RetargetError> {

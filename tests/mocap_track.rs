@@ -6,7 +6,8 @@
 
 mod common;
 
-use common::{CLIPS, Scene, authored, man, recorded};
+use common::mocap::CLIPS;
+use common::{Scene, authored, man, recorded};
 use sinew::evaluate::RunReport;
 use sinew::sim::body::Body;
 use sinew::sim::figure::ControllerKind;

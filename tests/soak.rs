@@ -9,7 +9,7 @@ mod common;
 
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
-use sinew::sim::body::{Body, NV, Posture, Profile, SegmentId, Sex, State};
+use sinew::sim::body::{Body, NV, Posture, SegmentId, Sex, State};
 use sinew::sim::collide::{Mobility, ObstacleSetup, Shape};
 use sinew::sim::figure::{ControllerKind, FigureOptions, Flags, Perturbation, StepperKind};
 use sinew::sim::math::{Quat, Vec3};
@@ -31,23 +31,12 @@ fn number(name: &str, default: u64) -> u64 {
 }
 
 fn people() -> Vec<Arc<Body>> {
-    [
+    common::people(&[
         (Sex::Male, 30.0, 1.75, 75.0),
         (Sex::Female, 25.0, 1.52, 45.0),
         (Sex::Male, 45.0, 2.0, 150.0),
         (Sex::Female, 80.0, 1.60, 70.0),
-    ]
-    .into_iter()
-    .map(|(sex, age, height, mass)| {
-        let profile = Profile {
-            sex,
-            age,
-            height,
-            mass,
-        };
-        Arc::new(Body::humanoid(profile).unwrap())
-    })
-    .collect()
+    ])
 }
 
 struct Chaos {
@@ -103,10 +92,7 @@ impl Chaos {
         ];
         let kind = kinds[self.rng.random_range(0..3)];
         let wild = self.size(1.5);
-        let mut state = State {
-            posture: self.posture(body, wild),
-            ..State::default()
-        };
+        let mut state = State::at_rest(self.posture(body, wild));
         state.posture.root_position += self.vector(0.8);
         if self.often(0.3) {
             let fast = self.size(20.0);

@@ -3,73 +3,40 @@
 //! Method: clips from the motion capture folder, retargeted as they come, 60 Hz with two substeps, the modern controller.
 #![allow(clippy::unwrap_used)]
 
+mod common;
+
+use common::{authored, figure, man, recorded};
 use sinew::sim::body::topology::CHEST;
-use sinew::sim::body::{Body, Profile, Sex, State};
-use sinew::sim::figure::{
-    ControlParams, ControllerKind, FigureOptions, FigureSetup, Flags, Perturbation, StepperKind,
-    StrengthScale,
-};
+use sinew::sim::body::{Body, Profile, Sex};
+use sinew::sim::figure::{ControllerKind, Flags, Perturbation};
 use sinew::sim::math::Vec3;
-use sinew::sim::motion::builtin::builtin;
-use sinew::sim::motion::{Bvh, Clip, PlanarTransform, RetargetOptions, cycle, retarget};
+use sinew::sim::motion::{Clip, cycle};
 use sinew::sim::world::{ClipPlayback, Drive, FigureKey, World, WorldParams};
 use std::f64::consts::FRAC_PI_4;
 use std::sync::Arc;
 
 const RATE: f64 = 60.0;
 
-fn clip(body: &Body, name: &str) -> Clip {
-    let folder = std::env::var("SINEW_MOCAP_DIR")
-        .unwrap_or_else(|_| concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/mocap").into());
-    let path = format!("{folder}/{name}.bvh");
-    let bytes = std::fs::read(&path).unwrap_or_else(|e| panic!("{path}: {e}"));
-    let bvh = Bvh::parse(&bytes).unwrap();
-    retarget(&bvh, body, &RetargetOptions::default())
-        .unwrap()
-        .clip
-}
-
 /// A world with a figure that plays `clip` from its sample at time `from` of the clip on, s.
-fn playing(
-    body: &Arc<Body>,
-    name: &str,
-    clip: Arc<Clip>,
-    from: f64,
-    looped: bool,
-) -> (World, FigureKey) {
+fn playing(body: &Arc<Body>, clip: Arc<Clip>, from: f64, looped: bool) -> (World, FigureKey) {
     let start = clip.sample(from);
     let mut world = World::new(WorldParams::default()).unwrap();
     let key = world
-        .add_figure(FigureSetup {
-            name: name.into(),
-            body: Arc::clone(body),
-            strength: StrengthScale::default(),
-            controller: ControllerKind::Modern,
-            stepper: StepperKind::Torque,
-            params: ControlParams::default(),
-            options: FigureOptions::default(),
-            state: State {
-                posture: start.posture,
-                velocity: start.velocity,
-            },
-        })
+        .add_figure(figure(body, ControllerKind::Modern, start.state()))
         .unwrap();
     let figure = world.figure_mut(key).unwrap();
     figure.set_drive(Drive::Clip(ClipPlayback {
-        clip,
-        start: -from,
-        speed: 1.0,
         looped,
-        origin: PlanarTransform::default(),
+        ..ClipPlayback::new(clip, -from)
     }));
     (world, key)
 }
 
 /// Root mean square of the joint errors, degrees, and largest error of the capture point, m.
-fn walk(body: &Arc<Body>, name: &str, clip: Clip, looped: bool, seconds: f64) -> (f64, f64) {
+fn walk(body: &Arc<Body>, name: &str, clip: &Arc<Clip>, looped: bool, seconds: f64) -> (f64, f64) {
     let lead = clip.lead_in();
     let from = if looped { lead + 1.0 } else { 0.0 };
-    let (mut world, key) = playing(body, name, Arc::new(clip), -lead, looped);
+    let (mut world, key) = playing(body, Arc::clone(clip), -lead, looped);
     let (mut sum, mut count, mut capture) = (0.0, 0, 0.0f64);
     for tick in 0..(seconds * RATE) as usize {
         world.step();
@@ -99,34 +66,34 @@ fn walk(body: &Arc<Body>, name: &str, clip: Clip, looped: bool, seconds: f64) ->
 
 #[test]
 fn walks_start_from_standing_and_stop() {
-    let body = Arc::new(Body::adult_man());
+    let body = man();
     for name in ["walk", "turn", "walk-around", "salsa-a", "hit"] {
-        let clip = clip(&body, name);
+        let clip = recorded(&body, name);
         let seconds = clip.lead_in() + clip.duration() + clip.lead_out() + 1.0;
         let (first, last) = (
             clip.sample(-clip.lead_in()).posture,
             clip.sample(seconds).posture,
         );
         assert!(first.root_position.z > 0.8 && last.root_position.z > 0.8);
-        let (rms, capture) = walk(&body, name, clip, false, seconds);
+        let (rms, capture) = walk(&body, name, &clip, false, seconds);
         assert!(rms < 4.0 && capture < 0.2, "{name}: {rms} deg, {capture} m");
     }
 }
 
 #[test]
 fn a_walk_repeats_for_a_minute() {
-    let body = Arc::new(Body::adult_man());
-    let walk_cycle = cycle(&body, &clip(&body, "walk")).expect("a walk has a cycle");
+    let body = man();
+    let walk_cycle = cycle(&body, &recorded(&body, "walk")).expect("a walk has a cycle");
     assert!(walk_cycle.duration() > 1.0 && walk_cycle.advance().x > 1.0);
-    let (rms, capture) = walk(&body, "walk", walk_cycle, true, 60.0);
+    let (rms, capture) = walk(&body, "walk", &Arc::new(walk_cycle), true, 60.0);
     assert!(rms < 4.0, "{rms} deg");
     assert!(capture < 0.06, "{capture} m");
 }
 
 #[test]
 fn a_motion_without_a_cycle_comes_back_to_its_beginning() {
-    let body = Arc::new(Body::adult_man());
-    let wave = clip(&body, "wave");
+    let body = man();
+    let wave = recorded(&body, "wave");
     let repeats = cycle(&body, &wave).expect("it ends otherwise than it begins");
     let (first, end) = (
         repeats.sample_looped(0.0),
@@ -137,13 +104,13 @@ fn a_motion_without_a_cycle_comes_back_to_its_beginning() {
         off.iter().all(|e| e.abs() < 0.02),
         "the seam closes: {off:?}"
     );
-    let (rms, _) = walk(&body, "wave", repeats, true, 30.0);
+    let (rms, _) = walk(&body, "wave", &Arc::new(repeats), true, 30.0);
     assert!(rms < 4.0, "{rms} deg");
 }
 
 /// A push of 0.1 s at the chest while walking: does the figure still stand 4 s later?
 fn survives(body: &Arc<Body>, clip: &Arc<Clip>, at: f64, impulse: Vec3) -> bool {
-    let (mut world, key) = playing(body, "pushed", Arc::clone(clip), 0.0, true);
+    let (mut world, key) = playing(body, Arc::clone(clip), 0.0, true);
     let push = Perturbation::Force {
         segment: CHEST,
         point: Vec3::Z * 0.1,
@@ -165,8 +132,8 @@ fn survives(body: &Arc<Body>, clip: &Arc<Clip>, at: f64, impulse: Vec3) -> bool 
 
 #[test]
 fn pushes_while_walking_are_caught_by_steps() {
-    let body = Arc::new(Body::adult_man());
-    let walk_cycle = Arc::new(cycle(&body, &clip(&body, "walk")).unwrap());
+    let body = man();
+    let walk_cycle = Arc::new(cycle(&body, &recorded(&body, "walk")).unwrap());
     // All of the light ones, and most of the heavier: what falls are pushes to the side.
     for (impulse, least) in [(10.0, 32), (20.0, 28)] {
         let mut survived = 0;
@@ -201,8 +168,8 @@ fn people_of_other_sizes_walk_the_same_recording() {
         ("1.55 m", Body::humanoid(man(1.55, 60.0)).unwrap()),
         ("1.95 m", Body::humanoid(man(1.95, 92.0)).unwrap()),
     ] {
-        let walk_cycle = cycle(&body, &clip(&body, "walk")).unwrap();
-        let (rms, capture) = walk(&Arc::new(body), name, walk_cycle, true, 20.0);
+        let walk_cycle = cycle(&body, &recorded(&body, "walk")).unwrap();
+        let (rms, capture) = walk(&Arc::new(body), name, &Arc::new(walk_cycle), true, 20.0);
         assert!(rms < 4.0 && capture < 0.1, "{name}: {rms} deg, {capture} m");
     }
 }
@@ -226,7 +193,7 @@ fn passes(
     at: f64,
 ) -> Passed {
     let from = if looped { 0.0 } else { -first.lead_in() };
-    let (mut world, key) = playing(body, "passes", Arc::clone(first), from, looped);
+    let (mut world, key) = playing(body, Arc::clone(first), from, looped);
     for _ in 0..(at * RATE) as usize {
         world.step();
     }
@@ -235,13 +202,7 @@ fn passes(
     let figure = world.figure_mut(key).unwrap();
     match second {
         Some(clip) => {
-            let play = ClipPlayback {
-                clip: Arc::clone(clip),
-                start: time + clip.lead_in(),
-                speed: 1.0,
-                looped: false,
-                origin: PlanarTransform::default(),
-            };
+            let play = ClipPlayback::new(Arc::clone(clip), time + clip.lead_in());
             let start = figure.play(play, false, time);
             assert!(start >= time + clip.lead_in());
         }
@@ -257,7 +218,7 @@ fn passes(
     };
     while out.began.is_nan() || world.time() < time + out.began + long {
         let figure = world.figure(key).unwrap();
-        if out.began.is_nan() && figure.queued().is_none() {
+        if out.began.is_nan() && figure.next_clip().is_none() {
             out.began = world.time() - time;
         }
         world.step();
@@ -276,11 +237,11 @@ fn passes(
 
 #[test]
 fn one_clip_follows_another_in_motion() {
-    let body = Arc::new(Body::adult_man());
+    let body = man();
     let [walk, turn, around, idle, wave] =
-        ["walk", "turn", "walk-around", "idle", "wave"].map(|name| Arc::new(clip(&body, name)));
+        ["walk", "turn", "walk-around", "idle", "wave"].map(|name| recorded(&body, name));
     let walks = Arc::new(cycle(&body, &walk).unwrap());
-    let squat = Arc::new(builtin(&body, "squat").unwrap());
+    let squat = authored(&body, "squat");
     let (mut all, mut fallen) = (0, Vec::new());
     for (what, first, second, at) in [
         ("walk to turn", (&walks, true), Some(&turn), 3.0),
@@ -321,16 +282,10 @@ fn one_clip_follows_another_in_motion() {
 
 #[test]
 fn what_waits_can_be_taken_back_and_what_stands_begins_at_once() {
-    let body = Arc::new(Body::adult_man());
-    let walk = Arc::new(clip(&body, "walk"));
-    let again = |time: f64| ClipPlayback {
-        clip: Arc::clone(&walk),
-        start: time + walk.lead_in(),
-        speed: 1.0,
-        looped: false,
-        origin: PlanarTransform::default(),
-    };
-    let (mut world, key) = playing(&body, "waits", Arc::clone(&walk), -walk.lead_in(), false);
+    let body = man();
+    let walk = recorded(&body, "walk");
+    let again = |time: f64| ClipPlayback::new(Arc::clone(&walk), time + walk.lead_in());
+    let (mut world, key) = playing(&body, Arc::clone(&walk), -walk.lead_in(), false);
     for _ in 0..150 {
         world.step();
     }
@@ -340,9 +295,9 @@ fn what_waits_can_be_taken_back_and_what_stands_begins_at_once() {
     assert!(expected > time + walk.lead_in() + 0.5);
     // Once more: it is on its way to a stand already, and only what comes then is replaced.
     assert_eq!(figure.play(again(time), false, time), expected);
-    assert!(figure.queued().is_some());
+    assert!(figure.next_clip().is_some());
     figure.stop(time);
-    assert!(figure.queued().is_none());
+    assert!(figure.next_clip().is_none());
     for _ in 0..300 {
         world.step();
     }
@@ -350,5 +305,5 @@ fn what_waits_can_be_taken_back_and_what_stands_begins_at_once() {
     let figure = world.figure_mut(key).unwrap();
     assert!(!figure.is_fallen());
     assert_eq!(figure.play(again(time), false, time), time + walk.lead_in());
-    assert!(figure.queued().is_none());
+    assert!(figure.next_clip().is_none());
 }

@@ -125,6 +125,14 @@ impl Page {
         self.say(&format!("![{title}]({name}.png)"));
         Ok(())
     }
+
+    /// Adds strips seen from the side: file name, what there is to see, title.
+    pub fn strips(&mut self, body: &Body, strips: &[(String, Record, String)]) -> Result<()> {
+        for (name, run, title) in strips {
+            self.strip(name, body, run, View::Side, title)?;
+        }
+        Ok(())
+    }
 }
 
 /// What the folder holds in all.

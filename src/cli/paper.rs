@@ -17,7 +17,7 @@ use crate::evaluate::plot::Plot;
 use crate::evaluate::strip::View;
 use crate::sim::body::topology::DOF_NAMES;
 use crate::sim::body::{Body, Profile, Sex};
-use crate::sim::motion::builtin::builtin;
+use crate::sim::motion::builtin::{at_ease, builtin};
 use crate::sim::motion::retarget::RetargetOptions;
 use anyhow::Result;
 use std::fmt::Write as _;
@@ -388,7 +388,7 @@ fn falls(page: &mut Page, body: &Arc<Body>) -> Result<()> {
     ];
     let mut rows = Vec::new();
     for (name, direction) in DIRECTIONS {
-        let start = leaning(body, direction);
+        let start = leaning(body, at_ease(body), direction);
         let ideal = pendulum(body, &start);
         let mut plot = Plot {
             title: format!("falling {name}: height of the centre of mass"),
@@ -450,7 +450,7 @@ fn falls(page: &mut Page, body: &Arc<Body>) -> Result<()> {
 /// Why the forward fall ends early at human strength.
 fn toes(page: &mut Page, body: &Arc<Body>) {
     let (name, forward) = DIRECTIONS[0];
-    let start = leaning(body, forward);
+    let start = leaning(body, at_ease(body), forward);
     let tips = pendulum(body, &start).last().map_or(0.0, |p| p[0]);
     let balls = pendulum_about_the_balls(body, &start);
     page.say(&format!("### Why {name} is early"));
@@ -651,10 +651,7 @@ fn hands(page: &mut Page, body: &Arc<Body>) -> Result<()> {
         ],
         &rows,
     );
-    for (name, record, title) in &strips {
-        page.strip(name, body, record, View::Side, title)?;
-    }
-    Ok(())
+    page.strips(body, &strips)
 }
 
 fn bumps(page: &mut Page, body: &Arc<Body>) -> Result<()> {
@@ -699,10 +696,7 @@ fn bumps(page: &mut Page, body: &Arc<Body>) -> Result<()> {
         ],
         &rows,
     );
-    for (name, record, title) in &strips {
-        page.strip(name, body, record, View::Side, title)?;
-    }
-    Ok(())
+    page.strips(body, &strips)
 }
 
 fn as_printed(page: &mut Page, body: &Arc<Body>) -> Result<()> {

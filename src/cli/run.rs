@@ -10,12 +10,12 @@ use crate::evaluate::strip::{Frame, StripOptions, Thing, View, draw, evenly_spac
 use crate::evaluate::table::{Torques, header, row};
 use crate::evaluate::{Metrics, RunReport, Tick};
 use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES};
-use crate::sim::body::{Body, Posture, SegmentId, State};
+use crate::sim::body::{Body, Posture, SegmentId};
 use crate::sim::collide::{Mobility, ObstacleSetup, Shape};
 use crate::sim::figure::{Constraint, ControlParams, FigureOptions, StrengthScale};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::retarget::RetargetOptions;
-use crate::sim::motion::{Clip, PlanarTransform, cycle, write_bvh};
+use crate::sim::motion::{Clip, cycle, write_bvh};
 use crate::sim::strength::fatigue::MAX_TIME_SCALE;
 use crate::sim::world::{
     ClipPlayback, Drive, Figure, FigureEvent, FigureSetup, World, WorldParams,
@@ -444,14 +444,12 @@ fn simulate(
     let start = clip.sample(first);
     let key = world
         .add_figure(FigureSetup {
-            body: Arc::clone(body),
             strength: StrengthScale {
                 all: args.strength,
                 percentile: args.percentile,
                 effort: args.effort,
                 ..StrengthScale::default()
             },
-            controller: args.controller_kind().into(),
             stepper: args.stepper_kind().into(),
             params: ControlParams {
                 protective_steps: args.protective_steps,
@@ -461,11 +459,12 @@ fn simulate(
                 fatigue_time_scale: args.fatigue,
                 assist: args.assist,
             },
-            state: State {
-                posture: start.posture,
-                velocity: start.velocity,
-            },
             name: clip.name().to_owned(),
+            ..FigureSetup::new(
+                Arc::clone(body),
+                args.controller_kind().into(),
+                start.state(),
+            )
         })
         .context("no such figure")?;
     for load in &args.load {
@@ -487,11 +486,8 @@ fn simulate(
     }
     let figure = world.figure_mut(key).expect("the figure was just added");
     figure.set_drive(Drive::Clip(ClipPlayback {
-        clip: Arc::new(clip.clone()),
-        start: -first,
-        speed: 1.0,
         looped: args.looped,
-        origin: PlanarTransform::default(),
+        ..ClipPlayback::new(Arc::new(clip.clone()), -first)
     }));
     let mut metrics = Metrics::new(args.rate_hz(), &start.posture);
     let mut frames = Vec::with_capacity(shown.len());
@@ -500,16 +496,7 @@ fn simulate(
         world.step();
         let us = began.elapsed().as_secs_f64() * 1e6;
         let figure = world.figure(key).expect("nobody removes the figure");
-        let report = figure.report().expect("a stepped figure has a report");
-        let tick = Tick {
-            body,
-            links: figure.links(),
-            target: figure.target(),
-            report,
-            state: figure.state(),
-            strength: (figure.strength(), figure.muscles()),
-            gravity: scenario.params.gravity,
-        };
+        let tick = Tick::of(figure, scenario.params.gravity);
         metrics.observe(tick, us);
         for event in figure.events() {
             note(&mut metrics, event);

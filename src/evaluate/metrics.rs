@@ -6,7 +6,7 @@ use super::report::{MAX_EVENTS, RunEvent, RunReport};
 use crate::sim::body::angles::anatomical_angles;
 use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::body::{Body, DOF_COUNT, Links, Posture, SEGMENT_COUNT, State};
-use crate::sim::figure::{Flags, TickReport};
+use crate::sim::figure::{Figure, Flags, TickReport};
 use crate::sim::math::Vec3;
 use crate::sim::motion::TargetPair;
 use crate::sim::strength::{MuscleScale, Strength};
@@ -35,7 +35,20 @@ pub struct Tick<'a> {
     pub gravity: f64,
 }
 
-impl Tick<'_> {
+impl<'a> Tick<'a> {
+    /// The last tick of `figure`, under `gravity`, m/s². Panics before its first tick.
+    pub fn of(figure: &'a Figure, gravity: f64) -> Self {
+        Self {
+            body: figure.body(),
+            links: figure.links(),
+            target: figure.target(),
+            report: figure.report().expect("a stepped figure has a report"),
+            state: figure.state(),
+            strength: (figure.strength(), figure.muscles()),
+            gravity,
+        }
+    }
+
     /// Share of the available muscle torque that each DOF uses in the audited substep, from the strength of the body at that state.
     ///
     /// Limits follow angles and speeds, so mean torques of a tick cannot be compared with limits of one instant.

@@ -441,10 +441,7 @@ pub fn add_figure(
     s: &FigureSettings,
     body: Arc<Body>,
 ) -> Result<FigureKey, Fault> {
-    let state = State {
-        posture: standing(&body, s.place),
-        ..State::default()
-    };
+    let state = State::at_rest(standing(&body, s.place));
     let key = world
         .add_figure(FigureSetup {
             body,
@@ -505,10 +502,7 @@ pub fn placing(from: Place, to: Place) -> PlanarTransform {
 /// First state of a clip that begins at a place.
 pub fn first_state(clip: &Clip, at: Place) -> State {
     let target: Target = placing(place_of(clip.posture(0)), at).apply(&clip.sample(0.0));
-    State {
-        posture: target.posture,
-        velocity: target.velocity,
-    }
+    target.state()
 }
 
 /// The physics' perturbation for a disturbance that begins at world time `from`.

@@ -6,8 +6,8 @@
 use crate::common::{authored, figure, man, play, recorded_with, still};
 use crate::vec3;
 use sinew::evaluate::audit;
+use sinew::sim::body::Body;
 use sinew::sim::body::topology::CHEST;
-use sinew::sim::body::{Body, State};
 use sinew::sim::collide::{MAX_OBSTACLES, Mobility, ObstacleSetup, Other, Shape};
 use sinew::sim::figure::{ControllerKind, FigureEvent, Flags, Perturbation, StepperKind};
 use sinew::sim::math::{Quat, Vec3};
@@ -285,10 +285,7 @@ fn a_couple_dances_salsa() {
     for name in ["salsa-a", "salsa-b"] {
         let clip = dancing(&body, name);
         let first = clip.sample(0.0);
-        let state = State {
-            posture: first.posture,
-            velocity: first.velocity,
-        };
+        let state = first.state();
         let setup = figure(&body, ControllerKind::Modern, state);
         let key = world.add_figure(setup).unwrap();
         world.figure_mut(key).unwrap().set_drive(play(&clip));
@@ -479,10 +476,7 @@ fn a_figure_sits_down_and_gets_up() {
     ] {
         let text = format!("stool {side} wide and {height} m high at {x}");
         let first = clip.sample(0.0);
-        let state = State {
-            posture: first.posture,
-            velocity: first.velocity,
-        };
+        let state = first.state();
         let mut world = World::new(WorldParams::default()).unwrap();
         let setup = figure(&body, ControllerKind::Modern, state);
         let key = world.add_figure(setup).unwrap();

@@ -2,60 +2,19 @@
 //! Method: it starts 3° beyond balance over the edge; the time until its centre of mass is 0.5 m high is compared with the physical
 //! pendulum `I θ̈ = m g l sin θ` about that edge, integrated to rounding.
 
-use crate::common::{Scene, authored, figure, man, still};
+use crate::common::{Scene, authored, figure, man};
 use crate::{GRAVITY, integrals, vec3};
 use sinew::evaluate::audit::audit;
+use sinew::evaluate::experiments::fall::{Leaning, leaning};
 use sinew::evaluate::pose::segment_poses;
-use sinew::sim::body::topology::{DOF_NAMES, L_FOOT, L_TOES, R_FOOT, R_TOES};
-use sinew::sim::body::{Body, Links, Posture, State};
+use sinew::sim::body::topology::DOF_NAMES;
+use sinew::sim::body::{Body, Links, State};
 use sinew::sim::figure::{ControllerKind, FigureSetup, Flags, StepperKind};
-use sinew::sim::math::{Quat, Sym3, Vec3};
+use sinew::sim::math::{Sym3, Vec3};
 use sinew::sim::world::WorldParams;
 
 /// Height of the centre of mass that ends the comparison, m.
 const LOW: f64 = 0.5;
-/// Shortest edge that a figure can tip over as a whole, m; shorter ones round a corner.
-const MIN_EDGE: f64 = 0.05;
-
-/// Edge of the support that faces `direction` most: a point on it and its outward normal.
-fn edge_towards(body: &Body, posture: &Posture, direction: Vec3) -> (Vec3, Vec3) {
-    let poses = segment_poses(&body.joint_offset, posture);
-    let soles: Vec<Vec3> = [L_FOOT, L_TOES, R_FOOT, R_TOES]
-        .iter()
-        .flat_map(|s| {
-            let points = &body.segment(*s).contact_points;
-            points.iter().map(|p| poses[s.index()].point(*p))
-        })
-        .map(|p| vec3(p.x, p.y, 0.0))
-        .collect();
-    let mut best = (f64::MIN, Vec3::zero(), Vec3::zero());
-    for a in &soles {
-        for b in &soles {
-            let along = *b - *a;
-            if along.norm() < MIN_EDGE {
-                continue;
-            }
-            // Counter-clockwise: the outside is to the right.
-            let normal = along.cross(Vec3::Z) * (1.0 / along.norm());
-            let outside = soles.iter().any(|p| (*p - *a).dot(normal) > 1e-6);
-            if !outside && normal.dot(direction) > best.0 {
-                best = (normal.dot(direction), *a, normal);
-            }
-        }
-    }
-    (best.1, best.2)
-}
-
-/// A posture turned about an edge on the floor until its centre of mass is 3° beyond it.
-fn leaning(body: &Body, posture: &Posture, pivot: Vec3, normal: Vec3) -> State {
-    let com = integrals(&Links::new(body), &still(*posture)).com;
-    let angle = (pivot - com).dot(normal).atan2(com.z) + 3f64.to_radians();
-    let turn = Quat::from_axis_angle(Vec3::Z.cross(normal), angle);
-    let mut out = *posture;
-    out.root_position = pivot + turn.rotate(posture.root_position - pivot);
-    out.root_rotation = turn * posture.root_rotation;
-    still(out)
-}
 
 /// Seconds until the rigid figure's centre of mass is at [`LOW`].
 fn pendulum_time(body: &Body, state: &State, pivot: Vec3, axis: Vec3) -> f64 {
@@ -103,8 +62,11 @@ fn falls_like_a_pendulum(strength: f64, toes: f64) {
         ("left", vec3(0.0, 1.0, 0.0)),
         ("right", vec3(0.0, -1.0, 0.0)),
     ] {
-        let (pivot, direction) = edge_towards(&body, &posture, direction);
-        let state = leaning(&body, &posture, pivot, direction);
+        let Leaning {
+            state,
+            pivot,
+            normal: direction,
+        } = leaning(&body, posture, direction);
         let want = pendulum_time(&body, &state, pivot, Vec3::Z.cross(direction));
         let mut setup = figure(&body, ControllerKind::Motors, state);
         setup.strength.all = strength;
@@ -203,8 +165,11 @@ fn fall(
 ) -> Fall {
     let body = man();
     let posture = authored(&body, "idle").posture(0).to_owned();
-    let (pivot, direction) = edge_towards(&body, &posture, vec3(x, y, 0.0));
-    let state = leaning(&body, &posture, pivot, direction);
+    let Leaning {
+        state,
+        pivot,
+        normal: direction,
+    } = leaning(&body, posture, vec3(x, y, 0.0));
     let pendulum = pendulum_time(&body, &state, pivot, Vec3::Z.cross(direction));
     let mut setup = figure(&body, kind, state);
     setup.stepper = stepper;

@@ -5,7 +5,7 @@ use crate::common::{Scene, figure, man, on_floor, play};
 use crate::{GRAVITY, integrals};
 use sinew::sim::body::angles::set_anatomical_angles;
 use sinew::sim::body::topology::DOF_NAMES;
-use sinew::sim::body::{Body, DOF_COUNT, Posture, State};
+use sinew::sim::body::{Body, DOF_COUNT, Posture};
 use sinew::sim::figure::{ControllerKind, Flags, StepperKind};
 use sinew::sim::math::{Quat, Vec3};
 use sinew::sim::motion::Clip;
@@ -122,14 +122,7 @@ fn leaps(kind: ControllerKind, stepper: StepperKind, allowed: f64) -> bool {
     let body = man();
     let (clip, off) = leap(&body);
     let first = clip.sample(0.0);
-    let mut setup = figure(
-        &body,
-        kind,
-        State {
-            posture: first.posture,
-            velocity: first.velocity,
-        },
-    );
+    let mut setup = figure(&body, kind, first.state());
     setup.stepper = stepper;
     setup.strength.all = STRENGTH;
     let params = WorldParams {

@@ -1,60 +1,18 @@
 //! Goal: the paper's three regimes of lifting with an arm that is 2 % too weak for 3 kg. Method: the built-in semi-squat lift; the strength of
 //! the right arm is scaled to 98 % of what the highest demand of the motion at 3 kg needs when it is held still.
 
-use crate::GRAVITY;
 use crate::common::{Scene, figure, man, play};
-use sinew::sim::body::angles::anatomical_angles;
+use sinew::evaluate::experiments::lift::{is_arm, weak_arm};
+use sinew::sim::body::DOF_COUNT;
 use sinew::sim::body::topology::{DOF_NAMES, R_HAND};
-use sinew::sim::body::{Body, DOF_COUNT, Links, State};
-use sinew::sim::dynamics::Terms;
 use sinew::sim::figure::tasks::grip;
-use sinew::sim::figure::{ControllerKind, Perturbation, StepperKind, StrengthScale};
-use sinew::sim::motion::Clip;
+use sinew::sim::figure::{ControllerKind, Perturbation, StepperKind};
 use sinew::sim::motion::builtin::{LIFT_GRASP, builtin};
-use sinew::sim::strength::Strength;
 use sinew::sim::world::WorldParams;
 use std::sync::Arc;
 
 /// Height of the centre of mass below which it has fallen, m.
 const LOW: f64 = 0.55;
-
-/// Factor on the strength of the right arm at which it holds 98 % of `mass` in the worst posture of the clip, without moving.
-fn arm_factor(body: &Arc<Body>, clip: &Clip, mass: f64) -> f64 {
-    let strength = Strength::for_body(body);
-    let mut links = Links::new(body);
-    links.add_load(R_HAND, grip(body, R_HAND), mass);
-    let mut terms = Terms::default();
-    let mut need = 0.0f64;
-    for i in 0..clip.len() {
-        if i as f64 / clip.rate_hz() < LIFT_GRASP {
-            continue;
-        }
-        let state = State {
-            posture: *clip.posture(i),
-            ..State::default()
-        };
-        terms.compute(&links, &state, &[], GRAVITY);
-        let angles = anatomical_angles(&state.posture);
-        let (mut lower, mut upper) = ([0.0; DOF_COUNT], [0.0; DOF_COUNT]);
-        strength.range(
-            &angles,
-            &[0.0; DOF_COUNT],
-            &StrengthScale::default().muscles(1.0),
-            &mut lower,
-            &mut upper,
-        );
-        for j in (0..DOF_COUNT).filter(|j| of_arm(*j)) {
-            let tau = terms.h[6 + j];
-            need = need.max(tau / upper[j]).max(tau / lower[j]);
-        }
-    }
-    0.98 * need
-}
-
-/// Shoulder and elbow of the right arm.
-fn of_arm(j: usize) -> bool {
-    DOF_NAMES[j].starts_with("r_shoulder") || DOF_NAMES[j].starts_with("r_elbow")
-}
 
 /// What happened in a lift, until the end or the fall.
 struct Lifted {
@@ -85,15 +43,12 @@ struct Lifted {
 fn lift(mass: f64, kind: ControllerKind, stepper: StepperKind, rate_hz: f64) -> Lifted {
     let body = man();
     let clip = Arc::new(builtin(&body, "lift").unwrap());
-    let factor = arm_factor(&body, &clip, 3.0);
+    let factor = weak_arm(&body, &clip, 3.0);
     let first = clip.sample(0.0);
-    let state = State {
-        posture: first.posture,
-        velocity: first.velocity,
-    };
+    let state = first.state();
     let mut setup = figure(&body, kind, state);
     setup.stepper = stepper;
-    for j in (0..DOF_COUNT).filter(|j| of_arm(*j)) {
+    for j in (0..DOF_COUNT).filter(|j| is_arm(*j)) {
         setup.strength.dof[j] = factor;
     }
     let params = WorldParams {
@@ -137,13 +92,13 @@ fn lift(mass: f64, kind: ControllerKind, stepper: StepperKind, rate_hz: f64) -> 
         n += 1.0;
         out.rms += r.joint_error.iter().map(|e| e * e).sum::<f64>() / DOF_COUNT as f64;
         let at_limit = |j: &usize| r.saturated >> j & 1 == 1;
-        if (0..DOF_COUNT).filter(|j| of_arm(*j)).any(|j| at_limit(&j)) {
+        if (0..DOF_COUNT).filter(|j| is_arm(*j)).any(|j| at_limit(&j)) {
             out.arm_saturated += 1.0 / rate_hz;
         }
         out.saturated |= r.saturated != 0;
         for j in 0..DOF_COUNT {
             let error = r.joint_error[j].abs().to_degrees();
-            if of_arm(j) {
+            if is_arm(j) {
                 out.arm = out.arm.max(error);
             } else if helps(j) {
                 out.others = out.others.max(error);

@@ -34,8 +34,10 @@ mod push;
 mod stand;
 mod symmetry;
 
-use sinew::sim::body::{DOF_COUNT, Links, State};
-use sinew::sim::dynamics::{Kinematics, Momentum, center_of_mass, kinetic_energy, momentum};
+use sinew::sim::body::{Links, State};
+use sinew::sim::dynamics::{
+    Kinematics, Momentum, center_of_mass, kinetic_energy, momentum, rotor_energy,
+};
 use sinew::sim::math::Vec3;
 
 /// Gravity of the default world, m/s².
@@ -59,9 +61,7 @@ fn integrals(links: &Links, state: &State) -> Integrals {
     kin.set_state(links, state);
     let (com, mass) = center_of_mass(links, &kin);
     let com = state.posture.root_position + com;
-    let rotors: f64 = (0..DOF_COUNT)
-        .map(|d| 0.5 * links.armature[d] * state.velocity[6 + d].powi(2))
-        .sum();
+    let rotors = rotor_energy(links, &state.velocity);
     Integrals {
         com,
         momentum: momentum(links, &kin),

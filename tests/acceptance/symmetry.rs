@@ -76,10 +76,7 @@ fn mirrored(p: &Posture) -> Posture {
 pub(crate) fn mirrored_state(s: &State) -> State {
     let v = &s.velocity;
     let at = |i: usize| vec3(v[i], v[i + 1], v[i + 2]);
-    let mut out = State {
-        posture: mirrored(&s.posture),
-        ..State::default()
-    };
+    let mut out = State::at_rest(mirrored(&s.posture));
     out.velocity[..3].copy_from_slice(&flip_axial(at(0)).to_array());
     out.velocity[3..6].copy_from_slice(&flip(at(3)).to_array());
     out.velocity[6..].copy_from_slice(&mirrored_dofs(&v[6..]));
@@ -303,10 +300,7 @@ fn cases() -> Vec<Case> {
 fn left_and_right_are_alike() {
     for case in cases() {
         let first = case.clip.sample(0.0);
-        let start = State {
-            posture: first.posture,
-            velocity: first.velocity,
-        };
+        let start = first.state();
         let postures = (0..case.clip.len())
             .map(|i| mirrored(case.clip.posture(i)))
             .collect();
@@ -347,10 +341,7 @@ fn directions_are_alike() {
         let shift = vec3(3.0, -2.0, 0.0);
         let turn = Quat::from_axis_angle(Vec3::Z, yaw);
         let first = case.clip.sample(0.0);
-        let start = State {
-            posture: first.posture,
-            velocity: first.velocity,
-        };
+        let start = first.state();
         let (here, there) = (
             PlanarTransform::default(),
             PlanarTransform {

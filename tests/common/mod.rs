@@ -1,42 +1,19 @@
 //! Scenes shared by the tests that run whole figures: bodies, clips, one figure in a world, and its measures.
 #![allow(dead_code, clippy::unwrap_used)] // every test file uses its own part
 
+pub mod mocap;
+
 use sinew::evaluate::pose::segment_poses;
 use sinew::evaluate::{Metrics, RunReport, Tick};
 use sinew::sim::body::angles::set_anatomical_angles;
 use sinew::sim::body::topology::{DOF_NAMES, L_FOOT, R_FOOT};
-use sinew::sim::body::{Body, DOF_COUNT, Posture, State};
-use sinew::sim::figure::{
-    ControlParams, ControllerKind, FigureOptions, StepperKind, StrengthScale,
-};
+use sinew::sim::body::{Body, DOF_COUNT, Posture, Profile, Sex, State};
+use sinew::sim::figure::ControllerKind;
 use sinew::sim::motion::builtin::builtin;
 use sinew::sim::motion::retarget::{RetargetOptions, retarget};
-use sinew::sim::motion::{Bvh, Clip, PlanarTransform};
+use sinew::sim::motion::{Bvh, Clip};
 use sinew::sim::world::{ClipPlayback, Drive, Figure, FigureKey, FigureSetup, World, WorldParams};
-use std::path::PathBuf;
 use std::sync::Arc;
-
-/// All recordings of the data set.
-pub const CLIPS: [&str; 18] = [
-    "carry",
-    "dance",
-    "fall-rise",
-    "get-up",
-    "hit",
-    "idle",
-    "jump",
-    "lift",
-    "punch",
-    "quick-stop",
-    "run",
-    "salsa-a",
-    "salsa-b",
-    "sit-stand",
-    "turn",
-    "walk",
-    "walk-around",
-    "wave",
-];
 
 /// The reference body: a man of 30 years, 1.75 m, 75 kg.
 pub fn man() -> Arc<Body> {
@@ -50,15 +27,26 @@ pub fn recorded(body: &Body, name: &str) -> Arc<Clip> {
 
 /// The same, fitted as `options` say.
 pub fn recorded_with(body: &Body, name: &str, options: &RetargetOptions) -> Arc<Clip> {
-    let folder = std::env::var_os("SINEW_MOCAP_DIR").map_or_else(
-        || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/mocap"),
-        PathBuf::from,
-    );
-    let path = folder.join(format!("{name}.bvh"));
-    let bytes = std::fs::read(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
-    let bvh = Bvh::parse(&bytes).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let bvh =
+        Bvh::parse(&mocap::read(&format!("{name}.bvh"))).unwrap_or_else(|e| panic!("{name}: {e}"));
     let fitted = retarget(&bvh, body, options);
     Arc::new(fitted.unwrap_or_else(|e| panic!("{name}: {e}")).clip)
+}
+
+/// People of these sexes, ages, heights (m) and masses (kg).
+pub fn people(profiles: &[(Sex, f64, f64, f64)]) -> Vec<Arc<Body>> {
+    profiles
+        .iter()
+        .map(|&(sex, age, height, mass)| {
+            let profile = Profile {
+                sex,
+                age,
+                height,
+                mass,
+            };
+            Arc::new(Body::humanoid(profile).unwrap())
+        })
+        .collect()
 }
 
 /// The built-in motion `name` for `body`.
@@ -68,35 +56,20 @@ pub fn authored(body: &Body, name: &str) -> Arc<Clip> {
 
 /// At rest in `posture`.
 pub fn still(posture: Posture) -> State {
-    State {
-        posture,
-        ..State::default()
-    }
+    State::at_rest(posture)
 }
 
 /// A figure of human strength with default gains.
 pub fn figure(body: &Arc<Body>, controller: ControllerKind, state: State) -> FigureSetup {
     FigureSetup {
         name: "figure".to_owned(),
-        body: Arc::clone(body),
-        strength: StrengthScale::default(),
-        controller,
-        stepper: StepperKind::Torque,
-        params: ControlParams::default(),
-        options: FigureOptions::default(),
-        state,
+        ..FigureSetup::new(Arc::clone(body), controller, state)
     }
 }
 
 /// `clip` from world time 0 on, once.
 pub fn play(clip: &Arc<Clip>) -> Drive {
-    Drive::Clip(ClipPlayback {
-        clip: Arc::clone(clip),
-        start: 0.0,
-        speed: 1.0,
-        looped: false,
-        origin: PlanarTransform::default(),
-    })
+    Drive::Clip(ClipPlayback::new(Arc::clone(clip), 0.0))
 }
 
 /// A world (60 ticks/s, two substeps) with one figure.
@@ -123,10 +96,7 @@ impl Scene {
     /// One figure that starts in the first posture of `clip`, with its velocity, and plays it.
     pub fn playing(body: &Arc<Body>, controller: ControllerKind, clip: &Arc<Clip>) -> Self {
         let first = clip.sample(0.0);
-        let state = State {
-            posture: first.posture,
-            velocity: first.velocity,
-        };
+        let state = first.state();
         let mut scene = Self::of(figure(body, controller, state));
         scene.figure_mut().set_drive(play(clip));
         scene
@@ -168,15 +138,7 @@ impl Scene {
     /// What the last tick shows of the figure.
     pub fn tick(&self) -> Tick<'_> {
         let figure = self.figure();
-        Tick {
-            body: figure.body(),
-            links: figure.links(),
-            target: figure.target(),
-            report: figure.report().unwrap(),
-            state: figure.state(),
-            strength: (figure.strength(), figure.muscles()),
-            gravity: self.world.params().gravity,
-        }
+        Tick::of(figure, self.world.params().gravity)
     }
 }
 

@@ -2,9 +2,9 @@
 
 use super::{Pair, Record, record};
 use crate::evaluate::pose::segment_poses;
-use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES, L_FOOT, L_TOES, R_FOOT, R_TOES};
+use crate::sim::body::topology::{DOF_NAMES, L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::body::{Body, Links, Posture, State};
-use crate::sim::dynamics::{Kinematics, center_of_mass, kinetic_energy};
+use crate::sim::dynamics::{Kinematics, center_of_mass, kinetic_energy, rotor_energy};
 use crate::sim::figure::StrengthScale;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::builtin::at_ease;
@@ -67,7 +67,7 @@ pub struct Leaning {
     pub normal: Vec3,
 }
 
-/// Edge of the soles that faces `direction` most: a point on it and its outward normal.
+/// Edge of the soles that faces `direction` most: a point on it and its outward normal. The soles are on the floor.
 fn edge_towards(body: &Body, posture: &Posture, direction: Vec3) -> (Vec3, Vec3) {
     let poses = segment_poses(&body.joint_offset, posture);
     let mut soles = Vec::new();
@@ -94,28 +94,16 @@ fn edge_towards(body: &Body, posture: &Posture, direction: Vec3) -> (Vec3, Vec3)
     (best.1, best.2)
 }
 
-/// Standing at ease, turned stiffly about the edge that faces `direction` until the centre of mass is 3° beyond it.
-pub fn leaning(body: &Body, direction: Vec3) -> Leaning {
-    let posture = at_ease(body);
+/// `posture`, turned stiffly about the edge of its soles that faces `direction` until the centre of mass is 3° beyond it.
+pub fn leaning(body: &Body, mut posture: Posture, direction: Vec3) -> Leaning {
     let (pivot, normal) = edge_towards(body, &posture, direction);
-    let com = com_and_energy(
-        &Links::new(body),
-        &State {
-            posture,
-            ..State::default()
-        },
-    )
-    .0;
+    let com = com_and_energy(&Links::new(body), &State::at_rest(posture)).0;
     let angle = (pivot - com).dot(normal).atan2(com.z) + BEYOND.to_radians();
     let turn = Quat::from_axis_angle(Vec3::Z.cross(normal), angle);
-    let mut posture = posture;
     posture.root_position = pivot + turn.rotate(posture.root_position - pivot);
     posture.root_rotation = turn * posture.root_rotation;
     Leaning {
-        state: State {
-            posture,
-            ..State::default()
-        },
+        state: State::at_rest(posture),
         pivot,
         normal,
     }
@@ -127,9 +115,7 @@ fn com_and_energy(links: &Links, state: &State) -> (Vec3, f64) {
     kin.set_state(links, state);
     let (com, mass) = center_of_mass(links, &kin);
     let com = state.posture.root_position + com;
-    let rotors: f64 = (0..DOF_COUNT)
-        .map(|d| 0.5 * links.armature[d] * state.velocity[6 + d].powi(2))
-        .sum();
+    let rotors = rotor_energy(links, &state.velocity);
     (
         com,
         kinetic_energy(links, &kin) + rotors + mass * GRAVITY * com.z,
@@ -215,7 +201,7 @@ pub fn fall_on_toes(
     [strength, toes]: [f64; 2],
     panels: usize,
 ) -> Fall {
-    let start = leaning(body, direction);
+    let start = leaning(body, at_ease(body), direction);
     let mut scale = StrengthScale {
         all: strength,
         ..StrengthScale::default()

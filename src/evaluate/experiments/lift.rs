@@ -7,8 +7,8 @@ use crate::sim::body::{Body, Links, State};
 use crate::sim::dynamics::Terms;
 use crate::sim::figure::tasks::grip;
 use crate::sim::figure::{Perturbation, StrengthScale};
+use crate::sim::motion::Clip;
 use crate::sim::motion::builtin::{LIFT_GRASP, builtin};
-use crate::sim::motion::{Clip, PlanarTransform};
 use crate::sim::strength::Strength;
 use crate::sim::world::{ClipPlayback, Drive, FigureKey, World};
 use std::sync::Arc;
@@ -41,10 +41,7 @@ pub fn weak_arm(body: &Arc<Body>, clip: &Clip, mass: f64) -> f64 {
     let mut need = 0.0f64;
     let first = (LIFT_GRASP * clip.rate_hz()).ceil() as usize;
     for i in first..clip.len() {
-        let state = State {
-            posture: *clip.posture(i),
-            ..State::default()
-        };
+        let state = State::at_rest(*clip.posture(i));
         terms.compute(&links, &state, &[], GRAVITY);
         let angles = anatomical_angles(&state.posture);
         let (mut lower, mut upper) = ([0.0; DOF_COUNT], [0.0; DOF_COUNT]);
@@ -83,10 +80,7 @@ pub fn scene(body: &Arc<Body>, pair: &Pair, mass: f64, arm: f64) -> (World, Figu
     for j in (0..DOF_COUNT).filter(|j| is_arm(*j)) {
         strength.dof[j] = arm;
     }
-    let state = State {
-        posture: first.posture,
-        velocity: first.velocity,
-    };
+    let state = first.state();
     let (mut world, key) = pair.world(body, state, strength);
     let load = Perturbation::Load {
         segment: R_HAND,
@@ -97,13 +91,7 @@ pub fn scene(body: &Arc<Body>, pair: &Pair, mass: f64, arm: f64) -> (World, Figu
     };
     world.perturb(key, load).expect("loads are valid");
     let figure = world.figure_mut(key).expect("the figure was just added");
-    figure.set_drive(Drive::Clip(ClipPlayback {
-        clip,
-        start: 0.0,
-        speed: 1.0,
-        looped: false,
-        origin: PlanarTransform::default(),
-    }));
+    figure.set_drive(Drive::Clip(ClipPlayback::new(clip, 0.0)));
     (world, key)
 }
 

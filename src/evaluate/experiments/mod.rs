@@ -13,9 +13,7 @@ use super::metrics::Tick;
 use super::strip::{Frame, Thing, evenly_spaced};
 use crate::sim::body::topology::DOF_COUNT;
 use crate::sim::body::{Body, State};
-use crate::sim::figure::{
-    ControlParams, ControllerKind, FigureOptions, Flags, StepperKind, StrengthScale,
-};
+use crate::sim::figure::{ControlParams, ControllerKind, Flags, StepperKind, StrengthScale};
 use crate::sim::math::Vec3;
 use crate::sim::world::{FigureKey, FigureSetup, World, WorldParams};
 use std::sync::Arc;
@@ -103,13 +101,10 @@ impl Pair {
         }
         FigureSetup {
             name: self.name.to_owned(),
-            body,
             strength,
-            controller: self.controller,
             stepper: self.stepper,
             params: self.params.clone(),
-            options: FigureOptions::default(),
-            state,
+            ..FigureSetup::new(body, self.controller, state)
         }
     }
 }
@@ -217,15 +212,7 @@ fn record(
         }
         let (loads, things) = see(world, time_s);
         if shown.binary_search(&n).is_ok() {
-            let tick = Tick {
-                body: figure.body(),
-                links: figure.links(),
-                target: figure.target(),
-                report: r,
-                state: figure.state(),
-                strength: (figure.strength(), figure.muscles()),
-                gravity,
-            };
+            let tick = Tick::of(figure, gravity);
             out.frames
                 .push(Frame::of(&tick, time_s, loads).among(things));
         }

@@ -30,10 +30,7 @@ pub struct Push {
 
 /// Pushes the chest with `share` of the pendulum's bound. The feet stay where they are: no protective step.
 pub fn push(body: &Arc<Body>, pair: &Pair, direction: Vec3, share: f64, panels: usize) -> Push {
-    let state = State {
-        posture: at_ease(body),
-        ..State::default()
-    };
+    let state = State::at_rest(at_ease(body));
     let mut pair = pair.clone();
     pair.params.protective_steps = false;
     let (mut world, key) = pair.world(body, state, StrengthScale::default());

@@ -34,10 +34,7 @@ pub fn hold(body: &Body, what: Hold) -> (f64, f64) {
     angles[dof] = std::f64::consts::FRAC_PI_2;
     let mut posture = Posture::default();
     set_anatomical_angles(&mut posture, &angles);
-    let state = State {
-        posture,
-        ..State::default()
-    };
+    let state = State::at_rest(posture);
     let need = |kg: f64| {
         let mut links = Links::new(body);
         if kg > 0.0 {

@@ -142,10 +142,7 @@ pub fn hand_support(body: &Arc<Body>, pair: &Pair, what: Prop, arm: f64, panels:
             *factor = arm;
         }
     }
-    let state = State {
-        posture,
-        ..State::default()
-    };
+    let state = State::at_rest(posture);
     let mut pair = pair.clone();
     pair.params.protective_steps = false;
     let (mut world, key) = pair.world(body, state, strength);
@@ -230,10 +227,7 @@ pub fn bump(body: &Arc<Body>, pair: &Pair, impulse: f64, panels: usize) -> Bump 
         let turn = Quat::from_axis_angle(Vec3::Z, yaw);
         posture.root_position = turn.rotate(posture.root_position) + Vec3::X * x;
         posture.root_rotation = turn * posture.root_rotation;
-        State {
-            posture,
-            ..State::default()
-        }
+        State::at_rest(posture)
     };
     let first = at(-0.5 * APART, 0.0);
     let (mut world, key) = pair.world(body, first, StrengthScale::default());

@@ -3,13 +3,10 @@
 use crate::evaluate::metrics::{Metrics, Tick};
 use crate::evaluate::report::RunReport;
 use crate::sim::body::topology::{CHEST, L_FOOT, L_TOES, R_FOOT, R_TOES};
-use crate::sim::body::{Body, SegmentId, State};
-use crate::sim::figure::{
-    ContactPoint, ControlParams, ControllerKind, FigureOptions, HeldLoad, Perturbation,
-    StepperKind, StrengthScale,
-};
+use crate::sim::body::{Body, SegmentId};
+use crate::sim::figure::{ContactPoint, ControllerKind, HeldLoad, Perturbation, StrengthScale};
 use crate::sim::math::Vec3;
-use crate::sim::motion::{Clip, PlanarTransform};
+use crate::sim::motion::Clip;
 use crate::sim::world::{ClipPlayback, Drive, FigureSetup, World, WorldParams};
 use std::sync::Arc;
 
@@ -163,28 +160,22 @@ pub fn walk(walker: &Walker, walk: &Walk) -> Walked {
     let key = world
         .add_figure(FigureSetup {
             name: clip.name().to_owned(),
-            body: Arc::clone(&walker.body),
             strength: StrengthScale {
                 all: walker.strength,
                 ..StrengthScale::default()
             },
-            controller: ControllerKind::Modern,
-            stepper: StepperKind::Torque,
-            params: ControlParams::default(),
-            options: FigureOptions::default(),
-            state: State {
-                posture: start.posture,
-                velocity: start.velocity,
-            },
+            ..FigureSetup::new(
+                Arc::clone(&walker.body),
+                ControllerKind::Modern,
+                start.state(),
+            )
         })
         .expect("experiments have valid figures");
     let figure = world.figure_mut(key).expect("it was just added");
     figure.set_drive(Drive::Clip(ClipPlayback {
-        clip: Arc::clone(clip),
-        start: lead / walker.speed,
         speed: walker.speed,
         looped: walk.looped,
-        origin: PlanarTransform::default(),
+        ..ClipPlayback::new(Arc::clone(clip), lead / walker.speed)
     }));
     for what in perturbations(walker, walk) {
         world
@@ -201,16 +192,7 @@ pub fn walk(walker: &Walker, walk: &Walk) -> Walked {
         world.step();
         let figure = world.figure(key).expect("nobody removes the figure");
         let r = figure.report().expect("a stepped figure has a report");
-        let tick = Tick {
-            body: figure.body(),
-            links: figure.links(),
-            target: figure.target(),
-            report: r,
-            state: figure.state(),
-            strength: (figure.strength(), figure.muscles()),
-            gravity: world.params().gravity,
-        };
-        metrics.observe(tick, 0.0);
+        metrics.observe(Tick::of(figure, world.params().gravity), 0.0);
         if figure.is_fallen() {
             fell_s = Some(world.time());
             break;

@@ -265,10 +265,7 @@ impl Slot {
         live.motion.advance(live.stream_time(time) + 1.0 / RATE);
         let first = live.motion.sample(live.stream_time(time));
         figure.set_drive(engine::Drive::Live(live));
-        (reset && !window.begun).then_some(State {
-            posture: first.posture,
-            velocity: first.velocity,
-        })
+        (reset && !window.begun).then_some(first.state())
     }
 
     /// The desired motion over the tick from world time `time`, and whether the figure is to be put into it at once.

@@ -9,6 +9,8 @@ pub mod paper;
 pub mod reroot;
 pub mod rows;
 pub mod spatial_targets;
+#[cfg(test)]
+pub(crate) mod testing;
 pub mod torque_limits;
 pub mod tracking;
 

@@ -112,6 +112,31 @@ impl RowQr {
         self.len += 1;
     }
 
+    /// Takes in the rows `members[first..]` of `h`, those before them being in. The rows `held` come before all of them, while there is room:
+    /// when there is none left, it starts over without. `fixed` of them are in; returns how many are then.
+    #[inline(always)]
+    pub fn grow(
+        &mut self,
+        h: &Square,
+        members: &[usize],
+        first: usize,
+        held: &[Row],
+        mut fixed: usize,
+    ) -> usize {
+        let k = members.len();
+        if first == 0 && held.len() + k < DOF_COUNT {
+            held.iter().for_each(|r| self.push(r));
+            fixed = held.len();
+        }
+        if fixed > 0 && fixed + k >= DOF_COUNT {
+            self.clear();
+            fixed = 0;
+            members[..first].iter().for_each(|&j| self.push(&h[j]));
+        }
+        members[first..].iter().for_each(|&j| self.push(&h[j]));
+        fixed
+    }
+
     /// True if the rows are (nearly) dependent; then [`Self::solve`] is damped.
     pub fn is_dependent(&self) -> bool {
         let (mut least, mut most) = (f64::INFINITY, 0.0f64);

@@ -269,16 +269,7 @@ impl SpatialLimits {
             if k > most {
                 return out;
             }
-            if first == 0 && held.len() + k < DOF_COUNT {
-                held.iter().for_each(|r| self.qr.push(r));
-                fixed = held.len();
-            }
-            if fixed > 0 && fixed + k >= DOF_COUNT {
-                self.qr.clear();
-                fixed = 0;
-                (0..first).for_each(|i| self.qr.push(&h[order[i]]));
-            }
-            (first..k).for_each(|i| self.qr.push(&h[order[i]]));
+            fixed = self.qr.grow(h, &order[..k], first, held, fixed);
             *x = wish;
             self.qr.project_out(x);
             if to_limit || fixed > 0 {

@@ -103,17 +103,7 @@ impl TorqueLimits {
             match metric {
                 Metric::Inertia => out.damped |= !self.solve_members(h, k),
                 _ => {
-                    // Held rows come first; when there is no room left for them, start over without.
-                    if first == 0 && held.len() + k < DOF_COUNT {
-                        held.iter().for_each(|r| self.qr.push(r));
-                        fixed = held.len();
-                    }
-                    if fixed > 0 && fixed + k >= DOF_COUNT {
-                        self.qr.clear();
-                        fixed = 0;
-                        (0..first).for_each(|i| self.qr.push(&h[self.order[i]]));
-                    }
-                    (first..k).for_each(|i| self.qr.push(&h[self.order[i]]));
+                    fixed = self.qr.grow(h, &self.order[..k], first, held, fixed);
                     self.least_norm(h, k, fixed);
                     out.damped |= self.qr.is_dependent();
                 }

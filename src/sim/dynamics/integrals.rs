@@ -2,7 +2,7 @@
 
 use super::kinematics::Kinematics;
 use crate::sim::body::Links;
-use crate::sim::body::topology::SEGMENT_COUNT;
+use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT};
 use crate::sim::math::{Lane, Vec3};
 
 /// Centre of mass minus pelvis origin (m, world axes) and total mass (kg). Needs [`Kinematics::set_posture`].
@@ -42,6 +42,16 @@ pub fn momentum<L: Lane>(links: &Links<L>, kin: &Kinematics<L>) -> Momentum<L> {
         linear,
         angular: angular - com.cross(linear),
     }
+}
+
+/// Kinetic energy of the rotors (armature) at `velocity`, J.
+#[inline(always)]
+pub fn rotor_energy<L: Lane>(links: &Links<L>, velocity: &[L; NV]) -> L {
+    let mut e = L::zero();
+    for d in 0..DOF_COUNT {
+        e += links.armature[d] * velocity[6 + d] * velocity[6 + d];
+    }
+    e * L::splat(0.5)
 }
 
 /// Kinetic energy, J, without armature. Needs [`Kinematics::set_state`].

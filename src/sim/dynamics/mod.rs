@@ -21,7 +21,7 @@ pub(crate) mod tests;
 pub use aba::{AbaWorkspace, aba};
 pub use crba::{CompositeInertia, crba};
 pub use factor::{factor, solve};
-pub use integrals::{Momentum, center_of_mass, kinetic_energy, momentum};
+pub use integrals::{Momentum, center_of_mass, kinetic_energy, momentum, rotor_energy};
 pub use kinematics::Kinematics;
 pub use mass_matrix::MassMatrix;
 pub use rnea::{External, RneaWorkspace, rnea};

@@ -19,10 +19,10 @@ pub use drive::{ClipPlayback, Drive, LivePlayback};
 pub use events::FigureEvent;
 pub use report::{Audit, ContactPoint, Flags, TickReport};
 pub use setup::{
-    ControlParams, ControllerKind, FigureOptions, HeldLoad, Metric, Perturbation, Priority, Share,
-    StepperKind, StrengthScale,
+    ControlParams, ControllerKind, FigureOptions, FigureSetup, HeldLoad, Metric, Perturbation,
+    Priority, Share, StepperKind, StrengthScale,
 };
-pub use step::{Figure, FigureSetup, TickContext};
+pub use step::{Figure, TickContext};
 
 /// Identity of a figure in a world; never used again after removal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -1,9 +1,47 @@
 //! What a figure is made of and how it is controlled: set at creation, changeable between ticks.
 
-use crate::sim::body::SegmentId;
+use crate::sim::body::{Body, SegmentId, State};
 use crate::sim::math::Vec3;
+use std::sync::Arc;
 
 pub use crate::sim::strength::StrengthScale;
+
+/// Everything a figure is made of.
+#[derive(Clone, Debug)]
+pub struct FigureSetup {
+    /// Name, for people.
+    pub name: String,
+    /// The body.
+    pub body: Arc<Body>,
+    /// Scale of its strength.
+    pub strength: StrengthScale,
+    /// Who computes accelerations and torques.
+    pub controller: ControllerKind,
+    /// Who moves the body.
+    pub stepper: StepperKind,
+    /// Choices and gains.
+    pub params: ControlParams,
+    /// Fatigue and assist.
+    pub options: FigureOptions,
+    /// Where it starts.
+    pub state: State,
+}
+
+impl FigureSetup {
+    /// A nameless figure of human strength with default gains, moved by torques, that starts in `state`.
+    pub fn new(body: Arc<Body>, controller: ControllerKind, state: State) -> Self {
+        Self {
+            name: String::new(),
+            body,
+            strength: StrengthScale::default(),
+            controller,
+            stepper: StepperKind::Torque,
+            params: ControlParams::default(),
+            options: FigureOptions::default(),
+            state,
+        }
+    }
+}
 
 /// Who computes accelerations and torques.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -12,7 +12,8 @@ use super::kinematic_step::{Decision, KinematicStepper, SPEED_CAP, other_part_ar
 use super::loads::Disturbances;
 use super::report::{Audit, Flags, MAX_CONTACTS, TickReport};
 use super::setup::{
-    ControlParams, ControllerKind, FigureOptions, Perturbation, Share, StepperKind, StrengthScale,
+    ControlParams, ControllerKind, FigureOptions, FigureSetup, Perturbation, Share, StepperKind,
+    StrengthScale,
 };
 use super::tasks::{TaskPoints, TaskWorkspace};
 use super::torque_step::{
@@ -38,27 +39,6 @@ use crate::sim::strength::fatigue::Fatigue;
 use crate::sim::strength::{MuscleScale, Strength};
 use crate::sim::support::Support;
 use std::sync::Arc;
-
-/// Everything a figure is made of.
-#[derive(Clone, Debug)]
-pub struct FigureSetup {
-    /// Name, for people.
-    pub name: String,
-    /// The body.
-    pub body: Arc<Body>,
-    /// Scale of its strength.
-    pub strength: StrengthScale,
-    /// Who computes accelerations and torques.
-    pub controller: ControllerKind,
-    /// Who moves the body.
-    pub stepper: StepperKind,
-    /// Choices and gains.
-    pub params: ControlParams,
-    /// Fatigue and assist.
-    pub options: FigureOptions,
-    /// Where it starts.
-    pub state: State,
-}
 
 /// What a tick needs to know about the world.
 #[derive(Clone, Copy, Debug)]

@@ -3,7 +3,7 @@
 use super::super::pb;
 use super::super::status::Fault;
 use super::super::types::BodyRef;
-use super::{clip_text, vector_out};
+use super::{shortened, vector_out};
 use crate::sim::body::provenance::Provenance;
 use crate::sim::body::topology::{
     BONE_NAMES, DOF_AXIS, DOF_LEN, DOF_NAMES, DOF_SEGMENT, DOF_START, JOINT, JOINT_NAMES, Joint,
@@ -74,7 +74,7 @@ pub fn by_id(id: &str) -> Option<BodyRef> {
 /// The body of a resource name.
 pub fn by_name(field: &str, name: &str) -> Result<BodyRef, Fault> {
     let id = super::last_part(field, name, "bodies/{body}", "bodies/")?;
-    by_id(id).ok_or_else(|| Fault::not_found("body", clip_text(name)))
+    by_id(id).ok_or_else(|| Fault::not_found("body", shortened(name)))
 }
 
 /// Body of a request: by name, by profile, or the adult man. Whether the tables cover the profile is found when it is built.

@@ -8,7 +8,7 @@ use super::super::types::{
     MotionSource, Playback, ReadingReport, Supply,
 };
 use super::{
-    WORLD_EXTENT, client_id, clip_text, or_default, place, rotation, timestamp, vector, within,
+    WORLD_EXTENT, client_id, or_default, place, rotation, shortened, timestamp, vector, within,
 };
 use crate::sim::body::angles::set_anatomical_angles;
 use crate::sim::body::topology::PARENT;
@@ -41,7 +41,7 @@ pub fn bvh_reading(field: &str, o: Option<&pb::BvhOptions>) -> Result<BvhReading
             other => {
                 return Err(Fault::invalid(
                     at("up_axis"),
-                    format!("must be y or z, got {:?}", clip_text(other)),
+                    format!("must be y or z, got {:?}", shortened(other)),
                 ));
             }
         },
@@ -143,7 +143,7 @@ pub fn drive_open(field: &str, h: &pb::DriveHeader) -> Result<DriveOpen, Fault> 
         if h.figures[..i].contains(name) {
             return Err(Fault::invalid(
                 at(&format!("figures[{i}]")),
-                format!("{:?} is named twice", clip_text(name)),
+                format!("{:?} is named twice", shortened(name)),
             ));
         }
     }
@@ -296,7 +296,7 @@ fn bone_rotations(field: &str, m: &pb::FigureMotion, posture: &mut Posture) -> R
                 at("bone"),
                 format!(
                     "must be a bone name as GetBody lists it, got {:?}",
-                    clip_text(&b.bone)
+                    shortened(&b.bone)
                 ),
             )
         })?;
@@ -385,7 +385,7 @@ pub fn batch(
                         format!("{at}.figure"),
                         format!(
                             "must be a figure of the header, got {:?}",
-                            clip_text(&m.figure)
+                            shortened(&m.figure)
                         ),
                     )
                 })?
@@ -393,7 +393,7 @@ pub fn batch(
             if samples.iter().any(|s| s.slot == slot) {
                 return Err(Fault::invalid(
                     format!("{at}.figure"),
-                    format!("{:?} is given twice", clip_text(&m.figure)),
+                    format!("{:?} is given twice", shortened(&m.figure)),
                 ));
             }
             samples.push(figure_sample(&at, slot, m)?);

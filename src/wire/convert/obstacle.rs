@@ -3,7 +3,7 @@
 use super::super::pb;
 use super::super::status::Fault;
 use super::super::types::ObstacleInfo;
-use super::{WORLD_EXTENT, clip_text, rotation, vector, vector_out, within};
+use super::{WORLD_EXTENT, rotation, shortened, vector, vector_out, within};
 use crate::sim::collide::{Mobility, ObstacleSetup, Shape};
 use crate::sim::math::{Quat, Vec3};
 
@@ -123,7 +123,7 @@ pub fn name<'a>(field: &str, name: &'a str) -> Result<(&'a str, &'a str), Fault>
             field,
             format!(
                 "must be a resource name worlds/{{world}}/obstacles/{{obstacle}}, got {:?}",
-                clip_text(name)
+                shortened(name)
             ),
         )),
     }

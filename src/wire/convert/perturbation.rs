@@ -3,7 +3,7 @@
 use super::super::pb;
 use super::super::status::Fault;
 use super::super::types::{Disturbance, FigureDisturbance};
-use super::{clip_text, or_default, vector, within};
+use super::{or_default, shortened, vector, within};
 use crate::sim::body::SegmentId;
 use crate::sim::math::Vec3;
 
@@ -18,7 +18,7 @@ pub(super) fn segment(field: &str, name: &str) -> Result<SegmentId, Fault> {
             field,
             format!(
                 "must be a segment name as GetBody lists it, got {:?}",
-                clip_text(name)
+                shortened(name)
             ),
         )
     })

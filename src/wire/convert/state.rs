@@ -4,7 +4,7 @@ use super::super::frame::FIELD_NAMES;
 use super::super::pb;
 use super::super::status::Fault;
 use super::super::types::{EventFilter, EventKind, Fields, NumberFormat, ViewSpec, WorldEvent};
-use super::{clip_text, count};
+use super::{count, shortened};
 use crate::sim::body::topology::DOF_NAMES;
 
 /// Most figures a view or filter can name.
@@ -47,7 +47,7 @@ pub fn view(v: Option<&pb::View>) -> Result<ViewSpec, Fault> {
                         format!(
                             "must be * or one of {}, got {:?}",
                             FIELD_NAMES.join(", "),
-                            clip_text(path)
+                            shortened(path)
                         ),
                     )
                 })?

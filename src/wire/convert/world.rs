@@ -59,14 +59,7 @@ pub fn settings(w: Option<pb::World>) -> Result<WorldSettings, Fault> {
 /// Changes of a world.
 pub fn update(w: &pb::World, mask: Option<&prost_types::FieldMask>) -> Result<WorldUpdate, Fault> {
     let mut out = WorldUpdate::default();
-    let paths = mask.map(|m| m.paths.as_slice()).unwrap_or_default();
-    if paths.is_empty() {
-        return Err(Fault::invalid(
-            "update_mask",
-            "must name at least one field",
-        ));
-    }
-    for (i, path) in paths.iter().enumerate() {
+    for (i, path) in super::mask_paths(mask)?.iter().enumerate() {
         match path.as_str() {
             "display_name" => {
                 out.display_name = Some(display_name("world.display_name", &w.display_name)?)
@@ -84,7 +77,7 @@ pub fn update(w: &pb::World, mask: Option<&prost_types::FieldMask>) -> Result<Wo
                     format!("update_mask.paths[{i}]"),
                     format!(
                         "must be display_name, overrun_policy, catch_up_limit or speed, got {:?}",
-                        super::clip_text(other)
+                        super::shortened(other)
                     ),
                 ));
             }

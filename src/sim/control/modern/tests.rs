@@ -2,121 +2,21 @@
 //! assist), put together from M, h and Jacobians of [`Terms`], and solved by an interior-point method with second-order cones (clarabel).
 
 use super::*;
-use crate::sim::body::{Body, State};
-use crate::sim::control::{Effector, Goal, PointTarget, RotationTarget};
-use crate::sim::figure::ControlParams;
+use crate::sim::control::Goal;
+use crate::sim::control::testing::{DT, Scene};
 use crate::sim::math::vec3::vec3;
-use crate::sim::motion::{Target, TargetPair};
-use crate::sim::support::Support;
 use crate::sim::support::testing::{
-    GRAVITY, Rng, mannequin, on_floor, random_stance, random_state, standing, strength, terms,
+    GRAVITY, Rng, mannequin, on_floor, random_stance, random_state, standing,
 };
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
     DefaultSettingsBuilder, DefaultSolver, IPSolver, SolverStatus, SupportedConeT,
 };
 
-const DT: f64 = 1.0 / 60.0;
 /// Problems.
 const ROUNDS: usize = 320;
 /// Friction of the ground; the controller plans with less.
 const FRICTION: f64 = 0.9;
-
-/// One tick's input, owned.
-struct Scene {
-    body: Body,
-    terms: Terms,
-    support: Support,
-    target: TargetPair,
-    com: PointTarget,
-    effectors: Vec<Effector>,
-    goals: Vec<Goal>,
-    feet: [(PointTarget, RotationTarget); 2],
-    lower: [f64; DOF_COUNT],
-    upper: [f64; DOF_COUNT],
-    params: ControlParams,
-    assist: [f64; 2],
-}
-
-fn still(p: Vec3) -> PointTarget {
-    PointTarget {
-        now: p,
-        next: p,
-        ..PointTarget::default()
-    }
-}
-
-impl Scene {
-    fn new(state: &State, desired: &State, scale: f64) -> Self {
-        let body = mannequin();
-        let (t, d) = (terms(&body, state), terms(&body, desired));
-        let mut support = Support::default();
-        support.update(&t, &body, Vec3::zero(), GRAVITY);
-        let grip = vec3(0.0, 0.0, -0.08);
-        let effectors = [L_HAND, R_HAND]
-            .map(|segment| Effector {
-                segment,
-                point: grip,
-                position: still(d.point_world(segment.index(), grip)),
-                rotation: None,
-            })
-            .to_vec();
-        let feet = [L_FOOT, R_FOOT].map(|s| {
-            let turn = Quat::from_mat3(&d.segment_rotation(s.index()));
-            let rotation = RotationTarget {
-                now: turn,
-                next: turn,
-                ..RotationTarget::default()
-            };
-            (still(d.segment_position(s.index())), rotation)
-        });
-        let target = Target::still(desired.posture);
-        let (lower, upper) = strength(scale);
-        Self {
-            com: still(d.com),
-            body,
-            terms: t,
-            support,
-            target: TargetPair {
-                now: target.clone(),
-                next: target,
-            },
-            effectors,
-            goals: Vec::new(),
-            feet,
-            lower,
-            upper,
-            params: ControlParams::default(),
-            assist: [0.0; 2],
-        }
-    }
-
-    fn plant(&mut self, planted: [bool; 2]) {
-        self.target.now.planted = planted;
-        self.target.next.planted = planted;
-    }
-
-    fn input(&self) -> ControlInput<'_> {
-        ControlInput {
-            terms: &self.terms,
-            body: &self.body,
-            support: &self.support,
-            target: &self.target,
-            com: &self.com,
-            effectors: &self.effectors,
-            goals: &self.goals,
-            feet: &self.feet,
-            balance: None,
-            lower: &self.lower,
-            upper: &self.upper,
-            params: &self.params,
-            gravity: GRAVITY,
-            dt: DT,
-            assist: self.assist,
-            kinematic: false,
-        }
-    }
-}
 
 /// The unknowns of the primal: v̇, τ, contact forces, assist (moment and force on the pelvis).
 #[derive(Clone, Debug)]

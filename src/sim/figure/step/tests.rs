@@ -15,16 +15,7 @@ fn a_figure_that_is_not_finite_is_frozen_told_once_and_harms_nobody() {
                 y,
                 z: body.standing_root_height(),
             };
-            let setup = FigureSetup {
-                name: String::new(),
-                body: Arc::clone(&body),
-                strength: StrengthScale::default(),
-                controller: ControllerKind::Modern,
-                stepper: StepperKind::Torque,
-                params: ControlParams::default(),
-                options: FigureOptions::default(),
-                state,
-            };
+            let setup = FigureSetup::new(Arc::clone(&body), ControllerKind::Modern, state);
             world.add_figure(setup).unwrap()
         });
         let mut told = 0;

@@ -1,0 +1,206 @@
+//! What stands on the floor in a pass: which feet carry, how several of them share the reaction, how a second one is kept where it is.
+
+use super::{Mode, Paper};
+use crate::sim::body::SegmentId;
+use crate::sim::body::topology::{DOF_START, L_FOOT, L_THIGH, L_TOES, R_FOOT, R_THIGH, R_TOES};
+use crate::sim::control::ControlInput;
+use crate::sim::control::reroot::{only_main, shift};
+use crate::sim::control::rows::{Row, cholesky_solve, dot};
+use crate::sim::dynamics::terms::WIDTH;
+use crate::sim::figure::Share;
+use crate::sim::figure::report::MAX_CONTACTS;
+use crate::sim::math::{Quat, Vec3};
+use crate::sim::support::zmp;
+
+/// While tilting, only points this close to the pivot line carry load, m.
+const PIVOT_REACH: f64 = 0.012;
+/// Part of a pose error of a planted foot that is taken back per step (kinematic loops).
+const LOOP_RETURN: f64 = 0.2;
+
+/// Which feet the desired motion keeps on the floor. A foot that it lifts carries nothing, or it could never be lifted.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Planned(pub [bool; 2]);
+
+impl Planned {
+    /// The plan of a motion; if it would leave no touching point to stand on, everything that touches carries.
+    pub fn new(input: &ControlInput<'_>) -> Self {
+        let plan = Self(input.target.next.planted);
+        let points = input.support.points();
+        if points.iter().any(|p| plan.holds(p.segment)) {
+            plan
+        } else {
+            Self([true; 2])
+        }
+    }
+
+    /// True if points of this segment may carry load.
+    pub fn holds(self, segment: SegmentId) -> bool {
+        match segment {
+            L_FOOT | L_TOES => self.0[0],
+            R_FOOT | R_TOES => self.0[1],
+            _ => true,
+        }
+    }
+
+    /// The main support: the usual one, but a foot that stays if the usual one is to be lifted.
+    pub fn main(self, input: &ControlInput<'_>) -> Option<SegmentId> {
+        let support = input.support;
+        let main = support.main()?;
+        if self.holds(main) {
+            return Some(main);
+        }
+        let stays = support
+            .points()
+            .iter()
+            .map(|p| p.support)
+            .filter(|s| self.holds(*s));
+        let ratio = support.ratio();
+        let best = stays.reduce(|a, b| {
+            if ratio[b.index()] > ratio[a.index()] {
+                b
+            } else {
+                a
+            }
+        });
+        best.or(Some(main))
+    }
+}
+
+impl Paper {
+    /// Lets contacts other than those of S carry their share of the ground reaction (ALGORITHM §5).
+    pub(super) fn share(&mut self, input: &ControlInput<'_>, initial: &Row, mode: Mode) {
+        self.left_out = None;
+        let (terms, support) = (input.terms, input.support);
+        let (main, tilt) = match mode {
+            Mode::Rest(s) => (s, None),
+            Mode::Tilt(s, p) => (s, Some(p)),
+            Mode::Flight => return,
+        };
+        let points = support.points();
+        let planned = self.planned;
+        if only_main(points, main) {
+            return;
+        }
+        match input.params.share {
+            Share::Balanced => {
+                let mut out = [false; MAX_CONTACTS];
+                for (o, p) in out.iter_mut().zip(points) {
+                    *o = !planned.holds(p.segment)
+                        || tilt.is_some_and(|t| t.distance(p.position) >= PIVOT_REACH);
+                }
+                let (w, root) = (
+                    self.map.ground_wrench(initial),
+                    terms.state.posture.root_position,
+                );
+                let total = |about: Vec3| shift(&w, about - root);
+                if !self
+                    .sharing
+                    .set_unilateral(points, support.ratio(), &mut out, total)
+                {
+                    return;
+                }
+                self.map.add_sharing(terms, &self.sharing, main);
+                self.left_out = Some(out);
+            }
+            Share::Paper => {
+                // The reaction of the last step, at the point of each polygon closest to its zero-moment point.
+                let before = self.previous.unwrap_or(*initial);
+                let (force, moment) = self.map.ground_wrench_world(terms, &before);
+                let Some(z) = zmp(force, moment) else {
+                    return;
+                };
+                for (i, p) in points.iter().enumerate() {
+                    let s = p.support;
+                    if s == main || !planned.holds(s) || points[..i].iter().any(|q| q.support == s)
+                    {
+                        continue;
+                    }
+                    support.support_polygon(s, &mut self.polygon);
+                    if let Some(c) = self.polygon.closest([z.x, z.y]) {
+                        let at = Vec3::from_array([c.point[0], c.point[1], 0.0]);
+                        let f = force * support.ratio()[s.index()];
+                        self.map.add_force(terms, s, at, f);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Kinematic loops (ALGORITHM §5): a second planted foot stays where it was put down. Its leg takes θ̈_initial there, and its rows may
+    /// not change afterwards.
+    pub(super) fn hold_planted_feet(
+        &mut self,
+        input: &ControlInput<'_>,
+        initial: &mut Row,
+        mode: Mode,
+    ) {
+        self.held_count = 0;
+        self.held_qr.clear();
+        let Mode::Rest(main) = mode else {
+            return;
+        };
+        let terms = input.terms;
+        for (side, (foot, thigh)) in [(L_FOOT, L_THIGH), (R_FOOT, R_THIGH)]
+            .into_iter()
+            .enumerate()
+        {
+            let Some((position, rotation)) = self.anchors[side].filter(|_| foot != main) else {
+                continue;
+            };
+            let s = foot.index();
+            let mut jacobian = [[0.0; WIDTH]; 6];
+            terms.segment_jacobian(s, &mut jacobian);
+            let (alpha, acc) = terms.segment_bias(s);
+            let now = Quat::from_mat3(&terms.segment_rotation(s)).conjugate();
+            let turn = (rotation * now).log();
+            let shift = position - terms.segment_position(s);
+            let (w, v) = (terms.kin.omega[s], terms.kin.velocity[s]);
+            let dt = input.dt;
+            let wanted = [
+                (turn * (LOOP_RETURN / dt) - w) * (1.0 / dt) - alpha,
+                (shift * (LOOP_RETURN / dt) - v) * (1.0 / dt) - acc,
+            ];
+            // The seven DOFs of the leg are contiguous: hip, knee, ankle.
+            let leg = DOF_START[thigh.index()]..DOF_START[thigh.index()] + 7;
+            let (mut g, mut y) = ([[0.0; 6]; 6], [0.0; 6]);
+            let rows: [Row; 6] = std::array::from_fn(|i| self.map.project(&jacobian[i]));
+            for i in 0..6 {
+                let want = wanted[i / 3].to_array()[i % 3] - self.map.project_bias(&jacobian[i]);
+                y[i] = want - dot(&rows[i], initial);
+                for j in 0..6 {
+                    g[i][j] = leg.clone().map(|d| rows[i][d] * rows[j][d]).sum();
+                }
+                g[i][i] += 1e-8;
+            }
+            cholesky_solve(&mut g, 6, &mut y);
+            for d in leg {
+                initial[d] += (0..6).map(|i| rows[i][d] * y[i]).sum::<f64>();
+            }
+            for r in rows {
+                self.held[self.held_count] = r;
+                self.held_count += 1;
+                self.held_qr.push(&r);
+            }
+        }
+    }
+
+    /// Remembers where planted feet stand; forgets feet that roll, lift, or are meant to lift.
+    pub(super) fn update_anchors(&mut self, input: &ControlInput<'_>) {
+        let support = input.support;
+        let on_foot = matches!(support.main(), Some(L_FOOT | R_FOOT));
+        for (side, foot) in [L_FOOT, R_FOOT].into_iter().enumerate() {
+            let touching = support.points().iter().filter(|p| p.support == foot);
+            let flat = touching.count() >= 3;
+            let keep = input.kinematic && on_foot && flat && input.target.next.planted[side];
+            self.anchors[side] = if keep {
+                let s = foot.index();
+                self.anchors[side].or_else(|| {
+                    let r = Quat::from_mat3(&input.terms.segment_rotation(s));
+                    Some((input.terms.segment_position(s), r))
+                })
+            } else {
+                None
+            };
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! One tick's input to a controller, for tests.
+
+use super::{ControlInput, Effector, Goal, PointTarget, RotationTarget};
+use crate::sim::body::topology::{DOF_COUNT, L_FOOT, L_HAND, R_FOOT, R_HAND};
+use crate::sim::body::{Body, State};
+use crate::sim::dynamics::Terms;
+use crate::sim::figure::ControlParams;
+use crate::sim::math::vec3::vec3;
+use crate::sim::math::{Quat, Vec3};
+use crate::sim::motion::{Target, TargetPair};
+use crate::sim::support::Support;
+use crate::sim::support::testing::{GRAVITY, mannequin, strength, terms};
+
+/// Length of a tick, s.
+pub(crate) const DT: f64 = 1.0 / 60.0;
+
+/// One tick's input, owned.
+pub(crate) struct Scene {
+    pub(crate) body: Body,
+    pub(crate) terms: Terms,
+    pub(crate) support: Support,
+    pub(crate) target: TargetPair,
+    pub(crate) com: PointTarget,
+    pub(crate) effectors: Vec<Effector>,
+    pub(crate) goals: Vec<Goal>,
+    pub(crate) feet: [(PointTarget, RotationTarget); 2],
+    pub(crate) lower: [f64; DOF_COUNT],
+    pub(crate) upper: [f64; DOF_COUNT],
+    pub(crate) params: ControlParams,
+    pub(crate) assist: [f64; 2],
+    pub(crate) kinematic: bool,
+}
+
+fn still(p: Vec3) -> PointTarget {
+    PointTarget {
+        now: p,
+        next: p,
+        ..PointTarget::default()
+    }
+}
+
+impl Scene {
+    /// The figure is in `state` and should stand still in `desired`, with `scale` times the strength of a person.
+    pub(crate) fn new(state: &State, desired: &State, scale: f64) -> Self {
+        let body = mannequin();
+        let (t, d) = (terms(&body, state), terms(&body, desired));
+        let mut support = Support::default();
+        support.update(&t, &body, Vec3::zero(), GRAVITY);
+        let grip = vec3(0.0, 0.0, -0.08);
+        let effectors = [L_HAND, R_HAND]
+            .map(|segment| Effector {
+                segment,
+                point: grip,
+                position: still(d.point_world(segment.index(), grip)),
+                rotation: None,
+            })
+            .to_vec();
+        let feet = [L_FOOT, R_FOOT].map(|s| {
+            let turn = Quat::from_mat3(&d.segment_rotation(s.index()));
+            let rotation = RotationTarget {
+                now: turn,
+                next: turn,
+                ..RotationTarget::default()
+            };
+            (still(d.segment_position(s.index())), rotation)
+        });
+        let target = Target::still(desired.posture);
+        let (lower, upper) = strength(scale);
+        Self {
+            com: still(d.com),
+            body,
+            terms: t,
+            support,
+            target: TargetPair {
+                now: target.clone(),
+                next: target,
+            },
+            effectors,
+            goals: Vec::new(),
+            feet,
+            lower,
+            upper,
+            params: ControlParams::default(),
+            assist: [0.0; 2],
+            kinematic: false,
+        }
+    }
+
+    /// Which feet its motion keeps on the floor.
+    pub(crate) fn plant(&mut self, planted: [bool; 2]) {
+        self.target.now.planted = planted;
+        self.target.next.planted = planted;
+    }
+
+    pub(crate) fn input(&self) -> ControlInput<'_> {
+        ControlInput {
+            terms: &self.terms,
+            body: &self.body,
+            support: &self.support,
+            target: &self.target,
+            com: &self.com,
+            effectors: &self.effectors,
+            goals: &self.goals,
+            feet: &self.feet,
+            balance: None,
+            lower: &self.lower,
+            upper: &self.upper,
+            params: &self.params,
+            gravity: GRAVITY,
+            dt: DT,
+            assist: self.assist,
+            kinematic: self.kinematic,
+        }
+    }
+}
