@@ -107,7 +107,7 @@ fn introduction(page: &mut Page, study: &Study) {
     ));
 }
 
-fn degrees(x: f64) -> String {
+fn hundredths(x: f64) -> String {
     format!("{x:.2}")
 }
 
@@ -121,7 +121,7 @@ fn row(name: &str, seconds: f64, w: &Walked) -> Vec<String> {
         name.to_owned(),
         format!("{seconds:.1}"),
         result,
-        degrees(r.joint_rms_deg),
+        hundredths(r.joint_rms_deg),
         format!("{:.0}", r.mpjpe_root_mm),
         format!("{:.0}", r.mpjpe_global_mm),
         format!("{:.0} / {:.0}", 1e3 * rms, 1e3 * most),

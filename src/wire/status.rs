@@ -88,6 +88,9 @@ pub enum Fault {
     Internal(String),
 }
 
+/// Characters of `worlds/{world}/obstacles/{obstacle}` with the longest ids there are.
+const LONGEST_NAME: usize = 144;
+
 impl Fault {
     /// Bad input in `field`.
     pub fn invalid(field: impl Into<String>, problem: impl Into<String>) -> Self {
@@ -97,12 +100,13 @@ impl Fault {
         }
     }
 
-    /// Unknown resource.
+    /// Unknown resource. The name is told as far as an existing one could be long: errors travel in headers, which are short.
     pub fn not_found(kind: &'static str, name: impl Into<String>) -> Self {
-        Self::NotFound {
-            kind,
-            name: name.into(),
+        let mut name = name.into();
+        if let Some((end, _)) = name.char_indices().nth(LONGEST_NAME) {
+            name.truncate(end);
         }
+        Self::NotFound { kind, name }
     }
 
     /// The same fault with `prefix` put before the field path, for messages inside messages.

@@ -1,4 +1,4 @@
-//! One figure, one tick. The loop is [`Figure::step`](step::Figure).
+//! One figure, one tick. The stages are listed in [`step`].
 
 pub mod assist;
 pub mod balance;

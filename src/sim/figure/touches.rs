@@ -48,7 +48,7 @@ struct Spot {
     weight: f64,
     /// Reaction of this tick, world axes, N.
     force: Vec3,
-    /// Reaction that controllers count on, N.
+    /// Its part of the reaction, for a controller that chooses what each place of a rest gives, N.
     expected: Vec3,
 }
 
@@ -59,7 +59,8 @@ struct Entry {
     weight: f64,
     /// Mean place on the segment, segment frame, m.
     local: Vec3,
-    /// Reaction that controllers count on, N.
+    /// Reaction of the whole part, for controllers that count on it as a force, N. It is learned apart from that of the spots: those come and
+    /// go and share it out anew from tick to tick, while their sum has to stay smooth; and a touch counts from its second tick on.
     expected: Vec3,
     spots: [Spot; SPOTS],
     /// How many of them count.
@@ -224,7 +225,7 @@ impl Touches {
         }
     }
 
-    /// Ends a tick: order, events, and what is expected of the next. `alone`: nothing was near, so nothing can have touched.
+    /// Ends a tick: order, events, and what is expected of the next.
     pub fn end(&mut self, watcher: &mut Watcher) {
         self.now.sort_unstable_by_key(key);
         for e in &mut self.now {

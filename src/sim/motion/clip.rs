@@ -5,6 +5,11 @@
 //! derivatives at the samples are finite differences of their neighbours. Sampling allocates nothing and rounds alike
 //! everywhere, since it feeds the tick.
 
+mod planar;
+mod seam;
+
+pub use planar::PlanarTransform;
+
 use super::chart;
 use super::target::Target;
 use crate::sim::body::state::{ball_rate_vector, ball_rates};
@@ -13,6 +18,7 @@ use crate::sim::body::topology::{
 };
 use crate::sim::body::{NV, Posture};
 use crate::sim::math::{Quat, Vec3, trig};
+use seam::Seam;
 
 /// Most samples of a clip: 15 minutes at 120 Hz, some 130 MB.
 pub const MAX_SAMPLES: usize = 108_000;
@@ -24,107 +30,6 @@ const FARTHEST: f64 = 1e5;
 const LARGEST_ANGLE: f64 = 100.0;
 /// How far a quaternion's length may be from 1.
 const UNIT_TOLERANCE: f64 = 1e-6;
-/// Length of the blend at the seam of a loop, s; at most a quarter of the clip.
-const SEAM: f64 = 0.25;
-
-/// A turn about the vertical through the origin, then a shift along the ground.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct PlanarTransform {
-    /// Shift forward, m.
-    pub x: f64,
-    /// Shift to the left, m.
-    pub y: f64,
-    /// Turn to the left, rad.
-    pub yaw: f64,
-}
-
-/// The angle of the same direction within −π…π.
-fn reduced(angle: f64) -> f64 {
-    let turn = std::f64::consts::TAU;
-    angle - (angle / turn).round_ties_even() * turn
-}
-
-impl PlanarTransform {
-    fn rotation(self) -> Quat {
-        Quat::exp(Vec3::Z * reduced(self.yaw))
-    }
-
-    /// Image of a point.
-    pub fn point(self, p: Vec3) -> Vec3 {
-        let q = self.rotation().rotate(p);
-        Vec3 {
-            x: q.x + self.x,
-            y: q.y + self.y,
-            z: q.z,
-        }
-    }
-
-    /// `self` after `first`.
-    pub fn after(self, first: Self) -> Self {
-        let p = self.point(Vec3 {
-            x: first.x,
-            y: first.y,
-            z: 0.0,
-        });
-        Self {
-            x: p.x,
-            y: p.y,
-            yaw: self.yaw + first.yaw,
-        }
-    }
-
-    /// `self` applied `count` times (backwards if negative), in closed form.
-    pub fn power(self, count: f64) -> Self {
-        // Σ_{j<n} R^j p = sin(nψ/2)/sin(ψ/2) · R((n−1)ψ/2) p
-        let n = count;
-        let half = 0.5 * reduced(self.yaw);
-        let (s, _) = trig::sin_cos(half);
-        let gain = if s.abs() < 1e-9 {
-            n // no turn to speak of: the steps line up
-        } else {
-            trig::sin_cos(reduced(n * half)).0 / s
-        };
-        let p = Quat::exp(Vec3::Z * reduced((n - 1.0) * half)).rotate(Vec3 {
-            x: self.x * gain,
-            y: self.y * gain,
-            z: 0.0,
-        });
-        Self {
-            x: p.x,
-            y: p.y,
-            yaw: reduced(2.0 * n * half),
-        }
-    }
-
-    /// Moves a posture.
-    pub fn apply_posture(self, posture: &mut Posture) {
-        posture.root_position = self.point(posture.root_position);
-        posture.root_rotation = (self.rotation() * posture.root_rotation).normalized();
-    }
-
-    /// A target, moved: pelvis pose, velocity and acceleration.
-    pub fn apply(self, target: &Target) -> Target {
-        let mut moved = target.clone();
-        self.apply_to(&mut moved);
-        moved
-    }
-
-    /// Like [`Self::apply`], in place.
-    pub fn apply_to(self, target: &mut Target) {
-        self.apply_posture(&mut target.posture);
-        let rotation = self.rotation();
-        for v in [&mut target.velocity, &mut target.acceleration] {
-            for start in [0, 3] {
-                let turned = rotation.rotate(Vec3 {
-                    x: v[start],
-                    y: v[start + 1],
-                    z: v[start + 2],
-                });
-                v[start..start + 3].copy_from_slice(&turned.to_array());
-            }
-        }
-    }
-}
 
 /// Why samples are not a clip.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -172,17 +77,6 @@ impl Knot {
             planted,
         }
     }
-}
-
-/// The end of a loop: what brings the last posture to the first one, moved on by one loop.
-#[derive(Clone, Debug)]
-struct Seam {
-    /// Displacement of one loop.
-    advance: PlanarTransform,
-    /// Length of the blend, s.
-    length: f64,
-    /// Correction at the end, and its first two derivatives.
-    end: [[f64; NV]; 3],
 }
 
 /// A motion at a uniform rate. Immutable.
@@ -364,61 +258,6 @@ impl Clip {
         let u = (position - i as f64).clamp(0.0, 1.0);
         between(&self.knots[i], b, 1.0 / self.rate_hz, u)
     }
-
-    fn make_seam(&self) -> Option<Box<Seam>> {
-        let last = self.lead_in + self.len().checked_sub(2)? + 1;
-        let (first, end) = (&self.knots[self.lead_in], &self.knots[last]);
-        // Heading and place of the end, seen from the start.
-        let turned = end.posture.root_rotation * first.posture.root_rotation.conjugate();
-        let yaw = 2.0 * trig::atan2(turned.z, turned.w);
-        let mut advance = PlanarTransform {
-            x: 0.0,
-            y: 0.0,
-            yaw,
-        };
-        let from = advance.point(first.posture.root_position);
-        advance.x = end.posture.root_position.x - from.x;
-        advance.y = end.posture.root_position.y - from.y;
-
-        // What the blend has to reach at the end: the first sample, moved on.
-        let mut goal = Target {
-            posture: first.posture,
-            velocity: first.first,
-            acceleration: first.second,
-            planted: first.planted,
-        };
-        turn_root_rates(&mut goal);
-        advance.apply_to(&mut goal);
-        let root = goal.posture.root_rotation.conjugate();
-        turn_root(root, &mut goal.velocity);
-        turn_root(root, &mut goal.acceleration);
-        let e = local_difference(&end.posture, &goal.posture);
-        let mut ends = [e, [0.0; NV], [0.0; NV]];
-        for_each_part(|part| match part {
-            Part::Scalar(k) => {
-                ends[1][k] = goal.velocity[k] - end.first[k];
-                ends[2][k] = goal.acceleration[k] - end.second[k];
-            }
-            Part::Rotation { start, ball } => {
-                // q = q_clip · exp(ε):  ω = Rᵀ ω_clip + Ω,  α = Rᵀ α_clip + (Rᵀ ω_clip) × Ω + Ω̇,  R = exp(ε)
-                let epsilon = vector(ball, start, &e);
-                let back = Quat::exp(-epsilon);
-                let carried = back.rotate(vector(ball, start, &end.first));
-                let omega = vector(ball, start, &goal.velocity) - carried;
-                let alpha = vector(ball, start, &goal.acceleration)
-                    - back.rotate(vector(ball, start, &end.second))
-                    - carried.cross(omega);
-                let (d, a) = chart::vector_rates(epsilon, omega, alpha);
-                set_vector(ball, start, d, &mut ends[1]);
-                set_vector(ball, start, a, &mut ends[2]);
-            }
-        });
-        Some(Box::new(Seam {
-            advance,
-            length: SEAM.min(0.25 * self.duration()),
-            end: ends,
-        }))
-    }
 }
 
 /// The motion at share `u` (0…1) of the `h` seconds from knot `a` to knot `b`. No allocation.
@@ -469,50 +308,6 @@ pub(super) fn between(a: &Knot, b: &Knot, h: f64, u: f64) -> Target {
     });
     turn_root_rates(&mut target);
     target
-}
-
-impl Seam {
-    /// Adds the correction at `into` seconds after the blend's start.
-    fn blend(&self, into: f64, target: &mut Target) {
-        let fifth = |k: usize| {
-            let end = [self.end[0][k], self.end[1][k], self.end[2][k]];
-            chart::quintic(self.length, into, 0.0, 0.0, end[0], end[1], end[2])
-        };
-        let curve: [[f64; 3]; NV] = std::array::from_fn(fifth);
-        let row = |r: usize| -> [f64; NV] { std::array::from_fn(|k| curve[k][r]) };
-        let (value, slope, bend) = (row(0), row(1), row(2));
-        let root = target.posture.root_rotation.conjugate();
-        turn_root(root, &mut target.velocity);
-        turn_root(root, &mut target.acceleration);
-        for_each_part(|part| match part {
-            Part::Scalar(k) => {
-                add_scalar(&mut target.posture, k, value[k]);
-                target.velocity[k] += slope[k];
-                target.acceleration[k] += bend[k];
-            }
-            Part::Rotation { start, ball } => {
-                let epsilon = vector(ball, start, &value);
-                let (omega, alpha) = chart::rates(
-                    epsilon,
-                    vector(ball, start, &slope),
-                    vector(ball, start, &bend),
-                );
-                let back = Quat::exp(-epsilon);
-                let carried = back.rotate(vector(ball, start, &target.velocity));
-                let turned = back.rotate(vector(ball, start, &target.acceleration));
-                let q = rotation_mut(&mut target.posture, ball);
-                *q = (*q * Quat::exp(epsilon)).normalized();
-                set_vector(ball, start, carried + omega, &mut target.velocity);
-                set_vector(
-                    ball,
-                    start,
-                    turned + carried.cross(omega) + alpha,
-                    &mut target.acceleration,
-                );
-            }
-        });
-        turn_root_rates(target);
-    }
 }
 
 /// Bounds and unit length of one posture; quaternions are scaled to unit length exactly.
@@ -701,239 +496,4 @@ fn differences(postures: &[Posture], i: usize, h: f64) -> ([f64; NV], [f64; NV])
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A smooth tumbling motion in closed form.
-    fn tumble(t: f64) -> Posture {
-        let wave = |k: usize| {
-            let k = k as f64;
-            0.6 * (t * (2.0 + 0.13 * k) + k).sin()
-        };
-        let mut p = Posture {
-            root_position: Vec3 {
-                x: 0.5 * t,
-                y: wave(1),
-                z: 1.0 + 0.1 * wave(2),
-            },
-            root_rotation: Quat::exp(Vec3 {
-                x: wave(3),
-                y: wave(4),
-                z: 0.8 * t,
-            }),
-            ..Posture::default()
-        };
-        for b in 0..BALL_COUNT {
-            p.ball[b] = Quat::exp(Vec3 {
-                x: wave(5 + b),
-                y: 2.0 * wave(9 + b),
-                z: wave(13 + b),
-            });
-        }
-        for h in 0..p.hinge.len() {
-            p.hinge[h] = wave(20 + h);
-        }
-        p
-    }
-
-    fn clip(rate: f64, seconds: f64) -> Clip {
-        let n = (rate * seconds) as usize + 1;
-        let postures = (0..n).map(|i| tumble(i as f64 / rate)).collect();
-        let planted = (0..n).map(|i| [i % 2 == 0, true]).collect();
-        Clip::from_postures("tumble", rate, postures, planted).unwrap()
-    }
-
-    fn worst(a: &[f64], b: &[f64]) -> f64 {
-        a.iter()
-            .zip(b)
-            .map(|(x, y)| (x - y).abs())
-            .fold(0.0, f64::max)
-    }
-
-    /// Velocity and acceleration against differences of posture and velocity.
-    fn check_derivatives(sample: impl Fn(f64) -> Target, t: f64) {
-        let h = 1e-5;
-        let (a, m, b) = (sample(t - h), sample(t), sample(t + h));
-        // The root's part of `difference` is a world rotation vector about the later posture; halves on both sides cancel.
-        let measured = a.posture.difference(&b.posture).map(|d| d / (2.0 * h));
-        assert!(
-            worst(&measured, &m.velocity) < 1e-6,
-            "velocity at {t}: {:e}",
-            worst(&measured, &m.velocity)
-        );
-        let measured: [f64; NV] =
-            std::array::from_fn(|k| (b.velocity[k] - a.velocity[k]) / (2.0 * h));
-        assert!(
-            worst(&measured, &m.acceleration) < 2e-5,
-            "acceleration at {t}: {:e}",
-            worst(&measured, &m.acceleration)
-        );
-    }
-
-    #[test]
-    fn sampled_rates_are_derivatives_of_the_sampled_posture() {
-        let clip = clip(60.0, 2.0);
-        for i in 1..400 {
-            check_derivatives(|t| clip.sample(t), 0.004_97 * f64::from(i));
-        }
-    }
-
-    #[test]
-    fn large_steps_between_samples_keep_rates_consistent() {
-        // 2 Hz: the tumbling turns by more than 90° from sample to sample.
-        let clip = clip(2.0, 8.0);
-        for i in 1..400 {
-            check_derivatives(|t| clip.sample(t), 0.019_3 * f64::from(i));
-        }
-    }
-
-    #[test]
-    fn samples_are_met_and_the_motion_between_is_close() {
-        let clip = clip(60.0, 2.0);
-        assert_eq!((clip.len(), clip.name()), (121, "tumble"));
-        for i in 0..clip.len() {
-            let at = clip.sample(i as f64 / 60.0);
-            assert!(worst(&at.posture.difference(clip.posture(i)), &[0.0; NV]) < 1e-12);
-        }
-        for i in 0..150 {
-            let t = 0.1 + 0.011_3 * f64::from(i);
-            let off = clip.sample(t).posture.difference(&tumble(t));
-            assert!(worst(&off, &[0.0; NV]) < 2e-6);
-            // Rates against the closed form, to the order of the stencils.
-            let h = 1e-4;
-            let v = tumble(t - h)
-                .difference(&tumble(t + h))
-                .map(|d| d / (2.0 * h));
-            assert!(worst(&v, &clip.sample(t).velocity) < 2e-4);
-        }
-    }
-
-    #[test]
-    fn outside_its_time_a_clip_stands_still() {
-        let clip = clip(60.0, 1.0);
-        let before = clip.sample(-0.1);
-        let after = clip.sample(clip.duration() + 5.0);
-        assert_eq!(before.posture, *clip.posture(0));
-        assert_eq!(after.posture, *clip.posture(60));
-        assert_eq!(clip.sample(f64::NAN).posture, *clip.posture(0));
-        for target in [before, after, clip.sample(f64::INFINITY)] {
-            assert_eq!(target.velocity, [0.0; NV]);
-            assert_eq!(target.acceleration, [0.0; NV]);
-        }
-    }
-
-    #[test]
-    fn loops_are_smooth_and_carry_the_displacement() {
-        let clip = clip(60.0, 1.5);
-        let period = clip.duration();
-        for i in -300..600 {
-            let t = 0.010_07 * f64::from(i);
-            // Exactly at a seam the third derivative jumps, which a difference across it would see.
-            if i != 0 {
-                check_derivatives(|t| clip.sample_looped(t), t);
-            }
-        }
-        for seam in [-period, 0.0, period, 2.0 * period] {
-            let (a, b) = (
-                clip.sample_looped(seam - 1e-9),
-                clip.sample_looped(seam + 1e-9),
-            );
-            assert!(worst(&a.posture.difference(&b.posture), &[0.0; NV]) < 1e-7);
-            assert!(worst(&a.velocity, &b.velocity) < 1e-6);
-            assert!(worst(&a.acceleration, &b.acceleration) < 1e-4);
-        }
-        // One round later the figure has moved on by the displacement of one round, for every phase alike.
-        let advance = clip.seam.as_ref().unwrap().advance;
-        for i in 0..50 {
-            let t = 0.03 * f64::from(i);
-            let mut one = clip.sample_looped(t);
-            advance.apply_to(&mut one);
-            let two = clip.sample_looped(t + period);
-            assert!(worst(&one.posture.difference(&two.posture), &[0.0; NV]) < 1e-9);
-            assert!(worst(&one.velocity, &two.velocity) < 1e-7);
-        }
-        let far = clip.sample_looped(1e9);
-        assert!(far.posture.is_finite());
-        assert!(clip.sample_looped(f64::NAN).posture.is_finite());
-    }
-
-    #[test]
-    fn powers_of_a_planar_transform_are_repeated_application() {
-        for yaw in [0.0, 1e-12, 1e-5, 0.3, -2.0, 3.1, std::f64::consts::TAU] {
-            let step = PlanarTransform {
-                x: 0.7,
-                y: -0.2,
-                yaw,
-            };
-            let mut sum = PlanarTransform::default();
-            let p = Vec3 {
-                x: 0.3,
-                y: 1.0,
-                z: 2.0,
-            };
-            for n in 0..40 {
-                let (a, b) = (sum.point(p), step.power(f64::from(n)).point(p));
-                assert!((a - b).norm() < 1e-9, "{yaw} {n}");
-                let back = step.power(-f64::from(n)).point(a);
-                assert!((back - p).norm() < 1e-8, "{yaw} {n}");
-                sum = step.after(sum);
-            }
-        }
-    }
-
-    #[test]
-    fn short_clips_have_sensible_rates() {
-        for n in 1..6 {
-            let make = |i: usize| Posture {
-                root_position: Vec3 {
-                    x: 0.1 * i as f64,
-                    y: 0.0,
-                    z: 1.0,
-                },
-                ..Posture::default()
-            };
-            let clip =
-                Clip::from_postures("line", 10.0, (0..n).map(make).collect(), vec![[true; 2]; n])
-                    .unwrap();
-            let target = clip.sample(0.05);
-            assert!((target.velocity[3] - if n > 1 { 1.0 } else { 0.0 }).abs() < 1e-9);
-            assert!(target.acceleration[3].abs() < 1e-9);
-            let looped = clip.sample_looped(7.3);
-            assert!((looped.posture.root_position.x - if n > 1 { 7.3 } else { 0.0 }).abs() < 1e-9);
-        }
-    }
-
-    #[test]
-    fn bad_samples_are_refused_by_name() {
-        let make = |edit: &dyn Fn(&mut Vec<Posture>), rate: f64, planted: usize| {
-            let mut postures = vec![Posture::default(); 3];
-            edit(&mut postures);
-            Clip::from_postures("x", rate, postures, vec![[true; 2]; planted]).map(|c| c.len())
-        };
-        assert_eq!(make(&|_| {}, 60.0, 3), Ok(3));
-        assert_eq!(make(&|p| p.clear(), 60.0, 0), Err(ClipError::Empty));
-        assert!(matches!(
-            make(&|_| {}, 60.0, 2),
-            Err(ClipError::PlantedCount { .. })
-        ));
-        for rate in [0.5, 1000.5, f64::NAN, f64::INFINITY, -60.0] {
-            assert!(matches!(
-                make(&|_| {}, rate, 3),
-                Err(ClipError::Rate { .. })
-            ));
-        }
-        let text = |edit: &dyn Fn(&mut Vec<Posture>)| make(edit, 60.0, 3).unwrap_err().to_string();
-        assert!(text(&|p| p[1].root_position.y = f64::NAN).contains("sample 1: root position"));
-        assert!(text(&|p| p[2].root_position.y = 1e9).contains("sample 2"));
-        assert!(text(&|p| p[1].ball[3].w = f64::INFINITY).contains("l_shoulder"));
-        assert!(text(&|p| p[1].ball[3].x = 0.1).contains("length 1.00"));
-        assert!(text(&|p| p[0].root_rotation = Quat::from_xyzw([0.0; 4])).contains("root"));
-        assert!(text(&|p| p[0].hinge[11] = f64::NAN).contains("r_toe"));
-        let many = vec![Posture::default(); MAX_SAMPLES + 1];
-        let planted = vec![[true; 2]; MAX_SAMPLES + 1];
-        assert!(matches!(
-            Clip::from_postures("x", 60.0, many, planted),
-            Err(ClipError::TooLong { .. })
-        ));
-    }
-}
+mod tests;

@@ -2,13 +2,13 @@
 
 use super::balance::{Carrier, LIGHT, MassTrack, hull, margin, mass_track, pelvis_shift};
 use super::envelope::smoothest_below;
-use super::filter::{low_pass, low_pass_points, percentile, smooth_minimum};
+use super::filter::{low_pass, low_pass_points, low_pass_rotations, percentile, smooth_minimum};
 use super::foot_lock::{LockedFoot, Sole, Stance, lock_foot};
 use super::leg_ik::{forward, solve_leg_in_plane};
 use crate::sim::body::angles::{anatomical_angles, clamp_to_limits};
 use crate::sim::body::topology::{
-    DOF_COUNT, DOF_START, JOINT, Joint, L_FOOT, L_SHANK, L_THIGH, L_TOES, R_FOOT, R_SHANK, R_THIGH,
-    R_TOES, SegmentId,
+    BALL_COUNT, DOF_COUNT, DOF_START, HINGE_COUNT, JOINT, Joint, L_FOOT, L_SHANK, L_THIGH, L_TOES,
+    R_FOOT, R_SHANK, R_THIGH, R_TOES, SegmentId,
 };
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::{Quat, Vec3};
@@ -438,7 +438,7 @@ fn clamp_upper(
         *p = q;
     }
     if any {
-        super::retarget::smooth_joints(postures, 8.0, rate_hz);
+        smooth_joints(postures, 8.0, rate_hz);
     }
 }
 
@@ -536,5 +536,23 @@ fn zmp_outside(track: &MassTrack, carriers: &[Carrier]) -> ZmpOutside {
         mean: outside.iter().sum::<f64>() / n,
         p95: percentile(&outside, 0.95),
         max: outside.iter().copied().fold(0.0, f64::max),
+    }
+}
+
+/// Low-pass of all joint positions of a motion, in place; the pelvis is left alone.
+fn smooth_joints(postures: &mut [Posture], cutoff_hz: f64, rate_hz: f64) {
+    for b in 0..BALL_COUNT {
+        let mut q: Vec<Quat> = postures.iter().map(|p| p.ball[b]).collect();
+        low_pass_rotations(&mut q, cutoff_hz, rate_hz);
+        for (p, q) in postures.iter_mut().zip(q) {
+            p.ball[b] = q;
+        }
+    }
+    for h in 0..HINGE_COUNT {
+        let mut a: Vec<f64> = postures.iter().map(|p| p.hinge[h]).collect();
+        low_pass(&mut a, cutoff_hz, rate_hz);
+        for (p, a) in postures.iter_mut().zip(a) {
+            p.hinge[h] = a;
+        }
     }
 }

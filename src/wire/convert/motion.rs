@@ -201,7 +201,16 @@ fn window(field: &str, ms: f64) -> Result<f64, Fault> {
     if ms == 0.0 {
         return Ok(0.0);
     }
-    within(field, ms, least * 1e3, most * 1e3).map(|w| w / 1e3)
+    let (least, most) = (least * 1e3, most * 1e3);
+    // Written so that NaN fails.
+    if ms >= least && ms <= most {
+        Ok(ms / 1e3)
+    } else {
+        Err(Fault::invalid(
+            field,
+            format!("must be 0 or {least}…{most}, got {ms}"),
+        ))
+    }
 }
 
 /// Desired motion of one figure.

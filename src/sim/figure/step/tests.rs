@@ -1,6 +1,7 @@
 //! What a figure does when its numbers break.
 
 use super::*;
+use crate::sim::figure::FigureEvent;
 use crate::sim::world::{World, WorldParams};
 
 #[test]

@@ -1,0 +1,202 @@
+//! Figures of a world: members, their settings, what there is to tell of them.
+
+use super::{Member, Shard};
+use crate::server::engine::{self, Drive as Motion};
+use crate::sim::body::{Body, State};
+use crate::sim::figure::ControlParams;
+use crate::wire::status::Fault;
+use crate::wire::types::{EventKind, FigureInfo, FigureSettings, FigureUpdate, Place, RosterEntry};
+use std::sync::Arc;
+
+impl Shard {
+    pub(super) fn member(&self, figure: &str) -> Result<usize, Fault> {
+        self.members
+            .iter()
+            .position(|m| m.id == figure)
+            .ok_or_else(|| {
+                Fault::not_found("figure", format!("worlds/{}/figures/{figure}", self.id))
+            })
+    }
+
+    /// Checks that figures exist.
+    pub fn check_figures(&self, figures: &[String]) -> Result<(), Fault> {
+        figures.iter().try_for_each(|f| self.member(f).map(|_| ()))
+    }
+
+    pub(super) fn figure_info(&self, m: &Member) -> FigureInfo {
+        let f = self.world.figure(m.key).expect("members are in the world");
+        // Of two clips the one that was asked for last is known by name: it plays, or the figure comes to a stand for it.
+        let (next_clip, clip) = match f.next_clip() {
+            Some(_) => (m.clip.clone(), None),
+            None => (None, m.clip.clone()),
+        };
+        FigureInfo {
+            world: self.id.to_string(),
+            id: m.id.clone(),
+            settings: m.settings.clone(),
+            clip,
+            next_clip,
+            driver: self
+                .drives
+                .iter()
+                .find(|d| d.has(&m.id))
+                .map(|d| d.driver.clone()),
+            index: m.index,
+            constraints: engine::constraints(f, self.world.time()),
+        }
+    }
+
+    /// One figure.
+    pub fn figure(&self, figure: &str) -> Result<FigureInfo, Fault> {
+        Ok(self.figure_info(&self.members[self.member(figure)?]))
+    }
+
+    /// All figures, in the order of creation.
+    pub fn figures(&self) -> Vec<FigureInfo> {
+        self.members.iter().map(|m| self.figure_info(m)).collect()
+    }
+
+    /// Body of a figure, and its name.
+    pub fn body_of(&self, figure: &str) -> Result<(String, Arc<Body>), Fault> {
+        let m = &self.members[self.member(figure)?];
+        let f = self.world.figure(m.key).expect("members are in the world");
+        Ok((m.settings.body.id.clone(), f.body().clone()))
+    }
+
+    pub(super) fn roster_changed(&mut self) {
+        self.roster_version += 1;
+        self.changed = true;
+        self.roster = self
+            .members
+            .iter()
+            .map(|m| RosterEntry {
+                index: m.index,
+                figure: m.id.clone(),
+                body: m.settings.body.id.clone(),
+            })
+            .collect();
+    }
+
+    /// Adds a figure.
+    pub fn create_figure(
+        &mut self,
+        id: Option<String>,
+        settings: FigureSettings,
+        body: Arc<Body>,
+    ) -> Result<FigureInfo, Fault> {
+        self.working()?;
+        if self.members.len() as u64 >= self.limits.figures {
+            return Err(Fault::Exhausted {
+                limit: "max_figures_per_world",
+                value: self.limits.figures,
+                message: format!("one more figure in world {:?}", &*self.id),
+                retry: None,
+            });
+        }
+        let id = match id {
+            Some(id) if self.member(&id).is_ok() => {
+                return Err(Fault::Exists {
+                    kind: "figure",
+                    name: format!("worlds/{}/figures/{id}", self.id),
+                });
+            }
+            Some(id) => id,
+            None => (self.next_index + 1..)
+                .map(|n| format!("figure-{n}"))
+                .find(|id| self.member(id).is_err())
+                .expect("there is a free number"),
+        };
+        let key = engine::add_figure(&mut self.world, &id, &settings, body)?;
+        self.members.push(Member {
+            id: id.clone(),
+            key,
+            index: self.next_index,
+            settings,
+            clip: None,
+        });
+        self.next_index += 1;
+        self.roster_changed();
+        self.event(&id, EventKind::FigureAdded);
+        self.figure(&id)
+    }
+
+    /// Changes strength, controller or name.
+    pub fn update_figure(&mut self, figure: &str, u: FigureUpdate) -> Result<FigureInfo, Fault> {
+        self.working()?;
+        let i = self.member(figure)?;
+        let m = &mut self.members[i];
+        if let Some(all) = &u.constraints {
+            engine::set_constraints(&mut self.world, m.key, all)?;
+        }
+        let steps = u.protective_steps;
+        if u.controller.is_some() || u.strength.is_some() || u.params.is_some() || steps.is_some() {
+            let controller = u.controller.unwrap_or(m.settings.controller);
+            let strength = u.strength.unwrap_or_else(|| m.settings.strength.clone());
+            // Whether it steps is no choice of the paper's controller.
+            let params = ControlParams {
+                protective_steps: steps.unwrap_or(m.settings.params.protective_steps),
+                ..u.params.unwrap_or_else(|| m.settings.params.clone())
+            };
+            let world = &mut self.world;
+            engine::retune(world, m.key, strength.clone(), controller, params.clone())?;
+            m.settings.controller = controller;
+            m.settings.params = params;
+            m.settings.strength = strength;
+        }
+        if u.fatigue_time_scale.is_some() || u.assist.is_some() {
+            let mut options = m.settings.options;
+            options.fatigue_time_scale = u.fatigue_time_scale.unwrap_or(options.fatigue_time_scale);
+            options.assist = u.assist.unwrap_or(options.assist);
+            engine::set_options(&mut self.world, m.key, options)?;
+            m.settings.options = options;
+        }
+        if let Some(name) = u.display_name {
+            m.settings.display_name = name;
+        }
+        self.figure(figure)
+    }
+
+    /// Removes a figure.
+    pub fn delete_figure(&mut self, figure: &str) -> Result<(), Fault> {
+        let i = self.member(figure)?;
+        let m = self.members.remove(i);
+        self.world.remove_figure(m.key);
+        for drive in &mut self.drives {
+            for slot in &mut drive.slots {
+                if slot.key == Some(m.key) {
+                    slot.key = None;
+                }
+            }
+        }
+        self.drives
+            .retain(|d| d.slots.iter().any(|s| s.key.is_some()));
+        self.roster_changed();
+        self.event(figure, EventKind::FigureRemoved);
+        Ok(())
+    }
+
+    /// Puts a figure back to standing still, without loads.
+    pub fn reset_figure(
+        &mut self,
+        figure: &str,
+        place: Option<Place>,
+    ) -> Result<FigureInfo, Fault> {
+        self.working()?;
+        let i = self.member(figure)?;
+        self.not_driven(figure)?;
+        let m = &mut self.members[i];
+        let f = self
+            .world
+            .figure_mut(m.key)
+            .expect("members are in the world");
+        let posture = engine::standing(f.body(), place.unwrap_or(m.settings.place));
+        f.clear_perturbations();
+        f.clear_constraints();
+        f.set_drive(Motion::Hold(posture));
+        let state = State::at_rest(posture);
+        engine::reset(&mut self.world, m.key, state)?;
+        m.clip = None;
+        self.changed = true;
+        self.figure(figure)
+    }
+}

@@ -1,0 +1,72 @@
+//! Stage 6 among others: the world solves substep by substep for all that are near each other (`world::collisions`).
+
+use super::{Figure, Stage, TickContext};
+use crate::sim::body::topology::NV;
+use crate::sim::collide::island::{Articulated, Parts};
+use crate::sim::contact::Outcome;
+use crate::sim::figure::FigureKey;
+use crate::sim::figure::touches::Contacting;
+
+impl Articulated for (FigureKey, Box<Figure>) {
+    fn parts(&mut self) -> Parts<'_> {
+        self.1.stepper.parts()
+    }
+}
+
+impl Figure {
+    /// True if accelerations move it in this tick, whatever it meets.
+    pub(crate) fn is_prescribed(&self) -> bool {
+        self.prescribed
+    }
+    /// Something will be met, and contact acts by forces: torques take over before the tick begins.
+    pub(crate) fn hand_over(&mut self) {
+        self.prescribed = false;
+        self.handed_over = Some(0.0);
+    }
+    /// Shows where the segments are before it is known who moves them.
+    pub(crate) fn show(&mut self) {
+        self.stepper.terms.clone_from(&self.terms);
+    }
+
+    /// Starts the tick.
+    pub(crate) fn begin_substeps(&mut self) {
+        self.kinematic.reset();
+        self.stepper.begin(&self.state);
+        self.touches.begin();
+    }
+    /// Substep `i` as if nothing but the ground were touched.
+    pub(crate) fn open_substep(&mut self, world: &TickContext, i: u32) {
+        let Stage {
+            input,
+            stepper,
+            state,
+            ..
+        } = self.stage(world);
+        stepper.open_substep(&input, state, i);
+    }
+    /// Takes the impulse of an island in velocity components.
+    pub(crate) fn touch(&mut self, impulse: [f64; NV], outcome: Outcome) {
+        self.stepper.touch(impulse, outcome);
+    }
+    /// One contact of the substep, with its impulse on this figure.
+    pub(crate) fn record(&mut self, what: &Contacting, h: f64, dt: f64) {
+        self.stepper
+            .push(what.segment, what.position, what.impulse * (1.0 / h));
+        self.touches.add(&self.stepper.terms, what, dt);
+    }
+    /// Closes substep `i` and moves.
+    pub(crate) fn close_substep(&mut self, world: &TickContext, i: u32) {
+        let Stage {
+            input,
+            stepper,
+            state,
+            ..
+        } = self.stage(world);
+        stepper.close_substep(&input, state, i);
+    }
+    /// Ends the tick.
+    pub(crate) fn end_substeps(&mut self, world: &TickContext) {
+        let Stage { input, stepper, .. } = self.stage(world);
+        stepper.end(&input);
+    }
+}

@@ -1,0 +1,116 @@
+//! How large the recorded person is, and which axis of the file points up.
+
+use super::UpAxis;
+use super::recording::Recording;
+use super::report::RetargetError;
+use crate::sim::math::Vec3;
+use crate::sim::motion::bvh::Bvh;
+use crate::sim::motion::filter::percentile;
+use crate::sim::motion::skeleton_map::SkeletonMap;
+
+/// Statures that a unit may lead to when it is guessed, m.
+const LIKELY_STATURE: (f64, f64) = (1.3, 2.0);
+/// Statures that are accepted with a unit given by the caller, m.
+const POSSIBLE_STATURE: (f64, f64) = (0.7, 2.6);
+/// Units that files use, m: metre, decimetre, centimetre, millimetre, inch, CMU (inch / 0.45), foot.
+const UNITS: [f64; 7] = [1.0, 0.1, 0.01, 0.001, 0.0254, 0.0254 / 0.45, 0.3048];
+/// Leg (hip to ankle) over stature, both sexes; about 0.495 for men and 0.465 for women after de Leva 1996.
+const LEG_OF_STATURE: f64 = 0.485;
+
+/// Lengths of the figure in file units.
+pub(super) struct Measure {
+    pub leg: f64,
+    pub stature: f64,
+}
+
+/// Leg and stature of the recording.
+pub(super) fn measure(
+    bvh: &Bvh,
+    places: &[Vec<Vec3>],
+    take: &Recording,
+    map: &SkeletonMap,
+) -> Result<Measure, RetargetError> {
+    let n = take.len();
+    let median_length = |a: usize, b: usize| {
+        let v: Vec<f64> = (0..n)
+            .step_by((n / 500).max(1))
+            .map(|i| (places[take.at(a)][i] - places[take.at(b)][i]).norm())
+            .collect();
+        percentile(&v, 0.5)
+    };
+    let mut leg = 0.0;
+    for s in &map.sides {
+        for (a, b) in [
+            (s.thigh, s.shank),
+            (s.shank, s.foot),
+            (s.upper_arm, s.forearm),
+        ] {
+            let l = median_length(a, b);
+            if !(l > 0.0 && l.is_finite()) {
+                return Err(RetargetError::Degenerate {
+                    bone: bvh.joints[a].name.clone(),
+                });
+            }
+            if a != s.upper_arm {
+                leg += 0.5 * l;
+            }
+        }
+        if !take
+            .wrist(s)
+            .is_some_and(|w| median_length(s.forearm, w) > 0.0)
+        {
+            return Err(RetargetError::Degenerate {
+                bone: bvh.joints[s.forearm].name.clone(),
+            });
+        }
+    }
+    // Hip to shoulder height is about 0.29 of stature; many rigs have odd heads, so head tops are not asked.
+    let trunk: Vec<f64> = (0..n)
+        .step_by((n / 500).max(1))
+        .map(|i| {
+            let mid = |a: usize, b: usize| (places[take.at(a)][i] + places[take.at(b)][i]) * 0.5;
+            (mid(map.sides[0].upper_arm, map.sides[1].upper_arm)
+                - mid(map.sides[0].thigh, map.sides[1].thigh))
+            .norm()
+        })
+        .collect();
+    let trunk = percentile(&trunk, 0.8);
+    Ok(Measure {
+        leg,
+        stature: 0.7 * leg / LEG_OF_STATURE + 0.3 * trunk / 0.29,
+    })
+}
+
+/// Length of a file unit, m, and the stature that follows, from the stature in file units.
+pub(super) fn unit(given: Option<f64>, measured: f64) -> Result<(f64, f64), RetargetError> {
+    match given {
+        Some(unit_m) => {
+            let stature = measured * unit_m;
+            if !(stature >= POSSIBLE_STATURE.0 && stature <= POSSIBLE_STATURE.1) {
+                return Err(RetargetError::Stature {
+                    unit_m,
+                    stature,
+                    measured,
+                });
+            }
+            Ok((unit_m, stature))
+        }
+        None => UNITS
+            .into_iter()
+            .find(|u| (LIKELY_STATURE.0..=LIKELY_STATURE.1).contains(&(measured * u)))
+            .map(|u| (u, measured * u))
+            .ok_or(RetargetError::Unit { measured }),
+    }
+}
+
+/// The axis along which shoulders are over ankles most of the time.
+pub(super) fn guess_up(places: &[Vec<Vec3>], take: &Recording, map: &SkeletonMap) -> UpAxis {
+    let mut sum = Vec3::zero();
+    for i in 0..take.len() {
+        let p = |j: usize| places[take.at(j)][i];
+        let top = p(map.sides[0].upper_arm) + p(map.sides[1].upper_arm);
+        let low = p(map.sides[0].foot) + p(map.sides[1].foot);
+        sum += (top - low).normalized_or(Vec3::zero());
+    }
+    if sum.z > sum.y { UpAxis::Z } else { UpAxis::Y }
+}
