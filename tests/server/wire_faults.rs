@@ -344,8 +344,8 @@ async fn bad_requests_name_the_field_and_change_nothing() {
     );
     // An error echoes no more of a name than fits into headers.
     let long = format!("{world}/figures/{}", "x".repeat(60_000));
-    let e = c.figures().get_figure(pb::GetFigureRequest { name: long });
-    let e = e.await.unwrap_err();
+    let request = pb::GetFigureRequest { name: long };
+    let e = c.figures().get_figure(request).await.unwrap_err();
     assert_eq!(e.code(), Code::NotFound, "{e:?}");
     assert!(e.message().len() < 400, "{}", e.message().len());
 
