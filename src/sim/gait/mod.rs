@@ -49,6 +49,8 @@ const HOME: (f64, f64) = (0.3, 0.04);
 const EASE: f64 = 0.6;
 /// A body slower than this, and a capture point closer to its place than this, is settled: m/s and m.
 const SETTLED: (f64, f64) = (0.1, 0.03);
+/// A capture point this far from where the clip has it is not where it is meant to be, m.
+const ASTRAY: f64 = 0.06;
 /// Slowest clip-time rate that counts as playing at all.
 const STILL: f64 = 1e-9;
 
@@ -682,7 +684,9 @@ impl Gait {
         // Feet that a clip is about to move again stay where it has them, if they hold the body.
         let own = self.ended.is_none() && self.plan.as_ref().is_some_and(|p| !p.is_live());
         let crossed = !own && outward(now[side].0) < 0.5 * catch::BESIDE;
-        if margin < -catch::LOST || crossed {
+        // A body that walks leaves its feet on purpose; one that is off its plan does not.
+        let meant = own && self.capture.off() < ASTRAY;
+        if (margin < -catch::LOST && !meant) || crossed {
             self.tidying = None;
             self.step = start(
                 side,

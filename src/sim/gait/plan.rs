@@ -53,8 +53,8 @@ pub fn place(sole: &Sole, ankle: Vec3, rotation: Quat) -> (Vec3, f64) {
     (p, yaw)
 }
 
-/// Feet that stay at least so long leave time for a step that nobody planned, s.
-const PAUSE: f64 = 0.35;
+/// Feet pause that have stood together for so long, s, and will for so long: that leaves time for a step that nobody planned.
+const PAUSE: (f64, f64) = (0.2, 0.1);
 /// A foot this close to the floor carries the body if no other does, m.
 const NEAR_FLOOR: f64 = 0.03;
 
@@ -211,12 +211,10 @@ impl StepPlan {
             })
     }
 
-    /// True if both feet stand at time `t` (s) and go on standing for a while.
+    /// True if both feet have stood at time `t` (s) for longer than in any stride, and go on standing for a moment.
     pub fn pauses(&self, t: f64) -> bool {
-        (0..2).all(|side| {
-            self.current(side, t)
-                .is_some_and(|f| f.on < t && f.off > t + PAUSE)
-        })
+        let stands = |f: Footfall| f.on < t - PAUSE.0 && f.off > t + PAUSE.1;
+        (0..2).all(|side| self.current(side, t).is_some_and(stands))
     }
 
     /// True if a foot leaves the floor anywhere.
