@@ -47,8 +47,8 @@ const INNER: f64 = 0.035;
 const CAUGHT: f64 = 0.015;
 /// And so much more per m/s, s, where the moment is given and not chosen: a body stops less well than a pendulum.
 const SPARE: f64 = 0.03;
-/// A foot that catches lands this far beyond the capture point, m, so that the body comes to rest between the feet.
-const BEYOND: f64 = 0.05;
+/// A foot that catches a body of 1 m/s lands this far beyond the capture point, m, so that it comes to rest between the feet.
+const BEYOND: f64 = 0.1;
 /// Gain of the zero-moment point on the way to a place, how close counts as there, m, and when patience ends, s.
 const LEAN: (f64, f64, f64) = (2.0, 0.015, 0.9);
 /// A foot this close to where it belongs stays, m and rad.
@@ -287,6 +287,8 @@ struct Stop<'a> {
     capture: Vec3,
     /// What has to be in hand beyond [`CAUGHT`], s.
     spare: f64,
+    /// See [`BEYOND`], m.
+    beyond: f64,
     /// Foot that steps first where both are down; otherwise the one that catches best.
     first: Option<usize>,
     steps: Vec<Step>,
@@ -373,7 +375,9 @@ impl Stop<'_> {
         let p = level(self.hold(&self.feet.support(down)));
         let away = self.capture - p;
         let landing = |time: f64| p + away * (self.omega * time).exp();
-        let beyond = away.normalized_or(Vec3::zero()) * BEYOND;
+        // Where it moves, more than it needs: a body stops less well than a pendulum.
+        let moves = (self.capture - self.mass()) * self.omega;
+        let beyond = moves * (self.beyond / moves.norm().max(1.0));
         let mut best = (f64::INFINITY, least, Vec3::zero());
         let mut time = least;
         while time <= SWING.1.max(least) {
@@ -558,7 +562,7 @@ fn tail(body: &Body, draft: &Draft, goal: Option<&Posture>, spare: f64) -> Optio
         return None;
     }
     let ground = |v: Vec3| Vec3 { z: 0.0, ..v };
-    let plan = |(spare, first): (f64, Option<usize>)| {
+    let plan = |(spare, beyond, first): (f64, f64, Option<usize>)| {
         let mut stop = Stop {
             from: &from,
             feet: Feet {
@@ -572,6 +576,7 @@ fn tail(body: &Body, draft: &Draft, goal: Option<&Posture>, spare: f64) -> Optio
             dt: 1.0 / rate,
             capture: ground(from.com + from.velocity * (1.0 / omega)),
             spare,
+            beyond,
             first,
             steps: Vec::new(),
             path: vec![ground(from.com)],
@@ -579,10 +584,10 @@ fn tail(body: &Body, draft: &Draft, goal: Option<&Posture>, spare: f64) -> Optio
         stop.run().then_some(stop)
     };
     // With as much in hand as there is a way for, and with the foot first that catches best, or else with either.
-    let hands = [spare, 0.5 * spare, 0.0];
+    let hands = [1.0, 0.5, 0.0].map(|h| h * spare).into_iter();
     let ways = hands
-        .into_iter()
-        .flat_map(|h| [None, Some(0), Some(1)].map(|first| (h, first)));
+        .flat_map(|h| [(h, BEYOND), (h, 0.0)])
+        .flat_map(|(h, b)| [None, Some(0), Some(1)].map(|first| (h, b, first)));
     let stop = { ways }.find_map(plan)?;
     let upright = Quat::exp(Vec3::Z * (from.heading - stand.heading)) * stand.posture.root_rotation;
     // The zero-moment point of the pendulum jumps from foot to foot; a body's does not.
