@@ -223,6 +223,15 @@ pub fn clip_inside(polygon: &[[f64; 2]], z: [f64; 2], inset: f64) -> [f64; 2] {
     nearest(&inner_polygon(polygon, inset), z)
 }
 
+/// How much a body may rest on something other than its feet in one sample, from 0 to 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Elsewhere {
+    /// On a seat.
+    pub seat: f64,
+    /// On its hands.
+    pub hands: f64,
+}
+
 /// What carries the body in one sample.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Carrier {
@@ -278,15 +287,15 @@ fn answers(rows: &[[f64; 3]], shift: &[f64]) -> Vec<f64> {
 /// direction method of multipliers).
 ///
 /// * `track`: of the motion as shifted by `so_far`, m.
-/// * `elsewhere`: per sample from 0 to 1, how well something other than the feet may carry the body. Where it does, for the zero-moment point is
-///   outside by more than `reach` (m) for long, the motion is left alone, as is flight.
+/// * `elsewhere`: what else may carry the body. A body on a seat is left alone, as is one in flight; one that may lean on its hands is where its
+///   zero-moment point is outside by more than `reach` (m) for long.
 ///
 /// O(n).
 pub fn pelvis_shift(
     track: &MassTrack,
     so_far: &[[f64; 2]],
     carriers: &[Carrier],
-    elsewhere: &[f64],
+    elsewhere: &[Elsewhere],
     (inset, reach): (f64, f64),
     rate_hz: f64,
 ) -> Vec<[f64; 2]> {
@@ -320,7 +329,8 @@ pub fn pelvis_shift(
         .map(|i| {
             let u = ((lasting[i] - 0.7 * reach) / (0.6 * reach)).clamp(0.0, 1.0);
             let meant = if inner[i].is_some() {
-                1.0 - elsewhere[i] * u * u * (3.0 - 2.0 * u)
+                let leans = elsewhere[i].hands * u * u * (3.0 - 2.0 * u);
+                (1.0 - elsewhere[i].seat) * (1.0 - leans)
             } else {
                 0.0
             };

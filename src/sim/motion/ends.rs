@@ -584,9 +584,13 @@ fn tail(body: &Body, draft: &Draft, goal: Option<&Posture>, spare: f64) -> Optio
         stop.run().then_some(stop)
     };
     // With as much in hand as there is a way for, and with the foot first that catches best, or else with either.
+    let beyond = match spare > 0.0 {
+        true => [BEYOND, 0.0],
+        false => [0.0, BEYOND],
+    };
     let hands = [1.0, 0.5, 0.0].map(|h| h * spare).into_iter();
     let ways = hands
-        .flat_map(|h| [(h, BEYOND), (h, 0.0)])
+        .flat_map(|h| beyond.map(|b| (h, b)))
         .flat_map(|(h, b)| [None, Some(0), Some(1)].map(|first| (h, b, first)));
     let stop = { ways }.find_map(plan)?;
     let upright = Quat::exp(Vec3::Z * (from.heading - stand.heading)) * stand.posture.root_rotation;
@@ -832,8 +836,10 @@ impl Draft {
     }
 
     /// Continues a draft of whole postures to a stand, wherever that is. Returns how many samples it took; none if it stands, sits or lies.
-    pub fn end_standing(&mut self, body: &Body) -> usize {
-        let after = tail(body, self, None, 0.0);
+    ///
+    /// * `given`: the moment is given, or the motion poorly known: more is kept in hand than for a moment that was chosen for being easy.
+    pub fn end_standing(&mut self, body: &Body, given: bool) -> usize {
+        let after = tail(body, self, None, if given { SPARE } else { 0.0 });
         let count = after.as_ref().map_or(0, |a| a.postures.len());
         if let Some(after) = after {
             self.append(after);

@@ -41,7 +41,7 @@ const HOW: PrepareOptions = PrepareOptions {
 /// Ends a motion by the steps that bring it to a stand. `None` if it stands, sits or lies anyway. Time 0 of the clip is the first sample given.
 ///
 /// * `known`: the motion so far and as far ahead as it is known, samples at [`RATE`]; it goes on at least up to sample `now`.
-/// * `goal`: how it stands in the end, wherever that is; at ease if not given.
+/// * `how`: how it stands in the end, wherever that is, at ease if not given; and whether the motion is a stream, which is known less well than a clip.
 ///
 /// The moments of the step to come are tried as the beginning of the end, in turn, until one asks little of the ground; else the one that asks
 /// least is taken. At most five are worked out.
@@ -49,7 +49,7 @@ pub fn stop(
     body: &Body,
     known: &[(Posture, [bool; 2])],
     now: usize,
-    goal: Option<&Posture>,
+    how: (Option<&Posture>, bool),
 ) -> Option<Clip> {
     if known.len() < 4 {
         return None;
@@ -65,7 +65,7 @@ pub fn stop(
     let latest = (now + (STEP * FINE) as usize).min(last);
     let mut best: Option<(f64, Clip)> = None;
     for end in (now.min(last)..=latest).step_by(APART) {
-        if let Some(found) = ending(body, known, (&postures, &label), (now, end), goal)
+        if let Some(found) = ending(body, known, (&postures, &label), (now, end), how)
             && best.as_ref().is_none_or(|b| found.0 < b.0)
         {
             let easy = found.0 < EASY;
@@ -84,7 +84,7 @@ fn ending(
     known: &[(Posture, [bool; 2])],
     (postures, label): (&[Posture], &[[bool; 2]]),
     (now, end): (usize, usize),
-    goal: Option<&Posture>,
+    (goal, streamed): (Option<&Posture>, bool),
 ) -> Option<(f64, Clip)> {
     // What was long ago has no part in it.
     let cut = now.saturating_sub((TAKES_PART * FINE) as usize);
@@ -92,7 +92,7 @@ fn ending(
     let mut draft = Draft::of_postures(body, FINE, part.0, part.1);
     let added = match goal {
         Some(goal) => draft.end_like(body, goal),
-        None => draft.end_standing(body),
+        None => draft.end_standing(body, streamed),
     };
     if added == 0 {
         return None;

@@ -1,6 +1,8 @@
 //! From a recorded motion in body scale to a reference that a body can follow: feet locked, legs reaching, balance kept.
 
-use super::balance::{Carrier, LIGHT, MassTrack, hull, margin, mass_track, pelvis_shift};
+use super::balance::{
+    Carrier, Elsewhere, LIGHT, MassTrack, hull, margin, mass_track, pelvis_shift,
+};
 use super::envelope::smoothest_below;
 use super::filter::{low_pass, low_pass_points, low_pass_rotations, percentile, smooth_minimum};
 use super::foot_lock::{LockedFoot, Sole, Stance, lock_foot};
@@ -22,7 +24,7 @@ const DROP_TIME: f64 = 0.15;
 /// Rounds of shifting the trunk and solving the legs again.
 const ROUNDS: usize = 8;
 /// The zero-moment point is kept this far inside the support polygon, m.
-const INSET: f64 = 0.03;
+const INSET: f64 = 0.04;
 /// A zero-moment point outside by more than this for long means that something other than the feet carries the body, m.
 const CARRIED: f64 = 0.15;
 /// The trunk is never moved further than this for balance, m.
@@ -378,23 +380,30 @@ fn carriers_of(
         .collect()
 }
 
-/// How well something other than the feet may carry the body, from 0 to 1: a chair where the pelvis is low, hands where both feet stay for a
-/// while. Who steps walks on his feet.
-fn may_rest(body: &Body, upper: &[Posture], planted: &[[bool; 2]], rate_hz: f64) -> Vec<f64> {
+/// What else than the feet may carry the body: a seat where the pelvis is low, hands where both feet stay for a while. Who steps walks on his feet.
+fn may_rest(body: &Body, upper: &[Posture], planted: &[[bool; 2]], rate_hz: f64) -> Vec<Elsewhere> {
     let standing = body.standing_root_height();
     let n = upper.len();
     let half = (STAYS * rate_hz) as usize;
-    let mut out: Vec<f64> = (0..n)
-        .map(|i| {
-            let low = (SITS.1 - upper[i].root_position.z / standing) / (SITS.1 - SITS.0);
-            let stays = planted[i.saturating_sub(half)..(i + half).min(n)]
-                .iter()
-                .all(|p| *p == [true; 2]);
-            if stays { 1.0 } else { low.clamp(0.0, 1.0) }
-        })
-        .collect();
-    low_pass(&mut out, 2.0, rate_hz);
-    out.iter().map(|x| x.clamp(0.0, 1.0)).collect()
+    let smooth = |mut x: Vec<f64>| {
+        low_pass(&mut x, 2.0, rate_hz);
+        x
+    };
+    let seat = upper
+        .iter()
+        .map(|p| ((SITS.1 - p.root_position.z / standing) / (SITS.1 - SITS.0)).clamp(0.0, 1.0));
+    let stays = |i: usize| {
+        let around = i.saturating_sub(half)..(i + half).min(n);
+        planted[around].iter().all(|p| *p == [true; 2])
+    };
+    let hands = (0..n).map(|i| f64::from(stays(i)));
+    let (seat, hands) = (smooth(seat.collect()), smooth(hands.collect()));
+    let both = seat.into_iter().zip(hands);
+    both.map(|(seat, hands)| Elsewhere {
+        seat: seat.clamp(0.0, 1.0),
+        hands: hands.clamp(0.0, 1.0),
+    })
+    .collect()
 }
 
 fn note_clamped(clamped: &mut [(f64, f64); DOF_COUNT], off: &[f64; DOF_COUNT], n: usize) {

@@ -135,7 +135,8 @@ impl Figure {
         let now = ((from - begin) * join::RATE).max(0.0) as usize + STOP_AFTER;
         let v = self.terms.com_velocity;
         let slow = (v.x * v.x + v.y * v.y).sqrt() < SLOW || !self.gait.is_walking();
-        let stop = |goal| join::stop(&self.setup.body, &so_far, now, goal);
+        let streamed = matches!(self.drive, Drive::Live(_));
+        let stop = |goal| join::stop(&self.setup.body, &so_far, now, (goal, streamed));
         let ease = if slow && goal.is_some() {
             None
         } else {
