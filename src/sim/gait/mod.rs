@@ -214,9 +214,10 @@ impl Gait {
         self.ended = None;
     }
 
-    /// True while it follows a motion that steps.
+    /// True while it follows a motion that steps, if only later; a stream that stands does not.
     pub fn is_walking(&self) -> bool {
-        self.walks()
+        let clip = |p: &StepPlan| self.ended.is_none() && !p.is_live();
+        self.plan.as_ref().is_some_and(clip) || self.walks()
     }
 
     /// Takes over what is known now of the stream that is followed.

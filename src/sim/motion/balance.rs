@@ -1,8 +1,8 @@
 //! Does a motion keep its balance on the feet it stands on, and what shift of the trunk makes it do so?
 //!
 //! From the postures alone: centre of mass, zero-moment point (with the change of angular momentum), support polygon of the planted
-//! feet. Where the zero-moment point leaves the polygon, the centre of mass that belongs to a point inside solves, per axis,
-//! `Δ − Δ̈/ω² = p − z`, `ω² = (g + c̈_z)/c_z`, a tridiagonal system over the clip (cart-table model of Kajita et al. 2003).
+//! feet. Where the zero-moment point leaves the polygon, the pelvis is shifted by as little as brings it back; it answers to a shift Δ of the
+//! centre of mass by `Δ − Δ̈/ω²`, `ω² = (g + c̈_z)/c_z` (cart-table model of Kajita et al. 2003).
 
 use super::banded::Pentadiagonal;
 use super::filter::low_pass;
