@@ -588,9 +588,14 @@ fn tail(body: &Body, draft: &Draft, goal: Option<&Posture>, spare: f64) -> Optio
         true => [BEYOND, 0.0],
         false => [0.0, BEYOND],
     };
-    let hands = [1.0, 0.5, 0.0].map(|h| h * spare).into_iter();
+    let hands: &[f64] = if spare > 0.0 {
+        &[1.0, 0.5, 0.0]
+    } else {
+        &[0.0]
+    };
     let ways = hands
-        .flat_map(|h| beyond.map(|b| (h, b)))
+        .iter()
+        .flat_map(|h| beyond.map(|b| (h * spare, b)))
         .flat_map(|(h, b)| [None, Some(0), Some(1)].map(|first| (h, b, first)));
     let stop = { ways }.find_map(plan)?;
     let upright = Quat::exp(Vec3::Z * (from.heading - stand.heading)) * stand.posture.root_rotation;

@@ -33,7 +33,8 @@ pub fn smoothest_below(ceiling: &[f64], tau: f64, rate_hz: f64) -> Vec<f64> {
         }
         held = now;
         let spring: Vec<f64> = held.iter().map(|h| f64::from(*h) * STIFFNESS).collect();
-        d = spring.iter().zip(ceiling).map(|(s, c)| s * c).collect();
+        let pull = |(h, c): (&bool, &f64)| if *h { STIFFNESS * c } else { 0.0 };
+        d = held.iter().zip(ceiling).map(pull).collect();
         let mut matrix = Pentadiagonal::new(spring.iter().map(|s| 1.0 + s).collect());
         for i in 0..n - 2 {
             matrix.add_row(i as isize, [1.0, -2.0, 1.0], bend);

@@ -328,7 +328,7 @@ impl Track {
         // Where the foot moves fastest over one shuffle's time.
         for half in HALF_SHUFFLE {
             let half = (half * rate_hz) as usize;
-            let at = (start + shortest + half..(end - half).saturating_sub(shortest))
+            let at = (start + shortest + half..end.saturating_sub(half + shortest))
                 .filter(|i| other[i - half..=i + half].iter().all(|o| *o))
                 .map(|i| (i, moved(i - half, i + half)))
                 .max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
@@ -344,7 +344,7 @@ impl Track {
             .find(|i| !other[*i])
             .map_or(start, |i| i + 1);
         let alone_from = (start..end).find(|i| !other[*i]).unwrap_or(end);
-        let least = shortest.max((end - start) / 3);
+        let least = shortest.max((end - start) / 3).max(1);
         let tail = alone_until.max(start + least);
         let head = alone_from.min(end.saturating_sub(least));
         if tail < end && moved(tail, end - 1) > SHUFFLES {
