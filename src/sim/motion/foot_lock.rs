@@ -683,4 +683,33 @@ mod tests {
             assert!(low > -1e-3, "{low} at {k}");
         }
     }
+
+    #[test]
+    fn stances_too_short_to_split_that_slide_are_kept_or_cut_but_never_lost() {
+        let s = sole();
+        for (end, held) in [(3, 0), (5, 2), (12, 6), (30, 10), (60, 40)] {
+            let n = end + 20;
+            // A metre per second from the first sample on; the other foot is down at first, or at last.
+            let ankles: Vec<Vec3> = (0..n)
+                .map(|i| Vec3::from_array([0.1 * i as f64, 0.1, 0.08]))
+                .collect();
+            let label: Vec<bool> = (0..n).map(|i| i < end).collect();
+            for early in [false, true] {
+                let other: Vec<bool> = (0..n).map(|i| (i < held) == early).collect();
+                let still = vec![0.0; n];
+                let f = lock_foot(
+                    &s,
+                    &ankles,
+                    &vec![Quat::identity(); n],
+                    (&label, &other),
+                    (&still, &still),
+                    0,
+                    120.0,
+                );
+                assert!(!f.stances.is_empty());
+                assert!(f.stances.iter().all(|s| s.start < s.end && s.end <= end));
+                assert!(f.planted.iter().zip(&label).all(|(p, l)| *l || !*p));
+            }
+        }
+    }
 }
