@@ -67,7 +67,14 @@ fn walk(body: &Arc<Body>, name: &str, clip: &Arc<Clip>, looped: bool, seconds: f
 #[test]
 fn walks_start_from_standing_and_stop() {
     let body = man();
-    for name in ["walk", "turn", "walk-around", "salsa-a", "hit"] {
+    // Furthest that the capture point may be off, m. In salsa-a a foot that turns as fast as it can lands 16° off.
+    for (name, furthest) in [
+        ("walk", 0.1),
+        ("turn", 0.1),
+        ("walk-around", 0.15),
+        ("salsa-a", 0.25),
+        ("hit", 0.15),
+    ] {
         let clip = recorded(&body, name);
         let seconds = clip.lead_in() + clip.duration() + clip.lead_out() + 1.0;
         let (first, last) = (
@@ -76,7 +83,10 @@ fn walks_start_from_standing_and_stop() {
         );
         assert!(first.root_position.z > 0.8 && last.root_position.z > 0.8);
         let (rms, capture) = walk(&body, name, &clip, false, seconds);
-        assert!(rms < 4.0 && capture < 0.2, "{name}: {rms} deg, {capture} m");
+        assert!(
+            rms < 2.5 && capture < furthest,
+            "{name}: {rms} deg, {capture} m"
+        );
     }
 }
 

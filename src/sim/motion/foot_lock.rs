@@ -74,6 +74,8 @@ pub struct LockedFoot {
 const DEAD_BAND: f64 = 0.07;
 /// The same for a foot that stands for long, rad (9°): a standing person's soles are flat unless clearly raised.
 const DEAD_BAND_LONG: f64 = 0.16;
+/// A foot pitched by less than this is flat at that moment, rad.
+const FLAT: f64 = 0.12;
 /// Stances longer than this are standing, not walking, s.
 const LONG_STANCE: f64 = 1.5;
 /// A recorded foot that strays further than this from its anchor has stepped or pivoted, m and rad.
@@ -89,7 +91,7 @@ const CLEARANCE: f64 = 0.045;
 /// How fast a sole rises after lift-off and sinks before touch-down at least, m/s.
 const RISE: (f64, f64) = (0.45, 0.4);
 /// Longest time over which a swing departs from a lock, s.
-const FADE: f64 = 0.4;
+const FADE: f64 = 0.3;
 /// Largest toe extension of a swinging foot, rad.
 const SWING_TOE: f64 = 0.6;
 
@@ -480,8 +482,8 @@ pub fn lock_foot(
     out
 }
 
-/// Pitch profile of a stance: a dead band makes the foot flat; a walking foot rolls toe-up only before its flat middle and heel-up
-/// only after it.
+/// Pitch profile of a stance: a dead band makes the foot flat; a walking foot rolls one way only before its flat middle and one way only
+/// after it: toe-up first and heel-up then, unless it comes down on its toes or leaves from its heel.
 fn stance_pitch(raw: &[f64], rate_hz: f64) -> Vec<f64> {
     let n = raw.len();
     let long = n as f64 > LONG_STANCE * rate_hz;
@@ -491,10 +493,14 @@ fn stance_pitch(raw: &[f64], rate_hz: f64) -> Vec<f64> {
         .map(|x| (x - x.clamp(-band, band)).clamp(STEEPEST.0, STEEPEST.1))
         .collect();
     if !long {
-        let flat: Vec<usize> = (0..n).filter(|k| raw[*k].abs() < 0.12).collect();
+        let flat: Vec<usize> = (0..n).filter(|k| raw[*k].abs() < FLAT).collect();
         if let Some(&mid) = flat.get(flat.len() / 2) {
+            // Who walks backwards, or dances, comes down on the toes and may leave from the heel.
+            let toes_first = raw[0] < -FLAT;
+            let heel_last = raw[n - 1] > FLAT;
             for (k, p) in p.iter_mut().enumerate() {
-                *p = if k < mid { p.max(0.0) } else { p.min(0.0) };
+                let toe_up = if k < mid { !toes_first } else { heel_last };
+                *p = if toe_up { p.max(0.0) } else { p.min(0.0) };
             }
         } else if median(raw.to_vec()) < 0.0 {
             p.iter_mut().for_each(|p| *p = p.min(0.0));
@@ -520,7 +526,13 @@ fn swing(
 ) {
     let n = ankles.len();
     let at = |k: usize, out: &LockedFoot| offset(&out.poses[k], ankles[k], rotations[k], toes[k]);
-    let span = ((FADE * rate_hz) as usize).max(1).min(j - i + 1) as f64;
+    // Between two locks each offset is gone where the other begins; a swing that the recording breaks off has no other.
+    let fade_time = ((FADE * rate_hz) as usize).max(1);
+    let span = if i > 0 && j < n {
+        fade_time.min(j - i + 1)
+    } else {
+        fade_time
+    } as f64;
     // Value, slope and curvature of the offset at each end, per fade time; one-sided differences inside the stance.
     let ends: Vec<(usize, [Channels; 3])> = [(i > 0, i.wrapping_sub(1), -1isize), (j < n, j, 1)]
         .into_iter()

@@ -3,6 +3,7 @@
 use super::balance::{
     Carrier, Elsewhere, LIGHT, MassTrack, hull, margin, mass_track, pelvis_shift,
 };
+use super::contacts::runs;
 use super::envelope::smoothest_below;
 use super::filter::{low_pass, low_pass_points, low_pass_rotations, percentile, smooth_minimum};
 use super::foot_lock::{LockedFoot, Sole, Stance, lock_foot};
@@ -39,6 +40,9 @@ const LIMIT_MARGIN: f64 = 0.01;
 const RELIEF_MARGIN: f64 = 0.03;
 /// A leg is turned at most this far for its ankle's sake, rad.
 const MOST_TURN: f64 = 0.6;
+/// Cut-off of the joints of swinging legs, Hz, and the time over which it comes in and goes out, s.
+const SWING_CUTOFF: f64 = 8.0;
+const SWING_EDGE: f64 = 0.08;
 /// Below this fraction of standing height the pelvis lies or sits on the floor: feet are not what stands.
 const LYING: f64 = 0.22;
 /// A planted foot that its leg cannot hold to this accuracy is declared free, m.
@@ -525,7 +529,48 @@ fn assemble(
             );
         }
     }
+    for (s, foot) in locked.iter().enumerate() {
+        smooth_swings(&mut out, s, &foot.planted, draft.rate_hz);
+    }
     (out, drop)
+}
+
+/// Low-pass of the joints of a leg while it swings: a knee that comes near to straight makes inverse kinematics jump. Planted legs stay.
+fn smooth_swings(postures: &mut [Posture], side: usize, planted: &[bool], rate_hz: f64) {
+    let leg = [
+        [L_THIGH, L_SHANK, L_FOOT, L_TOES],
+        [R_THIGH, R_SHANK, R_FOOT, R_TOES],
+    ][side];
+    // From 0 where the foot is planted to 1 inside a swing.
+    let mut share = vec![0.0; postures.len()];
+    for (i, j, on) in runs(planted) {
+        for (k, s) in share.iter_mut().enumerate().take(j).skip(i) {
+            let since = if i > 0 { k + 1 - i } else { usize::MAX };
+            let until = if j < planted.len() { j - k } else { usize::MAX };
+            let u = (since.min(until) as f64 / (SWING_EDGE * rate_hz)).min(1.0);
+            *s = if on { 0.0 } else { u * u * (3.0 - 2.0 * u) };
+        }
+    }
+    for segment in leg {
+        match JOINT[segment.index()] {
+            Joint::Ball(b) => {
+                let mut q: Vec<Quat> = postures.iter().map(|p| p.ball[b]).collect();
+                low_pass_rotations(&mut q, SWING_CUTOFF, rate_hz);
+                for ((p, q), s) in postures.iter_mut().zip(q).zip(&share) {
+                    let to = (q * p.ball[b].conjugate()).log() * *s;
+                    p.ball[b] = (Quat::exp(to) * p.ball[b]).normalized();
+                }
+            }
+            Joint::Hinge1(h) => {
+                let mut a: Vec<f64> = postures.iter().map(|p| p.hinge[h]).collect();
+                low_pass(&mut a, SWING_CUTOFF, rate_hz);
+                for ((p, a), s) in postures.iter_mut().zip(a).zip(&share) {
+                    p.hinge[h] += s * (a - p.hinge[h]);
+                }
+            }
+            _ => unreachable!("legs have ball joints and hinges of one axis"),
+        }
+    }
 }
 
 fn zmp_outside(track: &MassTrack, carriers: &[Carrier]) -> ZmpOutside {
