@@ -344,5 +344,10 @@ fn nothing_that_can_be_asked_for_breaks_a_world() {
         }
     }
     println!("{seen:?}, {:?}", start.elapsed());
+    assert!(
+        seen.unfinished <= seen.figure_ticks / 50_000,
+        "{} islands cut short",
+        seen.unfinished
+    );
     assert!(seen.contacts > 0);
 }

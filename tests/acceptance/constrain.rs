@@ -1,18 +1,20 @@
 //! Goal: a part that a client constrains goes where it is told, and stays there, while the figure goes on with its motion; what cannot be reached is
 //! approached without harm. Method: the state after a while against the constraint.
 
-use crate::common::{Scene, authored, bent, figure, man, play, still};
+use crate::common::{Scene, authored, bent, figure, man, play, recorded, still};
 use crate::symmetry::{flip, flip_rotation, mirrored_state, opposite};
 use crate::vec3;
-use sinew::sim::body::topology::{HEAD, L_FOOT, L_HAND, PELVIS, R_HAND};
-use sinew::sim::body::{SegmentId, State};
+use sinew::sim::body::topology::{DOF_START, HEAD, L_FOOT, L_HAND, PELVIS, R_HAND};
+use sinew::sim::body::{Posture, SegmentId, State};
 use sinew::sim::dynamics::Terms;
 use sinew::sim::figure::tasks::grip;
 use sinew::sim::figure::{
     Constrained, Constraint, ControllerKind, Perturbation, StepperKind, setup::FigureOptions,
 };
-use sinew::sim::math::{Quat, Vec3};
-use sinew::sim::world::WorldError;
+use sinew::sim::math::{Mat3, Quat, Vec3};
+use sinew::sim::motion::cycle;
+use sinew::sim::world::{ClipPlayback, Drive, WorldError};
+use std::sync::Arc;
 
 const BOTH: [ControllerKind; 2] = [ControllerKind::Modern, ControllerKind::Paper];
 
@@ -140,6 +142,111 @@ fn a_hand_is_held_and_turned() {
         let most = back.iter().fold(0.0f64, |m, e| m.max(e.abs())).to_degrees();
         println!("{kind:?}: back within {most:.3}°, at most {fastest:.2} m/s");
         assert!(most < 1.0 && fastest < 3.5, "{most} {fastest}");
+    }
+}
+
+/// Who walks on and on reaches for a place that moves with its body, or holds a hand for a second at a place of the world that it passes, and walks on.
+#[test]
+fn a_hand_is_held_while_walking() {
+    let body = man();
+    let walk = Arc::new(cycle(&body, &recorded(&body, "walk")).unwrap());
+    for held in [Held::Nothing, Held::Body, Held::World] {
+        let mut scene = Scene::of(figure(
+            &body,
+            ControllerKind::Modern,
+            walk.sample(0.0).state(),
+        ));
+        let playback = ClipPlayback {
+            looped: true,
+            ..ClipPlayback::new(Arc::clone(&walk), 0.0)
+        };
+        scene.figure_mut().set_drive(Drive::Clip(playback));
+        let (mut worst, mut nearest) = (0.0f64, f64::INFINITY);
+        let (mut joints, mut ticks) = (0.0, 0.0);
+        // Where the motion had the pelvis: its pace is that of the last cycle.
+        let mut way = Vec::new();
+        let cycle_ticks = scene.ticks(walk.duration()) as usize;
+        for _ in 0..scene.ticks(20.0) {
+            let now = scene.world.time();
+            let pelvis = scene.figure().target().next.posture;
+            way.push(pelvis.root_position);
+            let before = way[way.len().saturating_sub(cycle_ticks + 1)];
+            let pace = (pelvis.root_position - before) * (1.0 / walk.duration());
+            let beside = |x, y, z| pelvis.root_position + heading(&pelvis) * vec3(x, y, z);
+            match held {
+                Held::Body if now > 1.0 => {
+                    scene
+                        .world
+                        .set_constraints(scene.key, &[hand(beside(0.40, -0.20, 0.15))])
+                        .unwrap();
+                }
+                // Once every four seconds, for one, where the hand passes in half of it.
+                Held::World
+                    if way.len() > cycle_ticks && scene.figure().constraints().is_empty() =>
+                {
+                    let c = Constraint {
+                        from: now + 3.0,
+                        to: now + 4.0,
+                        ease: 0.3,
+                        ..hand(beside(0.10, -0.30, 0.15) + pace * 3.5)
+                    };
+                    scene.world.set_constraints(scene.key, &[c]).unwrap();
+                }
+                _ => {}
+            }
+            scene.world.step();
+            upright(&scene, &format!("{held:?} at {now:.2} s"));
+            let r = scene.figure().report().unwrap();
+            assert!(r.over_limit < 1e-9);
+            let arm = DOF_START[R_HAND.index() - 2]..DOF_START[R_HAND.index()] + 2;
+            for (j, e) in r.joint_error.iter().enumerate() {
+                if !arm.contains(&j) {
+                    joints += e * e;
+                    ticks += 1.0;
+                }
+            }
+            let full = match held {
+                Held::Nothing => false,
+                Held::Body => now > 2.0,
+                Held::World => {
+                    let c = scene.figure().constraints().first();
+                    c.is_some_and(|c| now > c.from + 0.35 && now < c.to - 0.35)
+                }
+            };
+            if full {
+                let e = r.constraint_error[0][0];
+                nearest = nearest.min(e);
+                worst = worst.max(e);
+            }
+        }
+        let joints = (joints / ticks).sqrt().to_degrees();
+        let text = format!(
+            "{held:?}: hand {:.0} to {:.0} mm off, other joints {joints:.2}° rms",
+            1e3 * nearest,
+            1e3 * worst
+        );
+        println!("{text}");
+        // A place that moves is followed, not predicted; one of the world is within reach for half a second only.
+        assert!(worst < 0.6 && joints < 3.0, "{text}");
+        assert!(held != Held::World || nearest < 0.1, "{text}");
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Held {
+    Nothing,
+    Body,
+    World,
+}
+
+/// Rotation about the vertical to where the pelvis faces.
+fn heading(posture: &Posture) -> Mat3 {
+    let x = posture.root_rotation.rotate(Vec3::X);
+    let x = vec3(x.x, x.y, 0.0).normalized_or(Vec3::X);
+    Mat3 {
+        x,
+        y: Vec3::Z.cross(x),
+        z: Vec3::Z,
     }
 }
 

@@ -77,9 +77,11 @@ const FADE: (f64, f64) = (0.004, 0.010);
 const PLANNED_FADE: (f64, f64) = (0.006, 0.020);
 /// What is kept of the last tick's contact force.
 const FORCE_MEMORY: f64 = 0.98;
-/// Weight with which a part that rests on a seat is held there when it carries all it may count for, and that share of the weight. Little:
-/// who sits moves about, and who is nailed to the seat topples with it.
+/// Weight with which a part that rests on a seat is held there when it carries all it may count for, and that share of the weight. Little while
+/// the motion does not need the seat: who is nailed to it topples with it. Else as much along the surface and across it as in the second: a
+/// plan in which the body sinks into its seat, or slides over it, lets the feet push with forces that the floor does not give, and they creep.
 const REST_HOLD: f64 = 5.0;
+const NEEDED_HOLD: (f64, f64) = (50.0, 500.0);
 const REST_FULL: f64 = 0.2;
 /// Distance of the capture point from the motion's at which balance begins to count more, and at which it counts most, m; how much more.
 const DANGER: (f64, f64) = (0.04, 0.12);
@@ -114,14 +116,28 @@ pub struct Modern {
     a: Box<Dense>,
     hessian: Box<Dense>,
     contacts: ContactRows,
-    hold: Vec<(f64, Vec3)>,
+    /// Weight of each contact point's acceleration, world axes, and that acceleration.
+    hold: Vec<(Hold, Vec3)>,
     limits: LimitRows,
     soles: Polygon,
     motors: Motors,
     newton: NewtonWorkspace,
     rows: Vec<TaskRow>,
     assist: [f64; 2],
+    seat: Seat,
     command: Command,
+}
+
+/// Symmetric, world axes.
+type Hold = [[f64; 3]; 3];
+
+/// What seats and tables mean to the figure in this tick.
+#[derive(Clone, Copy, Debug, Default)]
+struct Seat {
+    /// Share of the weight that they carry.
+    carries: f64,
+    /// 1 where the motion could not stand without, 0 where it could or is about to get up.
+    needed: f64,
 }
 
 #[derive(Clone)]
@@ -164,6 +180,7 @@ impl Modern {
             newton: NewtonWorkspace::default(),
             rows: Vec::with_capacity(21 + 6 * MAX_GOALS),
             assist: [0.0; 2],
+            seat: Seat::default(),
             command: Command::default(),
         }
     }
@@ -247,23 +264,32 @@ impl Modern {
     /// the motion is getting up, which takes a centre of mass over the feet.
     fn urgency(&mut self, input: &ControlInput<'_>) -> f64 {
         let (t, goal) = (input.terms, input.com);
-        let time = (t.com.z.max(0.1) / input.gravity.max(1.0)).sqrt();
-        let level = input.support.rests().iter().filter(|r| r.is_level());
-        let seated = level.map(|r| r.force.z).sum::<f64>() / (t.mass * input.gravity.max(1.0));
-        if seated > 0.0 {
-            let capture = goal.now + goal.now_velocity * time;
-            let margin = self.margin_on_feet(input, [capture.x, capture.y]);
-            let leaves = 1.0 - smooth_step(margin, NEEDS_SEAT);
-            let floor = SEATED_LEAST + (1.0 - SEATED_LEAST) * leaves;
-            return (1.0 - seated / SEATED_FULL).clamp(floor, 1.0);
+        if self.seat.carries > 0.0 {
+            let floor = 1.0 - (1.0 - SEATED_LEAST) * self.seat.needed;
+            return (1.0 - self.seat.carries / SEATED_FULL).clamp(floor, 1.0);
         }
         let planted = [input.target.now.planted, input.target.next.planted];
         if input.params.protective_steps || planted != [[true; 2]; 2] {
             return 1.0;
         }
+        let time = pendulum_time(input);
         let off = (t.com - goal.now) + (t.com_velocity - goal.now_velocity) * time;
         let danger = 1.0 - smooth_step((off.x * off.x + off.y * off.y).sqrt(), DANGER);
         1.0 + (DANGER_FACTOR - 1.0) * danger
+    }
+
+    /// What seats carry, and whether the motion needs them.
+    fn sit(&mut self, input: &ControlInput<'_>) -> Seat {
+        let mg = input.terms.mass * input.gravity.max(1.0);
+        let level = input.support.rests().iter().filter(|r| r.is_level());
+        let carries = level.map(|r| r.force.z).sum::<f64>() / mg;
+        if carries <= 0.0 {
+            return Seat::default();
+        }
+        let capture = input.com.now + input.com.now_velocity * pendulum_time(input);
+        let margin = self.margin_on_feet(input, [capture.x, capture.y]);
+        let needed = smooth_step(margin, NEEDS_SEAT);
+        Seat { carries, needed }
     }
 
     /// Signed distance of a point on the ground inside the soles of the planted feet, m.
@@ -364,7 +390,10 @@ impl Modern {
                     vertex: POINTS,
                     turn: Rest::frame(rest.normal),
                 });
-                self.hold.push((REST_HOLD * share, a));
+                let weight =
+                    |most: f64| share * (REST_HOLD + self.seat.needed * (most - REST_HOLD));
+                let (along, across) = (weight(NEEDED_HOLD.0), weight(NEEDED_HOLD.1));
+                self.hold.push((hold(along, across, rest.normal), a));
             }
             let foot = s == L_FOOT.index()
                 || s == L_TOES.index()
@@ -412,10 +441,27 @@ impl Modern {
                     vertex,
                     turn: None,
                 });
-                self.hold.push((weight::HOLD * fade, a));
+                let w = weight::HOLD * fade;
+                self.hold.push((hold(w, w, Vec3::Z), a));
             }
         }
     }
+}
+
+/// √(height of the centre of mass / gravity), s.
+fn pendulum_time(input: &ControlInput<'_>) -> f64 {
+    (input.terms.com.z.max(0.1) / input.gravity.max(1.0)).sqrt()
+}
+
+/// Weights along a surface and across it.
+fn hold(along: f64, across: f64, normal: Vec3) -> Hold {
+    let n = normal.to_array();
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| {
+            let own = if i == j { along } else { 0.0 };
+            own + (across - along) * n[i] * n[j]
+        })
+    })
 }
 
 /// `(0.25/T²) error + (1/T) rate error`: the feedback part of the law with horizon.
@@ -474,6 +520,7 @@ impl Controller for Modern {
     fn control(&mut self, input: &ControlInput<'_>) -> &Command {
         let law = Law::new(input.params, input.dt).sharpened(SHARPNESS);
         let t = input.terms;
+        self.seat = self.sit(input);
         self.collect_tasks(input, &law);
         self.collect_contacts(input);
         let demand = initial_acceleration(input.body, &t.state, input.target, &law);
@@ -583,9 +630,10 @@ fn kernel(c: &mut Modern, t: &Terms, diagonal: &[f64; NV], linear: &mut [f64; WI
     let mut stiffness = [[[0.0; 6]; 6]; SEGMENT_COUNT];
     let mut pull = [[0.0; 6]; SEGMENT_COUNT];
     for (p, (w, a)) in c.contacts.points.iter().zip(&c.hold) {
-        let d = [[*w, 0.0, 0.0], [0.0, *w, 0.0], [0.0, 0.0, *w]];
-        add_point_stiffness(&mut stiffness[p.slot], p.r, &d);
-        let (f, n) = (*a * *w, p.r.cross(*a * *w));
+        add_point_stiffness(&mut stiffness[p.slot], p.r, w);
+        let a = a.to_array();
+        let f = Vec3::from_array(w.map(|row| row[0] * a[0] + row[1] * a[1] + row[2] * a[2]));
+        let n = p.r.cross(f);
         for (x, y) in pull[p.slot].iter_mut().zip([n.x, n.y, n.z, f.x, f.y, f.z]) {
             *x += y;
         }

@@ -17,7 +17,9 @@ impl Island {
     /// Bodies that touch each other couple their matrices. The coupling is taken in where it takes less: by the Woodbury identity in as many
     /// unknowns as the touching contacts have directions, or, with many contacts, in one matrix of all velocities. Either way the work of an
     /// iteration grows with the cube of the smaller number.
-    pub(super) fn direction<F: Articulated>(&mut self, figures: &mut [F]) -> bool {
+    ///
+    /// `inside`: with the slopes of the interior-point method instead of those at the present velocities.
+    pub(super) fn direction<F: Articulated>(&mut self, figures: &mut [F], inside: bool) -> bool {
         let coupled =
             |c: &&Contact| c.region != Region::Open && c.block[0].is_some() && c.block[1].is_some();
         let directions: usize = self
@@ -27,7 +29,7 @@ impl Island {
             .map(|c| if c.region == Region::Stick { 3 } else { 2 })
             .sum();
         let velocities: usize = self.blocks.iter().map(Block::len).sum();
-        self.block_matrices(figures);
+        self.block_matrices(figures, inside);
         let solved = if directions <= velocities {
             self.by_contacts(figures)
         } else {
@@ -41,12 +43,12 @@ impl Island {
     }
 
     /// Newton's matrix of every block, without contacts between two moving bodies.
-    fn block_matrices<F: Articulated>(&mut self, figures: &mut [F]) {
+    fn block_matrices<F: Articulated>(&mut self, figures: &mut [F], inside: bool) {
         for (k, b) in self.blocks.iter_mut().enumerate() {
             match b.kind {
                 Kind::Figure(i) => {
                     let mut p = figures[i].parts();
-                    own_matrix(&mut p, b);
+                    own_matrix(&mut p, b, inside);
                     for c in &self.contacts {
                         let Some(side) = one_sided(c, k) else {
                             continue;
@@ -225,6 +227,9 @@ fn one_sided(c: &Contact, block: usize) -> Option<usize> {
 }
 
 fn stiffness(c: &Contact) -> [[f64; 3]; 3] {
+    if let Some(d) = c.inside {
+        return d;
+    }
     let mut d = derivative((c.u + c.c) * -c.inverse_r, c.mu, c.region);
     for row in &mut d {
         for x in row {
@@ -257,6 +262,9 @@ fn quadratic(rows: &[[f64; NV]; 3], kr: &[[f64; NV]; 3], i: usize, j: usize) -> 
 
 /// Columns e with `Σ e eᵀ` the stiffness of an active contact.
 fn root(c: &Contact) -> ([[f64; 3]; 3], usize) {
+    if let Some(d) = &c.inside {
+        return (cholesky_columns(d), 3);
+    }
     let s = c.inverse_r.sqrt();
     if c.region == Region::Stick {
         return ([[s, 0.0, 0.0], [0.0, s, 0.0], [0.0, 0.0, s]], 3);
@@ -276,18 +284,39 @@ fn root(c: &Contact) -> ([[f64; 3]; 3], usize) {
     )
 }
 
+/// Columns of the Cholesky factor of a positive definite matrix.
+fn cholesky_columns(d: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    let mut out = [[0.0; 3]; 3];
+    for j in 0..3 {
+        for i in j..3 {
+            let z = (0..j).fold(d[i][j], |z, k| z - out[k][i] * out[k][j]);
+            out[j][i] = if i == j {
+                z.max(1e-300).sqrt()
+            } else {
+                z / out[j][j]
+            };
+        }
+    }
+    out
+}
+
 /// The matrix of one figure's own problem into its storage, as in [`crate::sim::contact::minimise`].
-fn own_matrix(p: &mut Parts<'_>, b: &Block) {
+fn own_matrix(p: &mut Parts<'_>, b: &Block, inside: bool) {
     type S<'a> = SparseSystem<'a>;
     SparseSystem(p.m).load(p.hessian);
     for j in 0..DOF_COUNT {
         S::add(p.hessian, 6 + j, 6 + j, b.slope[j]);
     }
-    for row in &p.limits.rows {
-        if row.rate(&b.x) < -row.allowed {
+    for (k, row) in p.limits.rows.iter().enumerate() {
+        let slope = if inside {
+            p.newton.interior.walls[k].slope
+        } else {
+            LIMIT_STIFFNESS
+        };
+        if inside || row.rate(&b.x) < -row.allowed {
             for i in 0..row.len {
                 for j in 0..=i {
-                    let v = LIMIT_STIFFNESS * row.coefficients[i] * row.coefficients[j];
+                    let v = slope * row.coefficients[i] * row.coefficients[j];
                     S::add(p.hessian, row.first + i, row.first + j, v);
                 }
             }
@@ -297,7 +326,11 @@ fn own_matrix(p: &mut Parts<'_>, b: &Block) {
     let mut touching = [false; SEGMENT_COUNT];
     for (k, point) in p.contacts.points.iter().enumerate() {
         let region = p.newton.region[k];
-        if region != Region::Open {
+        if inside {
+            let d = &p.newton.interior.stiffness[k];
+            add_point_stiffness(&mut stiffness[point.slot], point.r, d);
+            touching[point.slot] = true;
+        } else if region != Region::Open {
             let d = p.contacts.stiffness(k, p.newton.velocity[k], region);
             add_point_stiffness(&mut stiffness[point.slot], point.r, &d);
             touching[point.slot] = true;
@@ -409,4 +442,4 @@ fn cholesky_solve(m: &mut [f64], x: &mut [f64]) -> bool {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

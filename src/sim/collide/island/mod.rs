@@ -3,14 +3,17 @@
 //! The problem of a figure's substep ([`crate::sim::contact::minimise`]) is a sum of convex terms on its own velocity. A contact between two
 //! bodies adds one more on the relative velocity of its two points. Newton's matrix (`direction`) is then block-diagonal plus a term of low
 //! rank: contacts with fixed things stay in the blocks' own pattern, those between two moving bodies are taken in apart. One line search
-//! (`newton`) along the common direction keeps the descent of the whole sum, so that the method is as safe as the one for one figure.
+//! (`newton`) along the common direction keeps the descent of the whole sum, so that the method is as safe as the one for one figure. Where it
+//! jams, an interior-point method on the same matrix leads it on (`interior`).
 //!
 //! Each contact's impulse acts on both bodies at one and the same point: momentum is kept whatever residual is left.
 
 mod direction;
+mod interior;
 mod newton;
 
 use crate::sim::body::topology::{DOF_COUNT, NV};
+use crate::sim::contact::interior::Cone;
 use crate::sim::contact::projection::{Region, project};
 use crate::sim::contact::{ContactRows, LimitRows, Motors, NewtonWorkspace};
 use crate::sim::dynamics::mass_matrix::MassMatrix;
@@ -107,6 +110,8 @@ pub struct Contact {
     u: Vec3,
     du: Vec3,
     region: Region,
+    /// Stiffness in the frame while the interior-point method leads.
+    inside: Option<[[f64; 3]; 3]>,
 }
 
 impl Contact {
@@ -153,6 +158,7 @@ pub struct Island {
     matrix: Vec<f64>,
     rhs: Vec<f64>,
     first: Vec<usize>,
+    cones: Vec<Cone>,
 }
 
 fn dot(a: &[f64; NV], b: &[f64; NV]) -> f64 {
@@ -272,6 +278,7 @@ impl Island {
             u: Vec3::zero(),
             du: Vec3::zero(),
             region: Region::Open,
+            inside: None,
         });
     }
 

@@ -6,9 +6,12 @@ use crate::sim::contact::Outcome;
 use crate::sim::contact::newton::largest;
 use crate::sim::contact::projection::Region;
 
-/// Most Newton iterations of one island. 5 to 15 are typical; heads, arms and trunks that fall onto each other take up to 100, and a step
-/// cut short lets them sink in.
-const MAX_ITERATIONS: u32 = 120;
+/// Newton iterations after which it counts as jammed; 5 to 15 are typical.
+const NEWTON_ITERATIONS: u32 = 30;
+/// Most iterations of the interior-point method that leads it on then.
+const INTERIOR_ITERATIONS: u32 = 50;
+/// Most iterations of both kinds. A step cut short would let bodies sink into each other.
+pub(super) const MAX_ITERATIONS: u32 = 120;
 /// Most evaluations of one line search.
 const LINE_SEARCH: usize = 16;
 /// Residual at which the island counts as solved, N·m·s.
@@ -29,8 +32,12 @@ impl Island {
             if out.converged || out.iterations >= MAX_ITERATIONS || !out.residual.is_finite() {
                 break;
             }
+            if out.iterations == NEWTON_ITERATIONS {
+                out.iterations += self.approach(figures, INTERIOR_ITERATIONS);
+                continue;
+            }
             out.iterations += 1;
-            if !self.direction(figures) {
+            if !self.direction(figures, false) {
                 break;
             }
             self.line_search(figures);

@@ -120,12 +120,12 @@ impl Primal {
             let local = t.kin.rotation[p.segment].transpose_mul(p.r);
             let mut j = [[0.0; WIDTH]; 3];
             t.point_jacobian(p.segment, local, &mut j);
-            for (row, value) in j.iter().zip(a.to_array()) {
+            for (axis, (row, value)) in j.iter().zip(a.to_array()).enumerate() {
                 let mut r = [0.0; NV];
                 r.copy_from_slice(&row[..NV]);
                 all.push(Term {
                     row: r,
-                    weight: *hold,
+                    weight: hold[axis][axis],
                     value,
                 });
             }

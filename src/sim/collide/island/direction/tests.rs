@@ -10,15 +10,15 @@ use crate::sim::math::Vec3;
 use crate::sim::math::vec3::vec3;
 use crate::sim::support::testing::{Rng, mannequin, random_state, terms};
 
-struct Puppet {
-    terms: Terms,
+pub(in super::super) struct Puppet {
+    pub(in super::super) terms: Terms,
     hessian: MassMatrix<f64>,
-    b: [f64; NV],
-    motors: Motors,
-    limits: LimitRows,
-    contacts: ContactRows,
+    pub(in super::super) b: [f64; NV],
+    pub(in super::super) motors: Motors,
+    pub(in super::super) limits: LimitRows,
+    pub(in super::super) contacts: ContactRows,
     newton: NewtonWorkspace,
-    x: [f64; NV],
+    pub(in super::super) x: [f64; NV],
 }
 
 impl Articulated for Puppet {
@@ -40,12 +40,12 @@ fn vector(rng: &mut Rng) -> Vec3 {
     vec3(rng.unit(), rng.unit(), rng.unit())
 }
 
-fn numbers(rng: &mut Rng) -> [f64; NV] {
+pub(in super::super) fn numbers(rng: &mut Rng) -> [f64; NV] {
     std::array::from_fn(|_| rng.unit())
 }
 
 /// Two figures and two free bodies with `count` contacts.
-fn scene(rng: &mut Rng, count: usize) -> (Island, Vec<Puppet>) {
+pub(in super::super) fn scene(rng: &mut Rng, count: usize) -> (Island, Vec<Puppet>) {
     let body = mannequin();
     let mut figures: Vec<Puppet> = (0..2)
         .map(|_| Puppet {
@@ -155,13 +155,13 @@ fn both_spaces_give_the_direction_that_solves_newtons_equation() {
         let touching = |c: &&Contact| c.region != Region::Open;
         let touching = island.contacts.iter().filter(touching).count();
         assert!(touching * 3 >= count, "{touching} of {count} touch");
-        island.block_matrices(&mut figures);
+        island.block_matrices(&mut figures, false);
         assert!(island.by_contacts(&mut figures));
         let r = residual(&island, &figures);
         assert!(r < 1e-9, "{count}: by contacts {r:e}");
         let first: Vec<[f64; NV]> = island.blocks.iter().map(|b| b.d).collect();
         let n = island.blocks.iter().map(Block::len).sum();
-        island.block_matrices(&mut figures);
+        island.block_matrices(&mut figures, false);
         assert!(island.by_velocities(&mut figures, n));
         let r = residual(&island, &figures);
         assert!(r < 1e-9, "{count}: by velocities {r:e}");

@@ -1,0 +1,312 @@
+//! A way on for islands at which Newton's method jams: the interior-point method of [`crate::sim::contact::interior`], for all bodies at once.
+//!
+//! Motor values, joint limits, contacts with the ground and contacts between bodies are unknowns of their own, strictly inside what they may be.
+//! Eliminating them leaves Newton's matrix of the island with other slopes, so that it is built and solved by the same code (`direction`); the number of
+//! iterations does not depend on how many corners lie on the way.
+
+use super::{Articulated, Island, Kind, Parts, relative};
+use crate::sim::body::topology::{DOF_COUNT, NV};
+use crate::sim::contact::interior::{
+    Cone, DONE, Inner, TO_BOUNDARY, Wall, aim, to_cone, to_world, world_stiffness,
+};
+use crate::sim::contact::limits::LIMIT_STIFFNESS;
+use crate::sim::contact::projection::Region;
+use crate::sim::contact::{ContactRows, Motors};
+use crate::sim::math::Vec3;
+
+/// Forces at the start, in units of the largest one at present; multipliers are as large as the largest velocity. Started with less, bodies that are
+/// thrown into walls crawl along the boundary; with much more a few iterations are lost.
+const FIRST_FORCE: f64 = 3.0;
+/// A motor whose range is less than this share of the widest, or that has no gain, gives what it gives.
+const NARROW: f64 = 1e-9;
+/// Friction coefficient below which a cone is too narrow to be seen from inside; Newton's method takes the true one again.
+const LEAST_FRICTION: f64 = 1e-3;
+
+/// What takes part: sum and number of products of multiplier and distance.
+#[derive(Clone, Copy, Debug, Default)]
+struct Gap {
+    sum: f64,
+    count: f64,
+}
+
+impl Gap {
+    fn add(&mut self, product: f64, count: f64) {
+        self.sum += product;
+        self.count += count;
+    }
+}
+
+fn friction(mu: f64) -> f64 {
+    mu.max(LEAST_FRICTION)
+}
+
+/// True if motor `j` has no room, or nothing to give.
+fn is_fixed(motors: &Motors, j: usize, widest: f64) -> bool {
+    let half = 0.5 * (motors.upper[j] - motors.lower[j]);
+    half.is_nan() || half <= NARROW * widest || motors.gain[j] <= 0.0
+}
+
+fn widest(motors: &Motors) -> f64 {
+    (0..DOF_COUNT).fold(0.0f64, |m, j| {
+        m.max(0.5 * (motors.upper[j] - motors.lower[j]))
+    })
+}
+
+/// Velocity of a contact with the ground in its cone's coordinates.
+fn ground(contacts: &ContactRows, k: usize, v: Vec3) -> Vec3 {
+    let turn = contacts.points[k].turn.as_ref();
+    to_cone(turn, friction(contacts.friction), v)
+}
+
+impl Island {
+    /// Leads the velocities near the solution, wherever they were, in at most `iterations` iterations; returns how many there were. Bounded work.
+    pub(super) fn approach<F: Articulated>(&mut self, figures: &mut [F], iterations: u32) -> u32 {
+        self.enter(figures);
+        let (mut start, mut last_step, mut done) = (0.0, 1.0f64, 0);
+        for round in 0..iterations {
+            let gap = self.gap(figures);
+            if round == 0 {
+                start = gap;
+            }
+            let aim = aim(gap, last_step);
+            self.linearise(figures, aim);
+            done = round + 1;
+            if !self.direction(figures, true) {
+                break;
+            }
+            let step = (TO_BOUNDARY * self.way(figures, aim)).min(1.0);
+            self.walk(figures, step);
+            last_step = step;
+            if step > 0.9 && gap < DONE * start {
+                break;
+            }
+        }
+        for c in &mut self.contacts {
+            c.inside = None;
+        }
+        done
+    }
+
+    /// Middle of everything.
+    fn enter<F: Articulated>(&mut self, figures: &mut [F]) {
+        let most = self.most(figures);
+        let (mut force, mut fastest) = (most, 1e-9f64);
+        for b in &self.blocks {
+            fastest = b.x.iter().fold(fastest, |m, x| m.max(x.abs()));
+            if let Kind::Figure(i) = b.kind {
+                let p = figures[i].parts();
+                force = p.b.iter().fold(force, |m, b| m.max(b.abs()));
+                let forces = &p.newton.force[..p.contacts.points.len()];
+                force = forces.iter().fold(force, |m, f| m.max(f.norm()));
+            }
+        }
+        for c in &self.contacts {
+            force = force.max(c.impulse.norm());
+        }
+        let force = FIRST_FORCE * if force > 0.0 { force } else { 1.0 };
+        let size = fastest;
+        for b in &self.blocks {
+            let Kind::Figure(i) = b.kind else { continue };
+            let p = figures[i].parts();
+            let inner = &mut p.newton.interior;
+            for (j, m) in inner.motors.iter_mut().enumerate() {
+                *m = if is_fixed(p.motors, j, most) {
+                    Inner::default()
+                } else {
+                    Inner::begin(p.motors, j, b.x[6 + j], size, force)
+                };
+            }
+            for (row, w) in p.limits.rows.iter().zip(&mut inner.walls) {
+                *w = Wall::begin(row.rate(&b.x) + row.allowed, size, force);
+            }
+            for (k, point) in p.contacts.points.iter().enumerate() {
+                let v = ground(p.contacts, k, p.newton.velocity[k] + point.c);
+                inner.cones[k] = Cone::begin(v, size, force);
+            }
+        }
+        self.cones.clear();
+        for c in &self.contacts {
+            let v = to_cone(None, friction(c.mu), c.u + c.c);
+            self.cones.push(Cone::begin(v, size, force));
+        }
+    }
+
+    /// Mean product of multiplier and distance.
+    fn gap<F: Articulated>(&self, figures: &mut [F]) -> f64 {
+        let most = self.most(figures);
+        let mut gap = Gap::default();
+        for b in &self.blocks {
+            let Kind::Figure(i) = b.kind else { continue };
+            let p = figures[i].parts();
+            let inner = &p.newton.interior;
+            for (j, m) in inner.motors.iter().enumerate() {
+                if !is_fixed(p.motors, j, most) {
+                    gap.add(m.gap(p.motors, j), 2.0);
+                }
+            }
+            for w in &inner.walls[..p.limits.rows.len()] {
+                gap.add(w.gap(), 1.0);
+            }
+            for c in &inner.cones[..p.contacts.points.len()] {
+                gap.add(c.gap(), 1.0);
+            }
+        }
+        for c in &self.cones {
+            gap.add(c.gap(), 1.0);
+        }
+        gap.sum / gap.count.max(1.0)
+    }
+
+    /// Half-range of the widest motor, N·m·s.
+    fn most<F: Articulated>(&self, figures: &mut [F]) -> f64 {
+        self.blocks.iter().fold(0.0f64, |m, b| match b.kind {
+            Kind::Figure(i) => m.max(widest(figures[i].parts().motors)),
+            Kind::Free(_) => m,
+        })
+    }
+
+    /// Eliminates motors, limits and contacts: their slopes, and what is left of the equations of motion.
+    fn linearise<F: Articulated>(&mut self, figures: &mut [F], aim: f64) {
+        let most = self.most(figures);
+        for b in &mut self.blocks {
+            match b.kind {
+                Kind::Figure(i) => {
+                    let mut p = figures[i].parts();
+                    for k in 0..NV {
+                        b.grad[k] = b.ax[k] - p.b[k];
+                    }
+                    linearise_figure(&mut p, &b.x, most, aim, &mut b.slope, &mut b.grad);
+                }
+                Kind::Free(_) => {
+                    for k in 0..6 {
+                        b.grad[k] = b.ax[k] - b.b[k];
+                    }
+                }
+            }
+        }
+        for (c, cone) in self.contacts.iter_mut().zip(&mut self.cones) {
+            let mu = friction(c.mu);
+            let h = cone.eliminate(1.0 / c.inverse_r, mu, to_cone(None, mu, c.u + c.c), aim);
+            c.inside = Some(world_stiffness(None, mu, &h));
+            c.region = Region::Stick;
+            c.impulse = to_world(None, mu, cone.f + cone.df);
+            for side in 0..2 {
+                let Some(b) = c.block[side] else { continue };
+                for (row, f) in c.rows[side].iter().zip(c.impulse.to_array()) {
+                    for (g, r) in self.blocks[b].grad.iter_mut().zip(row) {
+                        *g -= f * r;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Steps of everything that was eliminated, and the way to the nearest boundary.
+    fn way<F: Articulated>(&mut self, figures: &mut [F], aim: f64) -> f64 {
+        let most = self.most(figures);
+        let mut step = 1.0 / TO_BOUNDARY;
+        for b in &self.blocks {
+            let Kind::Figure(i) = b.kind else { continue };
+            let p = figures[i].parts();
+            p.contacts.velocities(&b.d, &mut p.newton.direction);
+            let inner = &mut p.newton.interior;
+            for (j, m) in inner.motors.iter_mut().enumerate() {
+                if !is_fixed(p.motors, j, most) {
+                    step = m.direct(p.motors, j, (b.slope[j], b.d[6 + j]), aim, step);
+                }
+            }
+            for (row, w) in p.limits.rows.iter().zip(&mut inner.walls) {
+                step = w.direct(row.rate(&b.d), aim, step);
+            }
+            for (k, point) in p.contacts.points.iter().enumerate() {
+                let dv = ground(p.contacts, k, p.newton.direction[k]);
+                let (r, mu) = (1.0 / point.inverse_r, friction(p.contacts.friction));
+                step = inner.cones[k].direct(r, mu, dv, aim, step);
+            }
+        }
+        let blocks = &self.blocks;
+        for (c, cone) in self.contacts.iter_mut().zip(&mut self.cones) {
+            c.du = relative(c, |b| &blocks[b].d);
+            let mu = friction(c.mu);
+            let dv = to_cone(None, mu, c.du);
+            step = cone.direct(1.0 / c.inverse_r, mu, dv, aim, step);
+        }
+        step
+    }
+
+    fn walk<F: Articulated>(&mut self, figures: &mut [F], step: f64) {
+        for b in &mut self.blocks {
+            match b.kind {
+                Kind::Figure(i) => {
+                    let p = figures[i].parts();
+                    p.m.mul(&b.d, &mut b.ad);
+                    for k in 0..p.contacts.points.len() {
+                        p.newton.velocity[k] += p.newton.direction[k] * step;
+                    }
+                    let inner = &mut p.newton.interior;
+                    // A fixed motor has no steps.
+                    inner.motors.iter_mut().for_each(|m| m.advance(step));
+                    let limits = &mut inner.walls[..p.limits.rows.len()];
+                    limits.iter_mut().for_each(|w| w.advance(step));
+                    let cones = &mut inner.cones[..p.contacts.points.len()];
+                    cones.iter_mut().for_each(|c| c.advance(step));
+                }
+                Kind::Free(_) => {
+                    b.ad = [0.0; NV];
+                    for i in 0..6 {
+                        b.ad[i] = (0..6).map(|j| b.a[i][j] * b.d[j]).sum();
+                    }
+                }
+            }
+            for k in 0..NV {
+                b.x[k] += step * b.d[k];
+                b.ax[k] += step * b.ad[k];
+            }
+        }
+        for (c, cone) in self.contacts.iter_mut().zip(&mut self.cones) {
+            cone.advance(step);
+            c.u += c.du * step;
+        }
+    }
+}
+
+/// One figure's motors, limits and contacts with the ground: slopes, and their part of the residual.
+fn linearise_figure(
+    p: &mut Parts<'_>,
+    x: &[f64; NV],
+    most: f64,
+    aim: f64,
+    slope: &mut [f64; DOF_COUNT],
+    grad: &mut [f64; NV],
+) {
+    let inner = &mut p.newton.interior;
+    for (j, m) in inner.motors.iter_mut().enumerate() {
+        let value = if is_fixed(p.motors, j, most) {
+            slope[j] = 0.0;
+            p.motors.value(j, x[6 + j]).0
+        } else {
+            slope[j] = m.eliminate(p.motors, j, x[6 + j], aim);
+            m.t + m.dt
+        };
+        grad[6 + j] -= value;
+    }
+    for (row, w) in p.limits.rows.iter().zip(&mut inner.walls) {
+        w.eliminate(1.0 / LIMIT_STIFFNESS, row.rate(x) + row.allowed, aim);
+        for k in 0..row.len {
+            grad[row.first + k] -= (w.q + w.dq) * row.coefficients[k];
+        }
+    }
+    let mu = friction(p.contacts.friction);
+    for (k, point) in p.contacts.points.iter().enumerate() {
+        let turn = point.turn.as_ref();
+        let v = to_cone(turn, mu, p.newton.velocity[k] + point.c);
+        let cone = &mut inner.cones[k];
+        let h = cone.eliminate(1.0 / point.inverse_r, mu, v, aim);
+        inner.stiffness[k] = world_stiffness(turn, mu, &h);
+        p.newton.force[k] = to_world(turn, mu, cone.f + cone.df);
+    }
+    p.contacts.add_transposed(&p.newton.force, -1.0, grad);
+}
+
+#[cfg(test)]
+mod tests;
