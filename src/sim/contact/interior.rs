@@ -13,7 +13,7 @@
 //! it: the controller's problem has none. Newton's method finishes from the prices that come out.
 
 use super::newton::{Motors, NewtonWorkspace, System};
-use super::rows::{CHAIN_WIDTH, ContactRows, add_point_stiffness};
+use super::rows::{ContactRows, PointRow, add_point_stiffness};
 use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT};
 use crate::sim::figure::report::MAX_CONTACTS;
 use crate::sim::math::{Mat3, Vec3};
@@ -138,7 +138,7 @@ fn times(m: &[[f64; 3]; 3], v: Vec3) -> Vec3 {
     Vec3::from_array([0, 1, 2].map(|i| m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2]))
 }
 
-/// Point `k`'s velocity-like vector from world axes to the cone's coordinates, where a multiplier lives.
+/// A velocity-like vector from world axes to the coordinates of the cone, where a multiplier lives.
 #[inline(always)]
 fn to_cone(turn: Option<&Mat3>, mu: f64, v: Vec3) -> Vec3 {
     let v = turn.map_or(v, |t| t.transpose_mul(v));
@@ -165,7 +165,6 @@ pub(crate) fn approach<S: System>(
     ws: &mut NewtonWorkspace,
 ) -> u32 {
     let n = contacts.points.len();
-    let mu = contacts.friction;
     let NewtonWorkspace {
         interior: inner,
         force,
@@ -183,44 +182,9 @@ pub(crate) fn approach<S: System>(
         let first = round == 0;
         contacts.velocities(x, velocity);
         if round == 1 {
-            // Middle of everything, multipliers of the size of the prices.
-            let mut size = 0.0;
-            let half = |j: usize| 0.5 * (motors.upper[j] - motors.lower[j]);
-            let widest = (0..DOF_COUNT).fold(0.0f64, |m, j| m.max(half(j)));
-            for j in 0..DOF_COUNT {
-                size += x[6 + j].abs() / DOF_COUNT as f64;
-            }
-            size = FIRST_MULTIPLIER * size.max(1e-9);
-            for (j, m) in inner.motors.iter_mut().enumerate() {
-                let t = motors.lower[j] + half(j);
-                let v = t / motors.gain[j] - motors.rest[j] + x[6 + j];
-                let z = size * widest / half(j);
-                *m = Inner {
-                    t,
-                    z: [v.max(0.0) + z, (-v).max(0.0) + z],
-                    ..Inner::default()
-                };
-            }
-            for (k, p) in contacts.points.iter().enumerate() {
-                let v = to_cone(p.turn.as_ref(), mu, velocity[k] + p.c);
-                inner.cones[k] = Cone {
-                    f: Vec3::Z * widest,
-                    l: Vec3::Z * (size + v.norm()),
-                    ..Cone::default()
-                };
-            }
+            inner.start(motors, contacts, x, velocity);
         }
-        // Complementarity, and what the step aims at.
-        let (mut sum, mut count) = (0.0, 0.0);
-        for (j, m) in inner.motors.iter().enumerate() {
-            sum += m.z[0] * (m.t - motors.lower[j]) + m.z[1] * (motors.upper[j] - m.t);
-            count += 2.0;
-        }
-        for c in &inner.cones[..n] {
-            sum += c.f.dot(c.l);
-            count += 1.0;
-        }
-        let gap = if first { 0.0 } else { sum / count };
+        let gap = if first { 0.0 } else { inner.gap(motors, n) };
         // Whoever was stopped by a boundary first gets back to the middle.
         let aim = match shorter {
             s if s > 0.9 => 0.03 * gap,
@@ -230,74 +194,31 @@ pub(crate) fn approach<S: System>(
         // Residual of the dynamics, and the right-hand side with t and f eliminated.
         let mut rhs: [f64; NV] = std::array::from_fn(|i| b[i] - ax[i]);
         system.load(hessian);
-        let mut slope = [0.0; DOF_COUNT];
-        for (j, m) in inner.motors.iter_mut().enumerate() {
-            let g = motors.gain[j];
-            if first {
-                slope[j] = g;
-                rhs[6 + j] += g * motors.rest[j];
-                continue;
-            }
-            let s = [m.t - motors.lower[j], motors.upper[j] - m.t];
-            slope[j] = 1.0 / (1.0 / g + m.z[0] / s[0] + m.z[1] / s[1]);
-            // dt = slope (−r − dx), r with the multipliers that the aim asks for.
-            let r = m.t / g - motors.rest[j] + x[6 + j] - aim / s[0] + aim / s[1];
-            m.dt = -slope[j] * r;
-            rhs[6 + j] += m.t + m.dt;
-        }
+        let slope = if first {
+            std::array::from_fn(|j| {
+                rhs[6 + j] += motors.gain[j] * motors.rest[j];
+                motors.gain[j]
+            })
+        } else {
+            inner.eliminate_motors(motors, aim, x, &mut rhs)
+        };
         for j in 0..DOF_COUNT {
             S::add(hessian, 6 + j, 6 + j, slope[j]);
         }
         let mut stiffness = [[[0.0; 6]; 6]; SEGMENT_COUNT];
         for (k, p) in contacts.points.iter().enumerate() {
-            let turn = p.turn.as_ref();
-            let r = 1.0 / p.inverse_r;
-            let mut q = [[0.0; 3]; 3];
-            (q[0][0], q[1][1], q[2][2]) = (r, r, r / (mu * mu));
             let c = &mut inner.cones[k];
-            if first {
-                c.df = times(&inverse(&q), to_cone(turn, mu, p.c)) * -1.0;
-                c.f = Vec3::zero();
+            let (f, d) = if first {
+                c.guess(p, contacts.friction)
             } else {
-                let w = scaling(c.f, c.l);
-                let v = to_cone(turn, mu, velocity[k] + p.c);
-                let residual = times(&q, c.f) + v - mirrored(c.f) * (aim / square(c.f));
-                for a in 0..3 {
-                    for b in 0..3 {
-                        q[a][b] += w[a][b];
-                    }
-                }
-                c.df = times(&inverse(&q), residual) * -1.0;
-            }
-            force[k] = to_world(turn, mu, c.f + c.df);
-            let h = inverse(&q);
-            // To world axes on both sides.
-            let axes = turn.map_or([Vec3::X, Vec3::Y, Vec3::Z], |t| [t.x, t.y, t.z]);
-            let axes = [axes[0], axes[1], axes[2] * (1.0 / mu)].map(Vec3::to_array);
-            let mut d = [[0.0; 3]; 3];
-            for (i, a) in axes.iter().enumerate() {
-                for (j, e) in axes.iter().enumerate() {
-                    for row in 0..3 {
-                        for column in 0..3 {
-                            d[row][column] += a[row] * h[i][j] * e[column];
-                        }
-                    }
-                }
-            }
+                c.eliminate(p, contacts.friction, aim, velocity[k])
+            };
+            force[k] = f;
             add_point_stiffness(&mut stiffness[p.slot], p.r, &d);
         }
         contacts.add_transposed(force, 1.0, &mut rhs);
         for (slot, s) in contacts.segments.iter().enumerate() {
-            let mut kj = [[0.0; CHAIN_WIDTH]; 6];
-            for a in 0..6 {
-                for c in 0..6 {
-                    let y = stiffness[slot][a][c];
-                    for i in 0..CHAIN_WIDTH {
-                        kj[a][i] += y * s.jacobian[c][i];
-                    }
-                }
-            }
-            S::add_segment(hessian, s, &kj);
+            S::add_segment(hessian, s, &s.stiffened(&stiffness[slot]));
         }
         done = round + 1;
         if !S::solve(hessian, &mut rhs) {
@@ -309,10 +230,114 @@ pub(crate) fn approach<S: System>(
             system.mul(x, &mut ax);
             continue;
         }
-        // Steps of the rest, and how far all may go.
         contacts.velocities(&d, direction);
+        let way = inner.complete_step(motors, contacts, aim, &slope, &d, direction);
+        let step = (TO_BOUNDARY * way).min(1.0);
+        shorter = step;
+        inner.go(step, n);
+        for i in 0..NV {
+            x[i] += step * d[i];
+        }
+        system.mul(x, &mut ax);
+        if round == 1 {
+            start = gap;
+        }
+        if step > 0.9 && gap < DONE * start {
+            break;
+        }
+    }
+    done
+}
+
+impl Interior {
+    /// Begins in the middle of everything, with multipliers of the size of the prices `x`; `velocity` is `J x`.
+    #[inline(always)]
+    fn start(
+        &mut self,
+        motors: &Motors,
+        contacts: &ContactRows,
+        x: &[f64; NV],
+        velocity: &[Vec3; MAX_CONTACTS],
+    ) {
+        let mut size = 0.0;
+        let half = |j: usize| 0.5 * (motors.upper[j] - motors.lower[j]);
+        let widest = (0..DOF_COUNT).fold(0.0f64, |m, j| m.max(half(j)));
+        for j in 0..DOF_COUNT {
+            size += x[6 + j].abs() / DOF_COUNT as f64;
+        }
+        size = FIRST_MULTIPLIER * size.max(1e-9);
+        for (j, m) in self.motors.iter_mut().enumerate() {
+            let t = motors.lower[j] + half(j);
+            let v = t / motors.gain[j] - motors.rest[j] + x[6 + j];
+            let z = size * widest / half(j);
+            *m = Inner {
+                t,
+                z: [v.max(0.0) + z, (-v).max(0.0) + z],
+                ..Inner::default()
+            };
+        }
+        for (k, p) in contacts.points.iter().enumerate() {
+            let v = to_cone(p.turn.as_ref(), contacts.friction, velocity[k] + p.c);
+            self.cones[k] = Cone {
+                f: Vec3::Z * widest,
+                l: Vec3::Z * (size + v.norm()),
+                ..Cone::default()
+            };
+        }
+    }
+
+    /// Mean complementarity of the motors and the first `n` contacts.
+    #[inline(always)]
+    fn gap(&self, motors: &Motors, n: usize) -> f64 {
+        let (mut sum, mut count) = (0.0, 0.0);
+        for (j, m) in self.motors.iter().enumerate() {
+            sum += m.z[0] * (m.t - motors.lower[j]) + m.z[1] * (motors.upper[j] - m.t);
+            count += 2.0;
+        }
+        for c in &self.cones[..n] {
+            sum += c.f.dot(c.l);
+            count += 1.0;
+        }
+        sum / count
+    }
+
+    /// Takes the motor values out of the equations: adds what they give to `rhs`, returns their slopes on `x`. Leaves in each motor the part
+    /// of its step that does not depend on that of `x`.
+    #[inline(always)]
+    fn eliminate_motors(
+        &mut self,
+        motors: &Motors,
+        aim: f64,
+        x: &[f64; NV],
+        rhs: &mut [f64; NV],
+    ) -> [f64; DOF_COUNT] {
+        let mut slope = [0.0; DOF_COUNT];
+        for (j, m) in self.motors.iter_mut().enumerate() {
+            let g = motors.gain[j];
+            let s = [m.t - motors.lower[j], motors.upper[j] - m.t];
+            slope[j] = 1.0 / (1.0 / g + m.z[0] / s[0] + m.z[1] / s[1]);
+            // dt = slope (−r − dx), r with the multipliers that the aim asks for.
+            let r = m.t / g - motors.rest[j] + x[6 + j] - aim / s[0] + aim / s[1];
+            m.dt = -slope[j] * r;
+            rhs[6 + j] += m.t + m.dt;
+        }
+        slope
+    }
+
+    /// Steps of motors, contacts and their multipliers for the step `d` of `x`, `direction = J d`; returns how much of it can be gone until the
+    /// first of them meets a boundary.
+    #[inline(always)]
+    fn complete_step(
+        &mut self,
+        motors: &Motors,
+        contacts: &ContactRows,
+        aim: f64,
+        slope: &[f64; DOF_COUNT],
+        d: &[f64; NV],
+        direction: &[Vec3; MAX_CONTACTS],
+    ) -> f64 {
         let mut step = 1.0 / TO_BOUNDARY;
-        for (j, m) in inner.motors.iter_mut().enumerate() {
+        for (j, m) in self.motors.iter_mut().enumerate() {
             m.dt -= slope[j] * d[6 + j];
             let s = [m.t - motors.lower[j], motors.upper[j] - m.t];
             m.dz = [
@@ -330,40 +355,95 @@ pub(crate) fn approach<S: System>(
                 }
             }
         }
+        let mu = contacts.friction;
         for (k, p) in contacts.points.iter().enumerate() {
-            let c = &mut inner.cones[k];
+            let c = &mut self.cones[k];
             let w = scaling(c.f, c.l);
-            let r = 1.0 / p.inverse_r;
-            let mut q = w;
-            q[0][0] += r;
-            q[1][1] += r;
-            q[2][2] += r / (mu * mu);
+            let q = with_regularisation(w, p, mu);
             c.df -= times(&inverse(&q), to_cone(p.turn.as_ref(), mu, direction[k]));
             c.dl = mirrored(c.f) * (aim / square(c.f)) - c.l - times(&w, c.df);
             step = way_to_boundary(c.f, c.df, step);
             step = way_to_boundary(c.l, c.dl, step);
         }
-        let step = (TO_BOUNDARY * step).min(1.0);
-        shorter = step;
-        for m in &mut inner.motors {
+        step
+    }
+
+    /// Goes a share of the step, with the first `n` contacts.
+    #[inline(always)]
+    fn go(&mut self, step: f64, n: usize) {
+        for m in &mut self.motors {
             m.t += step * m.dt;
             m.z[0] += step * m.dz[0];
             m.z[1] += step * m.dz[1];
         }
-        for c in &mut inner.cones[..n] {
+        for c in &mut self.cones[..n] {
             c.f += c.df * step;
             c.l += c.dl * step;
         }
-        for i in 0..NV {
-            x[i] += step * d[i];
-        }
-        system.mul(x, &mut ax);
-        if round == 1 {
-            start = gap;
-        }
-        if step > 0.9 && gap < DONE * start {
-            break;
+    }
+}
+
+impl Cone {
+    /// Force of point `p` and its slope, in world axes, as if it could push and pull in every direction.
+    #[inline(always)]
+    fn guess(&mut self, p: &PointRow, mu: f64) -> (Vec3, [[f64; 3]; 3]) {
+        let turn = p.turn.as_ref();
+        let h = inverse(&with_regularisation([[0.0; 3]; 3], p, mu));
+        self.df = times(&h, to_cone(turn, mu, p.c)) * -1.0;
+        self.f = Vec3::zero();
+        (
+            to_world(turn, mu, self.f + self.df),
+            slope_to_world(turn, mu, &h),
+        )
+    }
+
+    /// The same with the scaling of the present force and multiplier: what the force is to be when `x` stays, and how it depends on `x`.
+    /// `velocity` is that of the point.
+    #[inline(always)]
+    fn eliminate(
+        &mut self,
+        p: &PointRow,
+        mu: f64,
+        aim: f64,
+        velocity: Vec3,
+    ) -> (Vec3, [[f64; 3]; 3]) {
+        let turn = p.turn.as_ref();
+        let v = to_cone(turn, mu, velocity + p.c);
+        let residual = times(&with_regularisation([[0.0; 3]; 3], p, mu), self.f) + v
+            - mirrored(self.f) * (aim / square(self.f));
+        let h = inverse(&with_regularisation(scaling(self.f, self.l), p, mu));
+        self.df = times(&h, residual) * -1.0;
+        (
+            to_world(turn, mu, self.f + self.df),
+            slope_to_world(turn, mu, &h),
+        )
+    }
+}
+
+/// `m + R` of point `p` in the coordinates of its cone.
+#[inline(always)]
+fn with_regularisation(mut m: [[f64; 3]; 3], p: &PointRow, mu: f64) -> [[f64; 3]; 3] {
+    let r = 1.0 / p.inverse_r;
+    m[0][0] += r;
+    m[1][1] += r;
+    m[2][2] += r / (mu * mu);
+    m
+}
+
+/// A slope of forces on velocities from the coordinates of the cone to world axes, on both sides.
+#[inline(always)]
+fn slope_to_world(turn: Option<&Mat3>, mu: f64, h: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    let axes = turn.map_or([Vec3::X, Vec3::Y, Vec3::Z], |t| [t.x, t.y, t.z]);
+    let axes = [axes[0], axes[1], axes[2] * (1.0 / mu)].map(Vec3::to_array);
+    let mut d = [[0.0; 3]; 3];
+    for (i, a) in axes.iter().enumerate() {
+        for (j, e) in axes.iter().enumerate() {
+            for row in 0..3 {
+                for column in 0..3 {
+                    d[row][column] += a[row] * h[i][j] * e[column];
+                }
+            }
         }
     }
-    done
+    d
 }
