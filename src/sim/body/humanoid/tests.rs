@@ -1,8 +1,10 @@
-//! Goal: bodies of all ages and sizes agree with what was measured of people.
+//! Goal: bodies of all ages and sizes agree with what was measured of people; adults with de Leva's table. The invariants hold that the
+//! kernels and the viewer rely on.
 
-//! Goal: the bodies against de Leva's table, and the invariants that the kernels and the viewer rely on.
 use super::super::geometry::{check, volume};
 use super::super::topology::{SEGMENT_NAMES, SegmentId};
+use super::parts::HEEL_SHARE;
+use super::tables::{MAN, WOMAN};
 use super::*;
 use crate::sim::math::Sym3;
 
