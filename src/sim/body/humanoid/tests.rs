@@ -359,6 +359,19 @@ fn children_have_large_heads_short_legs_and_adult_density() {
 }
 
 #[test]
+fn mass_fractions_of_ones_own_are_taken_or_refused_by_name() {
+    let man = Body::adult_man();
+    let mut own = MAN.mass;
+    (own.row, own.percent[3], own.percent[1]) = ("mine", 7.94, 15.33);
+    let body = Body::with_mass_fractions(man.profile, &own).unwrap();
+    let head = body.segments[t::HEAD.index()].mass;
+    assert!((head / 75.0 - 0.0794 / (own.sum() / 100.0)).abs() < 1e-12);
+    own.percent[3] = 20.0;
+    let refused = Body::with_mass_fractions(man.profile, &own).unwrap_err();
+    assert!(refused.to_string().contains("mine"), "{refused}");
+}
+
+#[test]
 fn bodies_change_continuously_with_age() {
     for sex in [Sex::Male, Sex::Female] {
         let at = |age| {
