@@ -16,7 +16,7 @@ pub struct BodiesArgs {
     /// Percentile of strength among people of that sex, age and size, 5 to 95.
     #[arg(long, value_name = "P", default_value_t = 50.0)]
     pub percentile: f64,
-    /// Shows where every number of the strength comes from.
+    /// Shows where every mass, limit and number of the strength comes from.
     #[arg(long)]
     pub sources: bool,
     /// Prints JSON.

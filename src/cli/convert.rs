@@ -1,6 +1,6 @@
 //! `sinew convert`: a recording as the motion that the figure is asked to follow.
 
-use super::args::BodyArgs;
+use super::args::{BodyArgs, RecordingArgs};
 use super::output::{extension, write};
 use super::source::{Source, load};
 use crate::evaluate::table::{header, row};
@@ -25,12 +25,9 @@ pub struct ConvertArgs {
     /// Who the motion is fitted to.
     #[command(flatten)]
     pub body: BodyArgs,
-    /// Metres per unit of the file; guessed from the figure's size unless given.
-    #[arg(long, value_name = "M")]
-    pub unit: Option<f64>,
-    /// Frame rate of the file, Hz, where its frame time is wrong.
-    #[arg(long, value_name = "HZ")]
-    pub file_rate: Option<f64>,
+    /// How the file is read.
+    #[command(flatten)]
+    pub recording: RecordingArgs,
     /// Leaves sliding feet as they were recorded.
     #[arg(long)]
     pub no_foot_lock: bool,
@@ -44,10 +41,8 @@ pub fn run(args: &ConvertArgs) -> Result<()> {
     let format = extension("convert", &args.to, &["bvh", "csv", "json"])?;
     let body = args.body.build()?;
     let options = RetargetOptions {
-        unit_m: args.unit,
-        rate_hz: args.file_rate,
         lock_feet: !args.no_foot_lock,
-        ..RetargetOptions::default()
+        ..args.recording.options()
     };
     let source = load(&args.clip, &body, &options)?;
     let text = match format {

@@ -1,6 +1,6 @@
 //! `sinew lint`: what retargeting finds in a recording, guesses and changes.
 
-use super::args::BodyArgs;
+use super::args::{BodyArgs, RecordingArgs};
 use super::source::{Source, load};
 use crate::sim::body::Body;
 use crate::sim::motion::consistency::{Consistency, Spread, consistency};
@@ -18,12 +18,9 @@ pub struct LintArgs {
     /// Who the motion is fitted to.
     #[command(flatten)]
     pub body: BodyArgs,
-    /// Metres per unit of the file; guessed from the figure's size unless given.
-    #[arg(long, value_name = "M")]
-    pub unit: Option<f64>,
-    /// Frame rate of the file, Hz, where its frame time is wrong.
-    #[arg(long, value_name = "HZ")]
-    pub file_rate: Option<f64>,
+    /// How the file is read.
+    #[command(flatten)]
+    pub recording: RecordingArgs,
     /// Prints JSON.
     #[arg(long)]
     pub json: bool,
@@ -35,11 +32,7 @@ pub struct LintArgs {
 /// Unreadable or malformed files, and skeletons that cannot be mapped.
 pub fn run(args: &LintArgs) -> Result<()> {
     let body = args.body.build()?;
-    let options = RetargetOptions {
-        unit_m: args.unit,
-        rate_hz: args.file_rate,
-        ..RetargetOptions::default()
-    };
+    let options = args.recording.options();
     let mut all = Vec::new();
     for spec in &args.clips {
         let source = load(spec, &body, &options)?;
@@ -211,11 +204,23 @@ fn up_name(up: UpAxis) -> &'static str {
 
 /// The report in words, one finding per line.
 pub fn describe(r: &RetargetReport) -> String {
+    let lines = reading(r)
+        .into_iter()
+        .chain(preparation(r))
+        .chain(oddities(r));
     let mut out = String::new();
-    let mut line = |name: &str, text: String| {
+    for (name, text) in lines {
         // Writing to a string cannot fail.
         let _ = writeln!(out, "  {name:<14} {text}");
-    };
+    }
+    out
+}
+
+/// A name and what is to be said of it.
+type Line = (&'static str, String);
+
+/// How the file was understood.
+fn reading(r: &RetargetReport) -> Vec<Line> {
     let bones: usize = r.mapped.iter().map(|m| m.bones.len()).sum();
     let how = if r.by_structure {
         "by structure"
@@ -227,18 +232,18 @@ pub fn describe(r: &RetargetReport) -> String {
     } else {
         ""
     };
-    line(
+    let mut lines = vec![(
         "skeleton",
         format!(
             "{bones} bones on {} segments, mapped {how}{swapped}",
             r.mapped.len()
         ),
-    );
+    )];
     if !r.missing.is_empty() {
-        line("missing", r.missing.join(", "));
+        lines.push(("missing", r.missing.join(", ")));
     }
     let given = if r.unit_given { "given" } else { "guessed" };
-    line(
+    lines.push((
         "size",
         format!(
             "1 unit = {} m ({given}), {} up, stature {:.2} m, scaled by {:.3}",
@@ -247,75 +252,80 @@ pub fn describe(r: &RetargetReport) -> String {
             r.stature,
             r.scale
         ),
-    );
-    line(
+    ));
+    lines.push((
         "rate",
         format!(
             "{:.2} Hz to {:.2} Hz, {} frames skipped",
             r.source_rate_hz, r.rate_hz, r.skipped_frames
         ),
-    );
-    line(
+    ));
+    lines.push((
         "floor",
         format!(
             "{:.1} mm high, slope {:.4}",
             1e3 * r.floor_offset,
             r.floor_slope
         ),
-    );
+    ));
     let phases: Vec<String> = r
         .phases
         .iter()
         .map(|p| format!("{} {:.2}-{:.2}", p.letter(), p.start, p.end))
         .collect();
-    line("feet", phases.join("; "));
-    line(
-        "foot slide",
+    lines.push(("feet", phases.join("; ")));
+    lines
+}
+
+/// What the recording was like, and how far the preparation changed it.
+fn preparation(r: &RetargetReport) -> Vec<Line> {
+    let before_after = |(before, after): (f64, f64)| {
         format!(
             "{:.1} mm recorded, {:.1} mm prepared",
-            1e3 * r.foot_slide.0,
-            1e3 * r.foot_slide.1
-        ),
-    );
-    line(
-        "under floor",
-        format!(
-            "{:.1} mm recorded, {:.1} mm prepared",
-            1e3 * r.penetration.0,
-            1e3 * r.penetration.1
-        ),
-    );
+            1e3 * before,
+            1e3 * after
+        )
+    };
     let (z0, z1) = &r.zmp_outside;
-    line(
-        "balance",
-        format!(
-            "zero-moment point outside in {:.0} % of the clip (95 %: {:.0} mm) as recorded, {:.0} % (95 %: {:.0} mm) prepared",
-            100.0 * z0.fraction,
-            1e3 * z0.p95,
-            100.0 * z1.fraction,
-            1e3 * z1.p95
-        ),
-    );
-    line(
-        "changed",
-        format!(
-            "smoothing {:.1} mm rms, pelvis shifted by at most {:.0} mm and lowered by at most {:.0} mm",
-            1e3 * r.smoothing_rms,
-            1e3 * r.shift_max,
-            1e3 * r.pelvis_drop_max
-        ),
-    );
     let pair = |v: [f64; 2]| format!("{:.1} and {:.1} deg", v[0].to_degrees(), v[1].to_degrees());
-    line(
-        "off axis",
-        format!(
-            "knees {}, elbows {}",
-            pair(r.knee_off_axis),
-            pair(r.elbow_off_axis)
+    vec![
+        ("foot slide", before_after(r.foot_slide)),
+        ("under floor", before_after(r.penetration)),
+        (
+            "balance",
+            format!(
+                "zero-moment point outside in {:.0} % of the clip (95 %: {:.0} mm) as recorded, {:.0} % (95 %: {:.0} mm) prepared",
+                100.0 * z0.fraction,
+                1e3 * z0.p95,
+                100.0 * z1.fraction,
+                1e3 * z1.p95
+            ),
         ),
-    );
+        (
+            "changed",
+            format!(
+                "smoothing {:.1} mm rms, pelvis shifted by at most {:.0} mm and lowered by at most {:.0} mm",
+                1e3 * r.smoothing_rms,
+                1e3 * r.shift_max,
+                1e3 * r.pelvis_drop_max
+            ),
+        ),
+        (
+            "off axis",
+            format!(
+                "knees {}, elbows {}",
+                pair(r.knee_off_axis),
+                pair(r.elbow_off_axis)
+            ),
+        ),
+    ]
+}
+
+/// What was out of order.
+fn oddities(r: &RetargetReport) -> Vec<Line> {
+    let mut lines = Vec::new();
     for c in &r.clamped {
-        line(
+        lines.push((
             "clamped",
             format!(
                 "{} by at most {:.1} deg in {:.1} % of the clip",
@@ -323,25 +333,23 @@ pub fn describe(r: &RetargetReport) -> String {
                 c.max.to_degrees(),
                 100.0 * c.fraction
             ),
-        );
+        ));
     }
     for b in &r.bridged {
-        line(
+        lines.push((
             "bridged",
             format!("{}: {} frames from frame {}", b.bone, b.count, b.first),
-        );
+        ));
     }
     if r.carried > 0.0 {
-        line(
+        lines.push((
             "carried",
             format!(
                 "{:.0} % of the clip rests on something else than the feet",
                 100.0 * r.carried
             ),
-        );
+        ));
     }
-    for w in &r.warnings {
-        line("warning", w.clone());
-    }
-    out
+    lines.extend(r.warnings.iter().map(|w| ("warning", w.clone())));
+    lines
 }

@@ -197,6 +197,19 @@ fn balance_plot(title: &str, samples: &[Sample]) -> Plot {
     )
 }
 
+/// Heads of the columns of [`lift_row`].
+const LIFT_COLUMNS: [&str; 9] = [
+    "load",
+    "who moves it",
+    "result",
+    "joint error, rms °",
+    "arm at its limit, s",
+    "hip, knee, ankle, back off, °",
+    "ZMP margin, cm",
+    "torque change per tick / range",
+    "fastest joint, rad/s",
+];
+
 fn lift_row(pair: &Pair, l: &Lift) -> Vec<String> {
     vec![
         format!("{} kg", l.mass),
@@ -236,20 +249,7 @@ fn lifts(page: &mut Page, body: &Arc<Body>) -> Result<()> {
             runs.push((pair.clone(), l));
         }
     }
-    page.table(
-        &[
-            "load",
-            "who moves it",
-            "result",
-            "joint error, rms °",
-            "arm at its limit, s",
-            "hip, knee, ankle, back off, °",
-            "ZMP margin, cm",
-            "torque change per tick / range",
-            "fastest joint, rad/s",
-        ],
-        &rows,
-    );
+    page.table(&LIFT_COLUMNS, &rows);
     let shoulder = dof("r_shoulder_flexion");
     for (pair, l) in &runs {
         let paper = pair.name == "paper, kinematic";
@@ -735,20 +735,7 @@ fn as_printed(page: &mut Page, body: &Arc<Body>) -> Result<()> {
             )?;
         }
     }
-    page.table(
-        &[
-            "load",
-            "who moves it",
-            "result",
-            "joint error, rms °",
-            "arm at its limit, s",
-            "hip, knee, ankle, back off, °",
-            "ZMP margin, cm",
-            "torque change per tick / range",
-            "fastest joint, rad/s",
-        ],
-        &rows,
-    );
+    page.table(&LIFT_COLUMNS, &rows);
     page.plot("printed-error", &plot)
 }
 

@@ -1,9 +1,10 @@
 //! `sinew push`: streams a motion capture file to a server as the live driver of a figure.
 
 use super::{explain, world_resource};
-use crate::client::Client;
+use crate::client::{Client, Driver};
 use crate::server::engine;
-use crate::sim::motion::{Bvh, RetargetOptions, cycle};
+use crate::sim::body::Body;
+use crate::sim::motion::{Bvh, Clip, PlanarTransform, RetargetOptions, cycle};
 use crate::wire::convert::{self, motion::figure_motion};
 use crate::wire::frame::values;
 use crate::wire::pb;
@@ -139,36 +140,7 @@ async fn push(args: &Args) -> anyhow::Result<()> {
     let body_name = existing.as_ref().map_or(&args.body, |f| &f.body);
     let reference = convert::body::by_name("body", body_name)?;
     let body = engine::build_body(reference.profile)?;
-    let reading = BvhReading {
-        unit_m: args.unit,
-        ..Default::default()
-    };
-    let (clip, warnings) = if args.raw {
-        let options = RetargetOptions {
-            unit_m: args.unit,
-            lock_feet: false,
-            balance: false,
-            ends: false,
-            ..Default::default()
-        };
-        let fitted = crate::sim::motion::retarget(&bvh, &body, &options)
-            .map_err(|e| anyhow::anyhow!("{path}: {e}"))?;
-        (fitted.clip, fitted.report.warnings)
-    } else {
-        let (clip, report) = engine::retarget(&args.figure, &bvh, &reading, &body)
-            .map_err(|e| anyhow::anyhow!("{path}: {e}"))?;
-        (clip, report.warnings)
-    };
-    for warning in &warnings {
-        eprintln!("{path}: {warning}");
-    }
-    let clip = match (args.looped && !args.raw)
-        .then(|| cycle(&body, &clip))
-        .flatten()
-    {
-        Some(repeats) => repeats,
-        None => clip,
-    };
+    let clip = prepared(args, &bvh, &body)?;
     // From standing, by the steps that lead into the motion.
     let lead = clip.lead_in();
     let start = engine::place_of(&clip.sample(-lead).posture);
@@ -191,7 +163,7 @@ async fn push(args: &Args) -> anyhow::Result<()> {
     } else {
         current_place(&client, &world, &args.figure).await?
     };
-    let mut driver = client
+    let driver = client
         .drive(pb::DriveHeader {
             world: world.clone(),
             figures: vec![args.figure.clone()],
@@ -204,6 +176,53 @@ async fn push(args: &Args) -> anyhow::Result<()> {
         })
         .await
         .map_err(|e| explain(&e))?;
+    println!(
+        "pushing {path} ({} frames at {:.0} Hz, {:.1} s) to {name}",
+        clip.len(),
+        clip.rate_hz(),
+        clip.duration()
+    );
+    stream(args, &clip, &engine::placing(start, place), driver).await
+}
+
+/// The recording fitted to the body; its warnings are printed.
+fn prepared(args: &Args, bvh: &Bvh, body: &Body) -> anyhow::Result<Clip> {
+    let path = args.clip.display();
+    let (clip, warnings) = if args.raw {
+        let options = RetargetOptions {
+            unit_m: args.unit,
+            lock_feet: false,
+            balance: false,
+            ends: false,
+            ..Default::default()
+        };
+        let fitted = crate::sim::motion::retarget(bvh, body, &options)
+            .map_err(|e| anyhow::anyhow!("{path}: {e}"))?;
+        (fitted.clip, fitted.report.warnings)
+    } else {
+        let reading = BvhReading {
+            unit_m: args.unit,
+            ..Default::default()
+        };
+        let (clip, report) = engine::retarget(&args.figure, bvh, &reading, body)
+            .map_err(|e| anyhow::anyhow!("{path}: {e}"))?;
+        (clip, report.warnings)
+    };
+    for warning in &warnings {
+        eprintln!("{path}: {warning}");
+    }
+    let repeats = (args.looped && !args.raw).then(|| cycle(body, &clip));
+    Ok(repeats.flatten().unwrap_or(clip))
+}
+
+/// Sends the clip at its own pace and says each second how it arrives.
+async fn stream(
+    args: &Args,
+    clip: &Clip,
+    placing: &PlanarTransform,
+    mut driver: Driver,
+) -> anyhow::Result<()> {
+    let lead = clip.lead_in();
     let length = clip.duration() + clip.lead_out() + lead;
     let length = match (args.duration, args.looped) {
         (Some(d), true) => d,
@@ -211,14 +230,6 @@ async fn push(args: &Args) -> anyhow::Result<()> {
         (None, true) => f64::INFINITY,
         (None, false) => length,
     };
-    println!(
-        "pushing {path} ({} frames at {:.0} Hz, {:.1} s) to {name}",
-        clip.len(),
-        clip.rate_hz(),
-        clip.duration()
-    );
-
-    let placing = engine::placing(start, place);
     let began = Instant::now();
     let mut network = Network::new(args.jitter_ms / 1e3, args.loss, args.seed);
     let mut sequence = 0i64;

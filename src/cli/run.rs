@@ -1,34 +1,39 @@
 //! `sinew run`: a motion through the physics, offline, as fast as it goes; measured, drawn and written.
 
+mod csv;
+mod document;
+mod strip;
+mod summary;
+
 use super::args::{
     BodyArgs, ConstraintSpec, ControllerArg, LoadSpec, ObstacleSpec, PaperOptions, PresetArg,
-    PushSpec, StepperArg, person_name, sex_name,
+    PushSpec, StepperArg,
 };
 use super::output::{extension, for_clip, write};
 use super::source::{Source, load};
-use crate::evaluate::strip::{Frame, StripOptions, Thing, View, draw, evenly_spaced, raster, svg};
-use crate::evaluate::table::{Torques, header, row};
+use crate::evaluate::strip::{Frame, Thing, evenly_spaced};
 use crate::evaluate::{Metrics, RunReport, Tick};
+use crate::sim::body::Body;
 use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES};
-use crate::sim::body::{Body, Posture, SegmentId};
-use crate::sim::collide::{Mobility, ObstacleSetup, Shape};
 use crate::sim::figure::{Constraint, ControlParams, FigureOptions, StrengthScale};
-use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::retarget::RetargetOptions;
 use crate::sim::motion::{Clip, cycle, write_bvh};
 use crate::sim::strength::fatigue::MAX_TIME_SCALE;
 use crate::sim::world::{
-    ClipPlayback, Drive, Figure, FigureEvent, FigureSetup, World, WorldParams,
+    ClipPlayback, Drive, Figure, FigureEvent, FigureKey, FigureSetup, World, WorldParams,
 };
 use anyhow::{Context, Result, ensure};
-use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
-use serde::Serialize;
-use std::fs::File;
-use std::io::{BufWriter, Write};
-use std::path::{Path, PathBuf};
+use csv::Csv;
+use document::document;
+use indicatif::MultiProgress;
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
+use strip::{goal_mark, held_loads, write_strip};
+use summary::{progress_bar, summary_header, summary_line};
+
+pub use strip::ViewArg;
 
 /// Longest run that can be asked for, s.
 const MAX_DURATION: f64 = 86_400.0;
@@ -154,6 +159,11 @@ impl RunArgs {
         }
     }
 
+    /// Time of the clip at which the run begins, s.
+    fn first(&self, clip: &Clip) -> f64 {
+        if self.standing { -clip.lead_in() } else { 0.0 }
+    }
+
     /// The body; the preset takes the rotors out of its joints.
     fn build_body(&self) -> Result<Body> {
         let mut body = self.body.build()?;
@@ -164,86 +174,11 @@ impl RunArgs {
     }
 }
 
-/// From where a strip is drawn.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-pub enum ViewArg {
-    /// From the right side.
-    Side,
-    /// From the front.
-    Front,
-    /// From the front and right, from a little above.
-    #[default]
-    ThreeQuarter,
-}
-
-impl From<ViewArg> for View {
-    fn from(arg: ViewArg) -> Self {
-        match arg {
-            ViewArg::Side => Self::Side,
-            ViewArg::Front => Self::Front,
-            ViewArg::ThreeQuarter => Self::ThreeQuarter,
-        }
-    }
-}
-
 /// What is run, apart from the motion.
 struct Scenario<'a> {
     args: &'a RunArgs,
     body: Arc<Body>,
     params: WorldParams,
-}
-
-/// `report.json`: the scenario, how the motion was fitted, and the measures.
-#[derive(Serialize)]
-struct Document<'a> {
-    clip: &'a str,
-    duration_s: f64,
-    body: BodyEntry,
-    controller: ControllerArg,
-    stepper: StepperArg,
-    strength: f64,
-    percentile: f64,
-    effort: f64,
-    fatigue_time_scale: f64,
-    assist: f64,
-    substeps: u32,
-    gravity_mps2: f64,
-    loads: Vec<LoadEntry>,
-    pushes: Vec<PushEntry>,
-    /// As they were given.
-    obstacles: Vec<&'a str>,
-    #[serde(flatten)]
-    measures: &'a RunReport,
-    /// `null` for built-in motions, which are made for the body.
-    retarget: serde_json::Value,
-}
-
-#[derive(Serialize)]
-struct BodyEntry {
-    sex: &'static str,
-    age_years: f64,
-    height_m: f64,
-    mass_kg: f64,
-}
-
-#[derive(Serialize)]
-struct LoadEntry {
-    segment: &'static str,
-    /// `null`: one hand.
-    second_segment: Option<&'static str>,
-    mass_kg: f64,
-    from_s: f64,
-    /// `null`: never put down.
-    to_s: Option<f64>,
-}
-
-#[derive(Serialize)]
-struct PushEntry {
-    segment: &'static str,
-    impulse_ns: f64,
-    at_s: f64,
-    duration_s: f64,
-    direction: [f64; 3],
 }
 
 /// Runs the command. A figure that falls is a result, not an error: the report says so.
@@ -412,7 +347,7 @@ fn run_one(
         csv.finish()?;
     }
     if let Some((path, postures)) = postures {
-        write(&path, bvh_text(&scenario.body, &postures, args.rate_hz()))?;
+        write(&path, write_bvh(&scenario.body, &postures, args.rate_hz()))?;
     }
     if let Some(path) = &args.strip {
         let path = for_clip(path, &source.name, several);
@@ -420,11 +355,6 @@ fn run_one(
     }
     let document = document(scenario, source, ticks as f64 / args.rate_hz(), &report);
     serde_json::to_value(document).context("the report cannot be written as JSON")
-}
-
-/// The motion as BVH in metres.
-fn bvh_text(body: &Body, postures: &[Posture], rate_hz: f64) -> String {
-    write_bvh(body, postures, rate_hz)
 }
 
 /// Steps a world with one figure that follows `clip` for `ticks` ticks; `each` is called after every tick with the time (s).
@@ -437,59 +367,15 @@ fn simulate(
     shown: &[u64],
     mut each: impl FnMut(&Figure, f64) -> Result<()>,
 ) -> Result<(RunReport, Vec<Frame>)> {
-    let args = scenario.args;
-    let body = &scenario.body;
-    let mut world = World::new(scenario.params).context("no such world")?;
-    let first = if args.standing { -clip.lead_in() } else { 0.0 };
-    let start = clip.sample(first);
-    let key = world
-        .add_figure(FigureSetup {
-            strength: StrengthScale {
-                all: args.strength,
-                percentile: args.percentile,
-                effort: args.effort,
-                ..StrengthScale::default()
-            },
-            stepper: args.stepper_kind().into(),
-            params: ControlParams {
-                protective_steps: args.protective_steps,
-                ..args.paper.params()?
-            },
-            options: FigureOptions {
-                fatigue_time_scale: args.fatigue,
-                assist: args.assist,
-            },
-            name: clip.name().to_owned(),
-            ..FigureSetup::new(
-                Arc::clone(body),
-                args.controller_kind().into(),
-                start.state(),
-            )
-        })
-        .context("no such figure")?;
-    for load in &args.load {
-        world
-            .perturb(key, load.perturbation(body, args.grip))
-            .context("--load")?;
-    }
-    for push in &args.push {
-        world
-            .perturb(key, push.perturbation(body, args.push_duration))
-            .context("--push")?;
-    }
-    let constraints: Vec<_> = args.constrain.iter().map(|c| c.constraint(body)).collect();
-    world
-        .set_constraints(key, &constraints)
-        .context("--constrain")?;
-    for o in &args.obstacle {
-        world.add_obstacle(o.0.clone()).context("--obstacle")?;
-    }
-    let figure = world.figure_mut(key).expect("the figure was just added");
-    figure.set_drive(Drive::Clip(ClipPlayback {
-        looped: args.looped,
-        ..ClipPlayback::new(Arc::new(clip.clone()), -first)
-    }));
-    let mut metrics = Metrics::new(args.rate_hz(), &start.posture);
+    let constraints: Vec<_> = scenario
+        .args
+        .constrain
+        .iter()
+        .map(|c| c.constraint(&scenario.body))
+        .collect();
+    let (mut world, key) = scene(scenario, clip, &constraints)?;
+    let start = clip.sample(scenario.args.first(clip)).posture;
+    let mut metrics = Metrics::new(scenario.args.rate_hz(), &start);
     let mut frames = Vec::with_capacity(shown.len());
     for n in 0..ticks {
         let began = Instant::now();
@@ -515,37 +401,63 @@ fn simulate(
     Ok((metrics.finish(world.state_hash()), frames))
 }
 
-/// A small ball where all three coordinates of a part are wanted at `time` (s).
-fn goal_mark(c: &Constraint, time: f64) -> Option<Thing> {
-    let holds = c.from <= time && time < c.to && c.axes == [1.0; 3];
-    let setup = ObstacleSetup {
-        position: c.position.filter(|_| holds)?,
-        name: String::new(),
-        shape: Shape::Sphere { radius: 0.03 },
-        mobility: Mobility::Fixed,
-        friction: 1.0,
-        rotation: Quat::identity(),
-        velocity: Vec3::zero(),
-        angular_velocity: Vec3::zero(),
-    };
-    Some(Thing::obstacle(&setup))
-}
-
-/// Loads in the figure's hands at `time` (s).
-fn held_loads(scenario: &Scenario<'_>, time: f64) -> Vec<(usize, Vec3, f64)> {
-    let held = |l: &&LoadSpec| l.from_s < time && time <= l.to_s && l.mass_kg > 0.0;
-    let place = |l: &LoadSpec| {
-        let load = l.perturbation(&scenario.body, f64::INFINITY).load();
-        let shares = load.into_iter().flat_map(|l| l.shares());
-        shares.map(|(s, p, kg)| (s.index(), p, kg))
-    };
-    scenario
-        .args
-        .load
-        .iter()
-        .filter(held)
-        .flat_map(place)
-        .collect()
+/// A world with one figure that begins the clip, what happens to it, and the things around it.
+fn scene(
+    scenario: &Scenario<'_>,
+    clip: &Clip,
+    constraints: &[Constraint],
+) -> Result<(World, FigureKey)> {
+    let args = scenario.args;
+    let body = &scenario.body;
+    let mut world = World::new(scenario.params).context("no such world")?;
+    let first = args.first(clip);
+    let key = world
+        .add_figure(FigureSetup {
+            strength: StrengthScale {
+                all: args.strength,
+                percentile: args.percentile,
+                effort: args.effort,
+                ..StrengthScale::default()
+            },
+            stepper: args.stepper_kind().into(),
+            params: ControlParams {
+                protective_steps: args.protective_steps,
+                ..args.paper.params()?
+            },
+            options: FigureOptions {
+                fatigue_time_scale: args.fatigue,
+                assist: args.assist,
+            },
+            name: clip.name().to_owned(),
+            ..FigureSetup::new(
+                Arc::clone(body),
+                args.controller_kind().into(),
+                clip.sample(first).state(),
+            )
+        })
+        .context("no such figure")?;
+    for load in &args.load {
+        world
+            .perturb(key, load.perturbation(body, args.grip))
+            .context("--load")?;
+    }
+    for push in &args.push {
+        world
+            .perturb(key, push.perturbation(body, args.push_duration))
+            .context("--push")?;
+    }
+    world
+        .set_constraints(key, constraints)
+        .context("--constrain")?;
+    for o in &args.obstacle {
+        world.add_obstacle(o.0.clone()).context("--obstacle")?;
+    }
+    let figure = world.figure_mut(key).expect("the figure was just added");
+    figure.set_drive(Drive::Clip(ClipPlayback {
+        looped: args.looped,
+        ..ClipPlayback::new(Arc::new(clip.clone()), -first)
+    }));
+    Ok((world, key))
 }
 
 fn note(metrics: &mut Metrics, event: &FigureEvent) {
@@ -572,190 +484,4 @@ fn note(metrics: &mut Metrics, event: &FigureEvent) {
         dof.map(|d| DOF_NAMES[d]),
         mass,
     );
-}
-
-fn document<'a>(
-    scenario: &Scenario<'a>,
-    source: &'a Source,
-    duration_s: f64,
-    measures: &'a RunReport,
-) -> Document<'a> {
-    let args = scenario.args;
-    let profile = scenario.body.profile;
-    Document {
-        clip: &source.name,
-        duration_s,
-        body: BodyEntry {
-            sex: sex_name(profile.sex),
-            age_years: profile.age,
-            height_m: profile.height,
-            mass_kg: profile.mass,
-        },
-        controller: args.controller_kind(),
-        stepper: args.stepper_kind(),
-        strength: args.strength,
-        percentile: args.percentile,
-        effort: args.effort,
-        fatigue_time_scale: args.fatigue,
-        assist: args.assist,
-        substeps: args.substeps,
-        gravity_mps2: scenario.params.gravity,
-        loads: args
-            .load
-            .iter()
-            .map(|l| LoadEntry {
-                segment: l.segment.name(),
-                second_segment: l.second.map(SegmentId::name),
-                mass_kg: l.mass_kg,
-                from_s: l.from_s,
-                to_s: Some(l.to_s).filter(|t| t.is_finite()),
-            })
-            .collect(),
-        pushes: args
-            .push
-            .iter()
-            .map(|p| PushEntry {
-                segment: p.segment.name(),
-                impulse_ns: p.impulse_ns,
-                at_s: p.at_s,
-                duration_s: args.push_duration,
-                direction: p.direction.to_array(),
-            })
-            .collect(),
-        obstacles: args.obstacle.iter().map(|o| o.0.name.as_str()).collect(),
-        measures,
-        retarget: source
-            .retarget
-            .as_ref()
-            .map_or(serde_json::Value::Null, super::lint::to_json),
-    }
-}
-
-fn write_strip(scenario: &Scenario<'_>, name: &str, frames: &[Frame], path: &Path) -> Result<()> {
-    let args = scenario.args;
-    let profile = scenario.body.profile;
-    let mut title = format!(
-        "{name}: {}, {:.2} m, {:.0} kg, strength {}",
-        person_name(&profile),
-        profile.height,
-        profile.mass,
-        args.strength
-    );
-    for l in &args.load {
-        title += &format!(", {} kg in {}", l.mass_kg, l.segment.name());
-    }
-    for p in &args.push {
-        title += &format!(", push {} Ns at {} s", p.impulse_ns, p.at_s);
-    }
-    let options = StripOptions {
-        view: args.view.into(),
-        title,
-        ..StripOptions::default()
-    };
-    let drawing = draw(&scenario.body, frames, &options);
-    if extension("--strip", path, &["svg", "png"])? == "svg" {
-        write(path, svg::write(&drawing))
-    } else {
-        let png =
-            raster::png(&drawing).with_context(|| format!("cannot draw {}", path.display()))?;
-        write(path, png)
-    }
-}
-
-/// The CSV file, written as the run goes.
-struct Csv {
-    path: PathBuf,
-    file: BufWriter<File>,
-    line: String,
-}
-
-impl Csv {
-    fn create(path: &Path) -> Result<Self> {
-        let file =
-            File::create(path).with_context(|| format!("cannot write {}", path.display()))?;
-        let mut out = Self {
-            path: path.to_owned(),
-            file: BufWriter::new(file),
-            line: header(true),
-        };
-        out.flush_line()?;
-        Ok(out)
-    }
-
-    fn row(&mut self, time: f64, figure: &Figure) -> Result<()> {
-        let report = figure.report().expect("a stepped figure has a report");
-        let torques = Torques {
-            torque: &report.torque,
-            lower: &report.torque_lower,
-            upper: &report.torque_upper,
-        };
-        row(&mut self.line, time, &figure.state().posture, Some(torques));
-        self.flush_line()
-    }
-
-    fn flush_line(&mut self) -> Result<()> {
-        let done = self.file.write_all(self.line.as_bytes());
-        self.line.clear();
-        done.with_context(|| format!("cannot write {}", self.path.display()))
-    }
-
-    fn finish(mut self) -> Result<()> {
-        self.file
-            .flush()
-            .with_context(|| format!("cannot write {}", self.path.display()))
-    }
-}
-
-fn progress_bar(name: &str, ticks: u64) -> ProgressBar {
-    let style = ProgressStyle::with_template(
-        "{prefix:>14} {wide_bar:.cyan/dim} {pos}/{len} ticks, {per_sec}, {eta} left",
-    )
-    .expect("the template is a constant")
-    .progress_chars("━╸─");
-    ProgressBar::new(ticks)
-        .with_style(style)
-        .with_prefix(name.to_owned())
-}
-
-fn summary_header() -> String {
-    format!(
-        "{:<14} {:>7} {:>8} {:>8} {:>8} {:>9} {:>7} {:>9} {:>8} {:>8}  result",
-        "clip",
-        "time s",
-        "rms deg",
-        "max deg",
-        "root mm",
-        "global mm",
-        "use max",
-        "margin m",
-        "slip mm",
-        "us/tick"
-    )
-}
-
-fn summary_line(name: &str, r: &RunReport) -> String {
-    let mut result = match r.fell_at_s {
-        Some(t) => format!("fell at {t:.2} s"),
-        None => "stood".to_owned(),
-    };
-    if let Some(t) = r.quarantined_at_s {
-        result += &format!(", frozen at {t:.2} s");
-    }
-    let margin = r
-        .margin_min_m
-        .map_or_else(|| "none".to_owned(), |m| format!("{m:.3}"));
-    let longest = r.longest_saturated().map_or_else(String::new, |(d, s)| {
-        format!(", {d} at its limit for {s:.2} s")
-    });
-    format!(
-        "{name:<14} {:>7.2} {:>8.3} {:>8.2} {:>8.1} {:>9.1} {:>7.2} {margin:>9} {:>8.1} {:>8.0}  {result}{longest}",
-        r.ticks as f64 / r.rate_hz,
-        r.joint_rms_deg,
-        r.joint_max_deg,
-        r.mpjpe_root_mm,
-        r.mpjpe_global_mm,
-        r.max_utilisation,
-        r.foot_slip_mm_per_s,
-        r.us_per_tick_p50,
-    )
 }

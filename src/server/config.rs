@@ -295,6 +295,19 @@ mod tests {
     }
 
     #[test]
+    fn the_manual_lists_every_setting_with_its_words() {
+        let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/operations.md");
+        let page = std::fs::read_to_string(page).unwrap();
+        for (name, words, _) in Config::default().table() {
+            let row = page
+                .lines()
+                .find(|l| l.starts_with(&format!("| `{name}` |")));
+            let row = row.unwrap_or_else(|| panic!("{name} is missing from the manual"));
+            assert!(row.contains(words.trim()), "{name}: {row}");
+        }
+    }
+
+    #[test]
     fn mistakes_are_named() {
         let load = |flags: &[(String, String)]| Config::load(None, std::iter::empty(), flags);
         assert!(

@@ -1,6 +1,6 @@
 //! One clip tracked by one figure, without clock and world: as fast as it computes.
 
-use super::engine::{self, Clip, Drive};
+use super::engine::{self, Clip, Drive, FigureKey, World};
 use super::tick::stage_times::percentiles;
 use super::workers::Cancelled;
 use crate::sim::body::{Body, DOF_COUNT};
@@ -9,8 +9,8 @@ use crate::wire::frame::world_frame;
 use crate::wire::pb;
 use crate::wire::status::Fault;
 use crate::wire::types::{
-    Overrun, Pace, RosterEntry, SimulationSettings, SimulationSummary, Snapshot, WorldEvent,
-    WorldSettings,
+    Overrun, Pace, RosterEntry, SimulationSettings, SimulationSummary, Snapshot, ViewSpec,
+    WorldEvent, WorldSettings,
 };
 use prost::Message as _;
 use std::sync::Arc;
@@ -38,6 +38,12 @@ pub struct Limits {
 
 /// Most events that are kept: a figure in trouble changes support and saturation at every tick.
 const MAX_EVENTS: usize = 20_000;
+
+/// Gravity, m/s².
+const GRAVITY: f64 = 9.81;
+
+/// Name of the only figure.
+const FIGURE: &str = "figure";
 
 #[derive(Default)]
 struct Merit {
@@ -77,6 +83,24 @@ impl Merit {
             self.fell_at = Some(time);
         }
     }
+
+    fn summary(&self, ticks: u64, rate_hz: f64, hash: u64) -> SimulationSummary {
+        let times = percentiles(&self.micros);
+        SimulationSummary {
+            ticks,
+            rate_hz,
+            fell_at: self.fell_at,
+            joint_rms: (self.square / (ticks as f64 * DOF_COUNT as f64)).sqrt(),
+            joint_max: self.most,
+            utilisation: self.utilisation,
+            over_limit: self.over_limit,
+            saturated: self.saturated.iter().map(|n| *n as f64 / rate_hz).collect(),
+            margin: self.margin,
+            penetration: self.penetration,
+            hash,
+            tick_us: [times.p50, times.p99],
+        }
+    }
 }
 
 /// Simulates.
@@ -99,48 +123,13 @@ pub fn run(
             retry: None,
         });
     }
-    let mut world = engine::new_world(&WorldSettings {
-        rate_hz: s.rate_hz,
-        substeps: s.substeps,
-        gravity: 9.81,
-        friction: 0.9,
-        collisions: false,
-        pace: Pace {
-            display_name: String::new(),
-            overrun: Overrun::Dilate,
-            catch_up_limit: 1,
-            speed: 1.0,
-        },
-    })?;
-    let key = engine::add_figure(&mut world, "figure", &s.figure, body.clone())?;
-    let place = engine::place_of(clip.posture(0));
-    let figure = world.figure_mut(key).expect("it was just added");
-    let state = engine::first_state(&clip, place);
-    figure.set_drive(Drive::Clip(engine::playback(
-        clip,
-        0.0,
-        1.0,
-        s.looped,
-        (place, false),
-    )));
-    engine::reset(&mut world, key, state)?;
-    for (from, what) in &s.disturbances {
-        let p = engine::perturbation(body, what, *from);
-        engine::perturb(&mut world, key, p)?;
-    }
-
+    let (mut world, key) = scene(s, body, clip)?;
     let ticks = ((duration * s.rate_hz).round() as u64).max(1);
-    let roster: Arc<[RosterEntry]> = Arc::new([RosterEntry {
-        index: 0,
-        figure: "figure".into(),
-        body: s.figure.body.id.clone(),
-    }]);
     let mut merit = Merit {
         saturated: vec![0; DOF_COUNT],
         ..Merit::default()
     };
-    let mut frames = Vec::new();
-    let mut bytes = 0u64;
+    let mut frames = Frames::new(s, limits.bytes);
     let mut events = Vec::new();
     for _ in 0..ticks {
         if cancelled.is_set() {
@@ -163,61 +152,117 @@ pub fn run(
                 events.push(WorldEvent {
                     tick,
                     time,
-                    figure: "figure".into(),
+                    figure: FIGURE.into(),
                     kind: engine::event_kind(e, |_| String::new()),
                 });
             }
         }
         if let Some(view) = s.view.as_ref().filter(|v| tick % u64::from(v.divisor) == 0) {
-            let snapshot = Snapshot {
-                world: "".into(),
-                rate_hz: s.rate_hz,
-                gravity: 9.81,
-                tick,
-                time,
-                hash: world.state_hash(),
-                epoch: 1,
-                server_ns: 0,
-                roster_version: 1,
-                roster: roster.clone(),
-                figures: vec![engine::snapshot(figure, before, world.dt(), (-1, 0))],
-                obstacles: Vec::new(),
-            };
-            let frame = world_frame(&snapshot, view);
-            bytes += frame.encoded_len() as u64;
-            if bytes > limits.bytes {
-                return Err(Fault::Exhausted {
-                    limit: "max_response_bytes",
-                    value: limits.bytes,
-                    message: "frames of this view; ask for fewer fields or a larger rate_divisor"
-                        .into(),
-                    retry: None,
-                });
-            }
-            frames.push(frame);
+            frames.take(&world, key, before, view)?;
         }
     }
-    let times = percentiles(&merit.micros);
     Ok(Outcome {
-        summary: SimulationSummary {
-            ticks,
-            rate_hz: s.rate_hz,
-            fell_at: merit.fell_at,
-            joint_rms: (merit.square / (ticks as f64 * DOF_COUNT as f64)).sqrt(),
-            joint_max: merit.most,
-            utilisation: merit.utilisation,
-            over_limit: merit.over_limit,
-            saturated: merit
-                .saturated
-                .iter()
-                .map(|n| *n as f64 / s.rate_hz)
-                .collect(),
-            margin: merit.margin,
-            penetration: merit.penetration,
-            hash: world.state_hash(),
-            tick_us: [times.p50, times.p99],
-        },
-        frames,
+        summary: merit.summary(ticks, s.rate_hz, world.state_hash()),
+        frames: frames.taken,
         events,
     })
+}
+
+/// A world with one figure that begins the clip, and the disturbances to come.
+fn scene(
+    s: &SimulationSettings,
+    body: &Arc<Body>,
+    clip: Arc<Clip>,
+) -> Result<(World, FigureKey), Fault> {
+    let mut world = engine::new_world(&WorldSettings {
+        rate_hz: s.rate_hz,
+        substeps: s.substeps,
+        gravity: GRAVITY,
+        friction: 0.9,
+        collisions: false,
+        pace: Pace {
+            display_name: String::new(),
+            overrun: Overrun::Dilate,
+            catch_up_limit: 1,
+            speed: 1.0,
+        },
+    })?;
+    let key = engine::add_figure(&mut world, FIGURE, &s.figure, body.clone())?;
+    let place = engine::place_of(clip.posture(0));
+    let figure = world.figure_mut(key).expect("it was just added");
+    let state = engine::first_state(&clip, place);
+    figure.set_drive(Drive::Clip(engine::playback(
+        clip,
+        0.0,
+        1.0,
+        s.looped,
+        (place, false),
+    )));
+    engine::reset(&mut world, key, state)?;
+    for (from, what) in &s.disturbances {
+        let p = engine::perturbation(body, what, *from);
+        engine::perturb(&mut world, key, p)?;
+    }
+    Ok((world, key))
+}
+
+/// Frames of the view, as long as they fit into the response.
+struct Frames {
+    taken: Vec<pb::WorldFrame>,
+    bytes: u64,
+    most: u64,
+    roster: Arc<[RosterEntry]>,
+}
+
+impl Frames {
+    fn new(s: &SimulationSettings, most: u64) -> Self {
+        Self {
+            taken: Vec::new(),
+            bytes: 0,
+            most,
+            roster: Arc::new([RosterEntry {
+                index: 0,
+                figure: FIGURE.into(),
+                body: s.figure.body.id.clone(),
+            }]),
+        }
+    }
+
+    /// The world after a tick that began at `before` (s).
+    fn take(
+        &mut self,
+        world: &World,
+        key: FigureKey,
+        before: f64,
+        view: &ViewSpec,
+    ) -> Result<(), Fault> {
+        let figure = world.figure(key).expect("it is still there");
+        let snapshot = Snapshot {
+            world: "".into(),
+            rate_hz: world.params().rate_hz,
+            gravity: GRAVITY,
+            tick: world.tick(),
+            time: world.time(),
+            hash: world.state_hash(),
+            epoch: 1,
+            server_ns: 0,
+            roster_version: 1,
+            roster: self.roster.clone(),
+            figures: vec![engine::snapshot(figure, before, world.dt(), (-1, 0))],
+            obstacles: Vec::new(),
+        };
+        let frame = world_frame(&snapshot, view);
+        self.bytes += frame.encoded_len() as u64;
+        if self.bytes > self.most {
+            return Err(Fault::Exhausted {
+                limit: "max_response_bytes",
+                value: self.most,
+                message: "frames of this view; ask for fewer fields or a larger rate_divisor"
+                    .into(),
+                retry: None,
+            });
+        }
+        self.taken.push(frame);
+        Ok(())
+    }
 }

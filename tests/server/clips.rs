@@ -5,7 +5,7 @@ use crate::support::{FALLEN, TestServer};
 use sinew::wire::pb;
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_recording_is_uploaded_played_and_simulated() {
+async fn a_recording_is_uploaded_played_and_deleted() {
     let server = TestServer::start().await;
     let data = mocap::read("wave.bvh");
     let clip = server
@@ -14,7 +14,7 @@ async fn a_recording_is_uploaded_played_and_simulated() {
         .create_clip(pb::CreateClipRequest {
             clip_id: "greeting".into(),
             source: Some(pb::create_clip_request::Source::Bvh(pb::BvhSource {
-                data: data.clone().into(),
+                data: data.into(),
                 options: None,
             })),
             ..Default::default()
@@ -71,6 +71,28 @@ async fn a_recording_is_uploaded_played_and_simulated() {
         assert!(error < 3.0, "figure {} is off by {error}°", f.figure_index);
     }
 
+    server
+        .client
+        .motions()
+        .delete_clip(pb::DeleteClipRequest {
+            name: clip.name.clone(),
+        })
+        .await
+        .unwrap();
+    let gone = server
+        .client
+        .motions()
+        .get_clip(pb::GetClipRequest { name: clip.name })
+        .await
+        .unwrap_err();
+    assert_eq!(gone.code(), tonic::Code::NotFound);
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_recording_is_simulated_without_a_world() {
+    let server = TestServer::start().await;
+    let data = mocap::read("wave.bvh");
     let simulated = server
         .client
         .simulations()
@@ -98,22 +120,6 @@ async fn a_recording_is_uploaded_played_and_simulated() {
     assert!(summary.fell_at_s.is_none());
     assert!(summary.joint_rms_deg < 3.0, "{}", summary.joint_rms_deg);
     assert!(simulated.report.is_some());
-
-    server
-        .client
-        .motions()
-        .delete_clip(pb::DeleteClipRequest {
-            name: clip.name.clone(),
-        })
-        .await
-        .unwrap();
-    let gone = server
-        .client
-        .motions()
-        .get_clip(pb::GetClipRequest { name: clip.name })
-        .await
-        .unwrap_err();
-    assert_eq!(gone.code(), tonic::Code::NotFound);
     server.stop().await;
 }
 

@@ -9,15 +9,52 @@ fn expect(status: Status, code: Code, field: &str) {
     assert_eq!((c, f.as_str()), (code, field), "{status:?}");
 }
 
-#[tokio::test(flavor = "multi_thread")]
-async fn bad_requests_name_the_field_and_change_nothing() {
-    let server = TestServer::with(&[("max_worlds", "2"), ("max_clip_bytes", "65536")]).await;
-    let world = server.paused_world("w").await;
-    server.figure(&world, "a").await;
-    let before = server.step(&world, 1).await;
-    let c = &server.client;
-    let nan = f64::NAN;
+/// A server with the paused world `w` and the figure `a`, and what it showed before it was asked for things that it refuses.
+struct Asked {
+    server: TestServer,
+    world: String,
+    before: pb::StepWorldResponse,
+}
 
+impl Asked {
+    async fn new() -> Self {
+        let server = TestServer::with(&[("max_worlds", "2"), ("max_clip_bytes", "65536")]).await;
+        let world = server.paused_world("w").await;
+        server.figure(&world, "a").await;
+        let before = server.step(&world, 1).await;
+        Self {
+            server,
+            world,
+            before,
+        }
+    }
+
+    /// Nothing changed: the same tick, the same state, the same things.
+    async fn unchanged(self) {
+        let after = self.server.frame(&self.world, &["root_pose"]).await;
+        assert_eq!(
+            (after.tick, after.state_hash),
+            (self.before.tick, self.before.state_hash)
+        );
+        assert_eq!(after.figures.len(), 1);
+        let worlds = self
+            .server
+            .client
+            .worlds()
+            .list_worlds(pb::ListWorldsRequest::default())
+            .await
+            .unwrap()
+            .into_inner()
+            .worlds;
+        assert_eq!(worlds.len(), 1);
+        self.server.stop().await;
+    }
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn bad_worlds_are_refused() {
+    let asked = Asked::new().await;
+    let c = &asked.server.client;
     let create = |world_id: &str, world: pb::World| pb::CreateWorldRequest {
         world_id: world_id.into(),
         world: Some(world),
@@ -34,7 +71,7 @@ async fn bad_requests_name_the_field_and_change_nothing() {
             create(
                 "x",
                 pb::World {
-                    rate_hz: nan,
+                    rate_hz: f64::NAN,
                     ..Default::default()
                 },
             ),
@@ -92,6 +129,14 @@ async fn bad_requests_name_the_field_and_change_nothing() {
             field,
         );
     }
+    asked.unchanged().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn bad_steps_are_refused() {
+    let asked = Asked::new().await;
+    let world = &asked.world;
+    let c = &asked.server.client;
     let step = |name: &str, tick_count| pb::StepWorldRequest {
         name: name.into(),
         tick_count,
@@ -99,8 +144,8 @@ async fn bad_requests_name_the_field_and_change_nothing() {
     for (request, code, field) in [
         (step("w", 1), Code::InvalidArgument, "name"),
         (step("worlds/none", 1), Code::NotFound, ""),
-        (step(&world, -1), Code::InvalidArgument, "tick_count"),
-        (step(&world, 10_001), Code::InvalidArgument, "tick_count"),
+        (step(world, -1), Code::InvalidArgument, "tick_count"),
+        (step(world, 10_001), Code::InvalidArgument, "tick_count"),
     ] {
         expect(
             c.worlds().step_world(request).await.unwrap_err(),
@@ -108,7 +153,14 @@ async fn bad_requests_name_the_field_and_change_nothing() {
             field,
         );
     }
+    asked.unchanged().await;
+}
 
+#[tokio::test(flavor = "multi_thread")]
+async fn bad_figures_are_refused() {
+    let asked = Asked::new().await;
+    let world = &asked.world;
+    let c = &asked.server.client;
     let figure = |figure: pb::Figure| pb::CreateFigureRequest {
         parent: world.clone(),
         figure_id: "b".into(),
@@ -136,7 +188,7 @@ async fn bad_requests_name_the_field_and_change_nothing() {
     };
     for (request, code, field) in [
         (
-            figure(profile(pb::Sex::Male, nan, 70.0)),
+            figure(profile(pb::Sex::Male, f64::NAN, 70.0)),
             Code::InvalidArgument,
             "figure.profile.height_m",
         ),
@@ -161,7 +213,7 @@ async fn bad_requests_name_the_field_and_change_nothing() {
             "figure.strength.dofs[0].dof",
         ),
         (
-            figure(strength(1.0, "r_elbow_flexion", nan)),
+            figure(strength(1.0, "r_elbow_flexion", f64::NAN)),
             Code::InvalidArgument,
             "figure.strength.dofs[0].factor",
         ),
@@ -184,7 +236,7 @@ async fn bad_requests_name_the_field_and_change_nothing() {
         (
             figure(pb::Figure {
                 placement: Some(pb::Placement {
-                    x_m: nan,
+                    x_m: f64::NAN,
                     ..Default::default()
                 }),
                 ..Default::default()
@@ -199,7 +251,14 @@ async fn bad_requests_name_the_field_and_change_nothing() {
             field,
         );
     }
+    asked.unchanged().await;
+}
 
+#[tokio::test(flavor = "multi_thread")]
+async fn bad_plays_are_refused() {
+    let asked = Asked::new().await;
+    let world = &asked.world;
+    let c = &asked.server.client;
     let play = |figure: &str, clip: &str, speed| pb::PlayClipRequest {
         figure: figure.into(),
         clip: clip.into(),
@@ -219,7 +278,11 @@ async fn bad_requests_name_the_field_and_change_nothing() {
             "",
         ),
         (play(&a, "clips/none", 1.0), Code::NotFound, ""),
-        (play(&a, "clips/wave", nan), Code::InvalidArgument, "speed"),
+        (
+            play(&a, "clips/wave", f64::NAN),
+            Code::InvalidArgument,
+            "speed",
+        ),
     ] {
         expect(
             c.motions().play_clip(request).await.unwrap_err(),
@@ -227,7 +290,13 @@ async fn bad_requests_name_the_field_and_change_nothing() {
             field,
         );
     }
+    asked.unchanged().await;
+}
 
+#[tokio::test(flavor = "multi_thread")]
+async fn bad_clips_are_refused() {
+    let asked = Asked::new().await;
+    let c = &asked.server.client;
     let clip = |source| pb::CreateClipRequest {
         clip_id: "c".into(),
         source,
@@ -257,7 +326,7 @@ async fn bad_requests_name_the_field_and_change_nothing() {
             clip(bvh(
                 b"x".to_vec(),
                 Some(pb::BvhOptions {
-                    unit_m: Some(nan),
+                    unit_m: Some(f64::NAN),
                     ..Default::default()
                 }),
             )),
@@ -285,9 +354,16 @@ async fn bad_requests_name_the_field_and_change_nothing() {
         .await
         .unwrap_err();
     assert_eq!(e.code(), Code::OutOfRange, "too large to be decoded: {e:?}");
+    asked.unchanged().await;
+}
 
+#[tokio::test(flavor = "multi_thread")]
+async fn bad_motion_is_refused_and_takes_no_control() {
+    let asked = Asked::new().await;
+    let world = &asked.world;
+    let c = &asked.server.client;
     let push = |frames: Vec<pb::MotionFrame>| pb::PushMotionRequest {
-        header: Some(header(&world, "a", "me")),
+        header: Some(header(world, "a", "me")),
         batch: Some(pb::MotionBatch { frames }),
     };
     let spoiled = |spoil: &dyn Fn(&mut pb::FigureMotion)| {
@@ -298,7 +374,7 @@ async fn bad_requests_name_the_field_and_change_nothing() {
     let at = |part: &str| format!("batch.frames[1].figures[0].{part}");
     for (request, field) in [
         (
-            spoiled(&|m| m.joint_angles_rad[3] = nan),
+            spoiled(&|m| m.joint_angles_rad[3] = f64::NAN),
             at("joint_angles_rad[3]"),
         ),
         (
@@ -342,16 +418,29 @@ async fn bad_requests_name_the_field_and_change_nothing() {
         Code::NotFound,
         "",
     );
-    // An error echoes no more of a name than fits into headers.
+    let driven = asked.server.look(&format!("{world}/figures/a")).await;
+    assert_eq!(driven.driver_id, "", "a refused push takes no control");
+    asked.unchanged().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn errors_echo_no_more_of_a_name_than_fits_into_headers() {
+    let asked = Asked::new().await;
+    let world = &asked.world;
+    let c = &asked.server.client;
     let long = format!("{world}/figures/{}", "x".repeat(60_000));
     let request = pb::GetFigureRequest { name: long };
     let e = c.figures().get_figure(request).await.unwrap_err();
     assert_eq!(e.code(), Code::NotFound, "{e:?}");
     assert!(e.message().len() < 400, "{}", e.message().len());
+    asked.unchanged().await;
+}
 
-    let driven = server.look(&a).await;
-    assert_eq!(driven.driver_id, "", "a refused push takes no control");
-
+#[tokio::test(flavor = "multi_thread")]
+async fn bad_views_are_refused() {
+    let asked = Asked::new().await;
+    let world = &asked.world;
+    let c = &asked.server.client;
     let frame = |view: pb::View, tick| pb::GetWorldFrameRequest {
         world: world.clone(),
         tick,
@@ -398,6 +487,13 @@ async fn bad_requests_name_the_field_and_change_nothing() {
             field,
         );
     }
+    asked.unchanged().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn bad_simulations_and_exports_are_refused() {
+    let asked = Asked::new().await;
+    let c = &asked.server.client;
     let simulate = |clip: &str, duration_s| pb::SimulateClipRequest {
         source: Some(pb::simulate_clip_request::Source::Clip(clip.into())),
         duration_s,
@@ -412,7 +508,7 @@ async fn bad_requests_name_the_field_and_change_nothing() {
             "duration_s",
         ),
         (
-            simulate("clips/wave", nan),
+            simulate("clips/wave", f64::NAN),
             Code::InvalidArgument,
             "duration_s",
         ),
@@ -434,28 +530,24 @@ async fn bad_requests_name_the_field_and_change_nothing() {
         Code::InvalidArgument,
         "format",
     );
+    asked.unchanged().await;
+}
 
-    // Nothing changed: the same tick, the same state, the same things.
-    let after = server.frame(&world, &["root_pose"]).await;
-    assert_eq!(
-        (after.tick, after.state_hash),
-        (before.tick, before.state_hash)
-    );
-    assert_eq!(after.figures.len(), 1);
-    let worlds = c
-        .worlds()
-        .list_worlds(pb::ListWorldsRequest::default())
-        .await
-        .unwrap()
-        .into_inner()
-        .worlds;
-    assert_eq!(worlds.len(), 1);
+#[tokio::test(flavor = "multi_thread")]
+async fn a_world_too_many_is_refused() {
+    let asked = Asked::new().await;
+    let server = &asked.server;
     server.paused_world("second").await;
-    let full = c
+    let full = server
+        .client
         .worlds()
-        .create_world(create("third", pb::World::default()))
+        .create_world(pb::CreateWorldRequest {
+            world_id: "third".into(),
+            world: Some(pb::World::default()),
+            paused: true,
+        })
         .await
         .unwrap_err();
     assert_eq!(refusal(&full).0, Code::ResourceExhausted);
-    server.stop().await;
+    asked.server.stop().await;
 }

@@ -1,12 +1,12 @@
 //! Controllers against each other: the same motions, loads and pushes for every pair of controller and stepper.
 
-use super::Pair;
-use crate::sim::body::topology::{CHEST, DOF_COUNT, L_HAND, R_HAND};
-use crate::sim::body::{Body, SegmentId, State};
+use super::{Pair, carried, push_at_chest};
+use crate::sim::body::Body;
+use crate::sim::body::topology::DOF_COUNT;
 use crate::sim::collide::{Mobility, ObstacleSetup, Shape};
-use crate::sim::figure::{HeldLoad, Perturbation, StrengthScale, TickReport};
+use crate::sim::figure::{StrengthScale, TickReport};
 use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::{Clip, PlanarTransform};
+use crate::sim::motion::Clip;
 use crate::sim::world::{ClipPlayback, Drive, FigureKey, World};
 use std::sync::Arc;
 
@@ -150,46 +150,18 @@ impl Outcome {
 }
 
 fn scene(body: &Arc<Body>, pair: &Pair, motion: &Motion, burden: Burden) -> (World, FigureKey) {
-    let first = motion.clip.sample(0.0);
-    let state = State {
-        posture: first.posture,
-        velocity: first.velocity,
-    };
+    let state = motion.clip.sample(0.0).state();
     let (mut world, key) = pair.world(body, state, StrengthScale::default());
     if let Some(seat) = &motion.seat {
         world.add_obstacle(seat.clone()).expect("seats are valid");
     }
     let figure = world.figure_mut(key).expect("the figure was just added");
-    figure.set_drive(Drive::Clip(ClipPlayback {
-        clip: Arc::clone(&motion.clip),
-        start: 0.0,
-        speed: 1.0,
-        looped: false,
-        origin: PlanarTransform::default(),
-    }));
-    let held = |segment: SegmentId, mass: f64| {
-        Perturbation::Held(HeldLoad {
-            segment,
-            point: body.segment(segment).com,
-            mass,
-            velocity: Vec3::zero(),
-            second: None,
-            grip: f64::INFINITY,
-            from: 0.0,
-            to: f64::INFINITY,
-        })
-    };
+    let play = ClipPlayback::new(Arc::clone(&motion.clip), 0.0);
+    figure.set_drive(Drive::Clip(play));
     let what = match burden {
         Burden::Load(0.0, _) => Vec::new(),
-        Burden::Load(mass, false) => vec![held(R_HAND, mass)],
-        Burden::Load(mass, true) => vec![held(L_HAND, 0.5 * mass), held(R_HAND, 0.5 * mass)],
-        Burden::Push(impulse) => vec![Perturbation::Force {
-            segment: CHEST,
-            point: Vec3::Z * 0.1,
-            force: impulse * (1.0 / PUSH.1),
-            from: PUSH.0,
-            to: PUSH.0 + PUSH.1,
-        }],
+        Burden::Load(mass, both) => carried(body, mass, both),
+        Burden::Push(impulse) => vec![push_at_chest(impulse * (1.0 / PUSH.1), PUSH.0, PUSH.1)],
     };
     for p in what {
         world.perturb(key, p).expect("loads and pushes are valid");

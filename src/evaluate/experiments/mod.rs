@@ -11,9 +11,11 @@ pub mod walk;
 
 use super::metrics::Tick;
 use super::strip::{Frame, Thing, evenly_spaced};
-use crate::sim::body::topology::DOF_COUNT;
-use crate::sim::body::{Body, State};
-use crate::sim::figure::{ControlParams, ControllerKind, Flags, StepperKind, StrengthScale};
+use crate::sim::body::topology::{CHEST, DOF_COUNT, L_HAND, R_HAND};
+use crate::sim::body::{Body, SegmentId, State};
+use crate::sim::figure::{
+    ControlParams, ControllerKind, Flags, Perturbation, StepperKind, StrengthScale,
+};
 use crate::sim::math::Vec3;
 use crate::sim::world::{FigureKey, FigureSetup, World, WorldParams};
 use std::sync::Arc;
@@ -46,6 +48,7 @@ impl Pair {
             armature: true,
         }
     }
+
     /// The paper's controller and its own way of moving the body.
     pub fn paper_kinematic() -> Self {
         Self::of(
@@ -54,10 +57,12 @@ impl Pair {
             StepperKind::Kinematic,
         )
     }
+
     /// The paper's controller driving full dynamics.
     pub fn paper_torque() -> Self {
         Self::of("paper, torque", ControllerKind::Paper, StepperKind::Torque)
     }
+
     /// The default.
     pub fn modern() -> Self {
         Self::of(
@@ -66,10 +71,12 @@ impl Pair {
             StepperKind::Torque,
         )
     }
+
     /// Motors alone.
     pub fn motors() -> Self {
         Self::of("motors alone", ControllerKind::Motors, StepperKind::Torque)
     }
+
     /// The paper to the letter, every safeguard off.
     pub fn paper2000() -> Self {
         Self {
@@ -106,6 +113,33 @@ impl Pair {
             params: self.params.clone(),
             ..FigureSetup::new(body, self.controller, state)
         }
+    }
+}
+
+/// A load in the right hand or, half of it in each, in both, from the beginning on.
+fn carried(body: &Body, mass: f64, both: bool) -> Vec<Perturbation> {
+    let held = |segment: SegmentId, mass: f64| Perturbation::Load {
+        segment,
+        point: body.segment(segment).com,
+        mass,
+        from: 0.0,
+        to: f64::INFINITY,
+    };
+    if both {
+        vec![held(L_HAND, 0.5 * mass), held(R_HAND, 0.5 * mass)]
+    } else {
+        vec![held(R_HAND, mass)]
+    }
+}
+
+/// A force (N, world axes) on the chest, 10 cm over its joint, that begins at `from` and lasts `lasts` s.
+fn push_at_chest(force: Vec3, from: f64, lasts: f64) -> Perturbation {
+    Perturbation::Force {
+        segment: CHEST,
+        point: Vec3::Z * 0.1,
+        force,
+        from,
+        to: from + lasts,
     }
 }
 

@@ -1,10 +1,8 @@
 //! Pushes of a standing figure, in units of what the linear inverted pendulum can stop.
 
-use super::{Pair, Record, record};
-use crate::sim::body::Body;
-use crate::sim::body::State;
-use crate::sim::body::topology::CHEST;
-use crate::sim::figure::{Perturbation, StrengthScale};
+use super::{Pair, Record, push_at_chest, record};
+use crate::sim::body::{Body, State};
+use crate::sim::figure::StrengthScale;
 use crate::sim::math::Vec3;
 use crate::sim::motion::builtin::at_ease;
 use std::sync::Arc;
@@ -45,16 +43,7 @@ pub fn push(body: &Arc<Body>, pair: &Pair, direction: Vec3, share: f64, panels: 
     let mass = figure.links().total_mass();
     let bound = mass * (GRAVITY / r.com.z).sqrt() * (edge - r.com.dot(direction));
     let impulse = share * bound;
-    let what = Perturbation::Force {
-        segment: CHEST,
-        point: Vec3 {
-            z: 0.1,
-            ..Vec3::zero()
-        },
-        force: direction * (impulse / LASTS),
-        from: BEGINS,
-        to: BEGINS + LASTS,
-    };
+    let what = push_at_chest(direction * (impulse / LASTS), BEGINS, LASTS);
     world.perturb(key, what).expect("pushes are valid");
     Push {
         impulse,

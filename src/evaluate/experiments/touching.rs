@@ -1,13 +1,13 @@
 //! Hands on tables and walls (figure 3 of the paper), and two figures that run into each other.
 
-use super::{Pair, Record, record};
+use super::{Pair, Record, push_at_chest, record};
 use crate::evaluate::pose::segment_poses;
 use crate::evaluate::strip::Thing;
 use crate::sim::body::angles::{anatomical_angles, set_anatomical_angles};
-use crate::sim::body::topology::{CHEST, DOF_NAMES, L_FOOT, R_HAND};
+use crate::sim::body::topology::{DOF_NAMES, L_FOOT, R_HAND};
 use crate::sim::body::{Body, Posture, State};
 use crate::sim::collide::{Mobility, ObstacleSetup, Other, Shape};
-use crate::sim::figure::{Perturbation, StrengthScale};
+use crate::sim::figure::StrengthScale;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::builtin::at_ease;
 use std::sync::Arc;
@@ -237,13 +237,7 @@ pub fn bump(body: &Arc<Body>, pair: &Pair, impulse: f64, panels: usize) -> Bump 
         ..pair.setup(body, first, StrengthScale::default())
     };
     let other = world.add_figure(second).expect("experiments are valid");
-    let push = Perturbation::Force {
-        segment: CHEST,
-        point: Vec3::Z * 0.1,
-        force: Vec3::X * (impulse / PUSH.1),
-        from: PUSH.0,
-        to: PUSH.0 + PUSH.1,
-    };
+    let push = push_at_chest(Vec3::X * (impulse / PUSH.1), PUSH.0, PUSH.1);
     world.perturb(key, push).expect("pushes are valid");
     let dt = world.dt();
     let (mut most, mut sum, mut apart, mut overlap, mut touched) =

@@ -1,10 +1,11 @@
 //! Recorded motion on two feet: tracked, pushed, by other people, with loads, on other floors, from noisy recordings.
 
+use super::{carried, push_at_chest};
 use crate::evaluate::metrics::{Metrics, Tick};
 use crate::evaluate::report::RunReport;
-use crate::sim::body::topology::{CHEST, L_FOOT, L_TOES, R_FOOT, R_TOES};
+use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::body::{Body, SegmentId};
-use crate::sim::figure::{ContactPoint, ControllerKind, HeldLoad, Perturbation, StrengthScale};
+use crate::sim::figure::{ContactPoint, ControllerKind, Perturbation, StrengthScale};
 use crate::sim::math::Vec3;
 use crate::sim::motion::Clip;
 use crate::sim::world::{ClipPlayback, Drive, FigureSetup, World, WorldParams};
@@ -226,32 +227,12 @@ pub fn walk(walker: &Walker, walk: &Walk) -> Walked {
 }
 
 fn perturbations(walker: &Walker, walk: &Walk) -> Vec<Perturbation> {
-    use crate::sim::body::topology::{L_HAND, R_HAND};
-    let held = |segment: SegmentId, mass: f64| {
-        Perturbation::Held(HeldLoad {
-            segment,
-            point: walker.body.segment(segment).com,
-            mass,
-            velocity: Vec3::zero(),
-            second: None,
-            grip: f64::INFINITY,
-            from: 0.0,
-            to: f64::INFINITY,
-        })
-    };
     let mut out = match walker.load {
         None => Vec::new(),
-        Some((mass, Hands::Right)) => vec![held(R_HAND, mass)],
-        Some((mass, Hands::Both)) => vec![held(L_HAND, 0.5 * mass), held(R_HAND, 0.5 * mass)],
+        Some((mass, hands)) => carried(&walker.body, mass, hands == Hands::Both),
     };
     if let Some((time, impulse)) = walk.push {
-        out.push(Perturbation::Force {
-            segment: CHEST,
-            point: Vec3::Z * 0.1,
-            force: impulse * (1.0 / LASTS),
-            from: time,
-            to: time + LASTS,
-        });
+        out.push(push_at_chest(impulse * (1.0 / LASTS), time, LASTS));
     }
     out
 }

@@ -297,11 +297,6 @@ impl Registry {
             end(handle).await;
         }
     }
-
-    /// True once the server shuts down.
-    pub fn is_draining(&self) -> bool {
-        self.draining.load(Ordering::SeqCst)
-    }
 }
 
 async fn end(handle: &WorldHandle) {

@@ -60,7 +60,8 @@ pub fn mix(male: f64, a: f64, b: f64) -> f64 {
     }
 }
 
-/// Stature (m) and mass (kg) of an ordinary person: growth-chart medians of children, the profiles of Anderson 2007 for adults.
+/// Stature (m) and mass (kg) of an ordinary man: growth-chart medians (6–12 y), sizes chosen for the age groups of Anderson 2007 (adults).
+/// Interpolated between ages.
 const ORDINARY_MAN: [(f64, [f64; 2]); 11] = [
     (6.0, [1.16, 21.0]),
     (8.0, [1.28, 26.0]),
@@ -74,6 +75,7 @@ const ORDINARY_MAN: [(f64, [f64; 2]); 11] = [
     (60.0, [1.75, 82.0]),
     (72.0, [1.72, 78.0]),
 ];
+/// The same of an ordinary woman.
 const ORDINARY_WOMAN: [(f64, [f64; 2]); 11] = [
     (6.0, [1.16, 21.0]),
     (8.0, [1.28, 26.0]),
@@ -87,12 +89,6 @@ const ORDINARY_WOMAN: [(f64, [f64; 2]); 11] = [
     (60.0, [1.62, 68.0]),
     (72.0, [1.59, 66.0]),
 ];
-/// Origin of the ordinary sizes.
-pub const SIZE_ORIGIN: Origin = Origin {
-    source: "growth-chart medians (6–12 y); sizes chosen for the age groups of Anderson 2007 (adults)",
-    tag: "R",
-    note: "interpolated between ages",
-};
 
 impl Profile {
     /// An ordinary person of this sex and age: stature and mass from tables, rounded to centimetres and half kilograms.

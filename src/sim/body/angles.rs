@@ -93,6 +93,18 @@ pub fn swing_twist(q: Quat) -> SwingTwist {
     }
 }
 
+impl SwingTwist {
+    /// The three anatomical angles, rad, of the ball joint whose first DOF is `d`.
+    #[inline]
+    pub fn angles(&self, d: usize) -> [f64; 3] {
+        let value = [self.swing.x, self.swing.y, self.twist];
+        std::array::from_fn(|k| {
+            let a = DOF_AXIS[d + k];
+            f64::from(a.sign) * value[a.axis]
+        })
+    }
+}
+
 /// Ball rotation from swing and twist.
 pub fn from_swing_twist(swing_x: f64, swing_y: f64, twist: f64) -> Quat {
     Quat::exp(Vec3 {
@@ -114,12 +126,7 @@ pub fn anatomical_angles(posture: &Posture) -> [f64; DOF_COUNT] {
         match JOINT[s] {
             Joint::Free => {}
             Joint::Ball(b) => {
-                let st = swing_twist(posture.ball[b]);
-                let v = [st.swing.x, st.swing.y, st.twist];
-                for k in 0..3 {
-                    let a = DOF_AXIS[d + k];
-                    out[d + k] = f64::from(a.sign) * v[a.axis];
-                }
+                out[d..d + 3].copy_from_slice(&swing_twist(posture.ball[b]).angles(d));
             }
             Joint::Hinge2(h) | Joint::Hinge1(h) => {
                 out[d..d + DOF_LEN[s]].copy_from_slice(&posture.hinge[h..h + DOF_LEN[s]])

@@ -27,9 +27,6 @@ impl Capsule {
     }
 }
 
-/// Most capsules of one segment.
-pub const MAX_CAPSULES: usize = 3;
-
 /// The shapes that a body collides with, by segment, in segment frames.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BodyShape {

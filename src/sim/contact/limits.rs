@@ -64,16 +64,13 @@ pub fn collect_limits(
             Joint::Free => {}
             Joint::Ball(b) => {
                 let st = swing_twist(posture.ball[b]);
-                let value = [st.swing.x, st.swing.y, st.twist];
-                for k in 0..3 {
+                for (k, angle) in st.angles(d).into_iter().enumerate() {
                     let a = DOF_AXIS[d + k];
-                    let sign = f64::from(a.sign);
-                    let angle = sign * value[a.axis];
                     angles[d + k] = angle;
                     push_ball(
                         out,
                         d,
-                        st.rate_rows[a.axis] * sign,
+                        st.rate_rows[a.axis] * f64::from(a.sign),
                         angle - body.lower[d + k],
                         body.upper[d + k] - angle,
                         h,

@@ -140,34 +140,7 @@ pub fn minimise<S: System>(
     contacts.velocities(x, &mut ws.velocity);
     let mut out = Outcome::default();
     loop {
-        // Gradient A x − b − t − limits − Jᵀf, and where each motor, limit and contact stands.
-        let mut grad = [0.0; NV];
-        let mut slope = [0.0; DOF_COUNT];
-        for i in 0..6 {
-            grad[i] = ax[i] - b[i];
-        }
-        for j in 0..DOF_COUNT {
-            let (t, s) = motors.value(j, x[6 + j]);
-            ws.motor[j] = t;
-            slope[j] = s;
-            grad[6 + j] = ax[6 + j] - b[6 + j] - t;
-        }
-        ws.limit.fill(0.0);
-        for row in &limits.rows {
-            let p = row.impulse(row.rate(x));
-            if p > 0.0 {
-                for k in 0..row.len {
-                    ws.limit[row.first - 6 + k] += p * row.coefficients[k];
-                }
-            }
-        }
-        for j in 0..DOF_COUNT {
-            grad[6 + j] -= ws.limit[j];
-        }
-        for k in 0..n {
-            (ws.force[k], ws.region[k]) = contacts.force(k, ws.velocity[k]);
-        }
-        contacts.add_transposed(&ws.force, -1.0, &mut grad);
+        let (grad, slope) = gradient(&ax, b, motors, limits, contacts, x, ws);
         out.residual = largest(&grad);
         out.converged = out.residual < tolerance;
         if out.converged || out.iterations >= max_iterations || !out.residual.is_finite() {
@@ -175,50 +148,14 @@ pub fn minimise<S: System>(
         }
         out.iterations += 1;
 
-        // Newton matrix.
         system.load(hessian);
-        for j in 0..DOF_COUNT {
-            S::add(hessian, 6 + j, 6 + j, slope[j]);
-        }
-        for row in &limits.rows {
-            if row.rate(x) < -row.allowed {
-                for i in 0..row.len {
-                    for j in 0..=i {
-                        let v = LIMIT_STIFFNESS * row.coefficients[i] * row.coefficients[j];
-                        S::add(hessian, row.first + i, row.first + j, v);
-                    }
-                }
-            }
-        }
-        let mut stiffness = [[[0.0; 6]; 6]; SEGMENT_COUNT];
-        let mut touching = [false; SEGMENT_COUNT];
-        for (k, p) in contacts.points.iter().enumerate() {
-            if ws.region[k] != Region::Open {
-                let d = contacts.stiffness(k, ws.velocity[k], ws.region[k]);
-                add_point_stiffness(&mut stiffness[p.slot], p.r, &d);
-                touching[p.slot] = true;
-            }
-        }
-        for (slot, s) in contacts.segments.iter().enumerate() {
-            if touching[slot] {
-                let mut kj = [[0.0; CHAIN_WIDTH]; 6];
-                for a in 0..6 {
-                    for c in 0..6 {
-                        let y = stiffness[slot][a][c];
-                        for i in 0..CHAIN_WIDTH {
-                            kj[a][i] += y * s.jacobian[c][i];
-                        }
-                    }
-                }
-                S::add_segment(hessian, s, &kj);
-            }
-        }
+        add_slopes::<S>(hessian, &slope, limits, contacts, x, ws);
         let mut d: [f64; NV] = std::array::from_fn(|i| -grad[i]);
         if !S::solve(hessian, &mut d) {
             return out;
         }
 
-        // Exact line search: φ'(a) = dᵀ∇(x + a d) is monotone.
+        // φ'(a) = dᵀ∇(x + a d) is monotone; its quadratic part is q0 + a q1.
         let mut ad = [0.0; NV];
         system.mul(&d, &mut ad);
         contacts.velocities(&d, &mut ws.direction);
@@ -228,7 +165,7 @@ pub fn minimise<S: System>(
             q1 += d[i] * ad[i];
             slope0 += d[i] * grad[i];
         }
-        let phi = |a: f64| {
+        let a = line_search(slope0, |a| {
             let mut z = q0 + a * q1;
             for j in 0..DOF_COUNT {
                 z -= d[6 + j] * motors.value(j, x[6 + j] + a * d[6 + j]).0;
@@ -244,30 +181,7 @@ pub fn minimise<S: System>(
                 z -= ws.direction[k].dot(f);
             }
             z
-        };
-        let mut a = 1.0;
-        let full = phi(1.0);
-        if full > 0.1 * slope0.abs() {
-            // Illinois variant of regula falsi between 0 and 1.
-            let (mut lo, mut flo, mut hi, mut fhi) = (0.0, slope0, 1.0, full);
-            for _ in 0..LINE_SEARCH {
-                a = lo - flo * (hi - lo) / (fhi - flo);
-                if a.is_nan() || a <= lo + 1e-3 * (hi - lo) {
-                    a = lo + 1e-2 * (hi - lo);
-                }
-                let p = phi(a);
-                if p.abs() < 0.05 * slope0.abs() {
-                    break;
-                }
-                if p < 0.0 {
-                    (lo, flo) = (a, p);
-                    fhi *= 0.5;
-                } else {
-                    (hi, fhi) = (a, p);
-                    flo *= 0.5;
-                }
-            }
-        }
+        });
         for i in 0..NV {
             x[i] += a * d[i];
             ax[i] += a * ad[i];
@@ -276,4 +190,114 @@ pub fn minimise<S: System>(
             ws.velocity[k] += ws.direction[k] * a;
         }
     }
+}
+
+/// Gradient `A x − b − t − limits − Jᵀf`, and the slope of each motor; what motors, limits and contacts give goes to `ws`.
+#[inline(always)]
+fn gradient(
+    ax: &[f64; NV],
+    b: &[f64; NV],
+    motors: &Motors,
+    limits: &LimitRows,
+    contacts: &ContactRows,
+    x: &[f64; NV],
+    ws: &mut NewtonWorkspace,
+) -> ([f64; NV], [f64; DOF_COUNT]) {
+    let mut grad = [0.0; NV];
+    let mut slope = [0.0; DOF_COUNT];
+    for i in 0..6 {
+        grad[i] = ax[i] - b[i];
+    }
+    for j in 0..DOF_COUNT {
+        let (t, s) = motors.value(j, x[6 + j]);
+        ws.motor[j] = t;
+        slope[j] = s;
+        grad[6 + j] = ax[6 + j] - b[6 + j] - t;
+    }
+    ws.limit.fill(0.0);
+    for row in &limits.rows {
+        let p = row.impulse(row.rate(x));
+        if p > 0.0 {
+            for k in 0..row.len {
+                ws.limit[row.first - 6 + k] += p * row.coefficients[k];
+            }
+        }
+    }
+    for j in 0..DOF_COUNT {
+        grad[6 + j] -= ws.limit[j];
+    }
+    for k in 0..contacts.points.len() {
+        (ws.force[k], ws.region[k]) = contacts.force(k, ws.velocity[k]);
+    }
+    contacts.add_transposed(&ws.force, -1.0, &mut grad);
+    (grad, slope)
+}
+
+/// Makes `A` the Newton matrix: adds the slopes of motors, limits and contacts where the last gradient was taken.
+#[inline(always)]
+fn add_slopes<S: System>(
+    hessian: &mut S::Hessian,
+    slope: &[f64; DOF_COUNT],
+    limits: &LimitRows,
+    contacts: &ContactRows,
+    x: &[f64; NV],
+    ws: &NewtonWorkspace,
+) {
+    for j in 0..DOF_COUNT {
+        S::add(hessian, 6 + j, 6 + j, slope[j]);
+    }
+    for row in &limits.rows {
+        if row.rate(x) < -row.allowed {
+            for i in 0..row.len {
+                for j in 0..=i {
+                    let v = LIMIT_STIFFNESS * row.coefficients[i] * row.coefficients[j];
+                    S::add(hessian, row.first + i, row.first + j, v);
+                }
+            }
+        }
+    }
+    let mut stiffness = [[[0.0; 6]; 6]; SEGMENT_COUNT];
+    let mut touching = [false; SEGMENT_COUNT];
+    for (k, p) in contacts.points.iter().enumerate() {
+        if ws.region[k] != Region::Open {
+            let d = contacts.stiffness(k, ws.velocity[k], ws.region[k]);
+            add_point_stiffness(&mut stiffness[p.slot], p.r, &d);
+            touching[p.slot] = true;
+        }
+    }
+    for (slot, s) in contacts.segments.iter().enumerate() {
+        if touching[slot] {
+            S::add_segment(hessian, s, &s.stiffened(&stiffness[slot]));
+        }
+    }
+}
+
+/// Length of a step that brings the slope `phi` along it near zero: the whole step, unless the slope there is well above zero; `slope0 < 0`
+/// is the slope at its start, `phi` grows.
+#[inline(always)]
+pub(crate) fn line_search(slope0: f64, phi: impl Fn(f64) -> f64) -> f64 {
+    let mut a = 1.0;
+    let full = phi(1.0);
+    if full > 0.1 * slope0.abs() {
+        // Illinois variant of regula falsi between 0 and 1.
+        let (mut lo, mut flo, mut hi, mut fhi) = (0.0, slope0, 1.0, full);
+        for _ in 0..LINE_SEARCH {
+            a = lo - flo * (hi - lo) / (fhi - flo);
+            if a.is_nan() || a <= lo + 1e-3 * (hi - lo) {
+                a = lo + 1e-2 * (hi - lo);
+            }
+            let p = phi(a);
+            if p.abs() < 0.05 * slope0.abs() {
+                break;
+            }
+            if p < 0.0 {
+                (lo, flo) = (a, p);
+                fhi *= 0.5;
+            } else {
+                (hi, fhi) = (a, p);
+                flo *= 0.5;
+            }
+        }
+    }
+    a
 }

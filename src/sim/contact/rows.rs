@@ -37,6 +37,21 @@ impl SegmentRows {
     pub fn chain(&self) -> &'static [usize] {
         &CHAIN[last_component(self.segment)][..self.len]
     }
+
+    /// `K J` for a stiffness `K` on the segment's twist, as [`System::add_segment`](super::newton::System::add_segment) takes it.
+    #[inline(always)]
+    pub fn stiffened(&self, stiffness: &[[f64; 6]; 6]) -> [[f64; CHAIN_WIDTH]; 6] {
+        let mut kj = [[0.0; CHAIN_WIDTH]; 6];
+        for a in 0..6 {
+            for c in 0..6 {
+                let y = stiffness[a][c];
+                for i in 0..CHAIN_WIDTH {
+                    kj[a][i] += y * self.jacobian[c][i];
+                }
+            }
+        }
+        kj
+    }
 }
 
 /// One point: force `Proj_K(−(J x + c)/R)`.

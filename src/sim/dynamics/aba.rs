@@ -138,6 +138,39 @@ pub fn aba<L: Lane>(
     ws: &mut AbaWorkspace<L>,
     vdot: &mut [L; NV],
 ) {
+    set_bodies(links, kin, external, ws);
+    eliminate_joints(links, kin, velocity, tau, ws);
+    let root = solve_root(
+        &ws.inertia[0],
+        std::array::from_fn(|i| tau[i] - ws.bias[0].get(i)),
+    );
+    let mut acc = [Spatial::zero(); SEGMENT_COUNT];
+    acc[0] = root; // spatial acceleration minus gravity
+    // Back from spatial to classical acceleration of the pelvis origin.
+    let classical = root.l + kin.omega[0].cross(kin.velocity[0]);
+    (vdot[0], vdot[1], vdot[2]) = (root.a.x, root.a.y, root.a.z);
+    (vdot[3], vdot[4], vdot[5]) = (classical.x, classical.y, classical.z - gravity);
+    for s in 1..SEGMENT_COUNT {
+        let (p, d0) = (PARENT[s], DOF_START[s]);
+        let mut a = acc[p].plus(ws.drift[s]);
+        for k in 0..DOF_LEN[s] {
+            let d = d0 + k;
+            let qdd = (ws.rhs[d] - ws.u[d].dot(a)) * ws.d[d];
+            vdot[6 + d] = qdd;
+            a = a.plus(ws.axis[d].scaled(qdd));
+        }
+        acc[s] = a;
+    }
+}
+
+/// Inertia, twist and bias force of every segment by itself, about the pelvis origin.
+#[inline(always)]
+fn set_bodies<L: Lane>(
+    links: &Links<L>,
+    kin: &Kinematics<L>,
+    external: &[External<L>],
+    ws: &mut AbaWorkspace<L>,
+) {
     for s in 0..SEGMENT_COUNT {
         let (p, m, h) = (kin.position[s], links.mass[s], kin.moment[s]);
         let first = h + p * m;
@@ -182,6 +215,17 @@ pub fn aba<L: Lane>(
         ws.twist[s] = twist;
         ws.bias[s] = b;
     }
+}
+
+/// From the tips to the root: eliminates the DOFs of each joint and adds what is left of the segment to its parent.
+#[inline(always)]
+fn eliminate_joints<L: Lane>(
+    links: &Links<L>,
+    kin: &Kinematics<L>,
+    velocity: &[L; NV],
+    tau: &[L; NV],
+    ws: &mut AbaWorkspace<L>,
+) {
     for s in (1..SEGMENT_COUNT).rev() {
         let (p, d0, n) = (PARENT[s], DOF_START[s], DOF_LEN[s]);
         for k in 0..n {
@@ -226,12 +270,12 @@ pub fn aba<L: Lane>(
         }
         ws.bias[p] = ws.bias[p].plus(pa);
     }
-    // Root: IA a = f − pA, by Cholesky of the 6×6.
-    let mut l = ws.inertia[0];
-    let mut x = [L::zero(); 6];
-    for i in 0..6 {
-        x[i] = tau[i] - ws.bias[0].get(i);
-    }
+}
+
+/// Acceleration `inertia⁻¹ x` of the root, by Cholesky of the 6×6.
+#[inline(always)]
+fn solve_root<L: Lane>(inertia: &[[L; 6]; 6], mut x: [L; 6]) -> Spatial<L> {
+    let mut l = *inertia;
     for j in 0..6 {
         for k in 0..j {
             let y = l[j][k];
@@ -259,22 +303,5 @@ pub fn aba<L: Lane>(
         }
         x[i] = x[i] / l[i][i];
     }
-    let root = Spatial::from_array(x); // spatial acceleration minus gravity
-    let mut acc = [Spatial::zero(); SEGMENT_COUNT];
-    acc[0] = root;
-    // Back from spatial to classical acceleration of the pelvis origin.
-    let classical = root.l + kin.omega[0].cross(kin.velocity[0]);
-    (vdot[0], vdot[1], vdot[2]) = (root.a.x, root.a.y, root.a.z);
-    (vdot[3], vdot[4], vdot[5]) = (classical.x, classical.y, classical.z - gravity);
-    for s in 1..SEGMENT_COUNT {
-        let (p, d0) = (PARENT[s], DOF_START[s]);
-        let mut a = acc[p].plus(ws.drift[s]);
-        for k in 0..DOF_LEN[s] {
-            let d = d0 + k;
-            let qdd = (ws.rhs[d] - ws.u[d].dot(a)) * ws.d[d];
-            vdot[6 + d] = qdd;
-            a = a.plus(ws.axis[d].scaled(qdd));
-        }
-        acc[s] = a;
-    }
+    Spatial::from_array(x)
 }

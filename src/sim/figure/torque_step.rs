@@ -567,12 +567,22 @@ impl TorqueStepper {
 
     /// Solves for the velocity at the end of the substep; with `assisted`, for the matrix that carries the springs of the assist.
     fn solve_freely(&mut self, momentum: &[f64; NV], v: &mut [f64; NV], assisted: bool) -> Outcome {
+        let outcome = self.solve_once(momentum, v, assisted);
+        if outcome.converged {
+            outcome
+        } else {
+            self.solve_softer(momentum, v, outcome, assisted)
+        }
+    }
+
+    /// One run of Newton's method with the motors as they are.
+    fn solve_once(&mut self, momentum: &[f64; NV], v: &mut [f64; NV], assisted: bool) -> Outcome {
         let matrix = if assisted {
             &self.assisted
         } else {
             &self.terms.mass_matrix
         };
-        let outcome = substep_kernel(
+        substep_kernel(
             matrix,
             &mut self.hessian,
             momentum,
@@ -581,12 +591,7 @@ impl TorqueStepper {
             &self.contacts,
             v,
             &mut self.newton,
-        );
-        if outcome.converged {
-            outcome
-        } else {
-            self.solve_softer(momentum, v, outcome, assisted)
-        }
+        )
     }
 
     /// Solves with the springs of the assist; a part whose impulse exceeds its bound becomes a constant one at the bound, and the rest is
@@ -649,21 +654,7 @@ impl TorqueStepper {
             m.gain[j] *= SOFTENING;
             m.rest[j] = now + torque / m.gain[j];
         }
-        let matrix = if assisted {
-            &self.assisted
-        } else {
-            &self.terms.mass_matrix
-        };
-        let second = substep_kernel(
-            matrix,
-            &mut self.hessian,
-            momentum,
-            &self.motors,
-            &self.limits,
-            &self.contacts,
-            v,
-            &mut self.newton,
-        );
+        let second = self.solve_once(momentum, v, assisted);
         Outcome {
             iterations: first.iterations + second.iterations,
             ..second

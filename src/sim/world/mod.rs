@@ -9,7 +9,7 @@ pub use crate::sim::figure::{
     ClipPlayback, Drive, Figure, FigureEvent, FigureKey, FigureSetup, LivePlayback,
 };
 
-use crate::sim::body::{SegmentId, State};
+use crate::sim::body::State;
 use crate::sim::collide::{MAX_OBSTACLES, Obstacle, ObstacleKey, ObstacleSetup};
 use crate::sim::figure::loads::MAX_PERTURBATIONS;
 use crate::sim::figure::{
@@ -392,9 +392,4 @@ fn each(
             scope.spawn(move || chunk.iter_mut().for_each(|(_, f)| work(f)));
         }
     });
-}
-
-/// Segments a perturbation may name, for messages.
-pub fn segment_by_name(name: &str) -> Option<SegmentId> {
-    SegmentId::from_name(name)
 }

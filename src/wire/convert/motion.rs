@@ -1,7 +1,7 @@
 //! Clips and live desired motion.
 
 use super::super::pb;
-use super::super::posture::{segment_of_bone, segment_poses, set_joint_rotation};
+use super::super::posture::{segment_of_bone, set_joint_rotation};
 use super::super::status::Fault;
 use super::super::types::{
     BvhReading, ClipInfo, Delay, DriveOpen, DriveSettings, Feedback, FigureSample, MotionSample,
@@ -546,23 +546,6 @@ pub fn figure_motion(
         planted: planted.map(|p| p.to_vec()).unwrap_or_default(),
         ..Default::default()
     }
-}
-
-/// World rotation of each bone in a posture, for tests and for clients that think in bones.
-pub fn bones_of(body: &crate::sim::body::Body, posture: &Posture) -> Vec<pb::BoneRotation> {
-    segment_poses(body, posture)
-        .iter()
-        .zip(crate::sim::body::topology::BONE_NAMES)
-        .map(|((_, q), bone)| pb::BoneRotation {
-            bone: bone.into(),
-            rotation: Some(pb::Quaternion {
-                x: q.x,
-                y: q.y,
-                z: q.z,
-                w: q.w,
-            }),
-        })
-        .collect()
 }
 
 #[cfg(test)]

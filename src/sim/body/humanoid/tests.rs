@@ -1,8 +1,10 @@
-//! Goal: bodies of all ages and sizes agree with what was measured of people.
+//! Goal: bodies of all ages and sizes agree with what was measured of people; adults with de Leva's table. The invariants hold that the
+//! kernels and the viewer rely on.
 
-//! Goal: the bodies against de Leva's table, and the invariants that the kernels and the viewer rely on.
 use super::super::geometry::{check, volume};
 use super::super::topology::{SEGMENT_NAMES, SegmentId};
+use super::parts::HEEL_SHARE;
+use super::tables::{MAN, WOMAN};
 use super::*;
 use crate::sim::math::Sym3;
 
@@ -354,6 +356,19 @@ fn children_have_large_heads_short_legs_and_adult_density() {
     for (a, b) in boy.segments.iter().zip(&girl.segments) {
         assert!((a.mass - b.mass).abs() < 1e-12 && (a.tip - b.tip).norm() < 2e-3);
     }
+}
+
+#[test]
+fn mass_fractions_of_ones_own_are_taken_or_refused_by_name() {
+    let man = Body::adult_man();
+    let mut own = MAN.mass;
+    (own.row, own.percent[3], own.percent[1]) = ("mine", 7.94, 15.33);
+    let body = Body::with_mass_fractions(man.profile, &own).unwrap();
+    let head = body.segments[t::HEAD.index()].mass;
+    assert!((head / 75.0 - 0.0794 / (own.sum() / 100.0)).abs() < 1e-12);
+    own.percent[3] = 20.0;
+    let refused = Body::with_mass_fractions(man.profile, &own).unwrap_err();
+    assert!(refused.to_string().contains("mine"), "{refused}");
 }
 
 #[test]

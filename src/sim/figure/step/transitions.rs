@@ -8,11 +8,13 @@ use crate::sim::motion::Clip;
 use crate::sim::motion::join::{self, RUN_UP};
 use std::sync::Arc;
 
-/// How far ahead a clip is looked at for a place to stop, s, and samples that still play before it is led there.
+/// How far ahead a clip is looked at for a place to stop, s.
 const STOP_AHEAD: f64 = 0.8;
+/// Samples that still play before a motion is led to a stop.
 const STOP_AFTER: usize = 3;
-/// A clip that waits begins so long before the motion that leads to it is over, if the figure has settled, and at the latest so long after, s.
+/// A clip that waits begins so long before the motion that leads to it is over, if the figure has settled, s.
 const SOONER: f64 = 0.4;
+/// It begins at the latest so long after that motion is over, s.
 const PATIENCE: f64 = 2.0;
 /// A body slower than this is led into the posture in which the next clip begins; a faster one comes to its ease first, m/s.
 const SLOW: f64 = 0.2;
@@ -58,10 +60,12 @@ impl Figure {
         }));
         expected
     }
+
     /// The clip that begins as soon as the figure stands, if one waits.
     pub fn next_clip(&self) -> Option<&Arc<Clip>> {
         self.queued.as_ref().map(|q| &q.play.clip)
     }
+
     /// True in the middle of a clip or of a step.
     fn is_busy(&self, time: f64) -> bool {
         let plays = match &self.drive {
@@ -74,6 +78,7 @@ impl Figure {
         };
         plays || self.gait.unplanned().is_some()
     }
+
     /// Begins the clip that waits, once the figure stands.
     pub(super) fn begin_queued(&mut self, time: f64) {
         let Some(q) = &self.queued else { return };
@@ -95,6 +100,7 @@ impl Figure {
             self.ending = false;
         }
     }
+
     /// Comes to a stand from world time `time` on: a walk is ended by the steps that takes, everything else is held as it is. Plans like the
     /// preparation of a clip does: some milliseconds, allocates.
     pub fn stop(&mut self, time: f64) {
@@ -110,28 +116,12 @@ impl Figure {
         }
         self.end_motion(time, None);
     }
+
     /// Leads the motion to a stand at ease, or like `goal` if it hardly moves or stands in another way; holds it as it is where that takes no
     /// movement or cannot be done.
     fn end_motion(&mut self, time: f64, goal: Option<&Posture>) {
         let from = time - self.gait.lag();
-        let (begin, so_far) = match &self.drive {
-            Drive::Clip(play) => {
-                let count = (RUN_UP * join::RATE) as usize;
-                let at = |i: usize| from + (i as f64 - count as f64) / join::RATE;
-                let ahead = (STOP_AHEAD * join::RATE) as usize;
-                let so_far = (0..=count + ahead)
-                    .map(|i| play.sample(at(i)))
-                    .map(|t| (t.posture, t.planted))
-                    .collect();
-                (at(0), so_far)
-            }
-            Drive::Live(live) => {
-                let t = live.stream_time(from);
-                let (first, so_far) = live.motion.known(t - RUN_UP);
-                (from + first - t, so_far)
-            }
-            _ => (0.0, Vec::new()),
-        };
+        let (begin, so_far) = self.motion_until_stop(from);
         let now = ((from - begin) * join::RATE).max(0.0) as usize + STOP_AFTER;
         let v = self.terms.com_velocity;
         let slow = (v.x * v.x + v.y * v.y).sqrt() < SLOW || !self.gait.is_walking();
@@ -156,5 +146,28 @@ impl Figure {
         self.gait.go_on(plan, before);
         self.drive = Drive::Clip(ClipPlayback::new(Arc::new(clip), begin));
         self.ending = true;
+    }
+
+    /// Postures and planted feet of the motion under way, by the rate of joins, with the world time of the first, s: from the run-up that
+    /// planning a stop at `from` needs to as far ahead as the motion is known.
+    fn motion_until_stop(&self, from: f64) -> (f64, Vec<(Posture, [bool; 2])>) {
+        match &self.drive {
+            Drive::Clip(play) => {
+                let count = (RUN_UP * join::RATE) as usize;
+                let at = |i: usize| from + (i as f64 - count as f64) / join::RATE;
+                let ahead = (STOP_AHEAD * join::RATE) as usize;
+                let so_far = (0..=count + ahead)
+                    .map(|i| play.sample(at(i)))
+                    .map(|t| (t.posture, t.planted))
+                    .collect();
+                (at(0), so_far)
+            }
+            Drive::Live(live) => {
+                let t = live.stream_time(from);
+                let (first, so_far) = live.motion.known(t - RUN_UP);
+                (from + first - t, so_far)
+            }
+            Drive::Hold(_) | Drive::External(_) => (0.0, Vec::new()),
+        }
     }
 }

@@ -1,0 +1,245 @@
+//! Who computes torques and moves the body, and the choices of the paper's controller.
+
+use crate::sim::figure::{ControlParams, ControllerKind, Metric, Priority, Share, StepperKind};
+use anyhow::{Result, ensure};
+use clap::ValueEnum;
+
+/// Who computes torques.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ControllerArg {
+    /// The paper's controller.
+    Paper,
+    /// Whole-body optimisation within strength and friction.
+    #[default]
+    Modern,
+    /// Strength-limited motors at the joints alone.
+    Motors,
+}
+
+impl From<ControllerArg> for ControllerKind {
+    fn from(arg: ControllerArg) -> Self {
+        match arg {
+            ControllerArg::Paper => Self::Paper,
+            ControllerArg::Modern => Self::Modern,
+            ControllerArg::Motors => Self::Motors,
+        }
+    }
+}
+
+/// Who moves the body.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum StepperArg {
+    /// Torques drive rigid-body dynamics with ground contact.
+    #[default]
+    Torque,
+    /// The controller's accelerations are applied as they are (for the paper's controller).
+    Kinematic,
+}
+
+impl From<StepperArg> for StepperKind {
+    fn from(arg: StepperArg) -> Self {
+        match arg {
+            StepperArg::Torque => Self::Torque,
+            StepperArg::Kinematic => Self::Kinematic,
+        }
+    }
+}
+
+/// Starting point of the paper's controller.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum PresetArg {
+    /// As printed in 2000: --controller paper --stepper kinematic --rate 30, no safeguards, no armature.
+    Paper2000,
+}
+
+/// Norm of equation (10).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[allow(missing_docs)]
+pub enum MetricArg {
+    /// W = I: all joints help.
+    #[value(name = "I")]
+    Identity,
+    /// W = H: only saturated joints accelerate otherwise.
+    #[value(name = "H")]
+    Inertia,
+    /// W = H²: only saturated torques change.
+    #[value(name = "H2")]
+    Torque,
+}
+
+/// Order of equation (12).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum PriorityArg {
+    /// As printed.
+    Paper,
+    /// Hands get what the centre of mass leaves.
+    Nested,
+}
+
+/// Sharing of the ground reaction between supports.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ShareArg {
+    /// By the ratios of equation (2).
+    Paper,
+    /// Least weighted forces with the right sum and moment.
+    Balanced,
+}
+
+/// Choices of the paper's controller; the others ignore them. What is not given is as the preset has it, or as usual without one.
+#[derive(Clone, Debug, Default, clap::Args)]
+#[command(next_help_heading = "Paper's controller")]
+pub struct PaperOptions {
+    /// Starting point of the choices below.
+    #[arg(long, value_enum, conflicts_with_all = ["controller", "stepper"])]
+    pub preset: Option<PresetArg>,
+    /// Blend of position and velocity demand in (4) per 1/30 s, 0 to 1; counts with --horizon 0.
+    #[arg(long, value_name = "A")]
+    pub alpha: Option<f64>,
+    /// Time constant of the demand, 0.01 to 2 s; 0: met within one step, as printed.
+    #[arg(long, value_name = "S")]
+    pub horizon: Option<f64>,
+    /// Norm of the least change (10).
+    #[arg(long, value_enum, ignore_case = true)]
+    pub metric: Option<MetricArg>,
+    /// Order of centre of mass and hands (12).
+    #[arg(long, value_enum)]
+    pub priority: Option<PriorityArg>,
+    /// Sharing of the ground reaction between supports.
+    #[arg(long, value_enum)]
+    pub share: Option<ShareArg>,
+    /// Joints that (16) saturates go to their limit.
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true")]
+    pub to_limit: Option<bool>,
+    /// Torques of a tipping figure know that its support turns.
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true")]
+    pub tilt: Option<bool>,
+    /// Keep the demand for the centre of mass within what the feet can give.
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true")]
+    pub zmp_feasible: Option<bool>,
+    /// Control both hands.
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true")]
+    pub track_hands: Option<bool>,
+    /// Control the centre of mass.
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true")]
+    pub track_com: Option<bool>,
+    /// Kinematic stepper: torques move the figure while prescribed accelerations cannot go on.
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true")]
+    pub hand_over: Option<bool>,
+}
+
+impl PaperOptions {
+    /// The choices as the controller takes them.
+    ///
+    /// # Errors
+    /// A number outside its range; names it.
+    pub fn params(&self) -> Result<ControlParams> {
+        let mut out = match self.preset {
+            Some(PresetArg::Paper2000) => ControlParams::paper2000(),
+            None => ControlParams::default(),
+        };
+        if let Some(alpha) = self.alpha {
+            ensure!((0.0..=1.0).contains(&alpha), "--alpha {alpha}: outside 0…1");
+            out.alpha = alpha;
+        }
+        match self.horizon {
+            Some(0.0) => out.horizon = None,
+            Some(t) => {
+                ensure!(
+                    (0.01..=2.0).contains(&t),
+                    "--horizon {t} s: neither 0 nor within 0.01…2"
+                );
+                out.horizon = Some(t);
+            }
+            None => {}
+        }
+        out.metric = match self.metric {
+            Some(MetricArg::Identity) => Metric::Identity,
+            Some(MetricArg::Inertia) => Metric::Inertia,
+            Some(MetricArg::Torque) => Metric::Torque,
+            None => out.metric,
+        };
+        out.priority = match self.priority {
+            Some(PriorityArg::Paper) => Priority::Paper,
+            Some(PriorityArg::Nested) => Priority::Nested,
+            None => out.priority,
+        };
+        out.share = match self.share {
+            Some(ShareArg::Paper) => Share::Paper,
+            Some(ShareArg::Balanced) => Share::Balanced,
+            None => out.share,
+        };
+        for (to, from) in [
+            (&mut out.to_limit, self.to_limit),
+            (&mut out.tilt, self.tilt),
+            (&mut out.zmp_feasible, self.zmp_feasible),
+            (&mut out.track_hands, self.track_hands),
+            (&mut out.track_com, self.track_com),
+            (&mut out.hand_over, self.hand_over),
+        ] {
+            *to = from.unwrap_or(*to);
+        }
+        Ok(out)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(clap::Parser)]
+    struct Tuned {
+        #[arg(long, default_value = "modern")]
+        controller: String,
+        #[arg(long, default_value = "torque")]
+        stepper: String,
+        #[command(flatten)]
+        paper: PaperOptions,
+    }
+
+    fn tuned(arguments: &[&str]) -> Result<ControlParams> {
+        let all = ["sinew"].iter().chain(arguments);
+        let t = <Tuned as clap::Parser>::try_parse_from(all)?;
+        assert!(!t.controller.is_empty() && !t.stepper.is_empty());
+        t.paper.params()
+    }
+
+    #[test]
+    fn choices_of_the_papers_controller_start_from_the_preset() {
+        assert_eq!(tuned(&[]).expect("none given"), ControlParams::default());
+        let printed = tuned(&["--preset", "paper2000"]).expect("the preset");
+        assert_eq!(printed, ControlParams::paper2000());
+        let some = [
+            "--preset",
+            "paper2000",
+            "--metric",
+            "h2",
+            "--tilt",
+            "--horizon",
+            "0.2",
+        ];
+        let want = ControlParams {
+            metric: Metric::Torque,
+            tilt: true,
+            horizon: Some(0.2),
+            ..ControlParams::paper2000()
+        };
+        assert_eq!(tuned(&some).expect("valid"), want);
+        let off = tuned(&["--tilt=false", "--horizon", "0", "--alpha", "0.5"]).expect("valid");
+        assert!(!off.tilt && off.horizon.is_none() && off.alpha == 0.5);
+    }
+
+    #[test]
+    fn bad_choices_of_the_papers_controller_are_refused() {
+        for bad in [
+            ["--horizon", "5"],
+            ["--alpha", "nan"],
+            ["--metric", "H3"],
+            ["--tilt=maybe", "--track-com"],
+        ] {
+            assert!(tuned(&bad).is_err(), "{bad:?}");
+        }
+        assert!(tuned(&["--preset", "paper2000", "--stepper", "torque"]).is_err());
+    }
+}

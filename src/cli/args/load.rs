@@ -1,0 +1,112 @@
+//! `--load`: what the figure carries.
+
+use super::spec::{SpecError, interval, number, segment};
+use crate::sim::body::{Body, SegmentId};
+use crate::sim::figure::{HeldLoad, Perturbation};
+use crate::sim::math::Vec3;
+use std::str::FromStr;
+
+/// `KG@SEGMENT[+SEGMENT][@T0..T1]`: a load held by one or two segments, from T0 to T1 seconds; either end may be left out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LoadSpec {
+    /// Carrying segment.
+    pub segment: SegmentId,
+    /// Second carrying segment.
+    pub second: Option<SegmentId>,
+    /// Mass, kg.
+    pub mass_kg: f64,
+    /// Picked up at, s.
+    pub from_s: f64,
+    /// Dropped at, s; infinite = never.
+    pub to_s: f64,
+}
+
+impl LoadSpec {
+    const FORM: &'static str =
+        "KG@SEGMENT[+SEGMENT][@T0..T1], for example 3@r_hand, 8@l_hand+r_hand or 3@r_hand@1.0..2.5";
+
+    /// The load at the segment's centre of mass; `grip`: force at one hand beyond which it slips, N.
+    pub fn perturbation(&self, body: &Body, grip: f64) -> Perturbation {
+        let at = |s: SegmentId| body.segment(s).com;
+        Perturbation::Held(HeldLoad {
+            segment: self.segment,
+            point: at(self.segment),
+            mass: self.mass_kg,
+            velocity: Vec3::zero(),
+            second: self.second.map(|s| (s, at(s))),
+            grip,
+            from: self.from_s,
+            to: self.to_s,
+        })
+    }
+}
+
+impl FromStr for LoadSpec {
+    type Err = SpecError;
+
+    fn from_str(text: &str) -> Result<Self, SpecError> {
+        let form = || SpecError::Form {
+            got: text.to_owned(),
+            form: Self::FORM,
+        };
+        let mut parts = text.split('@');
+        let (Some(mass), Some(name), times, None) =
+            (parts.next(), parts.next(), parts.next(), parts.next())
+        else {
+            return Err(form());
+        };
+        let (from_s, to_s) = times.map_or(Ok((0.0, f64::INFINITY)), |t| interval(t, form))?;
+        let (name, second) = match name.split_once('+') {
+            Some((first, second)) => (first, Some(segment(second)?)),
+            None => (name, None),
+        };
+        let first = segment(name)?;
+        if second == Some(first) {
+            return Err(form());
+        }
+        Ok(Self {
+            mass_kg: number("mass (kg)", mass, 0.0, 500.0)?,
+            segment: first,
+            second,
+            from_s,
+            to_s,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn loads_are_read() {
+        let l: LoadSpec = "3.5@r_hand".parse().expect("a load");
+        assert_eq!(
+            (l.mass_kg, l.segment.name(), l.from_s, l.to_s),
+            (3.5, "r_hand", 0.0, f64::INFINITY)
+        );
+        let l: LoadSpec = "2@l_hand@1..2.5".parse().expect("a load");
+        assert_eq!((l.from_s, l.to_s), (1.0, 2.5));
+        let l: LoadSpec = "2@l_hand@..2".parse().expect("a load");
+        assert_eq!((l.from_s, l.to_s), (0.0, 2.0));
+        let l: LoadSpec = "2@l_hand@1..".parse().expect("a load");
+        assert_eq!((l.from_s, l.to_s), (1.0, f64::INFINITY));
+    }
+
+    #[test]
+    fn bad_loads_say_what_is_wrong() {
+        for (text, says) in [
+            ("3", "is not of the form"),
+            ("3@r_hand@1", "is not of the form"),
+            ("3@r_hand@1..2@3", "is not of the form"),
+            ("x@r_hand", "mass (kg): \"x\" is not a number"),
+            ("nan@r_hand", "mass (kg): NaN is outside 0…500"),
+            ("-1@r_hand", "mass (kg): -1 is outside 0…500"),
+            ("3@tail", "no segment is called \"tail\""),
+            ("3@r_hand@2..1", "the interval 2..1 s is empty"),
+        ] {
+            let error = text.parse::<LoadSpec>().expect_err(text).to_string();
+            assert!(error.contains(says), "{text}: {error}");
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! What `--report` writes.
+
+use super::Scenario;
+use crate::cli::args::{ControllerArg, StepperArg, sex_name};
+use crate::cli::lint;
+use crate::cli::source::Source;
+use crate::evaluate::RunReport;
+use crate::sim::body::SegmentId;
+use serde::Serialize;
+
+/// `report.json`: the scenario, how the motion was fitted, and the measures.
+#[derive(Serialize)]
+pub(super) struct Document<'a> {
+    clip: &'a str,
+    duration_s: f64,
+    body: BodyEntry,
+    controller: ControllerArg,
+    stepper: StepperArg,
+    strength: f64,
+    percentile: f64,
+    effort: f64,
+    fatigue_time_scale: f64,
+    assist: f64,
+    substeps: u32,
+    gravity_mps2: f64,
+    loads: Vec<LoadEntry>,
+    pushes: Vec<PushEntry>,
+    /// As they were given.
+    obstacles: Vec<&'a str>,
+    #[serde(flatten)]
+    measures: &'a RunReport,
+    /// `null` for built-in motions, which are made for the body.
+    retarget: serde_json::Value,
+}
+
+#[derive(Serialize)]
+struct BodyEntry {
+    sex: &'static str,
+    age_years: f64,
+    height_m: f64,
+    mass_kg: f64,
+}
+
+#[derive(Serialize)]
+struct LoadEntry {
+    segment: &'static str,
+    /// `null`: one hand.
+    second_segment: Option<&'static str>,
+    mass_kg: f64,
+    from_s: f64,
+    /// `null`: never put down.
+    to_s: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct PushEntry {
+    segment: &'static str,
+    impulse_ns: f64,
+    at_s: f64,
+    duration_s: f64,
+    direction: [f64; 3],
+}
+
+/// The document of one clip.
+pub(super) fn document<'a>(
+    scenario: &Scenario<'a>,
+    source: &'a Source,
+    duration_s: f64,
+    measures: &'a RunReport,
+) -> Document<'a> {
+    let args = scenario.args;
+    let profile = scenario.body.profile;
+    Document {
+        clip: &source.name,
+        duration_s,
+        body: BodyEntry {
+            sex: sex_name(profile.sex),
+            age_years: profile.age,
+            height_m: profile.height,
+            mass_kg: profile.mass,
+        },
+        controller: args.controller_kind(),
+        stepper: args.stepper_kind(),
+        strength: args.strength,
+        percentile: args.percentile,
+        effort: args.effort,
+        fatigue_time_scale: args.fatigue,
+        assist: args.assist,
+        substeps: args.substeps,
+        gravity_mps2: scenario.params.gravity,
+        loads: args
+            .load
+            .iter()
+            .map(|l| LoadEntry {
+                segment: l.segment.name(),
+                second_segment: l.second.map(SegmentId::name),
+                mass_kg: l.mass_kg,
+                from_s: l.from_s,
+                to_s: Some(l.to_s).filter(|t| t.is_finite()),
+            })
+            .collect(),
+        pushes: args
+            .push
+            .iter()
+            .map(|p| PushEntry {
+                segment: p.segment.name(),
+                impulse_ns: p.impulse_ns,
+                at_s: p.at_s,
+                duration_s: args.push_duration,
+                direction: p.direction.to_array(),
+            })
+            .collect(),
+        obstacles: args.obstacle.iter().map(|o| o.0.name.as_str()).collect(),
+        measures,
+        retarget: source
+            .retarget
+            .as_ref()
+            .map_or(serde_json::Value::Null, lint::to_json),
+    }
+}

@@ -1,0 +1,103 @@
+//! What `--strip` draws.
+
+use super::Scenario;
+use crate::cli::args::{LoadSpec, person_name};
+use crate::cli::output::{extension, write};
+use crate::evaluate::strip::{Frame, StripOptions, Thing, View, draw, raster, svg};
+use crate::sim::collide::{Mobility, ObstacleSetup, Shape};
+use crate::sim::figure::Constraint;
+use crate::sim::math::{Quat, Vec3};
+use anyhow::{Context, Result};
+use std::path::Path;
+
+/// From where a strip is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum ViewArg {
+    /// From the right side.
+    Side,
+    /// From the front.
+    Front,
+    /// From the front and right, from a little above.
+    #[default]
+    ThreeQuarter,
+}
+
+impl From<ViewArg> for View {
+    fn from(arg: ViewArg) -> Self {
+        match arg {
+            ViewArg::Side => Self::Side,
+            ViewArg::Front => Self::Front,
+            ViewArg::ThreeQuarter => Self::ThreeQuarter,
+        }
+    }
+}
+
+/// A small ball where all three coordinates of a part are wanted at `time` (s).
+pub(super) fn goal_mark(c: &Constraint, time: f64) -> Option<Thing> {
+    let holds = c.from <= time && time < c.to && c.axes == [1.0; 3];
+    let setup = ObstacleSetup {
+        position: c.position.filter(|_| holds)?,
+        name: String::new(),
+        shape: Shape::Sphere { radius: 0.03 },
+        mobility: Mobility::Fixed,
+        friction: 1.0,
+        rotation: Quat::identity(),
+        velocity: Vec3::zero(),
+        angular_velocity: Vec3::zero(),
+    };
+    Some(Thing::obstacle(&setup))
+}
+
+/// Loads in the figure's hands at `time` (s).
+pub(super) fn held_loads(scenario: &Scenario<'_>, time: f64) -> Vec<(usize, Vec3, f64)> {
+    let held = |l: &&LoadSpec| l.from_s < time && time <= l.to_s && l.mass_kg > 0.0;
+    let place = |l: &LoadSpec| {
+        let load = l.perturbation(&scenario.body, f64::INFINITY).load();
+        let shares = load.into_iter().flat_map(|l| l.shares());
+        shares.map(|(s, p, kg)| (s.index(), p, kg))
+    };
+    scenario
+        .args
+        .load
+        .iter()
+        .filter(held)
+        .flat_map(place)
+        .collect()
+}
+
+/// Draws the frames side by side.
+pub(super) fn write_strip(
+    scenario: &Scenario<'_>,
+    name: &str,
+    frames: &[Frame],
+    path: &Path,
+) -> Result<()> {
+    let args = scenario.args;
+    let profile = scenario.body.profile;
+    let mut title = format!(
+        "{name}: {}, {:.2} m, {:.0} kg, strength {}",
+        person_name(&profile),
+        profile.height,
+        profile.mass,
+        args.strength
+    );
+    for l in &args.load {
+        title += &format!(", {} kg in {}", l.mass_kg, l.segment.name());
+    }
+    for p in &args.push {
+        title += &format!(", push {} Ns at {} s", p.impulse_ns, p.at_s);
+    }
+    let options = StripOptions {
+        view: args.view.into(),
+        title,
+        ..StripOptions::default()
+    };
+    let drawing = draw(&scenario.body, frames, &options);
+    if extension("--strip", path, &["svg", "png"])? == "svg" {
+        write(path, svg::write(&drawing))
+    } else {
+        let png =
+            raster::png(&drawing).with_context(|| format!("cannot draw {}", path.display()))?;
+        write(path, png)
+    }
+}

@@ -1,0 +1,183 @@
+//! Feet that stand neither slide nor sink, and stand when they did in the recording.
+
+use crate::mocap::CLIPS;
+use crate::{STANDING, stats, take, text};
+use sinew::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
+use sinew::sim::body::{Body, Posture};
+use sinew::sim::math::Vec3;
+use sinew::sim::motion::RetargetOptions;
+use sinew::sim::motion::contacts::ContactPhase;
+use sinew::sim::motion::foot_lock::Sole;
+use sinew::sim::motion::leg_ik::forward;
+
+/// Heel and toe joint of both feet, and the lowest point of either sole.
+fn soles(body: &Body, posture: &Posture) -> [(Vec3, Vec3, f64); 2] {
+    let poses = forward(body, posture);
+    [(L_FOOT, L_TOES), (R_FOOT, R_TOES)].map(|(foot, toes)| {
+        let (at, q) = poses[foot.index()];
+        let back = body
+            .segment(foot)
+            .contact_points
+            .iter()
+            .min_by(|a, b| a.x.total_cmp(&b.x))
+            .unwrap();
+        let heel = at + q.rotate(Vec3 { y: 0.0, ..*back });
+        let low = [foot, toes]
+            .iter()
+            .flat_map(|s| {
+                let (at, q) = poses[s.index()];
+                body.segment(*s)
+                    .contact_points
+                    .iter()
+                    .map(move |p| (at + q.rotate(*p)).z)
+            })
+            .fold(f64::INFINITY, f64::min);
+        (heel, poses[toes.index()].0, low)
+    })
+}
+
+#[test]
+fn planted_feet_neither_slide_nor_sink() {
+    for body in [Body::adult_man(), Body::adult_woman()] {
+        for name in CLIPS {
+            let r = take(&text(name), &body, &RetargetOptions::default()).unwrap();
+            // A planted foot is held by its heel or by its toe joint; while one holds, the other may lift off and come down elsewhere.
+            let mut held: [Option<(Vec3, Vec3)>; 2] = [None; 2];
+            for i in 0..r.clip.len() {
+                let now = soles(&body, r.clip.posture(i));
+                for s in 0..2 {
+                    if !r.clip.planted(i)[s] {
+                        held[s] = None;
+                        continue;
+                    }
+                    let (heel, toe, low) = now[s];
+                    let (heel_at, toe_at) = held[s].unwrap_or((heel, toe));
+                    let off = |a: Vec3, b: Vec3| (a.x - b.x).hypot(a.y - b.y);
+                    let (by_heel, by_toe) = (off(heel, heel_at), off(toe, toe_at));
+                    assert!(
+                        by_heel.min(by_toe) < 1e-3,
+                        "{name}: foot {s} slides {by_heel} and {by_toe} m at sample {i}"
+                    );
+                    held[s] = Some((
+                        if by_heel < 1e-3 { heel_at } else { heel },
+                        if by_toe < 1e-3 { toe_at } else { toe },
+                    ));
+                    assert!(
+                        low > -1e-3,
+                        "{name}: foot {s} is {} m under the floor at sample {i}",
+                        -low
+                    );
+                    assert!(
+                        low < 2e-3,
+                        "{name}: foot {s} stands {low} m over the floor at sample {i}"
+                    );
+                }
+            }
+            assert!(
+                r.report.foot_slide.1 < 1e-3 && r.report.penetration.1 < 1e-3,
+                "{name}: {:?}",
+                r.report
+            );
+            assert!(
+                r.report.freed < 0.12,
+                "{name}: {} of the samples let go",
+                r.report.freed
+            );
+        }
+    }
+}
+
+/// Phases of the statistics (frames, last one included), seconds.
+fn known_phases(stats: &serde_json::Value, name: &str) -> Vec<(f64, f64, char)> {
+    let clip = &stats[name];
+    let h = clip["frame_time"].as_f64().unwrap();
+    clip["phases"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|p| {
+            (
+                p[0].as_f64().unwrap() * h,
+                (p[1].as_f64().unwrap() + 1.0) * h,
+                p[2].as_str().unwrap().chars().next().unwrap(),
+            )
+        })
+        .collect()
+}
+
+#[test]
+fn contact_phases_agree_with_the_statistics() {
+    let stats = stats();
+    let body = Body::adult_man();
+    for name in ["walk", "run", "jump"] {
+        let r = take(&text(name), &body, &RetargetOptions::default()).unwrap();
+        let known = known_phases(&stats, name);
+        // Both feet leave or land within a few frames of each other in a jump: such slivers are no phases of their own.
+        let ours: Vec<&ContactPhase> = r
+            .report
+            .phases
+            .iter()
+            .filter(|p| p.end - p.start > 0.03)
+            .collect();
+        let letters = |v: Vec<char>| v.into_iter().collect::<String>();
+        assert_eq!(
+            letters(ours.iter().map(|p| p.letter()).collect()),
+            letters(known.iter().map(|k| k.2).collect()),
+            "{name}"
+        );
+        for (p, k) in ours.iter().zip(&known) {
+            assert!(
+                (p.start - k.0).abs() < 0.06 && (p.end - k.1).abs() < 0.06,
+                "{name}: {} {:.3}…{:.3} against {:.3}…{:.3}",
+                p.letter(),
+                p.start,
+                p.end,
+                k.0,
+                k.1
+            );
+        }
+    }
+    for name in STANDING {
+        let r = take(&text(name), &body, &RetargetOptions::default()).unwrap();
+        let both: f64 = r
+            .report
+            .phases
+            .iter()
+            .filter(|p| p.letter() == 'D')
+            .map(|p| p.end - p.start)
+            .sum();
+        assert!(
+            both > 0.93 * r.clip.duration(),
+            "{name}: both feet down for {both} s"
+        );
+    }
+}
+
+#[test]
+fn swinging_feet_clear_the_floor() {
+    let body = Body::adult_man();
+    let r = take(&text("walk"), &body, &RetargetOptions::default()).unwrap();
+    let sole = Sole::new(&body, 0);
+    assert!(sole.ankle_height > 0.05);
+    let mut runs = Vec::new();
+    for s in 0..2 {
+        let (mut top, mut stood) = (0.0f64, false);
+        for i in 0..r.clip.len() {
+            let low = soles(&body, r.clip.posture(i))[s].2;
+            assert!(low > -2e-3, "foot {s} at {low} m in sample {i}");
+            if r.clip.planted(i)[s] {
+                if top > 0.0 {
+                    runs.push(top);
+                }
+                (top, stood) = (0.0, true);
+            } else if stood {
+                // A swing that the clip starts in is not whole.
+                top = top.max(low);
+            }
+        }
+    }
+    assert!(
+        runs.len() >= 4 && runs.iter().all(|t| *t > 0.03),
+        "clearance of each swing: {runs:?}"
+    );
+}
