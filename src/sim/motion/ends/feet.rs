@@ -107,7 +107,8 @@ pub(super) fn pose(
         return (ankle, rotation, true);
     };
     let in_air = k == 0 && !from.down[side];
-    let (start, rotation, velocity, spin) = if in_air {
+    // A foot in the air, and one that lifts at once, goes on as it moves, toe-up as it may be.
+    let (start, rotation, velocity, spin) = if in_air || k == 0 && step.off <= 0.0 {
         let (velocity, spin) = (from.ankle_velocity[side], from.foot_spin[side]);
         (from.ankle[side], from.foot[side], velocity, spin)
     } else {
