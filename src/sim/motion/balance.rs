@@ -280,6 +280,61 @@ fn answers(rows: &[[f64; 3]], shift: &[f64]) -> Vec<f64> {
         .collect()
 }
 
+/// Price of a zero-moment point outside, 1/m².
+const PRICE: f64 = 1.0 / (COST * COST);
+
+/// Share of the way into the support that the zero-moment point is brought in each sample: none where something else than feet carries.
+///
+/// * `plain`: zero-moment point without any shift, per axis, m.
+fn how_much_yields(
+    track: &MassTrack,
+    plain: &[Vec<f64>; 2],
+    carriers: &[Carrier],
+    elsewhere: &[Elsewhere],
+    (reach, rate_hz): (f64, f64),
+) -> Vec<f64> {
+    let outside = |(i, c): (usize, &Carrier)| match c {
+        Carrier::Feet(p) => (-margin(p, [plain[0][i], plain[1][i]])).clamp(0.0, MOST_OFF),
+        _ => 0.0,
+    };
+    // How far outside for about a second: peaks of gait are corrected, a chair is not.
+    let mut lasting: Vec<f64> = carriers.iter().enumerate().map(outside).collect();
+    low_pass(&mut lasting, 0.5, rate_hz);
+    let share = |(i, c): (usize, &Carrier)| {
+        let u = ((lasting[i] - 0.7 * reach) / (0.6 * reach)).clamp(0.0, 1.0);
+        let meant = if matches!(c, Carrier::Feet(_)) {
+            let leans = elsewhere[i].hands * u * u * (3.0 - 2.0 * u);
+            (1.0 - elsewhere[i].seat) * (1.0 - leans)
+        } else {
+            0.0
+        };
+        // A light body's zero-moment point says little.
+        let load = track.load[i].clamp(0.0, 1.0);
+        let sigma = PRICE * meant * load * load;
+        sigma / (sigma + PRICE)
+    };
+    carriers.iter().enumerate().map(share).collect()
+}
+
+/// `1 + PRICE Aᵀ A + τ⁴ D²ᵀ D²` with the answers A (`rows`) of the zero-moment point.
+fn shift_system(rows: &[[f64; 3]], carriers: &[Carrier], rate_hz: f64) -> Pentadiagonal {
+    let n = rows.len();
+    let mut matrix = Pentadiagonal::new(vec![1.0; n]);
+    for i in 0..n {
+        matrix.add_row(i as isize - 1, rows[i], PRICE);
+        if i > 0 && i + 1 < n {
+            // Nothing bends the path of a body in the air.
+            let weight = if carriers[i] == Carrier::Air {
+                FREE * PRICE * rate_hz.powi(4)
+            } else {
+                (BEND * rate_hz).powi(4)
+            };
+            matrix.add_row(i as isize - 1, [1.0, -2.0, 1.0], weight);
+        }
+    }
+    matrix
+}
+
 /// Shift of the pelvis, per sample, that brings the zero-moment point `inset` (m) inside the support: the least one, and the smoothest.
 ///
 /// Minimises `Σ s² + τ⁴ s̈² + Σ (outside/COST)²` where the zero-moment point answers to a shift Δ = s/LEAD of the centre of mass by Δ − Δ̈/ω²
@@ -316,46 +371,8 @@ pub fn pelvis_shift(
             _ => None,
         })
         .collect();
-    // How far outside for about a second: peaks of gait are corrected, a chair is not.
-    let mut lasting: Vec<f64> = (0..n)
-        .map(|i| match &carriers[i] {
-            Carrier::Feet(p) => (-margin(p, [plain[0][i], plain[1][i]])).clamp(0.0, MOST_OFF),
-            _ => 0.0,
-        })
-        .collect();
-    low_pass(&mut lasting, 0.5, rate_hz);
-    let price = 1.0 / (COST * COST);
-    let yields: Vec<f64> = (0..n)
-        .map(|i| {
-            let u = ((lasting[i] - 0.7 * reach) / (0.6 * reach)).clamp(0.0, 1.0);
-            let meant = if inner[i].is_some() {
-                let leans = elsewhere[i].hands * u * u * (3.0 - 2.0 * u);
-                (1.0 - elsewhere[i].seat) * (1.0 - leans)
-            } else {
-                0.0
-            };
-            // A light body's zero-moment point says little.
-            let load = track.load[i].clamp(0.0, 1.0);
-            let sigma = price * meant * load * load;
-            sigma / (sigma + price)
-        })
-        .collect();
-    let mut matrix = Pentadiagonal::new(vec![1.0; n]);
-    let bend = (BEND * rate_hz).powi(4);
-    for i in 0..n {
-        matrix.add_row(i as isize - 1, rows[i], price);
-        if i > 0 && i + 1 < n {
-            // Nothing bends the path of a body in the air.
-            let free = carriers[i] == Carrier::Air;
-            let weight = if free {
-                FREE * price * rate_hz.powi(4)
-            } else {
-                bend
-            };
-            matrix.add_row(i as isize - 1, [1.0, -2.0, 1.0], weight);
-        }
-    }
-    let factor = matrix.factor();
+    let yields = how_much_yields(track, &plain, carriers, elsewhere, (reach, rate_hz));
+    let factor = shift_system(&rows, carriers, rate_hz).factor();
     let mut shift: [Vec<f64>; 2] = [vec![0.0; n], vec![0.0; n]];
     let mut goal = plain.clone();
     let mut debt: [Vec<f64>; 2] = [vec![0.0; n], vec![0.0; n]];
@@ -364,7 +381,7 @@ pub fn pelvis_shift(
         for axis in 0..2 {
             let mut x = vec![0.0; n];
             for i in 0..n {
-                let want = price * (goal[axis][i] - debt[axis][i] - plain[axis][i]);
+                let want = PRICE * (goal[axis][i] - debt[axis][i] - plain[axis][i]);
                 let [l, d, r] = rows[i];
                 x[i] += d * want;
                 if i > 0 {

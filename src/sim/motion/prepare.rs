@@ -218,15 +218,9 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
     let mut clamped = [(0.0f64, 0.0f64); DOF_COUNT];
     clamp_upper(body, &mut upper, rate, &mut clamped);
 
-    let label: [Vec<bool>; 2] = std::array::from_fn(|s| {
-        (0..n)
-            .map(|i| {
-                draft.label[i][s]
-                    && options.lock_feet
-                    && upper[i].root_position.z > LYING * standing
-            })
-            .collect()
-    });
+    let stands = |i: usize| options.lock_feet && upper[i].root_position.z > LYING * standing;
+    let label: [Vec<bool>; 2] =
+        std::array::from_fn(|s| (0..n).map(|i| draft.label[i][s] && stands(i)).collect());
     let lock = |relief: &Relief| -> [LockedFoot; 2] {
         std::array::from_fn(|s| {
             lock_foot(
@@ -261,11 +255,12 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
     let mut track = mass_track(body, &postures, rate);
     let before = zmp_outside(&track, &carriers);
     let elsewhere = may_rest(body, &upper, &planted, rate);
-    for round in 0..if options.lock_feet && n >= 8 {
+    let rounds = if options.lock_feet && n >= 8 {
         rounds
     } else {
         0
-    } {
+    };
+    for round in 0..rounds {
         if round + 2 < rounds {
             relief.add(
                 body,
@@ -297,31 +292,13 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
         track = mass_track(body, &postures, rate);
     }
 
-    // Legs into their limits last, and what is left of the lock.
-    let mut slide_after: f64 = 0.0;
-    let mut penetration_after: f64 = 0.0;
-    let mut freed = 0usize;
-    for i in 0..n {
-        let off = clamp_to_limits(body, &mut postures[i], LIMIT_MARGIN * 0.5);
-        note_clamped(&mut clamped, &off, n);
-        let poses = forward(body, &postures[i]);
-        for s in 0..2 {
-            if !planted[i][s] {
-                continue;
-            }
-            let (at, q) = poses[FOOT[s].index()];
-            let goal = &locked[s].poses[i];
-            let low = at.z + soles[s].lowest(q, postures[i].hinge[toe_hinge(s)]);
-            let stray = soles[s].stray((at, q), goal);
-            if stray > HELD || low < -HELD {
-                planted[i][s] = false;
-                freed += 1;
-                continue;
-            }
-            slide_after = slide_after.max(stray);
-            penetration_after = penetration_after.max(-low);
-        }
-    }
+    let held = into_limits(
+        body,
+        &mut postures,
+        &mut planted,
+        (&soles, &locked),
+        &mut clamped,
+    );
     track = mass_track(body, &postures, rate);
     let after = zmp_outside(&track, &carriers);
     let far = (0..n)
@@ -337,15 +314,59 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
         clamped,
         slide: (
             locked[0].slide_before.max(locked[1].slide_before),
-            slide_after,
+            held.slide,
         ),
-        penetration: (penetration_before, penetration_after),
+        penetration: (penetration_before, held.penetration),
         zmp: (before, after),
         shift_max: shift.iter().map(|s| s[0].hypot(s[1])).fold(0.0, f64::max),
         drop_max: -drop.iter().copied().fold(0.0, f64::min),
         carried: far as f64 / n.max(1) as f64,
-        freed: freed as f64 / (2 * n).max(1) as f64,
+        freed: held.freed as f64 / (2 * n).max(1) as f64,
     }
+}
+
+/// What is left of a lock when the legs are within their limits.
+#[derive(Default)]
+struct Held {
+    /// Furthest that a planted foot is from its place, m.
+    slide: f64,
+    /// Deepest that one is in the floor, m.
+    penetration: f64,
+    /// Foot samples that were declared free.
+    freed: usize,
+}
+
+/// Brings the legs into their limits, last, and declares feet free that they cannot hold in place then.
+fn into_limits(
+    body: &Body,
+    postures: &mut [Posture],
+    planted: &mut [[bool; 2]],
+    (soles, locked): (&[Sole; 2], &[LockedFoot; 2]),
+    clamped: &mut [(f64, f64); DOF_COUNT],
+) -> Held {
+    let n = postures.len();
+    let mut held = Held::default();
+    for (i, (posture, planted)) in postures.iter_mut().zip(planted).enumerate() {
+        let off = clamp_to_limits(body, posture, LIMIT_MARGIN * 0.5);
+        note_clamped(clamped, &off, n);
+        let poses = forward(body, posture);
+        for s in 0..2 {
+            if !planted[s] {
+                continue;
+            }
+            let (at, q) = poses[FOOT[s].index()];
+            let low = at.z + soles[s].lowest(q, posture.hinge[toe_hinge(s)]);
+            let stray = soles[s].stray((at, q), &locked[s].poses[i]);
+            if stray > HELD || low < -HELD {
+                planted[s] = false;
+                held.freed += 1;
+                continue;
+            }
+            held.slide = held.slide.max(stray);
+            held.penetration = held.penetration.max(-low);
+        }
+    }
+    held
 }
 
 fn toe_hinge(side: usize) -> usize {
