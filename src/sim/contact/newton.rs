@@ -165,7 +165,7 @@ pub fn minimise<S: System>(
             q1 += d[i] * ad[i];
             slope0 += d[i] * grad[i];
         }
-        let a = line_search(slope0, |a| {
+        let a = line_search(slope0, LINE_SEARCH, |a| {
             let mut z = q0 + a * q1;
             for j in 0..DOF_COUNT {
                 z -= d[6 + j] * motors.value(j, x[6 + j] + a * d[6 + j]).0;
@@ -273,15 +273,15 @@ fn add_slopes<S: System>(
 }
 
 /// Length of a step that brings the slope `phi` along it near zero: the whole step, unless the slope there is well above zero; `slope0 < 0`
-/// is the slope at its start, `phi` grows.
+/// is the slope at its start, `phi` grows; at most `most` evaluations after the first.
 #[inline(always)]
-pub(crate) fn line_search(slope0: f64, phi: impl Fn(f64) -> f64) -> f64 {
+pub(crate) fn line_search(slope0: f64, most: usize, mut phi: impl FnMut(f64) -> f64) -> f64 {
     let mut a = 1.0;
     let full = phi(1.0);
     if full > 0.1 * slope0.abs() {
         // Illinois variant of regula falsi between 0 and 1.
         let (mut lo, mut flo, mut hi, mut fhi) = (0.0, slope0, 1.0, full);
-        for _ in 0..LINE_SEARCH {
+        for _ in 0..most {
             a = lo - flo * (hi - lo) / (fhi - flo);
             if a.is_nan() || a <= lo + 1e-3 * (hi - lo) {
                 a = lo + 1e-2 * (hi - lo);

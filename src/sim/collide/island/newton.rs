@@ -3,7 +3,7 @@
 use super::{Articulated, Island, Kind, dot, relative};
 use crate::sim::body::topology::{DOF_COUNT, NV};
 use crate::sim::contact::Outcome;
-use crate::sim::contact::newton::largest;
+use crate::sim::contact::newton::{largest, line_search};
 use crate::sim::contact::projection::Region;
 
 /// Newton iterations after which it counts as jammed; 5 to 15 are typical.
@@ -157,7 +157,7 @@ impl Island {
             c.du = relative(c, |b| &blocks[b].d);
         }
         let contacts = &self.contacts;
-        let mut phi = |a: f64| {
+        let phi = |a: f64| {
             let mut z = q0 + a * q1;
             for b in blocks {
                 if let Kind::Figure(i) = b.kind {
@@ -182,28 +182,7 @@ impl Island {
             }
             z
         };
-        let mut a = 1.0;
-        let full = phi(1.0);
-        if full > 0.1 * slope0.abs() {
-            let (mut lo, mut flo, mut hi, mut fhi) = (0.0, slope0, 1.0, full);
-            for _ in 0..LINE_SEARCH {
-                a = lo - flo * (hi - lo) / (fhi - flo);
-                if a.is_nan() || a <= lo + 1e-3 * (hi - lo) {
-                    a = lo + 1e-2 * (hi - lo);
-                }
-                let p = phi(a);
-                if p.abs() < 0.05 * slope0.abs() {
-                    break;
-                }
-                if p < 0.0 {
-                    (lo, flo) = (a, p);
-                    fhi *= 0.5;
-                } else {
-                    (hi, fhi) = (a, p);
-                    flo *= 0.5;
-                }
-            }
-        }
+        let a = line_search(slope0, LINE_SEARCH, phi);
         for b in &mut self.blocks {
             for k in 0..NV {
                 b.x[k] += a * b.d[k];
