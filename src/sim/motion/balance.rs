@@ -33,7 +33,7 @@ pub struct MassTrack {
 
 /// Computes [`MassTrack`] by central differences of the postures.
 ///
-/// z = Σ-moment balance about the floor: `z_x = −M_y/F_z`, `z_y = M_x/F_z` with `M = L̇ + g Σ m c × ẑ`, L about the world origin.
+/// The zero-moment point is that of [`zero_moment_point`], with the change of angular momentum about the centre of mass.
 ///
 /// * `rate_hz`: samples per second. The first and last two samples repeat their neighbour. O(n); allocates.
 pub fn mass_track(body: &Body, postures: &[Posture], rate_hz: f64) -> MassTrack {
@@ -60,7 +60,7 @@ pub fn mass_track(body: &Body, postures: &[Posture], rate_hz: f64) -> MassTrack 
                 let spin = q
                     .conjugate()
                     .rotate((poses[b][s].1 * poses[a][s].1.conjugate()).log() * w);
-                sum + centre(i, s).cross(v) * seg.mass + q.rotate(seg.inertia * spin)
+                sum + (centre(i, s) - com[i]).cross(v) * seg.mass + q.rotate(seg.inertia * spin)
             })
         })
         .collect();
@@ -78,15 +78,12 @@ pub fn mass_track(body: &Body, postures: &[Posture], rate_hz: f64) -> MassTrack 
         let c = out.com[i];
         let acc = (out.com[i + 1] - c * 2.0 + out.com[i - 1]) * (1.0 / (h * h));
         let rate = (momentum[i + 1] - momentum[i - 1]) * (0.5 / h);
-        let force = mass * (GRAVITY + acc.z);
-        out.load[i] = force / (mass * GRAVITY);
-        out.wrench[i] = ((acc + Vec3::Z * GRAVITY) * mass, rate - c.cross(acc) * mass);
+        out.load[i] = 1.0 + acc.z / GRAVITY;
+        out.wrench[i] = ((acc + Vec3::Z * GRAVITY) * mass, rate);
         out.omega2[i] = ((GRAVITY + acc.z) / c.z.max(0.2)).clamp(3.0, 40.0);
         // Near flight there is no zero-moment point to speak of; the centre of mass stands in.
         if out.load[i] > LIGHT {
-            let m_x = rate.x + mass * GRAVITY * c.y;
-            let m_y = rate.y - mass * GRAVITY * c.x;
-            out.zmp[i] = [-m_y / force, m_x / force];
+            out.zmp[i] = zero_moment_point(c, out.wrench[i]);
         }
     }
     for (i, from) in [(0, 2), (1, 2), (n - 2, n - 3), (n - 1, n - 3)] {
@@ -95,6 +92,18 @@ pub fn mass_track(body: &Body, postures: &[Posture], rate_hz: f64) -> MassTrack 
         out.wrench[i] = out.wrench[from];
     }
     out
+}
+
+/// Where on the floor (z = 0) the ground force acts without a level moment.
+///
+/// * `com`: centre of mass, m.
+/// * `wrench`: force of the ground, N, and its moment about the centre of mass, N·m. About the world origin the same would be the small
+///   difference of moments that grow with the distance from it, and differentiation makes them differ by more than the sole is long.
+pub(super) fn zero_moment_point(com: Vec3, (force, moment): (Vec3, Vec3)) -> [f64; 2] {
+    [
+        com.x - (com.z * force.x + moment.y) / force.z,
+        com.y - (com.z * force.y - moment.x) / force.z,
+    ]
 }
 
 /// Convex hull, counter-clockwise (monotone chain).
@@ -416,6 +425,7 @@ pub fn pelvis_shift(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sim::motion::builtin::builtin;
 
     #[test]
     fn the_answer_to_a_shift_is_that_of_the_pendulum() {
@@ -430,6 +440,25 @@ mod tests {
             .map(|(z, c)| (z - (1.0 + a * a / w2) * c).abs())
             .fold(0.0, f64::max);
         assert!(worst < 1e-3, "{worst}");
+    }
+
+    #[test]
+    fn the_zero_moment_point_moves_along_with_the_motion() {
+        let body = Body::adult_man();
+        let clip = builtin(&body, "walk").unwrap();
+        let here: Vec<Posture> = (0..clip.len()).map(|i| *clip.posture(i)).collect();
+        let far = Vec3 {
+            x: 500.0,
+            y: -800.0,
+            z: 0.0,
+        };
+        let mut there = here.clone();
+        there.iter_mut().for_each(|p| p.root_position += far);
+        let [a, b] = [here, there].map(|p| mass_track(&body, &p, clip.rate_hz()));
+        for (i, (a, b)) in a.zmp.iter().zip(&b.zmp).enumerate() {
+            let off = [b[0] - far.x - a[0], b[1] - far.y - a[1]];
+            assert!(off.iter().all(|e| e.abs() < 1e-5), "{i}: {off:?}");
+        }
     }
 
     #[test]

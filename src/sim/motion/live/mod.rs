@@ -11,6 +11,7 @@
 mod foot;
 mod polygon;
 
+use super::balance::zero_moment_point;
 use super::clip::{Knot, PlanarTransform, between};
 use super::foot_lock::{FootPose, Sole};
 use super::leg_ik::{center_of_mass, forward, knee_axis, solve_leg_in_plane};
@@ -122,7 +123,7 @@ struct Sample {
     smooth: Posture,
     poses: [(Vec3, Quat); SEGMENT_COUNT],
     com: Vec3,
-    /// Angular momentum about the world origin, kg·m²/s.
+    /// Angular momentum about the centre of mass, kg·m²/s.
     momentum: Vec3,
     omega2: f64,
     /// From the zero-moment point to the nearest place where the feet could have it, m.
@@ -476,7 +477,8 @@ impl LiveMotion {
                 let q = b.poses[s].1;
                 let turn = (c.poses[s].1 * a.poses[s].1.conjugate()).log() * (0.5 * RATE);
                 let spin = q.conjugate().rotate(turn);
-                sum += centre(b).cross(v) * segment.mass + q.rotate(segment.inertia * spin);
+                let arm = centre(b) - b.com;
+                sum += arm.cross(v) * segment.mass + q.rotate(segment.inertia * spin);
             }
         }
         if i >= 0 {
@@ -521,10 +523,8 @@ impl LiveMotion {
         let omega2 = ((GRAVITY + acc.z) / b.com.z.max(0.2)).clamp(3.0, 40.0);
         let mut off = [0.0; 2];
         if load > super::balance::LIGHT && j >= 2 {
-            let force = mass * GRAVITY * load;
-            let m_x = rate.x + mass * GRAVITY * b.com.y;
-            let m_y = rate.y - mass * GRAVITY * b.com.x;
-            let z = [-m_y / force, m_x / force];
+            let force = (acc + Vec3::Z * GRAVITY) * mass;
+            let z = zero_moment_point(b.com, (force, rate));
             let mut polygon = Polygon::default();
             for side in 0..2 {
                 if let Some(anchor) = self.feet[side].anchor(j, |i| self.standing(side, i)) {

@@ -152,3 +152,28 @@ fn wild_streams_stay_finite_and_bounded() {
     }
     assert!(live.fed() < 10_000);
 }
+
+#[test]
+fn where_a_stream_walks_makes_no_difference() {
+    let body = Arc::new(Body::adult_man());
+    let walk = builtin(&body, "walk").unwrap();
+    let far = Vec3 {
+        x: 3000.0,
+        y: -2000.0,
+        z: 0.0,
+    };
+    let seen = |i: usize| walk.sample(i as f64 / RATE).posture;
+    let (_, here) = through(&body, 0.5, 300, seen);
+    let (_, there) = through(&body, 0.5, 300, |i| {
+        let mut p = seen(i);
+        p.root_position += far;
+        p
+    });
+    for (a, b) in here.iter().zip(&there) {
+        let mut back = b.posture;
+        back.root_position = back.root_position - far;
+        let off = a.posture.difference(&back);
+        assert!(off.iter().all(|e| e.abs() < 1e-6), "{off:?}");
+        assert_eq!(a.planted, b.planted);
+    }
+}
