@@ -69,11 +69,13 @@ fn walks_start_from_standing_and_stop() {
     let body = man();
     // Furthest that the capture point may be off, m. In salsa-a a foot that turns as fast as it can lands 16° off.
     for (name, furthest) in [
-        ("walk", 0.1),
-        ("turn", 0.1),
-        ("walk-around", 0.15),
-        ("salsa-a", 0.25),
-        ("hit", 0.15),
+        ("walk", 0.06),
+        ("turn", 0.08),
+        ("walk-around", 0.12),
+        ("salsa-a", 0.2),
+        ("salsa-b", 0.22),
+        ("carry", 0.25),
+        ("hit", 0.08),
     ] {
         let clip = recorded(&body, name);
         let seconds = clip.lead_in() + clip.duration() + clip.lead_out() + 1.0;

@@ -76,7 +76,7 @@ pub fn mass_track(body: &Body, postures: &[Posture], rate_hz: f64) -> MassTrack 
     }
     for i in 2..n - 2 {
         let c = out.com[i];
-        let acc = (out.com[i + 1] - c * 2.0 + out.com[i - 1]) * (1.0 / (h * h));
+        let acc = (out.com[i + 2] - c * 2.0 + out.com[i - 2]) * (0.25 / (h * h));
         let rate = (momentum[i + 1] - momentum[i - 1]) * (0.5 / h);
         out.load[i] = 1.0 + acc.z / GRAVITY;
         out.wrench[i] = ((acc + Vec3::Z * GRAVITY) * mass, rate);

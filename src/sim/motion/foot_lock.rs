@@ -55,6 +55,14 @@ pub struct Anchor {
     pub pitch: f64,
 }
 
+impl Anchor {
+    /// Direction in which the foot points, x and y.
+    pub(super) fn ahead(&self) -> [f64; 2] {
+        let x = Quat::exp(Vec3::Z * self.yaw).rotate(Vec3::X);
+        [x.x, x.y]
+    }
+}
+
 /// A foot that stands as the body's sole allows, and how much was changed for that.
 #[derive(Clone, Debug)]
 pub struct LockedFoot {

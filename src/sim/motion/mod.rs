@@ -17,6 +17,7 @@ pub mod foot_lock;
 pub mod join;
 pub mod leg_ik;
 pub mod live;
+pub mod one_foot;
 pub mod prepare;
 pub mod retarget;
 pub mod skeleton_map;

@@ -8,6 +8,7 @@ use super::envelope::smoothest_below;
 use super::filter::{low_pass, low_pass_points, low_pass_rotations, percentile, smooth_minimum};
 use super::foot_lock::{LockedFoot, Sole, Stance, lock_foot};
 use super::leg_ik::{forward, solve_leg_in_plane};
+use super::one_foot::{OneFoot, Over};
 use crate::sim::body::angles::{anatomical_angles, clamp_to_limits};
 use crate::sim::body::topology::{
     BALL_COUNT, DOF_COUNT, DOF_START, HINGE_COUNT, JOINT, Joint, L_FOOT, L_SHANK, L_THIGH, L_TOES,
@@ -34,6 +35,10 @@ const MOST_SHIFT: f64 = 0.2;
 const SITS: (f64, f64) = (0.65, 0.8);
 /// Feet that stay for so long before and after a moment do not step, s.
 const STAYS: f64 = 0.5;
+/// Time over which the speed is taken with which a body passes over its foot, s.
+const PASSING: f64 = 0.2;
+/// Cut-off of the lean of a body over its foot, Hz.
+const LEAN_CUTOFF: f64 = 4.0;
 /// Angles are kept this far from their limits, rad.
 const LIMIT_MARGIN: f64 = 0.01;
 /// Ankles of planted feet are kept this far from their limits, rad.
@@ -213,6 +218,7 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
     let n = draft.postures.len();
     let rate = draft.rate_hz;
     let soles = [Sole::new(body, 0), Sole::new(body, 1)];
+    let one_foot = OneFoot::new(body);
     let standing = body.standing_root_height();
     let mut upper = draft.postures.clone();
     let mut clamped = [(0.0f64, 0.0f64); DOF_COUNT];
@@ -276,7 +282,7 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
             shift = pelvis_shift(
                 &track,
                 &shift,
-                &carriers,
+                &held_by(&carriers, &soles, &locked, (&one_foot, &track), rate),
                 &elsewhere,
                 (INSET, CARRIED),
                 rate,
@@ -403,6 +409,47 @@ fn carriers_of(
             }
         })
         .collect()
+}
+
+/// The same where no foot is asked to hold alone what its ankle cannot.
+fn held_by(
+    carriers: &[Carrier],
+    soles: &[Sole; 2],
+    locked: &[LockedFoot; 2],
+    (one_foot, track): (&OneFoot, &MassTrack),
+    rate_hz: f64,
+) -> Vec<Carrier> {
+    let half = (0.5 * PASSING * rate_hz) as usize;
+    // Without the jumps of touch-downs, from which the rounds would not settle.
+    let lean: [Vec<f64>; 2] = std::array::from_fn(|k| {
+        let both = track.com.iter().zip(&track.zmp);
+        let mut lean: Vec<f64> = both.map(|(c, z)| c.to_array()[k] - z[k]).collect();
+        low_pass(&mut lean, LEAN_CUTOFF, rate_hz);
+        lean
+    });
+    let mut corners = Vec::new();
+    let held = |(i, carrier): (usize, &Carrier)| {
+        let side = match [0, 1].map(|s: usize| locked[s].planted[i]) {
+            [true, false] => 0,
+            [false, true] => 1,
+            _ => return carrier.clone(),
+        };
+        if !matches!(carrier, Carrier::Feet(_)) {
+            return carrier.clone();
+        }
+        corners.clear();
+        let (before, after) = (i.saturating_sub(half), (i + half).min(carriers.len() - 1));
+        let way = track.com[after] - track.com[before];
+        let over = Over {
+            height: track.com[i].z,
+            speed: way.x.hypot(way.y) * rate_hz / (after - before).max(1) as f64,
+            lean: [lean[0][i], lean[1][i]],
+        };
+        let at = &locked[side].anchors[i];
+        one_foot.each_corner(&soles[side], at, &over, |p| corners.push(p));
+        Carrier::Feet(hull(&corners))
+    };
+    carriers.iter().enumerate().map(held).collect()
 }
 
 /// What else than the feet may carry the body: a seat where the pelvis is low, hands where both feet stay for a while. Who steps walks on his feet.

@@ -15,10 +15,9 @@ use crate::sim::motion::leg_ik::{center_of_mass, forward};
 const GRAVITY: f64 = 9.81;
 /// Length of a step that only closes the feet, s.
 const CLOSING: f64 = 0.5;
-/// A swing that is under way already lasts at least this long, s.
-const LEAST_REST_OF_SWING: f64 = 0.12;
-/// A swinging foot gets no faster than this on the average, m/s.
-const SWING_SPEED: f64 = 2.2;
+/// A swing that is under way already lasts at least this long, s, and a swinging foot gets no faster than this on the average, m/s: the
+/// ways that are tried, the first one also where both feet are down.
+const SWINGS: [(f64, f64); 4] = [(0.12, 2.2), (0.12, 3.2), (0.24, 2.2), (0.4, 2.2)];
 /// Double support after a step and before the first one, s.
 const BOTH: f64 = 0.1;
 /// Longest step, forward and to the side, leg lengths; least distance of the feet to the side, share of that at ease.
@@ -34,9 +33,10 @@ const INNER: f64 = 0.035;
 const CAUGHT: f64 = 0.015;
 /// A foot that catches a body of 1 m/s lands this far beyond the capture point, m, so that it comes to rest between the feet.
 const BEYOND: f64 = 0.1;
-/// Prices against falling beside the zero-moment point, m⁴ s: of a foot faster than the first, m/s, per its square; of a foot that steps twice;
-/// worth of having something in hand, per s.
+/// Prices against falling beside the zero-moment point, m⁴ s: of a foot faster than the first, m/s, per its square, with so many m for each rad
+/// that it turns; of a foot that steps twice; worth of having something in hand, per s.
 const UNHURRIED: f64 = 1.5;
+const TURNING: f64 = 0.3;
 const PRICE_OF_HURRY: f64 = 1e-3;
 const PRICE_OF_HOP: f64 = 1e-3;
 const WORTH_OF_SPARE: f64 = 0.1;
@@ -135,24 +135,31 @@ struct Way {
     beyond: f64,
     /// Foot that steps first where both are down; otherwise the one that catches best.
     first: Option<usize>,
+    /// See [`SWINGS`].
+    rest: f64,
+    speed: f64,
 }
 
 impl Way {
     /// All that are tried.
     ///
-    /// * `spare`: the most that should be in hand beyond [`CAUGHT`], s.
-    fn all(spare: f64) -> impl Iterator<Item = Self> {
+    /// * `spare`: the most that should be in hand beyond [`CAUGHT`], s; `in_air`: a foot is in the air.
+    fn all(spare: f64, in_air: bool) -> impl Iterator<Item = Self> {
+        let swings = if in_air { &SWINGS[..] } else { &SWINGS[..1] };
         let hands: &[f64] = if spare > 0.0 {
             &[1.0, 0.5, 0.0]
         } else {
             &[1.0]
         };
         let ways = { hands.iter() }.flat_map(move |h| [0.0, BEYOND].map(|b| (h * spare, b)));
-        ways.flat_map(|(spare, beyond)| {
-            [None, Some(0), Some(1)].map(|first| Self {
+        let ways = ways.flat_map(|way| [None, Some(0), Some(1)].map(|first| (way, first)));
+        ways.flat_map(move |((spare, beyond), first)| {
+            swings.iter().map(move |&(rest, speed)| Self {
                 spare,
                 beyond,
                 first,
+                rest,
+                speed,
             })
         })
     }
@@ -212,7 +219,7 @@ pub(super) fn footsteps(
         };
         stop.run().then_some(stop)
     };
-    let found = Way::all(spare).filter_map(tried);
+    let found = Way::all(spare, from.down != [true; 2]).filter_map(tried);
     let best = found.min_by(|a, b| a.price().total_cmp(&b.price()))?;
     Some(Footsteps {
         steps: best.steps,
@@ -312,7 +319,7 @@ impl Stop<'_> {
             if speed < best.0 {
                 best = (speed, time, place);
             }
-            if speed < SWING_SPEED {
+            if speed < self.way.speed {
                 break;
             }
             time += 0.02;
@@ -383,12 +390,13 @@ impl Stop<'_> {
         let falls: f64 = self.path.windows(3).map(fall).sum();
         let hops = |w: &&[Step]| w[0].side == w[1].side && w[1].on - w[1].off < CLOSING;
         let hops = self.steps.windows(2).filter(hops).count() as f64;
-        let mut at = self.from.place;
+        let mut at = [0, 1].map(|s| (ground(self.from.ankle[s]), self.from.yaw[s]));
         let mut hurry = 0.0;
         for s in &self.steps {
-            let speed = (s.place - at[s.side]).norm() / (s.on - s.off).max(SWING.0);
-            hurry += (speed - UNHURRIED).max(0.0).powi(2);
-            at[s.side] = s.place;
+            let (place, yaw) = at[s.side];
+            let way = (s.place - place).norm() + TURNING * turn(yaw, self.yaw(s.side)).abs();
+            hurry += (way / (s.on - s.off) - UNHURRIED).max(0.0).powi(2);
+            at[s.side] = (s.place, self.yaw(s.side));
         }
         falls + PRICE_OF_HURRY * hurry + PRICE_OF_HOP * hops - WORTH_OF_SPARE * self.way.spare
     }
@@ -431,7 +439,7 @@ impl Stop<'_> {
     /// The foot that is in the air already lands where it catches.
     fn land(&mut self, side: usize) {
         let since = self.from.since[side] + self.now();
-        let least = (SWING.0 - since).max(LEAST_REST_OF_SWING);
+        let least = (SWING.0 - since).max(self.way.rest);
         let (time, place, _) = self.catching(side, self.from.ankle[side], least);
         let in_flight = self.path.len() > 1;
         self.swing(side, time, place);

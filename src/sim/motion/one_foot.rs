@@ -1,0 +1,146 @@
+//! What one foot can hold alone: the zero-moment points that its ankle is strong enough for.
+//!
+//! Soles reach farther than the muscles over them: in an adult man the toes end 20 cm before the ankle, but his calf holds his weight no
+//! farther than 14 cm before it. A motion planned up to the edge of the sole leaves no torque for the body to correct anything with.
+
+use super::foot_lock::{Anchor, Sole};
+use crate::sim::body::Body;
+use crate::sim::body::topology::{DOF_COUNT, DOF_START, L_FOOT};
+use crate::sim::math::Vec3;
+use crate::sim::strength::{MuscleScale, Strength};
+
+/// Standard gravity, m/s².
+const GRAVITY: f64 = 9.81;
+/// Share of its strength that an ankle gives at the edge of the support.
+const FIRM: f64 = 0.87;
+/// A body slower than the first, m/s, stays over the foot until an error has grown; one faster than the second is past it before: its support
+/// is longer by so much.
+const SLOW: f64 = 0.8;
+const FAST: f64 = 1.2;
+const LONGER: f64 = 0.4;
+/// The support is moved against the lean of the body by no more than this, m.
+const MOST_MOVED: f64 = 0.03;
+
+/// Where a body is over its foot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Over {
+    /// Height of the centre of mass, m.
+    pub height: f64,
+    /// Its speed over the floor, m/s.
+    pub speed: f64,
+    /// From the zero-moment point to the centre of mass, over the floor, m.
+    pub lean: [f64; 2],
+}
+
+/// Limits of the support of one foot that carries a whole body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OneFoot {
+    /// Distance before the ankle at which the weight of the body takes [`FIRM`] of the strength of the ankle, m.
+    front: f64,
+    /// Height of the ankle over the floor, m.
+    ankle: f64,
+}
+
+impl OneFoot {
+    /// Of a body of average strength, standing with its foot flat. Allocates.
+    pub fn new(body: &Body) -> Self {
+        let weight = GRAVITY * body.segments.iter().map(|s| s.mass).sum::<f64>();
+        let (mut lower, mut upper) = ([0.0; DOF_COUNT], [0.0; DOF_COUNT]);
+        Strength::for_body(body).range(
+            &[0.0; DOF_COUNT],
+            &[0.0; DOF_COUNT],
+            &MuscleScale::default(),
+            &mut lower,
+            &mut upper,
+        );
+        Self {
+            front: -FIRM * lower[DOF_START[L_FOOT.index()]] / weight,
+            ankle: Sole::new(body, 0).ankle_height,
+        }
+    }
+
+    /// Visits the corners (x, y) of the support of a foot that stands alone at `at`.
+    ///
+    /// The ankle feels the line of force where it passes the height of the ankle, a little from the zero-moment point towards the centre of mass.
+    pub fn each_corner(
+        &self,
+        sole: &Sole,
+        at: &Anchor,
+        over: &Over,
+        mut visit: impl FnMut([f64; 2]),
+    ) {
+        let Over {
+            height,
+            speed,
+            lean,
+        } = *over;
+        let hurry = ((speed - SLOW) / (FAST - SLOW)).clamp(0.0, 1.0);
+        let front = self.front * (1.0 + LONGER * hurry);
+        let rise = self.ankle / height.max(self.ankle);
+        let lean = lean.map(|d| d * rise);
+        let far = (lean[0] * lean[0] + lean[1] * lean[1]).sqrt();
+        let share = (MOST_MOVED / far.max(MOST_MOVED)).min(1.0);
+        let ahead = at.ahead();
+        sole.each_corner(at, |p| {
+            let x = (p[0] - at.place.x) * ahead[0] + (p[1] - at.place.y) * ahead[1];
+            let cut = (x - front).max(0.0);
+            visit(std::array::from_fn(|k| {
+                p[k] - cut * ahead[k] - share * lean[k]
+            }));
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::motion::balance::{hull, margin};
+
+    const AT: Anchor = Anchor {
+        place: Vec3 {
+            x: 0.3,
+            y: -0.2,
+            z: 0.0,
+        },
+        yaw: 0.7,
+        pitch: 0.0,
+    };
+
+    fn support(one: &OneFoot, sole: &Sole, lean: [f64; 2], speed: f64) -> Vec<[f64; 2]> {
+        let mut corners = Vec::new();
+        let over = Over {
+            height: 1.0,
+            speed,
+            lean,
+        };
+        one.each_corner(sole, &AT, &over, |p| corners.push(p));
+        hull(&corners)
+    }
+
+    #[test]
+    fn the_support_ends_where_the_calf_does() {
+        for body in [Body::adult_man(), Body::adult_woman()] {
+            let (one, sole) = (OneFoot::new(&body), Sole::new(&body, 0));
+            let p = support(&one, &sole, [0.0, 0.0], 0.0);
+            let before = |x: f64| [AT.place.x + x * 0.7f64.cos(), AT.place.y + x * 0.7f64.sin()];
+            assert!(margin(&p, before(one.front)).abs() < 1e-9);
+            assert!(margin(&p, before(one.front - 0.01)) > 0.009);
+            let toes = sole.points(0.0).map(|p| p.x).fold(0.0, f64::max);
+            assert!(one.front > 0.5 * toes && one.front < 0.9 * toes, "{one:?}");
+            let hurried = support(&one, &sole, [0.0, 0.0], 2.0);
+            assert!(margin(&hurried, before(one.front)) > 0.01);
+        }
+    }
+
+    #[test]
+    fn it_moves_against_the_lean_as_far_as_the_ankle_is_high() {
+        let body = Body::adult_man();
+        let (one, sole) = (OneFoot::new(&body), Sole::new(&body, 0));
+        let still = support(&one, &sole, [0.0, 0.0], 0.0);
+        for (lean, moved) in [(0.1, 0.1 * sole.ankle_height), (1.0, MOST_MOVED)] {
+            for (a, b) in still.iter().zip(&support(&one, &sole, [lean, 0.0], 0.0)) {
+                assert!((a[0] - b[0] - moved).abs() < 1e-12 && (a[1] - b[1]).abs() < 1e-12);
+            }
+        }
+    }
+}
