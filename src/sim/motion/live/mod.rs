@@ -15,6 +15,7 @@ use super::balance::zero_moment_point;
 use super::clip::{Knot, PlanarTransform, between};
 use super::foot_lock::{FootPose, Sole};
 use super::leg_ik::{center_of_mass, forward, knee_axis, solve_leg_in_plane};
+use super::one_foot::{OneFoot, Over};
 use super::target::Target;
 use crate::sim::body::angles::clamp_to_limits;
 use crate::sim::body::topology::{
@@ -168,6 +169,7 @@ impl Sample {
 pub struct LiveMotion {
     body: Arc<Body>,
     soles: [Sole; 2],
+    one_foot: OneFoot,
     window: i64,
     pending: VecDeque<Raw>,
     /// Number of samples taken into the ring.
@@ -213,6 +215,7 @@ impl LiveMotion {
         weights.iter_mut().for_each(|w| *w /= sum);
         Self {
             soles: [Sole::new(&body, 0), Sole::new(&body, 1)],
+            one_foot: OneFoot::new(&body),
             window,
             pending: VecDeque::with_capacity(MOST_PENDING),
             count: 0,
@@ -515,9 +518,9 @@ impl LiveMotion {
 
     /// How far the zero-moment point of sample `j` is from where the feet could have it.
     fn balance(&mut self, j: i64) {
-        let (a, b, c) = (self.at(j - 1), self.at(j), self.at(j + 1));
-        let acc = (c.com - b.com * 2.0 + a.com) * (RATE * RATE);
-        let rate = (c.momentum - a.momentum) * (0.5 * RATE);
+        let (a, b, c) = (self.at(j - 2), self.at(j), self.at(j + 2));
+        let acc = (c.com - b.com * 2.0 + a.com) * (0.25 * RATE * RATE);
+        let rate = (self.at(j + 1).momentum - self.at(j - 1).momentum) * (0.5 * RATE);
         let mass: f64 = self.body.segments.iter().map(|s| s.mass).sum();
         let load = 1.0 + acc.z / GRAVITY;
         let omega2 = ((GRAVITY + acc.z) / b.com.z.max(0.2)).clamp(3.0, 40.0);
@@ -525,10 +528,24 @@ impl LiveMotion {
         if load > super::balance::LIGHT && j >= 2 {
             let force = (acc + Vec3::Z * GRAVITY) * mass;
             let z = zero_moment_point(b.com, (force, rate));
+            let way = (c.com - a.com) * (0.25 * RATE);
+            let over = Over {
+                height: b.com.z,
+                speed: (way.x * way.x + way.y * way.y).sqrt(),
+                lean: [b.com.x - z[0], b.com.y - z[1]],
+            };
+            let anchors: [_; 2] =
+                std::array::from_fn(|side| self.feet[side].anchor(j, |i| self.standing(side, i)));
+            let alone = anchors[0].is_some() != anchors[1].is_some();
             let mut polygon = Polygon::default();
-            for side in 0..2 {
-                if let Some(anchor) = self.feet[side].anchor(j, |i| self.standing(side, i)) {
-                    self.soles[side].each_corner(&anchor, |p| polygon.add(p));
+            for (sole, anchor) in self.soles.iter().zip(&anchors) {
+                match anchor {
+                    Some(at) if alone => {
+                        self.one_foot
+                            .each_corner(sole, at, &over, |p| polygon.add(p));
+                    }
+                    Some(at) => sole.each_corner(at, |p| polygon.add(p)),
+                    None => {}
                 }
             }
             if let Some(p) = polygon.inside(z, INSET) {
