@@ -271,6 +271,9 @@ impl Figure {
             &tasks.hands,
             |s, p| self.tasks.desired_point(&self.target, s, p),
         );
+        self.support.plan_rests(&self.terms, |s, p| {
+            self.tasks.desired_point(&self.target, s, p)
+        });
         let mut balance = None;
         if self.steps() {
             let mut led = Led {
