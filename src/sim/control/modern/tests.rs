@@ -387,6 +387,7 @@ fn scene(rng: &mut Rng, kind: usize, round: usize) -> Scene {
                     segment: segment.unwrap(),
                     point: vec3(0.0, 0.02, -0.05),
                     position: Some(vec3(rng.unit(), rng.unit(), 1.0 + rng.unit())),
+                    velocity: axis * 0.5,
                     axes: [1.0, 0.5, rng.unit().abs()],
                     rotation: Some(Quat::exp(axis)),
                     weight: rng.unit().abs(),
