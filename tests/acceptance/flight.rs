@@ -4,7 +4,9 @@
 use crate::common::{Scene, authored, bent, figure, man, still};
 use crate::{GRAVITY, integrals, vec3};
 use sinew::sim::body::angles::anatomical_angles;
-use sinew::sim::body::{DOF_COUNT, Links, State};
+use sinew::sim::body::topology::{DOF_START, JOINT, Joint, L_FOREARM, L_SHANK, R_FOREARM, R_SHANK};
+use sinew::sim::body::{DOF_COUNT, Links, Posture, State};
+use sinew::sim::contact::Tissue;
 use sinew::sim::dynamics::Terms;
 use sinew::sim::figure::torque_step::{MotorCommand, StepInput, Stepper, TorqueStepper};
 use sinew::sim::figure::{ControllerKind, Flags, StrengthScale};
@@ -99,15 +101,19 @@ fn a_thrown_figure_keeps_parabola_and_momenta() {
 struct Limp {
     /// Energy after each tick, J; the first before any.
     energy: Vec<f64>,
+    /// The part of it that stretched tissue stores.
+    stored: Vec<f64>,
     /// Largest work of contacts and ligaments in one step, J: what they push in rather than take out.
     pushed: f64,
+    /// Largest difference of what a controller counts on from what ligaments gave in the first step, N·m.
+    unforeseen: f64,
     /// Ticks on the ground.
     touched: usize,
 }
 
 /// Steps a body whose motors give a millionth of a millionth of its strength, for 3 s; one substep per tick, so that
 /// every step is seen.
-fn limp(start: &State, rate_hz: f64) -> Limp {
+fn limp(start: &State, rate_hz: f64, gravity: f64) -> Limp {
     let body = man();
     let (links, strength) = (Links::new(&body), Strength::for_body(&body));
     let scale = StrengthScale {
@@ -122,18 +128,28 @@ fn limp(start: &State, rate_hz: f64) -> Limp {
         saturation_speed: 1.0,
     };
     let mut state = *start;
+    // Stretched tissue stores some.
+    let stored = |s: &State| strength.stored(&anatomical_angles(&s.posture));
+    let total = |s: &State| {
+        let all = integrals(&links, s);
+        let lighter = links.total_mass() * (GRAVITY - gravity) * all.com.z;
+        all.energy - lighter + stored(s)
+    };
     let mut out = Limp {
-        energy: vec![integrals(&links, &state).energy],
+        energy: vec![total(&state)],
+        stored: vec![stored(&state)],
         pushed: f64::MIN,
+        unforeseen: 0.0,
         touched: 0,
     };
     let dt = 1.0 / rate_hz;
     for _ in 0..(3.0 * rate_hz) as usize {
-        terms.compute(&links, &state, &[], GRAVITY);
+        terms.compute(&links, &state, &[], gravity);
         let rates: [f64; DOF_COUNT] = std::array::from_fn(|j| state.velocity[6 + j]);
         let (mut lower, mut upper) = ([0.0; DOF_COUNT], [0.0; DOF_COUNT]);
         let angles = anatomical_angles(&state.posture);
         strength.range(&angles, &rates, &scale, &mut lower, &mut upper);
+        let tissue = Tissue::new(&strength, &state, 1, dt);
         let input = StepInput {
             body: &body,
             links: &links,
@@ -145,8 +161,9 @@ fn limp(start: &State, rate_hz: f64) -> Limp {
             command: &command,
             lower: &lower,
             upper: &upper,
+            tissue: Some(&tissue),
             applied: &[],
-            gravity: GRAVITY,
+            gravity,
             dt,
             substeps: 1,
         };
@@ -157,7 +174,7 @@ fn limp(start: &State, rate_hz: f64) -> Limp {
             posture: a.state.posture,
             velocity: state.velocity,
         };
-        terms.compute(&links, &after, &[], GRAVITY);
+        terms.compute(&links, &after, &[], gravity);
         let ligaments: f64 = (0..DOF_COUNT)
             .map(|d| a.ligament_torque[d] * state.velocity[6 + d])
             .sum();
@@ -170,9 +187,16 @@ fn limp(start: &State, rate_hz: f64) -> Limp {
                 c.force.dot(terms.point_velocity(s, point))
             })
             .sum();
-        out.pushed = out.pushed.max(dt * (ligaments + contacts));
+        let released = stored(&State { ..after }) - stored(&state);
+        out.pushed = out.pushed.max(dt * (ligaments + contacts) - released);
+        if out.energy.len() == 1 {
+            let foreseen = tissue.at(&a.acceleration[6..]);
+            let off = foreseen.iter().zip(&a.ligament_torque);
+            out.unforeseen = off.fold(0.0, |m, (x, y)| m.max((x - y).abs()));
+        }
         out.touched += usize::from(!a.contacts.is_empty());
-        out.energy.push(integrals(&links, &state).energy);
+        out.energy.push(total(&state));
+        out.stored.push(stored(&state));
     }
     out
 }
@@ -191,7 +215,8 @@ fn a_limp_figure_gains_no_energy() {
                 energy,
                 pushed,
                 touched,
-            } = limp(&state, rate_hz);
+                ..
+            } = limp(&state, rate_hz, GRAVITY);
             let (first, last) = (energy[0], *energy.last().unwrap());
             let rise = energy
                 .windows(2)
@@ -207,4 +232,47 @@ fn a_limp_figure_gains_no_energy() {
             assert!(last < 0.2 * first && touched > 200, "{text}");
         }
     }
+}
+
+/// Weightless and limp, bent as far as its joints go: what tissue stored becomes motion but for its internal friction, and nothing is gained on
+/// the way, at any step.
+#[test]
+fn stretched_tissue_gives_back_no_more_than_it_stored() {
+    let body = man();
+    let mut state = still(Posture::default());
+    state.posture.root_position.z = 5.0;
+    for s in [L_FOREARM, R_FOREARM, L_SHANK, R_SHANK].map(|s| s.index()) {
+        if let Joint::Hinge1(i) | Joint::Hinge2(i) = JOINT[s] {
+            state.posture.hinge[i] = body.upper[DOF_START[s]] - 0.02;
+        }
+    }
+    let mut kept = Vec::new();
+    for rate_hz in [120.0, 480.0, 1920.0] {
+        let Limp {
+            energy,
+            stored,
+            unforeseen,
+            ..
+        } = limp(&state, rate_hz, 0.0);
+        assert!(unforeseen < 1e-2, "{unforeseen} N·m");
+        let rise = energy
+            .windows(2)
+            .map(|w| w[1] - w[0])
+            .fold(f64::MIN, f64::max);
+        let slack = stored.iter().position(|v| *v < 0.05 * stored[0]).unwrap();
+        let moving = energy[slack] - stored[slack];
+        kept.push(moving / stored[0]);
+        println!(
+            "{rate_hz} Hz: {:.1} J stored, {moving:.1} J of motion after {:.0} ms, largest rise of a step {rise:.1e} J",
+            stored[0],
+            1e3 * slack as f64 / rate_hz
+        );
+        assert!(stored[0] > 1.0);
+        assert!(rise < 1e-3 * stored[0], "{rise} J");
+    }
+    assert!(kept.iter().all(|k| *k < 0.951), "{kept:?}");
+    assert!(
+        kept[2] > 0.8 && kept[2] > kept[1] && kept[1] > kept[0],
+        "{kept:?}"
+    );
 }

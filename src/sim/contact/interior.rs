@@ -12,6 +12,7 @@
 //! contact, with the scaling W of Nesterov and Todd for second-order cones (Andersen, Dahl & Vandenberghe 2003). Newton's method finishes from the prices
 //! that come out. The controller's problem has no joint limits; islands of bodies ([`crate::sim::collide::island`]) have them, as [`Wall`]s.
 
+use super::limits::MAX_LIMITS;
 use super::newton::{Motors, NewtonWorkspace, System};
 use super::rows::{CHAIN_WIDTH, ContactRows, add_point_stiffness};
 use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT};
@@ -171,7 +172,7 @@ impl Cone {
     }
 }
 
-/// A joint limit: a force `q` that only pushes.
+/// A joint limit, or stretched tissue: a force `q` that only pushes.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Wall {
     pub(crate) q: f64,
@@ -225,9 +226,6 @@ impl Wall {
         self.l += step * self.dl;
     }
 }
-
-/// Most joint limits of a figure.
-const MAX_LIMITS: usize = DOF_COUNT + 9;
 
 /// Unknowns of the method.
 #[derive(Clone, Debug)]

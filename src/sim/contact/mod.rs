@@ -12,7 +12,7 @@ pub mod rows;
 pub mod sparse;
 
 pub use dense::DenseSystem;
-pub use limits::{LimitRow, LimitRows, collect_limits};
+pub use limits::{LimitRow, LimitRows, Tissue, collect_limits};
 pub use newton::{Motors, NewtonWorkspace, Outcome, minimise};
 pub use rows::ContactRows;
 pub use sparse::SparseSystem;

@@ -1,7 +1,7 @@
 //! Semi-smooth Newton method with exact line search, warm start and a bound on its work (ALGORITHM §14.2).
 
 use super::interior::Interior;
-use super::limits::{LIMIT_STIFFNESS, LimitRows};
+use super::limits::LimitRows;
 use super::projection::Region;
 use super::rows::{CHAIN_WIDTH, ContactRows, SegmentRows, add_point_stiffness};
 use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT};
@@ -250,7 +250,7 @@ fn add_slopes<S: System>(
         if row.rate(x) < -row.allowed {
             for i in 0..row.len {
                 for j in 0..=i {
-                    let v = LIMIT_STIFFNESS * row.coefficients[i] * row.coefficients[j];
+                    let v = row.stiffness * row.coefficients[i] * row.coefficients[j];
                     S::add(hessian, row.first + i, row.first + j, v);
                 }
             }

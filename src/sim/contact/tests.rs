@@ -94,6 +94,7 @@ fn newton_reaches_the_minimum_and_both_storages_agree() {
                     len: 1,
                     coefficients: [if d % 2 == 0 { 1.0 } else { -1.0 }, 0.0, 0.0],
                     allowed: rng.random_range(-0.5..4.0),
+                    stiffness: limits::LIMIT_STIFFNESS,
                 })
                 .collect(),
         };

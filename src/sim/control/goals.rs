@@ -2,7 +2,8 @@
 //! brings it there.
 //!
 //! A goal is not a trajectory. From wherever the part is it moves at a speed proportional to the distance, with an upper bound, and its
-//! acceleration is bounded: a goal that cannot be reached pulls with a bounded acceleration, however far away it is.
+//! acceleration is bounded: a goal that cannot be reached pulls with a bounded acceleration, however far away it is. Where the place itself moves, all
+//! this is relative to it.
 
 use crate::sim::body::SegmentId;
 use crate::sim::body::topology::{HEAD, L_UPPER_ARM, PARENT, R_HAND};
@@ -38,6 +39,8 @@ pub struct Goal {
     pub point: Vec3,
     /// Where the point is wanted, world, m.
     pub position: Option<Vec3>,
+    /// How fast that place moves, world, m/s.
+    pub velocity: Vec3,
     /// How much each world axis of the position counts, 0…1.
     pub axes: [f64; 3],
     /// `world_from_segment`.
@@ -100,7 +103,8 @@ impl Goal {
 
     /// Demanded acceleration of the point along the axes that count, m/s².
     pub fn acceleration(&self, terms: &Terms, pace: &Pace) -> Vec3 {
-        let v = self.along_axes(terms.point_velocity(self.segment.index(), self.point));
+        let v = terms.point_velocity(self.segment.index(), self.point) - self.velocity;
+        let v = self.along_axes(v);
         let most = if self.is_on_arm() {
             pace.most
         } else {

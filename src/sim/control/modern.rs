@@ -7,9 +7,10 @@
 use super::goals::{MAX_GOALS, Pace};
 use super::tracking::{Law, initial_acceleration};
 use super::{Command, ControlInput, Controller, Goal, PointTarget, com_law};
+use crate::sim::body::SegmentId;
 use crate::sim::body::topology::{
-    DOF_COUNT, DOF_LEN, DOF_START, L_FOOT, L_HAND, L_TOES, NV, R_FOOT, R_HAND, R_TOES,
-    SEGMENT_COUNT,
+    DOF_COUNT, DOF_LEN, DOF_START, L_FOOT, L_HAND, L_THIGH, L_TOES, NV, PELVIS, R_FOOT, R_HAND,
+    R_THIGH, R_TOES, SEGMENT_COUNT,
 };
 use crate::sim::contact::dense::{Dense, cholesky, solve_lower, solve_upper};
 use crate::sim::contact::rows::{CHAIN_WIDTH, PointRow, add_point_stiffness};
@@ -45,8 +46,10 @@ mod weight {
     /// w_f: pull of a contact force towards the last tick's.
     pub(super) const FORCE: f64 = 1e-3;
 }
-/// Bounds of the joint weights `clip(M_jj, …)`. With less than this wrists and toes pay for every other task.
-const JOINT_WEIGHT: (f64, f64) = (0.05, 1.0);
+/// Weight of a joint while the body is where the motion has it. Where it is about to fall, `clip(M_jj, …)` between the least and this: light joints
+/// give way then, but with less than the least wrists and toes would pay for every other task.
+const JOINT_WEIGHT: f64 = 1.0;
+const LEAST_JOINT_WEIGHT: f64 = 0.05;
 /// How constraints from outside are approached.
 const GOAL_PACE: Pace = Pace {
     horizon: 1.0 / 30.0,
@@ -59,9 +62,11 @@ const LED_LIMB: f64 = 0.02;
 const LED_WRIST: f64 = 0.2;
 /// Friction the plan counts on; below the simulator's.
 const FRICTION_MARGIN: f64 = 0.7 / 0.9;
-/// Horizons of joints and rotations, and of swinging feet, as shares of the one that is set (0.1 s): 150/s² and 24/s, 400/s² and 40/s. Gait
+/// Horizons of joints and rotations, and of swinging feet, as shares of the one that is set (0.1 s): 278/s² and 33/s, 400/s² and 40/s. Gait
 /// needs limbs that are on time; the continuous program stays free of chatter with them, unlike the paper's active set.
-const SHARPNESS: f64 = 0.41;
+const SHARPNESS: f64 = 0.3;
+/// That of joints and rotations where the body is about to fall (149/s², 24/s): balance must not have to fight the posture.
+const YIELDING_SHARPNESS: f64 = 0.41;
 const SWING_SHARPNESS: f64 = 0.25;
 /// Largest feedback of a hand, of a swinging foot, m/s², and of a rotation, rad/s².
 const HAND_FEEDBACK: f64 = 20.0;
@@ -83,6 +88,9 @@ const FORCE_MEMORY: f64 = 0.98;
 const REST_HOLD: f64 = 5.0;
 const NEEDED_HOLD: (f64, f64) = (50.0, 500.0);
 const REST_FULL: f64 = 0.2;
+/// A part is held where it rests while the motion has it no higher than the first above that, not at all from the second on, m: a hand
+/// that is to leave the seat is not nailed to it.
+const LIFTED: (f64, f64) = (0.02, 0.06);
 /// Distance of the capture point from the motion's at which balance begins to count more, and at which it counts most, m; how much more.
 const DANGER: (f64, f64) = (0.04, 0.12);
 const DANGER_FACTOR: f64 = 10.0;
@@ -91,6 +99,11 @@ const SEATED_FULL: f64 = 0.3;
 const SEATED_LEAST: f64 = 0.05;
 /// The motion needs the seat where its capture point is less than the first inside the soles; from the second on it is about to get up, m.
 const NEEDS_SEAT: (f64, f64) = (-0.02, 0.03);
+/// A motion sits down that has its centre of mass over neither of two planted feet: wholly where it is farther inside than the first (outside,
+/// being negative), not yet from the second on, m.
+const SITS_DOWN: (f64, f64) = (-0.05, -0.01);
+/// What one sits on. Hands that lean on a seat do not make it one.
+const SEATED_ON: [SegmentId; 3] = [PELVIS, L_THIGH, R_THIGH];
 /// Share of hold and force that segments other than feet get.
 const OTHER_SEGMENT: f64 = 1e-3;
 /// Iterations after which Newton's method has jammed and the interior-point method leads it on, and most of that. In gait the median is 3. From
@@ -261,28 +274,34 @@ impl Modern {
 
     /// Factor on the weight of the centre of mass. Who cannot step and is about to fall lets the posture go rather than the balance. Who
     /// sits has no balance to keep, and would bend to put its centre of mass where another seat would have had it; not so while
-    /// the motion is getting up, which takes a centre of mass over the feet.
+    /// the motion is getting up, which takes a centre of mass over the feet. Who sits down lets himself fall onto the seat as the motion does.
     fn urgency(&mut self, input: &ControlInput<'_>) -> f64 {
-        let (t, goal) = (input.terms, input.com);
-        if self.seat.carries > 0.0 {
-            let floor = 1.0 - (1.0 - SEATED_LEAST) * self.seat.needed;
-            return (1.0 - self.seat.carries / SEATED_FULL).clamp(floor, 1.0);
-        }
         let planted = [input.target.now.planted, input.target.next.planted];
+        let mut most = 1.0;
+        if planted == [[true; 2]; 2] {
+            let margin = self.margin_on_feet(input, [input.com.now.x, input.com.now.y]);
+            most -= (1.0 - SEATED_LEAST) * smooth_step(margin, SITS_DOWN);
+        }
+        if self.seat.carries > 0.0 {
+            let least = 1.0 - (1.0 - SEATED_LEAST) * self.seat.needed;
+            let left = 1.0 - self.seat.carries / SEATED_FULL;
+            return left.max(least).min(most);
+        }
+        if most < 1.0 {
+            return most;
+        }
         if input.params.protective_steps || planted != [[true; 2]; 2] {
             return 1.0;
         }
-        let time = pendulum_time(input);
-        let off = (t.com - goal.now) + (t.com_velocity - goal.now_velocity) * time;
-        let danger = 1.0 - smooth_step((off.x * off.x + off.y * off.y).sqrt(), DANGER);
-        1.0 + (DANGER_FACTOR - 1.0) * danger
+        1.0 + (DANGER_FACTOR - 1.0) * danger(input)
     }
 
     /// What seats carry, and whether the motion needs them.
     fn sit(&mut self, input: &ControlInput<'_>) -> Seat {
         let mg = input.terms.mass * input.gravity.max(1.0);
         let level = input.support.rests().iter().filter(|r| r.is_level());
-        let carries = level.map(|r| r.force.z).sum::<f64>() / mg;
+        let seats = level.filter(|r| SEATED_ON.contains(&r.segment));
+        let carries = seats.map(|r| r.force.z).sum::<f64>() / mg;
         if carries <= 0.0 {
             return Seat::default();
         }
@@ -374,7 +393,8 @@ impl Modern {
                     continue;
                 }
                 // What rests on a seat or a table is pushed by it as the solution needs, starting from what it gave.
-                let share = (rest.force.norm() / (REST_FULL * mg)).min(1.0);
+                let stays = smooth_step(rest.lift, LIFTED);
+                let share = stays * (rest.force.norm() / (REST_FULL * mg)).min(1.0);
                 let r = rest.position - t.segment_position(s);
                 let local = t.kin.rotation[s].transpose_mul(r);
                 let v = t.kin.velocity[s] + t.kin.omega[s].cross(r);
@@ -453,6 +473,25 @@ fn pendulum_time(input: &ControlInput<'_>) -> f64 {
     (input.terms.com.z.max(0.1) / input.gravity.max(1.0)).sqrt()
 }
 
+/// 0 where the capture point is where the motion has it, 1 where it is far off.
+fn danger(input: &ControlInput<'_>) -> f64 {
+    let (t, goal) = (input.terms, input.com);
+    let time = pendulum_time(input);
+    let off = (t.com - goal.now) + (t.com_velocity - goal.now_velocity) * time;
+    1.0 - smooth_step((off.x * off.x + off.y * off.y).sqrt(), DANGER)
+}
+
+/// The law of joints and rotations.
+fn sharp_law(input: &ControlInput<'_>, danger: f64) -> Law {
+    let share = blend(SHARPNESS, YIELDING_SHARPNESS, danger);
+    Law::new(input.params, input.dt).sharpened(share)
+}
+
+/// Between `calm` and `in_danger`.
+fn blend(calm: f64, in_danger: f64, danger: f64) -> f64 {
+    calm + danger * (in_danger - calm)
+}
+
 /// Weights along a surface and across it.
 fn hold(along: f64, across: f64, normal: Vec3) -> Hold {
     let n = normal.to_array();
@@ -518,7 +557,9 @@ fn pelvis_demand(t: &Terms, target: &TargetPair, law: &Law, dt: f64) -> Vec3 {
 
 impl Controller for Modern {
     fn control(&mut self, input: &ControlInput<'_>) -> &Command {
-        let law = Law::new(input.params, input.dt).sharpened(SHARPNESS);
+        let danger = danger(input);
+        let law = sharp_law(input, danger);
+        let least = blend(JOINT_WEIGHT, LEAST_JOINT_WEIGHT, danger);
         let t = input.terms;
         self.seat = self.sit(input);
         self.collect_tasks(input, &law);
@@ -534,7 +575,7 @@ impl Controller for Modern {
             linear[k] += weight::PELVIS * value;
         }
         for j in 0..DOF_COUNT {
-            let wj = t.m[6 + j][6 + j].clamp(JOINT_WEIGHT.0, JOINT_WEIGHT.1);
+            let wj = t.m[6 + j][6 + j].max(least).min(JOINT_WEIGHT);
             diagonal[6 + j] = wj;
             linear[6 + j] = wj * demand[j];
             let rho = 0.5 * (input.upper[j] - input.lower[j]);

@@ -22,6 +22,12 @@ pub const TRUNK_REACH: f64 = 0.15;
 /// How far ahead of the present place the centre of mass is asked for, m: 2.5 m/s² and 0.25 m/s with the controllers' law.
 const COM_LEASH: f64 = 0.1;
 
+/// Places that are given anew within this time are one place that moves, s; slower than this, m/s: faster ones have jumped.
+const STREAMED: f64 = 0.1;
+const STREAM_SPEED: f64 = 5.0;
+/// Time constant with which its velocity is taken from them, s.
+const STREAM_SMOOTHING: f64 = 0.015;
+
 /// What a constraint is on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Constrained {
@@ -75,10 +81,47 @@ impl Constraint {
     }
 }
 
+/// A place that is given again and again.
+#[derive(Clone, Copy, Debug)]
+struct Stream {
+    on: Constrained,
+    position: Vec3,
+    velocity: Vec3,
+    /// When it was given last, s.
+    at: f64,
+}
+
+impl Stream {
+    /// The place that `c` gives at `time`, after it was `before`.
+    fn next(before: Option<&Self>, c: &Constraint, time: f64) -> Option<Self> {
+        let mut next = Self {
+            on: c.on,
+            position: c.position?,
+            velocity: Vec3::zero(),
+            at: time,
+        };
+        if let Some(b) = before.filter(|b| time - b.at <= STREAMED) {
+            let elapsed = time - b.at;
+            next.velocity = b.velocity;
+            if elapsed > 0.0 {
+                let velocity = (next.position - b.position) * (1.0 / elapsed);
+                let share = elapsed / (elapsed + STREAM_SMOOTHING);
+                next.velocity = if velocity.norm() < STREAM_SPEED {
+                    b.velocity + (velocity - b.velocity) * share
+                } else {
+                    Vec3::zero()
+                };
+            }
+        }
+        Some(next)
+    }
+}
+
 /// The constraints of a figure: those that were given, and those that fade because they were taken off.
 #[derive(Clone, Debug)]
 pub struct Constraints {
     given: Vec<Constraint>,
+    streams: Vec<Stream>,
     fading: Vec<Constraint>,
     goals: Vec<Goal>,
     hands: [Option<Effector>; 2],
@@ -91,6 +134,7 @@ impl Default for Constraints {
     fn default() -> Self {
         Self {
             given: Vec::with_capacity(MAX_CONSTRAINTS),
+            streams: Vec::with_capacity(MAX_CONSTRAINTS),
             fading: Vec::with_capacity(MAX_CONSTRAINTS),
             goals: Vec::with_capacity(MAX_GOALS),
             hands: [None; 2],
@@ -103,10 +147,16 @@ impl Default for Constraints {
 
 impl Constraints {
     /// Replaces all; at most [`MAX_CONSTRAINTS`] are taken. One on a part that was constrained already goes on from there instead of easing in anew; those on other
-    /// parts fade out within their `ease`.
+    /// parts fade out within their `ease`. A place that is given anew for the same part within 0.1 s has moved there, and is taken to move on.
     pub fn replace(&mut self, new: &[Constraint], time: f64) {
+        let streams = std::mem::take(&mut self.streams);
+        let new = &new[..new.len().min(MAX_CONSTRAINTS)];
+        self.streams.extend(new.iter().filter_map(|c| {
+            let before = streams.iter().find(|s| s.on == c.on);
+            Stream::next(before, c, time)
+        }));
         let old = std::mem::take(&mut self.given);
-        for c in new.iter().take(MAX_CONSTRAINTS) {
+        for c in new {
             let mut c = *c;
             let before = old.iter().find(|o| o.on == c.on && o.to > time);
             if let Some(before) = before {
@@ -132,6 +182,7 @@ impl Constraints {
     /// Takes all off at once: the figure was put somewhere else.
     pub fn forget(&mut self) {
         self.given.clear();
+        self.streams.clear();
         self.fading.clear();
         self.goals.clear();
         self.errors.clear();
@@ -162,11 +213,12 @@ impl Constraints {
                 None => self.fading[i - self.given.len()],
             };
             let level = c.weight * c.level(time);
+            let velocity = self.velocity(c.on, time);
             match c.on {
                 Constrained::CenterOfMass => {
                     if let Some(at) = c.position {
                         let share = c.axes.map(|a| a * level);
-                        self.shift_com(body, terms, support, at, share, com);
+                        self.shift_com(body, terms, support, (at, velocity), share, com);
                     }
                 }
                 Constrained::Point(segment, point) => {
@@ -177,6 +229,7 @@ impl Constraints {
                         segment,
                         point,
                         position: c.position,
+                        velocity,
                         axes: c.axes,
                         rotation: c.rotation,
                         weight: level,
@@ -191,6 +244,13 @@ impl Constraints {
                 }
             }
         }
+    }
+
+    /// How fast the wanted place of a part moves, m/s: zero unless it is given again and again.
+    fn velocity(&self, on: Constrained, time: f64) -> Vec3 {
+        let fresh = |s: &&Stream| s.on == on && time - s.at <= STREAMED;
+        let stream = self.streams.iter().find(fresh);
+        stream.map_or(Vec3::zero(), |s| s.velocity)
     }
 
     /// A hand whose arm is constrained does not follow the motion in space as well.
@@ -208,7 +268,7 @@ impl Constraints {
         body: &Body,
         terms: &Terms,
         support: &Support,
-        wanted: Vec3,
+        (wanted, moves): (Vec3, Vec3),
         share: [f64; 3],
         com: &mut PointTarget,
     ) {
@@ -246,22 +306,48 @@ impl Constraints {
         if let Some(c) = self.inset.closest([at.x, at.y]).filter(|c| c.margin < 0.0) {
             [at.x, at.y] = c.point;
         }
-        let toward = |now: f64, next: f64, v: (f64, f64), present: f64, wanted: f64, s: f64| {
+        let toward = |now: f64,
+                      next: f64,
+                      v: (f64, f64),
+                      present: f64,
+                      (wanted, moves): (f64, f64),
+                      s: f64| {
             let near = present + (wanted - present).clamp(-COM_LEASH, COM_LEASH);
             let mix = |a: f64, b: f64| a + s * (b - a);
             (
                 mix(now, near),
                 mix(next, near),
-                mix(v.0, 0.0),
-                mix(v.1, 0.0),
+                mix(v.0, moves),
+                mix(v.1, moves),
             )
         };
         let c = terms.com;
         let v = (com.now_velocity, com.next_velocity);
         let (x, y, z) = (
-            toward(com.now.x, com.next.x, (v.0.x, v.1.x), c.x, at.x, share[0]),
-            toward(com.now.y, com.next.y, (v.0.y, v.1.y), c.y, at.y, share[1]),
-            toward(com.now.z, com.next.z, (v.0.z, v.1.z), c.z, at.z, share[2]),
+            toward(
+                com.now.x,
+                com.next.x,
+                (v.0.x, v.1.x),
+                c.x,
+                (at.x, moves.x),
+                share[0],
+            ),
+            toward(
+                com.now.y,
+                com.next.y,
+                (v.0.y, v.1.y),
+                c.y,
+                (at.y, moves.y),
+                share[1],
+            ),
+            toward(
+                com.now.z,
+                com.next.z,
+                (v.0.z, v.1.z),
+                c.z,
+                (at.z, moves.z),
+                share[2],
+            ),
         );
         let vector = |k: fn((f64, f64, f64, f64)) -> f64| Vec3 {
             x: k(x),
@@ -304,6 +390,7 @@ impl Constraints {
                 segment,
                 point,
                 position: c.position,
+                velocity: Vec3::zero(),
                 axes: c.axes,
                 rotation: c.rotation,
                 weight: 1.0,
@@ -350,6 +437,30 @@ mod tests {
             (gone.level(2.0), gone.level(2.25), gone.level(2.5)),
             (1.0, 0.5, 0.0)
         );
+    }
+
+    #[test]
+    fn a_place_that_is_given_again_and_again_moves_and_one_that_jumps_or_stays_does_not() {
+        let mut set = Constraints::default();
+        let on = hand(0.0, 0.0).on;
+        let dt = 1.0 / 60.0;
+        for i in 0..60 {
+            let time = f64::from(i) * dt;
+            set.replace(&[hand(1.3 * time, 0.0)], time);
+        }
+        let last = 59.0 * dt;
+        let v = set.velocity(on, last);
+        assert!((v - vec3(1.3, 0.0, 0.0)).norm() < 1e-6, "{v:?}");
+        // No longer given: it rests where it was last.
+        assert_eq!(set.velocity(on, last + 0.2), Vec3::zero());
+        // Twice in one tick: the last counts, and it has moved no faster.
+        set.replace(&[hand(9.0, 0.0)], last);
+        assert_eq!(set.velocity(on, last), v);
+        set.replace(&[hand(1.0, 0.0)], last + dt);
+        assert_eq!(set.velocity(on, last + dt), Vec3::zero());
+        set.replace(&[hand(0.2, 0.0)], last + 5.0);
+        set.replace(&[hand(0.3, 0.0)], last + 6.0);
+        assert_eq!(set.velocity(on, last + 6.0), Vec3::zero());
     }
 
     #[test]

@@ -399,6 +399,9 @@ impl KinematicStepper {
                 })
             }),
         };
+        let passive = input
+            .tissue
+            .map_or([0.0; DOF_COUNT], |t| t.at(&command.acceleration[6..]));
         let f = &mut self.forces;
         f.audit.contacts.clear();
         let root = t.state.posture.root_position;
@@ -436,8 +439,12 @@ impl KinematicStepper {
         if decision.as_commanded {
             f.torque = command.torque;
         } else {
-            f.torque.copy_from_slice(&r[6..]);
+            for ((f, r), p) in f.torque.iter_mut().zip(&r[6..]).zip(&passive) {
+                *f = r - p;
+            }
         }
+        f.ligament_torque = passive;
+        f.audit.ligament_torque = passive;
         f.audit.torque = f.torque;
         f.audit.state = *state;
         f.audit.acceleration = command.acceleration;

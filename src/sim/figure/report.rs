@@ -84,7 +84,7 @@ pub struct Audit {
     pub acceleration: [f64; NV],
     /// Joint torques of muscles, N·m.
     pub torque: [f64; DOF_COUNT],
-    /// Joint torques of ligaments (joint limits), N·m.
+    /// Joint torques that no muscle gives: joint limits and stretched tissue, N·m.
     pub ligament_torque: [f64; DOF_COUNT],
     /// Ground and object contacts, at the start of the substep.
     pub contacts: Vec<ContactPoint>,

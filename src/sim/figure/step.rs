@@ -26,6 +26,7 @@ use crate::sim::body::angles::anatomical_angles;
 use crate::sim::body::topology::DOF_COUNT;
 use crate::sim::body::{Body, Links, Posture, State};
 use crate::sim::collide::shape::BodyShape;
+use crate::sim::contact::Tissue;
 use crate::sim::control::{Command, Modern, Paper};
 use crate::sim::dynamics::{Kinematics, Terms, center_of_mass};
 use crate::sim::gait::{Gait, Led};
@@ -129,6 +130,8 @@ struct Pending {
     before: State,
     angles: [f64; DOF_COUNT],
     rates: [f64; DOF_COUNT],
+    /// Stretched tissue, where it acts.
+    tissue: Option<Tissue>,
     assist: Option<Assist>,
 }
 
@@ -194,7 +197,7 @@ impl Figure {
         }
         self.look(world); // 2. dynamics of the state, desired motion
         self.stand(world); // 3. supports, and whether they still balance it
-        self.flex(); // 4. strength
+        self.flex(world); // 4. strength
         self.decide(world); // 5. accelerations and torques within strength
         true
     }
@@ -238,9 +241,12 @@ impl Figure {
         RESTS * self.terms.mass * world.gravity
     }
 
-    /// Stage 4: what the muscles can give at these angles and rates.
-    fn flex(&mut self) {
+    /// Stage 4: what the muscles can give at these angles and rates, and what stretched tissue gives. The paper's body has none.
+    fn flex(&mut self, world: &TickContext) {
+        let tissue = self.setup.controller != ControllerKind::Paper;
         let p = &mut self.pending;
+        let h = world.dt / f64::from(world.substeps);
+        p.tissue = tissue.then(|| Tissue::new(&self.strength, &self.state, world.substeps, h));
         p.angles = anatomical_angles(&self.state.posture);
         p.rates = std::array::from_fn(|j| self.state.velocity[6 + j]);
         self.muscles = self.available_strength();
@@ -254,12 +260,15 @@ impl Figure {
         );
     }
 
-    /// Stage 5: constraints and steps shift what is asked for, then the controller decides. What the figure leans on is known to it.
+    /// Stage 5: constraints and steps shift what is asked for, then the controller decides. What the figure leans on, and what its
+    /// stretched tissue gives, is known to it.
     fn decide(&mut self, world: &TickContext) {
         let bias = self.terms.h;
         let least = self.least_rest(world);
         let modern = self.active_controller() == ControllerKind::Modern;
         self.touches.lean(&mut self.terms, modern.then_some(least));
+        let tissue = self.pending.tissue.as_ref();
+        let inertia = tissue.map(|t| t.add_to(&mut self.terms));
         let body = Arc::clone(&self.setup.body);
         let mut tasks = self.tasks.points(&body, &self.links, &self.target);
         self.constraints.begin(
@@ -271,6 +280,9 @@ impl Figure {
             &tasks.hands,
             |s, p| self.tasks.desired_point(&self.target, s, p),
         );
+        self.support.plan_rests(&self.terms, |s, p| {
+            self.tasks.desired_point(&self.target, s, p)
+        });
         let mut balance = None;
         if self.steps() {
             let mut led = Led {
@@ -291,6 +303,9 @@ impl Figure {
         self.pending.command = self.control(world, &tasks, balance, (&lower, &upper));
         self.judge_hand_over(world.dt);
         self.terms.h = bias;
+        if let Some(inertia) = inertia {
+            Tissue::restore(&inertia, &mut self.terms);
+        }
         self.pending.tasks = tasks;
         self.pending.before = self.state;
         self.pending.assist = Assist::new(&body, self.setup.options.assist);
@@ -369,6 +384,7 @@ impl Figure {
             command: &pending.command,
             lower: &pending.lower,
             upper: &pending.upper,
+            tissue: pending.tissue.as_ref(),
             applied: disturbances.applied(),
             bar: disturbances.bar(),
             assist: pending.assist.as_ref().map(|a| (a, &*target)),
@@ -414,6 +430,7 @@ impl Pending {
             before: *state,
             angles: z,
             rates: z,
+            tissue: None,
             assist: None,
         }
     }

@@ -13,7 +13,7 @@ use crate::sim::body::{Body, Links, State};
 use crate::sim::collide::island::{Articulated, Parts};
 use crate::sim::contact::rows::PointRow;
 use crate::sim::contact::{
-    ContactRows, LimitRows, Motors, NewtonWorkspace, Outcome, SparseSystem, collect_limits,
+    ContactRows, LimitRows, Motors, NewtonWorkspace, Outcome, SparseSystem, Tissue, collect_limits,
     minimise,
 };
 use crate::sim::dynamics::jacobian::for_each_column;
@@ -61,6 +61,8 @@ pub struct StepInput<'a> {
     pub lower: &'a [f64; DOF_COUNT],
     /// Largest available torque at the start of the tick, N·m.
     pub upper: &'a [f64; DOF_COUNT],
+    /// Stretched tissue as the controller counts on it; without it none acts.
+    pub tissue: Option<&'a Tissue>,
     /// Forces of perturbations, constant over the tick.
     pub applied: &'a [AppliedForce],
     /// A bar between two points of the body, if two hands hold one load.
@@ -166,7 +168,7 @@ const BAR_TOLERANCE: f64 = 1e-6;
 pub struct TickForces {
     /// Mean muscle torque, N·m.
     pub torque: [f64; DOF_COUNT],
-    /// Mean ligament torque, N·m.
+    /// Mean torque of joint limits and stretched tissue, N·m.
     pub ligament_torque: [f64; DOF_COUNT],
     /// Mean assist on the pelvis: moment about its origin, N·m, then force, N.
     pub assist: [f64; 6],
@@ -315,6 +317,7 @@ impl TorqueStepper {
             strength,
             scale,
             command,
+            tissue,
             applied,
             gravity,
             dt,
@@ -327,7 +330,7 @@ impl TorqueStepper {
         } else {
             self.terms.compute(links, state, applied, gravity);
         }
-        let angles = collect_limits(body, &state.posture, h, &mut self.limits);
+        let angles = collect_limits(body, tissue.map(|_| strength), state, h, &mut self.limits);
         let rates: [f64; DOF_COUNT] = std::array::from_fn(|j| state.velocity[6 + j]);
         let [lower, upper] = &mut self.range;
         strength.range(&angles, &rates, scale, lower, upper);

@@ -263,6 +263,7 @@ impl Touches {
                 position: terms.point_world(e.touch.segment.index(), spot.local),
                 normal: e.touch.normal,
                 force: spot.expected,
+                lift: 0.0,
             })
         })
     }

@@ -6,7 +6,6 @@
 use super::foot_lock::{Anchor, Sole};
 use crate::sim::body::Body;
 use crate::sim::body::topology::{DOF_COUNT, DOF_START, L_FOOT};
-use crate::sim::math::Vec3;
 use crate::sim::strength::{MuscleScale, Strength};
 
 /// Standard gravity, m/s².
@@ -94,6 +93,7 @@ impl OneFoot {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sim::math::Vec3;
     use crate::sim::motion::balance::{hull, margin};
 
     const AT: Anchor = Anchor {

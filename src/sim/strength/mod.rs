@@ -24,6 +24,10 @@ pub const LIGAMENT_FACTOR: f64 = 3.0;
 /// Passive tissue pushes this share more while it is stretched at [`TISSUE_SPEED`] or faster, and less while it recoils: it rings otherwise.
 const TISSUE_DAMPING: f64 = 0.1;
 const TISSUE_SPEED: f64 = 10.0;
+/// Torque below which tissue does not act in the simulation, N·m; way over which a slope is no quotient, rad; least stiffness, N·m/rad.
+const FELT: f64 = 1e-3;
+const LEAST_WAY: f64 = 1e-6;
+const LEAST_STIFFNESS: f64 = 1e-6;
 /// Below this power of e tissue is slack: it would give less than 1e−13 N·m, and most joints spend their time there.
 const SLACK: f64 = -35.0;
 
@@ -83,6 +87,8 @@ struct Passive {
     cap: f64,
     /// Angle beyond onset at which the cap is met, rad.
     capped_at: f64,
+    /// Power of e below which it does not act: less than [`FELT`].
+    slack: f64,
 }
 
 impl Passive {
@@ -93,6 +99,7 @@ impl Passive {
             onset,
             cap,
             capped_at: ln(cap / amplitude) / steepness,
+            slack: ln(FELT / amplitude),
         }
     }
     /// Torque (N·m, ≥ 0) at `x` rad beyond the onset.
@@ -108,6 +115,26 @@ impl Passive {
             self.cap * (1.0 + (self.steepness * over).min(1.0))
         }
     }
+
+    /// Energy stored at `x` rad beyond the onset, J: the integral of [`Self::at`].
+    fn stored(&self, x: f64) -> f64 {
+        let (k, cap) = (self.steepness, self.cap);
+        let over = x - self.capped_at;
+        if over < 0.0 {
+            return self.at(x) / k;
+        }
+        let linear = over.min(1.0 / k);
+        cap * (1.0 / k + linear * (1.0 + 0.5 * k * linear) + 2.0 * (over - linear))
+    }
+}
+
+/// Stretched tissue.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stretched {
+    /// Torque away from the end of the range, N·m, ≥ 0.
+    pub torque: f64,
+    /// How much it grows with the angle, N·m/rad, > 0.
+    pub stiffness: f64,
 }
 
 /// Strength of one body: immutable, shared by every figure that has the body.
@@ -222,6 +249,49 @@ impl Strength {
             out[d] = low.at(-angles[d] - low.onset) * (1.0 - damping)
                 - high.at(angles[d] - high.onset) * (1.0 + damping);
         }
+    }
+
+    /// Energy that stretched tissue stores, J: its torque without damping is the negative gradient.
+    ///
+    /// * `angles`: anatomical angles, rad.
+    pub fn stored(&self, angles: &[f64; DOF_COUNT]) -> f64 {
+        let ends = self.tissue.iter().zip(angles);
+        ends.map(|([low, high], a)| low.stored(-a - low.onset) + high.stored(a - high.onset))
+            .sum()
+    }
+
+    /// Tissue of DOF `d` (0…38) at its lower (`side` 0) or upper (1) end; `None` where it is slack.
+    ///
+    /// * `angle`, `rate`: anatomical angle, rad, and its rate, rad/s. `h`: time ahead over which the stiffness is the mean, s.
+    ///
+    /// The torque is that of [`Self::passive`], N·m ≥ 0, at `angle`. No allocation.
+    #[inline]
+    pub fn stretched(
+        &self,
+        d: usize,
+        side: usize,
+        angle: f64,
+        rate: f64,
+        h: f64,
+    ) -> Option<Stretched> {
+        let tissue = &self.tissue[d][side];
+        let sign = if side == 0 { -1.0 } else { 1.0 };
+        let (x, speed) = (sign * angle - tissue.onset, sign * rate);
+        let way = h * speed;
+        if tissue.steepness * (x + way.max(0.0)) < tissue.slack {
+            return None;
+        }
+        let damped = 1.0 + TISSUE_DAMPING * (speed / TISSUE_SPEED).max(-1.0).min(1.0);
+        let now = tissue.at(x);
+        let slope = if way.abs() > LEAST_WAY {
+            (tissue.at(x + way) - now) / way
+        } else {
+            tissue.steepness * now
+        };
+        Some(Stretched {
+            torque: damped * now,
+            stiffness: damped * slope.max(now).max(LEAST_STIFFNESS),
+        })
     }
 
     /// Where the numbers of DOF `dof` (0…38) come from.

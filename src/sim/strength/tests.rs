@@ -573,6 +573,50 @@ fn passive_tissue_pushes_back_from_both_ends_and_is_bounded() {
     assert!(out.iter().all(|x| x.abs() < 1.0), "{out:?}");
 }
 
+/// What tissue gives is the slope of what it stores, its stiffness that of what it gives, and both agree with the sum over both ends.
+#[test]
+fn tissue_gives_back_what_it_stores() {
+    let body = Body::adult_man();
+    let s = Strength::for_body(&body);
+    let at = |d: usize, angle: f64| {
+        let mut angles = [0.0; 39];
+        angles[d] = angle;
+        angles
+    };
+    let give = |d: usize, side: usize, angle: f64, rate: f64, h: f64| {
+        let found = s.stretched(d, side, angle, rate, h);
+        found.map_or((0.0, 0.0), |x| (x.torque, x.stiffness))
+    };
+    for d in 0..39 {
+        for i in -60..=60 {
+            let (angle, e) = (f64::from(i) * 0.05, 1e-5);
+            let mut out = [0.0; 39];
+            s.passive(&at(d, angle), &[0.0; 39], &mut out);
+            let slope = (s.stored(&at(d, angle + e)) - s.stored(&at(d, angle - e))) / (2.0 * e);
+            let close = |a: f64, b: f64| (a - b).abs() < 1e-4 * (1.0 + b.abs());
+            let name = t::DOF_NAMES[d];
+            assert!(
+                close(-slope, out[d]),
+                "{name} at {angle}: {slope} {}",
+                out[d]
+            );
+            let (low, stiffness) = give(d, 0, angle, 0.0, 0.0);
+            let (high, _) = give(d, 1, angle, 0.0, 0.0);
+            // What is less than can be felt is left out.
+            assert!((low - high - out[d]).abs() < 2.1e-3, "{name} at {angle}");
+            assert!(low >= 0.0 && high >= 0.0 && stiffness >= 0.0);
+            // The mean stiffness of the way ahead leads to the torque there.
+            let (rate, h) = (-3.0, 0.01);
+            let (torque, stiffness) = give(d, 0, angle, rate, h);
+            let (ahead, _) = give(d, 0, angle + h * rate, rate, 0.0);
+            assert!(
+                torque - stiffness * h * rate >= ahead - 2e-3,
+                "{name} at {angle}"
+            );
+        }
+    }
+}
+
 #[test]
 fn every_number_has_an_origin() {
     let s = Strength::for_body(&Body::adult_woman());

@@ -20,6 +20,7 @@ pub use sharing::Sharing;
 pub use tipping::{Pivot, pivot, tipping_acceleration, unblocked_pivot};
 pub use zmp::zmp;
 
+use crate::sim::body::topology::PELVIS;
 use crate::sim::body::{Body, SEGMENT_COUNT, SegmentId};
 use crate::sim::collide::touch::MAX_TOUCHES;
 use crate::sim::dynamics::Terms;
@@ -103,6 +104,21 @@ impl Support {
     /// What carries it besides the floor.
     pub fn rests(&self) -> &[Rest] {
         &self.rests
+    }
+
+    /// Finds out which parts the motion takes off what they rest on.
+    ///
+    /// * `desired`: where the motion has a point of a segment (segment frame, m), world, m.
+    pub fn plan_rests(&mut self, terms: &Terms, desired: impl Fn(SegmentId, Vec3) -> Vec3) {
+        let (pelvis, origin) = (terms.state.posture.root_position, Vec3::zero());
+        let shift = pelvis - desired(PELVIS, origin);
+        for rest in &mut self.rests {
+            let s = rest.segment.index();
+            let local =
+                terms.kin.rotation[s].transpose_mul(rest.position - terms.segment_position(s));
+            let planned = desired(rest.segment, local) + shift;
+            rest.lift = rest.normal.dot(planned - rest.position);
+        }
     }
 
     /// Forgets the past (after a reset of the figure).

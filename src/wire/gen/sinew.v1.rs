@@ -2224,7 +2224,7 @@ pub struct FigureFrame {
     /// Muscle torque, 39 numbers, N·m, dual to the joint rates.
     #[prost(message, optional, tag = "10")]
     pub torque: ::core::option::Option<Numbers>,
-    /// Torque of ligaments (joint limits), 39 numbers, N·m.
+    /// Torque that no muscle gives: joint limits and stretched tissue, 39 numbers, N·m. `torque` does not hold it.
     #[prost(message, optional, tag = "11")]
     pub ligament_torque: ::core::option::Option<Numbers>,
     /// Least and largest torque that the muscles could give at the start of the tick: 39 lower (negative), then 39 upper, N·m.

@@ -3,7 +3,6 @@
 use super::{Articulated, Block, Column, Contact, Island, Kind, Parts, dot};
 use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT};
 use crate::sim::contact::SparseSystem;
-use crate::sim::contact::limits::LIMIT_STIFFNESS;
 use crate::sim::contact::newton::System;
 use crate::sim::contact::projection::{Region, derivative};
 use crate::sim::contact::rows::{CHAIN_WIDTH, add_point_stiffness};
@@ -311,7 +310,7 @@ fn own_matrix(p: &mut Parts<'_>, b: &Block, inside: bool) {
         let slope = if inside {
             p.newton.interior.walls[k].slope
         } else {
-            LIMIT_STIFFNESS
+            row.stiffness
         };
         if inside || row.rate(&b.x) < -row.allowed {
             for i in 0..row.len {

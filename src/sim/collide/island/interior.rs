@@ -9,7 +9,6 @@ use crate::sim::body::topology::{DOF_COUNT, NV};
 use crate::sim::contact::interior::{
     Cone, DONE, Inner, TO_BOUNDARY, Wall, aim, to_cone, to_world, world_stiffness,
 };
-use crate::sim::contact::limits::LIMIT_STIFFNESS;
 use crate::sim::contact::projection::Region;
 use crate::sim::contact::{ContactRows, Motors};
 use crate::sim::math::Vec3;
@@ -291,7 +290,7 @@ fn linearise_figure(
         grad[6 + j] -= value;
     }
     for (row, w) in p.limits.rows.iter().zip(&mut inner.walls) {
-        w.eliminate(1.0 / LIMIT_STIFFNESS, row.rate(x) + row.allowed, aim);
+        w.eliminate(1.0 / row.stiffness, row.rate(x) + row.allowed, aim);
         for k in 0..row.len {
             grad[row.first + k] -= (w.q + w.dq) * row.coefficients[k];
         }

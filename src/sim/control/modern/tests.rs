@@ -60,7 +60,9 @@ impl Primal {
     ) -> Self {
         let t = &s.terms;
         let input = s.input();
-        let law = Law::new(&s.params, DT).sharpened(SHARPNESS);
+        let danger = danger(&input);
+        let law = sharp_law(&input, danger);
+        let least = blend(JOINT_WEIGHT, LEAST_JOINT_WEIGHT, danger);
         let mut all = Vec::new();
         let unit = |d: usize| {
             let mut row = [0.0; NV];
@@ -71,7 +73,7 @@ impl Primal {
         let demand = initial_acceleration(&s.body, &t.state, &s.target, &law);
         let mut weight = [0.0; DOF_COUNT];
         for j in 0..DOF_COUNT {
-            weight[j] = t.m[6 + j][6 + j].clamp(JOINT_WEIGHT.0, JOINT_WEIGHT.1);
+            weight[j] = t.m[6 + j][6 + j].max(least).min(JOINT_WEIGHT);
         }
         for g in &s.goals {
             for l in g.limb() {
@@ -385,6 +387,7 @@ fn scene(rng: &mut Rng, kind: usize, round: usize) -> Scene {
                     segment: segment.unwrap(),
                     point: vec3(0.0, 0.02, -0.05),
                     position: Some(vec3(rng.unit(), rng.unit(), 1.0 + rng.unit())),
+                    velocity: axis * 0.5,
                     axes: [1.0, 0.5, rng.unit().abs()],
                     rotation: Some(Quat::exp(axis)),
                     weight: rng.unit().abs(),

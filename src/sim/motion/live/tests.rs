@@ -171,7 +171,7 @@ fn where_a_stream_walks_makes_no_difference() {
     });
     for (a, b) in here.iter().zip(&there) {
         let mut back = b.posture;
-        back.root_position = back.root_position - far;
+        back.root_position -= far;
         let off = a.posture.difference(&back);
         assert!(off.iter().all(|e| e.abs() < 1e-6), "{off:?}");
         assert_eq!(a.planted, b.planted);

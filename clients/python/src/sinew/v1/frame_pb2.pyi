@@ -183,7 +183,7 @@ class FigureFrame(_message.Message):
 
     @_builtins.property
     def ligament_torque(self) -> _types_pb2.Numbers:
-        """Torque of ligaments (joint limits), 39 numbers, N·m."""
+        """Torque that no muscle gives: joint limits and stretched tissue, 39 numbers, N·m. `torque` does not hold it."""
 
     @_builtins.property
     def torque_limits(self) -> _types_pb2.Numbers:

@@ -5,6 +5,7 @@
 use super::super::direction::tests::{Puppet, numbers, scene};
 use super::super::newton::MAX_ITERATIONS;
 use super::*;
+use crate::sim::contact::limits::LIMIT_STIFFNESS;
 use crate::sim::contact::rows::PointRow;
 use crate::sim::contact::{LimitRow, Outcome};
 use crate::sim::dynamics::terms::WIDTH;
@@ -36,6 +37,7 @@ fn hard(rng: &mut Rng, contacts: usize, fast: f64) -> (Island, Vec<Puppet>) {
                 len: 1,
                 coefficients: [if rng.unit() > 0.0 { 1.0 } else { -1.0 }, 0.0, 0.0],
                 allowed: rng.between(-3.0, 20.0),
+                stiffness: LIMIT_STIFFNESS,
             });
         }
         for segment in [6, 12, 16] {
@@ -132,7 +134,7 @@ impl Dual {
                 out.boxes.push((z, f.motors.lower[j], f.motors.upper[j]));
             }
             for row in &f.limits.rows {
-                let z = out.unknown(1.0 / LIMIT_STIFFNESS, row.allowed);
+                let z = out.unknown(1.0 / row.stiffness, row.allowed);
                 for k in 0..row.len {
                     out.a.push((at + row.first + k, z, -row.coefficients[k]));
                 }

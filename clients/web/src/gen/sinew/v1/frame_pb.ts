@@ -208,7 +208,7 @@ export type FigureFrame = Message<"sinew.v1.FigureFrame"> & {
   torque?: Numbers | undefined;
 
   /**
-   * Torque of ligaments (joint limits), 39 numbers, N·m.
+   * Torque that no muscle gives: joint limits and stretched tissue, 39 numbers, N·m. `torque` does not hold it.
    *
    * @generated from field: sinew.v1.Numbers ligament_torque = 11;
    */
