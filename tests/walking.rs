@@ -74,7 +74,7 @@ fn walks_start_from_standing_and_stop() {
         ("walk-around", 0.12),
         ("salsa-a", 0.2),
         ("salsa-b", 0.22),
-        ("carry", 0.25),
+        ("carry", 0.45),
         ("hit", 0.08),
     ] {
         let clip = recorded(&body, name);
