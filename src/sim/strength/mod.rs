@@ -281,7 +281,7 @@ impl Strength {
         if tissue.steepness * (x + way.max(0.0)) < tissue.slack {
             return None;
         }
-        let damped = 1.0 + TISSUE_DAMPING * (speed / TISSUE_SPEED).max(-1.0).min(1.0);
+        let damped = 1.0 + TISSUE_DAMPING * (speed / TISSUE_SPEED).clamp(-1.0, 1.0);
         let now = tissue.at(x);
         let slope = if way.abs() > LEAST_WAY {
             (tissue.at(x + way) - now) / way
