@@ -9,12 +9,14 @@ pub mod limits;
 pub mod newton;
 pub mod projection;
 pub mod rows;
+pub mod slides;
 pub mod sparse;
 
 pub use dense::DenseSystem;
 pub use limits::{LimitRow, LimitRows, Tissue, collect_limits};
 pub use newton::{Motors, NewtonWorkspace, Outcome, minimise};
 pub use rows::ContactRows;
+pub use slides::Slides;
 pub use sparse::SparseSystem;
 
 #[cfg(test)]

@@ -13,8 +13,8 @@ use crate::sim::body::{Body, Links, State};
 use crate::sim::collide::island::{Articulated, Parts};
 use crate::sim::contact::rows::PointRow;
 use crate::sim::contact::{
-    ContactRows, LimitRows, Motors, NewtonWorkspace, Outcome, SparseSystem, Tissue, collect_limits,
-    minimise,
+    ContactRows, LimitRows, Motors, NewtonWorkspace, Outcome, Slides, SparseSystem, Tissue,
+    collect_limits, minimise,
 };
 use crate::sim::dynamics::jacobian::for_each_column;
 use crate::sim::dynamics::terms::AppliedForce;
@@ -192,6 +192,7 @@ pub struct TorqueStepper {
     /// Terms of the current substep.
     pub terms: Terms,
     contacts: ContactRows,
+    slides: Slides,
     limits: LimitRows,
     motors: Motors,
     newton: NewtonWorkspace,
@@ -234,6 +235,7 @@ impl TorqueStepper {
         Self {
             terms: Terms::default(),
             contacts: ContactRows::new(friction),
+            slides: Slides::default(),
             limits: LimitRows::new(),
             motors: Motors::default(),
             newton: NewtonWorkspace::default(),
@@ -462,10 +464,21 @@ impl TorqueStepper {
         }
         let mut v = state.velocity;
         self.assist = [0.0; 6];
-        self.outcome = match self.row {
-            None => self.solve_with(&momentum, spring, &mut v),
-            Some(bar) => self.solve_barred(&momentum, spring, &bar, &mut v),
-        };
+        self.outcome = Outcome::default();
+        self.slides.begin(&mut self.contacts, &v, &mut self.newton);
+        loop {
+            let outcome = match self.row {
+                None => self.solve_with(&momentum, spring, &mut v),
+                Some(bar) => self.solve_barred(&momentum, spring, &bar, &mut v),
+            };
+            self.outcome = Outcome {
+                iterations: self.outcome.iterations + outcome.iterations,
+                ..outcome
+            };
+            if !self.slides.again(&mut self.contacts, &self.newton) {
+                break;
+            }
+        }
         let mut x = momentum;
         for i in 0..6 {
             x[i] += self.assist[i];

@@ -1,0 +1,74 @@
+//! Coulomb's law out of the convex one, for points that slide (ADR 0020).
+//!
+//! The convex solve keeps forces within the friction cone and therefore velocities within its dual: a point that slides at v_t may not come
+//! nearer to the ground than μ v_t h, and a foot swinging at 3 m/s is carried over 2 cm of air. De Saxcé's correction gives it back: what keeps a
+//! point up is `v_n + c ≥ μ v_t`, so its row is offset by `s = μ v_t`. As v_t is part of the solution, a few solves look for it, from the velocity
+//! the point has. The forces of each lie within the cone and take energy, however far it is from the last: f·v = −f_n (s + c).
+
+use super::newton::NewtonWorkspace;
+use super::rows::ContactRows;
+use crate::sim::body::topology::NV;
+use crate::sim::figure::report::MAX_CONTACTS;
+use crate::sim::math::Vec3;
+
+/// Most solves of one substep after its first. Nearly all need one, by which a foot that lands has stopped; what goes on sliding halves
+/// its error each time.
+const ROUNDS: u32 = 4;
+/// Change of an offset that is none, m/s.
+const SETTLED: f64 = 1e-9;
+/// Slower points do not slide, m/s: the 0.1 mm by which they hover is less than a penetration that is left alone, and standing costs nothing.
+const CREEP: f64 = 0.1;
+
+/// Offsets of the contact rows of one substep.
+#[derive(Clone, Debug)]
+pub struct Slides {
+    /// `s` of each point, m/s.
+    offset: Box<[f64; MAX_CONTACTS]>,
+    rounds: u32,
+}
+
+impl Default for Slides {
+    fn default() -> Self {
+        Self {
+            offset: Box::new([0.0; MAX_CONTACTS]),
+            rounds: 0,
+        }
+    }
+}
+
+impl Slides {
+    /// Offsets the rows as if every point went on as it moves at velocity `v`.
+    pub fn begin(&mut self, contacts: &mut ContactRows, v: &[f64; NV], ws: &mut NewtonWorkspace) {
+        self.rounds = 0;
+        contacts.velocities(v, &mut ws.velocity);
+        for k in 0..contacts.points.len() {
+            self.offset[k] = offset(contacts.friction, ws.velocity[k]);
+            contacts.points[k].c.z += self.offset[k];
+        }
+    }
+
+    /// Offsets the rows as the points slid in the last solve. False where that changes nothing for those that touch, or after the last round.
+    pub fn again(&mut self, contacts: &mut ContactRows, ws: &NewtonWorkspace) -> bool {
+        self.rounds += 1;
+        if self.rounds > ROUNDS {
+            return false;
+        }
+        let mut change = 0.0f64;
+        for k in 0..contacts.points.len() {
+            let p = &mut contacts.points[k];
+            // What its compliance gives way by is not sliding.
+            let slid = ws.velocity[k] + ws.force[k] * (1.0 / p.inverse_r);
+            let s = offset(contacts.friction, slid);
+            if ws.force[k].z > 0.0 {
+                change = change.max((s - self.offset[k]).abs());
+            }
+            p.c.z += s - self.offset[k];
+            self.offset[k] = s;
+        }
+        change > SETTLED
+    }
+}
+
+fn offset(friction: f64, v: Vec3) -> f64 {
+    friction * (v.x.hypot(v.y) - CREEP).max(0.0)
+}
