@@ -33,7 +33,12 @@ fn full_assist_walks_with_the_pelvis_on_its_path() {
             r.dynamics_residual_max
         );
         assert!(r.fell_at_s.is_none() && r.joint_rms_deg < joints);
-        assert!(r.root_error_max_mm < 2.0, "{} {}", r.root_error_max_mm, r.joint_rms_deg);
+        assert!(
+            r.root_error_max_mm < 2.0,
+            "{} {}",
+            r.root_error_max_mm,
+            r.joint_rms_deg
+        );
         assert!(r.dynamics_residual_max < 1e-9 && r.over_limit_max < 1e-9);
         assert!(r.root_wrench_unexplained_max_n < 1e-6 * 75.0 * 9.81);
         assert!(r.assist_max_n > 1.0, "it is reported");

@@ -18,6 +18,8 @@ const FLIGHT: f64 = 0.3;
 const BENDS: [f64; 3] = [0.25, 0.85, 0.35];
 /// Length of crouching, waiting, pushing off, giving way, and rising, s.
 const TIMES: [f64; 5] = [0.8, 0.3, 0.45, 0.45, 0.8];
+/// What touching down does to the energy is seen over this time, s: within a tick muscles may give more than the floor takes.
+const LANDING: f64 = 0.1;
 /// Factor on its strength: what jumps is an athlete.
 const STRENGTH: f64 = 3.0;
 /// The pelvis rises faster than the body before it pulls the resting feet along.
@@ -137,14 +139,15 @@ fn leaps(kind: ControllerKind, stepper: StepperKind, allowed: f64) -> bool {
         StepperKind::Torque => 0.5 / rate_hz,
     };
     let (mut start, mut air, mut path, mut spun) = (None, 0.0, 0.0f64, 0.0f64);
-    let (mut top, mut fell, mut last, mut landed) = (0.0f64, false, None, None::<f64>);
+    let (mut top, mut fell, mut last) = (0.0f64, false, 0.0);
+    let (mut down, mut landed) = (None, None::<f64>);
     scene.run(clip.duration(), |s| {
         let r = s.figure().report().unwrap();
         let now = integrals(s.figure().links(), s.figure().state());
         let t = s.world.time();
         fell |= s.figure().is_fallen();
         let flies = r.flags.has(Flags::FLIGHT) && r.contacts.is_empty() && t > off - 0.1;
-        if flies && landed.is_none() {
+        if flies && down.is_none() {
             let (t0, c0, p0, l0) =
                 *start.get_or_insert((t, now.com, now.momentum.linear, now.momentum.angular));
             air = t - t0 + 1.0 / rate_hz;
@@ -155,12 +158,13 @@ fn leaps(kind: ControllerKind, stepper: StepperKind, allowed: f64) -> bool {
             path = path.max((now.com - parabola).norm());
             spun = spun.max((now.momentum.angular - l0).norm());
             top = top.max(now.com.z - c0.z);
-        } else if let (Some(e), true) = (last, air > 0.1)
-            && landed.is_none()
-        {
-            landed = Some(now.energy - e);
+        } else if air > 0.1 && landed.is_none() {
+            let (since, energy) = *down.get_or_insert((t, last));
+            if t > since + LANDING {
+                landed = Some(now.energy - energy);
+            }
         }
-        last = Some(now.energy);
+        last = now.energy;
     });
     let landed = landed.expect("it comes down");
     let text = format!(

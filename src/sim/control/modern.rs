@@ -79,7 +79,7 @@ const HOLD_SPEED: f64 = 0.3;
 /// A planted point counts fully below the first height and not at all above the second, m.
 const FADE: (f64, f64) = (0.004, 0.010);
 /// A point of a planted foot is planned down fully where the motion has it below the first height, not at all above the second, m.
-const PLANNED_FADE: (f64, f64) = (0.006, 0.020);
+const PLANNED_FADE: (f64, f64) = (0.001, 0.006);
 /// What is kept of the last tick's contact force.
 const FORCE_MEMORY: f64 = 0.98;
 /// Weight with which a part that rests on a seat is held there when it carries all it may count for, and that share of the weight. Little while

@@ -221,6 +221,11 @@ impl Figure {
             .compute(&self.links, &self.state, applied, world.gravity);
         self.begin_queued(world.time());
         self.target = self.desired(world.time(), world.dt);
+        // The paper's controller as published takes them where they are.
+        if self.setup.controller != ControllerKind::Paper {
+            self.target
+                .set_velocities_back(0.5 / f64::from(world.substeps));
+        }
     }
 
     /// Stage 3: what it holds, what it stands and rests on, and whether it keeps its balance.

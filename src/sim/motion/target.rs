@@ -46,3 +46,15 @@ pub struct TargetPair {
     /// At the end of the tick.
     pub next: Target,
 }
+
+impl TargetPair {
+    /// Sets the velocities back by `share` of the tick. A body that is stepped by semi-implicit Euler has at time t the velocity of half a substep
+    /// earlier: that is the one its error has to be measured from, or limbs lag behind by their acceleration.
+    pub fn set_velocities_back(&mut self, share: f64) {
+        for (now, next) in self.now.velocity.iter_mut().zip(&mut self.next.velocity) {
+            let change = share * (*next - *now);
+            *now -= change;
+            *next -= change;
+        }
+    }
+}
