@@ -74,6 +74,8 @@ const SWING_FEEDBACK: f64 = 60.0;
 const ROTATION_FEEDBACK: f64 = 50.0;
 /// Time constant that brings a planted point to rest, s.
 const HOLD_TIME: f64 = 0.05;
+/// A point that comes down faster than the first beyond what its height leaves room for begins to strike, from the second on it does, m/s.
+const STRIKES: (f64, f64) = (0.05, 0.15);
 /// Fastest correction of a planted point's height, m/s.
 const HOLD_SPEED: f64 = 0.3;
 /// A planted point counts fully below the first height and not at all above the second, m.
@@ -443,11 +445,14 @@ impl Modern {
                 }
                 let v = t.kin.velocity[s] + t.kin.omega[s].cross(r);
                 let rise = (-0.2 * z / input.dt).clamp(-HOLD_SPEED, HOLD_SPEED);
+                // What strikes the floor within the tick is at rest at its end, whatever is planned.
+                let strikes = 1.0 - smooth_step(-v.z - z.max(0.0) / input.dt, STRIKES);
+                let pace = blend(1.0 / HOLD_TIME, 1.0 / input.dt, strikes);
                 let a = (Vec3 {
                     x: -v.x,
                     y: -v.y,
                     z: rise - v.z,
-                }) * (1.0 / HOLD_TIME)
+                }) * pace
                     - t.point_bias(s, *p);
                 let inverse_r = fade.max(OTHER_SEGMENT) / weight::FORCE;
                 let c = self.last_force[s * POINTS + vertex] * (-FORCE_MEMORY / inverse_r);
@@ -487,9 +492,9 @@ fn sharp_law(input: &ControlInput<'_>, danger: f64) -> Law {
     Law::new(input.params, input.dt).sharpened(share)
 }
 
-/// Between `calm` and `in_danger`.
-fn blend(calm: f64, in_danger: f64, danger: f64) -> f64 {
-    calm + danger * (in_danger - calm)
+/// From `a` to `b`.
+fn blend(a: f64, b: f64, share: f64) -> f64 {
+    a + share * (b - a)
 }
 
 /// Weights along a surface and across it.
