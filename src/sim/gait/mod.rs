@@ -581,24 +581,34 @@ impl Gait {
             (None, None) => self.phase + self.speed,
         };
         let remaining = (on - self.phase).max(0.0) / self.speed;
-        let u = (since / (since + remaining).max(0.1) / SWING_SHARE).clamp(0.0, 1.0);
-        let s = u * u * u * (10.0 - 15.0 * u + 6.0 * u * u);
+        let whole = (since + remaining).max(0.1);
+        // Led to its displaced foothold, and let go from where it stood.
+        let displaced = |since: f64| {
+            let u = (since / whole / SWING_SHARE).clamp(0.0, 1.0);
+            let s = u * u * u * (10.0 - 15.0 * u + 6.0 * u * u);
+            let [x, y] = foot.shift;
+            Vec3 { x, y, z: 0.0 } * s
+        };
+        let [mut now, mut next, after] = [0.0, 1.0, 2.0].map(|k| displaced(since + k * dt));
+        let target = &mut target.0;
+        target.now_velocity += (next - now) * (1.0 / dt);
+        target.next_velocity += (after - next) * (1.0 / dt);
         let kept = (1.0 - since / RELEASE).max(0.0);
-        let mut offset = foot.release * (kept * kept);
-        offset.x += s * foot.shift[0];
-        offset.y += s * foot.shift[1];
+        now += foot.release * (kept * kept);
+        next += foot.release * (kept * kept);
         let wanted = CLEARANCE
             .min(CLEARANCE_RATE * since)
             .min(CLEARANCE_RATE * remaining);
-        offset.z += (wanted - self.lowest(terms, side)).clamp(0.0, CLEARANCE);
-        let target = &mut target.0;
+        let mut raise = (wanted - self.lowest(terms, side)).clamp(0.0, CLEARANCE);
         if foot.late > 0.0 {
-            offset.z -= LOWERING * foot.late;
+            raise -= LOWERING * foot.late;
             target.now_velocity = Vec3::Z * -LOWERING;
             target.next_velocity = Vec3::Z * -LOWERING;
         }
-        target.now += offset;
-        target.next += offset;
+        now.z += raise;
+        next.z += raise;
+        target.now += now;
+        target.next += next;
     }
 
     /// Steps that no clip planned: catches a body whose capture point has left its feet, then brings the feet back together.
