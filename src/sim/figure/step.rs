@@ -292,6 +292,7 @@ impl Figure {
         if self.steps() {
             let mut led = Led {
                 com: &mut tasks.com,
+                moment: (tasks.spin[1] - tasks.spin[0]) * (1.0 / world.dt),
                 feet: &mut tasks.feet,
                 unplanned: self.setup.params.protective_steps,
             };

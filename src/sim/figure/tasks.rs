@@ -12,6 +12,8 @@ use crate::sim::motion::{Target, TargetPair};
 pub struct TaskPoints {
     /// Desired centre of mass.
     pub com: PointTarget,
+    /// Centroidal angular momentum at the start and at the end of the tick, N·m·s.
+    pub spin: [Vec3; 2],
     /// Left and right hand.
     pub hands: [Effector; 2],
     /// Left and right foot: position of the ankle and rotation of the foot.
@@ -42,6 +44,7 @@ impl TaskPoints {
         };
         Self {
             com: point,
+            spin: [o; 2],
             hands: [hand(L_HAND), hand(R_HAND)],
             feet: [(point, turn); 2],
         }
@@ -105,12 +108,12 @@ impl TaskWorkspace {
         set(&mut self.next, &target.next);
         let com = |kin: &Kinematics<f64>, t: &Target| {
             let (c, m) = center_of_mass(links, kin);
-            (
-                t.posture.root_position + c,
-                momentum(links, kin).linear * (1.0 / m),
-            )
+            let p = momentum(links, kin);
+            let at = t.posture.root_position + c;
+            ((at, p.linear * (1.0 / m)), p.angular)
         };
-        let (c0, c1) = (com(&self.now, &target.now), com(&self.next, &target.next));
+        let ((c0, spin), (c1, next_spin)) =
+            (com(&self.now, &target.now), com(&self.next, &target.next));
         let now = Pose {
             kin: &self.now,
             root: target.now.posture.root_position,
@@ -151,6 +154,7 @@ impl TaskWorkspace {
         };
         TaskPoints {
             com: pair(c0, c1),
+            spin: [spin, next_spin],
             hands: [hand(L_HAND), hand(R_HAND)],
             feet: [foot(L_FOOT), foot(R_FOOT)],
         }

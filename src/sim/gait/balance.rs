@@ -25,6 +25,8 @@ const BESIDE: f64 = 0.08;
 /// Time constant of the foothold, s, and time before touch-down in which it does not change any more.
 const SMOOTHING: f64 = 0.03;
 pub(super) const FREEZE: f64 = 0.06;
+/// Furthest that planned moments may move the zero-moment point, m.
+const MOST_TURNED: f64 = 0.05;
 /// Least downward acceleration the pendulum is computed with, m/s².
 const LEAST_LOAD: f64 = 3.0;
 
@@ -157,18 +159,25 @@ impl Capture {
     }
 
     /// The wanted acceleration `a` of the centre of mass with its zero-moment point brought back into the support: what lies beyond would only
-    /// turn the trunk. `None` without a support.
+    /// turn the trunk. A leg that is braked before it lands moves that point by centimetres: `moment` is the rate of the motion's angular
+    /// momentum, N·m. `None` without a support.
     pub(super) fn feasible(
         &self,
         terms: &Terms,
-        a: Vec3,
+        (a, moment): (Vec3, Vec3),
         polygon: &Polygon,
         gravity: f64,
     ) -> Option<[f64; 2]> {
         let c = terms.com;
-        let w2 = (gravity + a.z).max(LEAST_LOAD) / c.z.max(0.1);
-        let p = polygon.closest([c.x - a.x / w2, c.y - a.y / w2])?.point;
-        Some([w2 * (c.x - p[0]), w2 * (c.y - p[1])])
+        let load = (gravity + a.z).max(LEAST_LOAD);
+        let w2 = load / c.z.max(0.1);
+        let turned = [moment.y, -moment.x].map(|m| m / (terms.mass * load));
+        let far = turned[0].hypot(turned[1]).max(MOST_TURNED);
+        let turned = turned.map(|t| t * MOST_TURNED / far);
+        let middle = [c.x - turned[0], c.y - turned[1]];
+        let wanted = [middle[0] - a.x / w2, middle[1] - a.y / w2];
+        let p = polygon.closest(wanted)?.point;
+        Some([w2 * (middle[0] - p[0]), w2 * (middle[1] - p[1])])
     }
 
     /// Error that is left after `remaining` seconds of swing: a foothold displaced by it makes the error zero.

@@ -87,6 +87,8 @@ pub struct Landing {
 pub struct Led<'a> {
     /// Desired centre of mass.
     pub com: &'a mut PointTarget,
+    /// Rate of the desired centroidal angular momentum, N·m.
+    pub moment: Vec3,
     /// Desired ankles and rotations of the feet.
     pub feet: &'a mut [(PointTarget, RotationTarget); 2],
     /// Steps may be made that no clip planned.
@@ -534,9 +536,9 @@ impl Gait {
             });
         }
         let wanted = com_law(tasks.com, terms.com, terms.com_velocity, dt);
-        let acceleration = self
-            .capture
-            .feasible(terms, wanted, support.polygon(), gravity)?;
+        let acceleration =
+            self.capture
+                .feasible(terms, (wanted, tasks.moment), support.polygon(), gravity)?;
         Some(Balance { acceleration })
     }
 
@@ -581,34 +583,24 @@ impl Gait {
             (None, None) => self.phase + self.speed,
         };
         let remaining = (on - self.phase).max(0.0) / self.speed;
-        let whole = (since + remaining).max(0.1);
-        // Led to its displaced foothold, and let go from where it stood.
-        let displaced = |since: f64| {
-            let u = (since / whole / SWING_SHARE).clamp(0.0, 1.0);
-            let s = u * u * u * (10.0 - 15.0 * u + 6.0 * u * u);
-            let [x, y] = foot.shift;
-            Vec3 { x, y, z: 0.0 } * s
-        };
-        let [mut now, mut next, after] = [0.0, 1.0, 2.0].map(|k| displaced(since + k * dt));
-        let target = &mut target.0;
-        target.now_velocity += (next - now) * (1.0 / dt);
-        target.next_velocity += (after - next) * (1.0 / dt);
+        let u = (since / (since + remaining).max(0.1) / SWING_SHARE).clamp(0.0, 1.0);
+        let s = u * u * u * (10.0 - 15.0 * u + 6.0 * u * u);
         let kept = (1.0 - since / RELEASE).max(0.0);
-        now += foot.release * (kept * kept);
-        next += foot.release * (kept * kept);
+        let mut offset = foot.release * (kept * kept);
+        offset.x += s * foot.shift[0];
+        offset.y += s * foot.shift[1];
         let wanted = CLEARANCE
             .min(CLEARANCE_RATE * since)
             .min(CLEARANCE_RATE * remaining);
-        let mut raise = (wanted - self.lowest(terms, side)).clamp(0.0, CLEARANCE);
+        offset.z += (wanted - self.lowest(terms, side)).clamp(0.0, CLEARANCE);
+        let target = &mut target.0;
         if foot.late > 0.0 {
-            raise -= LOWERING * foot.late;
+            offset.z -= LOWERING * foot.late;
             target.now_velocity = Vec3::Z * -LOWERING;
             target.next_velocity = Vec3::Z * -LOWERING;
         }
-        now.z += raise;
-        next.z += raise;
-        target.now += now;
-        target.next += next;
+        target.now += offset;
+        target.next += offset;
     }
 
     /// Steps that no clip planned: catches a body whose capture point has left its feet, then brings the feet back together.
