@@ -6,6 +6,7 @@
 mod common;
 
 use common::{authored, figure, man, recorded};
+use sinew::evaluate::experiments::walk::{self as experiments, Walk, Walker};
 use sinew::sim::body::topology::CHEST;
 use sinew::sim::body::{Body, Profile, Sex};
 use sinew::sim::figure::{ControllerKind, Flags, Perturbation};
@@ -67,14 +68,14 @@ fn walk(body: &Arc<Body>, name: &str, clip: &Arc<Clip>, looped: bool, seconds: f
 #[test]
 fn walks_start_from_standing_and_stop() {
     let body = man();
-    // Furthest that the capture point may be off, m. In salsa-a a foot that turns as fast as it can lands 16° off.
+    // Furthest that the capture point may be off, m.
     for (name, furthest) in [
-        ("walk", 0.06),
-        ("turn", 0.08),
-        ("walk-around", 0.12),
-        ("salsa-a", 0.2),
-        ("salsa-b", 0.22),
-        ("carry", 0.45),
+        ("walk", 0.04),
+        ("turn", 0.06),
+        ("walk-around", 0.09),
+        ("salsa-a", 0.07),
+        ("salsa-b", 0.2),
+        ("carry", 0.08),
         ("hit", 0.08),
     ] {
         let clip = recorded(&body, name);
@@ -93,13 +94,38 @@ fn walks_start_from_standing_and_stop() {
 }
 
 #[test]
+fn feet_stay_where_they_land_and_come_down_softly() {
+    let body = man();
+    // Furthest slide in a stance, m, by the load on each point, and largest push of the floor, weights: what the recordings themselves ask of
+    // it is 1.5 (salsa-a) to 1.95 (walk-around).
+    for (name, slides, pushes) in [
+        ("walk", 0.006, 2.3),
+        ("turn", 0.01, 2.2),
+        ("walk-around", 0.01, 2.3),
+        ("salsa-a", 0.015, 1.8),
+        ("carry", 0.006, 2.3),
+        ("hit", 0.009, 1.9),
+    ] {
+        let clip = recorded(&body, name);
+        let w = experiments::walk(&Walker::new(&body), &Walk::once(&clip));
+        let text = format!(
+            "{name}: slides {:.1} mm, floor pushes {:.2} weights",
+            1e3 * w.slip,
+            w.peak
+        );
+        println!("{text}");
+        assert!(w.stood() && w.slip < slides && w.peak < pushes, "{text}");
+    }
+}
+
+#[test]
 fn a_walk_repeats_for_a_minute() {
     let body = man();
     let walk_cycle = cycle(&body, &recorded(&body, "walk")).expect("a walk has a cycle");
     assert!(walk_cycle.duration() > 1.0 && walk_cycle.advance().x > 1.0);
     let (rms, capture) = walk(&body, "walk", &Arc::new(walk_cycle), true, 60.0);
     assert!(rms < 4.0, "{rms} deg");
-    assert!(capture < 0.06, "{capture} m");
+    assert!(capture < 0.04, "{capture} m");
 }
 
 #[test]

@@ -4,6 +4,7 @@
 //! * `push`: what a standing figure survives, and where it falls when it does not.
 //! * `fall`: a stiff figure is a physical pendulum.
 //! * `flight`: the parabola and the momenta of a thrown figure; a limp one gains no energy.
+//! * `slide`: Coulomb's law for points that slide.
 //! * `load`: a held load is inertia.
 //! * `constrain`: hands, head and centre of mass at places that a client gives.
 //! * `hand`: leaning on tables and walls; two figures that run into each other.
@@ -31,6 +32,7 @@ mod lift;
 mod load;
 mod people;
 mod push;
+mod slide;
 mod stand;
 mod symmetry;
 
