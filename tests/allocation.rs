@@ -152,6 +152,38 @@ fn constraints_allocate_nothing() {
 }
 
 #[test]
+fn a_constraint_that_is_given_anew_at_every_tick_allocates_nothing() {
+    let mut scene = standing(ControllerKind::Modern);
+    let give = |world: &mut World, key, tick: usize| {
+        let hands = [L_HAND, R_HAND].map(|hand| Constraint {
+            on: Constrained::Point(hand, Vec3::zero()),
+            position: Some(Vec3 {
+                x: 0.3 + 0.002 * tick as f64,
+                y: if hand == L_HAND { 0.2 } else { -0.2 },
+                z: 1.1,
+            }),
+            axes: [1.0; 3],
+            rotation: None,
+            weight: 1.0,
+            ease: 0.2,
+            from: 0.0,
+            to: f64::INFINITY,
+        });
+        // One hand is let go of every ten ticks: it fades.
+        let given = if tick % 20 < 10 { &hands } else { &hands[..1] };
+        world.set_constraints(key, given).unwrap();
+        world.step();
+    };
+    let key = scene.key;
+    let world: &mut World = &mut scene.world;
+    (0..WARM_UP).for_each(|tick| give(world, key, tick));
+    for tick in WARM_UP..60 {
+        let counted = measure(|| give(world, key, tick));
+        assert_eq!(counted.count_total, 0, "tick {tick}");
+    }
+}
+
+#[test]
 fn falling_and_lying_allocate_nothing() {
     for kind in KINDS {
         let mut scene = standing(kind);

@@ -97,7 +97,7 @@ fn recorded(args: &PaperArgs, mut page: Page) -> Result<()> {
     page.say("# Controllers compared on recordings");
     page.say(&format!(
         "The comparison of [the page](README.md#the-controllers-compared) on recorded motion, by `sinew paper --recordings` with {}, fitted to the \
-         same man, nothing adjusted. `sit-stand` has a stool of 0.34 × 0.34 × 0.38 m where it sits and ends when it begins to walk away. Recordings end in mid-motion: the abrupt stop and the second after it, in the last posture, are in the errors.",
+         same man, nothing adjusted. `sit-stand` has a stool of 0.34 × 0.34 × 0.35 m where it sits and ends when it begins to walk away. Recordings end in mid-motion: the abrupt stop and the second after it, in the last posture, are in the errors.",
         names.join(", ")
     ));
     compare::section(&mut page, &body, &motions, &pushed);

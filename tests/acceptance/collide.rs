@@ -467,13 +467,17 @@ fn a_kinematic_figure_is_handed_over_when_a_ball_comes() {
 fn a_figure_sits_down_and_gets_up() {
     let body = man();
     let clip = recorded_with(&body, "sit-stand", &RetargetOptions::default());
-    // Side, height and place of the stool, m.
-    for (side, height, x) in [
-        (0.34, 0.38, 0.389),
-        (0.34, 0.36, 0.389),
-        (0.40, 0.38, 0.389),
-        (0.34, 0.38, 0.429),
-        (0.34, 0.38, 0.349),
+    // Side, height and place of the stool, m, and joint error that is allowed, degrees. The first is where the motion sits: under the pelvis, and as high
+    // as a rigid pelvis can be there. On one that is too high or low the legs cannot be as recorded, and at a wide one the hands lean.
+    for (side, height, x, most) in [
+        (0.34, 0.35, 0.41, 1.0),
+        (0.38, 0.355, 0.41, 1.0),
+        (0.34, 0.345, 0.43, 1.25),
+        (0.44, 0.35, 0.41, 1.25),
+        (0.34, 0.36, 0.389, 1.5),
+        (0.34, 0.38, 0.389, 1.9),
+        (0.40, 0.38, 0.429, 1.9),
+        (0.34, 0.38, 0.349, 1.9),
     ] {
         let text = format!("stool {side} wide and {height} m high at {x}");
         let first = clip.sample(0.0);
@@ -488,7 +492,7 @@ fn a_figure_sits_down_and_gets_up() {
             ..obstacle(
                 Shape::Box { half },
                 Mobility::Fixed,
-                vec3(x, 0.545, 0.5 * height),
+                vec3(x, 0.54, 0.5 * height),
             )
         };
         world.add_obstacle(stool).unwrap();
@@ -533,7 +537,7 @@ fn a_figure_sits_down_and_gets_up() {
             1e3 * crept
         );
         assert!(
-            whole.to_degrees() < 2.6 && sitting.to_degrees() < 2.6,
+            whole.to_degrees() < most && sitting.to_degrees() < most + 0.4,
             "{text}"
         );
         assert!(crept < 0.01, "{text}: feet crept {crept} m");

@@ -42,14 +42,14 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// The whole of `clip`, called `name`, and a second afterwards. The recording called `sit-stand` gets the stool that it lacks, and ends where it
-    /// begins to walk away: what becomes of that depends on luck (docs/limits.md).
+    /// The whole of `clip`, called `name`, and a second afterwards. The recording called `sit-stand` gets the stool that it lacks, where it sits: under the
+    /// pelvis, and as high as a rigid one can be there. It ends where it begins to walk away: what becomes of that depends on luck (docs/limits.md).
     pub fn new(name: &str, clip: Arc<Clip>) -> Self {
         let sits = name == "sit-stand";
         let half = Vec3 {
             x: 0.17,
             y: 0.17,
-            z: 0.19,
+            z: 0.175,
         };
         let seat = ObstacleSetup {
             name: "stool".into(),
@@ -57,8 +57,8 @@ impl Motion {
             mobility: Mobility::Fixed,
             friction: 0.8,
             position: Vec3 {
-                x: 0.389,
-                y: 0.545,
+                x: 0.41,
+                y: 0.54,
                 z: half.z,
             },
             rotation: Quat::from_axis_angle(Vec3::Z, -51f64.to_radians()),

@@ -22,7 +22,7 @@ use crate::sim::math::{Mat3, Vec3};
 /// Share of the way to the boundary that a step takes at most.
 pub(crate) const TO_BOUNDARY: f64 = 0.97;
 /// Complementarity, as a share of that at the start, at which Newton's method takes over.
-pub(crate) const DONE: f64 = 1e-8;
+const DONE: f64 = 1e-8;
 /// Multipliers at the start, in units of the prices of the linear problem. Far too large is a few iterations lost, too small is a crawl along
 /// the boundary.
 pub(crate) const FIRST_MULTIPLIER: f64 = 1e3;

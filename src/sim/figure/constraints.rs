@@ -149,29 +149,31 @@ impl Constraints {
     /// Replaces all; at most [`MAX_CONSTRAINTS`] are taken. One on a part that was constrained already goes on from there instead of easing in anew; those on other
     /// parts fade out within their `ease`. A place that is given anew for the same part within 0.1 s has moved there, and is taken to move on.
     pub fn replace(&mut self, new: &[Constraint], time: f64) {
-        let streams = std::mem::take(&mut self.streams);
         let new = &new[..new.len().min(MAX_CONSTRAINTS)];
-        self.streams.extend(new.iter().filter_map(|c| {
-            let before = streams.iter().find(|s| s.on == c.on);
+        let streams: [Option<Stream>; MAX_CONSTRAINTS] = std::array::from_fn(|i| {
+            let c = new.get(i)?;
+            let before = self.streams.iter().find(|s| s.on == c.on);
             Stream::next(before, c, time)
-        }));
-        let old = std::mem::take(&mut self.given);
-        for c in new {
-            let mut c = *c;
-            let before = old.iter().find(|o| o.on == c.on && o.to > time);
+        });
+        self.streams.clear();
+        self.streams.extend(streams.into_iter().flatten());
+        let given: [Option<Constraint>; MAX_CONSTRAINTS] = std::array::from_fn(|i| {
+            let mut c = *new.get(i)?;
+            let before = self.given.iter().find(|o| o.on == c.on && o.to > time);
             if let Some(before) = before {
                 c.from = c.from.min(before.from);
             }
-            self.given.push(c);
-        }
-        for o in old {
-            if self.given.iter().all(|c| c.on != o.on) && self.fading.len() < MAX_CONSTRAINTS {
+            Some(c)
+        });
+        for o in self.given.drain(..) {
+            if new.iter().all(|c| c.on != o.on) && self.fading.len() < MAX_CONSTRAINTS {
                 // It falls from where it stands: one that was still rising has less of its way to go.
                 let risen = (time - o.from).clamp(0.0, o.ease);
                 let to = o.to.min(time + risen);
                 self.fading.push(Constraint { to, ..o });
             }
         }
+        self.given.extend(given.into_iter().flatten());
     }
 
     /// Those that are given, in the order in which they were.
@@ -306,59 +308,23 @@ impl Constraints {
         if let Some(c) = self.inset.closest([at.x, at.y]).filter(|c| c.margin < 0.0) {
             [at.x, at.y] = c.point;
         }
-        let toward = |now: f64,
-                      next: f64,
-                      v: (f64, f64),
-                      present: f64,
-                      (wanted, moves): (f64, f64),
-                      s: f64| {
-            let near = present + (wanted - present).clamp(-COM_LEASH, COM_LEASH);
-            let mix = |a: f64, b: f64| a + s * (b - a);
-            (
-                mix(now, near),
-                mix(next, near),
-                mix(v.0, moves),
-                mix(v.1, moves),
-            )
+        let present = terms.com.to_array();
+        let (at, moves) = (at.to_array(), moves.to_array());
+        // Each blended with what is wanted of it: the place is led there, never far ahead of where the body is.
+        let blend = |from: Vec3, wanted: [f64; 3]| {
+            let mut out = from.to_array();
+            for k in 0..3 {
+                out[k] += share[k] * (wanted[k] - out[k]);
+            }
+            Vec3::from_array(out)
         };
-        let c = terms.com;
-        let v = (com.now_velocity, com.next_velocity);
-        let (x, y, z) = (
-            toward(
-                com.now.x,
-                com.next.x,
-                (v.0.x, v.1.x),
-                c.x,
-                (at.x, moves.x),
-                share[0],
-            ),
-            toward(
-                com.now.y,
-                com.next.y,
-                (v.0.y, v.1.y),
-                c.y,
-                (at.y, moves.y),
-                share[1],
-            ),
-            toward(
-                com.now.z,
-                com.next.z,
-                (v.0.z, v.1.z),
-                c.z,
-                (at.z, moves.z),
-                share[2],
-            ),
-        );
-        let vector = |k: fn((f64, f64, f64, f64)) -> f64| Vec3 {
-            x: k(x),
-            y: k(y),
-            z: k(z),
-        };
+        let near =
+            std::array::from_fn(|k| present[k] + (at[k] - present[k]).clamp(-COM_LEASH, COM_LEASH));
         *com = PointTarget {
-            now: vector(|t| t.0),
-            next: vector(|t| t.1),
-            now_velocity: vector(|t| t.2),
-            next_velocity: vector(|t| t.3),
+            now: blend(com.now, near),
+            next: blend(com.next, near),
+            now_velocity: blend(com.now_velocity, moves),
+            next_velocity: blend(com.next_velocity, moves),
         };
     }
 

@@ -9,6 +9,49 @@ const PIO2_1: f64 = 1.570_796_326_734_125_6; // first 33 bits of π/2
 const PIO2_2: f64 = 6.077_100_506_303_966e-11; // next 33 bits
 const PIO2_3: f64 = 2.022_266_248_795_950_6e-21; // rest
 
+/// fdlibm's odd polynomial of the sine for |x| < π/4, after x.
+const SIN: [f64; 6] = [
+    -1.666_666_666_666_663_2e-1,
+    8.333_333_333_322_49e-3,
+    -1.984_126_982_985_795e-4,
+    2.755_731_370_707_006_8e-6,
+    -2.505_076_025_340_686_3e-8,
+    1.589_690_995_211_55e-10,
+];
+/// Its even polynomial of the cosine, after 1 − x²/2.
+const COS: [f64; 6] = [
+    4.166_666_666_666_66e-2,
+    -1.388_888_888_887_411e-3,
+    2.480_158_728_947_673e-5,
+    -2.755_731_435_139_066_3e-7,
+    2.087_572_321_298_175e-9,
+    -1.135_964_755_778_819_5e-11,
+];
+/// Its odd polynomial of the arc tangent for |u| < 7/16, after u, with the sign turned.
+const ATAN: [f64; 11] = [
+    3.333_333_333_333_293e-1,
+    -1.999_999_999_987_648_3e-1,
+    1.428_571_427_250_346_6e-1,
+    -1.111_111_040_546_235_6e-1,
+    9.090_887_133_436_507e-2,
+    -7.691_876_205_044_83e-2,
+    6.661_073_137_387_531e-2,
+    -5.833_570_133_790_573_5e-2,
+    4.976_877_994_615_932_4e-2,
+    -3.653_157_274_421_691_6e-2,
+    1.628_582_011_536_578_2e-2,
+];
+
+/// c₀ + z (c₁ + z (c₂ + …)), from the inside out.
+#[inline(always)]
+fn horner<L: Lane, const N: usize>(z: L, c: [f64; N]) -> L {
+    let mut sum = L::splat(c[N - 1]);
+    for i in (0..N - 1).rev() {
+        sum = L::splat(c[i]) + z * sum;
+    }
+    sum
+}
+
 /// Sine and cosine of an angle (rad), |x| < 1e5.
 #[inline(always)]
 pub fn sin_cos<L: Lane>(x: L) -> (L, L) {
@@ -16,22 +59,8 @@ pub fn sin_cos<L: Lane>(x: L) -> (L, L) {
     let r = ((x - n * L::splat(PIO2_1)) - n * L::splat(PIO2_2)) - n * L::splat(PIO2_3);
     let z = r * r;
     let k = L::splat;
-    let s = r + r
-        * z
-        * (k(-1.666_666_666_666_663_2e-1)
-            + z * (k(8.333_333_333_322_49e-3)
-                + z * (k(-1.984_126_982_985_795e-4)
-                    + z * (k(2.755_731_370_707_006_8e-6)
-                        + z * (k(-2.505_076_025_340_686_3e-8)
-                            + z * k(1.589_690_995_211_55e-10))))));
-    let c = L::one() - k(0.5) * z
-        + z * z
-            * (k(4.166_666_666_666_66e-2)
-                + z * (k(-1.388_888_888_887_411e-3)
-                    + z * (k(2.480_158_728_947_673e-5)
-                        + z * (k(-2.755_731_435_139_066_3e-7)
-                            + z * (k(2.087_572_321_298_175e-9)
-                                + z * k(-1.135_964_755_778_819_5e-11))))));
+    let s = r + r * z * horner(z, SIN);
+    let c = L::one() - k(0.5) * z + z * z * horner(z, COS);
     // Quadrant n mod 4, computed in floating point so that it is lane-wise: q ∈ {−2, −1, 0, 1, 2}.
     let q = n - (n * k(0.25)).round_even() * k(4.0);
     let odd = (q.abs() - k(1.0))
@@ -64,18 +93,7 @@ pub fn atan2<L: Lane>(y: L, x: L) -> L {
     let big = k(0.414_213_562_373_095_03);
     let u = big.select_lt(t, (t - L::one()) / (t + L::one()), t);
     let z = u * u;
-    // fdlibm's odd polynomial for |u| < 7/16.
-    let p = k(3.333_333_333_333_293e-1)
-        + z * (k(-1.999_999_999_987_648_3e-1)
-            + z * (k(1.428_571_427_250_346_6e-1)
-                + z * (k(-1.111_111_040_546_235_6e-1)
-                    + z * (k(9.090_887_133_436_507e-2)
-                        + z * (k(-7.691_876_205_044_83e-2)
-                            + z * (k(6.661_073_137_387_531e-2)
-                                + z * (k(-5.833_570_133_790_573_5e-2)
-                                    + z * (k(4.976_877_994_615_932_4e-2)
-                                        + z * (k(-3.653_157_274_421_691_6e-2)
-                                            + z * k(1.628_582_011_536_578_2e-2))))))))));
+    let p = horner(z, ATAN);
     let a = u - u * z * p;
     let a = big.select_lt(t, k(std::f64::consts::FRAC_PI_4) + a, a);
     let a = ax.select_lt(ay, k(std::f64::consts::FRAC_PI_2) - a, a);

@@ -4,6 +4,7 @@
 //! feet. Where the zero-moment point leaves the polygon, the pelvis is shifted by as little as brings it back; it answers to a shift Δ of the
 //! centre of mass by `Δ − Δ̈/ω²`, `ω² = (g + c̈_z)/c_z` (cart-table model of Kajita et al. 2003).
 
+use super::GRAVITY;
 use super::banded::Pentadiagonal;
 use super::filter::low_pass;
 use super::leg_ik::forward;
@@ -11,8 +12,6 @@ use crate::sim::body::topology::SEGMENT_COUNT;
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::Vec3;
 
-/// Standard gravity, m/s².
-const GRAVITY: f64 = 9.81;
 /// Ground force over weight below which the zero-moment point is meaningless.
 pub const LIGHT: f64 = 0.25;
 

@@ -4,6 +4,7 @@
 //! its acceleration needs lies in the friction cones of the feet that stand. How far it is from that says, before anything is simulated,
 //! how hard it will be to follow. Pure, offline; nothing here changes a motion.
 
+use super::GRAVITY;
 use super::balance::{LIGHT, hull, margin, mass_track};
 use super::contacts::runs;
 use super::foot_lock::{Anchor, Sole, turn, yaw_pitch};
@@ -12,8 +13,6 @@ use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::{Quat, Vec3};
 
-/// Standard gravity, m/s².
-const GRAVITY: f64 = 9.81;
 /// Friction that the ground is believed to have: what the modern controller counts on, on the default ground.
 const FRICTION: f64 = 0.8;
 /// Edges of the pyramid that stands for a friction cone.

@@ -23,6 +23,9 @@ pub mod retarget;
 pub mod skeleton_map;
 pub mod target;
 
+/// Gravity that motions are prepared for, m/s².
+const GRAVITY: f64 = 9.81;
+
 pub use bvh::{Bvh, BvhError};
 pub use bvh_write::write_bvh;
 pub use clip::{Clip, ClipError, PlanarTransform};

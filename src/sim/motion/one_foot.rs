@@ -3,13 +3,12 @@
 //! Soles reach farther than the muscles over them: in an adult man the toes end 20 cm before the ankle, but his calf holds his weight no
 //! farther than 14 cm before it. A motion planned up to the edge of the sole leaves no torque for the body to correct anything with.
 
+use super::GRAVITY;
 use super::foot_lock::{Anchor, Sole};
 use crate::sim::body::Body;
 use crate::sim::body::topology::{DOF_COUNT, DOF_START, L_FOOT};
 use crate::sim::strength::{MuscleScale, Strength};
 
-/// Standard gravity, m/s².
-const GRAVITY: f64 = 9.81;
 /// Share of its strength that an ankle gives at the edge of the support.
 const FIRM: f64 = 0.87;
 /// A body slower than the first, m/s, stays over the foot until an error has grown; one faster than the second is past it before: its support

@@ -602,6 +602,18 @@ fn tissue_gives_back_what_it_stores() {
             );
             let (low, stiffness) = give(d, 0, angle, 0.0, 0.0);
             let (high, _) = give(d, 1, angle, 0.0, 0.0);
+            // Stiffness is what torque grows by, and where that no longer grows, the least there is.
+            let ends = [-e, e].map(|e| give(d, 0, angle + e, 0.0, 0.0).0);
+            let slope = (ends[0] - ends[1]) / (2.0 * e);
+            if low > 0.0 && ends[1] > 0.0 {
+                // Not across a corner of the curve.
+                let corner = (ends[0] - 2.0 * low + ends[1]).abs() > 1e-6 * (1.0 + low);
+                let expected = slope.max(LEAST_RISE * low);
+                assert!(
+                    corner || (stiffness / expected - 1.0).abs() < 1e-3,
+                    "{name} at {angle}: {stiffness} {expected}"
+                );
+            }
             // What is less than can be felt is left out.
             assert!((low - high - out[d]).abs() < 2.1e-3, "{name} at {angle}");
             assert!(low >= 0.0 && high >= 0.0 && stiffness >= 0.0);

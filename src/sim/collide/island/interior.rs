@@ -7,7 +7,7 @@
 use super::{Articulated, Island, Kind, Parts, relative};
 use crate::sim::body::topology::{DOF_COUNT, NV};
 use crate::sim::contact::interior::{
-    Cone, DONE, Inner, TO_BOUNDARY, Wall, aim, to_cone, to_world, world_stiffness,
+    Cone, Inner, TO_BOUNDARY, Wall, aim, to_cone, to_world, world_stiffness,
 };
 use crate::sim::contact::projection::Region;
 use crate::sim::contact::{ContactRows, Motors};
@@ -16,6 +16,9 @@ use crate::sim::math::Vec3;
 /// Forces at the start, in units of the largest one at present; multipliers are as large as the largest velocity. Started with less, bodies that are
 /// thrown into walls crawl along the boundary; with much more a few iterations are lost.
 const FIRST_FORCE: f64 = 3.0;
+/// Complementarity, as a share of that at the start, at which Newton's method takes over. Less than for the controller: bodies start with the force of the
+/// largest blow, and what is a hundred millionth of that may still be as much as the smallest limbs have.
+const DONE: f64 = 1e-12;
 /// A motor whose range is less than this share of the widest, or that has no gain, gives what it gives.
 const NARROW: f64 = 1e-9;
 /// Friction coefficient below which a cone is too narrow to be seen from inside; Newton's method takes the true one again.
@@ -177,6 +180,8 @@ impl Island {
                     linearise_figure(&mut p, &b.x, most, aim, &mut b.slope, &mut b.grad);
                 }
                 Kind::Free(_) => {
+                    // All of it: what an interior point that has left its cone wrote behind the sixth entry would stay there.
+                    b.grad = [0.0; NV];
                     for k in 0..6 {
                         b.grad[k] = b.ax[k] - b.b[k];
                     }

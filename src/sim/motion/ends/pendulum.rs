@@ -7,12 +7,11 @@ use super::start::Start;
 use super::{FOOT, SWING, flat, ground, level, turned};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::Vec3;
+use crate::sim::motion::GRAVITY;
 use crate::sim::motion::balance::{clip_inside, hull, margin};
 use crate::sim::motion::foot_lock::{Anchor, Sole, turn, yaw_pitch};
 use crate::sim::motion::leg_ik::{center_of_mass, forward};
 
-/// Standard gravity, m/s².
-const GRAVITY: f64 = 9.81;
 /// Length of a step that only closes the feet, s.
 const CLOSING: f64 = 0.5;
 /// A swing that is under way already lasts at least this long, s, and a swinging foot gets no faster than this on the average, m/s: the

@@ -11,6 +11,7 @@
 mod foot;
 mod polygon;
 
+use super::GRAVITY;
 use super::balance::zero_moment_point;
 use super::clip::{Knot, PlanarTransform, between};
 use super::foot_lock::{FootPose, Sole};
@@ -37,8 +38,6 @@ pub const WINDOW: (f64, f64) = (0.3, 1.0);
 /// Most stances of a foot that are known at a time.
 pub const MOST_STANCES: usize = foot::STANCES + 1;
 const H: f64 = 1.0 / RATE;
-/// Standard gravity, m/s².
-const GRAVITY: f64 = 9.81;
 
 /// Half width of the smoothing, samples, and its standard deviation: the amplitude is half at 7 Hz.
 const SMOOTH: i64 = 4;

@@ -236,3 +236,14 @@ fn islands_are_solved_within_their_bound() {
         "at most {most} iterations, {jammed} of 60 jammed, velocities within {worst:e} of the exact ones"
     );
 }
+
+/// A free body has six velocities in a block with room for those of a figure. Gradients that are no numbers behind them, as an interior point that has
+/// left its cone writes them, are not Newton's.
+#[test]
+fn what_an_interior_point_left_behind_does_not_stop_newton() {
+    let (mut island, mut figures) = hard(&mut Rng::new(3), 10, 30.0);
+    for b in &mut island.blocks {
+        b.grad = [f64::NAN; NV];
+    }
+    assert!(island.solve(&mut figures).converged);
+}
