@@ -67,13 +67,13 @@ fn walk(body: &Arc<Body>, name: &str, clip: &Arc<Clip>, looped: bool, seconds: f
 #[test]
 fn walks_start_from_standing_and_stop() {
     let body = man();
-    // Furthest that the capture point may be off, m. In salsa-a a foot that turns as fast as it can lands 16° off.
+    // Furthest that the capture point may be off, m.
     for (name, furthest) in [
         ("walk", 0.06),
         ("turn", 0.08),
         ("walk-around", 0.12),
-        ("salsa-a", 0.2),
-        ("salsa-b", 0.22),
+        ("salsa-a", 0.08),
+        ("salsa-b", 0.15),
         ("carry", 0.45),
         ("hit", 0.08),
     ] {
