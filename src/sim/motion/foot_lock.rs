@@ -395,8 +395,11 @@ impl Track {
         let astray = |i: usize| self.stray(i, anchor, yaw);
         let leaves = |i: &usize| other[*i] && astray(*i) > ASTRAY;
         let cut = |outermost: usize, n: usize| if astray(outermost) > 1.0 { n } else { 0 };
+        // Where the recording begins or ends there is no swing that it would belong to.
+        let clip = |at: usize, n: usize| if at == 0 || at == other.len() { 0 } else { n };
         let head = (start..start + edge).take_while(leaves).count();
         let tail = (end - edge..end).rev().take_while(leaves).count();
+        let (head, tail) = (clip(start, head), clip(end, tail));
         let (from, to) = (start + cut(start, head), end - cut(end - 1, tail));
         if (from..to).any(|i| astray(i) > STEADY) {
             return (start, end);
