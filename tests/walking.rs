@@ -74,7 +74,7 @@ fn walks_start_from_standing_and_stop() {
         ("turn", 0.06),
         ("walk-around", 0.09),
         ("salsa-a", 0.07),
-        ("salsa-b", 0.2),
+        ("salsa-b", 0.12),
         ("carry", 0.08),
         ("hit", 0.08),
     ] {

@@ -273,7 +273,7 @@ fn cases() -> Vec<Case> {
             &wave,
             1.5,
             0.0,
-            vec3(5.0, 3.0, 0.0),
+            vec3(5.0, 4.0, 0.0),
         ),
         case(
             "paper lifts, kinematic",
