@@ -22,6 +22,7 @@ pub mod prepare;
 pub mod retarget;
 pub mod skeleton_map;
 pub mod target;
+mod walked;
 
 pub use bvh::{Bvh, BvhError};
 pub use bvh_write::write_bvh;
