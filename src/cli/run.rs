@@ -117,6 +117,9 @@ pub struct RunArgs {
     /// Begin and end standing, with the steps that it takes before the first frame and after the last one.
     #[arg(long, conflicts_with = "looped")]
     pub standing: bool,
+    /// Walk what a recording runs: slower, with shorter steps.
+    #[arg(long)]
+    pub walk_runs: bool,
     /// Writes the measures as JSON (a list for several clips).
     #[arg(long, value_name = "FILE.json")]
     pub report: Option<PathBuf>,
@@ -198,7 +201,10 @@ pub fn run(args: &RunArgs) -> Result<()> {
     };
     // Bad parameters are worth knowing before clips are read.
     World::new(scenario.params).context("no such world")?;
-    let options = RetargetOptions::default();
+    let options = RetargetOptions {
+        walk_runs: args.walk_runs,
+        ..RetargetOptions::default()
+    };
     let sources = args
         .clips
         .iter()

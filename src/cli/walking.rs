@@ -49,10 +49,19 @@ pub struct WalkingArgs {
     pub out: PathBuf,
 }
 
+/// A motion and how it was asked for.
+struct Motion {
+    name: String,
+    spec: String,
+    options: RetargetOptions,
+    clip: Arc<Clip>,
+}
+
 /// What all experiments need.
 struct Study {
     body: Arc<Body>,
-    clips: Vec<(String, Arc<Clip>)>,
+    /// Recordings that run are there twice: as recorded, and walked.
+    clips: Vec<Motion>,
     /// Name, and the clip made to repeat.
     walk: Option<(String, Arc<Clip>)>,
 }
@@ -65,13 +74,12 @@ pub fn run(args: &WalkingArgs) -> Result<()> {
     let body = Arc::new(Body::adult_man());
     let mut clips = Vec::new();
     for spec in &args.clips {
-        let source = load(spec, &body, &RetargetOptions::default())?;
-        clips.push((source.name, Arc::new(source.clip)));
+        clips.extend(motions(spec, &body)?);
     }
-    let walk = clips.iter().find_map(|(name, clip)| {
-        let cycle = cycle(&body, clip)?;
+    let walk = clips.iter().find_map(|m| {
+        let cycle = cycle(&body, &m.clip)?;
         let far = cycle.advance().x.hypot(cycle.advance().y);
-        (far > 0.5).then(|| (name.clone(), Arc::new(cycle)))
+        (far > 0.5).then(|| (m.name.clone(), Arc::new(cycle)))
     });
     let study = Study { body, clips, walk };
     let mut page = Page::new(&args.out)?;
@@ -88,18 +96,46 @@ pub fn run(args: &WalkingArgs) -> Result<()> {
         pushes_walking(&mut page, &study, name, clip)?;
         bar.inc(1);
         bar.set_message("variations");
-        variations(&mut page, &study, name, clip, args)?;
+        variations(&mut page, &study, name, clip)?;
         bar.inc(1);
     }
     bar.set_message("noise");
-    sensitivity(&mut page, &study, args)?;
+    sensitivity(&mut page, &study)?;
     bar.finish_and_clear();
     page.finish()
 }
 
+/// The motion of a recording; if it runs, also walked.
+fn motions(spec: &str, body: &Body) -> Result<Vec<Motion>> {
+    let plain = RetargetOptions::default();
+    let walked = RetargetOptions {
+        walk_runs: true,
+        ..plain.clone()
+    };
+    let source = load(spec, body, &plain)?;
+    let runs = source.retarget.is_some_and(|r| r.runs.is_some());
+    let mut out = vec![Motion {
+        name: source.name,
+        spec: spec.to_owned(),
+        options: plain,
+        clip: Arc::new(source.clip),
+    }];
+    if runs {
+        let source = load(spec, body, &walked)?;
+        out.push(Motion {
+            name: format!("{}, walked", source.name),
+            spec: spec.to_owned(),
+            options: walked,
+            clip: Arc::new(source.clip),
+        });
+    }
+    Ok(out)
+}
+
 fn introduction(page: &mut Page, study: &Study) {
     page.say("# Walking, measured");
-    let names: Vec<&str> = study.clips.iter().map(|c| c.0.as_str()).collect();
+    let plain = study.clips.iter().filter(|m| !m.options.walk_runs);
+    let names: Vec<&str> = plain.map(|m| m.name.as_str()).collect();
     page.say(&format!(
         "Recorded motion in torque simulation: a man of 30 years, 1.75 m, 75 kg at his own strength, without assist, 60 ticks of two substeps \
          per second, unless said otherwise. `sinew walking {}` wrote this page; nothing on it is edited by hand.",
@@ -150,15 +186,16 @@ fn clips_once(page: &mut Page, study: &Study) {
     page.say("## Clips");
     page.say(
         "From standing into the clip, through it and back to standing by planned steps; errors until a fall. *Slip* is the way of a foot's contact \
-         points over the floor in one stance, weighted by what they carry; *touch-down off* the largest deviation from the planned time.",
+         points over the floor in one stance, weighted by what they carry; *touch-down off* the largest deviation from the planned time. *Walked* are \
+         recordings of runs, slowed down and shortened (`--walk-runs`).",
     );
     let walker = Walker::new(&study.body);
     let mut rows: Vec<Vec<String>> = study
         .clips
         .iter()
-        .map(|(name, clip)| {
-            let what = Walk::once(clip);
-            row(name, what.seconds, &walk(&walker, &what))
+        .map(|m| {
+            let what = Walk::once(&m.clip);
+            row(&m.name, what.seconds, &walk(&walker, &what))
         })
         .collect();
     if let Some((name, clip)) = &study.walk {
@@ -257,23 +294,17 @@ fn pushes_walking(page: &mut Page, study: &Study, name: &str, clip: &Arc<Clip>) 
 }
 
 /// The repeated walk of another body: the recording fitted to it.
-fn fitted(args: &WalkingArgs, study: &Study, name: &str, body: &Body) -> Result<Option<Arc<Clip>>> {
-    let at = study.clips.iter().position(|c| c.0 == name);
-    let spec = &args.clips[at.context("the walk is one of the clips")?];
-    let clip = load(spec, body, &RetargetOptions::default())?.clip;
+fn fitted(study: &Study, name: &str, body: &Body) -> Result<Option<Arc<Clip>>> {
+    let of = study.clips.iter().find(|m| m.name == name);
+    let of = of.context("the walk is one of the clips")?;
+    let clip = load(&of.spec, body, &of.options)?.clip;
     Ok(cycle(body, &clip).map(Arc::new))
 }
 
-fn variations(
-    page: &mut Page,
-    study: &Study,
-    name: &str,
-    clip: &Arc<Clip>,
-    args: &WalkingArgs,
-) -> Result<()> {
+fn variations(page: &mut Page, study: &Study, name: &str, clip: &Arc<Clip>) -> Result<()> {
     page.say("## Other people, loads, floors, rates");
     page.say(&format!(
-        "`{name}` repeated for {SHORT} s. The motion does not know of the load: nobody leans against it beforehand."
+        "`{name}` repeated for {SHORT} s. Loads are carried from the beginning on."
     ));
     let man = Walker::new(&study.body);
     let mut rows = Vec::new();
@@ -295,7 +326,7 @@ fn variations(
     ];
     for (text, profile, strength) in people {
         let body = Arc::new(Body::humanoid(profile)?);
-        if let Some(own) = fitted(args, study, name, &body)? {
+        if let Some(own) = fitted(study, name, &body)? {
             let walker = Walker {
                 strength,
                 ..Walker::new(&body)
@@ -353,7 +384,7 @@ fn variations(
     Ok(())
 }
 
-fn sensitivity(page: &mut Page, study: &Study, args: &WalkingArgs) -> Result<()> {
+fn sensitivity(page: &mut Page, study: &Study) -> Result<()> {
     let (metres, degrees) = NOISE;
     page.say("## Noise");
     page.say(&format!(
@@ -363,26 +394,26 @@ fn sensitivity(page: &mut Page, study: &Study, args: &WalkingArgs) -> Result<()>
     ));
     let walker = Walker::new(&study.body);
     let mut rows = Vec::new();
-    for (spec, (name, _)) in args.clips.iter().zip(&study.clips) {
+    for m in &study.clips {
+        let (spec, options) = (&m.spec, &m.options);
         if spec.starts_with("builtin:") {
             continue;
         }
         let bytes = std::fs::read(spec).with_context(|| format!("cannot read {spec}"))?;
         let bvh = Bvh::parse(&bytes)?;
-        let options = RetargetOptions::default();
-        let unit = retarget(&bvh, &study.body, &options)?.report.unit_m;
+        let unit = retarget(&bvh, &study.body, options)?.report.unit_m;
         let (mut stood, mut least, mut most) = (0, f64::INFINITY, 0.0f64);
         for seed in 0..COPIES {
             let copy = noisy(&bytes, &bvh, metres / unit, degrees, u64::from(seed))
                 .with_context(|| format!("{spec} has no motion"))?;
-            let clip = retarget(&Bvh::parse(copy.as_bytes())?, &study.body, &options)?.clip;
+            let clip = retarget(&Bvh::parse(copy.as_bytes())?, &study.body, options)?.clip;
             let walked = walk(&walker, &Walk::once(&Arc::new(clip)));
             stood += u32::from(walked.stood());
             let rms = walked.report.joint_rms_deg;
             (least, most) = (least.min(rms), most.max(rms));
         }
         rows.push(vec![
-            name.clone(),
+            m.name.clone(),
             format!("{stood} of {COPIES}"),
             format!("{least:.2} – {most:.2}"),
         ]);

@@ -73,7 +73,10 @@ fn lowest(body: &Body, posture: &Posture) -> f64 {
     let points = body.segments.iter().enumerate().flat_map(|(s, segment)| {
         let at = posture.root_position + kin.position[s];
         let turn = kin.rotation[s];
-        segment.contact_points.iter().map(move |p| (at + turn * *p).z)
+        segment
+            .contact_points
+            .iter()
+            .map(move |p| (at + turn * *p).z)
     });
     points.fold(f64::INFINITY, f64::min)
 }
@@ -102,32 +105,38 @@ fn what_slides_does_so_on_the_floor() {
     let body = man();
     let links = Links::new(&body);
     let mut state = still(bent(&body, 0.5));
-    state.posture.root_position.z = 0.6;
+    state.posture.root_position.z = 0.4;
     state.posture.root_rotation = Quat::exp(vec3(1.2, 0.3, 0.0));
-    state.velocity[..6].copy_from_slice(&[1.0, 2.0, 0.5, 3.0, 1.0, -1.0]);
+    state.velocity[..6].copy_from_slice(&[1.0, 2.0, 0.5, 6.0, 2.0, -1.0]);
     let (mut slid, mut pushes, mut far, mut along) = (0usize, 0usize, 0.0f64, 0.0f64);
     let mut gaps = Vec::new();
     let mut kin = Kinematics::default();
-    steps(&body, &mut state, (0.3, 9.81), 240, |contacts, before, after| {
-        // The velocity that the step was solved for, at the places it was solved at.
-        kin.set_posture(&links, &before.posture);
-        kin.set_velocity(&after.velocity);
-        for c in contacts {
-            let s = c.segment.index();
-            let r = kin.rotation[s] * body.segments[s].contact_points[c.vertex];
-            let v = kin.velocity[s] + kin.omega[s].cross(r);
-            let (push, rub) = (c.force.z, c.force.x.hypot(c.force.y));
-            assert!(rub <= FRICTION * push * (1.0 + 1e-9), "{c:?}");
-            pushes += 1;
-            gaps.push(c.position.z + v.z * DT);
-            let speed = v.x.hypot(v.y);
-            if speed > 0.3 && push > 10.0 {
-                slid += 1;
-                far = far.max((rub / (FRICTION * push) - 1.0).abs());
-                along = along.max((c.force.x * v.x + c.force.y * v.y) / (rub * speed) + 1.0);
+    steps(
+        &body,
+        &mut state,
+        (0.3, 9.81),
+        360,
+        |contacts, before, after| {
+            // The velocity that the step was solved for, at the places it was solved at.
+            kin.set_posture(&links, &before.posture);
+            kin.set_velocity(&after.velocity);
+            for c in contacts {
+                let s = c.segment.index();
+                let r = kin.rotation[s] * body.segments[s].contact_points[c.vertex];
+                let v = kin.velocity[s] + kin.omega[s].cross(r);
+                let (push, rub) = (c.force.z, c.force.x.hypot(c.force.y));
+                assert!(rub <= FRICTION * push * (1.0 + 1e-9), "{c:?}");
+                pushes += 1;
+                gaps.push(c.position.z + v.z * DT);
+                let speed = v.x.hypot(v.y);
+                if speed > 0.3 && push > 10.0 {
+                    slid += 1;
+                    far = far.max((rub / (FRICTION * push) - 1.0).abs());
+                    along = along.max((c.force.x * v.x + c.force.y * v.y) / (rub * speed) + 1.0);
+                }
             }
-        }
-    });
+        },
+    );
     gaps.sort_by(f64::total_cmp);
     let of = |share: f64| 1e3 * gaps[(share * (gaps.len() - 1) as f64) as usize];
     let text = format!(

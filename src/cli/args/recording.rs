@@ -11,6 +11,9 @@ pub struct RecordingArgs {
     /// Frame rate of the file, Hz, where its frame time is wrong.
     #[arg(long, value_name = "HZ")]
     pub file_rate: Option<f64>,
+    /// Walk what the recording runs: slower, with shorter steps.
+    #[arg(long)]
+    pub walk_runs: bool,
 }
 
 impl RecordingArgs {
@@ -19,6 +22,7 @@ impl RecordingArgs {
         RetargetOptions {
             unit_m: self.unit,
             rate_hz: self.file_rate,
+            walk_runs: self.walk_runs,
             ..RetargetOptions::default()
         }
     }

@@ -70,5 +70,5 @@ impl Slides {
 }
 
 fn offset(friction: f64, v: Vec3) -> f64 {
-    friction * (v.x.hypot(v.y) - CREEP).max(0.0)
+    friction * ((v.x * v.x + v.y * v.y).sqrt() - CREEP).max(0.0)
 }

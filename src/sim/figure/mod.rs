@@ -2,6 +2,7 @@
 
 pub mod assist;
 pub mod balance;
+mod carrying;
 pub mod constraints;
 pub mod drive;
 pub mod events;

@@ -12,6 +12,7 @@ use reporting::empty_report;
 
 use super::assist::Assist;
 use super::balance::BalanceWatch;
+use super::carrying::Carrying;
 use super::constraints::Constraints;
 use super::drive::{Drive, Queued};
 use super::events::Watcher;
@@ -78,6 +79,7 @@ pub struct Figure {
     queued: Option<Box<Queued>>,
     gait: Box<Gait>,
     target: TargetPair,
+    carrying: Box<Carrying>,
     terms: Terms,
     support: Support,
     tasks: TaskWorkspace,
@@ -158,6 +160,7 @@ impl Figure {
                 now: still.clone(),
                 next: still,
             },
+            carrying: Box::new(Carrying::new(&setup.body)),
             terms: Terms::default(),
             support: Support::default(),
             tasks: TaskWorkspace::default(),
@@ -221,6 +224,14 @@ impl Figure {
             .compute(&self.links, &self.state, applied, world.gravity);
         self.begin_queued(world.time());
         self.target = self.desired(world.time(), world.dt);
+        let steps = self.steps() && self.gait.is_walking();
+        self.carrying.lean(
+            &self.setup.body,
+            &self.links,
+            &mut self.target,
+            steps,
+            world.dt,
+        );
         // The paper's controller as published takes them where they are.
         if self.setup.controller != ControllerKind::Paper {
             self.target

@@ -13,17 +13,17 @@ const GAIN: f64 = 1.0;
 /// The zero-moment point stays this far inside the polygon, m.
 const INSET: f64 = 0.01;
 /// Largest displacement of a foothold along and across its heading, m.
-const REACH: (f64, f64) = (0.30, 0.40);
+const REACH: (f64, f64) = (0.30, 0.60);
 /// Least distance to the side from the stance foot, m, unless the plan itself comes closer or crosses.
 const SEPARATION: f64 = 0.03;
 /// A displacement to the side greater than the first brings the foot closer by this many times what it is greater, even across, by up to
 /// the last, m: most pushes to the side cannot be caught otherwise. A foot that crosses passes before or behind the other, by `PASSING`, m.
-const ACROSS: (f64, f64, f64) = (0.03, 4.0, 0.2);
+const ACROSS: (f64, f64, f64) = (0.03, 4.0, 0.4);
 const PASSING: f64 = 0.16;
 /// Closer than this to the side of the stance foot counts as crossing, m.
 const BESIDE: f64 = 0.08;
 /// Time constant of the foothold, s, and time before touch-down in which it does not change any more.
-const SMOOTHING: f64 = 0.03;
+const SMOOTHING: f64 = 0.015;
 pub(super) const FREEZE: f64 = 0.06;
 /// Furthest that planned moments may move the zero-moment point, m.
 const MOST_TURNED: f64 = 0.05;
@@ -172,7 +172,8 @@ impl Capture {
         let load = (gravity + a.z).max(LEAST_LOAD);
         let w2 = load / c.z.max(0.1);
         let turned = [moment.y, -moment.x].map(|m| m / (terms.mass * load));
-        let far = turned[0].hypot(turned[1]).max(MOST_TURNED);
+        let far = (turned[0] * turned[0] + turned[1] * turned[1]).sqrt();
+        let far = far.max(MOST_TURNED);
         let turned = turned.map(|t| t * MOST_TURNED / far);
         let middle = [c.x - turned[0], c.y - turned[1]];
         let wanted = [middle[0] - a.x / w2, middle[1] - a.y / w2];

@@ -43,8 +43,9 @@ const SWING_SHARE: f64 = 0.9;
 /// Least height of a swinging sole, m, and how fast it must come up and may come down, m/s.
 const CLEARANCE: f64 = 0.03;
 const CLEARANCE_RATE: f64 = 0.35;
-/// Share of its distance from home by which a foothold is pulled there, and the most, m.
-const HOME: (f64, f64) = (0.3, 0.04);
+/// Share of its distance from home by which a foothold is pulled there, and the most, m. A foothold that is pulled is that far from where it would
+/// catch the body, and one foot holds no more than this against it to its side: with 4 cm a body that was moved drifted on.
+const HOME: (f64, f64) = (0.3, 0.015);
 /// Time in which a motion that ended turns into standing, s.
 const EASE: f64 = 0.6;
 /// A body slower than this, and a capture point closer to its place than this, is settled: m/s and m.

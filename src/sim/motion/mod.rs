@@ -22,6 +22,7 @@ pub mod prepare;
 pub mod retarget;
 pub mod skeleton_map;
 pub mod target;
+mod walked;
 
 /// Gravity that motions are prepared for, m/s².
 const GRAVITY: f64 = 9.81;

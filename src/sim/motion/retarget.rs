@@ -69,6 +69,8 @@ pub struct RetargetOptions {
     pub lock_feet: bool,
     /// Shift the trunk so that the zero-moment point stays over the planted feet.
     pub balance: bool,
+    /// Walk what the recording runs: slower and with shorter steps. The muscles that are measured in people's joints do not run.
+    pub walk_runs: bool,
     /// Cut-off of the zero-phase low-pass, Hz.
     pub cutoff_hz: f64,
     /// Let the motion begin and end standing, with steps before its first and after its last frame where it takes them.
@@ -90,6 +92,7 @@ impl Default for RetargetOptions {
             lock_feet: true,
             balance: true,
             ends: true,
+            walk_runs: false,
             cutoff_hz: 6.0,
             keep_origin: false,
         }
@@ -157,7 +160,6 @@ pub fn retarget(
     for v in feet.iter_mut().flatten().flatten() {
         *v = placing.turn.rotate(*v);
     }
-    let label = label_feet([&feet[0], &feet[1]], rate);
     for s in 0..2 {
         for v in &mut ankle[s] {
             *v = placing.point(*v, ground.height[s]);
@@ -167,7 +169,7 @@ pub fn retarget(
             *q = placing.turn * *q;
         }
     }
-    let pelvis: Vec<Vec3> = pelvis_raw
+    let mut pelvis: Vec<Vec3> = pelvis_raw
         .0
         .iter()
         .map(|v| {
@@ -176,6 +178,22 @@ pub fn retarget(
             p
         })
         .collect();
+
+    // Steps: those of a run that is to be walked are taken so.
+    if let Some(slowed) = &seen.slowed {
+        for v in feet.iter_mut().flatten().flatten() {
+            *v = (*v + placing.shift) * scale;
+        }
+        let others = ankle.iter_mut().chain(feet.iter_mut().flatten());
+        slowed.shorten(&mut pelvis, others);
+        for v in feet.iter_mut().flatten().flatten() {
+            *v = *v * (1.0 / scale);
+        }
+    }
+    let mut label = label_feet([&feet[0], &feet[1]], rate);
+    if let Some(slowed) = &seen.slowed {
+        slowed.step(&mut ankle, &mut foot, &mut label, rate);
+    }
 
     // Segments, then joints.
     let turned = |q: Vec<Quat>| -> Vec<Quat> { q.into_iter().map(|q| placing.turn * q).collect() };
@@ -251,6 +269,8 @@ pub fn retarget(
         phases,
         bridged,
         smoothing_rms: seen.smoothing_rms,
+        runs: seen.runs,
+        walked: seen.slowed.is_some(),
         zmp_outside: prepared.zmp,
         shift_max: prepared.shift_max,
         pelvis_drop_max: prepared.drop_max,

@@ -135,6 +135,7 @@ impl Figure {
         self.fallen = false;
         self.frozen = false;
         self.gait.reset();
+        self.carrying.reset();
         self.com_acceleration = Vec3::zero();
         self.support.reset();
         self.touches = Touches::default();

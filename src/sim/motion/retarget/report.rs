@@ -120,6 +120,10 @@ pub struct RetargetReport {
     pub pelvis_drop_max: f64,
     /// Fraction of the clip in which something other than the feet carries the body (chair, hands, back).
     pub carried: f64,
+    /// Speed over the floor of the fastest run, m/s, if the recording runs anywhere, and whether it is walked.
+    pub runs: Option<f64>,
+    /// See `runs`.
+    pub walked: bool,
     /// What a user should know.
     pub warnings: Vec<String>,
 }
@@ -236,6 +240,13 @@ impl RetargetReport {
                 c.max.to_degrees(),
                 100.0 * c.fraction
             ));
+        }
+        if let Some(fastest) = self.runs {
+            w.push(if self.walked {
+                format!("a run of {fastest:.1} m/s is walked: slower, with shorter steps")
+            } else {
+                format!("a run of {fastest:.1} m/s takes more strength than people's joints are measured to have")
+            });
         }
         if self.freed > 0.01 {
             w.push(format!(

@@ -7,6 +7,7 @@ use crate::sim::motion::filter::{
     low_pass_points, low_pass_rotations, resample_points, resample_rotations,
 };
 use crate::sim::motion::skeleton_map::SkeletonMap;
+use crate::sim::motion::walked::{self, Slowed};
 
 /// Per sample: smoothed world positions and rotations, metres, z up.
 pub(super) struct Scene<'a> {
@@ -25,6 +26,9 @@ pub(super) struct Seen {
     pub feet: [Vec<Vec<Vec3>>; 2],
     /// Mean distance, rms, over which smoothing moved the points, m.
     pub smoothing_rms: f64,
+    /// Speed of the fastest run, m/s, if there is one, and how it is slowed down if it is to be walked.
+    pub runs: Option<f64>,
+    pub slowed: Option<Slowed>,
 }
 
 impl<'a> Scene<'a> {
@@ -59,11 +63,19 @@ impl<'a> Scene<'a> {
             .unwrap_or(if kept { source_rate } else { 120.0 });
         let count = ((((take.len() - 1) as f64) * rate / source_rate + 1e-6).floor() as usize + 1)
             .min(MAX_FRAMES * 4);
+        let way = middle(&places);
+        let slowed = options
+            .walk_runs
+            .then(|| Slowed::new(&way, source_rate, rate))
+            .flatten();
+        let count = slowed.as_ref().map_or(count, Slowed::count);
         let mut smoothing = (0.0, 0usize);
         let same = (rate - source_rate).abs() < 1e-9;
         let mut feet: [Vec<Vec<Vec3>>; 2] = Default::default();
         for (k, path) in places.iter_mut().enumerate() {
-            if !same {
+            if let Some(slowed) = &slowed {
+                *path = slowed.points(path);
+            } else if !same {
                 *path = resample_points(path, source_rate, rate, count);
             }
             for (points, side) in feet.iter_mut().zip(&map.sides) {
@@ -80,7 +92,9 @@ impl<'a> Scene<'a> {
             }
         }
         for path in &mut turns {
-            if !same {
+            if let Some(slowed) = &slowed {
+                *path = slowed.rotations(path);
+            } else if !same {
                 *path = resample_rotations(path, source_rate, rate, count);
             }
             low_pass_rotations(path, options.cutoff_hz, rate);
@@ -100,9 +114,18 @@ impl<'a> Scene<'a> {
             Seen {
                 feet,
                 smoothing_rms,
+                runs: walked::fastest(&way, source_rate),
+                slowed,
             },
         )
     }
+}
+
+/// The middle of all joints, per sample.
+fn middle(places: &[Vec<Vec3>]) -> Vec<Vec3> {
+    let share = 1.0 / places.len().max(1) as f64;
+    let at = |i: usize| places.iter().fold(Vec3::zero(), |m, p| m + p[i] * share);
+    (0..places.first().map_or(0, Vec::len)).map(at).collect()
 }
 
 fn z_up(up: UpAxis, v: Vec3) -> Vec3 {

@@ -1,0 +1,384 @@
+//! Runs that are walked: a run slowed down and shortened until a body whose muscles cannot run takes the same steps.
+//!
+//! A run needs 1.7 to 2 times the strength that is measured in people's joints: at its take-off the ankle turns so fast that it gives a third of what
+//! it holds (docs/adr/0021). What can be kept of it is its steps, their order, rhythm and headings, and what trunk and arms do. Time
+//! runs slower where the recording is fast, the way is shortened along with the steps, every foot stays down until the other one has landed, and
+//! between its places it swings as a walking foot does.
+
+use super::contacts::runs;
+use super::filter::{low_pass, low_pass_points, speeds};
+use crate::sim::math::{Quat, Vec3};
+
+/// People run above this speed, m/s (and walk up to it: half of the speed at which a leg of 0.9 m would leave the floor, squared).
+const RUNS: f64 = 2.2;
+/// What is faster than this before or after a run belongs to it; and how fast a run is walked, m/s.
+const WALKS: f64 = 1.0;
+/// Steps keep their length up to the first speed, m/s, and have the share [`SHORTEST`] of it from the second on.
+const SHORTENED: (f64, f64) = (1.3, 4.0);
+const SHORTEST: f64 = 0.6;
+/// The speed is that of the slow part of the way, Hz, and the highest within so long before and after, s.
+const CUTOFF: f64 = 2.0;
+const AROUND: f64 = 0.05;
+/// Least share of its pace that time keeps.
+const SLOWEST: f64 = 0.1;
+/// A share above this is the whole.
+const WHOLE: f64 = 0.999;
+/// After a run so much longer as part of it, s: its last step.
+const AFTER: f64 = 0.08;
+/// Longest flight that is closed, s of the walk; both feet then stand together for so long, s.
+const LONGEST: f64 = 0.8;
+const TOGETHER: f64 = 0.035;
+/// Height of a swinging ankle over the line between its places, m.
+const ARC: f64 = 0.14;
+
+/// Fastest that a body moves over the floor if it runs anywhere, m/s, from a path of its middle.
+pub(super) fn fastest(way: &[Vec3], rate_hz: f64) -> Option<f64> {
+    let most = paces(way, rate_hz).into_iter().fold(0.0, f64::max);
+    (most > RUNS).then_some(most)
+}
+
+fn paces(way: &[Vec3], rate_hz: f64) -> Vec<f64> {
+    let mut way: Vec<Vec3> = way.iter().map(|p| Vec3 { z: 0.0, ..*p }).collect();
+    low_pass_points(&mut way, CUTOFF, rate_hz);
+    let speed = speeds(&way, rate_hz);
+    let half = (AROUND * rate_hz) as usize;
+    let around = |i: usize| &speed[i.saturating_sub(half)..(i + half).min(speed.len())];
+    let most = |i: usize| around(i).iter().copied().fold(0.0, f64::max);
+    (0..speed.len()).map(most).collect()
+}
+
+/// How a recording with runs is played so that they are walked.
+#[derive(Clone, Debug)]
+pub(super) struct Slowed {
+    /// Sample of the recording, with fraction, that each sample of the motion shows.
+    times: Vec<f64>,
+    /// Length of the way in each sample of the motion, as a share of the recorded one.
+    share: Vec<f64>,
+}
+
+impl Slowed {
+    /// `None` if nobody runs.
+    ///
+    /// * `way`: of the middle of the body, m; `rate_hz`: of the recording; `to_hz`: of the motion.
+    pub(super) fn new(way: &[Vec3], rate_hz: f64, to_hz: f64) -> Option<Self> {
+        let n = way.len();
+        let speed = paces(way, rate_hz);
+        let (mut pace, mut share) = (vec![1.0; n], vec![1.0; n]);
+        let moves: Vec<bool> = speed.iter().map(|v| *v > WALKS).collect();
+        let mut any = false;
+        for (i, j, _) in runs(&moves).into_iter().filter(|r| r.2) {
+            if speed[i..j].iter().all(|v| *v <= RUNS) {
+                continue;
+            }
+            any = true;
+            for k in i..j {
+                let fast = (speed[k] - SHORTENED.0) / (SHORTENED.1 - SHORTENED.0);
+                share[k] = 1.0 - (1.0 - SHORTEST) * fast.clamp(0.0, 1.0);
+                pace[k] = (WALKS / (share[k] * speed[k])).min(1.0);
+            }
+        }
+        low_pass(&mut pace, CUTOFF, rate_hz);
+        low_pass(&mut share, CUTOFF, rate_hz);
+        let mut out = Self {
+            times: Vec::new(),
+            share: Vec::new(),
+        };
+        let mut at = 0.0;
+        while at < (n - 1) as f64 {
+            let k = at as usize;
+            out.times.push(at);
+            out.share.push(share[k].min(1.0));
+            at += pace[k].clamp(SLOWEST, 1.0) * rate_hz / to_hz;
+        }
+        any.then_some(out)
+    }
+
+    /// Samples of the motion.
+    pub(super) fn count(&self) -> usize {
+        self.times.len()
+    }
+
+    fn between(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        self.times.iter().map(|t| (*t as usize, t.fract()))
+    }
+
+    /// A path of the recording as the motion shows it.
+    pub(super) fn points(&self, p: &[Vec3]) -> Vec<Vec3> {
+        let at = |(k, u): (usize, f64)| p[k] * (1.0 - u) + p[k + 1] * u;
+        self.between().map(at).collect()
+    }
+
+    /// The same for rotations.
+    pub(super) fn rotations(&self, q: &[Quat]) -> Vec<Quat> {
+        let turn = |k: usize| (q[k].conjugate() * q[k + 1]).log();
+        let at = |(k, u): (usize, f64)| (q[k] * Quat::exp(turn(k) * u)).normalized();
+        self.between().map(at).collect()
+    }
+
+    /// First and one past the last sample of each run, its last step included.
+    fn stretches(&self) -> Vec<(usize, usize)> {
+        let run: Vec<bool> = self.share.iter().map(|c| *c < WHOLE).collect();
+        let runs = runs(&run).into_iter().filter(|r| r.2);
+        runs.map(|(i, j, _)| (i, j)).collect()
+    }
+
+    /// Shortens the way: of the pelvis, and of everything in `others` (one path each) with it, so that what stood still does.
+    ///
+    /// A run that turns keeps its length: only along a line is it plain what lies before what.
+    pub(super) fn shorten<'a>(
+        &self,
+        pelvis: &mut [Vec3],
+        others: impl Iterator<Item = &'a mut Vec<Vec3>>,
+    ) {
+        let mut others: Vec<&mut Vec<Vec3>> = others.collect();
+        for (a, b) in self.stretches() {
+            let Some(line) = Line::new(&pelvis[a..b], &self.share[a..b]) else {
+                continue;
+            };
+            let paths = others.iter_mut().map(|p| p.as_mut_slice());
+            for path in paths.chain([&mut *pelvis]) {
+                // What the body has left behind by then moves along until it is before it again.
+                let behind = path[b..].iter().position(|p| line.is_passed(*p));
+                let until = behind.map_or(path.len(), |k| b + k);
+                path[..until].iter_mut().for_each(|p| *p = line.shorter(*p));
+            }
+        }
+    }
+
+    /// Leaves no flight in the runs and gives the feet swings between their places.
+    ///
+    /// * `ankle`, `foot`: left and right, per sample, m and `world_from_foot`; `label`: on the floor, as recorded.
+    pub(super) fn step(
+        &self,
+        ankle: &mut [Vec<Vec3>; 2],
+        foot: &mut [Vec<Quat>; 2],
+        label: &mut [[bool; 2]],
+        rate_hz: f64,
+    ) {
+        let n = label.len();
+        for (a, b) in self.stretches() {
+            let until = (b + (AFTER * rate_hz) as usize).min(n);
+            let stood = label.to_vec();
+            close_flights(label, a..until, rate_hz);
+            for s in 0..2 {
+                let down: Vec<bool> = label.iter().map(|l| l[s]).collect();
+                let phases = runs(&down).into_iter();
+                let phases: Vec<_> = phases.filter(|(i, j, _)| *j > a && *i < until).collect();
+                let recorded = (ankle[s].clone(), foot[s].clone());
+                for (i, j, _) in phases.iter().filter(|r| r.2) {
+                    // As long as it stands more than it did, it stands as it did.
+                    let on = |k: &usize| stood[*k][s];
+                    let (Some(first), Some(last)) = ((*i..*j).find(on), (*i..*j).rfind(on)) else {
+                        continue;
+                    };
+                    for k in (*i..first).chain(last + 1..*j) {
+                        let like = if k < first { first } else { last };
+                        (ankle[s][k], foot[s][k]) = (ankle[s][like], foot[s][like]);
+                    }
+                }
+                for (i, j, _) in phases.iter().filter(|r| !r.2) {
+                    match (*i > 0, *j < n) {
+                        (true, true) => swing(&mut ankle[s], &mut foot[s], *i, *j),
+                        // In these the recording begins or ends: it keeps its way there and is bent to the place at the other end.
+                        (false, true) => bend(&mut ankle[s], &mut foot[s], &recorded, (0, *j)),
+                        (true, false) => bend(&mut ankle[s], &mut foot[s], &recorded, (n, *i - 1)),
+                        (false, false) => {}
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Closes flights that begin in `within`: halfway the later foot lands, and a moment later the earlier one leaves.
+fn close_flights(label: &mut [[bool; 2]], within: std::ops::Range<usize>, rate_hz: f64) {
+    let n = label.len();
+    let none: Vec<bool> = label.iter().map(|l| *l == [false; 2]).collect();
+    for (i, j, _) in runs(&none).into_iter().filter(|r| r.2) {
+        if !within.contains(&i) || (j - i) as f64 > LONGEST * rate_hz || (i, j) == (0, n) {
+            continue;
+        }
+        let before = (i > 0).then(|| label[i - 1]);
+        let after = (j < n).then(|| label[j]);
+        let lands = if i == 0 { 0 } else { (i + j) / 2 };
+        let leaves = if j == n {
+            n
+        } else {
+            (lands + (TOGETHER * rate_hz) as usize).min(n)
+        };
+        for s in 0..2 {
+            if before.is_some_and(|l| l[s]) {
+                label[i..leaves].iter_mut().for_each(|l| l[s] = true);
+            }
+            if after.is_some_and(|l| l[s]) {
+                label[lands..j].iter_mut().for_each(|l| l[s] = true);
+            }
+        }
+    }
+}
+
+/// A swing over the samples `i..j`, from where the foot was to where it will be.
+fn swing(ankle: &mut [Vec3], foot: &mut [Quat], i: usize, j: usize) {
+    let (p, q) = ((ankle[i - 1], foot[i - 1]), (ankle[j], foot[j]));
+    let turn = (q.1 * p.1.conjugate()).log();
+    for k in i..j {
+        let u = (k + 1 - i) as f64 / (j + 1 - i) as f64;
+        let s = u * u * u * (10.0 - 15.0 * u + 6.0 * u * u);
+        let over = 16.0 * u * u * (1.0 - u) * (1.0 - u);
+        ankle[k] = p.0 + (q.0 - p.0) * s + Vec3::Z * (ARC * over);
+        foot[k] = (Quat::exp(turn * s) * p.1).normalized();
+    }
+}
+
+/// Bends the recorded way of a foot, as it is at the sample (or end) `free`, to the place where it stands in sample `stands`.
+fn bend(
+    ankle: &mut [Vec3],
+    foot: &mut [Quat],
+    recorded: &(Vec<Vec3>, Vec<Quat>),
+    (free, stands): (usize, usize),
+) {
+    let off = ankle[stands] - recorded.0[stands];
+    let turn = (foot[stands] * recorded.1[stands].conjugate()).log();
+    let (i, j) = (free.min(stands + 1), free.max(stands));
+    for k in i..j {
+        let u = k.abs_diff(free) as f64 / stands.abs_diff(free) as f64;
+        let s = u * u * u * (10.0 - 15.0 * u + 6.0 * u * u);
+        ankle[k] = recorded.0[k] + off * s;
+        foot[k] = (Quat::exp(turn * s) * recorded.1[k]).normalized();
+    }
+}
+
+/// A straight way and how it is shortened; its end stays where it is.
+struct Line {
+    ahead: Vec3,
+    /// Places along it, increasing, and where they go, m.
+    places: Vec<f64>,
+    shorter: Vec<f64>,
+    /// Share of the way where it begins.
+    first: f64,
+}
+
+impl Line {
+    /// `None` if the way turns back on itself.
+    fn new(way: &[Vec3], share: &[f64]) -> Option<Self> {
+        let whole = *way.last()? - *way.first()?;
+        let ahead = Vec3 { z: 0.0, ..whole }.normalized_or(Vec3::X);
+        let places: Vec<f64> = way.iter().map(|p| p.dot(ahead)).collect();
+        if places.len() < 2 || places.windows(2).any(|w| w[1] <= w[0]) {
+            return None;
+        }
+        let mut shorter = places.clone();
+        for i in (0..places.len() - 1).rev() {
+            shorter[i] = shorter[i + 1] - share[i] * (places[i + 1] - places[i]);
+        }
+        Some(Self {
+            ahead,
+            places,
+            shorter,
+            first: share[0],
+        })
+    }
+
+    /// True beyond its end, where nothing is moved.
+    fn is_passed(&self, p: Vec3) -> bool {
+        self.places
+            .last()
+            .is_some_and(|end| p.dot(self.ahead) >= *end)
+    }
+
+    fn shorter(&self, p: Vec3) -> Vec3 {
+        let x = p.dot(self.ahead);
+        let k = self.places.partition_point(|place| *place <= x);
+        let to = if k == 0 {
+            self.shorter[0] - self.first * (self.places[0] - x)
+        } else if k == self.places.len() {
+            x
+        } else {
+            let u = (x - self.places[k - 1]) / (self.places[k] - self.places[k - 1]);
+            self.shorter[k - 1] + u * (self.shorter[k] - self.shorter[k - 1])
+        };
+        p + self.ahead * (to - x)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::math::vec3::vec3;
+
+    const RATE: f64 = 120.0;
+
+    /// Three seconds forward at `speed(t)`, m/s.
+    fn way(speed: impl Fn(f64) -> f64) -> Vec<Vec3> {
+        let mut x = 0.0;
+        (0..360)
+            .map(|i| {
+                x += speed(f64::from(i) / RATE) / RATE;
+                vec3(x, 0.0, 1.0)
+            })
+            .collect()
+    }
+
+    #[test]
+    fn walks_are_left_alone() {
+        for speed in [0.0, 1.2, 2.0] {
+            let way = way(|_| speed);
+            assert!(Slowed::new(&way, RATE, RATE).is_none());
+            assert_eq!(fastest(&way, RATE), None);
+        }
+    }
+
+    #[test]
+    fn a_run_goes_at_a_walk_and_what_comes_after_it_at_its_own_pace() {
+        // 4 m/s, brakes within a second, walks on.
+        let speed = |t: f64| 4.0 - 3.2 * ((t - 1.0) / 1.0).clamp(0.0, 1.0);
+        let recorded = way(speed);
+        assert!((fastest(&recorded, RATE).unwrap() - 4.0).abs() < 0.05);
+        let slowed = Slowed::new(&recorded, RATE, RATE).unwrap();
+        let mut pelvis = slowed.points(&recorded);
+        assert_eq!(pelvis.len(), slowed.count());
+        // A foot that stands on the way stays where it is while the pelvis passes.
+        let n = pelvis.len();
+        let mut foot = vec![vec3(2.0, 0.1, 0.0); n];
+        slowed.shorten(&mut pelvis, [&mut foot].into_iter());
+        assert!(foot.iter().all(|p| (*p - foot[0]).norm() < 1e-9));
+        assert!((*pelvis.last().unwrap() - *recorded.last().unwrap()).norm() < 0.02);
+        for (i, v) in speeds(&pelvis, RATE).into_iter().enumerate().skip(10) {
+            assert!(v < 1.3, "{v} m/s in sample {i} of {n}");
+        }
+        let long = slowed.times.iter().filter(|t| **t > 2.2 * RATE).count();
+        assert!((long as f64 - 0.8 * RATE).abs() < 3.0, "{long}");
+    }
+
+    #[test]
+    fn a_run_has_no_flight_and_its_feet_stand_still_between_clean_swings() {
+        let slowed = Slowed::new(&way(|_| 4.0), RATE, RATE).unwrap();
+        let n = slowed.count();
+        // Feet that stand for 0.2 s in turn, with flights of 0.2 s, and drift while they do not.
+        let period = 0.8;
+        let mut label = vec![[false; 2]; n];
+        let mut ankle = [vec![Vec3::zero(); n], vec![Vec3::zero(); n]];
+        let mut foot = [vec![Quat::identity(); n], vec![Quat::identity(); n]];
+        for i in 0..n {
+            for s in 0..2 {
+                let u = i as f64 / RATE / period + 0.5 * s as f64;
+                label[i][s] = u.fract() < 0.25;
+                ankle[s][i] = vec3(u.floor() + (u.fract() - 0.25).max(0.0), 0.0, 0.08);
+            }
+        }
+        slowed.step(&mut ankle, &mut foot, &mut label, RATE);
+        assert!(label.iter().all(|l| l[0] || l[1]), "somebody stands");
+        assert!(label.iter().any(|l| *l != [true; 2]), "and somebody swings");
+        for s in 0..2 {
+            // The last swing goes on beyond the recording.
+            let last = label.iter().rposition(|l| l[s]).unwrap();
+            for i in 1..last {
+                let moved = (ankle[s][i] - ankle[s][i - 1]).norm();
+                if label[i][s] && label[i - 1][s] {
+                    assert!(moved < 1e-12, "foot {s} drifts at sample {i}");
+                }
+                assert!(moved * RATE < 8.0, "foot {s} jumps at sample {i}");
+            }
+        }
+    }
+}
