@@ -75,7 +75,7 @@ const ROTATION_FEEDBACK: f64 = 50.0;
 /// Time constant that brings a planted point to rest, s.
 const HOLD_TIME: f64 = 0.05;
 /// A point that comes down faster than the first beyond what its height leaves room for begins to strike, from the second on it does, m/s.
-const STRIKES: (f64, f64) = (0.05, 0.15);
+const STRIKES: (f64, f64) = (0.1, 0.3);
 /// Fastest correction of a planted point's height, m/s.
 const HOLD_SPEED: f64 = 0.3;
 /// A planted point counts fully below the first height and not at all above the second, m.

@@ -12,7 +12,7 @@ use crate::sim::math::{Quat, Vec3};
 /// People run above this speed, m/s (and walk up to it: half of the speed at which a leg of 0.9 m would leave the floor, squared).
 const RUNS: f64 = 2.2;
 /// What is faster than this before or after a run belongs to it; and how fast a run is walked, m/s.
-const WALKS: f64 = 1.0;
+const WALKS: f64 = 1.05;
 /// Steps keep their length up to the first speed, m/s, and have the share [`SHORTEST`] of it from the second on.
 const SHORTENED: (f64, f64) = (1.3, 4.0);
 const SHORTEST: f64 = 0.6;
@@ -29,7 +29,7 @@ const AFTER: f64 = 0.08;
 const LONGEST: f64 = 0.8;
 const TOGETHER: f64 = 0.035;
 /// Height of a swinging ankle over the line between its places, m.
-const ARC: f64 = 0.14;
+const ARC: f64 = 0.08;
 
 /// Fastest that a body moves over the floor if it runs anywhere, m/s, from a path of its middle.
 pub(super) fn fastest(way: &[Vec3], rate_hz: f64) -> Option<f64> {
