@@ -76,6 +76,8 @@ const ROTATION_FEEDBACK: f64 = 50.0;
 const HOLD_TIME: f64 = 0.05;
 /// A point that comes down faster than the first beyond what its height leaves room for begins to strike, from the second on it does, m/s.
 const STRIKES: (f64, f64) = (0.1, 0.3);
+/// Hardest stop of a planted point that is planned, m/s².
+const STOP: f64 = 150.0;
 /// Fastest correction of a planted point's height, m/s.
 const HOLD_SPEED: f64 = 0.3;
 /// A planted point counts fully below the first height and not at all above the second, m.
@@ -448,12 +450,12 @@ impl Modern {
                 // What strikes the floor within the tick is at rest at its end, whatever is planned.
                 let strikes = 1.0 - smooth_step(-v.z - z.max(0.0) / input.dt, STRIKES);
                 let pace = blend(1.0 / HOLD_TIME, 1.0 / input.dt, strikes);
-                let a = (Vec3 {
+                let to_rest = Vec3 {
                     x: -v.x,
                     y: -v.y,
                     z: rise - v.z,
-                }) * pace
-                    - t.point_bias(s, *p);
+                };
+                let a = soft(to_rest * pace, STOP) - t.point_bias(s, *p);
                 let inverse_r = fade.max(OTHER_SEGMENT) / weight::FORCE;
                 let c = self.last_force[s * POINTS + vertex] * (-FORCE_MEMORY / inverse_r);
                 let slot = self.contacts.slot(&t.kin, s);
