@@ -1,6 +1,7 @@
 //! Goal: in the air nothing but gravity acts on a figure, whatever its motors do; without torque it gains no energy anywhere.
 //! Method: the parabola and both momenta of a thrown figure, with the order at which they converge; energy of a limp one, tick by tick.
 
+use crate::bare::Bare;
 use crate::common::{Scene, authored, bent, figure, man, still};
 use crate::{GRAVITY, integrals, vec3};
 use sinew::sim::body::angles::anatomical_angles;
@@ -8,8 +9,7 @@ use sinew::sim::body::topology::{DOF_START, JOINT, Joint, L_FOREARM, L_SHANK, R_
 use sinew::sim::body::{DOF_COUNT, Links, Posture, State};
 use sinew::sim::contact::Tissue;
 use sinew::sim::dynamics::Terms;
-use sinew::sim::figure::torque_step::{MotorCommand, StepInput, Stepper, TorqueStepper};
-use sinew::sim::figure::{ControllerKind, Flags, StrengthScale};
+use sinew::sim::figure::{ControllerKind, Flags};
 use sinew::sim::math::{Quat, Vec3};
 use sinew::sim::strength::Strength;
 use sinew::sim::world::WorldParams;
@@ -116,19 +116,10 @@ struct Limp {
 /// Steps a body whose motors give a millionth of a millionth of its strength, for 3 s; one substep per tick, so that
 /// every step is seen.
 fn limp(start: &State, rate_hz: f64, gravity: f64) -> Limp {
+    let dt = 1.0 / rate_hz;
     let body = man();
     let (links, strength) = (Links::new(&body), Strength::for_body(&body));
-    let scale = StrengthScale {
-        all: 1e-12,
-        ..StrengthScale::default()
-    }
-    .muscles(1.0);
-    let (mut stepper, mut terms) = (TorqueStepper::new(0.9), Terms::default());
-    let command = MotorCommand {
-        acceleration: [0.0; DOF_COUNT],
-        torque: [0.0; DOF_COUNT],
-        saturation_speed: 1.0,
-    };
+    let (mut bare, mut terms) = (Bare::new(man(), 1e-12, gravity, dt), Terms::default());
     let mut state = *start;
     // Stretched tissue stores some.
     let stored = |s: &State| strength.stored(&anatomical_angles(&s.posture));
@@ -145,33 +136,10 @@ fn limp(start: &State, rate_hz: f64, gravity: f64) -> Limp {
         unforeseen: 0.0,
         touched: 0,
     };
-    let dt = 1.0 / rate_hz;
     for _ in 0..(3.0 * rate_hz) as usize {
-        terms.compute(&links, &state, &[], gravity);
-        let rates: [f64; DOF_COUNT] = std::array::from_fn(|j| state.velocity[6 + j]);
-        let (mut lower, mut upper) = ([0.0; DOF_COUNT], [0.0; DOF_COUNT]);
-        let angles = anatomical_angles(&state.posture);
-        strength.range(&angles, &rates, &scale, &mut lower, &mut upper);
         let tissue = Tissue::new(&strength, &state, 1, dt);
-        let input = StepInput {
-            body: &body,
-            links: &links,
-            strength: &strength,
-            scale: &scale,
-            assist: None,
-            bar: None,
-            terms: &terms,
-            command: &command,
-            lower: &lower,
-            upper: &upper,
-            tissue: Some(&tissue),
-            applied: &[],
-            gravity,
-            dt,
-            substeps: 1,
-        };
-        stepper.step(&input, &mut state);
-        let a = &stepper.forces.audit;
+        bare.step(&mut state, Some(&tissue));
+        let a = &bare.stepper.forces.audit;
         // Work of the constraint forces at the velocity they were solved for.
         let after = State {
             posture: a.state.posture,
@@ -206,8 +174,9 @@ fn limp(start: &State, rate_hz: f64, gravity: f64) -> Limp {
     out
 }
 
-/// Contacts and ligaments take energy but for what takes a penetration back, which is little; what a step returns of an overrun limit is bounded. A step may still end with a
-/// little more than it began with, since steps of fast limbs are first order; that is bounded too, and the energy stays below the start.
+/// Contacts and ligaments take energy but for what takes a penetration back, which is little; what a step returns of an overrun limit is bounded.
+/// A step may still end with a little more than it began with, since steps of fast limbs are first order; that is bounded too, and the energy
+/// stays below the start.
 #[test]
 fn a_limp_figure_gains_no_energy() {
     let body = man();

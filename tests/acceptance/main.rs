@@ -20,6 +20,7 @@
 mod common;
 
 mod assist;
+mod bare;
 mod collide;
 mod constrain;
 mod containment;

@@ -2,22 +2,18 @@
 //! Method: a figure that flies low over the floor without weight; the signed gaps, the cone and the direction of every contact force of a limp
 //! body that comes down fast, in each step.
 
+use crate::bare::{Bare, FRICTION};
 use crate::common::{bent, man, still};
 use crate::vec3;
-use sinew::sim::body::angles::anatomical_angles;
-use sinew::sim::body::{Body, DOF_COUNT, Links, Posture, State};
-use sinew::sim::dynamics::{Kinematics, Terms};
+use sinew::sim::body::{Body, Links, Posture, State};
+use sinew::sim::dynamics::Kinematics;
 use sinew::sim::figure::ContactPoint;
-use sinew::sim::figure::StrengthScale;
-use sinew::sim::figure::torque_step::{MotorCommand, StepInput, Stepper, TorqueStepper};
 use sinew::sim::math::Quat;
-use sinew::sim::strength::Strength;
 use std::sync::Arc;
 
-const FRICTION: f64 = 0.9;
 const DT: f64 = 1.0 / 120.0;
 
-/// Steps a body whose motors give `share` of its strength, one substep at a time; calls `see` with the contacts of each and the state after it.
+/// Steps a body with `share` of its strength; calls `see` with the contacts of each step and the states before and after it.
 fn steps(
     body: &Arc<Body>,
     state: &mut State,
@@ -25,44 +21,11 @@ fn steps(
     count: usize,
     mut see: impl FnMut(&[ContactPoint], &State, &State),
 ) {
-    let (links, strength) = (Links::new(body), Strength::for_body(body));
-    let scale = StrengthScale {
-        all: share,
-        ..StrengthScale::default()
-    }
-    .muscles(1.0);
-    let (mut stepper, mut terms) = (TorqueStepper::new(FRICTION), Terms::default());
-    let command = MotorCommand {
-        acceleration: [0.0; DOF_COUNT],
-        torque: [0.0; DOF_COUNT],
-        saturation_speed: 1.0,
-    };
+    let mut bare = Bare::new(Arc::clone(body), share, gravity, DT);
     for _ in 0..count {
-        terms.compute(&links, state, &[], gravity);
-        let rates: [f64; DOF_COUNT] = std::array::from_fn(|j| state.velocity[6 + j]);
-        let (mut lower, mut upper) = ([0.0; DOF_COUNT], [0.0; DOF_COUNT]);
-        let angles = anatomical_angles(&state.posture);
-        strength.range(&angles, &rates, &scale, &mut lower, &mut upper);
-        let input = StepInput {
-            body,
-            links: &links,
-            strength: &strength,
-            scale: &scale,
-            assist: None,
-            bar: None,
-            terms: &terms,
-            command: &command,
-            lower: &lower,
-            upper: &upper,
-            tissue: None,
-            applied: &[],
-            gravity,
-            dt: DT,
-            substeps: 1,
-        };
         let before = *state;
-        stepper.step(&input, state);
-        see(&stepper.forces.audit.contacts, &before, state);
+        bare.step(state, None);
+        see(&bare.stepper.forces.audit.contacts, &before, state);
     }
 }
 

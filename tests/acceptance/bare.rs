@@ -1,0 +1,77 @@
+//! The torque stepper alone: a body with a share of its strength and no controller, one substep per step, so that every step is seen.
+
+use sinew::sim::body::angles::anatomical_angles;
+use sinew::sim::body::{Body, DOF_COUNT, Links, State};
+use sinew::sim::contact::Tissue;
+use sinew::sim::dynamics::Terms;
+use sinew::sim::figure::StrengthScale;
+use sinew::sim::figure::torque_step::{MotorCommand, StepInput, Stepper, TorqueStepper};
+use sinew::sim::strength::{MuscleScale, Strength};
+use std::sync::Arc;
+
+/// Coefficient of its floor.
+pub(crate) const FRICTION: f64 = 0.9;
+
+pub(crate) struct Bare {
+    pub stepper: TorqueStepper,
+    body: Arc<Body>,
+    links: Links,
+    strength: Strength,
+    terms: Terms,
+    scale: MuscleScale,
+    gravity: f64,
+    dt: f64,
+}
+
+impl Bare {
+    /// With `share` of its strength, steps of `dt` seconds.
+    pub fn new(body: Arc<Body>, share: f64, gravity: f64, dt: f64) -> Self {
+        let scale = StrengthScale {
+            all: share,
+            ..StrengthScale::default()
+        };
+        Self {
+            links: Links::new(&body),
+            strength: Strength::for_body(&body),
+            stepper: TorqueStepper::new(FRICTION),
+            terms: Terms::default(),
+            scale: scale.muscles(1.0),
+            gravity,
+            dt,
+            body,
+        }
+    }
+
+    /// Motors that are to hold what they have; with stretched tissue, if it is given.
+    pub fn step(&mut self, state: &mut State, tissue: Option<&Tissue>) {
+        self.terms.compute(&self.links, state, &[], self.gravity);
+        let rates: [f64; DOF_COUNT] = std::array::from_fn(|j| state.velocity[6 + j]);
+        let (mut lower, mut upper) = ([0.0; DOF_COUNT], [0.0; DOF_COUNT]);
+        let angles = anatomical_angles(&state.posture);
+        self.strength
+            .range(&angles, &rates, &self.scale, &mut lower, &mut upper);
+        let command = MotorCommand {
+            acceleration: [0.0; DOF_COUNT],
+            torque: [0.0; DOF_COUNT],
+            saturation_speed: 1.0,
+        };
+        let input = StepInput {
+            body: &self.body,
+            links: &self.links,
+            strength: &self.strength,
+            scale: &self.scale,
+            assist: None,
+            bar: None,
+            terms: &self.terms,
+            command: &command,
+            lower: &lower,
+            upper: &upper,
+            tissue,
+            applied: &[],
+            gravity: self.gravity,
+            dt: self.dt,
+            substeps: 1,
+        };
+        self.stepper.step(&input, state);
+    }
+}
