@@ -119,7 +119,8 @@ fn limp(start: &State, rate_hz: f64, gravity: f64) -> Limp {
     let dt = 1.0 / rate_hz;
     let body = man();
     let (links, strength) = (Links::new(&body), Strength::for_body(&body));
-    let (mut bare, mut terms) = (Bare::new(man(), 1e-12, gravity, dt), Terms::default());
+    let mut bare = Bare::new(man(), 1e-12, gravity, dt);
+    let (mut before, mut terms) = (Terms::default(), Terms::default());
     let mut state = *start;
     // Stretched tissue stores some.
     let stored = |s: &State| strength.stored(&anatomical_angles(&s.posture));
@@ -140,7 +141,7 @@ fn limp(start: &State, rate_hz: f64, gravity: f64) -> Limp {
         let tissue = Tissue::new(&strength, &state, 1, dt);
         bare.step(&mut state, Some(&tissue));
         let a = &bare.stepper.forces.audit;
-        // Work of the constraint forces at the velocity they were solved for.
+        // Work of the constraint forces on the way they were solved for.
         let after = State {
             posture: a.state.posture,
             velocity: state.velocity,
@@ -150,10 +151,15 @@ fn limp(start: &State, rate_hz: f64, gravity: f64) -> Limp {
             .map(|d| a.ligament_torque[d] * state.velocity[6 + d])
             .sum();
         let (mut contacts, mut returns) = (0.0, 0.0);
+        before.compute(&links, &a.state, &[], gravity);
         for c in &a.contacts {
             let s = c.segment.index();
             let point = body.segments[s].contact_points[c.vertex];
             contacts += c.force.dot(terms.point_velocity(s, point));
+            // What rests is held in its place: its path bends while the limbs turn.
+            if before.point_velocity(s, point).norm() < 0.1 {
+                contacts += c.force.dot(before.point_bias(s, point)) * (0.5 * dt);
+            }
             // A fifth of what is deeper than 0.1 mm, per step.
             returns += c.force.z * 0.2 * (-c.position.z - 1e-4).max(0.0) / dt;
         }

@@ -6,7 +6,7 @@ use crate::bare::{Bare, FRICTION};
 use crate::common::{bent, man, still};
 use crate::vec3;
 use sinew::sim::body::{Body, Links, Posture, State};
-use sinew::sim::dynamics::Kinematics;
+use sinew::sim::dynamics::{Kinematics, Terms};
 use sinew::sim::figure::ContactPoint;
 use sinew::sim::math::Quat;
 use std::sync::Arc;
@@ -114,4 +114,59 @@ fn what_slides_does_so_on_the_floor() {
     assert!(far < 1e-6 && along < 1e-6, "{text}");
     // What is slower than 0.1 m/s hovers by up to 0.75 mm; the rounds that are left out leave little more.
     assert!(of(0.99) < 0.8 && of(1.0) < 2.0, "{text}");
+}
+
+/// A body that tips over its toes: its limbs turn at 2 rad/s, and a toe whose velocity alone were held would creep by ½h²J̇v, a tenth of a
+/// millimetre in a step.
+#[test]
+fn what_rests_stays_in_its_place_while_the_body_turns_about_it() {
+    let body = man();
+    let mut kin = Kinematics::default();
+    let links = Links::new(&body);
+    let mut at = |s: &State, c: &ContactPoint| {
+        kin.set_posture(&links, &s.posture);
+        let i = c.segment.index();
+        let p = body.segments[i].contact_points[c.vertex];
+        s.posture.root_position + kin.position[i] + kin.rotation[i] * p
+    };
+    let mut state = still(bent(&body, 0.1));
+    let turn = vec3(0.0, 2.0, 0.0);
+    let toes = vec3(state.posture.root_position.x + 0.18, 0.0, 0.0);
+    let root = state.posture.root_position;
+    let v = turn.cross(root - toes);
+    state.velocity[..6].copy_from_slice(&[0.0, turn.y, 0.0, v.x, v.y, v.z]);
+    let (mut rested, mut crept, mut bent_by) = (0, 0.0f64, 0.0f64);
+    let mut terms = Terms::default();
+    steps(
+        &body,
+        &mut state,
+        (1.0, 9.81),
+        60,
+        |contacts, before, after| {
+            terms.compute(&links, before, &[], 9.81);
+            for c in contacts {
+                let (push, rub) = (c.force.z, c.force.x.hypot(c.force.y));
+                let (i, p) = (
+                    c.segment.index(),
+                    body.segments[c.segment.index()].contact_points[c.vertex],
+                );
+                let slow = terms.point_velocity(i, p).norm() < 0.05;
+                if push > 50.0 && rub < 0.8 * FRICTION * push && slow {
+                    let way = at(after, c) - at(before, c);
+                    rested += 1;
+                    crept = crept.max(way.x.hypot(way.y));
+                    let bias = terms.point_bias(i, p) * (0.5 * DT * DT);
+                    bent_by = bent_by.max(bias.x.hypot(bias.y));
+                }
+            }
+        },
+    );
+    let text = format!(
+        "{rested} pushes on what rests, whose paths bend by up to {:.3} mm in a step: moved by {:.3} mm at most",
+        1e3 * bent_by,
+        1e3 * crept
+    );
+    println!("{text}");
+    assert!(rested > 20 && bent_by > 8e-5, "{text}");
+    assert!(crept < 0.35 * bent_by, "{text}");
 }

@@ -17,7 +17,7 @@ const ROUNDS: u32 = 4;
 /// Change of an offset that is none, m/s.
 const SETTLED: f64 = 1e-9;
 /// Slower points do not slide, m/s: they hover by less than 0.75 mm (at 120 substeps a second), and standing feet, which creep, cost nothing.
-const CREEP: f64 = 0.1;
+pub const CREEP: f64 = 0.1;
 /// What slides faster hovers as if it were slower, m/s: no limb does, and huge offsets spoil the scale of a solve.
 const FASTEST: f64 = 10.0;
 

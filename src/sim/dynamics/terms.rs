@@ -196,7 +196,10 @@ impl Terms {
     }
     /// Bias acceleration `J̇ v` of a point given in the segment frame, m/s².
     pub fn point_bias(&self, s: usize, local: Vec3) -> Vec3 {
-        let r = self.kin.rotation[s] * local;
+        self.bias_at(s, self.kin.rotation[s] * local)
+    }
+    /// The same of a point that lies by `r` from the origin of the segment, world axes.
+    pub fn bias_at(&self, s: usize, r: Vec3) -> Vec3 {
         let w = self.kin.omega[s];
         self.bias.acceleration[s] + self.bias.alpha[s].cross(r) + w.cross(w.cross(r))
     }

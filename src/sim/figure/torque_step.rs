@@ -14,7 +14,7 @@ use crate::sim::collide::island::{Articulated, Parts};
 use crate::sim::contact::rows::PointRow;
 use crate::sim::contact::{
     ContactRows, LimitRows, Motors, NewtonWorkspace, Outcome, Slides, SparseSystem, Tissue,
-    collect_limits, minimise,
+    collect_limits, minimise, slides,
 };
 use crate::sim::dynamics::jacobian::for_each_column;
 use crate::sim::dynamics::terms::AppliedForce;
@@ -411,6 +411,10 @@ impl TorqueStepper {
 
 impl TorqueStepper {
     /// Rows for every contact point that is low or arrives within the substep.
+    ///
+    /// A point with velocity Jv moves by h(Jv + ½h J̇v): limbs turn, and a foot that rolls over its toes with Jv = 0 would creep by
+    /// ½h²J̇v, 0.3 mm a tick. What rests is therefore held where it is, not at rest. What lands or slides moves otherwise after the
+    /// substep than before, and its J̇v says nothing.
     fn collect_contacts(&mut self, body: &Body, h: f64) {
         self.contacts.clear();
         let (t, root) = (&self.terms, self.terms.state.posture.root_position);
@@ -425,20 +429,20 @@ impl TorqueStepper {
                 let r = t.kin.rotation[s] * *p;
                 let z = origin + r.z;
                 self.penetration = self.penetration.max(-z);
-                let rate = (t.kin.velocity[s] + t.kin.omega[s].cross(r)).z;
-                if z < SPECULATIVE_HEIGHT || z + h * rate < 0.0 {
-                    let c = if z > 0.0 {
+                let velocity = t.kin.velocity[s] + t.kin.omega[s].cross(r);
+                if z < SPECULATIVE_HEIGHT || z + h * velocity.z < 0.0 {
+                    let mut c = if velocity.norm() < slides::CREEP {
+                        t.bias_at(s, r) * (0.5 * h)
+                    } else {
+                        Vec3::zero()
+                    };
+                    c.z += if z > 0.0 {
                         z / h
                     } else {
                         -(PENETRATION_RETURN * (-z - PENETRATION_SLOP).max(0.0) / h)
                             .min(PENETRATION_SPEED)
                     };
                     let slot = self.contacts.slot(&self.terms.kin, s);
-                    let c = Vec3 {
-                        x: 0.0,
-                        y: 0.0,
-                        z: c,
-                    };
                     let inverse_r = 1.0 / CONTACT_COMPLIANCE;
                     self.contacts.points.push(PointRow {
                         slot,
