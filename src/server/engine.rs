@@ -117,6 +117,7 @@ pub fn retarget(
         floor: reading.floor.unwrap_or(defaults.floor),
         lock_feet: reading.lock_feet.unwrap_or(defaults.lock_feet),
         cutoff_hz: reading.cutoff_hz.unwrap_or(defaults.cutoff_hz),
+        walk_runs: reading.walk_runs.unwrap_or(defaults.walk_runs),
         ..defaults
     };
     let out = crate::sim::motion::retarget(bvh, body, &options).map_err(|e| e.to_string())?;
@@ -143,6 +144,8 @@ pub fn retarget(
         stature_m: r.stature,
         scale: r.scale,
         source_rate_hz: r.source_rate_hz,
+        run_speed: r.runs,
+        runs_walked: r.walked,
         floor_offset_m: r.floor_offset,
         clamped: r
             .clamped

@@ -580,6 +580,8 @@ pub struct BvhReading {
     pub lock_feet: Option<bool>,
     /// Low-pass corner, Hz.
     pub cutoff_hz: Option<f64>,
+    /// Walk what the recording runs.
+    pub walk_runs: Option<bool>,
 }
 
 /// Where a motion comes from.
@@ -642,6 +644,10 @@ pub struct ReadingReport {
     pub scale: f64,
     /// Frames per second of the file.
     pub source_rate_hz: f64,
+    /// Speed of the fastest run, m/s, if there is one.
+    pub run_speed: Option<f64>,
+    /// Runs are walked.
+    pub runs_walked: bool,
     /// Height taken off, m.
     pub floor_offset_m: f64,
     /// DOF, fraction of frames clamped, largest excess (rad).

@@ -89,6 +89,43 @@ async fn a_recording_is_uploaded_played_and_deleted() {
     server.stop().await;
 }
 
+/// A run is reported; asked to, the server walks it, and a figure then stands at its end.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_run_is_walked_if_asked_to() {
+    let server = TestServer::start().await;
+    let mut clips = Vec::new();
+    for walk_runs in [None, Some(true)] {
+        let options = pb::BvhOptions {
+            walk_runs,
+            ..Default::default()
+        };
+        let made = server
+            .client
+            .motions()
+            .create_clip(pb::CreateClipRequest {
+                source: Some(pb::create_clip_request::Source::Bvh(pb::BvhSource {
+                    data: mocap::read("run.bvh").into(),
+                    options: Some(options),
+                })),
+                ..Default::default()
+            })
+            .await
+            .unwrap();
+        clips.push(made.into_inner().clip.unwrap());
+    }
+    let reports = [0, 1].map(|k: usize| clips[k].report.clone().unwrap());
+    assert_eq!(reports.clone().map(|r| r.runs_walked), [false, true]);
+    for r in &reports {
+        assert!(r.run_speed_m_s.is_some_and(|v| v > 2.5 && v < 6.0), "{r:?}");
+    }
+    assert!(
+        clips[1].duration_s > 1.5 * clips[0].duration_s,
+        "{} s, {} s",
+        clips[0].duration_s,
+        clips[1].duration_s
+    );
+}
+
 #[tokio::test(flavor = "multi_thread")]
 async fn a_recording_is_simulated_without_a_world() {
     let server = TestServer::start().await;

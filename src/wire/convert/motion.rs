@@ -49,6 +49,7 @@ pub fn bvh_reading(field: &str, o: Option<&pb::BvhOptions>) -> Result<BvhReading
         floor: o.fit_floor,
         lock_feet: o.lock_feet,
         cutoff_hz: optional(&at("cutoff_hz"), o.cutoff_hz, 0.5, 60.0)?,
+        walk_runs: o.walk_runs,
     })
 }
 
@@ -473,6 +474,8 @@ pub fn report_out(r: &ReadingReport) -> pb::RetargetReport {
         sides_swapped: r.sides_swapped,
         scale: r.scale,
         source_rate_hz: r.source_rate_hz,
+        run_speed_m_s: r.run_speed,
+        runs_walked: r.runs_walked,
         unit_m: r.unit_m,
         up_axis: r.up_axis.clone(),
         stature_m: r.stature_m,

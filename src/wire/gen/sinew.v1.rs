@@ -122,6 +122,12 @@ pub struct RetargetReport {
     /// True if left and right were found to be swapped by name.
     #[prost(bool, tag = "17")]
     pub sides_swapped: bool,
+    /// Speed over the floor of the fastest run of the recording, m/s; absent if it runs nowhere.
+    #[prost(double, optional, tag = "18")]
+    pub run_speed_m_s: ::core::option::Option<f64>,
+    /// True if that run, and every other, is walked: see `BvhOptions.walk_runs`.
+    #[prost(bool, tag = "19")]
+    pub runs_walked: bool,
 }
 /// The joints of the file that drive one segment.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
@@ -2473,6 +2479,10 @@ pub struct BvhOptions {
     /// Corner frequency of the zero-phase low-pass, Hz, 0.5…60. Absent: 6.
     #[prost(double, optional, tag = "6")]
     pub cutoff_hz: ::core::option::Option<f64>,
+    /// Walks what the recording runs: slower and with shorter steps, so that the clip gets longer. The strength that is measured in people's
+    /// joints does not run. Absent: false.
+    #[prost(bool, optional, tag = "7")]
+    pub walk_runs: ::core::option::Option<bool>,
 }
 /// A BVH file.
 #[derive(Clone, PartialEq, ::prost::Message)]

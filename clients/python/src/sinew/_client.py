@@ -194,10 +194,12 @@ class Client:
         fit_floor: bool = True,
         lock_feet: bool = True,
         cutoff_hz: float = 6.0,
+        walk_runs: bool = False,
     ) -> Clip:
         """Stores a BVH file (path or bytes) as a clip; `Clip.report` says how it was understood.
 
         Unit and up axis are guessed unless given; `rate_hz` replaces the file's frame time.
+        `walk_runs` slows runs down to walks, which a body of measured strength can follow.
         """
         bvh = bvh_source(
             source,
@@ -207,6 +209,7 @@ class Client:
             fit_floor=fit_floor,
             lock_feet=lock_feet,
             cutoff_hz=cutoff_hz,
+            walk_runs=walk_runs,
         )
         display = "" if isinstance(source, bytes) else Path(source).name[:64]
         request = motion_pb2.CreateClipRequest(

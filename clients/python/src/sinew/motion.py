@@ -121,6 +121,7 @@ def bvh_source(
     fit_floor: bool = True,
     lock_feet: bool = True,
     cutoff_hz: float = 6.0,
+    walk_runs: bool = False,
 ) -> motion_pb2.BvhSource:
     """A file with how to read it."""
     data = source if isinstance(source, bytes) else Path(source).read_bytes()
@@ -131,5 +132,6 @@ def bvh_source(
         fit_floor=fit_floor,
         lock_feet=lock_feet,
         cutoff_hz=cutoff_hz,
+        walk_runs=walk_runs,
     )
     return motion_pb2.BvhSource(data=data, options=options)

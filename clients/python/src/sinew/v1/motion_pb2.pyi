@@ -179,6 +179,7 @@ class BvhOptions(_message.Message):
     FIT_FLOOR_FIELD_NUMBER: _builtins.int
     LOCK_FEET_FIELD_NUMBER: _builtins.int
     CUTOFF_HZ_FIELD_NUMBER: _builtins.int
+    WALK_RUNS_FIELD_NUMBER: _builtins.int
     unit_m: _builtins.float
     """Length of one file unit, m, 0.000001…100. Absent: guessed from the stature."""
     up_axis: _builtins.str
@@ -191,6 +192,10 @@ class BvhOptions(_message.Message):
     """Keeps planted feet from sliding. Absent: true."""
     cutoff_hz: _builtins.float
     """Corner frequency of the zero-phase low-pass, Hz, 0.5…60. Absent: 6."""
+    walk_runs: _builtins.bool
+    """Walks what the recording runs: slower and with shorter steps, so that the clip gets longer. The strength that is measured in people's
+    joints does not run. Absent: false.
+    """
     def __init__(
         self,
         *,
@@ -200,10 +205,11 @@ class BvhOptions(_message.Message):
         fit_floor: _builtins.bool | None = ...,
         lock_feet: _builtins.bool | None = ...,
         cutoff_hz: _builtins.float | None = ...,
+        walk_runs: _builtins.bool | None = ...,
     ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _typing.Literal["_cutoff_hz", b"_cutoff_hz", "_fit_floor", b"_fit_floor", "_lock_feet", b"_lock_feet", "_rate_hz", b"_rate_hz", "_unit_m", b"_unit_m", "cutoff_hz", b"cutoff_hz", "fit_floor", b"fit_floor", "lock_feet", b"lock_feet", "rate_hz", b"rate_hz", "unit_m", b"unit_m"]  # noqa: Y015
+    _HasFieldArgType: _TypeAlias = _typing.Literal["_cutoff_hz", b"_cutoff_hz", "_fit_floor", b"_fit_floor", "_lock_feet", b"_lock_feet", "_rate_hz", b"_rate_hz", "_unit_m", b"_unit_m", "_walk_runs", b"_walk_runs", "cutoff_hz", b"cutoff_hz", "fit_floor", b"fit_floor", "lock_feet", b"lock_feet", "rate_hz", b"rate_hz", "unit_m", b"unit_m", "walk_runs", b"walk_runs"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["_cutoff_hz", b"_cutoff_hz", "_fit_floor", b"_fit_floor", "_lock_feet", b"_lock_feet", "_rate_hz", b"_rate_hz", "_unit_m", b"_unit_m", "cutoff_hz", b"cutoff_hz", "fit_floor", b"fit_floor", "lock_feet", b"lock_feet", "rate_hz", b"rate_hz", "unit_m", b"unit_m", "up_axis", b"up_axis"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_cutoff_hz", b"_cutoff_hz", "_fit_floor", b"_fit_floor", "_lock_feet", b"_lock_feet", "_rate_hz", b"_rate_hz", "_unit_m", b"_unit_m", "_walk_runs", b"_walk_runs", "cutoff_hz", b"cutoff_hz", "fit_floor", b"fit_floor", "lock_feet", b"lock_feet", "rate_hz", b"rate_hz", "unit_m", b"unit_m", "up_axis", b"up_axis", "walk_runs", b"walk_runs"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     _WhichOneofReturnType__cutoff_hz: _TypeAlias = _typing.Literal["cutoff_hz"]  # noqa: Y015
     _WhichOneofArgType__cutoff_hz: _TypeAlias = _typing.Literal["_cutoff_hz", b"_cutoff_hz"]  # noqa: Y015
@@ -215,6 +221,8 @@ class BvhOptions(_message.Message):
     _WhichOneofArgType__rate_hz: _TypeAlias = _typing.Literal["_rate_hz", b"_rate_hz"]  # noqa: Y015
     _WhichOneofReturnType__unit_m: _TypeAlias = _typing.Literal["unit_m"]  # noqa: Y015
     _WhichOneofArgType__unit_m: _TypeAlias = _typing.Literal["_unit_m", b"_unit_m"]  # noqa: Y015
+    _WhichOneofReturnType__walk_runs: _TypeAlias = _typing.Literal["walk_runs"]  # noqa: Y015
+    _WhichOneofArgType__walk_runs: _TypeAlias = _typing.Literal["_walk_runs", b"_walk_runs"]  # noqa: Y015
     @_typing.overload
     def WhichOneof(self, oneof_group: _WhichOneofArgType__cutoff_hz) -> _WhichOneofReturnType__cutoff_hz | None: ...
     @_typing.overload
@@ -225,6 +233,8 @@ class BvhOptions(_message.Message):
     def WhichOneof(self, oneof_group: _WhichOneofArgType__rate_hz) -> _WhichOneofReturnType__rate_hz | None: ...
     @_typing.overload
     def WhichOneof(self, oneof_group: _WhichOneofArgType__unit_m) -> _WhichOneofReturnType__unit_m | None: ...
+    @_typing.overload
+    def WhichOneof(self, oneof_group: _WhichOneofArgType__walk_runs) -> _WhichOneofReturnType__walk_runs | None: ...
 
 Global___BvhOptions: _TypeAlias = BvhOptions  # noqa: Y015
 
