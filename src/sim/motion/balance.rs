@@ -8,6 +8,7 @@ use super::GRAVITY;
 use super::banded::Pentadiagonal;
 use super::filter::low_pass;
 use super::leg_ik::forward;
+use super::polygon::{Region, margin};
 use crate::sim::body::topology::SEGMENT_COUNT;
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::Vec3;
@@ -105,132 +106,6 @@ pub(super) fn zero_moment_point(com: Vec3, (force, moment): (Vec3, Vec3)) -> [f6
     ]
 }
 
-/// Convex hull, counter-clockwise (monotone chain).
-pub fn hull(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let mut p = points.to_vec();
-    p.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-    p.dedup();
-    if p.len() < 3 {
-        return p;
-    }
-    let cross = |o: [f64; 2], a: [f64; 2], b: [f64; 2]| {
-        (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0])
-    };
-    let chain = |it: &mut dyn Iterator<Item = [f64; 2]>| {
-        let mut c: Vec<[f64; 2]> = Vec::new();
-        for q in it {
-            while c.len() >= 2 && cross(c[c.len() - 2], c[c.len() - 1], q) <= 0.0 {
-                c.pop();
-            }
-            c.push(q);
-        }
-        c.pop();
-        c
-    };
-    let mut out = chain(&mut p.iter().copied());
-    out.extend(chain(&mut p.iter().rev().copied()));
-    out
-}
-
-/// Signed distance of `z` from the border of a convex counter-clockwise polygon: positive inside, m. For fewer than three corners,
-/// minus the distance to the nearest one.
-pub fn margin(polygon: &[[f64; 2]], z: [f64; 2]) -> f64 {
-    let n = polygon.len();
-    if n < 3 {
-        return -polygon
-            .iter()
-            .map(|p| (p[0] - z[0]).hypot(p[1] - z[1]))
-            .fold(f64::INFINITY, f64::min);
-    }
-    let inside = (0..n)
-        .map(|i| edge_distance(polygon[i], polygon[(i + 1) % n], z))
-        .fold(f64::INFINITY, f64::min);
-    if inside >= 0.0 {
-        inside
-    } else {
-        let c = closest(polygon, z);
-        -(c[0] - z[0]).hypot(c[1] - z[1])
-    }
-}
-
-/// Distance of `z` to the left of the line from `a` to `b`.
-fn edge_distance(a: [f64; 2], b: [f64; 2], z: [f64; 2]) -> f64 {
-    let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
-    let len = dx.hypot(dy).max(1e-12);
-    (dx * (z[1] - a[1]) - dy * (z[0] - a[0])) / len
-}
-
-/// Nearest point on the border of a polygon.
-fn closest(polygon: &[[f64; 2]], z: [f64; 2]) -> [f64; 2] {
-    let n = polygon.len();
-    let mut best = (f64::INFINITY, z);
-    for i in 0..n {
-        let (a, b) = (polygon[i], polygon[(i + 1) % n]);
-        let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
-        let u = (((z[0] - a[0]) * dx + (z[1] - a[1]) * dy) / (dx * dx + dy * dy).max(1e-18))
-            .clamp(0.0, 1.0);
-        let p = [a[0] + u * dx, a[1] + u * dy];
-        let d = (p[0] - z[0]).hypot(p[1] - z[1]);
-        if d < best.0 {
-            best = (d, p);
-        }
-    }
-    best.1
-}
-
-/// The part of a convex polygon that is at least `inset` inside; its middle if it is too narrow for that.
-pub fn inner_polygon(polygon: &[[f64; 2]], inset: f64) -> Vec<[f64; 2]> {
-    let n = polygon.len();
-    if n == 0 {
-        return Vec::new();
-    }
-    let sum = polygon
-        .iter()
-        .fold([0.0; 2], |s, p| [s[0] + p[0], s[1] + p[1]]);
-    let middle = vec![[sum[0] / n as f64, sum[1] / n as f64]];
-    if n < 3 {
-        return middle;
-    }
-    let mut inner = polygon.to_vec();
-    for i in 0..n {
-        let (a, b) = (polygon[i], polygon[(i + 1) % n]);
-        let side = |p: [f64; 2]| edge_distance(a, b, p) - inset;
-        let mut cut = Vec::with_capacity(inner.len() + 1);
-        for k in 0..inner.len() {
-            let (p, q) = (inner[k], inner[(k + 1) % inner.len()]);
-            let (sp, sq) = (side(p), side(q));
-            if sp >= 0.0 {
-                cut.push(p);
-            }
-            if (sp >= 0.0) != (sq >= 0.0) {
-                let u = sp / (sp - sq);
-                cut.push([p[0] + u * (q[0] - p[0]), p[1] + u * (q[1] - p[1])]);
-            }
-        }
-        inner = cut;
-        if inner.is_empty() {
-            return middle;
-        }
-    }
-    inner
-}
-
-/// The nearest point of a convex counter-clockwise polygon; `z` itself if there is none.
-fn nearest(polygon: &[[f64; 2]], z: [f64; 2]) -> [f64; 2] {
-    let n = polygon.len();
-    if n == 0
-        || (n >= 3 && (0..n).all(|i| edge_distance(polygon[i], polygon[(i + 1) % n], z) >= 0.0))
-    {
-        return z;
-    }
-    closest(polygon, z)
-}
-
-/// The nearest point that is at least `inset` inside a convex polygon; its middle if the polygon is too narrow for that.
-pub fn clip_inside(polygon: &[[f64; 2]], z: [f64; 2], inset: f64) -> [f64; 2] {
-    nearest(&inner_polygon(polygon, inset), z)
-}
-
 /// How much a body may rest on something other than its feet in one sample, from 0 to 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Elsewhere {
@@ -259,8 +134,9 @@ const COST: f64 = 0.1;
 const BEND: f64 = 0.08;
 /// Price of bending the path of a body in the air, against that of a zero-moment point outside, s⁴.
 const FREE: f64 = 1.0;
-/// Alternations between trajectory and polygons.
+/// Most alternations between trajectory and polygons, and the change that is none, m.
 const ALTERNATIONS: usize = 150;
+const SETTLED: f64 = 1e-6;
 /// Most of a correction of the zero-moment point, m.
 const MOST_OFF: f64 = 0.4;
 
@@ -276,16 +152,14 @@ fn answer(omega2: f64, rate_hz: f64, i: usize, n: usize) -> [f64; 3] {
     [side(first, last), 1.0 + 2.0 * a, side(last, first)]
 }
 
-/// The answer of every sample to a shift.
-fn answers(rows: &[[f64; 3]], shift: &[f64]) -> Vec<f64> {
-    let n = shift.len();
-    (0..n)
-        .map(|i| {
-            let [l, d, r] = rows[i];
-            let at = |k: usize| shift[k.min(n - 1)];
-            l * at(i.wrapping_sub(1).min(i)) + d * at(i) + r * at(i + 1)
-        })
-        .collect()
+/// The answer of sample `i` to a shift.
+fn answered(rows: &[[f64; 3]], shift: &[[f64; 2]], i: usize) -> [f64; 2] {
+    let [l, d, r] = rows[i];
+    let (before, after) = (
+        shift[i.saturating_sub(1)],
+        shift[(i + 1).min(shift.len() - 1)],
+    );
+    std::array::from_fn(|a| l * before[a] + d * shift[i][a] + r * after[a])
 }
 
 /// Price of a zero-moment point outside, 1/m².
@@ -293,16 +167,16 @@ const PRICE: f64 = 1.0 / (COST * COST);
 
 /// Share of the way into the support that the zero-moment point is brought in each sample: none where something else than feet carries.
 ///
-/// * `plain`: zero-moment point without any shift, per axis, m.
+/// * `plain`: zero-moment point without any shift, m.
 fn how_much_yields(
     track: &MassTrack,
-    plain: &[Vec<f64>; 2],
+    plain: &[[f64; 2]],
     carriers: &[Carrier],
     elsewhere: &[Elsewhere],
     (reach, rate_hz): (f64, f64),
 ) -> Vec<f64> {
     let outside = |(i, c): (usize, &Carrier)| match c {
-        Carrier::Feet(p) => (-margin(p, [plain[0][i], plain[1][i]])).clamp(0.0, MOST_OFF),
+        Carrier::Feet(p) => (-margin(p, plain[i])).clamp(0.0, MOST_OFF),
         _ => 0.0,
     };
     // How far outside for about a second: peaks of gait are corrected, a chair is not.
@@ -367,58 +241,67 @@ pub fn pelvis_shift(
         .map(|i| answer(track.omega2[i], rate_hz, i, n).map(|x| x / LEAD))
         .collect();
     // Where the zero-moment point would be without any shift.
-    let plain: [Vec<f64>; 2] = std::array::from_fn(|axis| {
-        let s: Vec<f64> = so_far.iter().map(|s| s[axis]).collect();
-        let a = answers(&rows, &s);
-        (0..n).map(|i| track.zmp[i][axis] - a[i]).collect()
-    });
-    let inner: Vec<Option<Vec<[f64; 2]>>> = carriers
+    let plain: Vec<[f64; 2]> = (0..n)
+        .map(|i| minus(track.zmp[i], answered(&rows, so_far, i)))
+        .collect();
+    let inner: Vec<Option<Region>> = carriers
         .iter()
         .map(|c| match c {
-            Carrier::Feet(p) => Some(inner_polygon(p, inset)),
+            Carrier::Feet(p) => Some(Region::inside(p, inset)),
             _ => None,
         })
         .collect();
     let yields = how_much_yields(track, &plain, carriers, elsewhere, (reach, rate_hz));
     let factor = shift_system(&rows, carriers, rate_hz).factor();
-    let mut shift: [Vec<f64>; 2] = [vec![0.0; n], vec![0.0; n]];
+    let mut shift = vec![[0.0; 2]; n];
     let mut goal = plain.clone();
-    let mut debt: [Vec<f64>; 2] = [vec![0.0; n], vec![0.0; n]];
+    let mut debt = vec![[0.0; 2]; n];
     for _ in 0..ALTERNATIONS {
-        let mut zmp: [Vec<f64>; 2] = Default::default();
-        for axis in 0..2 {
-            let mut x = vec![0.0; n];
-            for i in 0..n {
-                let want = PRICE * (goal[axis][i] - debt[axis][i] - plain[axis][i]);
-                let [l, d, r] = rows[i];
-                x[i] += d * want;
-                if i > 0 {
-                    x[i - 1] += l * want;
-                }
-                if i + 1 < n {
-                    x[i + 1] += r * want;
-                }
-            }
-            factor.solve(&mut x);
-            zmp[axis] = answers(&rows, &x);
-            for (z, p) in zmp[axis].iter_mut().zip(&plain[axis]) {
-                *z += p;
-            }
-            shift[axis] = x;
-        }
+        // PRICE Aᵀ (goal − debt − plain)
+        shift.fill([0.0; 2]);
         for i in 0..n {
-            let v = [zmp[0][i] + debt[0][i], zmp[1][i] + debt[1][i]];
+            let want = minus(minus(goal[i], debt[i]), plain[i]).map(|w| PRICE * w);
+            let [l, d, r] = rows[i];
+            let mut add = |k: usize, share: f64| {
+                for (x, w) in shift[k].iter_mut().zip(want) {
+                    *x += share * w;
+                }
+            };
+            add(i, d);
+            if i > 0 {
+                add(i - 1, l);
+            }
+            if i + 1 < n {
+                add(i + 1, r);
+            }
+        }
+        factor.solve(&mut shift);
+        let mut change = 0.0f64;
+        for i in 0..n {
+            let a = answered(&rows, &shift, i);
+            let v: [f64; 2] = std::array::from_fn(|k| plain[i][k] + a[k] + debt[i][k]);
             let inside = match &inner[i] {
-                Some(p) => nearest(p, v),
+                Some(region) => region.nearest(v),
                 None => v,
             };
-            for axis in 0..2 {
-                goal[axis][i] = v[axis] + yields[i] * (inside[axis] - v[axis]);
-                debt[axis][i] = v[axis] - goal[axis][i];
+            for k in 0..2 {
+                let next = v[k] + yields[i] * (inside[k] - v[k]);
+                let owed = v[k] - next;
+                change = change
+                    .max((next - goal[i][k]).abs())
+                    .max((owed - debt[i][k]).abs());
+                (goal[i][k], debt[i][k]) = (next, owed);
             }
         }
+        if change < SETTLED {
+            break;
+        }
     }
-    (0..n).map(|i| [shift[0][i], shift[1][i]]).collect()
+    shift
+}
+
+fn minus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0] - b[0], a[1] - b[1]]
 }
 
 #[cfg(test)]
@@ -433,10 +316,12 @@ mod tests {
         let n = 481;
         let c: Vec<f64> = (0..n).map(|i| (a * i as f64 / rate).cos()).collect();
         let rows: Vec<_> = (0..n).map(|i| answer(w2, rate, i, n)).collect();
-        let worst = answers(&rows, &c)
-            .iter()
-            .zip(&c)
-            .map(|(z, c)| (z - (1.0 + a * a / w2) * c).abs())
+        let both: Vec<[f64; 2]> = c.iter().map(|c| [*c, -*c]).collect();
+        let worst = (0..n)
+            .flat_map(|i| {
+                let z = answered(&rows, &both, i);
+                [0, 1].map(|k| (z[k] - (1.0 + a * a / w2) * both[i][k]).abs())
+            })
             .fold(0.0, f64::max);
         assert!(worst < 1e-3, "{worst}");
     }
@@ -458,18 +343,5 @@ mod tests {
             let off = [b[0] - far.x - a[0], b[1] - far.y - a[1]];
             assert!(off.iter().all(|e| e.abs() < 1e-5), "{i}: {off:?}");
         }
-    }
-
-    #[test]
-    fn clipping_keeps_the_inset() {
-        let square = hull(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.5, 0.5]]);
-        assert_eq!(square.len(), 4);
-        assert_eq!(clip_inside(&square, [0.5, 0.4], 0.1), [0.5, 0.4]);
-        let p = clip_inside(&square, [2.0, 0.5], 0.1);
-        assert!((p[0] - 0.9).abs() < 1e-12 && (p[1] - 0.5).abs() < 1e-12);
-        assert!((margin(&square, p) - 0.1).abs() < 1e-12);
-        assert!((margin(&square, [2.0, 0.5]) + 1.0).abs() < 1e-12);
-        let m = clip_inside(&square, [9.0, 9.0], 0.6);
-        assert!((m[0] - 0.5).abs() < 1e-12, "too narrow: the middle");
     }
 }

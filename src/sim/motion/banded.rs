@@ -53,40 +53,48 @@ impl Pentadiagonal {
             }
             self.next[i] = b / d;
             self.over[i] = c / d;
+            self.diagonal[i] = 1.0 / d;
         }
         Factor(self)
     }
 }
 
-/// LDLᵀ of a [`Pentadiagonal`].
+/// LDLᵀ of a [`Pentadiagonal`]; its diagonal inverted.
 #[derive(Clone, Debug)]
 pub(super) struct Factor(Pentadiagonal);
 
 impl Factor {
-    /// Solves in place, O(n).
-    pub fn solve(&self, x: &mut [f64]) {
+    /// Solves in place for `K` right-hand sides at once, O(n).
+    pub fn solve<const K: usize>(&self, x: &mut [[f64; K]]) {
         let Pentadiagonal {
             diagonal,
             next,
             over,
         } = &self.0;
         let n = x.len();
+        let less = |a: &mut [f64; K], factor: f64, b: [f64; K]| {
+            for (a, b) in a.iter_mut().zip(b) {
+                *a -= factor * b;
+            }
+        };
         for i in 0..n {
+            let at = x[i];
             if i + 1 < n {
-                x[i + 1] -= next[i] * x[i];
+                less(&mut x[i + 1], next[i], at);
             }
             if i + 2 < n {
-                x[i + 2] -= over[i] * x[i];
+                less(&mut x[i + 2], over[i], at);
             }
         }
         for i in (0..n).rev() {
-            x[i] /= diagonal[i];
+            let mut at = x[i].map(|a| a * diagonal[i]);
             if i + 1 < n {
-                x[i] -= next[i] * x[i + 1];
+                less(&mut at, next[i], x[i + 1]);
             }
             if i + 2 < n {
-                x[i] -= over[i] * x[i + 2];
+                less(&mut at, over[i], x[i + 2]);
             }
+            x[i] = at;
         }
     }
 }
@@ -116,9 +124,13 @@ mod tests {
                 }
             }
         }
-        matrix.factor().solve(&mut rhs);
-        for (a, b) in rhs.iter().zip(&x) {
-            assert!((a - b).abs() < 1e-12, "{a} {b}");
+        let mut both: Vec<[f64; 2]> = rhs.iter().map(|a| [*a, -2.0 * a]).collect();
+        matrix.factor().solve(&mut both);
+        for (a, b) in both.iter().zip(&x) {
+            assert!(
+                (a[0] - b).abs() < 1e-12 && (a[1] + 2.0 * b).abs() < 2e-12,
+                "{a:?} {b}"
+            );
         }
     }
 }

@@ -5,10 +5,11 @@
 //! how hard it will be to follow. Pure, offline; nothing here changes a motion.
 
 use super::GRAVITY;
-use super::balance::{LIGHT, hull, margin, mass_track};
+use super::balance::{LIGHT, mass_track};
 use super::contacts::runs;
 use super::foot_lock::{Anchor, Sole, turn, yaw_pitch};
 use super::leg_ik::forward;
+use super::polygon::{hull, margin};
 use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::{Quat, Vec3};

@@ -39,7 +39,7 @@ pub fn smoothest_below(ceiling: &[f64], tau: f64, rate_hz: f64) -> Vec<f64> {
         for i in 0..n - 2 {
             matrix.add_row(i as isize, [1.0, -2.0, 1.0], bend);
         }
-        matrix.factor().solve(&mut d);
+        matrix.factor().solve(d.as_chunks_mut::<1>().0);
     }
     d
 }

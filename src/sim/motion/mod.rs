@@ -18,6 +18,7 @@ pub mod join;
 pub mod leg_ik;
 pub mod live;
 pub mod one_foot;
+pub mod polygon;
 pub mod prepare;
 pub mod retarget;
 pub mod skeleton_map;

@@ -93,7 +93,7 @@ impl OneFoot {
 mod tests {
     use super::*;
     use crate::sim::math::Vec3;
-    use crate::sim::motion::balance::{hull, margin};
+    use crate::sim::motion::polygon::{hull, margin};
 
     const AT: Anchor = Anchor {
         place: Vec3 {

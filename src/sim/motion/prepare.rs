@@ -1,14 +1,13 @@
 //! From a recorded motion in body scale to a reference that a body can follow: feet locked, legs reaching, balance kept.
 
-use super::balance::{
-    Carrier, Elsewhere, LIGHT, MassTrack, hull, margin, mass_track, pelvis_shift,
-};
+use super::balance::{Carrier, Elsewhere, LIGHT, MassTrack, mass_track, pelvis_shift};
 use super::contacts::runs;
 use super::envelope::smoothest_below;
 use super::filter::{low_pass, low_pass_points, low_pass_rotations, percentile, smooth_minimum};
 use super::foot_lock::{LockedFoot, Sole, Stance, lock_foot};
 use super::leg_ik::{forward, solve_leg_in_plane};
 use super::one_foot::{OneFoot, Over};
+use super::polygon::{hull, margin};
 use crate::sim::body::angles::{anatomical_angles, clamp_to_limits};
 use crate::sim::body::topology::{
     BALL_COUNT, DOF_COUNT, DOF_START, HINGE_COUNT, JOINT, Joint, L_FOOT, L_SHANK, L_THIGH, L_TOES,
@@ -162,6 +161,7 @@ impl Relief {
     ) {
         let n = postures.len();
         let half = (0.1 * rate_hz) as usize;
+        let angles: Vec<_> = postures.iter().map(anatomical_angles).collect();
         for s in 0..2 {
             let d = DOF_START[FOOT[s].index()];
             let over = |dof: usize, up: bool| -> Vec<f64> {
@@ -170,7 +170,7 @@ impl Relief {
                         if !planted[i][s] {
                             return 0.0;
                         }
-                        let a = anatomical_angles(&postures[i])[dof];
+                        let a = angles[i][dof];
                         let e = if up {
                             a - body.upper[dof]
                         } else {

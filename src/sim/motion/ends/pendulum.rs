@@ -8,9 +8,9 @@ use super::{FOOT, SWING, flat, ground, level, turned};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::Vec3;
 use crate::sim::motion::GRAVITY;
-use crate::sim::motion::balance::{clip_inside, hull, margin};
 use crate::sim::motion::foot_lock::{Anchor, Sole, turn, yaw_pitch};
 use crate::sim::motion::leg_ik::{center_of_mass, forward};
+use crate::sim::motion::polygon::{Region, hull, margin};
 
 /// Length of a step that only closes the feet, s.
 const CLOSING: f64 = 0.5;
@@ -226,6 +226,24 @@ pub(super) fn footsteps(
     })
 }
 
+/// Where the feet that are down carry the body.
+struct Support {
+    /// Where the capture point is to stay.
+    capture: Region,
+    /// Where the zero-moment point may be.
+    pressure: Region,
+}
+
+impl Support {
+    fn of(feet: &Feet<'_>, down: [bool; 2]) -> Self {
+        let hull = feet.support(down);
+        Self {
+            capture: Region::inside(&hull, INNER),
+            pressure: Region::inside(&hull, INSET),
+        }
+    }
+}
+
 impl Stop<'_> {
     fn now(&self) -> f64 {
         (self.path.len() - 1) as f64 * self.dt
@@ -250,14 +268,14 @@ impl Stop<'_> {
     }
 
     /// The zero-moment point within `support` that keeps the capture point there, or slows it down most.
-    fn hold(&self, support: &[[f64; 2]]) -> [f64; 2] {
-        let off = self.capture - level(clip_inside(support, flat(self.capture), INNER));
-        clip_inside(support, flat(self.capture + off * LEAN.0), INSET)
+    fn hold(&self, support: &Support) -> [f64; 2] {
+        let off = self.capture - level(support.capture.nearest(flat(self.capture)));
+        support.pressure.nearest(flat(self.capture + off * LEAN.0))
     }
 
     /// Stands on both feet for a while.
     fn both(&mut self, time: f64) {
-        let support = self.feet.support([true; 2]);
+        let support = Support::of(&self.feet, [true; 2]);
         for _ in 0..(time / self.dt).round() as usize {
             self.advance(self.hold(&support));
         }
@@ -265,13 +283,13 @@ impl Stop<'_> {
 
     /// Brings the capture point to `goal` with both feet on the floor.
     fn lean(&mut self, goal: Vec3) {
-        let support = self.feet.support([true; 2]);
+        let support = Support::of(&self.feet, [true; 2]);
         for _ in 0..(LEAN.2 / self.dt) as usize {
             let off = self.capture - goal;
             if off.norm() < LEAN.1 {
                 break;
             }
-            let p = clip_inside(&support, flat(self.capture + off * LEAN.0), INSET);
+            let p = support.pressure.nearest(flat(self.capture + off * LEAN.0));
             self.advance(p);
         }
     }
@@ -281,7 +299,7 @@ impl Stop<'_> {
         let off = self.now();
         let mut down = [true; 2];
         down[side] = false;
-        let support = self.feet.support(down);
+        let support = Support::of(&self.feet, down);
         for _ in 0..((time / self.dt).round() as usize).max(1) {
             self.advance(self.hold(&support));
         }
@@ -303,7 +321,7 @@ impl Stop<'_> {
     fn catching(&self, side: usize, ankle: Vec3, least: f64) -> (f64, Vec3, f64) {
         let mut down = [true; 2];
         down[side] = false;
-        let p = level(self.hold(&self.feet.support(down)));
+        let p = level(self.hold(&Support::of(&self.feet, down)));
         let away = self.capture - p;
         let landing = |time: f64| p + away * (self.omega * time).exp();
         // Where it moves, more than it needs: a body stops less well than a pendulum.

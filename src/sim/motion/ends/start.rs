@@ -5,10 +5,10 @@ use super::pendulum::Feet;
 use crate::sim::body::topology::NV;
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::balance::margin;
 use crate::sim::motion::contacts::runs;
 use crate::sim::motion::foot_lock::{Sole, turn, yaw_pitch};
 use crate::sim::motion::leg_ik::{center_of_mass, forward};
+use crate::sim::motion::polygon::margin;
 use crate::sim::motion::prepare::Draft;
 
 /// Slower than this, m/s, and with the capture point this far inside the soles, m, it stands.

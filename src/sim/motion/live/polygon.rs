@@ -125,7 +125,7 @@ impl Polygon {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::motion::balance::{clip_inside, hull};
+    use crate::sim::motion::polygon::{Region, hull};
     use rand::{Rng, SeedableRng};
     use rand_pcg::Pcg64;
 
@@ -142,7 +142,7 @@ mod tests {
             points.iter().for_each(|p| polygon.add(*p));
             let (a, b) = (
                 polygon.inside(z, 0.02).unwrap(),
-                clip_inside(&hull(&points), z, 0.02),
+                Region::inside(&hull(&points), 0.02).nearest(z),
             );
             assert!((a[0] - b[0]).abs() < 1e-12 && (a[1] - b[1]).abs() < 1e-12);
         }
