@@ -114,12 +114,13 @@ fn feet_stay_where_they_land_and_come_down_softly() {
         let clip = recorded(&body, name);
         let w = experiments::walk(&Walker::new(&body), &Walk::once(&clip));
         let text = format!(
-            "{name}: slides {:.1} mm, floor pushes {:.2} weights",
+            "{name}: slides {:.1} mm, floor pushes {:.2} weights, one foot {:.2}",
             1e3 * w.slip,
-            w.peak
+            w.peak[0],
+            w.peak[1]
         );
         println!("{text}");
-        assert!(w.stood() && w.slip < slides && w.peak < pushes, "{text}");
+        assert!(w.stood() && w.slip < slides && w.peak[0] < pushes, "{text}");
     }
 }
 

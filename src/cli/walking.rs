@@ -162,7 +162,7 @@ fn row(name: &str, seconds: f64, w: &Walked) -> Vec<String> {
         format!("{:.0}", r.mpjpe_global_mm),
         format!("{:.0} / {:.0}", 1e3 * rms, 1e3 * most),
         format!("{:.1}", 1e3 * w.slip),
-        format!("{:.1}", w.peak),
+        format!("{:.1} / {:.1}", w.peak[0], w.peak[1]),
         format!("{}", w.steps),
         format!("{:.0}", 1e3 * w.late),
     ]
@@ -177,7 +177,7 @@ const HEAD: [&str; 11] = [
     "global, mm",
     "capture point rms / most, mm",
     "slip in a stance, mm",
-    "floor, weights",
+    "floor / one foot, weights",
     "steps",
     "touch-down off, ms",
 ];
@@ -186,7 +186,7 @@ fn clips_once(page: &mut Page, study: &Study) {
     page.say("## Clips");
     page.say(
         "From standing into the clip, through it and back to standing by planned steps; errors until a fall. *Slip* is the way of a foot's contact \
-         points over the floor in one stance, weighted by what they carry; *touch-down off* the largest deviation from the planned time. *Walked* are \
+         points over the floor in one stance, weighted by what they carry; *floor* is the largest push of a tick, in all and on one foot; *touch-down off* the largest deviation from the planned time. *Walked* are \
          recordings of runs, slowed down and shortened (`--walk-runs`).",
     );
     let walker = Walker::new(&study.body);

@@ -102,8 +102,9 @@ pub struct Walked {
     pub capture: [f64; 2],
     /// Largest way that a foot slid in one stance, m: of its contact points, by their share of the load.
     pub slip: f64,
-    /// Largest push of the floor in units of the weight.
-    pub peak: f64,
+    /// Largest push of the floor in a tick, in units of the weight: in all, and on one foot, which is what force plates under walking people
+    /// measure (1.1 to 1.3).
+    pub peak: [f64; 2],
     /// Steps, and the largest deviation of a touch-down from its plan, s.
     pub steps: usize,
     /// See `steps`.
@@ -122,6 +123,8 @@ impl Walked {
 struct Stance {
     before: Vec<ContactPoint>,
     way: f64,
+    /// What the foot carries, N.
+    load: f64,
 }
 
 impl Stance {
@@ -129,6 +132,7 @@ impl Stance {
     fn observe(&mut self, now: &[ContactPoint], segments: [SegmentId; 2]) -> f64 {
         let mine = |c: &&ContactPoint| segments.contains(&c.segment);
         let load: f64 = now.iter().filter(mine).map(|c| c.force.z).sum();
+        self.load = load;
         if load < STANDS {
             self.way = 0.0;
             self.before.clear();
@@ -184,7 +188,7 @@ pub fn walk(walker: &Walker, walk: &Walk) -> Walked {
             .expect("loads and pushes are valid");
     }
     let mut metrics = Metrics::new(walker.rate_hz, &start.posture);
-    let (mut square, mut largest, mut peak) = (0.0, 0.0f64, 0.0f64);
+    let (mut square, mut largest, mut peak) = (0.0, 0.0f64, [0.0f64; 2]);
     let (mut slip, mut steps, mut late) = (0.0f64, 0, 0.0f64);
     let mut stances = [Stance::default(), Stance::default()];
     let ticks = (walk.seconds * walker.rate_hz).round() as u64;
@@ -205,10 +209,11 @@ pub fn walk(walker: &Walker, walk: &Walk) -> Walked {
         largest = largest.max(off);
         let floor: f64 = r.contacts.iter().map(|c| c.force.z).sum();
         let weight = figure.links().total_mass() * world.params().gravity;
-        peak = peak.max(floor / weight);
+        peak[0] = peak[0].max(floor / weight);
         let feet = [[L_FOOT, L_TOES], [R_FOOT, R_TOES]];
         for (stance, segments) in stances.iter_mut().zip(feet) {
             slip = slip.max(stance.observe(&r.contacts, segments));
+            peak[1] = peak[1].max(stance.load / weight);
         }
         if let Some(landing) = figure.gait().landing() {
             steps += 1;
