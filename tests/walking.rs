@@ -249,6 +249,32 @@ fn people_of_other_sizes_walk_the_same_recording() {
     }
 }
 
+#[test]
+fn the_old_and_the_weak_walk_it_too() {
+    for (age, strength, rms, furthest) in [
+        (70.0, 0.8, 1.6, 0.1),
+        (70.0, 0.7, 2.0, 0.12),
+        (80.0, 1.0, 1.4, 0.08),
+    ] {
+        let body = Arc::new(Body::humanoid(Profile::ordinary(Sex::Male, age)).unwrap());
+        let walk_cycle = cycle(&body, &recorded(&body, "walk")).unwrap();
+        let walker = Walker {
+            strength,
+            ..Walker::new(&body)
+        };
+        let w = experiments::walk(&walker, &Walk::over_and_over(&Arc::new(walk_cycle), 20.0));
+        let text = format!(
+            "{age} years, {strength}: {:.2} deg, {:.3} m",
+            w.report.joint_rms_deg, w.capture[1]
+        );
+        println!("{text}");
+        assert!(
+            w.stood() && w.report.joint_rms_deg < rms && w.capture[1] < furthest,
+            "{text}"
+        );
+    }
+}
+
 /// From one clip to another, or to a stand, asked for at `at` seconds.
 struct Passed {
     /// When it fell, s after that.
