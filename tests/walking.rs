@@ -79,7 +79,8 @@ fn walks_start_from_standing_and_stop() {
         ("turn", 0.06),
         ("walk-around", 0.09),
         ("salsa-a", 0.07),
-        ("salsa-b", 0.12),
+        ("salsa-b", 0.08),
+        ("dance", 0.12),
         ("carry", 0.08),
         ("hit", 0.08),
     ] {
@@ -95,6 +96,37 @@ fn walks_start_from_standing_and_stop() {
             rms < 2.5 && capture < furthest,
             "{name}: {rms} deg, {capture} m"
         );
+    }
+}
+
+/// Turning a whole round in 1.2 s on both balls of his feet, by dancers of other sizes, slower and faster, and on other floors.
+#[test]
+fn who_dances_turns_by_steps_and_stays_on_his_feet() {
+    let size = |height, mass| Profile {
+        height,
+        mass,
+        ..Profile::ordinary(Sex::Male, 30.0)
+    };
+    for (height, mass) in [(1.70, 70.0), (1.75, 65.0), (1.75, 90.0), (1.85, 85.0)] {
+        let body = Arc::new(Body::humanoid(size(height, mass)).unwrap());
+        let clip = recorded(&body, "dance");
+        let w = experiments::walk(&Walker::new(&body), &Walk::once(&clip));
+        let rms = w.report.joint_rms_deg;
+        assert!(w.stood() && rms < 1.2, "{height} m, {mass} kg: {rms} deg");
+    }
+    let body = man();
+    let clip = recorded(&body, "dance");
+    for (speed, friction) in [(0.9, 0.9), (1.1, 0.9), (1.0, 0.7), (1.0, 1.1)] {
+        let walker = Walker {
+            speed,
+            friction,
+            ..Walker::new(&body)
+        };
+        let once = Walk::once(&clip);
+        let seconds = once.seconds / speed;
+        let w = experiments::walk(&walker, &Walk { seconds, ..once });
+        let rms = w.report.joint_rms_deg;
+        assert!(w.stood() && rms < 1.2, "{speed}, {friction}: {rms} deg");
     }
 }
 
@@ -215,6 +247,32 @@ fn people_of_other_sizes_walk_the_same_recording() {
         let walk_cycle = cycle(&body, &recorded(&body, "walk")).unwrap();
         let (rms, capture) = walk(&Arc::new(body), name, &Arc::new(walk_cycle), true, 20.0);
         assert!(rms < 4.0 && capture < 0.1, "{name}: {rms} deg, {capture} m");
+    }
+}
+
+#[test]
+fn the_old_and_the_weak_walk_it_too() {
+    for (age, strength, rms, furthest) in [
+        (70.0, 0.8, 1.6, 0.1),
+        (70.0, 0.7, 2.0, 0.12),
+        (80.0, 1.0, 1.4, 0.08),
+    ] {
+        let body = Arc::new(Body::humanoid(Profile::ordinary(Sex::Male, age)).unwrap());
+        let walk_cycle = cycle(&body, &recorded(&body, "walk")).unwrap();
+        let walker = Walker {
+            strength,
+            ..Walker::new(&body)
+        };
+        let w = experiments::walk(&walker, &Walk::over_and_over(&Arc::new(walk_cycle), 20.0));
+        let text = format!(
+            "{age} years, {strength}: {:.2} deg, {:.3} m",
+            w.report.joint_rms_deg, w.capture[1]
+        );
+        println!("{text}");
+        assert!(
+            w.stood() && w.report.joint_rms_deg < rms && w.capture[1] < furthest,
+            "{text}"
+        );
     }
 }
 

@@ -33,15 +33,13 @@ pub struct Sole {
     toe_range: (f64, f64),
 }
 
-/// One stance of one foot.
+/// One stance of one foot: its place and its heading stay.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stance {
     /// First sample.
     pub start: usize,
     /// One past the last sample.
     pub end: usize,
-    /// True if the foot turns on its ball while it stands; otherwise place and heading are constant.
-    pub pivots: bool,
 }
 
 /// Where a planted foot stands in one sample.
@@ -72,8 +70,6 @@ pub struct LockedFoot {
     pub planted: Vec<bool>,
     /// Where it stands, per sample; zero elsewhere.
     pub anchors: Vec<Anchor>,
-    /// Stances in order.
-    pub stances: Vec<Stance>,
     /// How far the recorded foot point strayed in stance, m: largest distance between any sample and the anchor.
     pub slide_before: f64,
 }
@@ -92,6 +88,8 @@ const STRAY: (f64, f64) = (0.06, 0.40);
 const HALF_SHUFFLE: [f64; 3] = [0.14, 0.11, 0.08];
 /// Least way of a shuffle, in units of [`STRAY`].
 const SHUFFLES: f64 = 0.25;
+/// A foot that drags on after the other one has landed stands for so long beside it, s: nobody changes feet in no time.
+const DRAGS: f64 = 0.04;
 /// In so much of a stance at each end, one part in so many and at most so long, s, a foot may be astray without having stepped or pivoted; where
 /// it is then, it is further from its anchor than the first, in units of [`STRAY`], and everywhere else nearer than the second.
 const EDGE: (usize, f64) = (8, 0.15);
@@ -99,12 +97,10 @@ const ASTRAY: f64 = 0.4;
 const STEADY: f64 = 0.6;
 /// Shortest stance that is made by taking samples from another, s.
 const SHORTEST_STANCE: f64 = 0.15;
-/// A swing takes at least √(way over this), m/s², where the way counts a turn by a radian as the second, m, and no more than the third, rad: a foot that
-/// turns further turns with its body. That is what recorded steps of people take, with few exceptions, whether they walk, dance or shuffle; a
-/// leg is on time with it, and would be late and short by a third at twice as much.
+/// A swing takes at least √(way over this), m/s², where the way counts a turn by a radian as the second, m. That is what recorded steps of people
+/// take, with few exceptions, whether they walk, dance or shuffle; a leg is on time with it, and would be late and short by a third at twice as much.
 const HASTE: f64 = 8.0;
 const TURN_ARM: f64 = 0.25;
-const MOST_TURN: f64 = 1.0;
 /// A foot steeper or more rolled than this does not stand on its sole, rad.
 const STEEPEST: (f64, f64, f64) = (-1.05, 0.6, 0.6);
 /// A swinging sole passes at least this high, m, for a step of normal length.
@@ -326,13 +322,7 @@ impl Track {
 
     /// Splits a stance in which the foot visibly shuffles or pivots into stances joined by short steps, or begins it after, or ends it before it
     /// does, while the `other` foot is on the floor: a foot that shuffles alone stays.
-    fn split(
-        &self,
-        (start, end): (usize, usize),
-        other: &[bool],
-        rate_hz: f64,
-        out: &mut Vec<(usize, usize)>,
-    ) {
+    fn split(&self, (start, end): (usize, usize), other: &[bool], rate_hz: f64, out: &mut Pieces) {
         let shortest = (SHORTEST_STANCE * rate_hz) as usize;
         let (anchor, yaw) = self.anchor(start, end);
         let inner = start + (end - start) / 12..end - (end - start) / 12;
@@ -368,7 +358,8 @@ impl Track {
             .map_or(start, |i| i + 1);
         let alone_from = (start..end).find(|i| !other[*i]).unwrap_or(end);
         let least = shortest.max((end - start) / 3).max(1);
-        let tail = alone_until.max(start + least);
+        let drags = (DRAGS * rate_hz) as usize;
+        let tail = (alone_until + drags).max(start + least);
         let head = alone_from.min(end.saturating_sub(least));
         if tail < end && moved(tail, end - 1) > SHUFFLES {
             self.split((start, tail), other, rate_hz, out);
@@ -381,12 +372,6 @@ impl Track {
 }
 
 impl Track {
-    /// True if a stance is one on a foot that turns.
-    fn turns(&self, start: usize, end: usize) -> bool {
-        let yaw = self.anchor(start, end).1;
-        (start..end).any(|k| (self.yaw[k] - yaw).abs() > STRAY.1)
-    }
-
     /// Takes from the ends of a stance what only there is astray, while the other foot stands too: a foot that begins to turn away, or that is
     /// still coming, does not stand, and what stands does not pivot because of it.
     fn trim(&self, (start, end): (usize, usize), other: &[bool], rate_hz: f64) -> (usize, usize) {
@@ -417,8 +402,7 @@ impl Track {
         let anchors: Vec<_> = pieces.iter().map(|&(i, j)| self.anchor(i, j)).collect();
         for w in 1..pieces.len() {
             let ((from, yaw_from), (to, yaw_to)) = (anchors[w - 1], anchors[w]);
-            let turn = (yaw_to - yaw_from).abs().min(MOST_TURN);
-            let way = (to - from).norm() + TURN_ARM * turn;
+            let way = (to - from).norm() + TURN_ARM * (yaw_to - yaw_from).abs();
             let needed = ((way / HASTE).sqrt() * rate_hz).ceil() as usize;
             let ((start, mut end), (mut begin, finish)) = (pieces[w - 1], pieces[w]);
             let both = |k: &usize| other[*k];
@@ -439,6 +423,32 @@ impl Track {
     }
 }
 
+impl Track {
+    /// When the foot stands where its `label` says that it is on the floor, with the `other` foot's.
+    fn pieces(&self, label: &[bool], other: &[bool], rate_hz: f64) -> Pieces {
+        let mut pieces = Vec::new();
+        for (i, j, on) in runs(label) {
+            let of = |v: &[f64]| median(v[i..j].to_vec());
+            let (pitch, roll) = (of(&self.pitch), of(&self.roll));
+            if on && pitch > STEEPEST.0 && pitch < STEEPEST.1 && roll.abs() < STEEPEST.2 {
+                self.split((i, j), other, rate_hz, &mut pieces);
+            }
+        }
+        pieces
+    }
+
+    /// How far the recorded foot is from where it would stand, squared and summed over its stances, in units of [`STRAY`].
+    fn strays(&self, pieces: &[(usize, usize)]) -> f64 {
+        let of = |&(i, j): &(usize, usize)| {
+            let (anchor, yaw) = self.anchor(i, j);
+            (i..j)
+                .map(|k| self.stray(k, anchor, yaw).powi(2))
+                .sum::<f64>()
+        };
+        pieces.iter().map(of).sum()
+    }
+}
+
 /// A quintic that takes value, slope and curvature to zero over unit time, at `u` in 0…1.
 pub(super) fn fade(value: f64, slope: f64, curvature: f64, u: f64) -> f64 {
     let v = 1.0 - u;
@@ -456,10 +466,72 @@ fn offset(locked: &FootPose, ankle: Vec3, rotation: Quat, toe: f64) -> Channels 
     [p.x, p.y, p.z, r.x, r.y, r.z, locked.toe - toe]
 }
 
+/// When both feet stand: where their labels say so and they neither shuffle nor turn away. Which one gives way to the other first is decided by how far
+/// they stand from where the recording has them.
+///
+/// * `ankles`, `rotations`: recorded ankle (m) and `world_from_foot` per sample, floor at z = 0, body scale.
+/// * `labels`: where the feet are on the floor (from [`super::contacts`]).
+/// * `rate_hz`: samples per second.
+pub fn stances(
+    soles: &[Sole; 2],
+    ankles: [&[Vec3]; 2],
+    rotations: [&[Quat]; 2],
+    labels: [&[bool]; 2],
+    rate_hz: f64,
+) -> [Vec<Stance>; 2] {
+    let tracks: [Track; 2] =
+        std::array::from_fn(|s| Track::new(&soles[s], ankles[s], rotations[s]));
+    let first = |first: usize| sequence(&tracks, labels, [first, 1 - first], rate_hz);
+    let (left, right) = (first(0), first(1));
+    let strays = |pieces: &[Pieces; 2]| tracks[0].strays(&pieces[0]) + tracks[1].strays(&pieces[1]);
+    let best = if strays(&left) <= strays(&right) {
+        left
+    } else {
+        right
+    };
+    best.map(|pieces| {
+        let stance = |(start, end)| Stance { start, end };
+        pieces.into_iter().map(stance).collect()
+    })
+}
+
+/// Stances of one foot as half-open ranges of samples, in order.
+type Pieces = Vec<(usize, usize)>;
+
+/// The stances of both feet if foot `order[0]` gives way first: the other one relies on where that one really stands, not on where it is on the
+/// floor. Feet that both turn on the floor would each leave the body to the other one.
+fn sequence(
+    tracks: &[Track; 2],
+    labels: [&[bool]; 2],
+    order: [usize; 2],
+    rate_hz: f64,
+) -> [Pieces; 2] {
+    let held = |pieces: &Pieces| {
+        let mut held = vec![false; labels[0].len()];
+        pieces.iter().for_each(|&(i, j)| held[i..j].fill(true));
+        held
+    };
+    let [first, second] = order;
+    let mut out: [Pieces; 2] = Default::default();
+    out[first] = tracks[first].pieces(labels[first], labels[second], rate_hz);
+    out[second] = tracks[second].pieces(labels[second], &held(&out[first]), rate_hz);
+    for s in order {
+        let other = held(&out[1 - s]);
+        for piece in &mut out[s] {
+            *piece = tracks[s].trim(*piece, &other, rate_hz);
+        }
+    }
+    for s in order {
+        let other = held(&out[1 - s]);
+        tracks[s].unhurry(&mut out[s], &other, rate_hz);
+    }
+    out
+}
+
 /// Locks one foot.
 ///
 /// * `ankles`, `rotations`: recorded ankle (m) and `world_from_foot` per sample, floor at z = 0, body scale.
-/// * `label`, `other`: where this foot and the other one are on the floor (from [`super::contacts`]).
+/// * `stances`: when it stands (from [`stances`]).
 /// * `heel_up`, `toe_out`: by how much more the heel is raised and the foot turned outwards in stance than recorded, rad per sample.
 /// * `side`: 0 left, 1 right.
 /// * `rate_hz`: samples per second.
@@ -470,7 +542,7 @@ pub fn lock_foot(
     sole: &Sole,
     ankles: &[Vec3],
     rotations: &[Quat],
-    (label, other): (&[bool], &[bool]),
+    stances: &[Stance],
     (heel_up, toe_out): (&[f64], &[f64]),
     side: usize,
     rate_hz: f64,
@@ -492,56 +564,20 @@ pub fn lock_foot(
             .collect(),
         planted: vec![false; n],
         anchors: vec![Anchor::default(); n],
-        stances: Vec::new(),
         slide_before: 0.0,
     };
-    let mut pieces = Vec::new();
-    for (i, j, on) in runs(label) {
-        let of = |v: &[f64]| median(v[i..j].to_vec());
-        let (pitch, roll) = (of(&track.pitch), of(&track.roll));
-        if on && pitch > STEEPEST.0 && pitch < STEEPEST.1 && roll.abs() < STEEPEST.2 {
-            track.split((i, j), other, rate_hz, &mut pieces);
-        }
-    }
-    let turns: Vec<bool> = pieces.iter().map(|&(i, j)| track.turns(i, j)).collect();
-    for piece in &mut pieces {
-        *piece = track.trim(*piece, other, rate_hz);
-    }
-    track.unhurry(&mut pieces, other, rate_hz);
-    for (&(i, j), pivots) in pieces.iter().zip(turns) {
+    for &Stance { start: i, end: j } in stances {
         let (place, yaw) = track.anchor(i, j);
-        let mut pitch = stance_pitch(&track.pitch[i..j], rate_hz);
-        let mut yaws = vec![yaw; j - i];
-        if pivots {
-            // On its ball, not on its heel.
-            pitch.iter_mut().for_each(|p| *p = p.min(0.0));
-            yaws.copy_from_slice(&track.yaw[i..j]);
-            low_pass(&mut yaws, 4.0, rate_hz);
-        }
+        let pitch = stance_pitch(&track.pitch[i..j], rate_hz);
         let ball = Vec3 {
             z: 0.0,
             ..sole.toe_joint
         };
         let arm = |yaw: f64| Quat::exp(Vec3::Z * yaw).rotate(ball);
-        // A foot that turns does so on its ball: the ball's place is what stays.
-        let stays = if pivots {
-            let of = |f: &dyn Fn(Vec3) -> f64| {
-                median(
-                    (i..j)
-                        .map(|k| f(track.point[k] + arm(track.yaw[k])))
-                        .collect(),
-                )
-            };
-            Vec3 {
-                x: of(&|p| p.x),
-                y: of(&|p| p.y),
-                z: 0.0,
-            }
-        } else {
-            place + arm(yaw)
-        };
+        // A foot that is turned outwards is so about its ball.
+        let stays = place + arm(yaw);
         for k in i..j {
-            let yaw = yaws[k - i] + if side == 0 { toe_out[k] } else { -toe_out[k] };
+            let yaw = yaw + if side == 0 { toe_out[k] } else { -toe_out[k] };
             let at = Anchor {
                 place: stays - arm(yaw),
                 yaw,
@@ -552,11 +588,6 @@ pub fn lock_foot(
             out.anchors[k] = at;
             out.poses[k] = sole.stand(at.place, at.yaw, at.pitch);
         }
-        out.stances.push(Stance {
-            start: i,
-            end: j,
-            pivots,
-        });
     }
     for (i, j, on) in runs(&out.planted.clone()) {
         if !on {
@@ -759,16 +790,8 @@ mod tests {
             .collect();
         let rotations = vec![Quat::identity(); n as usize];
         let label: Vec<bool> = (0..n).map(|i| !(122..178).contains(&i)).collect();
-        let f = lock_foot(
-            &s,
-            &ankles,
-            &rotations,
-            (&label, &vec![true; n as usize]),
-            (&vec![0.0; n as usize], &vec![0.0; n as usize]),
-            0,
-            120.0,
-        );
-        assert_eq!(f.stances.len(), 2);
+        let (stances, f) = locked(&ankles, &rotations, &label, &vec![true; n as usize]);
+        assert_eq!(stances.len(), 2);
         for k in 1..n as usize {
             let step = (f.poses[k].ankle - f.poses[k - 1].ankle).norm();
             if f.planted[k] && f.planted[k - 1] {
@@ -780,18 +803,78 @@ mod tests {
         }
     }
 
-    /// Locks a left foot at 120 samples a second.
-    fn locked(place: &[Vec3], turned: &[Quat], label: &[bool], other: &[bool]) -> LockedFoot {
+    /// A foot that stays where it is, to the right of one that walks along x.
+    fn beside(n: usize) -> (Vec<Vec3>, Vec<Quat>) {
+        let place = Vec3::from_array([0.0, -0.1, 0.08]);
+        (vec![place; n], vec![Quat::identity(); n])
+    }
+
+    /// Locks a left foot at 120 samples a second; the right one stays where it is and is on the floor where `other` says.
+    fn locked(
+        place: &[Vec3],
+        turned: &[Quat],
+        label: &[bool],
+        other: &[bool],
+    ) -> (Vec<Stance>, LockedFoot) {
         let still = vec![0.0; place.len()];
-        lock_foot(
-            &sole(),
-            place,
-            turned,
-            (label, other),
-            (&still, &still),
-            0,
+        let (right, ahead) = beside(place.len());
+        let [stands, _] = stances(
+            &[sole(), sole()],
+            [place, &right],
+            [turned, &ahead],
+            [label, other],
             120.0,
-        )
+        );
+        let f = lock_foot(&sole(), place, turned, &stands, (&still, &still), 0, 120.0);
+        (stands, f)
+    }
+
+    /// Both feet turn on the floor about the point between them, by `angle` rad from sample 120 on, in 96 samples.
+    fn spun(angle: f64, n: usize) -> [(Vec<Vec3>, Vec<Quat>); 2] {
+        [0.1, -0.1].map(|y| {
+            let turn = |i: usize| {
+                let u = ((i as f64 - 120.0) / 96.0).clamp(0.0, 1.0);
+                Quat::exp(Vec3::Z * (angle * u * u * (3.0 - 2.0 * u)))
+            };
+            let at = |i| turn(i).rotate(Vec3::from_array([0.0, y, 0.08]));
+            ((0..n).map(at).collect(), (0..n).map(turn).collect())
+        })
+    }
+
+    #[test]
+    fn feet_that_turn_together_step_in_turn_and_one_of_them_always_stands() {
+        let (n, soles, label) = (340, [sole(), sole()], vec![true; 340]);
+        for angle in [1.5, -2.5, 4.0] {
+            let [l, r] = spun(angle, n);
+            let steps = stances(&soles, [&l.0, &r.0], [&l.1, &r.1], [&label, &label], 120.0);
+            let stands = |steps: &[Pieces; 2], k: usize| {
+                steps.iter().flatten().any(|&(i, j)| (i..j).contains(&k))
+            };
+            let tracks: [Track; 2] = [
+                Track::new(&soles[0], &l.0, &l.1),
+                Track::new(&soles[1], &r.0, &r.1),
+            ];
+            // Each relying on the other's label they leave the body alone.
+            let alone: [Pieces; 2] =
+                std::array::from_fn(|s| tracks[s].pieces(&label, &label, 120.0));
+            assert!((0..n).any(|k| !stands(&alone, k)), "{angle}: {alone:?}");
+            let pieces: [Pieces; 2] = steps.map(|s| s.iter().map(|s| (s.start, s.end)).collect());
+            assert!((0..n).all(|k| stands(&pieces, k)), "{angle}: {pieces:?}");
+            // A foot that stands does not turn.
+            for (s, (place, turned)) in [l, r].into_iter().enumerate() {
+                assert!(pieces[s].len() > 1);
+                let of: Vec<Stance> = pieces[s]
+                    .iter()
+                    .map(|&(start, end)| Stance { start, end })
+                    .collect();
+                let still = vec![0.0; n];
+                let f = lock_foot(&soles[s], &place, &turned, &of, (&still, &still), s, 120.0);
+                for p in &of {
+                    let yaw = |k: usize| f.anchors[k].yaw;
+                    assert!((p.start..p.end).all(|k| yaw(k) == yaw(p.start)));
+                }
+            }
+        }
     }
 
     #[test]
@@ -808,9 +891,9 @@ mod tests {
         let n = n as usize;
         let label: Vec<bool> = (0..n).map(|i| !(first..last).contains(&i)).collect();
         let swing = |other: &[bool]| {
-            let f = locked(&place, &vec![Quat::identity(); n], &label, other);
-            assert_eq!(f.stances.len(), 2);
-            (f.stances[0].end, f.stances[1].start)
+            let (stances, _) = locked(&place, &vec![Quat::identity(); n], &label, other);
+            assert_eq!(stances.len(), 2);
+            (stances[0].end, stances[1].start)
         };
         let needed = ((0.25f64 / HASTE).sqrt() * 120.0).ceil() as usize;
         assert!(needed > last - first);
@@ -835,9 +918,9 @@ mod tests {
         let place = vec![Vec3::from_array([0.0, 0.1, 0.08]); n];
         let label: Vec<bool> = (0..n).map(|i| i < 160).collect();
         let end = |other: bool| {
-            let f = locked(&place, &turned, &label, &vec![other; n]);
-            assert_eq!(f.stances.len(), 1);
-            f.stances[0].end
+            let (stances, _) = locked(&place, &turned, &label, &vec![other; n]);
+            assert_eq!(stances.len(), 1);
+            stances[0].end
         };
         // 0.05 rad a sample: astray from the fourth on, if the other foot holds the body.
         assert_eq!(end(true), 154);
@@ -846,7 +929,6 @@ mod tests {
 
     #[test]
     fn stances_too_short_to_split_that_slide_are_kept_or_cut_but_never_lost() {
-        let s = sole();
         for (end, held) in [(3, 0), (5, 2), (12, 6), (30, 10), (60, 40)] {
             let n = end + 20;
             // A metre per second from the first sample on; the other foot is down at first, or at last.
@@ -856,18 +938,9 @@ mod tests {
             let label: Vec<bool> = (0..n).map(|i| i < end).collect();
             for early in [false, true] {
                 let other: Vec<bool> = (0..n).map(|i| (i < held) == early).collect();
-                let still = vec![0.0; n];
-                let f = lock_foot(
-                    &s,
-                    &ankles,
-                    &vec![Quat::identity(); n],
-                    (&label, &other),
-                    (&still, &still),
-                    0,
-                    120.0,
-                );
-                assert!(!f.stances.is_empty());
-                assert!(f.stances.iter().all(|s| s.start < s.end && s.end <= end));
+                let (stances, f) = locked(&ankles, &vec![Quat::identity(); n], &label, &other);
+                assert!(!stances.is_empty());
+                assert!(stances.iter().all(|s| s.start < s.end && s.end <= end));
                 assert!(f.planted.iter().zip(&label).all(|(p, l)| *l || !*p));
             }
         }

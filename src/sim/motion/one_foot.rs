@@ -16,6 +16,9 @@ const FIRM: f64 = 0.87;
 const SLOW: f64 = 0.8;
 const FAST: f64 = 1.2;
 const LONGER: f64 = 0.4;
+/// Nobody is planned on less than this share of his sole before the ankle: whose calf is weaker than that is weak in knees and hips too, and falls by those
+/// when he is kept farther back. At speed he gets as much again as he lacked.
+const LEAST: f64 = 0.61;
 /// The support is moved against the lean of the body by no more than this, m.
 const MOST_MOVED: f64 = 0.03;
 
@@ -33,8 +36,10 @@ pub struct Over {
 /// Limits of the support of one foot that carries a whole body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OneFoot {
-    /// Distance before the ankle at which the weight of the body takes [`FIRM`] of the strength of the ankle, m.
+    /// Distance before the ankle at which the weight of the body takes [`FIRM`] of the strength of the ankle, or [`LEAST`] of the sole, m.
     front: f64,
+    /// How much farther that is than what the ankle holds, m.
+    lacks: f64,
     /// Height of the ankle over the floor, m.
     ankle: f64,
 }
@@ -51,9 +56,15 @@ impl OneFoot {
             &mut lower,
             &mut upper,
         );
+        let sole = Sole::new(body, 0);
+        let toes = sole.points(0.0).map(|p| p.x).fold(0.0, f64::max);
+        let firm = -FIRM * lower[DOF_START[L_FOOT.index()]] / weight;
+        let lacks = (LEAST * toes - firm).max(0.0);
+        let front = firm + lacks;
         Self {
-            front: -FIRM * lower[DOF_START[L_FOOT.index()]] / weight,
-            ankle: Sole::new(body, 0).ankle_height,
+            front,
+            lacks,
+            ankle: sole.ankle_height,
         }
     }
 
@@ -73,7 +84,7 @@ impl OneFoot {
             lean,
         } = *over;
         let hurry = ((speed - SLOW) / (FAST - SLOW)).clamp(0.0, 1.0);
-        let front = self.front * (1.0 + LONGER * hurry);
+        let front = self.front * (1.0 + LONGER * hurry) + self.lacks * hurry;
         let rise = self.ankle / height.max(self.ankle);
         let lean = lean.map(|d| d * rise);
         let far = (lean[0] * lean[0] + lean[1] * lean[1]).sqrt();
@@ -92,6 +103,7 @@ impl OneFoot {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sim::body::{Profile, Sex};
     use crate::sim::math::Vec3;
     use crate::sim::motion::polygon::{hull, margin};
 
@@ -128,6 +140,28 @@ mod tests {
             assert!(one.front > 0.5 * toes && one.front < 0.9 * toes, "{one:?}");
             let hurried = support(&one, &sole, [0.0, 0.0], 2.0);
             assert!(margin(&hurried, before(one.front)) > 0.01);
+        }
+    }
+
+    #[test]
+    fn a_weak_calf_is_planned_on_most_of_its_sole_and_at_speed_on_all_of_it() {
+        let old = |age| Body::humanoid(Profile::ordinary(Sex::Male, age)).unwrap();
+        for body in [old(70.0), old(80.0)] {
+            let (one, sole) = (OneFoot::new(&body), Sole::new(&body, 0));
+            let toes = sole.points(0.0).map(|p| p.x).fold(0.0, f64::max);
+            assert!((one.front - LEAST * toes).abs() < 1e-12, "{one:?}");
+            let mut whole = Vec::new();
+            sole.footprint(&AT, &mut whole);
+            assert_eq!(support(&one, &sole, [0.0, 0.0], FAST), hull(&whole));
+        }
+        // Nothing changes for who is strong enough, and there is no jump where that ends.
+        let at = |age: f64| OneFoot::new(&old(age));
+        let young = at(30.0);
+        assert!(young.lacks == 0.0 && at(70.0).lacks > 0.02);
+        for age in 45..80 {
+            let (a, b) = (at(f64::from(age)), at(f64::from(age) + 1.0));
+            let step = (a.front - b.front).abs().max((a.lacks - b.lacks).abs());
+            assert!(step < 0.006, "{age}: {a:?}, {b:?}");
         }
     }
 

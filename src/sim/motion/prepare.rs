@@ -4,7 +4,7 @@ use super::balance::{Carrier, Elsewhere, LIGHT, MassTrack, mass_track, pelvis_sh
 use super::contacts::runs;
 use super::envelope::smoothest_below;
 use super::filter::{low_pass, low_pass_points, low_pass_rotations, percentile, smooth_minimum};
-use super::foot_lock::{LockedFoot, Sole, Stance, lock_foot};
+use super::foot_lock::{LockedFoot, Sole, Stance, lock_foot, stances};
 use super::leg_ik::{forward, solve_leg_in_plane};
 use super::one_foot::{OneFoot, Over};
 use super::polygon::{hull, margin};
@@ -224,16 +224,23 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
     let mut clamped = [(0.0f64, 0.0f64); DOF_COUNT];
     clamp_upper(body, &mut upper, rate, &mut clamped);
 
-    let stands = |i: usize| options.lock_feet && upper[i].root_position.z > LYING * standing;
+    let upright = |i: usize| options.lock_feet && upper[i].root_position.z > LYING * standing;
     let label: [Vec<bool>; 2] =
-        std::array::from_fn(|s| (0..n).map(|i| draft.label[i][s] && stands(i)).collect());
+        std::array::from_fn(|s| (0..n).map(|i| draft.label[i][s] && upright(i)).collect());
+    let stands = stances(
+        &soles,
+        [&draft.ankle[0], &draft.ankle[1]],
+        [&draft.foot[0], &draft.foot[1]],
+        [&label[0], &label[1]],
+        rate,
+    );
     let lock = |relief: &Relief| -> [LockedFoot; 2] {
         std::array::from_fn(|s| {
             lock_foot(
                 &soles[s],
                 &draft.ankle[s],
                 &draft.foot[s],
-                (&label[s], &label[1 - s]),
+                &stands[s],
                 (&relief.heel_up[s], &relief.toe_out[s]),
                 s,
                 rate,
@@ -268,13 +275,7 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
     };
     for round in 0..rounds {
         if round + 2 < rounds {
-            relief.add(
-                body,
-                &postures,
-                &planted,
-                [&locked[0].stances, &locked[1].stances],
-                rate,
-            );
+            relief.add(body, &postures, &planted, [&stands[0], &stands[1]], rate);
             locked = lock(&relief);
             carriers = carriers_of(body, &soles, &upper, &locked, draft);
         }
