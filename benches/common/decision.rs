@@ -97,6 +97,7 @@ impl Decision {
             dt: DT,
             assist: [0.0; 2],
             kinematic: false,
+            on_floor: None,
         });
         command.torque[0]
     }

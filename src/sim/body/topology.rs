@@ -21,6 +21,11 @@ pub const HINGE_COUNT: usize = 12;
 pub struct SegmentId(u8);
 
 impl SegmentId {
+    /// All segments, in order.
+    pub fn all() -> impl Iterator<Item = Self> + Clone {
+        (0..SEGMENT_COUNT as u8).map(Self)
+    }
+
     /// Segment by index 0…17; `None` beyond.
     pub const fn new(index: usize) -> Option<Self> {
         if index < SEGMENT_COUNT {

@@ -21,6 +21,7 @@ pub use tracking::Law;
 
 use crate::sim::body::{Body, DOF_COUNT, NV, SegmentId};
 use crate::sim::dynamics::Terms;
+use crate::sim::figure::report::MAX_CONTACTS;
 use crate::sim::figure::{ControlParams, Flags};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::TargetPair;
@@ -101,6 +102,9 @@ pub struct ControlInput<'a> {
     /// True if the accelerations are applied as they are. Planted feet are then kept in place by the controller, and overload is answered
     /// with accelerations that the clipped torques give; strength-limited motors settle both by themselves.
     pub kinematic: bool,
+    /// While the whole body works on the floor, as on the way up: heights at which the motion has every contact point at the end of the tick, by
+    /// segment × 8 + vertex, m. Whatever touches and is meant to then carries; without, feet and seats do.
+    pub on_floor: Option<&'a [f64; MAX_CONTACTS]>,
 }
 
 /// What a controller decided.

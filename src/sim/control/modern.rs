@@ -36,6 +36,8 @@ mod weight {
     pub(super) const GOAL_ARM: f64 = 200.0;
     pub(super) const GOAL_ROTATION: f64 = 20.0;
     pub(super) const SWING_FOOT: f64 = 100.0;
+    /// A hand that is clear of the floor it leans on before and after.
+    pub(super) const SWING_HAND: f64 = 10.0;
     pub(super) const SWING_ROTATION: f64 = 4.0;
     pub(super) const PLANTED_ROTATION: f64 = 1.0;
     pub(super) const PELVIS: f64 = 20.0;
@@ -84,6 +86,12 @@ const HOLD_SPEED: f64 = 0.3;
 const FADE: (f64, f64) = (0.004, 0.010);
 /// A point of a planted foot is planned down fully where the motion has it below the first height, not at all above the second, m.
 const PLANNED_FADE: (f64, f64) = (0.001, 0.006);
+/// The same while the whole body works on the floor: heights of what touches, m, and of what the motion means to touch.
+const FLOOR_FADE: (f64, f64) = (0.006, 0.020);
+const MEANT_FADE: (f64, f64) = (0.004, 0.012);
+/// There knees bear weight more easily than feet, and hands less, for what they cost the program: a knee has one contact point where a palm has
+/// four, and hands that carry what knees could cannot be lifted.
+const EASE: (f64, f64, f64) = (5.0, 0.5, 0.2);
 /// What is kept of the last tick's contact force.
 const FORCE_MEMORY: f64 = 0.98;
 /// Weight with which a part that rests on a seat is held there when it carries all it may count for, and that share of the weight. Little while
@@ -225,6 +233,17 @@ impl Modern {
         }
         if input.params.track_hands {
             for e in input.effectors {
+                if input.on_floor.is_some_and(|z| is_clear(z, e.segment)) {
+                    self.point_task(
+                        t,
+                        &swing_law,
+                        (e.segment.index(), e.point),
+                        &e.position,
+                        SWING_FEEDBACK,
+                        weight::SWING_HAND,
+                    );
+                    continue;
+                }
                 self.point_task(
                     t,
                     &hand_law,
@@ -248,7 +267,7 @@ impl Modern {
             } else {
                 weight::SWING_ROTATION
             };
-            if !next.planted[side] {
+            if !next.planted[side] && input.on_floor.is_none() {
                 self.point_task(
                     t,
                     &swing_law,
@@ -281,6 +300,9 @@ impl Modern {
     /// the motion is getting up, which takes a centre of mass over the feet. Who sits down lets himself fall onto the seat as the motion does.
     fn urgency(&mut self, input: &ControlInput<'_>) -> f64 {
         let planted = [input.target.now.planted, input.target.next.planted];
+        if input.on_floor.is_some() {
+            return 1.0;
+        }
         let mut most = 1.0;
         if planted == [[true; 2]; 2] {
             let margin = self.margin_on_feet(input, [input.com.now.x, input.com.now.y]);
@@ -423,7 +445,8 @@ impl Modern {
                 || s == L_TOES.index()
                 || s == R_FOOT.index()
                 || s == R_TOES.index();
-            if foot && !planted[usize::from(s >= R_FOOT.index())] {
+            let steps = input.on_floor.is_none();
+            if steps && foot && !planted[usize::from(s >= R_FOOT.index())] {
                 self.last_force[s * POINTS..(s + 1) * POINTS].fill(Vec3::zero());
                 continue;
             }
@@ -436,7 +459,10 @@ impl Modern {
                 let r = t.kin.rotation[s] * *p;
                 let z = t.segment_position(s).z + r.z;
                 let mut fade = smooth_step(z, FADE);
-                if foot {
+                if let Some(heights) = input.on_floor {
+                    let meant = smooth_step(heights[s * POINTS + vertex], MEANT_FADE);
+                    fade = meant * smooth_step(z, FLOOR_FADE);
+                } else if foot {
                     fade *= planned(input, s, *p);
                 } else {
                     fade *= OTHER_SEGMENT;
@@ -456,7 +482,8 @@ impl Modern {
                     z: rise - v.z,
                 };
                 let a = soft(to_rest * pace, STOP) - t.point_bias(s, *p);
-                let inverse_r = fade.max(OTHER_SEGMENT) / weight::FORCE;
+                let ease = if steps { 1.0 } else { ease(s, foot) };
+                let inverse_r = ease * fade.max(OTHER_SEGMENT) / weight::FORCE;
                 let c = self.last_force[s * POINTS + vertex] * (-FORCE_MEMORY / inverse_r);
                 let slot = self.contacts.slot(&t.kin, s);
                 self.contacts.points.push(PointRow {
@@ -478,6 +505,25 @@ impl Modern {
 /// √(height of the centre of mass / gravity), s.
 fn pendulum_time(input: &ControlInput<'_>) -> f64 {
     (input.terms.com.z.max(0.1) / input.gravity.max(1.0)).sqrt()
+}
+
+/// How easily a segment bears weight on the floor.
+fn ease(s: usize, foot: bool) -> f64 {
+    if foot {
+        EASE.1
+    } else if s == L_HAND.index() || s == R_HAND.index() {
+        EASE.2
+    } else {
+        EASE.0
+    }
+}
+
+/// True if the motion has all contact points of a segment, at `heights`, clear of the floor.
+fn is_clear(heights: &[f64; MAX_CONTACTS], segment: SegmentId) -> bool {
+    let first = segment.index() * POINTS;
+    heights[first..first + POINTS]
+        .iter()
+        .all(|z| *z > MEANT_FADE.0)
 }
 
 /// 0 where the capture point is where the motion has it, 1 where it is far off.
@@ -564,7 +610,11 @@ fn pelvis_demand(t: &Terms, target: &TargetPair, law: &Law, dt: f64) -> Vec3 {
 
 impl Controller for Modern {
     fn control(&mut self, input: &ControlInput<'_>) -> &Command {
-        let danger = danger(input);
+        let danger = if input.on_floor.is_some() {
+            0.0
+        } else {
+            danger(input)
+        };
         let law = sharp_law(input, danger);
         let least = blend(JOINT_WEIGHT, LEAST_JOINT_WEIGHT, danger);
         let t = input.terms;

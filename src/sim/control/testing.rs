@@ -110,6 +110,7 @@ impl Scene {
             dt: DT,
             assist: self.assist,
             kinematic: self.kinematic,
+            on_floor: None,
         }
     }
 }

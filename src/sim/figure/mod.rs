@@ -9,6 +9,7 @@ pub mod events;
 pub mod kinematic_step;
 pub mod loads;
 pub mod report;
+mod rising;
 pub mod setup;
 pub mod step;
 pub mod tasks;

@@ -19,6 +19,7 @@ use super::events::Watcher;
 use super::kinematic_step::{Decision, KinematicStepper};
 use super::loads::Disturbances;
 use super::report::{Flags, TickReport};
+use super::rising::Rising;
 use super::setup::{ControllerKind, FigureOptions, FigureSetup, Share};
 use super::tasks::{TaskPoints, TaskWorkspace};
 use super::torque_step::{MotorCommand, StepInput, Stepper, TorqueStepper};
@@ -99,6 +100,7 @@ pub struct Figure {
     standing_com_height: f64,
     balance: BalanceWatch,
     fallen: bool,
+    rising: Rising,
     frozen: bool,
     report: TickReport,
     reported: bool,
@@ -177,6 +179,7 @@ impl Figure {
             standing_com_height: standing_com_height(&setup.body),
             balance: BalanceWatch::default(),
             fallen: false,
+            rising: Rising::default(),
             frozen: false,
             report: empty_report(&setup.state),
             reported: false,
@@ -217,12 +220,13 @@ impl Figure {
         );
     }
 
-    /// Stage 2: everything of the present state, and what is asked of it.
+    /// Stage 2: everything of the present state, and what is asked of it: of a fallen figure that it gets up, if its motion does.
     fn look(&mut self, world: &TickContext) {
         let applied = self.disturbances.applied();
         self.terms
             .compute(&self.links, &self.state, applied, world.gravity);
         self.begin_queued(world.time());
+        self.get_up(world);
         self.target = self.desired(world.time(), world.dt);
         let steps = self.steps() && self.gait.is_walking();
         self.carrying.lean(
@@ -299,6 +303,15 @@ impl Figure {
         self.support.plan_rests(&self.terms, |s, p| {
             self.tasks.desired_point(&self.target, s, p)
         });
+        if self.rising.is_rising() {
+            self.rising.touch(
+                &body,
+                &self.terms,
+                &self.tasks,
+                &self.target,
+                (&tasks.com, world.time()),
+            );
+        }
         let mut balance = None;
         if self.steps() {
             let mut led = Led {

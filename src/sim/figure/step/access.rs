@@ -10,13 +10,14 @@ use crate::sim::figure::constraints::Constraint;
 use crate::sim::figure::drive::{Drive, LivePlayback};
 use crate::sim::figure::events::FigureEvent;
 use crate::sim::figure::report::TickReport;
+use crate::sim::figure::rising::Rising;
 use crate::sim::figure::setup::{
     ControlParams, ControllerKind, FigureOptions, FigureSetup, Perturbation, StrengthScale,
 };
 use crate::sim::figure::touches::Touches;
 use crate::sim::gait::{Gait, StepPlan};
 use crate::sim::math::Vec3;
-use crate::sim::motion::{PlanarTransform, TargetPair};
+use crate::sim::motion::{PlanarTransform, TargetPair, builtin};
 use crate::sim::strength::fatigue::Fatigue;
 use crate::sim::strength::{MuscleScale, Strength};
 use std::sync::Arc;
@@ -90,7 +91,8 @@ impl Figure {
     pub fn drive(&self) -> &Drive {
         &self.drive
     }
-    /// Replaces the source of the desired motion from the next tick on, whatever the figure does. What waits is forgotten.
+    /// Replaces the source of the desired motion from the next tick on, whatever the figure does. What waits is forgotten. With a clip that lies
+    /// down, the figure's way up is planned: about 0.1 s, allocates.
     pub fn set_drive(&mut self, drive: Drive) {
         self.gait.follow(match &drive {
             Drive::Clip(play) => {
@@ -100,6 +102,12 @@ impl Figure {
             Drive::Live(_) => Some((StepPlan::live(), 1.0, PlanarTransform::default())),
             _ => None,
         });
+        let lies = match &drive {
+            Drive::Clip(play) => Rising::lies(&self.setup.body, &play.clip),
+            _ => false,
+        };
+        let way = lies.then(|| Arc::new(builtin::rise(&self.setup.body)));
+        self.rising.follow(way);
         self.drive = drive;
         self.queued = None;
         self.ending = false;
@@ -133,6 +141,7 @@ impl Figure {
         self.is_new = true;
         self.last_good = state;
         self.fallen = false;
+        self.rising.reset();
         self.frozen = false;
         self.gait.reset();
         self.carrying.reset();

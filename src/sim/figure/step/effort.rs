@@ -24,6 +24,10 @@ impl Figure {
             live.motion.advance(live.stream_time(time + dt));
             self.gait.follow_stream(&live.motion);
         }
+        let (state, last) = (&self.state.posture, &self.target.next.posture);
+        if let Some(way) = self.rising.targets((time, dt), state, last) {
+            return way;
+        }
         if !self.steps() {
             return self.drive.targets(time, dt);
         }
@@ -50,7 +54,7 @@ impl Figure {
 
     /// Factors on the muscles: a fallen figure relaxes, a tired one has less.
     pub(super) fn available_strength(&self) -> MuscleScale {
-        let fallen = if self.fallen { FALLEN_STRENGTH } else { 1.0 };
+        let fallen = if self.is_limp() { FALLEN_STRENGTH } else { 1.0 };
         let mut out = self.setup.strength.muscles(fallen);
         if let Some(fatigue) = &self.fatigue {
             for (scale, left) in out.0.iter_mut().zip(fatigue.remaining()) {
@@ -113,12 +117,13 @@ impl Figure {
             assist: Assist::new(&self.setup.body, self.setup.options.assist)
                 .map_or([0.0; 2], |a| a.planned()),
             kinematic: self.prescribed,
+            on_floor: self.rising.heights(),
         };
         let (command, saturation_speed) = match self.active_controller() {
             ControllerKind::Paper => (self.paper.control(&input), FEED_FORWARD_SPEED),
             ControllerKind::Modern => (self.modern.control(&input), MODERN_SPEED),
             ControllerKind::Motors => {
-                let horizon = if self.fallen {
+                let horizon = if self.is_limp() {
                     Some(FALLEN_HORIZON)
                 } else {
                     self.setup.params.horizon
@@ -139,7 +144,7 @@ impl Figure {
                     .copy_from_slice(&demand[..DOF_COUNT]);
                 (
                     &self.motors,
-                    if self.fallen {
+                    if self.is_limp() {
                         FALLEN_SPEED
                     } else {
                         MOTORS_ALONE_SPEED

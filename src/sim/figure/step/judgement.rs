@@ -17,7 +17,7 @@ const RISEN_HEIGHT: f64 = 0.6;
 /// Torques give back to prescribed accelerations after the figure has stood this long on flat feet with strength to spare, s.
 const CALM_TIME: f64 = 0.5;
 /// Parts that a figure stands on.
-const FEET: [SegmentId; 4] = [L_FOOT, L_TOES, R_FOOT, R_TOES];
+pub(super) const FEET: [SegmentId; 4] = [L_FOOT, L_TOES, R_FOOT, R_TOES];
 
 impl Figure {
     /// Is balance lost? Full assist holds the pelvis, so there is none to lose; and prescribed accelerations fall by themselves.
@@ -25,7 +25,12 @@ impl Figure {
         let s = &self.setup;
         let falls = s.stepper == StepperKind::Kinematic && self.handed_over.is_none();
         let motors = s.controller == ControllerKind::Motors;
-        if falls || motors || !s.params.hand_over || s.options.assist > 0.0 {
+        if self.rising.is_rising()
+            || falls
+            || motors
+            || !s.params.hand_over
+            || s.options.assist > 0.0
+        {
             self.balance.reset();
             return;
         }
@@ -60,7 +65,7 @@ impl Figure {
 
     /// The chosen controller, or motors alone once balance is lost or the figure lies on the ground.
     pub(super) fn active_controller(&self) -> ControllerKind {
-        if self.fallen || self.balance.lost() {
+        if self.is_limp() || self.balance.lost() {
             ControllerKind::Motors
         } else {
             self.setup.controller
@@ -74,6 +79,7 @@ impl Figure {
             && self.disturbances.bar().is_none()
             && self.active_controller() != ControllerKind::Motors
             && self.handed_over.is_none()
+            && !self.rising.is_rising()
     }
 
     /// Prescribed accelerations on a tilting support create energy once joints saturate, and they know nothing of parts other than feet:
@@ -102,6 +108,11 @@ impl Figure {
         }
     }
 
+    /// True while it lies and does nothing about it.
+    pub(super) fn is_limp(&self) -> bool {
+        self.fallen && !self.rising.is_rising()
+    }
+
     /// Freezes a figure whose state is not finite at its last good state; the world goes on.
     pub(super) fn contain(&mut self) -> bool {
         let good = self.state.is_finite();
@@ -127,7 +138,7 @@ impl Figure {
             || self.touches.list().any(|t| !FEET.contains(&t.segment));
         if !self.fallen && height < FALLEN_HEIGHT && on_other {
             self.fallen = true;
-        } else if self.fallen && height > RISEN_HEIGHT {
+        } else if self.fallen && height > RISEN_HEIGHT && !self.rising.is_rising() {
             self.fallen = false;
             self.start_afresh();
         }

@@ -1,8 +1,11 @@
 //! From one motion to another while the figure moves: what is under way is led to a stand, and what was asked for waits until it stands.
 
-use super::Figure;
+use super::judgement::FEET;
+use super::{Figure, TickContext};
 use crate::sim::body::Posture;
+use crate::sim::control::Controller;
 use crate::sim::figure::drive::{ClipPlayback, Drive, Queued};
+use crate::sim::figure::setup::ControllerKind;
 use crate::sim::gait::StepPlan;
 use crate::sim::motion::Clip;
 use crate::sim::motion::join::{self, RUN_UP};
@@ -20,6 +23,8 @@ const PATIENCE: f64 = 2.0;
 const SLOW: f64 = 0.2;
 /// A clip that begins with the pelvis above this share of its standing height, on both feet, begins standing.
 const UPRIGHT: f64 = 0.9;
+/// Who gets up stands once the centre of mass is above this share of its standing height.
+const UP: f64 = 0.75;
 
 impl Figure {
     /// Plays a clip from world time `time` on. A figure that walks, or is in the middle of another clip, finishes its step and stands first, as
@@ -27,7 +32,7 @@ impl Figure {
     /// fallen, or makes no steps begins at once. Returns the world time at which the clip's time 0 plays, s: expected, if the figure has to
     /// stand first. Plans like [`Figure::stop`].
     pub fn play(&mut self, play: ClipPlayback, fixed: bool, time: f64) -> f64 {
-        if !self.steps() || !self.is_busy(time) {
+        if !self.rising.is_rising() && (!self.steps() || !self.is_busy(time)) {
             let start = play.start;
             self.set_drive(Drive::Clip(play));
             return start;
@@ -82,7 +87,7 @@ impl Figure {
     /// Begins the clip that waits, once the figure stands.
     pub(super) fn begin_queued(&mut self, time: f64) {
         let Some(q) = &self.queued else { return };
-        let ready = if self.balance.lost() && !self.fallen {
+        let ready = if self.rising.is_rising() || (self.balance.lost() && !self.fallen) {
             false
         } else if !self.steps() || time > q.due + PATIENCE {
             true
@@ -98,7 +103,53 @@ impl Figure {
             self.gait.follow(Some((plan, play.speed, play.origin)));
             self.drive = Drive::Clip(play);
             self.ending = false;
+            self.rising.reset();
         }
+    }
+
+    /// A fallen figure gets up when its motion, which lay down, does: in its own way, after which it stands. What it is asked to do meanwhile waits.
+    pub(super) fn get_up(&mut self, world: &TickContext) {
+        let able = self.setup.controller == ControllerKind::Modern;
+        if !self.fallen || !able || self.setup.options.assist >= 1.0 {
+            self.rising.reset();
+            return;
+        }
+        let com = &self.pending.tasks.com.now;
+        let height = com.z / self.standing_com_height;
+        let before = self.rising.is_rising();
+        self.rising.watch(&self.state.posture, height, world.time());
+        if before != self.rising.is_rising() {
+            self.modern.reset();
+            self.ending = !before;
+        }
+        if self.rising.is_rising() && self.stands_on_feet() {
+            self.stand_up();
+        }
+    }
+
+    /// On its feet: the rest of its way is a motion like any other.
+    fn stand_up(&mut self) {
+        let (anchor, start) = self.rising.place();
+        let Some(way) = self.rising.way() else { return };
+        let mut play = ClipPlayback::new(Arc::clone(&way.clip), start);
+        play.origin = anchor.transform();
+        self.drive = Drive::Clip(play);
+        if let Some(q) = &mut self.queued {
+            q.due = start + way.clip.duration();
+        }
+        self.rising.follow(None);
+        self.gait.follow(None);
+        self.fallen = false;
+        self.start_afresh();
+    }
+
+    /// True if only its feet touch, as its way has it, and it is up.
+    fn stands_on_feet(&self) -> bool {
+        let points = self.support.points();
+        self.terms.com.z > UP * self.standing_com_height
+            && self.target.next.planted == [true; 2]
+            && points.iter().all(|p| FEET.contains(&p.segment))
+            && self.support.rests().is_empty()
     }
 
     /// Comes to a stand from world time `time` on: a walk is ended by the steps that takes, everything else is held as it is. Plans like the
