@@ -1,7 +1,7 @@
 //! Least squares along a trajectory (offline): every row couples a sample with its neighbours, so the normal matrix has two bands.
 
 /// Symmetric positive definite matrix with two bands above its diagonal, and after [`Self::factor`] its LDLᵀ.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Pentadiagonal {
     diagonal: Vec<f64>,
     /// Elements (i, i+1) and (i, i+2).
@@ -17,6 +17,18 @@ impl Pentadiagonal {
             diagonal,
             next: vec![0.0; n],
             over: vec![0.0; n],
+        }
+    }
+
+    /// Begins anew with `n` rows and a multiple of the identity. Allocates only if it has never been so large.
+    pub fn reset(&mut self, n: usize, diagonal: f64) {
+        for (band, value) in [
+            (&mut self.diagonal, diagonal),
+            (&mut self.next, 0.0),
+            (&mut self.over, 0.0),
+        ] {
+            band.clear();
+            band.resize(n, value);
         }
     }
 
@@ -64,6 +76,11 @@ impl Pentadiagonal {
 pub(super) struct Factor(Pentadiagonal);
 
 impl Factor {
+    /// The memory, for another matrix.
+    pub fn into_matrix(self) -> Pentadiagonal {
+        self.0
+    }
+
     /// Solves in place for `K` right-hand sides at once, O(n).
     pub fn solve<const K: usize>(&self, x: &mut [[f64; K]]) {
         let Pentadiagonal {

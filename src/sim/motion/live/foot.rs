@@ -19,6 +19,9 @@ const SHUFFLE: i64 = 12;
 const FLAT: f64 = 0.07;
 /// Largest pitch of a standing foot, rad.
 const STEEPEST: (f64, f64) = (-1.05, 0.6);
+/// Most by which a standing foot rises on its toes so that its leg reaches, rad, and halvings on the way to what it takes.
+const MOST_RISE: f64 = 0.7;
+const HALVINGS: usize = 12;
 /// Time over which a swing departs from a lock while its next place is not known, s.
 const FADE: f64 = 0.4;
 /// Height of a swinging sole, m, share of the step that it is, least height; how fast a sole rises and sinks at least, m/s.
@@ -26,6 +29,8 @@ const CLEARANCE: f64 = 0.045;
 const CLEARANCE_SHARE: f64 = 0.12;
 const CLEARANCE_LEAST: f64 = 0.015;
 const RISE: (f64, f64) = (0.45, 0.4);
+/// It takes about so long until it rises like that, s: a foot that leaves the floor at once jerks the leg.
+const LEAVES: f64 = 0.06;
 /// Largest toe extension of a swinging foot, rad.
 const SWING_TOE: f64 = 0.6;
 /// Speed of a place at which it counts half in where a foot stands, m/s.
@@ -122,6 +127,27 @@ fn stance_pitch(raw: f64, rolled: bool) -> f64 {
     let p = (beyond * beyond / (beyond + FLAT)).copysign(raw);
     let p = p.clamp(STEEPEST.0, STEEPEST.1);
     if rolled { p.min(0.0) } else { p }
+}
+
+/// Pitch of a standing foot that its leg reaches: it rises on its toes by as little as that takes.
+///
+/// * `lacks`: how far an ankle is out of reach, m.
+pub fn risen(sole: &Sole, at: &Anchor, lacks: &impl Fn(Vec3) -> f64) -> f64 {
+    let left = |rise: f64| lacks(sole.stand(at.place, at.yaw, at.pitch - rise).ankle);
+    let most = MOST_RISE.min(at.pitch.min(0.0) - STEEPEST.0);
+    let (mut low, mut high) = (0.0, most);
+    if left(low) <= 0.0 || most <= 0.0 || left(high) >= left(low) {
+        return at.pitch;
+    }
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if left(middle) > 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    at.pitch - high
 }
 
 fn difference(to: &FootPose, (ankle, rotation): (Vec3, Quat), toe: f64) -> Channels {
@@ -322,7 +348,7 @@ impl Foot {
         (start <= seen && start >= self.moving).then(|| self.estimate(start, seen, standing))
     }
 
-    /// Poses it in sample `f`, the one after the last posed.
+    /// Poses it in sample `f`, the one after the last posed; `lacks` says how far an ankle is out of the leg's reach, m.
     pub fn pose(
         &mut self,
         sole: &Sole,
@@ -330,6 +356,7 @@ impl Foot {
         (labelled, seen): (i64, i64),
         raw: impl Fn(i64) -> (Vec3, Quat),
         standing: impl Fn(i64) -> Standing,
+        lacks: impl Fn(Vec3) -> f64,
     ) -> Posed {
         let now = standing(f);
         let (ankle, rotation) = raw(f);
@@ -343,7 +370,12 @@ impl Foot {
             }
             let st = &mut self.stances[k];
             st.rolled |= now.pitch < FLAT;
-            let pose = sole.stand(st.place, st.yaw, stance_pitch(now.pitch, st.rolled));
+            let at = Anchor {
+                place: st.place,
+                yaw: st.yaw,
+                pitch: stance_pitch(now.pitch, st.rolled),
+            };
+            let pose = sole.stand(at.place, at.yaw, risen(sole, &at, &lacks));
             let o = difference(&pose, (ankle, rotation), toe);
             let o0 = self.offset[0];
             self.offset = if self.posed >= 0 {
@@ -406,7 +438,9 @@ impl Foot {
             .norm()
             .max(self.coming.map_or(0.0, |s| (s.place - from).norm()));
         let most = (CLEARANCE_SHARE * reach).clamp(CLEARANCE_LEAST, CLEARANCE);
-        let need = most.min(RISE.0 * since).min(RISE.1 * until);
+        let need = most
+            .min(RISE.0 * since * since / (since + LEAVES))
+            .min(RISE.1 * until);
         let lacks = (need - (pose.ankle.z + sole.lowest(pose.rotation, pose.toe))).max(0.0);
         let w = (since.min(until) / 0.06).min(1.0);
         lacks * w * w * (3.0 - 2.0 * w)

@@ -8,6 +8,7 @@
 //! Places of a sample on its way, in samples behind the newest: smoothed (`SMOOTH`), labelled and balanced (`LABEL`), feet posed (`POSED`
 //! before the output), put out (the window).
 
+mod balance;
 mod foot;
 mod polygon;
 
@@ -25,6 +26,7 @@ use crate::sim::body::topology::{
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::exp::exp;
 use crate::sim::math::{Quat, Vec3, trig};
+use balance::{Balance, Balanced};
 use foot::Foot;
 pub use foot::Stance;
 use polygon::Polygon;
@@ -54,16 +56,19 @@ const PAST: i64 = 90;
 const INSET: f64 = 0.03;
 /// How much farther the pelvis moves than the centre of mass: the feet stay.
 const LEAD: f64 = 1.15;
-/// Share by which the shift turns to the newest solution per sample: an error dies away as fast as it would grow by itself.
-const TURN: f64 = 0.1;
-/// Most shift of the centre of mass, m, and largest distance of a zero-moment point that is corrected at all.
+/// Most shift of the centre of mass, m.
 const MOST_SHIFT: f64 = 0.12;
-const MOST_OFF: f64 = 0.3;
 /// Outside by this much for about a second, m: something other than the feet carries the body.
 const CARRIED: f64 = 0.15;
 /// A leg reaches this share of its length; for a swinging one the pelvis is lowered by no more than this, m.
 const REACH: f64 = 0.98;
 const SWING_DROP: f64 = 0.04;
+/// A foot that the hip is less than the first ahead of does not rise on its toes for its leg to reach, m; from the second on it does. What its leg
+/// lacks then is the pelvis's to give, up to so much, m.
+const BEHIND: (f64, f64) = (0.0, 0.15);
+const SPARED: f64 = 0.1;
+/// How many samples ahead the pelvis looks for what it needs.
+const AHEAD: i64 = 20;
 /// How fast a lowered pelvis comes up again, m/s, and how fast it goes down, 1/s.
 const FORGET: f64 = 0.01;
 const STIFF: f64 = 8.0;
@@ -125,9 +130,7 @@ struct Sample {
     com: Vec3,
     /// Angular momentum about the centre of mass, kg·m²/s.
     momentum: Vec3,
-    omega2: f64,
-    /// From the zero-moment point to the nearest place where the feet could have it, m.
-    off: [f64; 2],
+    balance: Balanced,
     /// Foot poses as they are to be, heights still without clearance.
     feet: [FootPose; 2],
     down: [bool; 2],
@@ -153,8 +156,7 @@ impl Sample {
             poses,
             com: Vec3::zero(),
             momentum: Vec3::zero(),
-            omega2: GRAVITY,
-            off: [0.0; 2],
+            balance: Balanced::new([0.0; 2], GRAVITY),
             feet: [still; 2],
             down: [false; 2],
             lift: [0.0; 2],
@@ -183,6 +185,7 @@ pub struct LiveMotion {
     shift: [[f64; 2]; 2],
     drop: Drop,
     lasting: f64,
+    balance: Balance,
     /// Where the stream lies: a stream that jumps goes on from where it was.
     frame: PlanarTransform,
     /// What is left of a jump, and the samples since.
@@ -226,6 +229,7 @@ impl LiveMotion {
             shift: [[0.0; 2]; 2],
             drop: Drop::default(),
             lasting: 0.0,
+            balance: Balance::new(window as usize),
             frame: PlanarTransform::default(),
             fade: None,
             weights,
@@ -523,7 +527,8 @@ impl LiveMotion {
         let mass: f64 = self.body.segments.iter().map(|s| s.mass).sum();
         let load = 1.0 + acc.z / GRAVITY;
         let omega2 = ((GRAVITY + acc.z) / b.com.z.max(0.2)).clamp(3.0, 40.0);
-        let mut off = [0.0; 2];
+        let mut balanced = Balanced::new([b.com.x, b.com.y], omega2);
+        let mut far = 0.0;
         if load > super::balance::LIGHT && j >= 2 {
             let force = (acc + Vec3::Z * GRAVITY) * mass;
             let z = zero_moment_point(b.com, (force, rate));
@@ -547,18 +552,19 @@ impl LiveMotion {
                     None => {}
                 }
             }
-            if let Some(p) = polygon.inside(z, INSET) {
-                off = std::array::from_fn(|k| (p[k] - z[k]).clamp(-MOST_OFF, MOST_OFF));
+            balanced = Balanced::new(z, omega2);
+            balanced.support = polygon.inner(INSET);
+            if let Some(p) = balanced.support.and_then(|s| s.nearest(z)) {
+                let off = [p[0] - z[0], p[1] - z[1]];
+                far = (off[0] * off[0] + off[1] * off[1]).sqrt();
             }
         }
-        let far = (off[0] * off[0] + off[1] * off[1]).sqrt();
         // About a second: peaks of gait are corrected, a chair is not.
         self.lasting += (far - self.lasting) * (1.0 - exp(-H));
         let u = ((self.lasting - 0.7 * CARRIED) / (0.6 * CARRIED)).clamp(0.0, 1.0);
         let trust = 1.0 - u * u * (3.0 - 2.0 * u);
-        let s = self.at_mut(j);
-        s.omega2 = omega2;
-        s.off = off.map(|o| o * trust);
+        balanced.weight = trust * load.clamp(0.0, 1.0) * load.clamp(0.0, 1.0);
+        self.at_mut(j).balance = balanced;
     }
 
     /// Poses of the feet of sample `f`, and what they ask of the pelvis.
@@ -567,84 +573,95 @@ impl LiveMotion {
             let mut foot = std::mem::replace(&mut self.feet[side], Foot::new());
             let sole = &self.soles[side];
             let raw = |i: i64| self.at(i).poses[[L_FOOT, R_FOOT][side].index()];
-            let posed = foot.pose(sole, f, (labelled, seen), raw, |i| self.standing(side, i));
+            let standing = |i: i64| self.standing(side, i);
+            let lacks = |ankle: Vec3| self.lacks(f, side, ankle);
+            let posed = foot.pose(sole, f, (labelled, seen), raw, standing, lacks);
             self.feet[side] = foot;
             let s = self.at_mut(f);
             s.feet[side] = posed.pose;
             s.down[side] = posed.down;
             s.lift[side] = posed.lift;
         }
-        let s = self.at(f);
-        let mut drop = 0.0f64;
-        for (side, thigh) in [L_THIGH, R_THIGH].into_iter().enumerate() {
-            let t = thigh.index();
-            let length =
-                self.body.joint_offset[t + 1].norm() + self.body.joint_offset[t + 2].norm();
-            let hip = s.smooth.root_position
-                + s.smooth.root_rotation.rotate(self.body.joint_offset[t])
-                + Vec3 {
-                    x: LEAD * self.shift[1][0],
-                    y: LEAD * self.shift[1][1],
-                    z: 0.0,
-                };
-            let d = hip - s.feet[side].ankle;
-            let most = REACH * length;
-            let along = level(d).norm();
-            let height = (most * most - along * along).max(0.04 * most * most).sqrt();
-            let need = (height - d.z).min(0.0);
-            drop = drop.min(if s.down[side] {
-                need
-            } else {
-                need.max(-SWING_DROP) * ((0.6 - along / most) / 0.15).clamp(0.0, 1.0)
-            });
+        let mut drop = self.needs(f, |s, side| (s.feet[side].ankle, s.down[side]));
+        // Who looks ahead comes down in time.
+        for i in f + 1..=labelled.min(f + AHEAD) {
+            let ankle = |s: &Sample, side: usize| {
+                let sole = &self.soles[side];
+                match self.feet[side].anchor(i, |i| self.standing(side, i)) {
+                    Some(at) => {
+                        let pitch = foot::risen(sole, &at, &|a| self.lacks(i, side, a));
+                        (sole.stand(at.place, at.yaw, pitch).ankle, true)
+                    }
+                    None => (s.feet[side].ankle, false),
+                }
+            };
+            drop = drop.min(self.needs(i, ankle));
         }
         self.drop.take(drop, f == 0);
         self.at_mut(f).drop = self.drop.at;
     }
 
-    /// Moves the shift of the trunk on to sample `i`, with what is known up to sample `j`.
-    ///
-    /// Δ obeys `Δ − Δ̈/ω² = off`, which keeps the zero-moment point inside the soles. Of its solutions from where Δ is now the one with Δ̇ = 0
-    /// at the far end of the window is wanted: elimination from there says where it goes next. The window moves on, so that end is never
-    /// reached; Δ turns to each new solution as fast as a pendulum falls, and stays smooth.
-    fn shift_on(&mut self, out: i64, j: i64) {
-        let i = (out - 1).max(0);
-        let smooth = |i: i64| -> [f64; 2] {
-            let (a, b, c) = (
-                self.at(i - 1).off,
-                self.at(i).off,
-                self.at((i + 1).min(j)).off,
-            );
-            std::array::from_fn(|k| 0.25 * (a[k] + c[k]) + 0.5 * b[k])
+    /// Hip of a side in sample `i` without the lowering of the pelvis, m, and how far its ankle may be from it, m.
+    fn hip(&self, i: i64, side: usize) -> (Vec3, f64) {
+        let s = self.at(i);
+        let t = [L_THIGH, R_THIGH][side].index();
+        let length = self.body.joint_offset[t + 1].norm() + self.body.joint_offset[t + 2].norm();
+        let shift = Vec3 {
+            x: LEAD * self.shift[1][0],
+            y: LEAD * self.shift[1][1],
+            z: 0.0,
         };
-        // x_n = p·x_(n−1) + q, from the far end on.
-        // Beyond it nothing is known to be off, so Δ dies away as a pendulum at rest does.
-        let fade = exp(-self.at(j).omega2.sqrt() * H);
-        let (mut p, mut q) = (fade, [0.0; 2]);
-        for n in (i + 1..=j).rev() {
-            let al = RATE * RATE / self.at(n).omega2;
-            let w = 1.0 / (1.0 + 2.0 * al - al * p);
-            let off = smooth(n);
-            q = std::array::from_fn(|k| (off[k] + al * q[k]) * w);
-            p = al * w;
-        }
-        let bend = self.at(i).omega2 * H * H;
-        let off = smooth(i);
-        if out == 0 {
-            // The beginning is free: the shift is there already, and at rest.
-            let begin: [f64; 2] =
-                std::array::from_fn(|k| (bend * off[k] + 2.0 * q[k]) / (bend + 2.0 * (1.0 - p)));
-            self.shift = [begin; 2];
-            return;
-        }
-        for k in 0..2 {
-            let [before, now] = [self.shift[0][k], self.shift[1][k]];
-            let free = 2.0 * now - before + bend * (now - off[k]);
-            let wanted = p * now + q[k];
-            let next = free + TURN * (wanted - free);
-            self.shift[0][k] = now;
-            self.shift[1][k] = next.clamp(-MOST_SHIFT, MOST_SHIFT);
-        }
+        let offset = s.smooth.root_rotation.rotate(self.body.joint_offset[t]);
+        (s.smooth.root_position + offset + shift, REACH * length)
+    }
+
+    /// How far an ankle is out of the leg's reach in sample `i` while the pelvis is as low as it is now, m.
+    fn lacks(&self, i: i64, side: usize, ankle: Vec3) -> f64 {
+        let (hip, most) = self.hip(i, side);
+        let far = hip + Vec3::Z * self.drop.at - ankle;
+        // Who has left a foot behind rises on its toes; who stands over it comes down.
+        let ahead = self.at(i).smooth.root_rotation.rotate(Vec3::X);
+        let behind = (far.x * ahead.x + far.y * ahead.y - BEHIND.0) / (BEHIND.1 - BEHIND.0);
+        far.norm() - most - SPARED * (1.0 - behind.clamp(0.0, 1.0))
+    }
+
+    /// How far the pelvis of sample `i` has to come down so that both legs reach their ankles, m (≤ 0).
+    ///
+    /// * `ankle`: of a side, and whether that foot stands.
+    fn needs(&self, i: i64, ankle: impl Fn(&Sample, usize) -> (Vec3, bool)) -> f64 {
+        let s = self.at(i);
+        let of = |side: usize| {
+            let (ankle, down) = ankle(s, side);
+            let (hip, most) = self.hip(i, side);
+            let d = hip - ankle;
+            let along = level(d).norm();
+            let height = (most * most - along * along).max(0.04 * most * most).sqrt();
+            let need = (height - d.z).min(0.0);
+            if down {
+                need
+            } else {
+                need.max(-SWING_DROP) * ((0.6 - along / most) / 0.15).clamp(0.0, 1.0)
+            }
+        };
+        of(0).min(of(1))
+    }
+
+    /// Moves the shift of the trunk on to sample `out`, with what is known up to sample `j`.
+    fn shift_on(&mut self, out: i64, j: i64) {
+        let first = (out - 1).max(0);
+        let so_far = (out > 0).then_some(self.shift);
+        let count = (j - first + 1).max(1) as usize;
+        let mut balance = std::mem::take(&mut self.balance);
+        let next = balance.next(so_far, count, |k, visit| {
+            visit(&mut self.at_mut(first + k as i64).balance);
+        });
+        self.balance = balance;
+        let next = next.map(|x| x.clamp(-MOST_SHIFT, MOST_SHIFT));
+        self.shift = if out > 0 {
+            [self.shift[1], next]
+        } else {
+            [next; 2]
+        };
     }
 
     /// The whole posture of sample `out`.

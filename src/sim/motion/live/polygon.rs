@@ -82,9 +82,9 @@ impl Polygon {
         out
     }
 
-    /// The point nearest to `z` that is at least `inset` inside the hull of the points; their middle if the hull is too narrow for that;
-    /// `None` for fewer than three points.
-    pub fn inside(&self, z: [f64; 2], inset: f64) -> Option<[f64; 2]> {
+    /// The part of the hull of the points that is at least `inset` inside; its middle if it is too narrow for that; `None` for fewer than three
+    /// points.
+    pub fn inner(&self, inset: f64) -> Option<Self> {
         let hull = self.hull();
         let n = hull.len;
         if n < 3 {
@@ -99,11 +99,20 @@ impl Polygon {
                 .corners()
                 .iter()
                 .fold([0.0; 2], |s, p| [s[0] + p[0], s[1] + p[1]]);
-            return Some(sum.map(|s| s / n as f64));
+            inner = Self::default();
+            inner.add(sum.map(|s| s / n as f64));
         }
-        let m = inner.len;
-        let edge = |k: usize| (inner.points[k], inner.points[(k + 1) % m]);
-        if (0..m).all(|k| left_of(edge(k).0, edge(k).1, z) >= 0.0) {
+        Some(inner)
+    }
+
+    /// The point of a convex polygon, counter-clockwise, that is nearest to `z`; `None` if there is none.
+    pub fn nearest(&self, z: [f64; 2]) -> Option<[f64; 2]> {
+        let m = self.len;
+        let edge = |k: usize| (self.points[k], self.points[(k + 1) % m]);
+        if m == 0 {
+            return None;
+        }
+        if m > 2 && (0..m).all(|k| cross(edge(k).0, edge(k).1, z) >= 0.0) {
             return Some(z);
         }
         let mut best = (f64::INFINITY, z);
@@ -141,7 +150,7 @@ mod tests {
             let mut polygon = Polygon::default();
             points.iter().for_each(|p| polygon.add(*p));
             let (a, b) = (
-                polygon.inside(z, 0.02).unwrap(),
+                polygon.inner(0.02).unwrap().nearest(z).unwrap(),
                 Region::inside(&hull(&points), 0.02).nearest(z),
             );
             assert!((a[0] - b[0]).abs() < 1e-12 && (a[1] - b[1]).abs() < 1e-12);

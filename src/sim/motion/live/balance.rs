@@ -1,0 +1,247 @@
+//! The shift of the trunk that keeps the balance of a stream: a small optimal control problem over the window, solved on with every sample.
+
+use super::polygon::Polygon;
+use super::{H, RATE};
+use crate::sim::math::exp::exp;
+use crate::sim::motion::banded::Pentadiagonal;
+
+/// A zero-moment point outside by the first costs as much as a shift by one metre, m; price of it, 1/m².
+const COST: f64 = 0.1;
+const PRICE: f64 = 1.0 / (COST * COST);
+/// Time below which a shift is not to change, s.
+const BEND: f64 = 0.08;
+/// Price of leaving where the shift is already: none does.
+const HELD: f64 = 1e15;
+/// Alternations between trajectory and supports per sample, and for the first one, which nothing went before.
+const ALTERNATIONS: (usize, usize) = (8, 200);
+/// Largest distance of a zero-moment point that is corrected at all, m.
+const MOST_OFF: f64 = 0.3;
+
+/// What is known of the balance in one sample.
+#[derive(Clone, Copy, Debug)]
+pub struct Balanced {
+    /// Zero-moment point as it came, m.
+    pub zmp: [f64; 2],
+    /// Where it is wanted, if feet carry the body.
+    pub support: Option<Polygon>,
+    /// How much that counts, 0…1.
+    pub weight: f64,
+    /// Square of the pendulum frequency, 1/s².
+    pub omega2: f64,
+    /// Zero-moment point that the supports ask for, and what it still owes them, m: kept from sample to sample.
+    goal: [f64; 2],
+    debt: [f64; 2],
+}
+
+impl Balanced {
+    /// Nothing counts.
+    pub fn new(zmp: [f64; 2], omega2: f64) -> Self {
+        Self {
+            zmp,
+            support: None,
+            weight: 0.0,
+            omega2,
+            goal: zmp,
+            debt: [0.0; 2],
+        }
+    }
+
+    /// Moves a zero-moment point into the support as far as that counts.
+    fn take(&mut self, zmp: [f64; 2]) {
+        let v: [f64; 2] = std::array::from_fn(|k| zmp[k] + self.debt[k]);
+        let inside = self
+            .support
+            .as_ref()
+            .and_then(|s| s.nearest(v))
+            .unwrap_or(v);
+        let share = self.weight / (self.weight + 1.0);
+        for k in 0..2 {
+            let way = (inside[k] - v[k]).clamp(-MOST_OFF, MOST_OFF);
+            self.goal[k] = v[k] + share * way;
+            self.debt[k] = v[k] - self.goal[k];
+        }
+    }
+}
+
+/// Buffers of the problem.
+#[derive(Clone, Debug, Default)]
+pub struct Balance {
+    matrix: Pentadiagonal,
+    rows: Vec<[f64; 3]>,
+    shift: Vec<[f64; 2]>,
+}
+
+impl Balance {
+    /// For windows of at most `most` samples. Allocates all it will ever need.
+    pub fn new(most: usize) -> Self {
+        Self {
+            matrix: Pentadiagonal::new(vec![0.0; most + 2]),
+            rows: vec![[0.0; 3]; most + 2],
+            shift: vec![[0.0; 2]; most + 2],
+        }
+    }
+
+    /// The shift of the centre of mass in the sample after the two newest ones, `before` and `now` (m), if there are any.
+    ///
+    /// Minimises `Σ Δ² + τ⁴ Δ̈² + Σ (outside/COST)²` over the window, where the zero-moment point answers to a shift Δ by Δ − Δ̈/ω², as
+    /// the preparation of clips does ([`pelvis_shift`](crate::sim::motion::balance::pelvis_shift)); but Δ goes on from where it is, and beyond the
+    /// window it dies away as a pendulum at rest does. A few alternations per sample are enough, since every sample takes part in as many
+    /// problems as the window is long.
+    ///
+    /// * `so_far`: Δ of the samples before the first one of `samples` and of that one; `None` in the beginning, where it is free.
+    /// * `count` samples, oldest first, by `sample`.
+    ///
+    /// O(count); allocates nothing.
+    pub fn next(
+        &mut self,
+        so_far: Option<[[f64; 2]; 2]>,
+        count: usize,
+        mut sample: impl FnMut(usize, &mut dyn FnMut(&mut Balanced)),
+    ) -> [f64; 2] {
+        // Unknown 0 lies before the first sample.
+        let n = count + 1;
+        let mut matrix = std::mem::take(&mut self.matrix);
+        matrix.reset(n, 1.0);
+        if so_far.is_some() {
+            matrix.add_row(0, [1.0, 0.0, 0.0], HELD);
+            matrix.add_row(1, [1.0, 0.0, 0.0], HELD);
+        } else {
+            // It begins at rest.
+            matrix.add_row(0, [1.0, -1.0, 0.0], HELD);
+        }
+        for i in 1..n {
+            let mut omega2 = 1.0;
+            sample(i - 1, &mut |s| omega2 = s.omega2);
+            let a = RATE * RATE / omega2;
+            let mut row = [-a, 1.0 + 2.0 * a, -a];
+            let mut bend = [1.0, -2.0, 1.0];
+            if i + 1 == n {
+                let dies = exp(-omega2.sqrt() * H);
+                row[1] += dies * row[2];
+                bend[1] += dies;
+                (row[2], bend[2]) = (0.0, 0.0);
+            }
+            self.rows[i] = row;
+            matrix.add_row(i as isize - 1, row, PRICE);
+            matrix.add_row(i as isize - 1, bend, (BEND * RATE).powi(4));
+        }
+        let factor = matrix.factor();
+        let shift = &mut self.shift[..n];
+        let rounds = if so_far.is_some() {
+            ALTERNATIONS.0
+        } else {
+            ALTERNATIONS.1
+        };
+        for _ in 0..rounds {
+            shift.fill([0.0; 2]);
+            if let Some(held) = so_far {
+                for (x, h) in shift.iter_mut().zip(held) {
+                    *x = h.map(|h| HELD * h);
+                }
+            }
+            for i in 1..n {
+                let row = self.rows[i];
+                sample(i - 1, &mut |s| {
+                    let want: [f64; 2] =
+                        std::array::from_fn(|k| PRICE * (s.goal[k] - s.debt[k] - s.zmp[k]));
+                    for (j, share) in (i - 1..n).zip(row) {
+                        for (x, w) in shift[j].iter_mut().zip(want) {
+                            *x += share * w;
+                        }
+                    }
+                });
+            }
+            factor.solve(shift);
+            for i in 1..n {
+                let row = self.rows[i];
+                let answer: [f64; 2] = std::array::from_fn(|k| {
+                    (i - 1..n).zip(row).map(|(j, r)| r * shift[j][k]).sum()
+                });
+                sample(i - 1, &mut |s| {
+                    s.take(std::array::from_fn(|k| s.zmp[k] + answer[k]));
+                });
+            }
+        }
+        let next = if so_far.is_some() { 2 } else { 1 };
+        let out = shift[next.min(n - 1)];
+        self.matrix = factor.into_matrix();
+        out
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const OMEGA2: f64 = 11.0;
+
+    /// A support of ±3 cm about the origin, and a zero-moment point that is 8 cm off for a third of a second.
+    fn recorded(i: usize) -> Balanced {
+        let out = (90..110).contains(&i);
+        let mut b = Balanced::new([if out { 0.08 } else { 0.0 }, 0.0], OMEGA2);
+        let mut square = Polygon::default();
+        for corner in [[-0.04, -0.04], [0.04, -0.04], [0.04, 0.04], [-0.04, 0.04]] {
+            square.add(corner);
+        }
+        b.support = square.inner(0.01);
+        b.weight = 1.0;
+        b
+    }
+
+    /// Shifts of 200 samples, prepared with a window of `window` samples.
+    fn shifts(window: usize, recorded: impl Fn(usize) -> Balanced) -> Vec<[f64; 2]> {
+        let mut samples: Vec<Balanced> = (0..200 + window).map(recorded).collect();
+        let mut balance = Balance::new(window);
+        let mut out: Vec<[f64; 2]> = Vec::new();
+        for i in 0..200usize {
+            let first = i.saturating_sub(1);
+            let so_far = (i > 0).then(|| [out[i.saturating_sub(2)], out[i - 1]]);
+            let count = i + window - first;
+            out.push(balance.next(so_far, count, |k, visit| visit(&mut samples[first + k])));
+        }
+        out
+    }
+
+    /// How far the zero-moment point that answers to the shifts is out of the support along x, largest, m.
+    fn outside(shift: &[[f64; 2]]) -> f64 {
+        let a = RATE * RATE / OMEGA2;
+        (1..shift.len() - 1)
+            .map(|i| {
+                let [before, now, after] = [i - 1, i, i + 1].map(|k| shift[k][0]);
+                let zmp = recorded(i).zmp[0] + now - a * (after - 2.0 * now + before);
+                zmp.abs() - 0.03
+            })
+            .fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn what_is_seen_in_time_is_brought_inside() {
+        let [short, long] = [10, 50].map(|window| outside(&shifts(window, recorded)));
+        // As recorded, 5 cm.
+        assert!(long < 0.015, "{long}");
+        assert!(short < 0.045 && long < short, "{short}, {long}");
+    }
+
+    #[test]
+    fn what_is_inside_is_left_alone() {
+        let still = |_: usize| Balanced {
+            zmp: [0.02, -0.01],
+            goal: [0.02, -0.01],
+            ..recorded(0)
+        };
+        for s in shifts(30, still) {
+            assert!(s[0].abs() < 1e-9 && s[1].abs() < 1e-9, "{s:?}");
+        }
+    }
+
+    #[test]
+    fn the_shift_goes_on_from_where_it_is() {
+        let mut samples: Vec<Balanced> = (0..40).map(|_| recorded(0)).collect();
+        let mut balance = Balance::new(40);
+        let so_far = [[0.030, -0.02], [0.032, -0.02]];
+        let next = balance.next(Some(so_far), 40, |k, visit| visit(&mut samples[k]));
+        // On at 0.12 m/s and bent by no more than supports allow: ω² (0.032 + 0.03 + 0.01) / 60².
+        assert!((next[0] - 0.034).abs() < 3e-4, "{next:?}");
+        assert!((next[1] + 0.02).abs() < 3e-4, "{next:?}");
+    }
+}
