@@ -333,7 +333,11 @@ fn nothing_that_can_be_asked_for_breaks_a_world() {
     let bounded = std::env::var_os("SINEW_SOAK_TICKS").is_none();
     let (people, start, mut seen) = (people(), Instant::now(), Seen::default());
     for seed in first.. {
+        let before = seen.unfinished;
         live(seed, &people, &mut seen);
+        if seen.unfinished > before {
+            println!("seed {seed}: {} cut short", seen.unfinished - before);
+        }
         assert!(
             seen.slowest < LONGEST_TICK,
             "seed {seed}: a tick took {:?}",
@@ -344,7 +348,7 @@ fn nothing_that_can_be_asked_for_breaks_a_world() {
         }
     }
     println!("{seen:?}, {:?}", start.elapsed());
-    // None in the short run; some ten in the million, of 8 million contacts' islands.
+    // None in the short run; few in the million, of 8 million contacts' islands.
     let most = if bounded {
         0
     } else {
