@@ -3,7 +3,8 @@
 use super::polygon::Polygon;
 use super::{H, RATE};
 use crate::sim::math::exp::exp;
-use crate::sim::motion::banded::Pentadiagonal;
+use crate::sim::motion::banded::{Factor, Pentadiagonal};
+use std::collections::VecDeque;
 
 /// A zero-moment point outside by the first costs as much as a shift by one metre, m; price of it, 1/m².
 const COST: f64 = 0.1;
@@ -63,9 +64,10 @@ impl Balanced {
     }
 }
 
-/// Buffers of the problem.
-#[derive(Clone, Debug, Default)]
+/// The samples of the window whose balance is known, and buffers of the problem.
+#[derive(Clone, Debug)]
 pub struct Balance {
+    samples: VecDeque<Balanced>,
     matrix: Pentadiagonal,
     rows: Vec<[f64; 3]>,
     shift: Vec<[f64; 2]>,
@@ -75,97 +77,96 @@ impl Balance {
     /// For windows of at most `most` samples. Allocates all it will ever need.
     pub fn new(most: usize) -> Self {
         Self {
+            samples: VecDeque::with_capacity(most + 2),
             matrix: Pentadiagonal::new(vec![0.0; most + 2]),
             rows: vec![[0.0; 3]; most + 2],
             shift: vec![[0.0; 2]; most + 2],
         }
     }
 
-    /// The shift of the centre of mass in the sample after the two newest ones, `before` and `now` (m), if there are any.
+    /// The next sample that is known.
+    pub fn push(&mut self, sample: Balanced) {
+        self.samples.push_back(sample);
+    }
+
+    /// The shift of the centre of mass in the next sample that is put out, m.
     ///
-    /// Minimises `Σ Δ² + τ⁴ Δ̈² + Σ (outside/COST)²` over the window, where the zero-moment point answers to a shift Δ by Δ − Δ̈/ω², as
+    /// Minimises `Σ Δ² + τ⁴ Δ̈² + Σ (outside/COST)²` over the samples that are known, where the zero-moment point answers to a shift Δ by Δ − Δ̈/ω², as
     /// the preparation of clips does ([`pelvis_shift`](crate::sim::motion::balance::pelvis_shift)); but Δ goes on from where it is, and beyond the
-    /// window it dies away as a pendulum at rest does. A few alternations per sample are enough, since every sample takes part in as many
-    /// problems as the window is long.
+    /// window it dies away as a pendulum at rest does. A few alternations are enough, since every sample takes part in as many problems as the window
+    /// is long.
     ///
-    /// * `so_far`: Δ of the samples before the first one of `samples` and of that one; `None` in the beginning, where it is free.
-    /// * `count` samples, oldest first, by `sample`.
+    /// * `so_far`: Δ of the last two samples that were put out, the newer one last, m; `None` in the beginning, where it is free. The newer one is the first
+    ///   of the samples that take part: those before it are forgotten.
     ///
-    /// O(count); allocates nothing.
-    pub fn next(
-        &mut self,
-        so_far: Option<[[f64; 2]; 2]>,
-        count: usize,
-        mut sample: impl FnMut(usize, &mut dyn FnMut(&mut Balanced)),
-    ) -> [f64; 2] {
+    /// O(samples); allocates nothing.
+    pub fn next(&mut self, so_far: Option<[[f64; 2]; 2]>) -> [f64; 2] {
         // Unknown 0 lies before the first sample.
-        let n = count + 1;
+        let n = self.samples.len() + 1;
+        if n < 2 {
+            return so_far.map_or([0.0; 2], |s| s[1]);
+        }
+        let factor = self.factor(n, so_far.is_some());
+        let rounds = match so_far {
+            Some(_) => ALTERNATIONS.0,
+            None => ALTERNATIONS.1,
+        };
+        let shift = &mut self.shift[..n];
+        for _ in 0..rounds {
+            shift.fill([0.0; 2]);
+            for (x, held) in shift.iter_mut().zip(so_far.iter().flatten()) {
+                *x = held.map(|h| HELD * h);
+            }
+            for (i, (s, row)) in self.samples.iter().zip(&self.rows).enumerate() {
+                let want: [f64; 2] =
+                    std::array::from_fn(|k| PRICE * (s.goal[k] - s.debt[k] - s.zmp[k]));
+                for (x, share) in shift[i..].iter_mut().zip(row) {
+                    for (x, w) in x.iter_mut().zip(want) {
+                        *x += share * w;
+                    }
+                }
+            }
+            factor.solve(shift);
+            for (i, (s, row)) in self.samples.iter_mut().zip(&self.rows).enumerate() {
+                let answer =
+                    |k: usize| -> f64 { shift[i..].iter().zip(row).map(|(x, r)| r * x[k]).sum() };
+                s.take([s.zmp[0] + answer(0), s.zmp[1] + answer(1)]);
+            }
+        }
+        let next = self.shift[if so_far.is_some() { 2 } else { 1 }.min(n - 1)];
+        self.matrix = factor.into_matrix();
+        // The sample that is put out next is the first of the next problem.
+        if so_far.is_some() {
+            self.samples.pop_front();
+        }
+        next
+    }
+
+    /// How each of the samples' zero-moment points answers to the shifts of its neighbours and its own (`rows`), and the problem of the `n`
+    /// shifts with the first two `held`, or at rest.
+    fn factor(&mut self, n: usize, held: bool) -> Factor {
         let mut matrix = std::mem::take(&mut self.matrix);
         matrix.reset(n, 1.0);
-        if so_far.is_some() {
+        if held {
             matrix.add_row(0, [1.0, 0.0, 0.0], HELD);
             matrix.add_row(1, [1.0, 0.0, 0.0], HELD);
         } else {
-            // It begins at rest.
             matrix.add_row(0, [1.0, -1.0, 0.0], HELD);
         }
-        for i in 1..n {
-            let mut omega2 = 1.0;
-            sample(i - 1, &mut |s| omega2 = s.omega2);
-            let a = RATE * RATE / omega2;
-            let mut row = [-a, 1.0 + 2.0 * a, -a];
+        for (i, (s, row)) in self.samples.iter().zip(&mut self.rows).enumerate() {
+            let a = RATE * RATE / s.omega2;
+            *row = [-a, 1.0 + 2.0 * a, -a];
             let mut bend = [1.0, -2.0, 1.0];
-            if i + 1 == n {
-                let dies = exp(-omega2.sqrt() * H);
+            if i + 2 == n {
+                let dies = exp(-s.omega2.sqrt() * H);
                 row[1] += dies * row[2];
                 bend[1] += dies;
                 (row[2], bend[2]) = (0.0, 0.0);
             }
-            self.rows[i] = row;
-            matrix.add_row(i as isize - 1, row, PRICE);
-            matrix.add_row(i as isize - 1, bend, (BEND * RATE).powi(4));
+            matrix.add_row(i as isize, *row, PRICE);
+            matrix.add_row(i as isize, bend, (BEND * RATE).powi(4));
         }
-        let factor = matrix.factor();
-        let shift = &mut self.shift[..n];
-        let rounds = if so_far.is_some() {
-            ALTERNATIONS.0
-        } else {
-            ALTERNATIONS.1
-        };
-        for _ in 0..rounds {
-            shift.fill([0.0; 2]);
-            if let Some(held) = so_far {
-                for (x, h) in shift.iter_mut().zip(held) {
-                    *x = h.map(|h| HELD * h);
-                }
-            }
-            for i in 1..n {
-                let row = self.rows[i];
-                sample(i - 1, &mut |s| {
-                    let want: [f64; 2] =
-                        std::array::from_fn(|k| PRICE * (s.goal[k] - s.debt[k] - s.zmp[k]));
-                    for (j, share) in (i - 1..n).zip(row) {
-                        for (x, w) in shift[j].iter_mut().zip(want) {
-                            *x += share * w;
-                        }
-                    }
-                });
-            }
-            factor.solve(shift);
-            for i in 1..n {
-                let row = self.rows[i];
-                let answer: [f64; 2] = std::array::from_fn(|k| {
-                    (i - 1..n).zip(row).map(|(j, r)| r * shift[j][k]).sum()
-                });
-                sample(i - 1, &mut |s| {
-                    s.take(std::array::from_fn(|k| s.zmp[k] + answer[k]));
-                });
-            }
-        }
-        let next = if so_far.is_some() { 2 } else { 1 };
-        let out = shift[next.min(n - 1)];
-        self.matrix = factor.into_matrix();
-        out
+        matrix.factor()
     }
 }
 
@@ -190,14 +191,13 @@ mod tests {
 
     /// Shifts of 200 samples, prepared with a window of `window` samples.
     fn shifts(window: usize, recorded: impl Fn(usize) -> Balanced) -> Vec<[f64; 2]> {
-        let mut samples: Vec<Balanced> = (0..200 + window).map(recorded).collect();
         let mut balance = Balance::new(window);
+        (0..window - 1).for_each(|i| balance.push(recorded(i)));
         let mut out: Vec<[f64; 2]> = Vec::new();
         for i in 0..200usize {
-            let first = i.saturating_sub(1);
+            balance.push(recorded(i + window - 1));
             let so_far = (i > 0).then(|| [out[i.saturating_sub(2)], out[i - 1]]);
-            let count = i + window - first;
-            out.push(balance.next(so_far, count, |k, visit| visit(&mut samples[first + k])));
+            out.push(balance.next(so_far));
         }
         out
     }
@@ -236,10 +236,9 @@ mod tests {
 
     #[test]
     fn the_shift_goes_on_from_where_it_is() {
-        let mut samples: Vec<Balanced> = (0..40).map(|_| recorded(0)).collect();
         let mut balance = Balance::new(40);
-        let so_far = [[0.030, -0.02], [0.032, -0.02]];
-        let next = balance.next(Some(so_far), 40, |k, visit| visit(&mut samples[k]));
+        (0..40).for_each(|_| balance.push(recorded(0)));
+        let next = balance.next(Some([[0.030, -0.02], [0.032, -0.02]]));
         // On at 0.12 m/s and bent by no more than supports allow: ω² (0.032 + 0.03 + 0.01) / 60².
         assert!((next[0] - 0.034).abs() < 3e-4, "{next:?}");
         assert!((next[1] + 0.02).abs() < 3e-4, "{next:?}");

@@ -130,7 +130,6 @@ struct Sample {
     com: Vec3,
     /// Angular momentum about the centre of mass, kg·m²/s.
     momentum: Vec3,
-    balance: Balanced,
     /// Foot poses as they are to be, heights still without clearance.
     feet: [FootPose; 2],
     down: [bool; 2],
@@ -156,7 +155,6 @@ impl Sample {
             poses,
             com: Vec3::zero(),
             momentum: Vec3::zero(),
-            balance: Balanced::new([0.0; 2], GRAVITY),
             feet: [still; 2],
             down: [false; 2],
             lift: [0.0; 2],
@@ -408,7 +406,7 @@ impl LiveMotion {
             self.pose_feet(f, s - 1, j);
         }
         if out >= 0 {
-            self.put_out(out, j);
+            self.put_out(out);
         }
     }
 
@@ -564,7 +562,7 @@ impl LiveMotion {
         let u = ((self.lasting - 0.7 * CARRIED) / (0.6 * CARRIED)).clamp(0.0, 1.0);
         let trust = 1.0 - u * u * (3.0 - 2.0 * u);
         balanced.weight = trust * load.clamp(0.0, 1.0) * load.clamp(0.0, 1.0);
-        self.at_mut(j).balance = balanced;
+        self.balance.push(balanced);
     }
 
     /// Poses of the feet of sample `f`, and what they ask of the pelvis.
@@ -646,16 +644,9 @@ impl LiveMotion {
         of(0).min(of(1))
     }
 
-    /// Moves the shift of the trunk on to sample `out`, with what is known up to sample `j`.
-    fn shift_on(&mut self, out: i64, j: i64) {
-        let first = (out - 1).max(0);
-        let so_far = (out > 0).then_some(self.shift);
-        let count = (j - first + 1).max(1) as usize;
-        let mut balance = std::mem::take(&mut self.balance);
-        let next = balance.next(so_far, count, |k, visit| {
-            visit(&mut self.at_mut(first + k as i64).balance);
-        });
-        self.balance = balance;
+    /// Moves the shift of the trunk on to sample `out`.
+    fn shift_on(&mut self, out: i64) {
+        let next = self.balance.next((out > 0).then_some(self.shift));
         let next = next.map(|x| x.clamp(-MOST_SHIFT, MOST_SHIFT));
         self.shift = if out > 0 {
             [self.shift[1], next]
@@ -665,8 +656,8 @@ impl LiveMotion {
     }
 
     /// The whole posture of sample `out`.
-    fn put_out(&mut self, out: i64, j: i64) {
-        self.shift_on(out, j);
+    fn put_out(&mut self, out: i64) {
+        self.shift_on(out);
         let shift = self.shift[1].map(|d| d * LEAD);
         let s = self.at(out);
         let mut posture = s.smooth;
