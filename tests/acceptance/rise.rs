@@ -5,7 +5,8 @@ use crate::common::{Scene, authored, figure, man, play, recorded};
 use crate::vec3;
 use sinew::sim::body::Body;
 use sinew::sim::body::topology::{CHEST, L_FOOT, L_TOES, R_FOOT, R_TOES, SegmentId};
-use sinew::sim::figure::{ControllerKind, FigureEvent, Flags, Perturbation};
+use sinew::sim::figure::{ClipPlayback, ControllerKind, FigureEvent, Flags, Perturbation};
+use sinew::sim::math::Vec3;
 use std::sync::Arc;
 
 /// Feet and toes.
@@ -110,4 +111,37 @@ fn a_fall_is_no_command_to_get_up() {
         fastest = v.iter().fold(fastest, |m, v| m.max(v.abs()));
     });
     assert!(fastest < 0.5, "{fastest}");
+}
+
+/// Felled on its face under a clip that stands, it stays down until another one is played that lies there and rises.
+#[test]
+fn who_was_felled_gets_up_when_a_clip_that_does_is_played() {
+    let body = man();
+    let idle = authored(&body, "idle");
+    let mut setup = figure(&body, ControllerKind::Modern, idle.sample(0.0).state());
+    setup.strength.all = STRONG;
+    let mut scene = Scene::of(setup);
+    scene.figure_mut().set_drive(play(&idle));
+    let push = Perturbation::Force {
+        segment: CHEST,
+        point: vec3(0.0, 0.0, 0.1),
+        force: vec3(500.0, 0.0, 0.0),
+        from: 0.5,
+        to: 0.7,
+    };
+    scene.world.perturb(scene.key, push).unwrap();
+    let out = watch(scene, 6.0);
+    let felled = out.scene.figure();
+    let front = felled.state().posture.root_rotation.rotate(Vec3::X);
+    assert!(
+        felled.is_fallen() && out.up.is_none() && front.z < -0.8,
+        "{front:?}"
+    );
+    let mut scene = out.scene;
+    let now = scene.world.time();
+    let clip = ClipPlayback::new(recorded(&body, "get-up"), now);
+    scene.figure_mut().play(clip, false, now);
+    let out = watch(scene, 60.0);
+    println!("up at {:?} s", out.up);
+    assert!(out.up.is_some() && !out.scene.figure().is_fallen());
 }

@@ -13,7 +13,7 @@ use crate::sim::control::PointTarget;
 use crate::sim::dynamics::Terms;
 use crate::sim::gait::anchor::Anchor;
 use crate::sim::math::{Quat, Vec3, trig};
-use crate::sim::motion::builtin::Rise;
+use crate::sim::motion::builtin::{Rise, rise};
 use crate::sim::motion::{Clip, PlanarTransform, Target, TargetPair};
 use std::sync::Arc;
 
@@ -59,8 +59,10 @@ enum Phase {
 /// How a fallen figure gets up.
 #[derive(Clone, Debug)]
 pub(super) struct Rising {
-    /// The way up, for figures whose motion lies down.
+    /// The way up of its body, once a motion has lain down.
     way: Option<Arc<Rise>>,
+    /// The present motion lies down.
+    lies: bool,
     phase: Phase,
     /// The motion has lain down since the figure fell; attempts that are left once it gets up.
     lay: bool,
@@ -82,6 +84,7 @@ impl Default for Rising {
     fn default() -> Self {
         Self {
             way: None,
+            lies: false,
             phase: Phase::Lying,
             lay: false,
             left: 0,
@@ -116,9 +119,14 @@ impl Rising {
         clip.samples().any(|(p, _)| p.root_position.z < least)
     }
 
-    /// Another motion: what was commanded before counts no more.
-    pub fn follow(&mut self, way: Option<Arc<Rise>>) {
-        self.way = way;
+    /// Plans the way up of `body`, which is always the figure's, once: about 0.1 s, allocates.
+    pub fn plan(&mut self, body: &Body) {
+        self.way.get_or_insert_with(|| Arc::new(rise(body)));
+    }
+
+    /// Another motion, which `lies` down or does not: what was commanded before counts no more.
+    pub fn follow(&mut self, lies: bool) {
+        self.lies = lies;
         self.reset();
     }
 
@@ -152,7 +160,9 @@ impl Rising {
     /// Judges a fallen figure in `state` at world time `time`, s, whose motion had its centre of mass at `height` (share
     /// of the standing one).
     pub fn watch(&mut self, state: &Posture, height: f64, time: f64) {
-        let Some(way) = &self.way else { return };
+        let Some(way) = self.way.as_ref().filter(|_| self.lies) else {
+            return;
+        };
         match self.phase {
             Phase::Lying if self.own => self.own = false,
             Phase::Lying => {

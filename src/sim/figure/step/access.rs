@@ -17,7 +17,7 @@ use crate::sim::figure::setup::{
 use crate::sim::figure::touches::Touches;
 use crate::sim::gait::{Gait, StepPlan};
 use crate::sim::math::Vec3;
-use crate::sim::motion::{PlanarTransform, TargetPair, builtin};
+use crate::sim::motion::{PlanarTransform, TargetPair};
 use crate::sim::strength::fatigue::Fatigue;
 use crate::sim::strength::{MuscleScale, Strength};
 use std::sync::Arc;
@@ -91,8 +91,8 @@ impl Figure {
     pub fn drive(&self) -> &Drive {
         &self.drive
     }
-    /// Replaces the source of the desired motion from the next tick on, whatever the figure does. What waits is forgotten. With a clip that lies
-    /// down, the figure's way up is planned: about 0.1 s, allocates.
+    /// Replaces the source of the desired motion from the next tick on, whatever the figure does. What waits is forgotten. With the first
+    /// clip that lies down, the figure's way up is planned: about 0.1 s, allocates.
     pub fn set_drive(&mut self, drive: Drive) {
         self.gait.follow(match &drive {
             Drive::Clip(play) => {
@@ -106,8 +106,10 @@ impl Figure {
             Drive::Clip(play) => Rising::lies(&self.setup.body, &play.clip),
             _ => false,
         };
-        let way = lies.then(|| Arc::new(builtin::rise(&self.setup.body)));
-        self.rising.follow(way);
+        if lies {
+            self.rising.plan(&self.setup.body);
+        }
+        self.rising.follow(lies);
         self.drive = drive;
         self.queued = None;
         self.ending = false;

@@ -5,6 +5,7 @@ use super::{Figure, TickContext};
 use crate::sim::body::Posture;
 use crate::sim::control::Controller;
 use crate::sim::figure::drive::{ClipPlayback, Drive, Queued};
+use crate::sim::figure::rising::Rising;
 use crate::sim::figure::setup::ControllerKind;
 use crate::sim::gait::StepPlan;
 use crate::sim::motion::Clip;
@@ -36,6 +37,9 @@ impl Figure {
             let start = play.start;
             self.set_drive(Drive::Clip(play));
             return start;
+        }
+        if Rising::lies(&self.setup.body, &play.clip) {
+            self.rising.plan(&self.setup.body);
         }
         let lead = play.clip.lead_in();
         let first = play.clip_time(time).clamp(-lead, 0.0);
@@ -100,10 +104,11 @@ impl Figure {
         let stance = self.gait.stance(&self.terms);
         if let Some(q) = self.queued.take() {
             let (play, plan) = q.begin(time, stance);
+            let lies = Rising::lies(&self.setup.body, &play.clip);
             self.gait.follow(Some((plan, play.speed, play.origin)));
             self.drive = Drive::Clip(play);
             self.ending = false;
-            self.rising.reset();
+            self.rising.follow(lies);
         }
     }
 
@@ -137,7 +142,7 @@ impl Figure {
         if let Some(q) = &mut self.queued {
             q.due = start + way.clip.duration();
         }
-        self.rising.follow(None);
+        self.rising.follow(false);
         self.gait.follow(None);
         self.fallen = false;
         self.start_afresh();
