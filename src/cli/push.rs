@@ -57,9 +57,9 @@ pub struct Args {
     /// Length of one file unit, m [default: guessed from the stature]
     #[arg(long, value_name = "M")]
     unit: Option<f64>,
-    /// Walk what the recording runs: slower, with shorter steps
+    /// Leave runs as they were recorded. Otherwise they are walked, slower and with shorter steps: measured strength does not run
     #[arg(long, conflicts_with = "raw")]
-    walk_runs: bool,
+    keep_runs: bool,
 }
 
 /// A network that holds frames up and loses them, the same way for the same seed.
@@ -205,7 +205,7 @@ fn prepared(args: &Args, bvh: &Bvh, body: &Body) -> anyhow::Result<Clip> {
     } else {
         let reading = BvhReading {
             unit_m: args.unit,
-            walk_runs: Some(args.walk_runs),
+            walk_runs: Some(!args.keep_runs),
             ..Default::default()
         };
         let (clip, report) = engine::retarget(&args.figure, bvh, &reading, body)

@@ -117,9 +117,9 @@ pub struct RunArgs {
     /// Begin and end standing, with the steps that it takes before the first frame and after the last one.
     #[arg(long, conflicts_with = "looped")]
     pub standing: bool,
-    /// Walk what a recording runs: slower, with shorter steps.
+    /// Leave runs as they were recorded. Otherwise they are walked, slower and with shorter steps: measured strength does not run.
     #[arg(long)]
-    pub walk_runs: bool,
+    pub keep_runs: bool,
     /// Writes the measures as JSON (a list for several clips).
     #[arg(long, value_name = "FILE.json")]
     pub report: Option<PathBuf>,
@@ -202,7 +202,7 @@ pub fn run(args: &RunArgs) -> Result<()> {
     // Bad parameters are worth knowing before clips are read.
     World::new(scenario.params).context("no such world")?;
     let options = RetargetOptions {
-        walk_runs: args.walk_runs,
+        walk_runs: !args.keep_runs,
         ..RetargetOptions::default()
     };
     let sources = args

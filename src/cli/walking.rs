@@ -105,36 +105,34 @@ pub fn run(args: &WalkingArgs) -> Result<()> {
     page.finish()
 }
 
-/// The motion of a recording; if it runs, also walked.
+/// The motion of a recording; if it runs, walked and as recorded.
 fn motions(spec: &str, body: &Body) -> Result<Vec<Motion>> {
-    let plain = RetargetOptions::default();
-    let walked = RetargetOptions {
-        walk_runs: true,
-        ..plain.clone()
-    };
-    let source = load(spec, body, &plain)?;
-    let runs = source.retarget.is_some_and(|r| r.runs.is_some());
-    let mut out = vec![Motion {
-        name: source.name,
-        spec: spec.to_owned(),
-        options: plain,
-        clip: Arc::new(source.clip),
-    }];
-    if runs {
-        let source = load(spec, body, &walked)?;
-        out.push(Motion {
-            name: format!("{}, walked", source.name),
+    let read = |kind: &str, walk_runs| -> Result<(Motion, bool)> {
+        let options = RetargetOptions {
+            walk_runs,
+            ..RetargetOptions::default()
+        };
+        let source = load(spec, body, &options)?;
+        let runs = source.retarget.is_some_and(|r| r.runs.is_some());
+        let motion = Motion {
+            name: format!("{}{kind}", source.name),
             spec: spec.to_owned(),
-            options: walked,
+            options,
             clip: Arc::new(source.clip),
-        });
+        };
+        Ok((motion, runs))
+    };
+    let (motion, runs) = read("", true)?;
+    let mut out = vec![motion];
+    if runs {
+        out.push(read(", kept as a run", false)?.0);
     }
     Ok(out)
 }
 
 fn introduction(page: &mut Page, study: &Study) {
     page.say("# Walking, measured");
-    let plain = study.clips.iter().filter(|m| !m.options.walk_runs);
+    let plain = study.clips.iter().filter(|m| m.options.walk_runs);
     let names: Vec<&str> = plain.map(|m| m.name.as_str()).collect();
     page.say(&format!(
         "Recorded motion in torque simulation: a man of 30 years, 1.75 m, 75 kg at his own strength, without assist, 60 ticks of two substeps \
@@ -186,8 +184,8 @@ fn clips_once(page: &mut Page, study: &Study) {
     page.say("## Clips");
     page.say(
         "From standing into the clip, through it and back to standing by planned steps; errors until a fall. *Slip* is the way of a foot's contact \
-         points over the floor in one stance, weighted by what they carry; *floor* is the largest push of a tick, in all and on one foot; *touch-down off* the largest deviation from the planned time. *Walked* are \
-         recordings of runs, slowed down and shortened (`--walk-runs`).",
+         points over the floor in one stance, weighted by what they carry; *floor* is the largest push of a tick, in all and on one foot; *touch-down off* the largest deviation from the planned time. Runs \
+         are walked, slower and with shorter steps, unless they are kept (`--keep-runs`).",
     );
     let walker = Walker::new(&study.body);
     let mut rows: Vec<Vec<String>> = study

@@ -117,7 +117,7 @@ pub fn retarget(
         floor: reading.floor.unwrap_or(defaults.floor),
         lock_feet: reading.lock_feet.unwrap_or(defaults.lock_feet),
         cutoff_hz: reading.cutoff_hz.unwrap_or(defaults.cutoff_hz),
-        walk_runs: reading.walk_runs.unwrap_or(defaults.walk_runs),
+        walk_runs: reading.walk_runs.unwrap_or(true),
         ..defaults
     };
     let out = crate::sim::motion::retarget(bvh, body, &options).map_err(|e| e.to_string())?;

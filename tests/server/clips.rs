@@ -89,12 +89,12 @@ async fn a_recording_is_uploaded_played_and_deleted() {
     server.stop().await;
 }
 
-/// A run is reported; asked to, the server walks it, and a figure then stands at its end.
+/// A run is reported, and walked unless it is to stay as it is.
 #[tokio::test(flavor = "multi_thread")]
-async fn a_run_is_walked_if_asked_to() {
+async fn a_run_is_walked_unless_it_is_to_be_kept() {
     let server = TestServer::start().await;
     let mut clips = Vec::new();
-    for walk_runs in [None, Some(true)] {
+    for walk_runs in [Some(false), None] {
         let options = pb::BvhOptions {
             walk_runs,
             ..Default::default()

@@ -2,9 +2,11 @@
 //!
 //! A run needs 1.7 to 2 times the strength that is measured in people's joints: at its take-off the ankle turns so fast that it gives a third of what
 //! it holds (docs/adr/0021). What can be kept of it is its steps, their order, rhythm and headings, and what trunk and arms do. Time
-//! runs slower where the recording is fast, the way is shortened along with the steps, every foot stays down until the other one has landed, and
-//! between its places it swings as a walking foot does.
+//! runs as much slower as makes its steps last as long as walked ones, the way is shortened along with them until it is walked at a walk's speed (and
+//! until nobody leans more than such a speed can be braked with), every foot stays down until the other one has landed, and between
+//! its places it swings as a walking foot does.
 
+use super::GRAVITY;
 use super::contacts::runs;
 use super::filter::{low_pass, low_pass_points, speeds};
 use crate::sim::math::{Quat, Vec3};
@@ -13,12 +15,21 @@ use crate::sim::math::{Quat, Vec3};
 const RUNS: f64 = 2.2;
 /// What is faster than this before or after a run belongs to it; and how fast a run is walked, m/s.
 const WALKS: f64 = 1.05;
-/// Steps keep their length up to the first speed, m/s, and have the share [`SHORTEST`] of it from the second on.
-const SHORTENED: (f64, f64) = (1.3, 4.0);
-const SHORTEST: f64 = 0.6;
+/// Duration of a walked step, s; the longest of a run.
+const STEP: f64 = 0.5;
+const RUNS_STEP: f64 = 0.4;
+/// Farthest that a body may lean that walks, m: slowed down, it brakes less than its lean would have it.
+const LEAN: f64 = 0.15;
+/// Least share of their length that steps keep.
+const SHORTEST: f64 = 0.35;
+/// The way between the feet has turned after so much of it back, m; jitter is taken out above this, Hz.
+const TURNS: f64 = 0.05;
+const TURNS_CUTOFF: f64 = 8.0;
 /// The speed is that of the slow part of the way, Hz, and the highest within so long before and after, s.
 const CUTOFF: f64 = 2.0;
 const AROUND: f64 = 0.05;
+/// The least pace of so long before and after, s.
+const LINGERS: f64 = 0.1;
 /// Least share of its pace that time keeps.
 const SLOWEST: f64 = 0.1;
 /// A share above this is the whole.
@@ -47,6 +58,64 @@ fn paces(way: &[Vec3], rate_hz: f64) -> Vec<f64> {
     (0..speed.len()).map(most).collect()
 }
 
+/// How far behind (or ahead of) its feet a body has to lean to change its speed as fast as it does, m.
+fn leans(way: &[Vec3], feet: [&[Vec3]; 2], rate_hz: f64) -> Vec<f64> {
+    let n = way.len();
+    let lowest = feet.into_iter().flatten();
+    let floor = lowest.map(|p| p.z).fold(f64::INFINITY, f64::min);
+    let mut slow = way.to_vec();
+    low_pass_points(&mut slow, CUTOFF, rate_hz);
+    let lean = |i: usize| {
+        let (before, after) = (slow[i.saturating_sub(1)], slow[(i + 1).min(n - 1)]);
+        let bend = before - slow[i] * 2.0 + after;
+        let acceleration = bend.x.hypot(bend.y) * rate_hz * rate_hz;
+        acceleration * (way[i].z - floor) / GRAVITY
+    };
+    let mut out: Vec<f64> = (0..n).map(lean).collect();
+    if n > 2 {
+        (out[0], out[n - 1]) = (out[1], out[n - 2]);
+    }
+    out
+}
+
+/// Duration of the step that each sample belongs to, s: from one turning point of the way between the feet to the next.
+fn steps(way: &[Vec3], [left, right]: [&[Vec3]; 2], rate_hz: f64) -> Vec<f64> {
+    let n = way.len();
+    let mut slow = way.to_vec();
+    low_pass_points(&mut slow, CUTOFF, rate_hz);
+    let mut lead: Vec<f64> = (0..n)
+        .map(|i| {
+            let ahead = slow[(i + 1).min(n - 1)] - slow[i.saturating_sub(1)];
+            let ahead = Vec3 { z: 0.0, ..ahead }.normalized_or(Vec3::X);
+            (left[i] - right[i]).dot(ahead)
+        })
+        .collect();
+    low_pass(&mut lead, TURNS_CUTOFF, rate_hz);
+    // Turning points: the foot that has come ahead begins to fall behind.
+    let (mut turns, mut sense, mut last) = (Vec::new(), 0.0, 0);
+    for i in 1..n {
+        let back = lead[last] - lead[i];
+        if sense == 0.0 {
+            if back.abs() > TURNS {
+                (sense, last) = (-back.signum(), i);
+            }
+        } else if sense * back < 0.0 {
+            last = i;
+        } else if sense * back > TURNS {
+            turns.push(last);
+            (sense, last) = (-sense, i);
+        }
+    }
+    let of = |i: usize| {
+        // Before the first and after the last one steps go on as they were.
+        let k = turns.partition_point(|t| *t <= i);
+        let k = k.clamp(1, turns.len().max(2) - 1);
+        let between = turns.get(k).map(|t| (t - turns[k - 1]) as f64 / rate_hz);
+        between.unwrap_or(RUNS_STEP).min(RUNS_STEP)
+    };
+    (0..n).map(of).collect()
+}
+
 /// How a recording with runs is played so that they are walked.
 #[derive(Clone, Debug)]
 pub(super) struct Slowed {
@@ -59,24 +128,37 @@ pub(super) struct Slowed {
 impl Slowed {
     /// `None` if nobody runs.
     ///
-    /// * `way`: of the middle of the body, m; `rate_hz`: of the recording; `to_hz`: of the motion.
-    pub(super) fn new(way: &[Vec3], rate_hz: f64, to_hz: f64) -> Option<Self> {
+    /// * `way`: of the middle of the body, `feet`: of the left and the right foot, m; `rate_hz`: of the recording; `to_hz`: of the motion.
+    pub(super) fn new(way: &[Vec3], feet: [&[Vec3]; 2], rate_hz: f64, to_hz: f64) -> Option<Self> {
         let n = way.len();
         let speed = paces(way, rate_hz);
+        if speed.iter().all(|v| *v <= RUNS) {
+            return None;
+        }
+        let step = steps(way, feet, rate_hz);
+        let leans = leans(way, feet, rate_hz);
         let (mut pace, mut share) = (vec![1.0; n], vec![1.0; n]);
         let moves: Vec<bool> = speed.iter().map(|v| *v > WALKS).collect();
-        let mut any = false;
         for (i, j, _) in runs(&moves).into_iter().filter(|r| r.2) {
             if speed[i..j].iter().all(|v| *v <= RUNS) {
                 continue;
             }
-            any = true;
             for k in i..j {
-                let fast = (speed[k] - SHORTENED.0) / (SHORTENED.1 - SHORTENED.0);
-                share[k] = 1.0 - (1.0 - SHORTEST) * fast.clamp(0.0, 1.0);
-                pace[k] = (WALKS / (share[k] * speed[k])).min(1.0);
+                let rhythm = (step[k] / STEP).min(1.0);
+                share[k] = (WALKS / (speed[k] * rhythm))
+                    .min(LEAN / leans[k].max(1e-9))
+                    .clamp(SHORTEST, 1.0);
+                pace[k] = (WALKS / (speed[k] * share[k])).min(rhythm);
             }
         }
+        // Time comes to its own pace after a run has ended, not before.
+        let half = (LINGERS * rate_hz) as usize;
+        let mut pace: Vec<f64> = (0..n)
+            .map(|i| {
+                let around = &pace[i.saturating_sub(half)..(i + half + 1).min(n)];
+                around.iter().copied().fold(1.0, f64::min)
+            })
+            .collect();
         low_pass(&mut pace, CUTOFF, rate_hz);
         low_pass(&mut share, CUTOFF, rate_hz);
         let mut out = Self {
@@ -90,7 +172,7 @@ impl Slowed {
             out.share.push(share[k].min(1.0));
             at += pace[k].clamp(SLOWEST, 1.0) * rate_hz / to_hz;
         }
-        any.then_some(out)
+        Some(out)
     }
 
     /// Samples of the motion.
@@ -319,11 +401,53 @@ mod tests {
             .collect()
     }
 
+    /// Feet that take turns in being half a metre before and behind the middle, a step each 0.35 s.
+    fn feet(way: &[Vec3]) -> [Vec<Vec3>; 2] {
+        [1.0, -1.0].map(|side| {
+            let at = |(i, p): (usize, &Vec3)| {
+                let turn = std::f64::consts::PI * i as f64 / RATE / 0.35;
+                vec3(p.x + 0.5 * side * turn.cos(), 0.1 * side, 0.0)
+            };
+            way.iter().enumerate().map(at).collect()
+        })
+    }
+
+    fn slowed(way: &[Vec3]) -> Option<Slowed> {
+        let [left, right] = feet(way);
+        Slowed::new(way, [&left, &right], RATE, RATE)
+    }
+
+    #[test]
+    fn steps_last_from_turn_to_turn_also_where_feet_do_not_pass_each_other() {
+        let way = way(|_| 4.0);
+        let [left, right] = feet(&way);
+        // The other one: always half a metre farther back.
+        let back: Vec<Vec3> = right.iter().map(|p| *p - Vec3::X * 1.2).collect();
+        for right in [&right, &back] {
+            let step = steps(&way, [&left, right], RATE);
+            assert!(
+                step.iter().all(|s| (s - 0.35).abs() < 1.5 / RATE),
+                "{step:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn who_brakes_hard_leans_less_when_slow() {
+        // 4.2 m/s, and to a stand with 3 m/s² of a body 1 m high: a lean of 0.31 m.
+        let speed = |t: f64| 4.2 - 3.0 * (t - 1.0).clamp(0.0, 1.4);
+        let recorded = way(speed);
+        let slowed = slowed(&recorded).unwrap();
+        let at = |t: f64| slowed.times.partition_point(|k| *k < t * RATE);
+        let share = slowed.share[at(1.7)];
+        assert!((share - LEAN / 0.306).abs() < 0.02, "{share}");
+    }
+
     #[test]
     fn walks_are_left_alone() {
         for speed in [0.0, 1.2, 2.0] {
             let way = way(|_| speed);
-            assert!(Slowed::new(&way, RATE, RATE).is_none());
+            assert!(slowed(&way).is_none());
             assert_eq!(fastest(&way, RATE), None);
         }
     }
@@ -334,7 +458,7 @@ mod tests {
         let speed = |t: f64| 4.0 - 3.2 * ((t - 1.0) / 1.0).clamp(0.0, 1.0);
         let recorded = way(speed);
         assert!((fastest(&recorded, RATE).unwrap() - 4.0).abs() < 0.05);
-        let slowed = Slowed::new(&recorded, RATE, RATE).unwrap();
+        let slowed = slowed(&recorded).unwrap();
         let mut pelvis = slowed.points(&recorded);
         assert_eq!(pelvis.len(), slowed.count());
         // A foot that stands on the way stays where it is while the pelvis passes.
@@ -352,7 +476,7 @@ mod tests {
 
     #[test]
     fn a_run_has_no_flight_and_its_feet_stand_still_between_clean_swings() {
-        let slowed = Slowed::new(&way(|_| 4.0), RATE, RATE).unwrap();
+        let slowed = slowed(&way(|_| 4.0)).unwrap();
         let n = slowed.count();
         // Feet that stand for 0.2 s in turn, with flights of 0.2 s, and drift while they do not.
         let period = 0.8;

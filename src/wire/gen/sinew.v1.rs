@@ -2480,7 +2480,7 @@ pub struct BvhOptions {
     #[prost(double, optional, tag = "6")]
     pub cutoff_hz: ::core::option::Option<f64>,
     /// Walks what the recording runs: slower and with shorter steps, so that the clip gets longer. The strength that is measured in people's
-    /// joints does not run. Absent: false.
+    /// joints does not run: left as recorded, a run fells its figure. Absent: true.
     #[prost(bool, optional, tag = "7")]
     pub walk_runs: ::core::option::Option<bool>,
 }

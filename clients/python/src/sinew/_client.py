@@ -194,12 +194,12 @@ class Client:
         fit_floor: bool = True,
         lock_feet: bool = True,
         cutoff_hz: float = 6.0,
-        walk_runs: bool = False,
+        walk_runs: bool = True,
     ) -> Clip:
         """Stores a BVH file (path or bytes) as a clip; `Clip.report` says how it was understood.
 
         Unit and up axis are guessed unless given; `rate_hz` replaces the file's frame time.
-        `walk_runs` slows runs down to walks, which a body of measured strength can follow.
+        Runs are slowed down to walks, which a body of measured strength can follow; `walk_runs=False` keeps them.
         """
         bvh = bvh_source(
             source,

@@ -121,7 +121,7 @@ def bvh_source(
     fit_floor: bool = True,
     lock_feet: bool = True,
     cutoff_hz: float = 6.0,
-    walk_runs: bool = False,
+    walk_runs: bool = True,
 ) -> motion_pb2.BvhSource:
     """A file with how to read it."""
     data = source if isinstance(source, bytes) else Path(source).read_bytes()

@@ -64,9 +64,10 @@ impl<'a> Scene<'a> {
         let count = ((((take.len() - 1) as f64) * rate / source_rate + 1e-6).floor() as usize + 1)
             .min(MAX_FRAMES * 4);
         let way = middle(&places);
+        let feet = [0, 1].map(|s: usize| places[take.at(map.sides[s].foot)].as_slice());
         let slowed = options
             .walk_runs
-            .then(|| Slowed::new(&way, source_rate, rate))
+            .then(|| Slowed::new(&way, feet, source_rate, rate))
             .flatten();
         let count = slowed.as_ref().map_or(count, Slowed::count);
         let mut smoothing = (0.0, 0usize);

@@ -194,7 +194,7 @@ class BvhOptions(_message.Message):
     """Corner frequency of the zero-phase low-pass, Hz, 0.5…60. Absent: 6."""
     walk_runs: _builtins.bool
     """Walks what the recording runs: slower and with shorter steps, so that the clip gets longer. The strength that is measured in people's
-    joints does not run. Absent: false.
+    joints does not run: left as recorded, a run fells its figure. Absent: true.
     """
     def __init__(
         self,

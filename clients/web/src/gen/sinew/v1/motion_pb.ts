@@ -143,7 +143,7 @@ export type BvhOptions = Message<"sinew.v1.BvhOptions"> & {
 
   /**
    * Walks what the recording runs: slower and with shorter steps, so that the clip gets longer. The strength that is measured in people's
-   * joints does not run. Absent: false.
+   * joints does not run: left as recorded, a run fells its figure. Absent: true.
    *
    * @generated from field: optional bool walk_runs = 7;
    */
