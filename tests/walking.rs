@@ -5,13 +5,13 @@
 
 mod common;
 
-use common::{authored, figure, man, recorded, recorded_with};
+use common::{authored, figure, man, mocap, recorded, recorded_with};
 use sinew::evaluate::experiments::walk::{self as experiments, Walk, Walker};
 use sinew::sim::body::topology::{CHEST, L_HAND, R_HAND};
 use sinew::sim::body::{Body, Profile, SegmentId, Sex};
 use sinew::sim::figure::{ControllerKind, Flags, Perturbation};
 use sinew::sim::math::Vec3;
-use sinew::sim::motion::{Clip, RetargetOptions, cycle};
+use sinew::sim::motion::{Bvh, Clip, RetargetOptions, cycle, retarget};
 use sinew::sim::world::{ClipPlayback, Drive, FigureKey, World, WorldParams};
 use std::f64::consts::FRAC_PI_4;
 use std::sync::Arc;
@@ -497,6 +497,40 @@ fn loads_are_carried_around_corners_and_by_others() {
         (0.0, f64::INFINITY),
     );
     assert!(rms < 1.5 && capture < 0.08, "{rms} deg, {capture} m");
+}
+
+/// The frames of a recording from `from` on for `seconds`, as a file of its own.
+fn piece(name: &str, from: f64, seconds: f64) -> Bvh {
+    let text = String::from_utf8(mocap::read(&format!("{name}.bvh"))).unwrap();
+    let head = text.find("Frames:").unwrap();
+    let (head, motion) = text.split_at(head);
+    let mut lines = motion.lines().skip(1);
+    let time = lines.next().unwrap();
+    let frame: f64 = time.split(':').nth(1).unwrap().trim().parse().unwrap();
+    let [from, count] = [from, seconds].map(|t| (t / frame) as usize);
+    let frames: Vec<&str> = lines.skip(from).take(count).collect();
+    let count = frames.len();
+    let file = format!("{head}Frames: {count}\n{time}\n{}\n", frames.join("\n"));
+    Bvh::parse(file.as_bytes()).unwrap()
+}
+
+#[test]
+fn who_breaks_off_while_turning_turns_on_to_a_stand() {
+    let body = man();
+    for from in [1.14, 2.28] {
+        // On the left foot, falling to its outer side: straight on the right one does not get there.
+        let bvh = piece("walk-around", from, 2.0);
+        let clip = Arc::new(
+            retarget(&bvh, &body, &RetargetOptions::default())
+                .unwrap()
+                .clip,
+        );
+        assert!(clip.lead_out() > 1.0, "no steps from {from} s");
+        let seconds = clip.lead_in() + clip.duration() + clip.lead_out() + 1.0;
+        let what = format!("walk-around from {from} s");
+        let (rms, capture) = walk(&body, &what, &clip, false, seconds);
+        assert!(rms < 4.0 && capture < 0.3, "{what}: {rms} deg, {capture} m");
+    }
 }
 
 #[test]

@@ -108,12 +108,13 @@ fn walk(
     found: &Footsteps,
     (axis, rate): ([Vec3; 2], f64),
 ) -> Draft {
-    let upright = Quat::exp(Vec3::Z * (from.heading - stand.heading)) * stand.posture.root_rotation;
+    let upright =
+        Quat::exp(Vec3::Z * (found.heading - stand.heading)) * stand.posture.root_rotation;
     // The zero-moment point of the pendulum jumps from foot to foot; a body's does not.
     let mut path = found.path.clone();
     low_pass_points(&mut path, 4.0, rate);
     let offset = ground(from.posture.root_position - from.com);
-    let end_offset = turned(from.heading, ground(stand.pelvis - stand.mass));
+    let end_offset = turned(found.heading, ground(stand.pelvis - stand.mass));
     let mut out = Draft::empty(rate);
     for i in 1..path.len() {
         let t = i as f64 / rate;
@@ -143,7 +144,7 @@ fn walk(
         };
         let mut label = [true; 2];
         for side in 0..2 {
-            let yaw = from.heading + stand.yaw[side];
+            let yaw = found.heading + stand.yaw[side];
             let (ankle, foot, down) = feet::pose(from, &found.steps, &soles[side], (side, yaw), t);
             out.ankle[side].push(ankle);
             out.foot[side].push(foot);

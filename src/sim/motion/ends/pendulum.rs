@@ -43,6 +43,9 @@ const WORTH_OF_SPARE: f64 = 0.1;
 const LEAN: (f64, f64, f64) = (2.0, 0.015, 0.9);
 /// A foot this close to where it belongs stays, m and rad.
 const HOME: (f64, f64) = (0.04, 0.15);
+/// Turns of the whole, as shares of the way to where the body moves, tried in turn until steps are found; and how far aside that may be, rad.
+const TURNS: [f64; 4] = [0.0, 0.5, 1.0, 1.5];
+const MOST_ASIDE: f64 = 1.2;
 /// Most steps of an end.
 const MOST_STEPS: usize = 8;
 /// Longest flight that is believed, s.
@@ -137,13 +140,15 @@ struct Way {
     /// See [`SWINGS`].
     rest: f64,
     speed: f64,
+    /// Turn of the whole, rad.
+    turn: f64,
 }
 
 impl Way {
-    /// All that are tried.
+    /// All that are tried with the same `turn`.
     ///
     /// * `spare`: the most that should be in hand beyond [`CAUGHT`], s; `in_air`: a foot is in the air.
-    fn all(spare: f64, in_air: bool) -> impl Iterator<Item = Self> {
+    fn all(spare: f64, in_air: bool, turn: f64) -> impl Iterator<Item = Self> {
         let swings = if in_air { &SWINGS[..] } else { &SWINGS[..1] };
         let hands: &[f64] = if spare > 0.0 {
             &[1.0, 0.5, 0.0]
@@ -159,6 +164,7 @@ impl Way {
                 first,
                 rest,
                 speed,
+                turn,
             })
         })
     }
@@ -182,6 +188,8 @@ struct Stop<'a> {
 pub(super) struct Footsteps {
     pub(super) steps: Vec<Step>,
     pub(super) path: Vec<Vec3>,
+    /// Heading in the end, rad.
+    pub(super) heading: f64,
 }
 
 /// Frequency of the pendulum between a start and a stand, rad/s.
@@ -218,9 +226,17 @@ pub(super) fn footsteps(
         };
         stop.run().then_some(stop)
     };
-    let found = Way::all(spare, from.down != [true; 2]).filter_map(tried);
-    let best = found.min_by(|a, b| a.price().total_cmp(&b.price()))?;
+    let in_air = from.down != [true; 2];
+    let best = |turn: f64| {
+        let found = Way::all(spare, in_air, turn).filter_map(tried);
+        found.min_by(|a, b| a.price().total_cmp(&b.price()))
+    };
+    // Who falls to a side where his feet cannot get turns there.
+    let aside = turn(from.heading, from.velocity.y.atan2(from.velocity.x));
+    let aside = if aside.abs() < MOST_ASIDE { aside } else { 0.0 };
+    let best = TURNS.iter().find_map(|share| best(share * aside))?;
     Some(Footsteps {
+        heading: best.heading(),
         steps: best.steps,
         path: best.path,
     })
@@ -249,9 +265,14 @@ impl Stop<'_> {
         (self.path.len() - 1) as f64 * self.dt
     }
 
+    /// Heading of the whole.
+    fn heading(&self) -> f64 {
+        self.from.heading + self.way.turn
+    }
+
     /// Heading that a foot gets.
     fn yaw(&self, side: usize) -> f64 {
-        self.from.heading + self.stand.yaw[side]
+        self.heading() + self.stand.yaw[side]
     }
 
     fn mass(&self) -> Vec3 {
@@ -355,7 +376,7 @@ impl Stop<'_> {
 
     /// Place of foot `side` with the middle of its sole at `wanted`, or as near as the leg allows beside the other foot.
     fn reachable(&self, side: usize, wanted: Vec3) -> Vec3 {
-        let heading = self.from.heading;
+        let heading = self.heading();
         let stance = self.feet.place[1 - side];
         let local = turned(-heading, wanted - stance);
         let outward = if side == 0 { 1.0 } else { -1.0 };
@@ -382,7 +403,7 @@ impl Stop<'_> {
     /// Where foot `side` belongs beside the other one.
     fn beside(&self, side: usize) -> Vec3 {
         let d = turned(
-            self.from.heading,
+            self.heading(),
             self.stand.home[side] - self.stand.home[1 - side],
         );
         Vec3 {
@@ -441,7 +462,7 @@ impl Stop<'_> {
         let c = self.mass();
         let reach = (self.capture - c).norm().min(0.5 * LONGEST.0 * self.leg);
         let ahead = (self.capture - c).normalized_or(Vec3::X) * reach;
-        let place = c + ahead + turned(from.heading, Vec3::Y * self.stand.home[side].y);
+        let place = c + ahead + turned(self.heading(), Vec3::Y * self.stand.home[side].y);
         self.steps.push(Step {
             side,
             off: 0.0,
@@ -502,7 +523,7 @@ impl Stop<'_> {
             self.both(BOTH);
         }
         let middle = (self.feet.place[0] + self.feet.place[1]) * 0.5;
-        let stands = middle + turned(self.from.heading, self.stand.mass);
+        let stands = middle + turned(self.heading(), self.stand.mass);
         self.lean(ground(stands));
         self.both(REST);
     }
