@@ -9,9 +9,10 @@
 //! ```
 //!
 //! Eliminating them leaves Newton's matrix with other slopes: `1/(1/g + z₁/(t − lower) + z₂/(upper − t))` for a motor and `(R + W⁻²)⁻¹` for a
-//! contact, with the scaling W of Nesterov and Todd for second-order cones (Andersen, Dahl & Vandenberghe 2003). Newton's method finishes from the prices
+//! contact ([`super::cone`]), with the scaling W of Nesterov and Todd for second-order cones (Andersen, Dahl & Vandenberghe 2003). Newton's method finishes from the prices
 //! that come out. The controller's problem has no joint limits; islands of bodies ([`crate::sim::collide::island`]) have them, as [`Wall`]s.
 
+use super::cone::{Cone, squared};
 use super::limits::MAX_LIMITS;
 use super::newton::{Motors, NewtonWorkspace, System};
 use super::rows::{CHAIN_WIDTH, ContactRows, add_point_stiffness};
@@ -27,14 +28,14 @@ const DONE: f64 = 1e-8;
 /// the boundary.
 pub(crate) const FIRST_MULTIPLIER: f64 = 1e3;
 
-/// A motor between its limits.
+/// A motor between its limits. The way to each limit is kept apart: near one of them the difference of two values would have no digits left.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Inner {
-    pub(crate) t: f64,
-    /// Multipliers of the lower and the upper limit.
+    /// Way to the lower and the upper limit, and their multipliers.
+    s: [f64; 2],
     z: [f64; 2],
-    /// Steps of all three.
-    pub(crate) dt: f64,
+    /// Steps of the value and of the multipliers.
+    dt: f64,
     dz: [f64; 2],
 }
 
@@ -47,41 +48,50 @@ impl Inner {
         let v = t / motors.gain[j] - motors.rest[j] + x;
         let z = size * widest / half;
         Self {
-            t,
+            s: [half; 2],
             z: [v.max(0.0) + z, (-v).max(0.0) + z],
             ..Self::default()
         }
     }
 
-    /// Both products of multiplier and distance.
+    /// Its value.
     #[inline(always)]
-    pub(crate) fn gap(&self, motors: &Motors, j: usize) -> f64 {
-        self.z[0] * (self.t - motors.lower[j]) + self.z[1] * (motors.upper[j] - self.t)
+    pub(crate) fn value(&self, motors: &Motors, j: usize) -> f64 {
+        if self.s[0] < self.s[1] {
+            motors.lower[j] + self.s[0]
+        } else {
+            motors.upper[j] - self.s[1]
+        }
     }
 
-    /// Eliminates it: its slope; `t + dt` is its value at the present price, with the multipliers that the aim asks for.
+    /// Its value after the step.
+    #[inline(always)]
+    pub(crate) fn next(&self, motors: &Motors, j: usize) -> f64 {
+        self.value(motors, j) + self.dt
+    }
+
+    /// Both products of multiplier and distance.
+    #[inline(always)]
+    pub(crate) fn gap(&self) -> f64 {
+        self.z[0] * self.s[0] + self.z[1] * self.s[1]
+    }
+
+    /// Eliminates it: its slope; [`Self::next`] is its value at the present price then, with the multipliers that the aim asks for.
     #[inline(always)]
     pub(crate) fn eliminate(&mut self, motors: &Motors, j: usize, x: f64, aim: f64) -> f64 {
         let g = motors.gain[j];
-        let s = [self.t - motors.lower[j], motors.upper[j] - self.t];
+        let s = self.s;
         let slope = 1.0 / (1.0 / g + self.z[0] / s[0] + self.z[1] / s[1]);
-        let r = self.t / g - motors.rest[j] + x - aim / s[0] + aim / s[1];
+        let r = self.value(motors, j) / g - motors.rest[j] + x - aim / s[0] + aim / s[1];
         self.dt = -slope * r;
         slope
     }
 
     /// Its steps for a change `dx` of the price; the largest step ≤ `most` that keeps it inside.
     #[inline(always)]
-    pub(crate) fn direct(
-        &mut self,
-        motors: &Motors,
-        j: usize,
-        (slope, dx): (f64, f64),
-        aim: f64,
-        most: f64,
-    ) -> f64 {
+    pub(crate) fn direct(&mut self, (slope, dx): (f64, f64), aim: f64, most: f64) -> f64 {
         self.dt -= slope * dx;
-        let s = [self.t - motors.lower[j], motors.upper[j] - self.t];
+        let s = self.s;
         self.dz = [
             (aim - self.z[0] * self.dt) / s[0] - self.z[0],
             (aim + self.z[1] * self.dt) / s[1] - self.z[1],
@@ -102,73 +112,10 @@ impl Inner {
 
     #[inline(always)]
     pub(crate) fn advance(&mut self, step: f64) {
-        self.t += step * self.dt;
+        self.s[0] += step * self.dt;
+        self.s[1] -= step * self.dt;
         self.z[0] += step * self.dz[0];
         self.z[1] += step * self.dz[1];
-    }
-}
-
-/// A contact in its cone. Coordinates in which the cone is `|(x, y)| ≤ z` and its own dual: normal force times μ, normal velocity over μ.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Cone {
-    pub(crate) f: Vec3,
-    l: Vec3,
-    pub(crate) df: Vec3,
-    dl: Vec3,
-}
-
-impl Cone {
-    /// On the axis: force `widest`, multiplier `size` beyond the velocity `v`.
-    #[inline(always)]
-    pub(crate) fn begin(v: Vec3, size: f64, widest: f64) -> Self {
-        Self {
-            f: Vec3::Z * widest,
-            l: Vec3::Z * (size + v.norm()),
-            ..Self::default()
-        }
-    }
-
-    /// Product of force and multiplier.
-    #[inline(always)]
-    pub(crate) fn gap(&self) -> f64 {
-        self.f.dot(self.l)
-    }
-
-    /// Eliminates it: its stiffness in the cone's coordinates; `f + df` is its force at the velocity `v` (offset included).
-    #[inline(always)]
-    pub(crate) fn eliminate(&mut self, r: f64, mu: f64, v: Vec3, aim: f64) -> [[f64; 3]; 3] {
-        let mut q = [[0.0; 3]; 3];
-        (q[0][0], q[1][1], q[2][2]) = (r, r, r / (mu * mu));
-        let w = scaling(self.f, self.l);
-        let residual = times(&q, self.f) + v - mirrored(self.f) * (aim / square(self.f));
-        for a in 0..3 {
-            for b in 0..3 {
-                q[a][b] += w[a][b];
-            }
-        }
-        let h = inverse(&q);
-        self.df = times(&h, residual) * -1.0;
-        h
-    }
-
-    /// Its steps for a change `dv` of the velocity; the largest step ≤ `most` that keeps it inside.
-    #[inline(always)]
-    pub(crate) fn direct(&mut self, r: f64, mu: f64, dv: Vec3, aim: f64, most: f64) -> f64 {
-        let w = scaling(self.f, self.l);
-        let mut q = w;
-        q[0][0] += r;
-        q[1][1] += r;
-        q[2][2] += r / (mu * mu);
-        self.df -= times(&inverse(&q), dv);
-        self.dl = mirrored(self.f) * (aim / square(self.f)) - self.l - times(&w, self.df);
-        let step = way_to_boundary(self.f, self.df, most);
-        way_to_boundary(self.l, self.dl, step)
-    }
-
-    #[inline(always)]
-    pub(crate) fn advance(&mut self, step: f64) {
-        self.f += self.df * step;
-        self.l += self.dl * step;
     }
 }
 
@@ -248,82 +195,6 @@ impl Default for Interior {
     }
 }
 
-/// `z² − x² − y²`.
-#[inline(always)]
-fn square(a: Vec3) -> f64 {
-    a.z * a.z - a.x * a.x - a.y * a.y
-}
-
-/// Mirrored in the axis.
-#[inline(always)]
-fn mirrored(a: Vec3) -> Vec3 {
-    Vec3 {
-        x: -a.x,
-        y: -a.y,
-        z: a.z,
-    }
-}
-
-/// Largest step ≤ `most` with which `a + step·d` stays in the cone.
-#[inline(always)]
-fn way_to_boundary(a: Vec3, d: Vec3, most: f64) -> f64 {
-    // q0 + 2 q1 s + q2 s² is positive at 0; the cone is left at its first positive root, or where z changes sign.
-    let (q0, q1, q2) = (square(a), a.z * d.z - a.x * d.x - a.y * d.y, square(d));
-    let disc = q1 * q1 - q0 * q2;
-    let mut s = most;
-    if disc >= 0.0 {
-        let r = disc.sqrt();
-        // Both roots without cancellation.
-        let big = if q1 >= 0.0 { -(q1 + r) } else { r - q1 };
-        for root in [q0 / big, big / q2] {
-            if root > 0.0 && root < s {
-                s = root;
-            }
-        }
-    }
-    if d.z < 0.0 {
-        s = s.min(-a.z / d.z);
-    }
-    s
-}
-
-/// `W⁻²`: maps f to λ, symmetric positive definite.
-#[inline(always)]
-fn scaling(f: Vec3, l: Vec3) -> [[f64; 3]; 3] {
-    let (sf, sl) = (square(f).max(1e-300).sqrt(), square(l).max(1e-300).sqrt());
-    let (fb, lb) = (f * (1.0 / sf), l * (1.0 / sl));
-    let gamma = (0.5 * (1.0 + fb.dot(lb))).sqrt();
-    // J w.
-    let w = (mirrored(fb) + lb) * (0.5 / gamma);
-    let (w, k) = (w.to_array(), sl / sf);
-    let mut out = [[0.0; 3]; 3];
-    for a in 0..3 {
-        for b in 0..3 {
-            out[a][b] = 2.0 * k * w[a] * w[b];
-        }
-        out[a][a] += if a == 2 { -k } else { k };
-    }
-    out
-}
-
-/// Inverse of a symmetric positive definite matrix.
-#[inline(always)]
-fn inverse(m: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
-    let c = |a: usize, b: usize, d: usize, e: usize| m[a][d] * m[b][e] - m[a][e] * m[b][d];
-    let (x, y, z) = (c(1, 2, 1, 2), c(1, 2, 2, 0), c(1, 2, 0, 1));
-    let k = 1.0 / (m[0][0] * x + m[0][1] * y + m[0][2] * z);
-    let mut out = [[x, y, z], [0.0; 3], [0.0; 3]];
-    out[1] = [y, c(0, 2, 0, 2), c(0, 2, 1, 0)];
-    out[2] = [z, out[1][2], c(0, 1, 0, 1)];
-    out.map(|row| row.map(|v| v * k))
-}
-
-#[inline(always)]
-fn times(m: &[[f64; 3]; 3], v: Vec3) -> Vec3 {
-    let v = v.to_array();
-    Vec3::from_array([0, 1, 2].map(|i| m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2]))
-}
-
 /// Point `k`'s velocity-like vector from world axes to the cone's coordinates, where a multiplier lives.
 #[inline(always)]
 pub(crate) fn to_cone(turn: Option<&Mat3>, mu: f64, v: Vec3) -> Vec3 {
@@ -336,24 +207,6 @@ pub(crate) fn to_cone(turn: Option<&Mat3>, mu: f64, v: Vec3) -> Vec3 {
 pub(crate) fn to_world(turn: Option<&Mat3>, mu: f64, f: Vec3) -> Vec3 {
     let f = Vec3 { z: f.z / mu, ..f };
     turn.map_or(f, |t| *t * f)
-}
-
-/// A stiffness from the cone's coordinates to world axes.
-#[inline(always)]
-pub(crate) fn world_stiffness(turn: Option<&Mat3>, mu: f64, h: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
-    let axes = turn.map_or([Vec3::X, Vec3::Y, Vec3::Z], |t| [t.x, t.y, t.z]);
-    let axes = [axes[0], axes[1], axes[2] * (1.0 / mu)].map(Vec3::to_array);
-    let mut d = [[0.0; 3]; 3];
-    for (i, a) in axes.iter().enumerate() {
-        for (j, e) in axes.iter().enumerate() {
-            for row in 0..3 {
-                for column in 0..3 {
-                    d[row][column] += a[row] * h[i][j] * e[column];
-                }
-            }
-        }
-    }
-    d
 }
 
 /// Complementarity that the next step aims at. Whoever was stopped by a boundary first gets back to the middle.
@@ -415,8 +268,8 @@ pub(crate) fn approach<S: System>(
         }
         // Complementarity, and what the step aims at.
         let (mut sum, mut count) = (0.0, 0.0);
-        for (j, m) in inner.motors.iter().enumerate() {
-            sum += m.gap(motors, j);
+        for m in &inner.motors {
+            sum += m.gap();
             count += 2.0;
         }
         for c in &inner.cones[..n] {
@@ -437,7 +290,7 @@ pub(crate) fn approach<S: System>(
                 continue;
             }
             slope[j] = m.eliminate(motors, j, x[6 + j], aim);
-            rhs[6 + j] += m.t + m.dt;
+            rhs[6 + j] += m.next(motors, j);
         }
         for j in 0..DOF_COUNT {
             S::add(hessian, 6 + j, 6 + j, slope[j]);
@@ -447,19 +300,15 @@ pub(crate) fn approach<S: System>(
             let turn = p.turn.as_ref();
             let r = 1.0 / p.inverse_r;
             let c = &mut inner.cones[k];
-            let h = if first {
-                let mut q = [[0.0; 3]; 3];
-                (q[0][0], q[1][1], q[2][2]) = (r, r, r / (mu * mu));
-                let h = inverse(&q);
-                c.df = times(&h, to_cone(turn, mu, p.c)) * -1.0;
-                c.f = Vec3::zero();
-                h
+            let root = if first {
+                force[k] = p.c * -p.inverse_r;
+                [Vec3::X, Vec3::Y, Vec3::Z].map(|e| e * p.inverse_r.sqrt())
             } else {
-                c.eliminate(r, mu, to_cone(turn, mu, velocity[k] + p.c), aim)
+                let root = c.eliminate(r, mu, to_cone(turn, mu, velocity[k] + p.c), aim);
+                force[k] = to_world(turn, mu, c.next());
+                root.map(|e| to_world(turn, mu, e))
             };
-            force[k] = to_world(turn, mu, c.f + c.df);
-            let d = world_stiffness(turn, mu, &h);
-            add_point_stiffness(&mut stiffness[p.slot], p.r, &d);
+            add_point_stiffness(&mut stiffness[p.slot], p.r, &squared(&root));
         }
         contacts.add_transposed(force, 1.0, &mut rhs);
         for (slot, s) in contacts.segments.iter().enumerate() {
@@ -488,11 +337,11 @@ pub(crate) fn approach<S: System>(
         contacts.velocities(&d, direction);
         let mut step = 1.0 / TO_BOUNDARY;
         for (j, m) in inner.motors.iter_mut().enumerate() {
-            step = m.direct(motors, j, (slope[j], d[6 + j]), aim, step);
+            step = m.direct((slope[j], d[6 + j]), aim, step);
         }
         for (k, p) in contacts.points.iter().enumerate() {
             let dv = to_cone(p.turn.as_ref(), mu, direction[k]);
-            step = inner.cones[k].direct(1.0 / p.inverse_r, mu, dv, aim, step);
+            step = inner.cones[k].direct(dv, aim, step);
         }
         let step = (TO_BOUNDARY * step).min(1.0);
         shorter = step;

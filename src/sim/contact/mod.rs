@@ -3,6 +3,7 @@
 //! Minimise ½ xᵀA x − bᵀx + Σ motors(x_j) + Σ limits(aᵀx) + Σ cones(J_k x + c_k) over x ∈ R⁴⁵. The simulator reads x as velocity
 //! and A as inertia; the controller reads x as the price of the dynamics. Every iterate respects strength and friction.
 
+pub(crate) mod cone;
 pub mod dense;
 pub(crate) mod interior;
 pub mod limits;

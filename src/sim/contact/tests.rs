@@ -2,6 +2,8 @@
 
 use super::*;
 use crate::sim::body::topology::{DOF_COUNT, NV};
+use crate::sim::contact::cone::{Cone, squared};
+use crate::sim::contact::interior::{Inner, TO_BOUNDARY, aim, to_cone, to_world};
 use crate::sim::contact::newton::NewtonWorkspace;
 use crate::sim::contact::projection::{derivative, project};
 use crate::sim::contact::rows::PointRow;
@@ -45,6 +47,75 @@ fn projection_is_nearest_point_of_the_cone_and_its_derivative_matches_difference
                     < 1e-6
             );
         }
+    }
+}
+
+/// A contact, and a motor, at a given velocity have a force that is known. From inside they come to all its digits, whether they slide at a micrometre or at
+/// kilometres a second: the way to the cone's surface goes down to 1e-16 of the force, and stiffnesses stay what they are, positive.
+#[test]
+fn from_inside_contacts_and_motors_come_to_their_force() {
+    let mut rng = Pcg64Mcg::seed_from_u64(3);
+    let (mut nearest, mut most) = (f64::INFINITY, 0);
+    for case in 0..3000 {
+        let mut size = |most: f64| most * 10f64.powf(rng.random_range(-8.0..0.0));
+        let (mu, r) = (size(2.0).max(0.05), size(1e-2).max(1e-6));
+        let (fast, steep) = (size(1e5), size(1.0));
+        let v = Vec3 {
+            x: fast * rng.random_range(-1.0..1.0),
+            y: fast * rng.random_range(-1.0..1.0),
+            z: fast * steep * rng.random_range(-1.0..1.0),
+        };
+        let want = project(v * (-1.0 / r), mu).0;
+        let mut cone = Cone::begin(to_cone(None, mu, v), fast, 3.0 * (fast / r));
+        let (start, mut step, mut rounds) = (cone.gap(), 1.0, 0);
+        while cone.gap() > 1e-22 * start {
+            let aim = aim(cone.gap(), step);
+            let root = cone.eliminate(r, mu, to_cone(None, mu, v), aim);
+            let d = squared(&root);
+            let inner = to_cone(None, mu, Vec3::Z).z; // 1/μ
+            assert!(d[0][0] > 0.0 && d[0][0] <= (1.0 + 1e-9) / r, "case {case}");
+            assert!(d[2][2] > 0.0 && d[2][2] <= (1.0 + 1e-9) / (r * inner * inner));
+            step = (TO_BOUNDARY * cone.direct(Vec3::zero(), aim, 1.0 / TO_BOUNDARY)).min(1.0);
+            cone.advance(step);
+            assert!(cone.gap() > 0.0, "case {case}: outside after {rounds}");
+            rounds += 1;
+            assert!(rounds < 100, "case {case}: {} of {start}", cone.gap());
+        }
+        most = most.max(rounds);
+        let got = to_world(None, mu, cone.force());
+        let off = (got - want).norm();
+        assert!(
+            off < 1e-12 * v.norm() / r,
+            "case {case}: off by {off:e} of {:e}",
+            v.norm() / r
+        );
+        nearest = nearest.min(cone.nearness());
+    }
+    println!("at most {most} rounds");
+    assert!(nearest < 1e-15, "{nearest:e}");
+    for case in 0..3000 {
+        let mut motors = Motors::default();
+        let mut size = |most: f64| most * 10f64.powf(rng.random_range(-8.0..0.0));
+        let (lower, room) = (-size(10.0), size(20.0));
+        (motors.lower[0], motors.upper[0]) = (lower, lower + room);
+        motors.gain[0] = size(1e3);
+        let fast = size(1e4);
+        motors.rest[0] = rng.random_range(-1.0..1.0);
+        let x = fast * rng.random_range(-1.0..1.0);
+        let want = motors.value(0, x).0;
+        let mut inner = Inner::begin(&motors, 0, x, fast, room);
+        let (start, mut step, mut rounds) = (inner.gap(), 1.0, 0);
+        while inner.gap() > 1e-22 * start {
+            let aim = 0.5 * aim(inner.gap(), step);
+            let slope = inner.eliminate(&motors, 0, x, aim);
+            step = (TO_BOUNDARY * inner.direct((slope, 0.0), aim, 1.0 / TO_BOUNDARY)).min(1.0);
+            inner.advance(step);
+            rounds += 1;
+            assert!(inner.gap() > 0.0 && rounds < 100, "case {case}");
+        }
+        inner.eliminate(&motors, 0, x, 0.0);
+        let off = (inner.value(&motors, 0) - want).abs();
+        assert!(off < 1e-9 * room, "case {case}: off by {off:e} of {room:e}");
     }
 }
 

@@ -3,11 +3,13 @@
 use super::{Articulated, Block, Column, Contact, Island, Kind, Parts, dot};
 use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT};
 use crate::sim::contact::SparseSystem;
+use crate::sim::contact::cone::squared;
 use crate::sim::contact::newton::System;
 use crate::sim::contact::projection::{Region, derivative};
 use crate::sim::contact::rows::{CHAIN_WIDTH, add_point_stiffness};
 use crate::sim::dynamics::factor::{factor, solve};
 use crate::sim::dynamics::mass_matrix::{CHAIN, DEPTH};
+use crate::sim::math::Vec3;
 use multiversion::multiversion;
 
 impl Island {
@@ -226,8 +228,8 @@ fn one_sided(c: &Contact, block: usize) -> Option<usize> {
 }
 
 fn stiffness(c: &Contact) -> [[f64; 3]; 3] {
-    if let Some(d) = c.inside {
-        return d;
+    if let Some(root) = &c.inside {
+        return squared(root);
     }
     let mut d = derivative((c.u + c.c) * -c.inverse_r, c.mu, c.region);
     for row in &mut d {
@@ -261,8 +263,8 @@ fn quadratic(rows: &[[f64; NV]; 3], kr: &[[f64; NV]; 3], i: usize, j: usize) -> 
 
 /// Columns e with `Σ e eᵀ` the stiffness of an active contact.
 fn root(c: &Contact) -> ([[f64; 3]; 3], usize) {
-    if let Some(d) = &c.inside {
-        return (cholesky_columns(d), 3);
+    if let Some(root) = c.inside {
+        return (root.map(Vec3::to_array), 3);
     }
     let s = c.inverse_r.sqrt();
     if c.region == Region::Stick {
@@ -281,22 +283,6 @@ fn root(c: &Contact) -> ([[f64; 3]; 3], usize) {
         ],
         2,
     )
-}
-
-/// Columns of the Cholesky factor of a positive definite matrix.
-fn cholesky_columns(d: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
-    let mut out = [[0.0; 3]; 3];
-    for j in 0..3 {
-        for i in j..3 {
-            let z = (0..j).fold(d[i][j], |z, k| z - out[k][i] * out[k][j]);
-            out[j][i] = if i == j {
-                z.max(1e-300).sqrt()
-            } else {
-                z / out[j][j]
-            };
-        }
-    }
-    out
 }
 
 /// The matrix of one figure's own problem into its storage, as in [`crate::sim::contact::minimise`].

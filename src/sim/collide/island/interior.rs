@@ -6,9 +6,8 @@
 
 use super::{Articulated, Island, Kind, Parts, relative};
 use crate::sim::body::topology::{DOF_COUNT, NV};
-use crate::sim::contact::interior::{
-    Cone, Inner, TO_BOUNDARY, Wall, aim, to_cone, to_world, world_stiffness,
-};
+use crate::sim::contact::cone::{Cone, squared};
+use crate::sim::contact::interior::{Inner, TO_BOUNDARY, Wall, aim, to_cone, to_world};
 use crate::sim::contact::projection::Region;
 use crate::sim::contact::{ContactRows, Motors};
 use crate::sim::math::Vec3;
@@ -16,9 +15,10 @@ use crate::sim::math::Vec3;
 /// Forces at the start, in units of the largest one at present; multipliers are as large as the largest velocity. Started with less, bodies that are
 /// thrown into walls crawl along the boundary; with much more a few iterations are lost.
 const FIRST_FORCE: f64 = 3.0;
-/// Complementarity, as a share of that at the start, at which Newton's method takes over. Less than for the controller: bodies start with the force of the
-/// largest blow, and what is a hundred millionth of that may still be as much as the smallest limbs have.
-const DONE: f64 = 1e-12;
+/// Complementarity, as a share of that at the start, from which on it is judged whether the velocities solve the island. Handing over to Newton's method
+/// without judging does not do: bodies start with the force of the largest blow, and a millionth of a millionth of that may still be as much as the
+/// smallest limbs have.
+const NEARLY: f64 = 1e-12;
 /// A motor whose range is less than this share of the widest, or that has no gain, gives what it gives.
 const NARROW: f64 = 1e-9;
 /// Friction coefficient below which a cone is too narrow to be seen from inside; Newton's method takes the true one again.
@@ -61,7 +61,7 @@ fn ground(contacts: &ContactRows, k: usize, v: Vec3) -> Vec3 {
 }
 
 impl Island {
-    /// Leads the velocities near the solution, wherever they were, in at most `iterations` iterations; returns how many there were. Bounded work.
+    /// Leads the velocities to the solution, wherever they were, in at most `iterations` iterations; returns how many there were. Bounded work.
     pub(super) fn approach<F: Articulated>(&mut self, figures: &mut [F], iterations: u32) -> u32 {
         self.enter(figures);
         let (mut start, mut last_step, mut done) = (0.0, 1.0f64, 0);
@@ -79,7 +79,7 @@ impl Island {
             let step = (TO_BOUNDARY * self.way(figures, aim)).min(1.0);
             self.walk(figures, step);
             last_step = step;
-            if step > 0.9 && gap < DONE * start {
+            if step > 0.9 && gap < NEARLY * start && self.judge(figures).1 {
                 break;
             }
         }
@@ -143,7 +143,7 @@ impl Island {
             let inner = &p.newton.interior;
             for (j, m) in inner.motors.iter().enumerate() {
                 if !is_fixed(p.motors, j, most) {
-                    gap.add(m.gap(p.motors, j), 2.0);
+                    gap.add(m.gap(), 2.0);
                 }
             }
             for w in &inner.walls[..p.limits.rows.len()] {
@@ -190,10 +190,10 @@ impl Island {
         }
         for (c, cone) in self.contacts.iter_mut().zip(&mut self.cones) {
             let mu = friction(c.mu);
-            let h = cone.eliminate(1.0 / c.inverse_r, mu, to_cone(None, mu, c.u + c.c), aim);
-            c.inside = Some(world_stiffness(None, mu, &h));
+            let root = cone.eliminate(1.0 / c.inverse_r, mu, to_cone(None, mu, c.u + c.c), aim);
+            c.inside = Some(root.map(|e| to_world(None, mu, e)));
             c.region = Region::Stick;
-            c.impulse = to_world(None, mu, cone.f + cone.df);
+            c.impulse = to_world(None, mu, cone.next());
             for side in 0..2 {
                 let Some(b) = c.block[side] else { continue };
                 for (row, f) in c.rows[side].iter().zip(c.impulse.to_array()) {
@@ -216,16 +216,15 @@ impl Island {
             let inner = &mut p.newton.interior;
             for (j, m) in inner.motors.iter_mut().enumerate() {
                 if !is_fixed(p.motors, j, most) {
-                    step = m.direct(p.motors, j, (b.slope[j], b.d[6 + j]), aim, step);
+                    step = m.direct((b.slope[j], b.d[6 + j]), aim, step);
                 }
             }
             for (row, w) in p.limits.rows.iter().zip(&mut inner.walls) {
                 step = w.direct(row.rate(&b.d), aim, step);
             }
-            for (k, point) in p.contacts.points.iter().enumerate() {
+            for k in 0..p.contacts.points.len() {
                 let dv = ground(p.contacts, k, p.newton.direction[k]);
-                let (r, mu) = (1.0 / point.inverse_r, friction(p.contacts.friction));
-                step = inner.cones[k].direct(r, mu, dv, aim, step);
+                step = inner.cones[k].direct(dv, aim, step);
             }
         }
         let blocks = &self.blocks;
@@ -233,7 +232,7 @@ impl Island {
             c.du = relative(c, |b| &blocks[b].d);
             let mu = friction(c.mu);
             let dv = to_cone(None, mu, c.du);
-            step = cone.direct(1.0 / c.inverse_r, mu, dv, aim, step);
+            step = cone.direct(dv, aim, step);
         }
         step
     }
@@ -290,7 +289,7 @@ fn linearise_figure(
             p.motors.value(j, x[6 + j]).0
         } else {
             slope[j] = m.eliminate(p.motors, j, x[6 + j], aim);
-            m.t + m.dt
+            m.next(p.motors, j)
         };
         grad[6 + j] -= value;
     }
@@ -305,9 +304,9 @@ fn linearise_figure(
         let turn = point.turn.as_ref();
         let v = to_cone(turn, mu, p.newton.velocity[k] + point.c);
         let cone = &mut inner.cones[k];
-        let h = cone.eliminate(1.0 / point.inverse_r, mu, v, aim);
-        inner.stiffness[k] = world_stiffness(turn, mu, &h);
-        p.newton.force[k] = to_world(turn, mu, cone.f + cone.df);
+        let root = cone.eliminate(1.0 / point.inverse_r, mu, v, aim);
+        inner.stiffness[k] = squared(&root.map(|e| to_world(turn, mu, e)));
+        p.newton.force[k] = to_world(turn, mu, cone.next());
     }
     p.contacts.add_transposed(&p.newton.force, -1.0, grad);
 }

@@ -13,7 +13,7 @@ mod interior;
 mod newton;
 
 use crate::sim::body::topology::{DOF_COUNT, NV};
-use crate::sim::contact::interior::Cone;
+use crate::sim::contact::cone::Cone;
 use crate::sim::contact::projection::{Region, project};
 use crate::sim::contact::{ContactRows, LimitRows, Motors, NewtonWorkspace};
 use crate::sim::dynamics::mass_matrix::MassMatrix;
@@ -110,8 +110,8 @@ pub struct Contact {
     u: Vec3,
     du: Vec3,
     region: Region,
-    /// Stiffness in the frame while the interior-point method leads.
-    inside: Option<[[f64; 3]; 3]>,
+    /// Root of the stiffness in the frame while the interior-point method leads: columns c with `Σ c cᵀ`.
+    inside: Option<[Vec3; 3]>,
 }
 
 impl Contact {
