@@ -8,6 +8,7 @@ pub mod drive;
 pub mod events;
 pub mod kinematic_step;
 pub mod loads;
+mod planning;
 pub mod report;
 mod rising;
 pub mod setup;

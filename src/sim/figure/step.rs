@@ -9,6 +9,7 @@ mod reporting;
 mod transitions;
 
 use reporting::empty_report;
+use transitions::Stopping;
 
 use super::assist::Assist;
 use super::balance::BalanceWatch;
@@ -76,6 +77,8 @@ pub struct Figure {
     drive: Drive,
     /// The drive brings it to a stand.
     ending: bool,
+    /// The way to a stand, while it is worked out.
+    stopping: Option<Box<Stopping>>,
     /// What it does as soon as it stands.
     queued: Option<Box<Queued>>,
     gait: Box<Gait>,
@@ -156,6 +159,7 @@ impl Figure {
             disturbances: Disturbances::default(),
             drive: Drive::Hold(setup.state.posture),
             ending: false,
+            stopping: None,
             queued: None,
             gait: Box::new(Gait::new(&setup.body)),
             target: TargetPair {
@@ -225,6 +229,7 @@ impl Figure {
         let applied = self.disturbances.applied();
         self.terms
             .compute(&self.links, &self.state, applied, world.gravity);
+        self.begin_stop(world);
         self.begin_queued(world.time());
         self.get_up(world);
         self.target = self.desired(world.time(), world.dt);

@@ -1,7 +1,7 @@
 //! From one motion into another while it goes on: into a stand, or into a clip at the place where that looks most alike.
 //!
 //! The seam is a draft like any other: what was planned so far, then what comes, prepared together so that feet are locked and the
-//! zero-moment point is kept across it. Planned once when a figure is told to do something else; allocates, some milliseconds.
+//! zero-moment point is kept across it. Planned once when a figure is told to do something else; allocates, 10 to 20 ms for each end.
 
 use super::clip::{Clip, PlanarTransform};
 use super::consistency::consistency;
@@ -9,6 +9,8 @@ use super::cycle::label;
 use super::foot_lock::{fade, turn, yaw_pitch};
 use super::prepare::{Draft, PrepareOptions, prepare_in};
 use crate::sim::body::{Body, Posture};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, OnceLock};
 
 /// Samples per second of what is planned here.
 pub const RATE: f64 = 60.0;
@@ -38,50 +40,134 @@ const HOW: PrepareOptions = PrepareOptions {
     balance: true,
 };
 
-/// Ends a motion by the steps that bring it to a stand. `None` if it stands, sits or lies anyway. Time 0 of the clip is the first sample given.
-///
-/// * `known`: the motion so far and as far ahead as it is known, samples at [`RATE`]; it goes on at least up to sample `now`.
-/// * `how`: how it stands in the end, wherever that is, at ease if not given; and whether the motion is a stream, which is known less well than a clip.
-///
-/// The moments of the step to come are tried as the beginning of the end, in turn, until one asks little of the ground; else the one that asks
-/// least is taken. At most five are worked out.
-pub fn stop(
-    body: &Body,
-    known: &[(Posture, [bool; 2])],
+/// A sample: posture, and which feet are planted.
+pub type Sample = (Posture, [bool; 2]);
+
+/// The ends of a motion by the steps that bring it to a stand: the moments of the step to come are tried as the beginning of the end, in turn, until one
+/// asks little of the ground; else the one that asks least is taken. Each can be worked out on its own.
+pub struct Ends {
+    body: Arc<Body>,
+    known: Vec<Sample>,
     now: usize,
-    how: (Option<&Posture>, bool),
-) -> Option<Clip> {
-    if known.len() < 4 {
-        return None;
-    }
-    let (known, now) = (&finer(known)?[..], 2 * now);
-    let (mut postures, planted): (Vec<_>, Vec<_>) = known.iter().copied().unzip();
-    let mut label = label(body, FINE, &postures, &planted);
-    if (now..label.len()).all(|i| label[i] != [true; 2]) {
-        finish_step(&mut postures, &mut label);
-    }
-    // Where in a step a body can be stopped best shows only when it is worked out.
-    let last = postures.len() - 1;
-    let latest = (now + (STEP * FINE) as usize).min(last);
-    let mut best: Option<(f64, Clip)> = None;
-    for end in (now.min(last)..=latest).step_by(APART) {
-        if let Some(found) = ending(body, known, (&postures, &label), (now, end), how)
-            && best.as_ref().is_none_or(|b| found.0 < b.0)
-        {
-            let easy = found.0 < EASY;
-            best = Some(found);
-            if easy {
-                break;
-            }
+    goal: Option<Posture>,
+    streamed: bool,
+    way: OnceLock<Option<Way>>,
+    /// First end that was easy, as far as is known: those after it are not wanted.
+    easy: AtomicUsize,
+}
+
+/// What all ends have in common: the motion with samples at [`FINE`], with its step finished, and its labels.
+struct Way {
+    known: Vec<Sample>,
+    postures: Vec<Posture>,
+    label: Vec<[bool; 2]>,
+    now: usize,
+}
+
+impl Ends {
+    /// Most ends that are tried.
+    pub const MOST: usize = (STEP * FINE) as usize / APART + 1;
+
+    /// * `known`: the motion so far and as far ahead as it is known, samples at [`RATE`]; it goes on at least up to sample `now`.
+    /// * `how`: how it stands in the end, wherever that is, at ease if not given; and whether the motion is a stream, which is known less well than a clip.
+    pub fn new(
+        body: &Arc<Body>,
+        known: Vec<Sample>,
+        now: usize,
+        (goal, streamed): (Option<Posture>, bool),
+    ) -> Self {
+        Self {
+            body: Arc::clone(body),
+            known,
+            now,
+            goal,
+            streamed,
+            way: OnceLock::new(),
+            easy: AtomicUsize::new(usize::MAX),
         }
     }
-    best.map(|(_, clip)| clip)
+
+    fn way(&self) -> Option<&Way> {
+        let way = || {
+            if self.known.len() < 4 {
+                return None;
+            }
+            let (known, now) = (finer(&self.known)?, 2 * self.now);
+            let (mut postures, planted): (Vec<_>, Vec<_>) = known.iter().copied().unzip();
+            let mut label = label(&self.body, FINE, &postures, &planted);
+            if (now..label.len()).all(|i| label[i] != [true; 2]) {
+                finish_step(&mut postures, &mut label);
+            }
+            Some(Way {
+                known,
+                postures,
+                label,
+                now,
+            })
+        };
+        self.way.get_or_init(way).as_ref()
+    }
+
+    /// The `k`-th end, below [`Self::MOST`], and how much it asks for. Time 0 of the clip is the first sample given. `None` if there is none, if it stands,
+    /// sits or lies anyway, or if an end before it was easy.
+    pub fn end(&self, k: usize) -> Option<(f64, Clip)> {
+        if k > self.easy.load(Ordering::Relaxed) {
+            return None;
+        }
+        let way = self.way()?;
+        // Where in a step a body can be stopped best shows only when it is worked out.
+        let last = way.postures.len() - 1;
+        let latest = (way.now + (STEP * FINE) as usize).min(last);
+        let end = way.now.min(last) + k * APART;
+        if end > latest {
+            return None;
+        }
+        let (postures, label) = (&way.postures[..], &way.label[..]);
+        let how = (self.goal.as_ref(), self.streamed);
+        let found = ending(
+            &self.body,
+            &way.known,
+            (postures, label),
+            (way.now, end),
+            how,
+        )?;
+        if found.0 < EASY {
+            self.easy.fetch_min(k, Ordering::Relaxed);
+        }
+        Some(found)
+    }
+
+    /// The end that is taken, of all in their order. Looks at none behind an easy one.
+    pub fn best(ends: impl IntoIterator<Item = Option<(f64, Clip)>>) -> Option<Clip> {
+        let mut best: Option<(f64, Clip)> = None;
+        for found in ends.into_iter().flatten() {
+            if best.as_ref().is_none_or(|b| found.0 < b.0) {
+                let easy = found.0 < EASY;
+                best = Some(found);
+                if easy {
+                    break;
+                }
+            }
+        }
+        best.map(|(_, clip)| clip)
+    }
+}
+
+/// Ends a motion by the steps that bring it to a stand ([`Ends`]).
+pub fn stop(
+    body: &Arc<Body>,
+    known: Vec<Sample>,
+    now: usize,
+    how: (Option<Posture>, bool),
+) -> Option<Clip> {
+    let ends = Ends::new(body, known, now, how);
+    Ends::best((0..Ends::MOST).map(|k| ends.end(k)))
 }
 
 /// The motion up to sample `end`, then to a stand, and how hard that is for a body.
 fn ending(
     body: &Body,
-    known: &[(Posture, [bool; 2])],
+    known: &[Sample],
     (postures, label): (&[Posture], &[[bool; 2]]),
     (now, end): (usize, usize),
     (goal, streamed): (Option<&Posture>, bool),
@@ -109,7 +195,7 @@ fn ending(
 }
 
 /// The same motion with as many samples again in between.
-fn finer(known: &[(Posture, [bool; 2])]) -> Option<Vec<(Posture, [bool; 2])>> {
+fn finer(known: &[Sample]) -> Option<Vec<Sample>> {
     let (postures, planted) = known.iter().copied().unzip();
     let clip = Clip::from_postures("", RATE, postures, planted).ok()?;
     let count = 2 * (known.len() - 1);
@@ -125,7 +211,7 @@ fn finer(known: &[(Posture, [bool; 2])]) -> Option<Vec<(Posture, [bool; 2])>> {
 }
 
 /// What is played already stays as it was: the difference that preparation makes to the samples `before` up to `now` grows in after that.
-fn hold_on(postures: &mut [Posture], before: &[(Posture, [bool; 2])], now: usize) {
+fn hold_on(postures: &mut [Posture], before: &[Sample], now: usize) {
     if now < 1 || now >= postures.len().min(before.len()) {
         return;
     }

@@ -112,12 +112,13 @@ impl Figure {
         self.rising.follow(lies);
         self.drive = drive;
         self.queued = None;
+        self.stopping = None;
         self.ending = false;
     }
-    /// The stream that drives it with a window, if one does: to feed it.
+    /// The stream that drives it with a window, if one does: to feed it. One that is being stopped has ended.
     pub fn stream_mut(&mut self) -> Option<&mut LivePlayback> {
         match &mut self.drive {
-            Drive::Live(live) => Some(live),
+            Drive::Live(live) if self.stopping.is_none() => Some(live),
             _ => None,
         }
     }
@@ -139,6 +140,7 @@ impl Figure {
     }
     /// Puts the figure into a state and forgets its past; loads stay.
     pub fn reset(&mut self, state: State) {
+        self.follow_stop();
         self.state = state;
         self.is_new = true;
         self.last_good = state;

@@ -5,17 +5,19 @@ use super::{Figure, TickContext};
 use crate::sim::body::Posture;
 use crate::sim::control::Controller;
 use crate::sim::figure::drive::{ClipPlayback, Drive, Queued};
+use crate::sim::figure::planning::Plan;
 use crate::sim::figure::rising::Rising;
 use crate::sim::figure::setup::ControllerKind;
 use crate::sim::gait::StepPlan;
 use crate::sim::motion::Clip;
-use crate::sim::motion::join::{self, RUN_UP};
+use crate::sim::motion::join::{self, Ends, RUN_UP, Sample};
 use std::sync::Arc;
 
 /// How far ahead a clip is looked at for a place to stop, s.
 const STOP_AHEAD: f64 = 0.8;
-/// Samples that still play before a motion is led to a stop.
-const STOP_AFTER: usize = 3;
+/// Samples that still play before a motion is led to a stop that is worked out at once, and aside: the time that there is for it.
+const AT_ONCE: usize = 3;
+const ASIDE: usize = 4;
 /// A clip that waits begins so long before the motion that leads to it is over, if the figure has settled, s.
 const SOONER: f64 = 0.4;
 /// It begins at the latest so long after that motion is over, s.
@@ -27,17 +29,39 @@ const UPRIGHT: f64 = 0.9;
 /// Who gets up stands once the centre of mass is above this share of its standing height.
 const UP: f64 = 0.75;
 
+/// What a stop is planned from.
+struct Given {
+    /// World time of the first sample, and time of the present motion then, s.
+    begin: f64,
+    before: f64,
+    /// Sample up to which it still plays.
+    now: usize,
+    streamed: bool,
+}
+
+/// A way to a stand that is worked out aside.
+#[derive(Debug)]
+pub(super) struct Stopping {
+    ends: Vec<Plan<Option<(f64, Clip)>>>,
+    /// When the motion turns from its own way to that one, s.
+    due: f64,
+    /// World time of the first sample of that way, and time of the present motion then, s.
+    begin: f64,
+    before: f64,
+}
+
 impl Figure {
     /// Plays a clip from world time `time` on. A figure that walks, or is in the middle of another clip, finishes its step and stands first, as
     /// the clip begins; then the clip begins where its feet are, unless `fixed` says that its origin is meant. One that stands already, has
     /// fallen, or makes no steps begins at once. Returns the world time at which the clip's time 0 plays, s: expected, if the figure has to
-    /// stand first. Plans like [`Figure::stop`].
+    /// stand first. Then the way to the stand is worked out at once: tens of milliseconds.
     pub fn play(&mut self, play: ClipPlayback, fixed: bool, time: f64) -> f64 {
         if !self.rising.is_rising() && (!self.steps() || !self.is_busy(time)) {
             let start = play.start;
             self.set_drive(Drive::Clip(play));
             return start;
         }
+        self.follow_stop();
         if Rising::lies(&self.setup.body, &play.clip) {
             self.rising.plan(&self.setup.body);
         }
@@ -49,7 +73,7 @@ impl Figure {
             let upright =
                 begin.posture.root_position.z > UPRIGHT * self.setup.body.standing_root_height();
             let goal = (upright && begin.planted == [true; 2]).then_some(&begin.posture);
-            self.end_motion(time, goal);
+            self.end_motion(time, goal.copied());
         }
         let due = match &self.drive {
             Drive::Clip(end) if self.ending => end.start + end.clip.duration() + self.gait.lag(),
@@ -85,7 +109,7 @@ impl Figure {
             Drive::Live(_) => self.gait.is_walking(),
             Drive::Hold(_) | Drive::External(_) => false,
         };
-        plays || self.gait.unplanned().is_some()
+        plays || self.stopping.is_some() || self.gait.unplanned().is_some()
     }
 
     /// Begins the clip that waits, once the figure stands.
@@ -139,6 +163,7 @@ impl Figure {
         let mut play = ClipPlayback::new(Arc::clone(&way.clip), start);
         play.origin = anchor.transform();
         self.drive = Drive::Clip(play);
+        self.stopping = None;
         if let Some(q) = &mut self.queued {
             q.due = start + way.clip.duration();
         }
@@ -157,12 +182,12 @@ impl Figure {
             && self.support.rests().is_empty()
     }
 
-    /// Comes to a stand from world time `time` on: a walk is ended by the steps that takes, everything else is held as it is. Plans like the
-    /// preparation of a clip does: some milliseconds, allocates.
+    /// Comes to a stand from world time `time` on: a walk is ended by the steps that takes, everything else is held as it is. The steps are worked out
+    /// aside, while the motion goes on for [`ASIDE`] samples. Allocates.
     pub fn stop(&mut self, time: f64) {
         self.queued = None;
         // It does so already: a step that is under way is finished.
-        if self.ending || matches!(self.drive, Drive::Hold(_)) {
+        if self.ending || self.stopping.is_some() || matches!(self.drive, Drive::Hold(_)) {
             return;
         }
         if !self.steps() || !self.gait.is_walking() {
@@ -170,33 +195,72 @@ impl Figure {
             self.set_drive(Drive::Hold(posture));
             return;
         }
-        self.end_motion(time, None);
+        self.plan_stop(time);
     }
 
-    /// Leads the motion to a stand at ease, or like `goal` if it hardly moves or stands in another way; holds it as it is where that takes no
-    /// movement or cannot be done.
-    fn end_motion(&mut self, time: f64, goal: Option<&Posture>) {
-        let from = time - self.gait.lag();
-        let (begin, so_far) = self.motion_until_stop(from);
-        let now = ((from - begin) * join::RATE).max(0.0) as usize + STOP_AFTER;
+    /// Leads the motion to a stand at ease, or like `goal` if it hardly moves or stands in another way.
+    fn end_motion(&mut self, time: f64, goal: Option<Posture>) {
+        let (given, so_far) = self.motion_until_stop(time, AT_ONCE);
         let v = self.terms.com_velocity;
         let slow = (v.x * v.x + v.y * v.y).sqrt() < SLOW || !self.gait.is_walking();
-        let streamed = matches!(self.drive, Drive::Live(_));
-        let stop = |goal| join::stop(&self.setup.body, &so_far, now, (goal, streamed));
+        let body = &self.setup.body;
+        let stop = |goal| join::stop(body, so_far.clone(), given.now, (goal, given.streamed));
         let ease = if slow && goal.is_some() {
             None
         } else {
             stop(None)
         };
-        let Some(clip) = ease.or_else(|| goal.and_then(|g| stop(Some(g)))) else {
+        let clip = ease.or_else(|| goal.and_then(|g| stop(Some(g))));
+        self.follow_end(clip, given.begin, given.before);
+    }
+
+    /// Begins to work out how the motion is led to a stand at ease.
+    fn plan_stop(&mut self, time: f64) {
+        let (given, so_far) = self.motion_until_stop(time, ASIDE);
+        let how = (None, given.streamed);
+        let ends = Arc::new(Ends::new(&self.setup.body, so_far, given.now, how));
+        let plan = |k| {
+            let ends = Arc::clone(&ends);
+            Plan::new(move || ends.end(k))
+        };
+        self.stopping = Some(Box::new(Stopping {
+            ends: (0..Ends::MOST).map(plan).collect(),
+            due: time + ASIDE as f64 / join::RATE,
+            begin: given.begin,
+            before: given.before,
+        }));
+    }
+
+    /// Turns to the way to a stand in the last tick that begins before it differs from the motion. Always in that one, however long it took to work out.
+    pub(super) fn begin_stop(&mut self, world: &TickContext) {
+        let due = |s: &Stopping| world.time() + world.dt > s.due + 1e-9;
+        if self.stopping.as_deref().is_some_and(due) {
+            self.follow_stop();
+        }
+    }
+
+    /// Turns to the way to a stand now, if one is worked out.
+    pub(super) fn follow_stop(&mut self) {
+        let Some(stopping) = self.stopping.take() else {
+            return;
+        };
+        let Stopping {
+            ends,
+            begin,
+            before,
+            ..
+        } = *stopping;
+        let clip = Ends::best(ends.into_iter().map(Plan::take));
+        self.follow_end(clip, begin, before);
+    }
+
+    /// Turns to a clip that begins at world time `begin`, s, which is `before` of the present motion. Without one holds the motion as it is: a stand takes no
+    /// movement, or is not possible.
+    fn follow_end(&mut self, clip: Option<Clip>, begin: f64, before: f64) {
+        let Some(clip) = clip else {
             let posture = self.target.next.posture;
             self.set_drive(Drive::Hold(posture));
             return;
-        };
-        let before = match &self.drive {
-            Drive::Clip(play) => play.clip_time(begin),
-            Drive::Live(live) => live.stream_time(begin),
-            _ => 0.0,
         };
         let plan = StepPlan::new(&self.setup.body, &clip, false);
         self.gait.go_on(plan, before);
@@ -204,10 +268,28 @@ impl Figure {
         self.ending = true;
     }
 
-    /// Postures and planted feet of the motion under way, by the rate of joins, with the world time of the first, s: from the run-up that
-    /// planning a stop at `from` needs to as far ahead as the motion is known.
-    fn motion_until_stop(&self, from: f64) -> (f64, Vec<(Posture, [bool; 2])>) {
-        match &self.drive {
+    /// The motion under way, by the rate of joins, from the run-up that planning a stop at world time `time` needs to as far ahead as it is known. It
+    /// still plays for `after` samples.
+    fn motion_until_stop(&mut self, time: f64, after: usize) -> (Given, Vec<Sample>) {
+        let from = time - self.gait.lag();
+        let (begin, so_far) = self.motion_around(from, after as f64 / join::RATE);
+        let (streamed, before) = match &self.drive {
+            Drive::Clip(play) => (false, play.clip_time(begin)),
+            Drive::Live(live) => (true, live.stream_time(begin)),
+            Drive::Hold(_) | Drive::External(_) => (false, 0.0),
+        };
+        let given = Given {
+            begin,
+            before,
+            now: ((from - begin) * join::RATE).max(0.0) as usize + after,
+            streamed,
+        };
+        (given, so_far)
+    }
+
+    /// Postures and planted feet, with the world time of the first, s.
+    fn motion_around(&mut self, from: f64, still: f64) -> (f64, Vec<Sample>) {
+        match &mut self.drive {
             Drive::Clip(play) => {
                 let count = (RUN_UP * join::RATE) as usize;
                 let at = |i: usize| from + (i as f64 - count as f64) / join::RATE;
@@ -219,8 +301,10 @@ impl Figure {
                 (at(0), so_far)
             }
             Drive::Live(live) => {
-                let t = live.stream_time(from);
-                let (first, so_far) = live.motion.known(t - RUN_UP);
+                // What still plays is prepared now, so that the way to the stand begins with it.
+                let (t, came) = (live.stream_time(from), live.motion.fed());
+                live.motion.advance(t + still);
+                let (first, so_far) = live.motion.known(t - RUN_UP, came);
                 (from + first - t, so_far)
             }
             Drive::Hold(_) | Drive::External(_) => (0.0, Vec::new()),

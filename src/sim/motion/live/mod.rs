@@ -737,10 +737,11 @@ impl LiveMotion {
     }
 
     /// The motion from time `from` (s) on as far as it has come, with its feet: what was put out, then what is still in the window as it came,
-    /// led over from there. Samples are 1/[`RATE`] s apart; the first is at the time returned with them.
-    pub fn known(&self, from: f64) -> (f64, Vec<(Posture, [bool; 2])>) {
+    /// led over from there. Samples are 1/[`RATE`] s apart; the first is at the time returned with them. `came`: how many samples have come, if the
+    /// motion has been prepared beyond them.
+    pub fn known(&self, from: f64, came: i64) -> (f64, Vec<(Posture, [bool; 2])>) {
         let n = self.knots.len() as i64;
-        let last = self.count - 1;
+        let last = self.count.min(came) - 1;
         let done = (self.out - 2).max(0);
         let first = ((from * RATE) as i64).clamp((self.out - n + 1).max(0), done);
         let mut all: Vec<(Posture, [bool; 2])> = (first..=done)
