@@ -5,7 +5,7 @@
 mod common;
 
 use allocation_counter::measure;
-use common::{Scene, authored, bent, figure, man, play, still};
+use common::{Scene, authored, bent, figure, man, play, recorded, still};
 use sinew::sim::body::SegmentId;
 use sinew::sim::body::topology::{CHEST, L_HAND, R_HAND};
 use sinew::sim::figure::{Constrained, Constraint, ControllerKind, Flags, Perturbation};
@@ -194,6 +194,18 @@ fn falling_and_lying_allocate_nothing() {
             "{kind:?}: the scene must have a fall in it"
         );
     }
+}
+
+#[test]
+fn getting_up_allocates_nothing() {
+    let body = man();
+    let clip = recorded(&body, "get-up");
+    let setup = figure(&body, ControllerKind::Modern, clip.sample(0.0).state());
+    let mut scene = Scene::of(setup);
+    scene.figure_mut().set_drive(play(&clip));
+    assert_none("get-up", &mut scene, 26.0);
+    let f = scene.figure();
+    assert!(!f.is_fallen() && f.report().is_some_and(|r| r.com.z > 0.9));
 }
 
 #[test]

@@ -81,6 +81,7 @@ const TICK_MODULES: &[&str] = &[
     "sim::contact",
     "sim::collide",
     "sim::figure",
+    "sim::motion::ascent",
     "sim::motion::live",
     "sim::world",
 ];

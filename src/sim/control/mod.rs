@@ -19,6 +19,7 @@ pub use modern::Modern;
 pub use paper::Paper;
 pub use tracking::Law;
 
+use crate::sim::body::topology::SEGMENT_COUNT;
 use crate::sim::body::{Body, DOF_COUNT, NV, SegmentId};
 use crate::sim::dynamics::Terms;
 use crate::sim::figure::report::MAX_CONTACTS;
@@ -102,9 +103,21 @@ pub struct ControlInput<'a> {
     /// True if the accelerations are applied as they are. Planted feet are then kept in place by the controller, and overload is answered
     /// with accelerations that the clipped torques give; strength-limited motors settle both by themselves.
     pub kinematic: bool,
-    /// While the whole body works on the floor, as on the way up: heights at which the motion has every contact point at the end of the tick, by
-    /// segment × 8 + vertex, m. Whatever touches and is meant to then carries; without, feet and seats do.
-    pub on_floor: Option<&'a [f64; MAX_CONTACTS]>,
+    /// While the whole body works on the floor, as on the way up: whatever touches and is meant to then carries; without, feet and seats do.
+    pub on_floor: Option<OnFloor<'a>>,
+}
+
+/// How the motion means the body to touch the floor.
+#[derive(Clone, Copy, Debug)]
+pub struct OnFloor<'a> {
+    /// Heights at which it has every contact point at the end of the tick, by segment × 8 + vertex, m.
+    pub heights: &'a [f64; MAX_CONTACTS],
+    /// The trunk lies on the floor: there is no balance to keep.
+    pub lies: bool,
+    /// It rolls over.
+    pub rolls: bool,
+    /// Segments that may slide.
+    pub slides: &'a [bool; SEGMENT_COUNT],
 }
 
 /// What a controller decided.

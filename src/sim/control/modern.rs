@@ -41,6 +41,8 @@ mod weight {
     pub(super) const SWING_ROTATION: f64 = 4.0;
     pub(super) const PLANTED_ROTATION: f64 = 1.0;
     pub(super) const PELVIS: f64 = 20.0;
+    /// The same of who lies and rolls over.
+    pub(super) const ROLLING: f64 = 300.0;
     pub(super) const HOLD: f64 = 5000.0;
     pub(super) const BASE: f64 = 1e-6;
     /// ε: pull of a torque, relative to its half-range, towards the last tick's.
@@ -92,6 +94,8 @@ const MEANT_FADE: (f64, f64) = (0.004, 0.012);
 /// There knees bear weight more easily than feet, and hands less, for what they cost the program: a knee has one contact point where a palm has
 /// four, and hands that carry what knees could cannot be lifted.
 const EASE: (f64, f64, f64) = (5.0, 0.5, 0.2);
+/// Factor on the weight of the centre of mass of who lies: it is where the floor holds it.
+const LYING: f64 = 1e-3;
 /// What is kept of the last tick's contact force.
 const FORCE_MEMORY: f64 = 0.98;
 /// Weight with which a part that rests on a seat is held there when it carries all it may count for, and that share of the weight. Little while
@@ -233,7 +237,10 @@ impl Modern {
         }
         if input.params.track_hands {
             for e in input.effectors {
-                if input.on_floor.is_some_and(|z| is_clear(z, e.segment)) {
+                if input
+                    .on_floor
+                    .is_some_and(|f| is_clear(f.heights, e.segment))
+                {
                     self.point_task(
                         t,
                         &swing_law,
@@ -300,8 +307,8 @@ impl Modern {
     /// the motion is getting up, which takes a centre of mass over the feet. Who sits down lets himself fall onto the seat as the motion does.
     fn urgency(&mut self, input: &ControlInput<'_>) -> f64 {
         let planted = [input.target.now.planted, input.target.next.planted];
-        if input.on_floor.is_some() {
-            return 1.0;
+        if let Some(floor) = input.on_floor {
+            return if floor.lies { LYING } else { 1.0 };
         }
         let mut most = 1.0;
         if planted == [[true; 2]; 2] {
@@ -459,9 +466,17 @@ impl Modern {
                 let r = t.kin.rotation[s] * *p;
                 let z = t.segment_position(s).z + r.z;
                 let mut fade = smooth_step(z, FADE);
-                if let Some(heights) = input.on_floor {
-                    let meant = smooth_step(heights[s * POINTS + vertex], MEANT_FADE);
-                    fade = meant * smooth_step(z, FLOOR_FADE);
+                let (mut slides, mut held) = (false, 1.0);
+                if let Some(floor) = input.on_floor {
+                    slides = floor.slides[s];
+                    let meant = smooth_step(floor.heights[s * POINTS + vertex], MEANT_FADE);
+                    fade = smooth_step(z, FLOOR_FADE);
+                    // Who rolls over carries itself with whatever touches, also where that is about to come off.
+                    if floor.rolls {
+                        held = meant;
+                    } else {
+                        fade *= meant;
+                    }
                 } else if foot {
                     fade *= planned(input, s, *p);
                 } else {
@@ -495,8 +510,9 @@ impl Modern {
                     vertex,
                     turn: None,
                 });
-                let w = weight::HOLD * fade;
-                self.hold.push((hold(w, w, Vec3::Z), a));
+                let w = weight::HOLD * fade * held;
+                let along = if slides { 0.0 } else { w };
+                self.hold.push((hold(along, w, Vec3::Z), a));
             }
         }
     }
@@ -627,9 +643,15 @@ impl Controller for Modern {
         let mut diagonal = [weight::BASE; NV];
         let mut linear = [0.0; WIDTH];
         let w = pelvis_demand(t, input.target, &law, input.dt);
+        let rolls = input.on_floor.is_some_and(|f| f.rolls);
+        let turns = if rolls {
+            weight::ROLLING
+        } else {
+            weight::PELVIS
+        };
         for (k, value) in [w.x, w.y, w.z].into_iter().enumerate() {
-            diagonal[k] += weight::PELVIS;
-            linear[k] += weight::PELVIS * value;
+            diagonal[k] += turns;
+            linear[k] += turns * value;
         }
         for j in 0..DOF_COUNT {
             let wj = t.m[6 + j][6 + j].max(least).min(JOINT_WEIGHT);

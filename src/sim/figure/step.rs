@@ -34,6 +34,7 @@ use crate::sim::control::{Command, Modern, Paper};
 use crate::sim::dynamics::{Kinematics, Terms, center_of_mass};
 use crate::sim::gait::{Gait, Led};
 use crate::sim::math::Vec3;
+use crate::sim::motion::builtin::at_ease;
 use crate::sim::motion::{Target, TargetPair};
 use crate::sim::strength::fatigue::Fatigue;
 use crate::sim::strength::{MuscleScale, Strength};
@@ -183,7 +184,7 @@ impl Figure {
             standing_com_height: standing_com_height(&setup.body),
             balance: BalanceWatch::default(),
             fallen: false,
-            rising: Rising::default(),
+            rising: Rising::new(&setup.body, &at_ease(&setup.body)),
             frozen: false,
             report: empty_report(&setup.state),
             reported: false,
@@ -231,7 +232,7 @@ impl Figure {
             .compute(&self.links, &self.state, applied, world.gravity);
         self.begin_stop(world);
         self.begin_queued(world.time());
-        self.get_up(world);
+        self.get_up();
         self.target = self.desired(world.time(), world.dt);
         let steps = self.steps() && self.gait.is_walking();
         self.carrying.lean(
@@ -309,13 +310,8 @@ impl Figure {
             self.tasks.desired_point(&self.target, s, p)
         });
         if self.rising.is_rising() {
-            self.rising.touch(
-                &body,
-                &self.terms,
-                &self.tasks,
-                &self.target,
-                (&tasks.com, world.time()),
-            );
+            self.rising
+                .touch(&body, &self.terms, &self.tasks, &self.target, &tasks.com);
         }
         let mut balance = None;
         if self.steps() {

@@ -6,13 +6,11 @@
 //! facing +x, on the floor z = 0.
 
 mod gait;
-mod rise;
 mod shape;
 mod standing;
 
 use super::clip::Clip;
 use crate::sim::body::{Body, Posture};
-use std::sync::Arc;
 
 /// Names that [`builtin`] knows.
 pub const BUILTIN_NAMES: [&str; 7] = ["idle", "lift", "crate", "squat", "wave", "step", "walk"];
@@ -51,30 +49,6 @@ pub fn builtin(body: &Body, name: &str) -> Option<Clip> {
             "plans are finite, of bounded length, and their rotations are unit quaternions",
         ),
     )
-}
-
-/// Getting up from the belly, about 12 s if nothing holds it up: slow enough to be balanced at all times. Places are relative to where the knees are
-/// first, heading +x. Both feet count as planted from where the knees have left the floor.
-///
-/// Solves some thousand postures: about 0.1 s; allocates.
-pub fn rise(body: &Body) -> Rise {
-    let (postures, planted) = rise::rise(body, &at_ease(body));
-    let arms_out = rise::arms_out(&postures[0]);
-    let clip = Clip::from_postures("rise", rise::RATE, postures, planted)
-        .expect("the plan is finite, of bounded length, and its rotations are unit quaternions");
-    Rise {
-        arms_out,
-        clip: Arc::new(clip),
-    }
-}
-
-/// A way up from the belly.
-#[derive(Clone, Debug)]
-pub struct Rise {
-    /// Prone with the arms out to the sides: from there the hands come beside the chest without having to pass under it.
-    pub arms_out: Posture,
-    /// The way, from prone with the hands beside the chest.
-    pub clip: Arc<Clip>,
 }
 
 /// Standing at ease at the origin, feet side by side under the hips.

@@ -1,5 +1,6 @@
 //! Desired motion: reading, retargeting, preparing, sampling (paper §3.2).
 
+pub mod ascent;
 pub mod balance;
 mod banded;
 pub mod builtin;

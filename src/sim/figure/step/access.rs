@@ -10,7 +10,6 @@ use crate::sim::figure::constraints::Constraint;
 use crate::sim::figure::drive::{Drive, LivePlayback};
 use crate::sim::figure::events::FigureEvent;
 use crate::sim::figure::report::TickReport;
-use crate::sim::figure::rising::Rising;
 use crate::sim::figure::setup::{
     ControlParams, ControllerKind, FigureOptions, FigureSetup, Perturbation, StrengthScale,
 };
@@ -83,6 +82,10 @@ impl Figure {
     pub fn events(&self) -> &[FigureEvent] {
         self.watcher.events()
     }
+    /// What it is about on its way up, while it gets up.
+    pub fn rising(&self) -> Option<&'static str> {
+        self.rising.stage()
+    }
     /// True once it lies on the ground, until it has risen again.
     pub fn is_fallen(&self) -> bool {
         self.fallen
@@ -91,8 +94,7 @@ impl Figure {
     pub fn drive(&self) -> &Drive {
         &self.drive
     }
-    /// Replaces the source of the desired motion from the next tick on, whatever the figure does. What waits is forgotten. With the first
-    /// clip that lies down, the figure's way up is planned: about 0.1 s, allocates.
+    /// Replaces the source of the desired motion from the next tick on, whatever the figure does. What waits is forgotten.
     pub fn set_drive(&mut self, drive: Drive) {
         self.gait.follow(match &drive {
             Drive::Clip(play) => {
@@ -102,14 +104,7 @@ impl Figure {
             Drive::Live(_) => Some((StepPlan::live(), 1.0, PlanarTransform::default())),
             _ => None,
         });
-        let lies = match &drive {
-            Drive::Clip(play) => Rising::lies(&self.setup.body, &play.clip),
-            _ => false,
-        };
-        if lies {
-            self.rising.plan(&self.setup.body);
-        }
-        self.rising.follow(lies);
+        self.rising.reset();
         self.drive = drive;
         self.queued = None;
         self.stopping = None;

@@ -24,8 +24,9 @@ impl Figure {
             live.motion.advance(live.stream_time(time + dt));
             self.gait.follow_stream(&live.motion);
         }
-        let (state, last) = (&self.state.posture, &self.target.next.posture);
-        if let Some(way) = self.rising.targets((time, dt), state, last) {
+        let last = self.target.next.posture;
+        let body = &self.setup.body;
+        if let Some(way) = self.rising.targets(body, &self.terms, &last, dt) {
             return way;
         }
         if !self.steps() {
@@ -117,7 +118,7 @@ impl Figure {
             assist: Assist::new(&self.setup.body, self.setup.options.assist)
                 .map_or([0.0; 2], |a| a.planned()),
             kinematic: self.prescribed,
-            on_floor: self.rising.heights(),
+            on_floor: self.rising.on_floor(),
         };
         let (command, saturation_speed) = match self.active_controller() {
             ControllerKind::Paper => (self.paper.control(&input), FEED_FORWARD_SPEED),

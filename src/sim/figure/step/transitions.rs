@@ -1,12 +1,11 @@
 //! From one motion to another while the figure moves: what is under way is led to a stand, and what was asked for waits until it stands.
 
-use super::judgement::FEET;
 use super::{Figure, TickContext};
+use super::judgement::FEET;
 use crate::sim::body::Posture;
 use crate::sim::control::Controller;
 use crate::sim::figure::drive::{ClipPlayback, Drive, Queued};
 use crate::sim::figure::planning::Plan;
-use crate::sim::figure::rising::Rising;
 use crate::sim::figure::setup::ControllerKind;
 use crate::sim::gait::StepPlan;
 use crate::sim::motion::Clip;
@@ -62,9 +61,6 @@ impl Figure {
             return start;
         }
         self.follow_stop();
-        if Rising::lies(&self.setup.body, &play.clip) {
-            self.rising.plan(&self.setup.body);
-        }
         let lead = play.clip.lead_in();
         let first = play.clip_time(time).clamp(-lead, 0.0);
         let begin = play.clip.sample(first);
@@ -128,16 +124,15 @@ impl Figure {
         let stance = self.gait.stance(&self.terms);
         if let Some(q) = self.queued.take() {
             let (play, plan) = q.begin(time, stance);
-            let lies = Rising::lies(&self.setup.body, &play.clip);
             self.gait.follow(Some((plan, play.speed, play.origin)));
             self.drive = Drive::Clip(play);
             self.ending = false;
-            self.rising.follow(lies);
+            self.rising.reset();
         }
     }
 
     /// A fallen figure gets up when its motion, which lay down, does: in its own way, after which it stands. What it is asked to do meanwhile waits.
-    pub(super) fn get_up(&mut self, world: &TickContext) {
+    pub(super) fn get_up(&mut self) {
         let able = self.setup.controller == ControllerKind::Modern;
         if !self.fallen || !able || self.setup.options.assist >= 1.0 {
             self.rising.reset();
@@ -146,28 +141,21 @@ impl Figure {
         let com = &self.pending.tasks.com.now;
         let height = com.z / self.standing_com_height;
         let before = self.rising.is_rising();
-        self.rising.watch(&self.state.posture, height, world.time());
+        self.rising.watch(&self.terms, height);
         if before != self.rising.is_rising() {
             self.modern.reset();
             self.ending = !before;
         }
-        if self.rising.is_rising() && self.stands_on_feet() {
+        if self.rising.is_up() && self.stands_on_feet() {
             self.stand_up();
         }
     }
 
-    /// On its feet: the rest of its way is a motion like any other.
+    /// It stands: it holds what it has come to.
     fn stand_up(&mut self) {
-        let (anchor, start) = self.rising.place();
-        let Some(way) = self.rising.way() else { return };
-        let mut play = ClipPlayback::new(Arc::clone(&way.clip), start);
-        play.origin = anchor.transform();
-        self.drive = Drive::Clip(play);
+        self.drive = Drive::Hold(self.target.next.posture);
+        self.rising.reset();
         self.stopping = None;
-        if let Some(q) = &mut self.queued {
-            q.due = start + way.clip.duration();
-        }
-        self.rising.follow(false);
         self.gait.follow(None);
         self.fallen = false;
         self.start_afresh();

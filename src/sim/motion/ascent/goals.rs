@@ -1,0 +1,160 @@
+//! What a posture on the way up should be like: numbers with weights, that pass into one another.
+
+use crate::sim::body::topology::{
+    DOF_COUNT, DOF_START, L_THIGH, L_UPPER_ARM, R_THIGH, R_UPPER_ARM,
+};
+
+/// A number that should be `at`, if it has weight.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Aim {
+    pub at: f64,
+    pub weight: f64,
+}
+
+impl Aim {
+    pub const NONE: Self = Self {
+        at: 0.0,
+        weight: 0.0,
+    };
+
+    pub fn new(at: f64, weight: f64) -> Self {
+        Self { at, weight }
+    }
+
+    /// Between two; what has weight in only one of them stays where that has it.
+    fn mix(self, to: Self, u: f64) -> Self {
+        let m = |a: f64, b: f64| a + u * (b - a);
+        let at = match (self.weight > 0.0, to.weight > 0.0) {
+            (true, false) => self.at,
+            (false, true) => to.at,
+            _ => m(self.at, to.at),
+        };
+        Self {
+            at,
+            weight: m(self.weight, to.weight),
+        }
+    }
+}
+
+/// Goals of an instant: places along x (ahead), y (to the left) and z of the way, m; angles, rad. Pairs are left and right.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Goals {
+    pub pelvis: [Aim; 3],
+    /// How far the pelvis is bent forward from upright, its turn about its own long axis before, and the way's heading after that.
+    pub turn: [Aim; 3],
+    /// Centre of mass, x and y.
+    pub com: [Aim; 2],
+    /// Knee caps, balls of the feet, tips of the toes and heels (height only), wrists, palms (height of what lies flat).
+    pub knees: [[Aim; 3]; 2],
+    pub balls: [[Aim; 3]; 2],
+    pub tips: [Aim; 2],
+    pub heels: [Aim; 2],
+    pub hands: [[Aim; 3]; 2],
+    pub palms: [Aim; 2],
+    /// Height of the front of the chest.
+    pub chest: Aim,
+    /// Anatomical angles.
+    pub looks: [Aim; DOF_COUNT],
+}
+
+impl Default for Goals {
+    fn default() -> Self {
+        Self {
+            pelvis: [Aim::NONE; 3],
+            turn: [Aim::NONE; 3],
+            com: [Aim::NONE; 2],
+            knees: [[Aim::NONE; 3]; 2],
+            balls: [[Aim::NONE; 3]; 2],
+            tips: [Aim::NONE; 2],
+            heels: [Aim::NONE; 2],
+            hands: [[Aim::NONE; 3]; 2],
+            palms: [Aim::NONE; 2],
+            chest: Aim::NONE,
+            looks: [Aim::NONE; DOF_COUNT],
+        }
+    }
+}
+
+fn all<const N: usize>(a: &[Aim; N], b: &[Aim; N], u: f64) -> [Aim; N] {
+    std::array::from_fn(|k| a[k].mix(b[k], u))
+}
+
+/// Sides swapped.
+pub fn swapped<T: Copy>(pair: [T; 2]) -> [T; 2] {
+    [pair[1], pair[0]]
+}
+
+/// The joints of the mirror image: the trunk bends and turns the other way.
+fn mirrored(joints: &[Aim; DOF_COUNT]) -> [Aim; DOF_COUNT] {
+    const TRUNK: usize = DOF_START[L_UPPER_ARM.index()];
+    const ARM: usize = DOF_START[R_UPPER_ARM.index()];
+    const LEG: usize = DOF_START[L_THIGH.index()];
+    const OTHER: usize = DOF_START[R_THIGH.index()];
+    std::array::from_fn(|d| match d {
+        0..TRUNK if d % 3 == 0 => joints[d],
+        0..TRUNK => joints[d].turned(),
+        TRUNK..ARM => joints[d + ARM - TRUNK],
+        ARM..LEG => joints[d + TRUNK - ARM],
+        LEG..OTHER => joints[d + OTHER - LEG],
+        _ => joints[d + LEG - OTHER],
+    })
+}
+
+impl Aim {
+    fn turned(self) -> Self {
+        Self {
+            at: -self.at,
+            ..self
+        }
+    }
+}
+
+impl Goals {
+    /// Those of the mirror image.
+    pub fn mirrored(&self) -> Self {
+        let place = |[x, y, z]: [Aim; 3]| [x, y.turned(), z];
+        let [pitch, roll, yaw] = self.turn;
+        Self {
+            pelvis: place(self.pelvis),
+            turn: [pitch, roll.turned(), yaw.turned()],
+            com: [self.com[0], self.com[1].turned()],
+            knees: swapped(self.knees).map(place),
+            balls: swapped(self.balls).map(place),
+            tips: swapped(self.tips),
+            heels: swapped(self.heels),
+            hands: swapped(self.hands).map(place),
+            palms: swapped(self.palms),
+            chest: self.chest,
+            looks: mirrored(&self.looks),
+        }
+    }
+
+    /// The same for a trunk that is turned like this and joints at these angles: where a body begins.
+    pub fn begin(&mut self, turn: [f64; 3], angles: &[f64; DOF_COUNT]) {
+        for (aim, at) in self.turn.iter_mut().zip(turn) {
+            aim.at = at;
+        }
+        for (aim, at) in self.looks.iter_mut().zip(angles) {
+            aim.at = *at;
+        }
+    }
+
+    /// `u` of the way from these to others.
+    pub fn mix(&self, to: &Self, u: f64) -> Self {
+        let pair =
+            |a: &[[Aim; 3]; 2], b: &[[Aim; 3]; 2]| [all(&a[0], &b[0], u), all(&a[1], &b[1], u)];
+        Self {
+            pelvis: all(&self.pelvis, &to.pelvis, u),
+            turn: all(&self.turn, &to.turn, u),
+            com: all(&self.com, &to.com, u),
+            knees: pair(&self.knees, &to.knees),
+            balls: pair(&self.balls, &to.balls),
+            tips: all(&self.tips, &to.tips, u),
+            heels: all(&self.heels, &to.heels, u),
+            hands: pair(&self.hands, &to.hands),
+            palms: all(&self.palms, &to.palms, u),
+            chest: self.chest.mix(to.chest, u),
+            looks: all(&self.looks, &to.looks, u),
+        }
+    }
+}

@@ -1,0 +1,280 @@
+//! Joint rates that lead a posture towards goals: damped least squares with limits, one solution per tick.
+
+use super::goals::{Aim, Goals};
+use crate::sim::body::angles::{anatomical_angles, clamp_to_limits, set_anatomical_angles};
+use crate::sim::body::topology::{
+    CHEST, DOF_COUNT, L_FOOT, L_HAND, L_SHANK, L_TOES, NV, PELVIS, R_FOOT, R_HAND, R_SHANK, R_TOES,
+    SEGMENT_COUNT, SegmentId,
+};
+use crate::sim::body::{Body, Links, Posture, State};
+use crate::sim::dynamics::Terms;
+use crate::sim::dynamics::terms::WIDTH;
+use crate::sim::math::{Quat, Vec3};
+
+/// Left and right.
+pub const SHANKS: [SegmentId; 2] = [L_SHANK, R_SHANK];
+pub const FEET: [SegmentId; 2] = [L_FOOT, R_FOOT];
+pub const TOES: [SegmentId; 2] = [L_TOES, R_TOES];
+pub const HANDS: [SegmentId; 2] = [L_HAND, R_HAND];
+/// Points of the shank on which one kneels, of the toes under the ball of the foot, of the chest that carry who lies on it.
+pub const KNEE: usize = 0;
+pub const BALL: [usize; 2] = [0, 1];
+/// Points of a palm that lies flat: finger tip, knuckles, palm.
+const PALM: [usize; 4] = [0, 1, 3, 4];
+/// Time constant with which goals are approached, s.
+const APPROACH: f64 = 0.1;
+/// Weights: change of a rate within [`STEADY_TIME`], a rate, the trunk's level, nothing in the floor, fingers to the front.
+const STEADY: f64 = 1e-3;
+const STEADY_TIME: f64 = 0.05;
+const DAMPING: f64 = 3e-4;
+const FLOOR: f64 = 30.0;
+const FINGERS: f64 = 0.3;
+/// Fastest joints, rad/s. Limits are approached within [`APPROACH`] and joints stay this far from them, rad.
+const FASTEST: f64 = 3.0;
+const MARGIN: f64 = 0.02;
+/// Rounds of finding the joints at their limits, and the weight that holds them there.
+const LIMIT_ROUNDS: usize = 4;
+const LIMIT_WEIGHT: f64 = 1e3;
+
+/// Normal equations of a tick, and what they are built with.
+#[derive(Clone, Debug)]
+pub struct Solver {
+    links: Links,
+    terms: Terms,
+    matrix: Box<[[f64; NV]; NV]>,
+    factor: Box<[[f64; NV]; NV]>,
+    right: [f64; NV],
+    points: [Vec<Vec3>; SEGMENT_COUNT],
+}
+
+impl Solver {
+    pub fn new(body: &Body) -> Self {
+        Self {
+            links: Links::new(body),
+            terms: Terms::default(),
+            matrix: Box::new([[0.0; NV]; NV]),
+            factor: Box::new([[0.0; NV]; NV]),
+            right: [0.0; NV],
+            points: std::array::from_fn(|s| body.segments[s].contact_points.clone()),
+        }
+    }
+
+    /// Moves `q`, which has the rates `v`, by `dt` seconds towards `goals`.
+    pub fn advance(
+        &mut self,
+        body: &Body,
+        (q, v): (&mut Posture, &mut [f64; NV]),
+        goals: &Goals,
+        dt: f64,
+    ) {
+        self.terms
+            .compute(&self.links, &State::at_rest(*q), &[], 0.0);
+        for row in self.matrix.iter_mut() {
+            row.fill(0.0);
+        }
+        self.right.fill(0.0);
+        let steady = STEADY * (STEADY_TIME / dt) * (STEADY_TIME / dt);
+        for i in 0..NV {
+            self.pull(i, v[i], steady);
+            self.pull(i, 0.0, DAMPING);
+        }
+        self.look(q, goals);
+        self.hold_trunk(body, q, goals);
+        for side in 0..2 {
+            self.hold_limbs(body, side, goals);
+        }
+        self.stay_above(body, v, dt);
+        *v = self.solve(body, q);
+        q.integrate(v, dt);
+        clamp_to_limits(body, q, MARGIN);
+    }
+
+    /// Adds a goal for a rate: `row · v = rate`.
+    fn add(&mut self, row: &[f64; WIDTH], rate: f64, weight: f64) {
+        for i in 0..NV {
+            if row[i] == 0.0 {
+                continue;
+            }
+            self.right[i] += weight * row[i] * rate;
+            for (m, r) in self.matrix[i].iter_mut().zip(row).take(i + 1) {
+                *m += weight * row[i] * r;
+            }
+        }
+    }
+
+    /// Adds one for component `i` alone.
+    fn pull(&mut self, i: usize, rate: f64, weight: f64) {
+        self.matrix[i][i] += weight;
+        self.right[i] += weight * rate;
+    }
+
+    /// A point of a segment goes where coordinates are wanted.
+    fn point(&mut self, s: SegmentId, point: Vec3, to: [Aim; 3]) {
+        if to.iter().all(|a| a.weight == 0.0) {
+            return;
+        }
+        let mut rows = [[0.0; WIDTH]; 3];
+        self.terms.point_jacobian(s.index(), point, &mut rows);
+        let at = self.terms.point_world(s.index(), point).to_array();
+        for ((row, to), at) in rows.iter().zip(to).zip(at) {
+            if to.weight > 0.0 {
+                self.add(row, (to.at - at) / APPROACH, to.weight);
+            }
+        }
+    }
+
+    fn look(&mut self, q: &Posture, goals: &Goals) {
+        let mut wanted = *q;
+        set_anatomical_angles(&mut wanted, &goals.looks.map(|a| a.at));
+        let to = q.joint_difference(&wanted);
+        for (j, look) in goals.looks.iter().enumerate() {
+            self.pull(6 + j, to[j] / APPROACH, look.weight);
+        }
+    }
+
+    fn hold_trunk(&mut self, body: &Body, q: &Posture, goals: &Goals) {
+        let [pitch, roll, yaw] = goals.turn;
+        let bent = Quat::exp(Vec3::Z * yaw.at) * Quat::exp(Vec3::Y * pitch.at);
+        let wanted = bent * Quat::exp(Vec3::Z * roll.at);
+        let turn = (wanted * q.root_rotation.conjugate()).log() * (1.0 / APPROACH);
+        self.pull(0, turn.x, roll.weight);
+        self.pull(1, turn.y, pitch.weight);
+        self.pull(2, turn.z, yaw.weight);
+        self.point(PELVIS, Vec3::zero(), goals.pelvis);
+        let (com, jc) = (self.terms.com, self.terms.jc);
+        for (k, at) in [com.x, com.y].into_iter().enumerate() {
+            let aim = goals.com[k];
+            self.add(&jc[k], (aim.at - at) / APPROACH, aim.weight);
+        }
+        for k in [2, 3] {
+            let p = body.segment(CHEST).contact_points[k];
+            self.point(CHEST, p, [Aim::NONE, Aim::NONE, goals.chest]);
+        }
+    }
+
+    fn hold_limbs(&mut self, body: &Body, side: usize, goals: &Goals) {
+        let (shank, foot, toes, hand) = (SHANKS[side], FEET[side], TOES[side], HANDS[side]);
+        let knee = body.segment(shank).contact_points[KNEE];
+        self.point(shank, knee, goals.knees[side]);
+        let [x, y, z] = goals.balls[side];
+        let points = &body.segment(toes).contact_points;
+        let across = |p: &Vec3| self.terms.point_world(toes.index(), *p).y;
+        let middle = BALL.map(|k| across(&points[k])).iter().sum::<f64>() / BALL.len() as f64;
+        let beside = [0, 1].map(|k| y.at + across(&points[k]) - middle);
+        for (i, p) in points.iter().enumerate() {
+            // The ball of the foot stays where it is; the tips of the toes only stay down.
+            let to = match beside.get(i) {
+                Some(at) => [x, Aim { at: *at, ..y }, z],
+                None => [Aim::NONE, Aim::NONE, goals.tips[side]],
+            };
+            self.point(toes, *p, to);
+        }
+        for p in &body.segment(foot).contact_points {
+            self.point(foot, *p, [Aim::NONE, Aim::NONE, goals.heels[side]]);
+        }
+        self.point(hand, Vec3::zero(), goals.hands[side]);
+        let palm = goals.palms[side];
+        let points = &body.segment(hand).contact_points;
+        for k in PALM {
+            self.point(hand, points[k], [Aim::NONE, Aim::NONE, palm]);
+        }
+        let wrist = self.terms.point_world(hand.index(), Vec3::zero());
+        let ahead = Aim {
+            at: wrist.y,
+            weight: FINGERS * palm.weight,
+        };
+        self.point(hand, points[0], [Aim::NONE, ahead, Aim::NONE]);
+    }
+
+    /// What would come below the floor at the rates `v` is led back onto it.
+    fn stay_above(&mut self, body: &Body, v: &[f64; NV], dt: f64) {
+        for s in SegmentId::all() {
+            for p in &body.segment(s).contact_points {
+                let z = self.terms.point_world(s.index(), *p).z;
+                if z > 0.05 {
+                    continue;
+                }
+                let mut rows = [[0.0; WIDTH]; 3];
+                self.terms.point_jacobian(s.index(), *p, &mut rows);
+                let rate: f64 = rows[2].iter().zip(v).map(|(j, v)| j * v).sum();
+                if z + dt * rate < 0.0 {
+                    self.add(&rows[2], -z / APPROACH, FLOOR);
+                }
+            }
+        }
+    }
+
+    /// The rates that meet the goals best within the limits of the joints.
+    fn solve(&mut self, body: &Body, q: &Posture) -> [f64; NV] {
+        let angles = anatomical_angles(q);
+        let mut held: [Option<f64>; DOF_COUNT] = [None; DOF_COUNT];
+        let mut out = self.least_squares(&held);
+        for _ in 0..LIMIT_ROUNDS {
+            let mut found = false;
+            for d in 0..DOF_COUNT {
+                let room = [
+                    (body.lower[d] + MARGIN - angles[d]) / APPROACH,
+                    (body.upper[d] - MARGIN - angles[d]) / APPROACH,
+                ];
+                let limit = out[6 + d].clamp(
+                    room[0].clamp(-FASTEST, FASTEST),
+                    room[1].clamp(-FASTEST, FASTEST),
+                );
+                if held[d].is_none() && (out[6 + d] - limit).abs() > 1e-9 {
+                    held[d] = Some(limit);
+                    found = true;
+                }
+            }
+            if !found {
+                break;
+            }
+            out = self.least_squares(&held);
+        }
+        out
+    }
+
+    /// Cholesky of the normal equations, with the rates that are held.
+    fn least_squares(&mut self, held: &[Option<f64>; DOF_COUNT]) -> [f64; NV] {
+        let (a, mut x) = (&mut self.factor, self.right);
+        a.copy_from_slice(&self.matrix[..]);
+        for (d, to) in held.iter().enumerate() {
+            if let Some(to) = to {
+                a[6 + d][6 + d] += LIMIT_WEIGHT;
+                x[6 + d] += LIMIT_WEIGHT * to;
+            }
+        }
+        for i in 0..NV {
+            let (above, below) = a.split_at_mut(i);
+            let row = &mut below[0];
+            for (j, other) in above.iter().enumerate() {
+                let sum: f64 = row[..j].iter().zip(&other[..j]).map(|(a, b)| a * b).sum();
+                row[j] = (row[j] - sum) / other[j];
+            }
+            let sum: f64 = row[..i].iter().map(|a| a * a).sum();
+            row[i] = (row[i] - sum).sqrt();
+            let sum: f64 = row[..i].iter().zip(&x[..i]).map(|(a, b)| a * b).sum();
+            x[i] = (x[i] - sum) / row[i];
+        }
+        for i in (0..NV).rev() {
+            x[i] /= a[i][i];
+            let xi = x[i];
+            for (x, a) in x[..i].iter_mut().zip(&a[i][..i]) {
+                *x -= a * xi;
+            }
+        }
+        x
+    }
+
+    /// A contact point of a segment, segment frame, m.
+    pub fn contact(&self, s: SegmentId, point: usize) -> Vec3 {
+        self.points[s.index()][point]
+    }
+
+    /// Height of the lowest contact point of a segment, m.
+    pub fn lowest(&self, terms: &Terms, s: SegmentId) -> f64 {
+        let points = self.points[s.index()].iter();
+        points.fold(f64::INFINITY, |z, p| {
+            z.min(terms.point_world(s.index(), *p).z)
+        })
+    }
+}
