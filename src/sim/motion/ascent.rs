@@ -46,6 +46,8 @@ pub struct Ascent {
     /// Where the way lies in the world.
     place: PlanarTransform,
     stages: &'static [Stage],
+    /// They lead over onto the belly, not up.
+    turns_over: bool,
     stage: usize,
     /// Over the left side instead of the right.
     mirrored: bool,
@@ -101,6 +103,7 @@ impl Ascent {
             },
             place: PlanarTransform::default(),
             stages: stages::UP,
+            turns_over: false,
             stage: 0,
             mirrored: false,
             since: 0.0,
@@ -144,6 +147,7 @@ impl Ascent {
             self.here.hands[side] =
                 inverse(self.place, terms.segment_position(HANDS[side].index()));
         }
+        self.turns_over = !prone;
         self.stages = if prone { stages::UP } else { stages::OVER };
         self.mirrored = !prone && self.here.roll < 0.0;
         let first = if !prone && self.here.roll.abs() < ON_ITS_SIDE {
@@ -190,7 +194,7 @@ impl Ascent {
 
     /// True once the last stage is over.
     pub fn is_over(&self) -> bool {
-        std::ptr::eq(self.stages, stages::UP)
+        !self.turns_over
             && self.stage + 1 == self.stages.len()
             && self.since >= self.stages[self.stage].seconds
     }
@@ -266,7 +270,7 @@ impl Ascent {
                 self.since = stage.seconds;
                 self.waits += dt;
             }
-        } else if self.since >= stage.seconds && std::ptr::eq(self.stages, stages::OVER) {
+        } else if self.since >= stage.seconds && self.turns_over {
             self.begin(terms);
         }
         self.look_around(terms, dt);

@@ -1,7 +1,7 @@
 //! From one motion to another while the figure moves: what is under way is led to a stand, and what was asked for waits until it stands.
 
-use super::{Figure, TickContext};
 use super::judgement::FEET;
+use super::{Figure, TickContext};
 use crate::sim::body::Posture;
 use crate::sim::control::Controller;
 use crate::sim::figure::drive::{ClipPlayback, Drive, Queued};
