@@ -117,6 +117,7 @@ pub fn retarget(
         floor: reading.floor.unwrap_or(defaults.floor),
         lock_feet: reading.lock_feet.unwrap_or(defaults.lock_feet),
         cutoff_hz: reading.cutoff_hz.unwrap_or(defaults.cutoff_hz),
+        // What is uploaded is simulated, and measured strength does not run.
         walk_runs: reading.walk_runs.unwrap_or(true),
         ..defaults
     };

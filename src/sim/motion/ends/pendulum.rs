@@ -233,8 +233,12 @@ pub(super) fn footsteps(
     };
     // Who falls to a side where his feet cannot get turns there.
     let aside = turn(from.heading, from.velocity.y.atan2(from.velocity.x));
-    let aside = if aside.abs() < MOST_ASIDE { aside } else { 0.0 };
-    let best = TURNS.iter().find_map(|share| best(share * aside))?;
+    let turns = if aside.abs() < MOST_ASIDE {
+        &TURNS[..]
+    } else {
+        &TURNS[..1]
+    };
+    let best = turns.iter().find_map(|share| best(share * aside))?;
     Some(Footsteps {
         heading: best.heading(),
         steps: best.steps,
