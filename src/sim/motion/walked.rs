@@ -58,13 +58,11 @@ fn paces(way: &[Vec3], rate_hz: f64) -> Vec<f64> {
     (0..speed.len()).map(most).collect()
 }
 
-/// How far behind (or ahead of) its feet a body has to lean to change its speed as fast as it does, m.
-fn leans(way: &[Vec3], feet: [&[Vec3]; 2], rate_hz: f64) -> Vec<f64> {
+/// How far behind (or ahead of) its feet a body on this way has to lean to change its `slow` way as fast as it does, m.
+fn leans(way: &[Vec3], slow: &[Vec3], feet: [&[Vec3]; 2], rate_hz: f64) -> Vec<f64> {
     let n = way.len();
     let lowest = feet.into_iter().flatten();
     let floor = lowest.map(|p| p.z).fold(f64::INFINITY, f64::min);
-    let mut slow = way.to_vec();
-    low_pass_points(&mut slow, CUTOFF, rate_hz);
     let lean = |i: usize| {
         let (before, after) = (slow[i.saturating_sub(1)], slow[(i + 1).min(n - 1)]);
         let bend = before - slow[i] * 2.0 + after;
@@ -78,11 +76,9 @@ fn leans(way: &[Vec3], feet: [&[Vec3]; 2], rate_hz: f64) -> Vec<f64> {
     out
 }
 
-/// Duration of the step that each sample belongs to, s: from one turning point of the way between the feet to the next.
-fn steps(way: &[Vec3], [left, right]: [&[Vec3]; 2], rate_hz: f64) -> Vec<f64> {
-    let n = way.len();
-    let mut slow = way.to_vec();
-    low_pass_points(&mut slow, CUTOFF, rate_hz);
+/// Duration of the step that each sample belongs to, s: from one turning point of the way between the feet to the next, along the `slow` way of the body.
+fn steps(slow: &[Vec3], [left, right]: [&[Vec3]; 2], rate_hz: f64) -> Vec<f64> {
+    let n = slow.len();
     let mut lead: Vec<f64> = (0..n)
         .map(|i| {
             let ahead = slow[(i + 1).min(n - 1)] - slow[i.saturating_sub(1)];
@@ -135,8 +131,10 @@ impl Slowed {
         if speed.iter().all(|v| *v <= RUNS) {
             return None;
         }
-        let step = steps(way, feet, rate_hz);
-        let leans = leans(way, feet, rate_hz);
+        let mut slow = way.to_vec();
+        low_pass_points(&mut slow, CUTOFF, rate_hz);
+        let step = steps(&slow, feet, rate_hz);
+        let leans = leans(way, &slow, feet, rate_hz);
         let (mut pace, mut share) = (vec![1.0; n], vec![1.0; n]);
         let moves: Vec<bool> = speed.iter().map(|v| *v > WALKS).collect();
         for (i, j, _) in runs(&moves).into_iter().filter(|r| r.2) {
