@@ -8,7 +8,8 @@ mod common;
 use common::{authored, figure, man, mocap, recorded, recorded_with};
 use sinew::evaluate::experiments::walk::{self as experiments, Walk, Walker};
 use sinew::sim::body::topology::{CHEST, L_HAND, R_HAND};
-use sinew::sim::body::{Body, Profile, SegmentId, Sex};
+use sinew::sim::body::{Body, Links, Posture, Profile, SegmentId, Sex};
+use sinew::sim::dynamics::{Kinematics, momentum};
 use sinew::sim::figure::{ControllerKind, Flags, Perturbation};
 use sinew::sim::math::Vec3;
 use sinew::sim::motion::{Bvh, Clip, RetargetOptions, cycle, retarget};
@@ -557,4 +558,39 @@ fn a_run_that_is_walked_comes_to_a_stand() {
             "{what}: {rms} deg, {capture} m"
         );
     }
+}
+
+/// Which way the chest points up, world axes.
+fn chest_up(body: &Body, posture: &Posture) -> Vec3 {
+    let mut kin = Kinematics::default();
+    kin.set_posture(&Links::new(body), posture);
+    kin.rotation[CHEST.index()] * Vec3::Z
+}
+
+#[test]
+fn who_jumps_takes_no_spin_along_and_lands_upright() {
+    let body = man();
+    let clip = recorded(&body, "jump");
+    let seconds = clip.duration() + 0.5;
+    let (rms, capture) = walk(&body, "jump", &clip, false, seconds);
+    assert!(rms < 2.0 && capture < 0.12, "{rms} deg, {capture} m");
+
+    let (mut world, key) = playing(&body, clip, 0.0, false);
+    let (mut spin, mut bow, mut flown) = (0.0f64, 0.0f64, 0);
+    for _ in 0..(seconds * RATE) as usize {
+        world.step();
+        let f = world.figure(key).unwrap();
+        let (is, asked) = (&f.state().posture, &f.target().next.posture);
+        let cosine = chest_up(&body, is).dot(chest_up(&body, asked));
+        bow = bow.max(cosine.clamp(-1.0, 1.0).acos().to_degrees());
+        if f.report().unwrap().contacts.is_empty() {
+            let mut kin = Kinematics::default();
+            kin.set_state(f.links(), f.state());
+            spin = spin.max(momentum(f.links(), &kin).angular.norm());
+            flown += 1;
+        }
+    }
+    println!("{flown} ticks in the air, {spin:.1} N m s, chest off by {bow:.0} deg");
+    assert!(flown > 12, "it leaves the floor for a quarter of a second");
+    assert!(spin < 2.0 && bow < 25.0, "{spin} N m s, {bow} deg");
 }

@@ -90,6 +90,7 @@ impl Decision {
             goals: &[],
             feet: &tasks.feet,
             balance: None,
+            take_off: None,
             lower: &self.lower,
             upper: &self.upper,
             params: &self.params,

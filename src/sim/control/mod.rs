@@ -88,6 +88,8 @@ pub struct ControlInput<'a> {
     pub feet: &'a [(PointTarget, RotationTarget); 2],
     /// What balance asks of the centre of mass; without it the tracking law's own demand holds.
     pub balance: Option<Balance>,
+    /// The flight that the motion has next, if it begins soon.
+    pub take_off: Option<TakeOff>,
     /// Least available torques, N·m (negative).
     pub lower: &'a [f64; DOF_COUNT],
     /// Largest available torques, N·m.
@@ -167,6 +169,15 @@ impl Default for Command {
 pub struct Balance {
     /// Horizontal acceleration, m/s².
     pub acceleration: [f64; 2],
+}
+
+/// A flight that is about to begin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TakeOff {
+    /// Time until no foot is to be on the floor, s.
+    pub after: f64,
+    /// Centroidal angular momentum of the motion in the air, N·m·s.
+    pub spin: Vec3,
 }
 
 /// Gains of the modern controller's law for the centre of mass, 1/s² and 1/s.

@@ -26,6 +26,8 @@ use crate::sim::motion::TargetPair;
 use crate::sim::support::{Polygon, Rest};
 use multiversion::multiversion;
 
+mod take_off;
+
 /// Weights in units of force: the cost of a task is about (inertia × acceleration error)², so that a foot's hundred rad/s² cost less than one
 /// m/s² of the body (WALKING §5). Hands, joints and planted feet were set on recorded motion: docs/adr/0004.
 mod weight {
@@ -207,7 +209,7 @@ impl Modern {
             soles: Polygon::with_capacity(MAX_CONTACTS),
             motors: Motors::default(),
             newton: NewtonWorkspace::default(),
-            rows: Vec::with_capacity(21 + 6 * MAX_GOALS),
+            rows: Vec::with_capacity(24 + 6 * MAX_GOALS),
             assist: [0.0; 2],
             seat: Seat::default(),
             command: Command::default(),
@@ -235,6 +237,7 @@ impl Modern {
                 });
             }
         }
+        self.take_off_task(input);
         if input.params.track_hands {
             for e in input.effectors {
                 if input

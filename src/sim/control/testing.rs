@@ -103,6 +103,7 @@ impl Scene {
             goals: &self.goals,
             feet: &self.feet,
             balance: None,
+            take_off: None,
             lower: &self.lower,
             upper: &self.upper,
             params: &self.params,

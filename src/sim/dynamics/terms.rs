@@ -225,6 +225,32 @@ impl Terms {
             (out[3][i], out[4][i], out[5][i]) = (v.x, v.y, v.z);
         });
     }
+    /// Rows A and bias b of the centroidal angular momentum L, world axes: `L = A v`, N·m·s, and `L̇ = A v̇ + b`, N·m (the angular half of the
+    /// centroidal momentum matrix of Orin, Goswami & Lee 2013).
+    ///
+    /// The first three rows of `M v̇ + h` are a moment about the pelvis, the next three a force; taken about the centre of mass, gravity gives none.
+    pub fn spin_rows(&self) -> ([[f64; WIDTH]; 3], Vec3) {
+        let c = self.com - self.state.posture.root_position;
+        let about = |moment: Vec3, force: Vec3| moment - c.cross(force);
+        let column = |i: usize, first: usize| Vec3 {
+            x: self.m[first][i],
+            y: self.m[first + 1][i],
+            z: self.m[first + 2][i],
+        };
+        let mut rows = [[0.0; WIDTH]; 3];
+        for i in 0..NV {
+            let a = about(column(i, 0), column(i, 3)).to_array();
+            for (row, a) in rows.iter_mut().zip(a) {
+                row[i] = a;
+            }
+        }
+        let [mx, my, mz, fx, fy, fz, ..] = self.h;
+        let bias = about(
+            Vec3::from_array([mx, my, mz]),
+            Vec3::from_array([fx, fy, fz]),
+        );
+        (rows, bias)
+    }
     /// Force and moment about the world origin that the ground must supply for the acceleration `vdot` (first six rows of
     /// `M v̇ + h`, ALGORITHM §4).
     pub fn ground_wrench(&self, vdot: &[f64; NV]) -> (Vec3, Vec3) {

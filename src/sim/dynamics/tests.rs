@@ -229,3 +229,39 @@ fn point_jacobian_and_bias_match_differences() {
         assert!(((a.3 - b.3) * (0.5 / h) - t.com_bias).norm() < 1e-6);
     }
 }
+
+#[test]
+fn rows_of_the_angular_momentum_give_it_and_its_rate() {
+    let mut rng = Pcg64Mcg::seed_from_u64(61);
+    for _ in 0..50 {
+        let (l, s) = (random_links(&mut rng), random_state(&mut rng));
+        let a: [f64; NV] = std::array::from_fn(|_| rng.random_range(-5.0..5.0));
+        let mut t = Terms::default();
+        t.compute(&l, &s, &[], 9.81);
+        let (rows, bias) = t.spin_rows();
+        let spin = |s: &State| {
+            let mut kin = Kinematics::default();
+            kin.set_state(&l, s);
+            momentum(&l, &kin).angular.to_array()
+        };
+        let h = 1e-5;
+        let at = |sign: f64| {
+            let mut s = s;
+            let way: [f64; NV] =
+                std::array::from_fn(|i| sign * h * s.velocity[i] + 0.5 * h * h * a[i]);
+            s.posture.integrate(&way, 1.0);
+            s.velocity = std::array::from_fn(|i| s.velocity[i] + sign * h * a[i]);
+            spin(&s)
+        };
+        let (now, before, after) = (spin(&s), at(-1.0), at(1.0));
+        for (k, (row, bias)) in rows.iter().zip(bias.to_array()).enumerate() {
+            let times = |v: &[f64; NV]| row.iter().zip(v).map(|(r, v)| r * v).sum::<f64>();
+            assert!((times(&s.velocity) - now[k]).abs() < 1e-11 * (1.0 + now[k].abs()));
+            let (rate, seen) = (times(&a) + bias, (after[k] - before[k]) / (2.0 * h));
+            assert!(
+                (rate - seen).abs() < 1e-4 * (1.0 + rate.abs()),
+                "{rate} against {seen}"
+            );
+        }
+    }
+}

@@ -30,7 +30,7 @@ use crate::sim::body::topology::DOF_COUNT;
 use crate::sim::body::{Body, Links, Posture, State};
 use crate::sim::collide::shape::BodyShape;
 use crate::sim::contact::Tissue;
-use crate::sim::control::{Command, Modern, Paper};
+use crate::sim::control::{Command, Modern, Paper, TakeOff};
 use crate::sim::dynamics::{Kinematics, Terms, center_of_mass};
 use crate::sim::gait::{Gait, Led};
 use crate::sim::math::Vec3;
@@ -313,7 +313,7 @@ impl Figure {
             self.rising
                 .touch(&body, &self.terms, &self.tasks, &self.target, &tasks.com);
         }
-        let mut balance = None;
+        let (mut balance, mut take_off) = (None, None);
         if self.steps() {
             let mut led = Led {
                 com: &mut tasks.com,
@@ -328,10 +328,14 @@ impl Figure {
                 world.dt,
                 &mut led,
             );
+            take_off = self.gait.coming_flight().map(|(after, middle)| TakeOff {
+                after,
+                spin: self.tasks.spin(&self.links, middle),
+            });
         }
         self.prescribed = self.prescribes();
         let (lower, upper) = (self.pending.lower, self.pending.upper);
-        self.pending.command = self.control(world, &tasks, balance, (&lower, &upper));
+        self.pending.command = self.control(world, &tasks, (balance, take_off), (&lower, &upper));
         self.judge_hand_over(world.dt);
         self.terms.h = bias;
         if let Some(inertia) = inertia {

@@ -78,11 +78,12 @@ impl Pose<'_> {
     }
 }
 
-/// Buffers for the kinematics of the two desired states of a tick.
+/// Buffers for the kinematics of the two desired states of a tick, and of one more.
 #[derive(Clone, Debug, Default)]
 pub struct TaskWorkspace {
     now: Kinematics<f64>,
     next: Kinematics<f64>,
+    aside: Kinematics<f64>,
 }
 
 impl TaskWorkspace {
@@ -95,6 +96,13 @@ impl TaskWorkspace {
         }
         .point(s, point)
         .0
+    }
+
+    /// Centroidal angular momentum of a desired state, N·m·s, world axes. No allocation.
+    pub fn spin(&mut self, links: &Links, target: &Target) -> Vec3 {
+        self.aside.set_posture(links, &target.posture);
+        self.aside.set_velocity(&target.velocity);
+        momentum(links, &self.aside).angular
     }
 
     /// Spatial targets of a tick. `links` carry the present loads. No allocation.

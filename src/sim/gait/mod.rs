@@ -30,6 +30,10 @@ const TOES: [SegmentId; 2] = [L_TOES, R_TOES];
 const TOUCH: f64 = 0.004;
 /// A foot may land this long before its time, s; earlier touches are scuffs.
 const EARLY: f64 = 0.06;
+/// Who comes down from a flight may do so this long before, s.
+const EARLY_DOWN: f64 = 0.2;
+/// A flight is looked ahead to for so long, s.
+const AHEAD: f64 = 0.2;
 /// A foot that finds no floor counts as planted after this time, s; until then it goes down at this speed, m/s.
 const LATE: f64 = 0.15;
 const LOWERING: f64 = 0.5;
@@ -127,6 +131,19 @@ fn middle(feet: &catch::Places) -> (Vec3, f64) {
     ((feet[0].0 + feet[1].0) * 0.5, yaw)
 }
 
+/// Leads the feet of who flies about his centre of mass, whose way nothing changes: led to where the motion has them they would pull the legs up
+/// or stretch them, and turn the trunk.
+fn follow_mass(terms: &Terms, dt: f64, tasks: &mut Led<'_>) {
+    let off = terms.com - tasks.com.now;
+    let drift = terms.com_velocity - tasks.com.now_velocity;
+    for (foot, _) in tasks.feet.iter_mut() {
+        foot.now += off;
+        foot.next += off + drift * dt;
+        foot.now_velocity += drift;
+        foot.next_velocity += drift;
+    }
+}
+
 /// A point of the floor.
 fn level(p: [f64; 2]) -> Vec3 {
     Vec3 {
@@ -158,6 +175,8 @@ pub struct Gait {
     /// Clip time now, s.
     phase: f64,
     capture: Capture,
+    /// Time until a flight of the motion, s, and the motion in the middle of it.
+    flight: Option<(f64, Target)>,
     landing: Option<Landing>,
     step: Option<Catch>,
     /// Foot that is about to be brought back, or is.
@@ -186,6 +205,7 @@ impl Gait {
             lag: 0.0,
             phase: 0.0,
             capture: Capture::new(body),
+            flight: None,
             landing: None,
             step: None,
             tidying: None,
@@ -321,7 +341,7 @@ impl Gait {
         clip_time: impl Fn(f64) -> f64,
         pair: impl Fn(f64, f64) -> TargetPair,
     ) -> TargetPair {
-        self.landing = None;
+        (self.landing, self.flight) = (None, None);
         self.anchor.settle(dt);
         self.phase = clip_time(time - self.lag);
         let now = time - self.lag;
@@ -343,6 +363,12 @@ impl Gait {
             let rate = self.schedule(terms, dt, || pair(now, now).now);
             self.lag += (1.0 - rate) * dt;
             out = pair(now, time + dt - self.lag);
+            self.flight = self.plan.as_ref().and_then(|plan| {
+                let (off, on) = plan.next_flight(self.phase)?;
+                let soon = (off - self.phase).max(0.0) / self.speed;
+                let middle = now + (0.5 * (off + on) - self.phase) / self.speed;
+                (soon < AHEAD && !self.flies()).then(|| (soon, pair(middle, middle).now))
+            });
             planted = [self.feet[0].down, self.feet[1].down];
         } else {
             out = pair(time, time + dt);
@@ -350,6 +376,9 @@ impl Gait {
         }
         if self.anchor != Anchor::default() {
             let place = self.anchor.transform();
+            if let Some((_, middle)) = &mut self.flight {
+                place.apply_to(middle);
+            }
             place.apply_to(&mut out.now);
             place.apply_to(&mut out.next);
         }
@@ -414,6 +443,8 @@ impl Gait {
             return if self.lag < MOST_BEHIND { 0.0 } else { rate };
         }
         let mut lifted = [false; 2];
+        let comes_down = self.started && self.flies() && terms.com_velocity.z < 0.0;
+        let early = if comes_down { EARLY_DOWN } else { EARLY };
         if !self.started {
             self.started = true;
             for side in 0..2 {
@@ -453,7 +484,7 @@ impl Gait {
                 }
             } else if touches
                 && let Some(f) = self.next(side)
-                && (f.on - self.phase) / self.speed < EARLY
+                && (f.on - self.phase) / self.speed < early
             {
                 self.land(terms, side, &f, (self.phase - f.on) / self.speed);
                 self.feet[side].early = true;
@@ -524,6 +555,9 @@ impl Gait {
             for side in 0..2 {
                 self.lead_planned(terms, side, dt, &mut tasks.feet[side]);
             }
+            if self.flies() {
+                follow_mass(terms, dt, tasks);
+            }
         } else if tasks.unplanned {
             self.catch(terms, support, dt, tasks);
         }
@@ -541,6 +575,16 @@ impl Gait {
             self.capture
                 .feasible(terms, (wanted, tasks.moment), support.polygon(), gravity)?;
         Some(Balance { acceleration })
+    }
+
+    /// True if no foot is on the floor.
+    fn flies(&self) -> bool {
+        self.feet.iter().all(|foot| !foot.down)
+    }
+
+    /// The flight that the motion has next, if it begins soon: time until then, s, and the motion in the middle of it.
+    pub fn coming_flight(&self) -> Option<(f64, &Target)> {
+        self.flight.as_ref().map(|(after, target)| (*after, target))
     }
 
     /// A standing foot keeps the heading it landed with: it could only be turned by scraping.

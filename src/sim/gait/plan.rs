@@ -302,6 +302,21 @@ impl StepPlan {
         Some(self.unrolled(*f, round))
     }
 
+    /// The next time in which no foot stands after time `t`, at which one does: from and to, s; `None` if a foot lands before the others have left.
+    pub fn next_flight(&self, t: f64) -> Option<(f64, f64)> {
+        let stands_until = |side: usize| {
+            let now = self.current(side, t)?;
+            let (round, _) = self.round_of(t);
+            let goes_on = self.wraps(side) && now.off >= (round + 1.0) * self.duration;
+            let first = self.unrolled(self.stances[side][0], round + 1.0);
+            Some(if goes_on { first.off } else { now.off })
+        };
+        let off = (0..2).filter_map(stands_until).reduce(f64::max)?;
+        let lands = |side: usize| Some(self.next(side, t)?.on);
+        let on = (0..2).filter_map(lands).reduce(f64::min)?;
+        (on > off + SHORTEST).then_some((off, on))
+    }
+
     /// Last lift-off of a foot at or before time `t`, s; the beginning of the clip if there was none.
     pub fn last_off(&self, side: usize, t: f64) -> f64 {
         if let Some(lead) = self.lead_at(t) {
@@ -317,6 +332,58 @@ impl StepPlan {
                 f.off + (round - 1.0) * self.duration
             }
             _ => self.begin + round * self.duration,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn stances(times: &[(f64, f64)]) -> Vec<Footfall> {
+        let stance = |&(on, off): &(f64, f64)| Footfall {
+            on,
+            off,
+            place: Vec3::zero(),
+            yaw: 0.0,
+        };
+        times.iter().map(stance).collect()
+    }
+
+    fn plan(left: &[(f64, f64)], right: &[(f64, f64)], round: bool) -> StepPlan {
+        StepPlan {
+            stances: [stances(left), stances(right)],
+            begin: 0.0,
+            duration: 1.0,
+            round: round.then(PlanarTransform::default),
+            lead: None,
+        }
+    }
+
+    #[test]
+    fn a_flight_is_the_time_after_the_last_foot_left_and_before_the_first_lands() {
+        let jump = plan(
+            &[(0.0, 0.3), (0.7, 1.0)],
+            &[(0.0, 0.35), (0.65, 1.0)],
+            false,
+        );
+        assert_eq!(jump.next_flight(0.1), Some((0.35, 0.65)));
+        assert_eq!(jump.next_flight(0.32), Some((0.35, 0.65)));
+        assert_eq!(jump.next_flight(0.5), None, "it flies already");
+        assert_eq!(jump.next_flight(0.8), None, "it stays down");
+        let run = plan(&[(0.0, 0.3)], &[(0.5, 0.8)], true);
+        assert_eq!(run.next_flight(0.1), Some((0.3, 0.5)));
+        let next = run.next_flight(0.6).unwrap();
+        assert!((next.0 - 0.8).abs() < 1e-12 && (next.1 - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn who_walks_never_flies_not_even_over_the_seam() {
+        // The left stance goes on over the seam.
+        let walk = plan(&[(0.0, 0.4), (0.8, 1.0)], &[(0.3, 0.9)], true);
+        for i in 0..300 {
+            let t = f64::from(i) * 0.01;
+            assert_eq!(walk.next_flight(t), None, "{t}");
         }
     }
 }

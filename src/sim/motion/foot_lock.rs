@@ -44,6 +44,14 @@ const CLEARANCE: f64 = 0.045;
 const RISE: (f64, f64) = (0.45, 0.4);
 /// Longest time over which a swing departs from a lock, s.
 const FADE: f64 = 0.3;
+/// A foot that leaves for a flight, or comes from one, is pulled off its lock fast: the offset would first grow, by its speed times this share of the time
+/// over which it fades. There it grows by this much at most, m, and fades over this time at least, s: a leg that trails its foot by more stretches, and
+/// spins up in the air.
+const GROWS: f64 = 0.2;
+const MOST_GROWTH: f64 = 0.015;
+const LEAST_FADE: f64 = 0.05;
+/// Feet that are both off the floor for this long fly, s.
+const FLIES: f64 = 0.06;
 /// Largest toe extension of a swinging foot, rad.
 const SWING_TOE: f64 = 0.6;
 
@@ -72,7 +80,7 @@ fn offset(locked: &FootPose, ankle: Vec3, rotation: Quat, toe: f64) -> Channels 
 /// Locks one foot.
 ///
 /// * `ankles`, `rotations`: recorded ankle (m) and `world_from_foot` per sample, floor at z = 0, body scale.
-/// * `stances`: when it stands (from [`stances`]).
+/// * `stances`, `other`: when it stands, and when the other one does (from [`stances`]).
 /// * `heel_up`, `toe_out`: by how much more the heel is raised and the foot turned outwards in stance than recorded, rad per sample.
 /// * `side`: 0 left, 1 right.
 /// * `rate_hz`: samples per second.
@@ -83,7 +91,7 @@ pub fn lock_foot(
     sole: &Sole,
     ankles: &[Vec3],
     rotations: &[Quat],
-    stances: &[Stance],
+    (stances, other): (&[Stance], &[Stance]),
     (heel_up, toe_out): (&[f64], &[f64]),
     side: usize,
     rate_hz: f64,
@@ -130,9 +138,17 @@ pub fn lock_foot(
             out.poses[k] = sole.stand(at.place, at.yaw, at.pitch);
         }
     }
+    let recorded = Recorded {
+        ankles,
+        rotations,
+        toes: &toes,
+    };
+    let off = |k: usize| !other.iter().any(|s| (s.start..s.end).contains(&k));
+    let long = (FLIES * rate_hz) as usize;
     for (i, j, on) in runs(&out.planted.clone()) {
         if !on {
-            swing(sole, &mut out, ankles, rotations, &toes, (i, j), rate_hz);
+            let flies = [off((i + long).min(n - 1)), off(j.saturating_sub(long))];
+            swing(sole, &mut out, &recorded, (i, j), flies, rate_hz);
         }
     }
     out
@@ -170,14 +186,33 @@ fn stance_pitch(raw: &[f64], rate_hz: f64) -> Vec<f64> {
     p
 }
 
-/// Fills the samples `i..j` of a swing between the locks on either side.
+/// A foot as it was recorded.
+struct Recorded<'a> {
+    ankles: &'a [Vec3],
+    rotations: &'a [Quat],
+    toes: &'a [f64],
+}
+
+/// Where a swing leaves a lock, or comes into one.
+struct End {
+    sample: usize,
+    /// Samples over which the offset fades.
+    span: f64,
+    /// Value, slope and curvature of the offset, per span.
+    offset: [Channels; 3],
+}
+
+/// Fills the samples `i..j` of a swing between the locks on either side; `flies`: at its beginning and at its end the other foot is in the air as well.
 fn swing(
     sole: &Sole,
     out: &mut LockedFoot,
-    ankles: &[Vec3],
-    rotations: &[Quat],
-    toes: &[f64],
+    &Recorded {
+        ankles,
+        rotations,
+        toes,
+    }: &Recorded<'_>,
     (i, j): (usize, usize),
+    flies: [bool; 2],
     rate_hz: f64,
 ) {
     let n = ankles.len();
@@ -189,11 +224,15 @@ fn swing(
     } else {
         fade_time
     } as f64;
-    // Value, slope and curvature of the offset at each end, per fade time; one-sided differences inside the stance.
-    let ends: Vec<(usize, [Channels; 3])> = [(i > 0, i.wrapping_sub(1), -1isize), (j < n, j, 1)]
+    // One-sided differences inside the stance.
+    let both = [
+        (i > 0, i.wrapping_sub(1), -1isize, flies[0]),
+        (j < n, j, 1, flies[1]),
+    ];
+    let ends: Vec<End> = both
         .into_iter()
         .filter(|e| e.0)
-        .map(|(_, k, inward)| {
+        .map(|(_, k, inward, flies)| {
             let step = |m: isize| (k as isize + inward * m).clamp(0, n as isize - 1) as usize;
             let inside = |m: isize| {
                 out.planted[step(m)] && (0..n as isize).contains(&(k as isize + inward * m))
@@ -204,17 +243,28 @@ fn swing(
                 let (x1, x2) = (at(step(1), out), at(step(2), out));
                 for c in 0..7 {
                     // Outward slope: minus the inward difference.
-                    v[c] = -(-1.5 * x0[c] + 2.0 * x1[c] - 0.5 * x2[c]) * span;
-                    a[c] = (x0[c] - 2.0 * x1[c] + x2[c]) * span * span;
+                    v[c] = -(-1.5 * x0[c] + 2.0 * x1[c] - 0.5 * x2[c]);
+                    a[c] = x0[c] - 2.0 * x1[c] + x2[c];
                 }
             }
-            (k, [x0, v, a])
+            let speed = v[..3].iter().map(|v| v * v).sum::<f64>().sqrt();
+            let span = if flies && speed > 0.0 {
+                span.min((MOST_GROWTH / (GROWS * speed)).max(LEAST_FADE * rate_hz))
+            } else {
+                span
+            };
+            End {
+                sample: k,
+                span,
+                offset: [x0, v.map(|v| v * span), a.map(|a| a * span * span)],
+            }
         })
         .collect();
     for k in i..j {
         let mut o = [0.0; 7];
-        for (end, [x, v, a]) in &ends {
-            let u = k.abs_diff(*end) as f64 / span;
+        for end in &ends {
+            let u = k.abs_diff(end.sample) as f64 / end.span;
+            let [x, v, a] = &end.offset;
             if u < 1.0 {
                 for c in 0..7 {
                     o[c] += fade(x[c], v[c], a[c], u);

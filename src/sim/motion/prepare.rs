@@ -47,6 +47,8 @@ const MOST_TURN: f64 = 0.6;
 /// Cut-off of the joints of swinging legs, Hz, and the time over which it comes in and goes out, s.
 const SWING_CUTOFF: f64 = 8.0;
 const SWING_EDGE: f64 = 0.08;
+/// After take-off feet come to follow the pelvis over this time, and before landing they cease to, s.
+const FLIGHT_EDGE: f64 = 0.1;
 /// Below this fraction of standing height the pelvis lies or sits on the floor: feet are not what stands.
 const LYING: f64 = 0.22;
 /// A planted foot that its leg cannot hold to this accuracy is declared free, m.
@@ -240,7 +242,7 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
                 &soles[s],
                 &draft.ankle[s],
                 &draft.foot[s],
-                &stands[s],
+                (&stands[s], &stands[1 - s]),
                 (&relief.heel_up[s], &relief.toe_out[s]),
                 s,
                 rate,
@@ -569,10 +571,14 @@ fn assemble(
         })
         .collect();
     low_pass_points(&mut path, 10.0, draft.rate_hz);
+    let flies = in_flight(locked, draft.rate_hz);
     for i in 0..n {
+        // In the air the feet go where the pelvis goes.
+        let moved = (path[i] - upper[i].root_position) * flies[i];
         out[i].root_position = path[i];
         for (s, (hip, length)) in legs.iter().enumerate() {
             let mut foot = locked[s].poses[i];
+            foot.ankle += moved;
             let hip = path[i] + out[i].root_rotation.rotate(*hip);
             let line = foot.ankle - hip;
             let far = line.norm();
@@ -602,6 +608,24 @@ fn assemble(
         smooth_swings(&mut out, s, &foot.planted, draft.rate_hz);
     }
     (out, drop)
+}
+
+/// From 0 where a foot is planted to 1 inside a flight, per sample.
+fn in_flight(locked: &[LockedFoot; 2], rate_hz: f64) -> Vec<f64> {
+    let planted = locked[0].planted.iter().zip(&locked[1].planted);
+    let grounded: Vec<bool> = planted.map(|(l, r)| *l || *r).collect();
+    let n = grounded.len();
+    let mut share = vec![0.0; n];
+    for (i, j, on) in runs(&grounded) {
+        if on || i == 0 || j == n {
+            continue;
+        }
+        for (k, s) in share.iter_mut().enumerate().take(j).skip(i) {
+            let u = ((k + 1 - i).min(j - k) as f64 / (FLIGHT_EDGE * rate_hz)).min(1.0);
+            *s = u * u * (3.0 - 2.0 * u);
+        }
+    }
+    share
 }
 
 /// Low-pass of the joints of a leg while it swings: a knee that comes near to straight makes inverse kinematics jump. Planted legs stay.

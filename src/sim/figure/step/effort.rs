@@ -2,7 +2,7 @@
 
 use super::{Figure, TickContext};
 use crate::sim::body::topology::DOF_COUNT;
-use crate::sim::control::{Balance, ControlInput, Controller, Law, tracking};
+use crate::sim::control::{Balance, ControlInput, Controller, Law, TakeOff, tracking};
 use crate::sim::figure::assist::Assist;
 use crate::sim::figure::drive::Drive;
 use crate::sim::figure::setup::{ControlParams, ControllerKind, StrengthScale};
@@ -92,7 +92,7 @@ impl Figure {
         &mut self,
         world: &TickContext,
         tasks: &TaskPoints,
-        balance: Option<Balance>,
+        (balance, take_off): (Option<Balance>, Option<TakeOff>),
         (lower, upper): (&[f64; DOF_COUNT], &[f64; DOF_COUNT]),
     ) -> MotorCommand {
         let (mut hands, mut free) = (tasks.hands, 0);
@@ -110,6 +110,7 @@ impl Figure {
             goals: self.constraints.goals(),
             feet: &tasks.feet,
             balance,
+            take_off,
             lower,
             upper,
             params: &self.setup.params,

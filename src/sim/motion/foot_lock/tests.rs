@@ -99,14 +99,22 @@ fn locked(
 ) -> (Vec<Stance>, LockedFoot) {
     let still = vec![0.0; place.len()];
     let (right, ahead) = beside(place.len());
-    let [stands, _] = stances(
+    let [stands, other] = stances(
         &[sole(), sole()],
         [place, &right],
         [turned, &ahead],
         [label, other],
         120.0,
     );
-    let f = lock_foot(&sole(), place, turned, &stands, (&still, &still), 0, 120.0);
+    let f = lock_foot(
+        &sole(),
+        place,
+        turned,
+        (&stands, &other),
+        (&still, &still),
+        0,
+        120.0,
+    );
     (stands, f)
 }
 
@@ -147,8 +155,20 @@ fn feet_that_turn_together_step_in_turn_and_one_of_them_always_stands() {
                 .iter()
                 .map(|&(start, end)| Stance { start, end })
                 .collect();
+            let others: Vec<Stance> = pieces[1 - s]
+                .iter()
+                .map(|&(start, end)| Stance { start, end })
+                .collect();
             let still = vec![0.0; n];
-            let f = lock_foot(&soles[s], &place, &turned, &of, (&still, &still), s, 120.0);
+            let f = lock_foot(
+                &soles[s],
+                &place,
+                &turned,
+                (&of, &others),
+                (&still, &still),
+                s,
+                120.0,
+            );
             for p in &of {
                 let yaw = |k: usize| f.anchors[k].yaw;
                 assert!((p.start..p.end).all(|k| yaw(k) == yaw(p.start)));
