@@ -9,7 +9,7 @@ SINEW_MOCAP_DIR ?= $(abspath $(ROOT)/../shared/mocap)
 export SINEW_MOCAP_DIR PYTHON
 
 .DEFAULT_GOAL := help
-.PHONY: help run test ci setup lint physics rust oracle python viewer load soak fmt
+.PHONY: help run test ci setup lint physics rust release oracle python viewer load soak fmt
 
 help: ## what there is
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(ROOT)/Makefile
@@ -17,7 +17,7 @@ help: ## what there is
 run: ## the demo server
 	cd $(ROOT) && $(CARGO) run --release
 
-test: setup lint physics rust load oracle python viewer ## every test; installs what they need
+test: setup lint physics rust release load oracle python viewer ## every test; installs what they need
 
 ci: test ## what CI runs
 
@@ -34,6 +34,9 @@ physics: ## the physics compiles without a network crate in sight
 
 rust: ## Rust tests
 	cd $(ROOT) && $(CARGO) test --locked --no-fail-fast
+
+release: ## whole figures in the profile that is shipped, which rounds and inlines differently
+	cd $(ROOT) && $(CARGO) test --release --locked --no-default-features --test acceptance
 
 load: ## load test against a live server, where there is one
 	@if [ -x $(ROOT)/tests/load/run.sh ]; then $(ROOT)/tests/load/run.sh; fi

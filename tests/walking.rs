@@ -546,7 +546,7 @@ fn a_run_that_is_walked_comes_to_a_stand() {
     let asked = recorded_with(&body, "walk", &options(true));
     assert!(plain.samples().eq(asked.samples()));
 
-    for (name, bounds) in [("quick-stop", (1.5, 0.13)), ("run", (2.6, 0.16))] {
+    for (name, bounds) in [("quick-stop", (1.5, 0.12)), ("run", (1.4, 0.14))] {
         let clip = recorded_with(&body, name, &options(true));
         assert!(clip.lead_in() > 0.0, "it begins standing");
         assert!(clip.duration() > 1.3 * recorded(&body, name).duration());

@@ -181,3 +181,28 @@ fn swinging_feet_clear_the_floor() {
         "clearance of each swing: {runs:?}"
     );
 }
+
+#[test]
+fn no_sole_is_in_the_floor_on_the_way_in_and_out_either() {
+    let body = Body::adult_man();
+    let options = RetargetOptions {
+        walk_runs: true,
+        ..RetargetOptions::default()
+    };
+    // Who lies has feet that nothing holds up.
+    for name in CLIPS
+        .iter()
+        .filter(|n| !["get-up", "fall-rise"].contains(n))
+    {
+        let clip = take(&text(name), &body, &options).unwrap().clip;
+        let low = |posture: &Posture| soles(&body, posture).map(|s| s.2);
+        let lowest = clip
+            .samples()
+            .flat_map(|(posture, _)| low(posture))
+            .fold(f64::INFINITY, f64::min);
+        println!("{name}: {:.1} mm", 1e3 * lowest);
+        // The right hip of salsa-b turns to its limit in a swing.
+        let most = if *name == "salsa-b" { 0.016 } else { 0.005 };
+        assert!(lowest > -most, "{name}: {lowest} m");
+    }
+}

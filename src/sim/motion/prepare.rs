@@ -5,7 +5,7 @@ use super::contacts::runs;
 use super::envelope::smoothest_below;
 use super::filter::{low_pass, low_pass_points, low_pass_rotations, percentile, smooth_minimum};
 use super::foot_lock::{LockedFoot, Sole, Stance, lock_foot, stances};
-use super::leg_ik::{forward, solve_leg_in_plane};
+use super::leg_ik::{forward, knee_axis, solve_leg_in_plane};
 use super::one_foot::{OneFoot, Over};
 use super::polygon::{hull, margin};
 use crate::sim::body::angles::{anatomical_angles, clamp_to_limits};
@@ -51,6 +51,12 @@ const SWING_EDGE: f64 = 0.08;
 const FLIGHT_EDGE: f64 = 0.1;
 /// Below this fraction of standing height the pelvis lies or sits on the floor: feet are not what stands.
 const LYING: f64 = 0.22;
+/// An ankle may be lower than it should by this much, m. Least height that bending the knee gives, m/rad; most that it is bent by at a time, rad, and how
+/// often.
+const KNEE_SLACK: f64 = 1e-3;
+const LEAST_RISE: f64 = 0.05;
+const KNEE_STEP: f64 = 0.3;
+const KNEE_STEPS: usize = 8;
 /// A planted foot that its leg cannot hold to this accuracy is declared free, m.
 const HELD: f64 = 5e-4;
 
@@ -356,8 +362,13 @@ fn into_limits(
     let n = postures.len();
     let mut held = Held::default();
     for (i, (posture, planted)) in postures.iter_mut().zip(planted).enumerate() {
+        let wanted = forward(body, posture);
         let off = clamp_to_limits(body, posture, LIMIT_MARGIN * 0.5);
         note_clamped(clamped, &off, n);
+        let behind = |s: usize| off[DOF_START[[L_THIGH, R_THIGH][s].index()]] < 0.0;
+        for s in (0..2).filter(|s| !planted[*s] && behind(*s)) {
+            lift_by_knee(body, posture, s, wanted[FOOT[s].index()]);
+        }
         let poses = forward(body, posture);
         for s in 0..2 {
             if !planted[s] {
@@ -376,6 +387,30 @@ fn into_limits(
         }
     }
     held
+}
+
+/// A swinging leg whose hip does not reach as far back as it should is bent at the knee until its ankle is as high as `wanted`: its foot would
+/// be in the floor.
+fn lift_by_knee(body: &Body, posture: &mut Posture, side: usize, wanted: (Vec3, Quat)) {
+    let shank = [L_SHANK, R_SHANK][side].index();
+    let foot = FOOT[side].index();
+    let (Joint::Hinge1(k), Joint::Ball(f)) = (JOINT[shank], JOINT[foot]) else {
+        unreachable!("the tree has hinge knees and ball ankles")
+    };
+    let most = body.upper[DOF_START[shank]] - LIMIT_MARGIN;
+    for _ in 0..KNEE_STEPS {
+        let poses = forward(body, posture);
+        let low = wanted.0.z - poses[foot].0.z;
+        let axis = knee_axis(posture, side == 0);
+        let rises = axis.cross(poses[foot].0 - poses[shank].0).z;
+        if low < KNEE_SLACK || rises < LEAST_RISE || posture.hinge[k] >= most {
+            break;
+        }
+        posture.hinge[k] = (posture.hinge[k] + (low / rises).min(KNEE_STEP)).min(most);
+        let shank = forward(body, posture)[shank].1;
+        posture.ball[f] = (shank.conjugate() * wanted.1).normalized();
+    }
+    clamp_to_limits(body, posture, LIMIT_MARGIN * 0.5);
 }
 
 fn toe_hinge(side: usize) -> usize {
