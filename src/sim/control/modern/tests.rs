@@ -1,6 +1,7 @@
 //! Goal: the kernel solves the problem that it is meant to solve. Method: the same problem in its primal form (accelerations, torques, contact forces,
 //! assist), put together from M, h and Jacobians of [`Terms`], and solved by an interior-point method with second-order cones (clarabel).
 
+use super::contacts::FORCE_MEMORY;
 use super::*;
 use crate::sim::control::Goal;
 use crate::sim::control::testing::{DT, Scene};

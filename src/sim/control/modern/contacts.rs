@@ -1,0 +1,182 @@
+//! What the plan may push against: the points of planted feet, of a body that works on the floor, and of what rests on seats and tables, each with
+//! the acceleration that keeps it where it is.
+
+use super::{Hold, MEANT_FADE, Modern, POINTS, blend, smooth_step, soft, weight};
+use crate::sim::body::topology::{L_FOOT, L_HAND, L_TOES, R_FOOT, R_HAND, R_TOES, SEGMENT_COUNT};
+use crate::sim::contact::rows::PointRow;
+use crate::sim::control::ControlInput;
+use crate::sim::figure::report::MAX_CONTACTS;
+use crate::sim::math::Vec3;
+use crate::sim::support::Rest;
+
+/// Time constant that brings a planted point to rest, s.
+const HOLD_TIME: f64 = 0.05;
+/// A point that comes down faster than the first beyond what its height leaves room for begins to strike, from the second on it does, m/s.
+const STRIKES: (f64, f64) = (0.1, 0.3);
+/// Hardest stop of a planted point that is planned, m/s².
+const STOP: f64 = 150.0;
+/// Fastest correction of a planted point's height, m/s.
+const HOLD_SPEED: f64 = 0.3;
+/// A planted point counts fully below the first height and not at all above the second, m.
+const FADE: (f64, f64) = (0.004, 0.010);
+/// A point of a planted foot is planned down fully where the motion has it below the first height, not at all above the second, m.
+const PLANNED_FADE: (f64, f64) = (0.001, 0.006);
+/// The same of what touches while the whole body works on the floor, m.
+const FLOOR_FADE: (f64, f64) = (0.006, 0.020);
+/// There knees bear weight more easily than feet, and hands less, for what they cost the program: a knee has one contact point where a palm has
+/// four, and hands that carry what knees could cannot be lifted.
+const EASE: (f64, f64, f64) = (5.0, 0.5, 0.2);
+/// What is kept of the last tick's contact force.
+pub(super) const FORCE_MEMORY: f64 = 0.98;
+/// Weight with which a part that rests on a seat is held there when it carries all it may count for, and that share of the weight. Little while
+/// the motion does not need the seat: who is nailed to it topples with it. Else as much along the surface and across it as in the second: a
+/// plan in which the body sinks into its seat, or slides over it, lets the feet push with forces that the floor does not give, and they creep.
+const REST_HOLD: f64 = 5.0;
+const NEEDED_HOLD: (f64, f64) = (50.0, 500.0);
+const REST_FULL: f64 = 0.2;
+/// A part is held where it rests while the motion has it no higher than the first above that, not at all from the second on, m: a hand
+/// that is to leave the seat is not nailed to it.
+const LIFTED: (f64, f64) = (0.02, 0.06);
+/// Share of hold and force that segments other than feet get.
+const OTHER_SEGMENT: f64 = 1e-3;
+
+impl Modern {
+    /// Contact points that the plan keeps down, faded by height, with the acceleration that brings them to rest.
+    pub(super) fn collect_contacts(&mut self, input: &ControlInput<'_>) {
+        self.contacts.clear();
+        self.hold.clear();
+        let t = input.terms;
+        let planted = input.target.next.planted;
+        let mg = t.mass * input.gravity.max(1.0);
+        for s in 0..SEGMENT_COUNT {
+            for rest in input.support.rests().iter().filter(|r| r.is_level()) {
+                if rest.segment.index() != s || self.contacts.points.len() >= MAX_CONTACTS {
+                    continue;
+                }
+                // What rests on a seat or a table is pushed by it as the solution needs, starting from what it gave.
+                let stays = smooth_step(rest.lift, LIFTED);
+                let share = stays * (rest.force.norm() / (REST_FULL * mg)).min(1.0);
+                let r = rest.position - t.segment_position(s);
+                let local = t.kin.rotation[s].transpose_mul(r);
+                let v = t.kin.velocity[s] + t.kin.omega[s].cross(r);
+                let a = v * (-1.0 / HOLD_TIME) - t.point_bias(s, local);
+                let inverse_r = share.max(OTHER_SEGMENT) / weight::FORCE;
+                let slot = self.contacts.slot(&t.kin, s);
+                self.contacts.points.push(PointRow {
+                    slot,
+                    r,
+                    c: rest.force * (-FORCE_MEMORY / inverse_r),
+                    inverse_r,
+                    segment: s,
+                    vertex: POINTS,
+                    turn: Rest::frame(rest.normal),
+                });
+                let weight =
+                    |most: f64| share * (REST_HOLD + self.seat.needed * (most - REST_HOLD));
+                let (along, across) = (weight(NEEDED_HOLD.0), weight(NEEDED_HOLD.1));
+                self.hold.push((hold(along, across, rest.normal), a));
+            }
+            let foot = s == L_FOOT.index()
+                || s == L_TOES.index()
+                || s == R_FOOT.index()
+                || s == R_TOES.index();
+            let steps = input.on_floor.is_none();
+            if steps && foot && !planted[usize::from(s >= R_FOOT.index())] {
+                self.last_force[s * POINTS..(s + 1) * POINTS].fill(Vec3::zero());
+                continue;
+            }
+            for (vertex, p) in input.body.segments[s]
+                .contact_points
+                .iter()
+                .enumerate()
+                .take(POINTS)
+            {
+                let r = t.kin.rotation[s] * *p;
+                let z = t.segment_position(s).z + r.z;
+                let mut fade = smooth_step(z, FADE);
+                let (mut slides, mut held) = (false, 1.0);
+                if let Some(floor) = input.on_floor {
+                    slides = floor.slides[s];
+                    let meant = smooth_step(floor.heights[s * POINTS + vertex], MEANT_FADE);
+                    fade = smooth_step(z, FLOOR_FADE);
+                    // Who rolls over carries itself with whatever touches, also where that is about to come off.
+                    if floor.rolls {
+                        held = meant;
+                    } else {
+                        fade *= meant;
+                    }
+                } else if foot {
+                    fade *= planned(input, s, *p);
+                } else {
+                    fade *= OTHER_SEGMENT;
+                }
+                if fade <= 0.0 {
+                    self.last_force[s * POINTS + vertex] = Vec3::zero();
+                    continue;
+                }
+                let v = t.kin.velocity[s] + t.kin.omega[s].cross(r);
+                let rise = (-0.2 * z / input.dt).clamp(-HOLD_SPEED, HOLD_SPEED);
+                // What strikes the floor within the tick is at rest at its end, whatever is planned.
+                let strikes = 1.0 - smooth_step(-v.z - z.max(0.0) / input.dt, STRIKES);
+                let pace = blend(1.0 / HOLD_TIME, 1.0 / input.dt, strikes);
+                let to_rest = Vec3 {
+                    x: -v.x,
+                    y: -v.y,
+                    z: rise - v.z,
+                };
+                let a = soft(to_rest * pace, STOP) - t.point_bias(s, *p);
+                let ease = if steps { 1.0 } else { ease(s, foot) };
+                let inverse_r = ease * fade.max(OTHER_SEGMENT) / weight::FORCE;
+                let c = self.last_force[s * POINTS + vertex] * (-FORCE_MEMORY / inverse_r);
+                let slot = self.contacts.slot(&t.kin, s);
+                self.contacts.points.push(PointRow {
+                    slot,
+                    r,
+                    c,
+                    inverse_r,
+                    segment: s,
+                    vertex,
+                    turn: None,
+                });
+                let w = weight::HOLD * fade * held;
+                let along = if slides { 0.0 } else { w };
+                self.hold.push((hold(along, w, Vec3::Z), a));
+            }
+        }
+    }
+}
+
+/// How easily a segment bears weight on the floor.
+fn ease(s: usize, foot: bool) -> f64 {
+    if foot {
+        EASE.1
+    } else if s == L_HAND.index() || s == R_HAND.index() {
+        EASE.2
+    } else {
+        EASE.0
+    }
+}
+
+/// Weights along a surface and across it.
+fn hold(along: f64, across: f64, normal: Vec3) -> Hold {
+    let n = normal.to_array();
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| {
+            let own = if i == j { along } else { 0.0 };
+            own + (across - along) * n[i] * n[j]
+        })
+    })
+}
+
+/// How far the plan keeps a point of a planted foot down: a heel that the motion lifts is not held.
+fn planned(input: &ControlInput<'_>, s: usize, point: Vec3) -> f64 {
+    let side = usize::from(s >= R_FOOT.index());
+    if s == L_TOES.index() || s == R_TOES.index() {
+        return 1.0;
+    }
+    let (position, rotation) = &input.feet[side];
+    smooth_step(
+        position.next.z + rotation.next.rotate(point).z,
+        PLANNED_FADE,
+    )
+}

@@ -1,0 +1,256 @@
+//! What the body is to do with its mass, its hands and its feet, and how much that counts.
+
+use super::{
+    Law, MEANT_FADE, Modern, POINTS, ROTATION_FEEDBACK, Seat, TaskRow, danger, law_feedback,
+    rotation_error, smooth_step, soft, weight,
+};
+use crate::sim::body::SegmentId;
+use crate::sim::body::topology::{L_FOOT, L_THIGH, L_TOES, PELVIS, R_FOOT, R_THIGH, R_TOES};
+use crate::sim::control::goals::{MAX_GOALS, Pace};
+use crate::sim::control::{ControlInput, Goal, PointTarget, com_law};
+use crate::sim::dynamics::Terms;
+use crate::sim::dynamics::terms::WIDTH;
+use crate::sim::figure::report::MAX_CONTACTS;
+use crate::sim::math::Vec3;
+
+/// How constraints from outside are approached.
+const GOAL_PACE: Pace = Pace {
+    horizon: 1.0 / 30.0,
+    most: 8.0,
+    most_trunk: 2.0,
+    most_turn: 20.0,
+};
+/// Largest feedback of a hand and of a swinging foot, m/s².
+const HAND_FEEDBACK: f64 = 20.0;
+const SWING_FEEDBACK: f64 = 60.0;
+/// Horizon of swinging feet as a share of the one that is set (0.1 s): 400/s² and 40/s.
+const SWING_SHARPNESS: f64 = 0.25;
+/// Factor on the weight of the centre of mass of who lies: it is where the floor holds it.
+const LYING: f64 = 1e-3;
+/// How much more balance counts where the capture point is farthest off.
+const DANGER_FACTOR: f64 = 10.0;
+/// Share of the weight on a seat from which the centre of mass counts least, and its factor then.
+const SEATED_FULL: f64 = 0.3;
+const SEATED_LEAST: f64 = 0.05;
+/// The motion needs the seat where its capture point is less than the first inside the soles; from the second on it is about to get up, m.
+const NEEDS_SEAT: (f64, f64) = (-0.02, 0.03);
+/// A motion sits down that has its centre of mass over neither of two planted feet: wholly where it is farther inside than the first (outside,
+/// being negative), not yet from the second on, m.
+const SITS_DOWN: (f64, f64) = (-0.05, -0.01);
+/// What one sits on. Hands that lean on a seat do not make it one.
+const SEATED_ON: [SegmentId; 3] = [PELVIS, L_THIGH, R_THIGH];
+
+impl Modern {
+    /// Rows of the CoM, the end-effectors and the swing feet.
+    pub(super) fn collect_tasks(&mut self, input: &ControlInput<'_>, law: &Law) {
+        self.rows.clear();
+        let t = input.terms;
+        let hand_law = Law::new(input.params, input.dt);
+        let swing_law = hand_law.sharpened(SWING_SHARPNESS);
+        if input.params.track_com {
+            let mut a = com_law(input.com, t.com, t.com_velocity, input.dt);
+            if let Some(balance) = input.balance {
+                [a.x, a.y] = balance.acceleration;
+            }
+            let urgency = self.urgency(input);
+            let a = a - t.com_bias;
+            for (k, value) in [a.x, a.y, a.z].into_iter().enumerate() {
+                self.rows.push(TaskRow {
+                    row: t.jc[k],
+                    weight: weight::COM[k] * urgency,
+                    value,
+                });
+            }
+        }
+        self.take_off_task(input);
+        if input.params.track_hands {
+            for e in input.effectors {
+                if input
+                    .on_floor
+                    .is_some_and(|f| is_clear(f.heights, e.segment))
+                {
+                    self.point_task(
+                        t,
+                        &swing_law,
+                        (e.segment.index(), e.point),
+                        &e.position,
+                        SWING_FEEDBACK,
+                        weight::SWING_HAND,
+                    );
+                    continue;
+                }
+                self.point_task(
+                    t,
+                    &hand_law,
+                    (e.segment.index(), e.point),
+                    &e.position,
+                    HAND_FEEDBACK,
+                    weight::HAND,
+                );
+            }
+        }
+        for goal in input.goals.iter().take(MAX_GOALS) {
+            self.goal_task(t, goal, 1.0 / input.goals.len() as f64);
+        }
+        let next = &input.target.next;
+        for (side, foot) in [(0, L_FOOT.index()), (1, R_FOOT.index())] {
+            let (position, rotation) = &input.feet[side];
+            // A planted foot is held where it touches; a swinging one is led. Both are turned as the motion turns them: a heel that
+            // has come up is out of reach of the contact rows.
+            let turn = if next.planted[side] {
+                weight::PLANTED_ROTATION
+            } else {
+                weight::SWING_ROTATION
+            };
+            if !next.planted[side] && input.on_floor.is_none() {
+                self.point_task(
+                    t,
+                    &swing_law,
+                    (foot, Vec3::zero()),
+                    position,
+                    SWING_FEEDBACK,
+                    weight::SWING_FOOT,
+                );
+            }
+            let error = rotation_error(t, foot, rotation.now);
+            let w = t.kin.omega[foot];
+            let feedback = law_feedback(law, error, rotation.now_velocity - w);
+            let ff = (rotation.next_velocity - rotation.now_velocity) * (1.0 / input.dt);
+            let (bias, _) = t.segment_bias(foot);
+            let a = ff + soft(feedback, ROTATION_FEEDBACK) - bias;
+            let mut j = [[0.0; WIDTH]; 6];
+            t.segment_jacobian(foot, &mut j);
+            for (k, value) in [a.x, a.y, a.z].into_iter().enumerate() {
+                self.rows.push(TaskRow {
+                    row: j[k],
+                    weight: turn,
+                    value,
+                });
+            }
+        }
+    }
+
+    /// Factor on the weight of the centre of mass. Who cannot step and is about to fall lets the posture go rather than the balance. Who
+    /// sits has no balance to keep, and would bend to put its centre of mass where another seat would have had it; not so while
+    /// the motion is getting up, which takes a centre of mass over the feet. Who sits down lets himself fall onto the seat as the motion does.
+    fn urgency(&mut self, input: &ControlInput<'_>) -> f64 {
+        let planted = [input.target.now.planted, input.target.next.planted];
+        if let Some(floor) = input.on_floor {
+            return if floor.lies { LYING } else { 1.0 };
+        }
+        let mut most = 1.0;
+        if planted == [[true; 2]; 2] {
+            let margin = self.margin_on_feet(input, [input.com.now.x, input.com.now.y]);
+            most -= (1.0 - SEATED_LEAST) * smooth_step(margin, SITS_DOWN);
+        }
+        if self.seat.carries > 0.0 {
+            let least = 1.0 - (1.0 - SEATED_LEAST) * self.seat.needed;
+            let left = 1.0 - self.seat.carries / SEATED_FULL;
+            return left.max(least).min(most);
+        }
+        if most < 1.0 {
+            return most;
+        }
+        if input.params.protective_steps || planted != [[true; 2]; 2] {
+            return 1.0;
+        }
+        1.0 + (DANGER_FACTOR - 1.0) * danger(input)
+    }
+
+    /// What seats carry, and whether the motion needs them.
+    pub(super) fn sit(&mut self, input: &ControlInput<'_>) -> Seat {
+        let mg = input.terms.mass * input.gravity.max(1.0);
+        let level = input.support.rests().iter().filter(|r| r.is_level());
+        let seats = level.filter(|r| SEATED_ON.contains(&r.segment));
+        let carries = seats.map(|r| r.force.z).sum::<f64>() / mg;
+        if carries <= 0.0 {
+            return Seat::default();
+        }
+        let capture = input.com.now + input.com.now_velocity * pendulum_time(input);
+        let margin = self.margin_on_feet(input, [capture.x, capture.y]);
+        let needed = smooth_step(margin, NEEDS_SEAT);
+        Seat { carries, needed }
+    }
+
+    /// Signed distance of a point on the ground inside the soles of the planted feet, m.
+    fn margin_on_feet(&mut self, input: &ControlInput<'_>, point: [f64; 2]) -> f64 {
+        let planted = input.target.next.planted;
+        let feet = [(L_FOOT, 0), (L_TOES, 0), (R_FOOT, 1), (R_TOES, 1)];
+        let corners = feet
+            .iter()
+            .filter(|(_, side)| planted[*side])
+            .flat_map(|(s, _)| {
+                let points = &input.body.segment(*s).contact_points;
+                points
+                    .iter()
+                    .map(|p| input.terms.point_world(s.index(), *p))
+            });
+        self.soles.set_hull(corners.map(|p| [p.x, p.y]));
+        self.soles
+            .closest(point)
+            .map_or(f64::NEG_INFINITY, |c| c.margin)
+    }
+
+    /// A constraint from outside. Its weight grows with the cube of how far it is in force: that spreads the passage from the posture's hold to its
+    /// own over the time in which it comes or goes. Several share what one may pull with, or together they would pull a figure off its feet.
+    fn goal_task(&mut self, t: &Terms, goal: &Goal, share: f64) {
+        let s = goal.segment.index();
+        let level = share * goal.weight * goal.weight * goal.weight;
+        let mut push = |jacobian: &[[f64; WIDTH]], a: Vec3, weight: [f64; 3]| {
+            for ((row, value), weight) in jacobian.iter().zip(a.to_array()).zip(weight) {
+                if weight > 0.0 {
+                    let row = *row;
+                    self.rows.push(TaskRow { row, weight, value });
+                }
+            }
+        };
+        if goal.position.is_some() {
+            let a = goal.acceleration(t, &GOAL_PACE) - t.point_bias(s, goal.point);
+            let mut j = [[0.0; WIDTH]; 3];
+            t.point_jacobian(s, goal.point, &mut j);
+            let arm = goal.is_on_arm();
+            let most = if arm { weight::GOAL_ARM } else { weight::GOAL };
+            push(&j, a, goal.axes.map(|axis| most * level * axis));
+        }
+        if goal.rotation.is_some() {
+            let (bias, _) = t.segment_bias(s);
+            let a = goal.angular_acceleration(t, &GOAL_PACE) - bias;
+            let mut j = [[0.0; WIDTH]; 6];
+            t.segment_jacobian(s, &mut j);
+            push(&j[..3], a, [weight::GOAL_ROTATION * level; 3]);
+        }
+    }
+
+    fn point_task(
+        &mut self,
+        t: &Terms,
+        law: &Law,
+        (s, point): (usize, Vec3),
+        target: &PointTarget,
+        most: f64,
+        weight: f64,
+    ) {
+        let (x, v) = (t.point_world(s, point), t.point_velocity(s, point));
+        let ff = (target.next_velocity - target.now_velocity) * (1.0 / law.step());
+        let feedback = law_feedback(law, target.now - x, target.now_velocity - v);
+        let a = ff + soft(feedback, most) - t.point_bias(s, point);
+        let mut j = [[0.0; WIDTH]; 3];
+        t.point_jacobian(s, point, &mut j);
+        for (row, value) in j.into_iter().zip([a.x, a.y, a.z]) {
+            self.rows.push(TaskRow { row, weight, value });
+        }
+    }
+}
+
+/// True if the motion has all contact points of a segment, at `heights`, clear of the floor.
+fn is_clear(heights: &[f64; MAX_CONTACTS], segment: SegmentId) -> bool {
+    let first = segment.index() * POINTS;
+    heights[first..first + POINTS]
+        .iter()
+        .all(|z| *z > MEANT_FADE.0)
+}
+
+/// √(height of the centre of mass / gravity), s.
+pub(super) fn pendulum_time(input: &ControlInput<'_>) -> f64 {
+    (input.terms.com.z.max(0.1) / input.gravity.max(1.0)).sqrt()
+}
