@@ -19,6 +19,8 @@ const SHUFFLE: i64 = 12;
 const SHORTEST: i64 = 9;
 /// A foot is not taken off the floor sooner than that, samples, unless the recording does so: the body has to come over the other one.
 const NOTICE: i64 = 18;
+/// Nor before the other one has stood for so long, samples: nobody changes feet in no time.
+const DRAGS: i64 = 4;
 /// Pitch below which a foot in a stride is flat, rad, and one that stays: a standing person's soles are flat unless clearly raised. It stays when it has
 /// stood for longer than the first, s, and for certain after the second.
 const FLAT: (f64, f64) = (0.07, 0.16);
@@ -337,8 +339,8 @@ impl Foot {
         let strays =
             (now.place - at.place).norm() > STRAY.0 || turn(at.yaw, now.yaw).abs() > STRAY.1;
         self.strayed = if strays { self.strayed + 1 } else { 0 };
-        let carried = other.touches(j) && other.is_down(j - 1) && j >= other.moving;
-        if self.strayed <= STEADY || !carried {
+        let carried = |i: i64| (1..=DRAGS).all(|k| other.is_down(i - k));
+        if self.strayed <= STEADY || !(other.touches(j) && carried(j) && j >= other.moving) {
             return None;
         }
         let wanted = j - self.strayed - SHUFFLE / 2;
@@ -346,8 +348,8 @@ impl Foot {
             .max(self.posed + NOTICE)
             .max(st.start + SHORTEST)
             .min(j);
-        let alone = (first..j).rev().take_while(|i| other.is_down(*i)).last();
-        let from = alone.unwrap_or(j);
+        let from = (first..j).rev().take_while(|i| carried(*i)).last();
+        let from = from.unwrap_or(j);
         for i in from..j {
             self.down[Self::slot(i)] = false;
         }
