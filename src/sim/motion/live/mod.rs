@@ -40,6 +40,7 @@ pub const WINDOW: (f64, f64) = (0.3, 1.0);
 /// Most stances of a foot that are known at a time.
 pub const MOST_STANCES: usize = foot::STANCES + 1;
 const H: f64 = 1.0 / RATE;
+/// The shortest window, samples.
 const SHORTEST_WINDOW: i64 = (WINDOW.0 * RATE) as i64;
 
 /// Half width of the smoothing, samples, and its standard deviation: the amplitude is half at 7 Hz.
