@@ -37,6 +37,8 @@ const AHEAD: f64 = 0.2;
 /// A foot that finds no floor counts as planted after this time, s; until then it goes down at this speed, m/s.
 const LATE: f64 = 0.15;
 const LOWERING: f64 = 0.5;
+/// Rate at which the plan catches up with a foot that landed early.
+const HURRY: f64 = 2.0;
 /// Rate at which a figure that is behind its stream makes up for it, and how far it may fall behind in a step of its own, s.
 const CATCH_UP: f64 = 1.05;
 const MOST_BEHIND: f64 = 0.5;
@@ -436,9 +438,16 @@ impl Gait {
 
     /// Contact by events: lifts feet when planned, plants them when they touch. Returns the rate at which the plan goes on.
     fn schedule(&mut self, terms: &Terms, dt: f64, sample: impl Fn() -> Target) -> f64 {
-        // A stream does not wait for its figure: what it is behind it makes up for.
-        let behind = self.lag > 0.0 && self.plan.as_ref().is_some_and(StepPlan::is_live);
-        let mut rate = if behind { CATCH_UP } else { 1.0 };
+        // A stream does not wait for its figure: what it is behind it makes up for. Nor can it be ahead of what has come.
+        let live = self.plan.as_ref().is_some_and(StepPlan::is_live);
+        let most = |rate: f64| {
+            if live {
+                (1.0 + self.lag / dt).clamp(1.0, rate)
+            } else {
+                rate
+            }
+        };
+        let (mut rate, hurry) = (if live { most(CATCH_UP) } else { 1.0 }, most(HURRY));
         if self.step.is_some() {
             return if self.lag < MOST_BEHIND { 0.0 } else { rate };
         }
@@ -460,7 +469,7 @@ impl Gait {
                 if planned.is_some() {
                     foot.early = false;
                 } else if foot.early {
-                    rate = 2.0;
+                    rate = hurry;
                 } else {
                     let other = 1 - side;
                     let waits = !self.feet[other].down && self.planned(other).is_some();

@@ -246,6 +246,11 @@ impl StepPlan {
         (round, t - round * self.duration)
     }
 
+    /// How long so many rounds of a loop take, s; 0 for what does not repeat, however long it is: a stream has no end.
+    fn rounds(&self, count: f64) -> f64 {
+        self.round.map_or(0.0, |_| count * self.duration)
+    }
+
     fn unrolled(&self, f: Footfall, round: f64) -> Footfall {
         let Some(advance) = self.round else { return f };
         let moved = advance.power(round);
@@ -278,7 +283,7 @@ impl StepPlan {
         let rounds = if self.round.is_some() { 2 } else { 1 };
         for k in 0..rounds {
             let first = usize::from(k > 0 && self.wraps(side));
-            let shift = f64::from(k) * self.duration;
+            let shift = self.rounds(f64::from(k));
             for f in self.stances[side].iter().skip(first) {
                 if f.on + shift > local {
                     return Some(self.unrolled(*f, round + f64::from(k)));
@@ -325,13 +330,13 @@ impl StepPlan {
         let (round, local) = self.round_of(t);
         let s = &self.stances[side];
         if let Some(f) = s.iter().rev().find(|f| f.off <= local) {
-            return f.off + round * self.duration;
+            return f.off + self.rounds(round);
         }
         match s.last() {
             Some(f) if self.round.is_some() && !self.wraps(side) => {
-                f.off + (round - 1.0) * self.duration
+                f.off + self.rounds(round - 1.0)
             }
-            _ => self.begin + round * self.duration,
+            _ => self.begin + self.rounds(round),
         }
     }
 }
@@ -339,6 +344,8 @@ impl StepPlan {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sim::motion::builtin::builtin;
+    use std::sync::Arc;
 
     fn stances(times: &[(f64, f64)]) -> Vec<Footfall> {
         let stance = |&(on, off): &(f64, f64)| Footfall {
@@ -385,5 +392,35 @@ mod tests {
             let t = f64::from(i) * 0.01;
             assert_eq!(walk.next_flight(t), None, "{t}");
         }
+    }
+
+    #[test]
+    fn the_plan_of_a_stream_knows_the_next_foothold_and_the_last_lift_off() {
+        let body = Arc::new(Body::adult_man());
+        let walk = builtin(&body, "walk").unwrap();
+        let clip = StepPlan::new(&body, &walk, false);
+        let mut live = LiveMotion::new(Arc::clone(&body), 1.0);
+        let mut plan = StepPlan::live();
+        let (mut known, mut unknown) = (0, 0);
+        for i in 0..(walk.duration() * live::RATE) as usize {
+            live.push(&walk.sample(i as f64 / live::RATE).posture, None);
+            let t = i as f64 / live::RATE - live.window();
+            live.advance(t);
+            plan.refresh(&live);
+            for side in (0..2).filter(|s| t > 0.0 && plan.current(*s, t).is_none()) {
+                // It has left the floor, and in half a second it will have landed.
+                let off = plan.last_off(side, t);
+                assert!(off <= t && off > t - 1.0, "{t}: {off}");
+                match plan.next(side, t) {
+                    Some(f) => {
+                        known += 1;
+                        let meant = clip.next(side, off).unwrap();
+                        assert!(f.on > t && (f.on - meant.on).abs() < 0.1, "{t}: {f:?}");
+                    }
+                    None => unknown += 1,
+                }
+            }
+        }
+        assert!(known > 60 && unknown < 5, "{known} known, {unknown} not");
     }
 }

@@ -15,10 +15,23 @@ const UNEVEN: f64 = 0.06;
 /// A standing foot whose recording strays further than this has moved, m and rad; it is given so many samples to get there.
 const STRAY: (f64, f64) = (0.06, 0.40);
 const SHUFFLE: i64 = 12;
-/// Pitch below which a standing foot is flat, rad.
-const FLAT: f64 = 0.07;
+/// A foot that has stood for less than this is not taken off the floor again, samples.
+const SHORTEST: i64 = 9;
+/// A foot is not taken off the floor sooner than that, samples, unless the recording does so: the body has to come over the other one.
+const NOTICE: i64 = 18;
+/// Nor before the other one has stood for so long, samples: nobody changes feet in no time.
+const DRAGS: i64 = 4;
+/// Pitch below which a foot in a stride is flat, rad, and one that stays: a standing person's soles are flat unless clearly raised. It stays when it has
+/// stood for longer than the first, s, and for certain after the second.
+const FLAT: (f64, f64) = (0.07, 0.16);
+const STAYS: (f64, f64) = (0.7, 1.5);
 /// Largest pitch of a standing foot, rad.
 const STEEPEST: (f64, f64) = (-1.05, 0.6);
+/// Sine of the roll beyond which a foot does not stand on its sole. A foot that comes down is flatter than steepest by this much; one that leaves the
+/// floor may be steeper for so many samples.
+const ROLLED: f64 = 0.56;
+const LANDS: f64 = 0.8;
+const LEAVING: i64 = 12;
 /// Most by which a standing foot rises on its toes so that its leg reaches, rad, and halvings on the way to what it takes.
 const MOST_RISE: f64 = 0.7;
 const HALVINGS: usize = 12;
@@ -70,6 +83,8 @@ pub struct Standing {
     pub yaw: f64,
     /// Pitch, rad, toe-up positive.
     pub pitch: f64,
+    /// How steep or rolled it is; beyond 1 it does not stand on its sole.
+    pub steep: f64,
     /// Speed of the place, m/s.
     pub speed: f64,
 }
@@ -101,6 +116,8 @@ pub struct Foot {
     /// Until when a foot that has moved on the floor is taken off it, and for how long it has strayed, samples.
     moving: i64,
     strayed: i64,
+    /// For how long it has been steep, samples.
+    steep: i64,
     /// Offset from the recording, and its first two derivatives.
     offset: [Channels; 3],
     posed: i64,
@@ -116,15 +133,23 @@ pub fn place(sole: &Sole, ankle: Vec3, rotation: Quat) -> (Vec3, f64, f64) {
     (p, yaw, pitch)
 }
 
+/// How steep or rolled a foot is; beyond 1 it does not stand on its sole.
+pub fn steepness(rotation: Quat, pitch: f64) -> f64 {
+    let roll = rotation.rotate(Vec3::Y).z.abs() / ROLLED;
+    roll.max(pitch / STEEPEST.0).max(pitch / STEEPEST.1)
+}
+
 fn turn(from: f64, to: f64) -> f64 {
     let (s, c) = trig::sin_cos(to - from);
     trig::atan2(s, c)
 }
 
-/// Pitch of a standing foot: flat within a band, with a smooth beginning.
-fn stance_pitch(raw: f64, rolled: bool) -> f64 {
-    let beyond = (raw.abs() - FLAT).max(0.0);
-    let p = (beyond * beyond / (beyond + FLAT)).copysign(raw);
+/// Pitch of a standing foot: flat within a band, with a smooth beginning. `age`: for how long it has stood, samples.
+fn stance_pitch(raw: f64, age: i64, rolled: bool) -> f64 {
+    let u = ((age as f64 * H - STAYS.0) / (STAYS.1 - STAYS.0)).clamp(0.0, 1.0);
+    let flat = FLAT.0 + u * (FLAT.1 - FLAT.0);
+    let beyond = (raw.abs() - flat).max(0.0);
+    let p = (beyond * beyond / (beyond + FLAT.0)).copysign(raw);
     let p = p.clamp(STEEPEST.0, STEEPEST.1);
     if rolled { p.min(0.0) } else { p }
 }
@@ -181,6 +206,7 @@ impl Foot {
             coming: None,
             moving: i64::MIN,
             strayed: 0,
+            steep: 0,
             offset: [[0.0; 7]; 3],
             posed: -1,
         }
@@ -241,18 +267,23 @@ impl Foot {
         }
     }
 
-    /// Settles whether it stands in sample `j`; `last` is the newest sample that [`Self::touch`] has seen, `other` says whether the other
-    /// foot touches.
+    /// Settles whether it stands in sample `j`; `last` is the newest sample that [`Self::touch`] has seen. Returns from which earlier sample on it does not
+    /// stand any more, if that has changed.
     pub fn label(
         &mut self,
         j: i64,
         last: i64,
         upright: bool,
-        other: bool,
+        other: &Self,
         standing: impl Fn(i64) -> Standing,
-    ) {
+    ) -> Option<i64> {
         let before = j > 0 && self.down[Self::slot(j - 1)];
         let on = |i: i64| self.on[Self::slot(i)];
+        // Nobody comes down on a foot as steep as that; who leaves the floor may be so for a moment.
+        let now = standing(j);
+        let most = if before { 1.0 } else { LANDS };
+        self.steep = if now.steep > most { self.steep + 1 } else { 0 };
+        let upright = upright && self.steep < if before { LEAVING } else { 1 };
         let wanted = on(j) && upright;
         let steady = j == 0 || (j..=(j + STEADY).min(last)).all(|i| on(i) == on(j));
         let mut down = if wanted == before || steady {
@@ -261,29 +292,23 @@ impl Foot {
             before && upright
         };
         // Someone must stand unless it is a flight: the foot that lands comes earlier.
-        down |= upright && !other && self.lands(j, last);
-        if down && let Some(k) = self.stance_at(j) {
-            let (st, now) = (&self.stances[k], standing(j));
-            let strays = st.settled
-                && ((now.place - st.place).norm() > STRAY.0
-                    || turn(st.yaw, now.yaw).abs() > STRAY.1);
-            self.strayed = if strays { self.strayed + 1 } else { 0 };
-            // The other foot has to carry the body while this one is set down anew.
-            if self.strayed > STEADY && other {
-                self.moving = j + SHUFFLE;
-            }
-        }
+        down |= upright && !other.touches(j) && self.lands(j, last);
+        let given_up = if down {
+            self.give_up(j, &now, other, &standing)
+        } else {
+            None
+        };
         if j < self.moving {
             down = false;
         }
         self.down[Self::slot(j)] = down;
-        match (before, down) {
+        match (before && given_up.is_none(), down) {
             (false, true) => {
                 if self.count == STANCES {
                     self.stances.rotate_left(1);
                     self.count -= 1;
                 }
-                self.stances[self.count] = self.estimate(j, last, standing);
+                self.stances[self.count] = self.estimate(j, last, &standing);
                 self.count += 1;
                 self.coming = None;
                 self.strayed = 0;
@@ -291,10 +316,50 @@ impl Foot {
             (true, false) => self.stances[self.count - 1].end = j,
             _ => {}
         }
+        given_up
+    }
+
+    /// Takes a foot that has moved while it stood off the floor, to set it down anew: returns from which sample on. One foot gives way where the other one
+    /// really stands, and where there is time enough the body is given some to come over that one.
+    fn give_up(
+        &mut self,
+        j: i64,
+        now: &Standing,
+        other: &Self,
+        standing: &impl Fn(i64) -> Standing,
+    ) -> Option<i64> {
+        let k = self.stance_at(j)?;
+        let st = self.stances[k];
+        // A foot that turns slowly is where it is on average as long as its place may still change.
+        let at = if st.settled {
+            st
+        } else {
+            self.estimate(st.start, j, standing)
+        };
+        let strays =
+            (now.place - at.place).norm() > STRAY.0 || turn(at.yaw, now.yaw).abs() > STRAY.1;
+        self.strayed = if strays { self.strayed + 1 } else { 0 };
+        let carried = |i: i64| (1..=DRAGS).all(|k| other.is_down(i - k));
+        if self.strayed <= STEADY || !(other.touches(j) && carried(j) && j >= other.moving) {
+            return None;
+        }
+        let wanted = j - self.strayed - SHUFFLE / 2;
+        let first = wanted
+            .max(self.posed + NOTICE)
+            .max(st.start + SHORTEST)
+            .min(j);
+        let from = (first..j).rev().take_while(|i| carried(*i)).last();
+        let from = from.unwrap_or(j);
+        for i in from..j {
+            self.down[Self::slot(i)] = false;
+        }
+        self.stances[k].end = from;
+        self.moving = (from + SHUFFLE).max(j + 1);
+        Some(from)
     }
 
     /// A stance from sample `start` on, placed by what is known up to `last`: where the foot moves least.
-    fn estimate(&self, start: i64, last: i64, standing: impl Fn(i64) -> Standing) -> Stance {
+    fn estimate(&self, start: i64, last: i64, standing: &impl Fn(i64) -> Standing) -> Stance {
         let mut out = Stance {
             start,
             end: i64::MAX,
@@ -326,7 +391,7 @@ impl Foot {
         Some(Anchor {
             place: st.place,
             yaw: st.yaw,
-            pitch: stance_pitch(standing(j).pitch, st.rolled),
+            pitch: stance_pitch(standing(j).pitch, j - st.start, st.rolled),
         })
     }
 
@@ -345,7 +410,8 @@ impl Foot {
         while start > labelled.max(f) + 1 && self.on[Self::slot(start - 1)] {
             start -= 1;
         }
-        (start <= seen && start >= self.moving).then(|| self.estimate(start, seen, standing))
+        let comes = start <= seen && start >= self.moving && standing(start).steep < LANDS;
+        comes.then(|| self.estimate(start, seen, standing))
     }
 
     /// Poses it in sample `f`, the one after the last posed; `lacks` says how far an ankle is out of the leg's reach, m.
@@ -369,11 +435,11 @@ impl Foot {
                 (st.place, st.yaw, st.settled) = (better.place, better.yaw, true);
             }
             let st = &mut self.stances[k];
-            st.rolled |= now.pitch < FLAT;
+            st.rolled |= now.pitch < FLAT.0;
             let at = Anchor {
                 place: st.place,
                 yaw: st.yaw,
-                pitch: stance_pitch(now.pitch, st.rolled),
+                pitch: stance_pitch(now.pitch, f - st.start, st.rolled),
             };
             let pose = sole.stand(at.place, at.yaw, risen(sole, &at, &lacks));
             let o = difference(&pose, (ankle, rotation), toe);
@@ -398,7 +464,7 @@ impl Foot {
             Some(st) => {
                 let at = |i: i64| {
                     let s = standing(i);
-                    let pose = sole.stand(st.place, st.yaw, stance_pitch(s.pitch, false));
+                    let pose = sole.stand(st.place, st.yaw, stance_pitch(s.pitch, 0, false));
                     difference(&pose, raw(i), swing_toe(s.pitch))
                 };
                 let (a, b) = (at(st.start), at((st.start + 1).min(seen)));

@@ -5,8 +5,8 @@
 //! shift of the trunk that keeps the zero-moment point over the feet, solved over the window again with every sample. Memory is a ring,
 //! time per sample is bounded, nothing allocates. Rounds alike everywhere: it is part of the tick.
 //!
-//! Places of a sample on its way, in samples behind the newest: smoothed (`SMOOTH`), labelled and balanced (`LABEL`), feet posed (`POSED`
-//! before the output), put out (the window).
+//! Places of a sample on its way, in samples behind the newest: smoothed (`SMOOTH`), labelled and balanced (`LABEL`), feet posed and balanced again as the
+//! body is to be (up to `FORESEEN` before the output), put out (the window).
 
 mod balance;
 mod foot;
@@ -40,20 +40,24 @@ pub const WINDOW: (f64, f64) = (0.3, 1.0);
 /// Most stances of a foot that are known at a time.
 pub const MOST_STANCES: usize = foot::STANCES + 1;
 const H: f64 = 1.0 / RATE;
+/// The shortest window, samples.
+const SHORTEST_WINDOW: i64 = (WINDOW.0 * RATE) as i64;
 
 /// Half width of the smoothing, samples, and its standard deviation: the amplitude is half at 7 Hz.
-const SMOOTH: i64 = 4;
+const SMOOTH: i64 = 3;
 const SIGMA: f64 = 1.6;
 /// A foot is labelled as on the floor or off it once it has been so for this many samples.
-pub(super) const STEADY: i64 = 4;
+pub(super) const STEADY: i64 = 3;
 /// Samples between the newest one and the one that is labelled.
 const LABEL: i64 = SMOOTH + 1 + STEADY;
-/// Samples between the one whose feet are posed and the output: clearance and pelvis height are smooth over them.
+/// Samples between the one whose feet are posed and the one that is put together: clearance and pelvis height are smooth over them. The latter is the
+/// output with the shortest window, and up to so many samples before it with longer ones: its balance is known better then.
 const POSED: i64 = 2;
+const FORESEEN: i64 = 16;
 /// Samples behind the output that balance looks back on, and that a figure which is late may still ask for.
 const PAST: i64 = 90;
 /// The zero-moment point is kept this far inside the soles, m.
-const INSET: f64 = 0.03;
+const INSET: f64 = 0.04;
 /// How much farther the pelvis moves than the centre of mass: the feet stay.
 const LEAD: f64 = 1.15;
 /// Most shift of the centre of mass, m.
@@ -130,6 +134,10 @@ struct Sample {
     com: Vec3,
     /// Angular momentum about the centre of mass, kg·m²/s.
     momentum: Vec3,
+    /// The same of the body as it is to be, without the shift that it has there for balance.
+    built: Built,
+    /// How much the feet are believed to carry the body, 0…1.
+    trust: f64,
     /// Foot poses as they are to be, heights still without clearance.
     feet: [FootPose; 2],
     down: [bool; 2],
@@ -137,6 +145,14 @@ struct Sample {
     lift: [f64; 2],
     /// How much the pelvis has to come down, m (≤ 0).
     drop: f64,
+}
+
+/// A body as it is to be.
+#[derive(Clone, Debug)]
+struct Built {
+    poses: [(Vec3, Quat); SEGMENT_COUNT],
+    com: Vec3,
+    momentum: Vec3,
 }
 
 impl Sample {
@@ -155,6 +171,12 @@ impl Sample {
             poses,
             com: Vec3::zero(),
             momentum: Vec3::zero(),
+            built: Built {
+                poses,
+                com: Vec3::zero(),
+                momentum: Vec3::zero(),
+            },
+            trust: 1.0,
             feet: [still; 2],
             down: [false; 2],
             lift: [0.0; 2],
@@ -170,6 +192,8 @@ pub struct LiveMotion {
     soles: [Sole; 2],
     one_foot: OneFoot,
     window: i64,
+    /// Samples between the output and the one whose feet are posed.
+    ahead: i64,
     pending: VecDeque<Raw>,
     /// Number of samples taken into the ring.
     count: i64,
@@ -217,6 +241,7 @@ impl LiveMotion {
             soles: [Sole::new(&body, 0), Sole::new(&body, 1)],
             one_foot: OneFoot::new(&body),
             window,
+            ahead: POSED + (window - SHORTEST_WINDOW).min(FORESEEN),
             pending: VecDeque::with_capacity(MOST_PENDING),
             count: 0,
             ring: vec![blank; length],
@@ -401,9 +426,16 @@ impl LiveMotion {
             self.balance(j);
         }
         let out = k + 3 - self.window;
-        let f = out + POSED;
+        let f = out + self.ahead;
         if f >= 0 {
+            if out < 0 {
+                self.balance.next(None);
+            }
             self.pose_feet(f, s - 1, j);
+            let built = f - POSED;
+            if built > out && built >= 0 {
+                self.build(built);
+            }
         }
         if out >= 0 {
             self.put_out(out);
@@ -472,22 +504,27 @@ impl LiveMotion {
 
     /// Angular momentum of sample `i` by central differences.
     fn momentum(&mut self, i: i64) {
-        let mut sum = Vec3::zero();
-        if i >= 1 {
-            let (a, b, c) = (self.at(i - 1), self.at(i), self.at(i + 1));
-            for (s, segment) in self.body.segments.iter().enumerate() {
-                let centre = |p: &Sample| p.poses[s].0 + p.poses[s].1.rotate(segment.com);
-                let v = (centre(c) - centre(a)) * (0.5 * RATE);
-                let q = b.poses[s].1;
-                let turn = (c.poses[s].1 * a.poses[s].1.conjugate()).log() * (0.5 * RATE);
-                let spin = q.conjugate().rotate(turn);
-                let arm = centre(b) - b.com;
-                sum += arm.cross(v) * segment.mass + q.rotate(segment.inertia * spin);
-            }
-        }
         if i >= 0 {
+            let poses = |i: i64| &self.at(i).poses;
+            let sum = self.spin([poses(i - 1), poses(i), poses(i + 1)]);
             self.at_mut(i).momentum = sum;
         }
+    }
+
+    /// Angular momentum about the centre of mass in the middle of three successive poses, kg·m²/s.
+    fn spin(&self, [a, b, c]: [&[(Vec3, Quat); SEGMENT_COUNT]; 3]) -> Vec3 {
+        let com = center_of_mass(&self.body, b);
+        let mut sum = Vec3::zero();
+        for (s, segment) in self.body.segments.iter().enumerate() {
+            let centre = |p: &[(Vec3, Quat); SEGMENT_COUNT]| p[s].0 + p[s].1.rotate(segment.com);
+            let v = (centre(c) - centre(a)) * (0.5 * RATE);
+            let q = b[s].1;
+            let turn = (c[s].1 * a[s].1.conjugate()).log() * (0.5 * RATE);
+            let spin = q.conjugate().rotate(turn);
+            let arm = centre(b) - com;
+            sum += arm.cross(v) * segment.mass + q.rotate(segment.inertia * spin);
+        }
+        sum
     }
 
     /// Settles which feet stand in sample `j`; `last` is the newest one that was looked at.
@@ -495,10 +532,13 @@ impl LiveMotion {
         let upright =
             self.at(j).smooth.root_position.z > UPRIGHT * self.body.standing_root_height();
         for side in 0..2 {
-            let other = self.feet[1 - side].touches(j);
             let mut foot = std::mem::replace(&mut self.feet[side], Foot::new());
-            foot.label(j, last, upright, other, |i| self.standing(side, i));
+            let other = &self.feet[1 - side];
+            let given_up = foot.label(j, last, upright, other, |i| self.standing(side, i));
             self.feet[side] = foot;
+            for i in given_up.unwrap_or(j)..j {
+                self.improve(i, |s| (s.com, s.momentum));
+            }
         }
     }
 
@@ -513,28 +553,47 @@ impl LiveMotion {
             place,
             yaw,
             pitch,
+            steep: foot::steepness(self.at(i).poses[[L_FOOT, R_FOOT][side].index()].1, pitch),
             speed: (place - at(i - 1).0).norm() * RATE,
         }
     }
 
-    /// How far the zero-moment point of sample `j` is from where the feet could have it.
+    /// How far the zero-moment point of sample `j` is from where the feet could have it, as it came.
     fn balance(&mut self, j: i64) {
-        let (a, b, c) = (self.at(j - 2), self.at(j), self.at(j + 2));
-        let acc = (c.com - b.com * 2.0 + a.com) * (0.25 * RATE * RATE);
-        let rate = (self.at(j + 1).momentum - self.at(j - 1).momentum) * (0.5 * RATE);
+        let (mut balanced, load) = self.balanced(j, |s| (s.com, s.momentum));
+        let inside = balanced.support.and_then(|s| s.nearest(balanced.zmp));
+        let far = inside.map_or(0.0, |p| {
+            let off = [p[0] - balanced.zmp[0], p[1] - balanced.zmp[1]];
+            (off[0] * off[0] + off[1] * off[1]).sqrt()
+        });
+        // About a second: peaks of gait are corrected, a chair is not.
+        self.lasting += (far - self.lasting) * (1.0 - exp(-H));
+        let u = ((self.lasting - 0.7 * CARRIED) / (0.6 * CARRIED)).clamp(0.0, 1.0);
+        let trust = 1.0 - u * u * (3.0 - 2.0 * u);
+        self.at_mut(j).trust = trust;
+        balanced.weight = trust * load * load;
+        self.balance.push(balanced);
+    }
+
+    /// The balance of sample `j` with the centre of mass and the angular momentum that are meant, and its load, 0…1.
+    fn balanced(&self, j: i64, of: impl Fn(&Sample) -> (Vec3, Vec3)) -> (Balanced, f64) {
+        let at = |i: i64| of(self.at(i));
+        let (a, b, c) = (at(j - 2).0, at(j).0, at(j + 2).0);
+        let acc = (c - b * 2.0 + a) * (0.25 * RATE * RATE);
+        let rate = (at(j + 1).1 - at(j - 1).1) * (0.5 * RATE);
         let mass: f64 = self.body.segments.iter().map(|s| s.mass).sum();
         let load = 1.0 + acc.z / GRAVITY;
-        let omega2 = ((GRAVITY + acc.z) / b.com.z.max(0.2)).clamp(3.0, 40.0);
-        let mut balanced = Balanced::new([b.com.x, b.com.y], omega2);
-        let mut far = 0.0;
+        let omega2 = ((GRAVITY + acc.z) / b.z.max(0.2)).clamp(3.0, 40.0);
+        let looks = heading(self.at(j).smooth.root_rotation);
+        let mut balanced = Balanced::new([b.x, b.y], omega2, looks);
         if load > super::balance::LIGHT && j >= 2 {
             let force = (acc + Vec3::Z * GRAVITY) * mass;
-            let z = zero_moment_point(b.com, (force, rate));
-            let way = (c.com - a.com) * (0.25 * RATE);
+            let z = zero_moment_point(b, (force, rate));
+            let way = (c - a) * (0.25 * RATE);
             let over = Over {
-                height: b.com.z,
+                height: b.z,
                 speed: (way.x * way.x + way.y * way.y).sqrt(),
-                lean: [b.com.x - z[0], b.com.y - z[1]],
+                lean: [b.x - z[0], b.y - z[1]],
             };
             let anchors: [_; 2] =
                 std::array::from_fn(|side| self.feet[side].anchor(j, |i| self.standing(side, i)));
@@ -550,19 +609,40 @@ impl LiveMotion {
                     None => {}
                 }
             }
-            balanced = Balanced::new(z, omega2);
+            balanced = Balanced::new(z, omega2, looks);
             balanced.support = polygon.inner(INSET);
-            if let Some(p) = balanced.support.and_then(|s| s.nearest(z)) {
-                let off = [p[0] - z[0], p[1] - z[1]];
-                far = (off[0] * off[0] + off[1] * off[1]).sqrt();
-            }
         }
-        // About a second: peaks of gait are corrected, a chair is not.
-        self.lasting += (far - self.lasting) * (1.0 - exp(-H));
-        let u = ((self.lasting - 0.7 * CARRIED) / (0.6 * CARRIED)).clamp(0.0, 1.0);
-        let trust = 1.0 - u * u * (3.0 - 2.0 * u);
-        balanced.weight = trust * load.clamp(0.0, 1.0) * load.clamp(0.0, 1.0);
-        self.balance.push(balanced);
+        (balanced, load.clamp(0.0, 1.0))
+    }
+
+    /// Puts sample `i` together as it is going to be, and looks at the balance of that.
+    fn build(&mut self, i: i64) {
+        let shift = self.planned(i);
+        let posture = self.posture(i, shift);
+        let poses = forward(&self.body, &posture);
+        let com = center_of_mass(&self.body, &poses);
+        let s = self.at_mut(i);
+        s.built.poses = poses;
+        s.built.com = com
+            - Vec3 {
+                x: shift[0],
+                y: shift[1],
+                z: 0.0,
+            };
+        let before = |k: i64| &self.at(i - k).built.poses;
+        let sum = self.spin([before(2), before(1), before(0)]);
+        if i < 4 {
+            return;
+        }
+        self.at_mut(i - 1).built.momentum = sum;
+        self.improve(i - 2, |s| (s.built.com, s.built.momentum));
+    }
+
+    /// Looks at the balance of sample `i` again, with the centre of mass and the angular momentum that are meant.
+    fn improve(&mut self, i: i64, of: impl Fn(&Sample) -> (Vec3, Vec3)) {
+        let (mut better, load) = self.balanced(i, of);
+        better.weight = self.at(i).trust * load * load;
+        self.balance.improve(i, better);
     }
 
     /// Poses of the feet of sample `f`, and what they ask of the pelvis.
@@ -604,11 +684,8 @@ impl LiveMotion {
         let s = self.at(i);
         let t = [L_THIGH, R_THIGH][side].index();
         let length = self.body.joint_offset[t + 1].norm() + self.body.joint_offset[t + 2].norm();
-        let shift = Vec3 {
-            x: LEAD * self.shift[1][0],
-            y: LEAD * self.shift[1][1],
-            z: 0.0,
-        };
+        let [x, y] = self.planned(i).map(|d| LEAD * d);
+        let shift = Vec3 { x, y, z: 0.0 };
         let offset = s.smooth.root_rotation.rotate(self.body.joint_offset[t]);
         (s.smooth.root_position + offset + shift, REACH * length)
     }
@@ -644,6 +721,12 @@ impl LiveMotion {
         of(0).min(of(1))
     }
 
+    /// The shift of the centre of mass that sample `i` is going to have, as it looks now, m.
+    fn planned(&self, i: i64) -> [f64; 2] {
+        let planned = self.balance.planned(i);
+        planned.map(|x| x.clamp(-MOST_SHIFT, MOST_SHIFT))
+    }
+
     /// Moves the shift of the trunk on to sample `out`.
     fn shift_on(&mut self, out: i64) {
         let next = self.balance.next((out > 0).then_some(self.shift));
@@ -655,22 +738,17 @@ impl LiveMotion {
         };
     }
 
-    /// The whole posture of sample `out`.
-    fn put_out(&mut self, out: i64) {
-        self.shift_on(out);
-        let shift = self.shift[1].map(|d| d * LEAD);
-        let s = self.at(out);
+    /// The whole posture of sample `i` with a shift of the centre of mass, m.
+    fn posture(&self, i: i64, shift: [f64; 2]) -> Posture {
+        let s = self.at(i);
+        let [x, y] = shift.map(|d| d * LEAD);
         let mut posture = s.smooth;
-        posture.root_position += Vec3 {
-            x: shift[0],
-            y: shift[1],
-            z: s.drop,
-        };
+        posture.root_position += Vec3 { x, y, z: s.drop };
         for side in 0..2 {
             let left = side == 0;
             let lift = (-2..=2i64)
                 .map(|d| {
-                    [3.0, 2.0, 1.0][d.unsigned_abs() as usize] / 9.0 * self.at(out + d).lift[side]
+                    [3.0, 2.0, 1.0][d.unsigned_abs() as usize] / 9.0 * self.at(i + d).lift[side]
                 })
                 .sum::<f64>();
             let mut pose = s.feet[side];
@@ -682,6 +760,14 @@ impl LiveMotion {
             solve_leg_in_plane(&self.body, &mut posture, left, foot, pose.toe, axis);
         }
         clamp_to_limits(&self.body, &mut posture, LIMIT_MARGIN);
+        posture
+    }
+
+    /// The whole posture of sample `out`.
+    fn put_out(&mut self, out: i64) {
+        self.shift_on(out);
+        let posture = self.posture(out, self.shift[1]);
+        let s = self.at(out);
         let down = s.down;
         if out == 0 {
             self.recent = [posture; 5];

@@ -1,6 +1,6 @@
 use super::*;
 use crate::sim::motion::builtin::{at_ease, builtin};
-use crate::sim::motion::leg_ik::forward;
+use crate::sim::motion::leg_ik::{forward, solve_leg};
 
 /// Feeds `posture` sample by sample and gives what comes out, one target per sample.
 fn through(
@@ -175,5 +175,51 @@ fn where_a_stream_walks_makes_no_difference() {
         let off = a.posture.difference(&back);
         assert!(off.iter().all(|e| e.abs() < 1e-6), "{off:?}");
         assert_eq!(a.planted, b.planted);
+    }
+}
+
+/// A standing man whose feet are moved: by how much each is raised, m, turned about the vertical and pitched, toes up, rad.
+fn standing_with(body: &Body, feet: [(f64, f64, f64); 2]) -> Posture {
+    let mut p = at_ease(body);
+    p.root_position.z -= 0.03;
+    let poses = forward(body, &at_ease(body));
+    for (side, (up, yaw, pitch)) in feet.into_iter().enumerate() {
+        let (ankle, rotation) = poses[[L_FOOT, R_FOOT][side].index()];
+        let to = Quat::exp(Vec3::Z * yaw) * rotation * Quat::exp(Vec3::Y * -pitch);
+        solve_leg(body, &mut p, side == 0, (ankle + Vec3::Z * up, to), 0.0);
+    }
+    p
+}
+
+#[test]
+fn a_foot_on_the_tip_of_its_toes_does_not_stand_however_still_it_is() {
+    let body = Arc::new(Body::adult_man());
+    let tiptoe = standing_with(&body, [(0.13, 0.0, -1.2), (0.0, 0.0, 0.0)]);
+    for window in [0.3, 1.0] {
+        let (live, out) = through(&body, window, 150, |_| tiptoe);
+        for t in &out {
+            assert_eq!(t.planted, [false, true]);
+        }
+        assert_eq!(live.stances(0).count(), 0, "nor is it about to");
+    }
+}
+
+#[test]
+fn feet_that_turn_on_the_floor_are_set_down_anew_one_after_the_other() {
+    let body = Arc::new(Body::adult_man());
+    let outward = |i: usize| 0.9 * ((i as f64 - 120.0) / 60.0).clamp(0.0, 1.0);
+    for (window, both) in [(0.3, false), (1.0, false), (1.0, true)] {
+        let turning = |i: usize| {
+            let right = if both { -outward(i) } else { 0.0 };
+            standing_with(&body, [(0.0, outward(i), 0.0), (0.0, right, 0.0)])
+        };
+        let (_, out) = through(&body, window, 400, turning);
+        let lifted = |side: usize| out.iter().filter(|t| !t.planted[side]).count();
+        assert!(out.iter().all(|t| t.planted != [false; 2]), "{window} s");
+        assert!(lifted(0) > 5, "{window} s: {}", lifted(0));
+        assert_eq!(lifted(1) > 5, both, "{window} s: {}", lifted(1));
+        let end = forward(&body, &out[out.len() - 1].posture)[L_FOOT.index()].1;
+        let off = heading(end) - heading(forward(&body, &turning(399))[L_FOOT.index()].1);
+        assert!(off.abs() < 0.45, "{window} s: {off}");
     }
 }
