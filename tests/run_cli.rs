@@ -355,6 +355,21 @@ fn wrong_arguments_are_told_apart() {
         ),
         (&["run", "builtin:idle", "--loop"], "--duration"),
         (
+            &["run", "builtin:idle", "--then", "builtin:walk@1"],
+            "--duration",
+        ),
+        (
+            &[
+                "run",
+                "builtin:idle",
+                "--duration",
+                "2",
+                "--then",
+                "builtin:walk",
+            ],
+            "is not of the form CLIP@T",
+        ),
+        (
             &["run", "builtin:idle", "--out", "a.txt"],
             "--out a.txt: the name must end in one of .bvh, .csv",
         ),
