@@ -205,16 +205,22 @@ impl Gait {
         self.reset();
     }
 
-    /// Goes on with another plan in the middle of a motion: feet, places and lag stay. The new plan's time 0 is time `begin` (s) of the present one;
-    /// its coordinates are those of the present motion where its origin puts it.
-    pub fn go_on(&mut self, plan: StepPlan, begin: f64) {
+    /// Goes on with another plan, with its speed and origin, in the middle of a motion: feet, places and lag stay. The new plan's time 0 is time `begin`
+    /// (s) of the present one; both origins are in the same coordinates.
+    pub fn go_on(&mut self, (plan, speed, origin): (StepPlan, f64, PlanarTransform), begin: f64) {
+        let speed = speed.max(STILL);
         for foot in &mut self.feet {
-            foot.lifted = (foot.lifted - begin) / self.speed;
+            foot.lifted = (foot.lifted - begin) / self.speed * speed;
         }
         self.plan = Some(plan);
-        self.speed = 1.0;
-        self.origin = PlanarTransform::default();
+        self.speed = speed;
+        self.origin = origin;
         self.ended = None;
+    }
+
+    /// Time of the motion now, s.
+    pub fn phase(&self) -> f64 {
+        self.phase
     }
 
     /// True while it follows a motion that steps, if only later; a stream that stands does not.
