@@ -428,3 +428,22 @@ fn a_run_that_is_walked_comes_to_a_stand() {
         );
     }
 }
+
+/// After its steps to a stand a walk is over: what pushes its figure then is caught by steps as if it had always stood.
+#[test]
+fn who_has_come_to_a_stand_steps_when_pushed() {
+    let body = man();
+    let clip = recorded(&body, "walk");
+    let over = clip.lead_in() + clip.duration() + clip.lead_out();
+    for direction in 0..4 {
+        let (y, x) = (2.0 * FRAC_PI_4 * f64::from(direction)).sin_cos();
+        let impulse = Vec3 { x, y, z: 0.0 } * 38.0;
+        let pushed = Walk {
+            push: Some((over + 1.5, impulse)),
+            seconds: over + 6.0,
+            ..Walk::once(&clip)
+        };
+        let w = experiments::walk(&Walker::new(&body), &pushed);
+        assert!(w.stood(), "direction {direction}: fell at {:?} s", w.fell_s);
+    }
+}

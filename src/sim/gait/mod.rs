@@ -127,6 +127,12 @@ fn middle(feet: &catch::Places) -> (Vec3, f64) {
     ((feet[0].0 + feet[1].0) * 0.5, yaw)
 }
 
+/// True if a foot is not where it is meant to be.
+fn is_untidy(is: (Vec3, f64), meant: (Vec3, f64)) -> bool {
+    (is.0 - meant.0).norm() > catch::UNTIDY.0
+        || anchor::wrapped(is.1 - meant.1).abs() > catch::UNTIDY.1
+}
+
 /// A point of the floor.
 fn level(p: [f64; 2]) -> Vec3 {
     Vec3 {
@@ -162,6 +168,8 @@ pub struct Gait {
     step: Option<Catch>,
     /// Foot that is about to be brought back, or is.
     tidying: Option<usize>,
+    /// A foot is not where the motion has it.
+    untidy: bool,
     /// Displacement of the desired centre of mass while feet are brought back, m.
     lean: Vec3,
 }
@@ -189,6 +197,7 @@ impl Gait {
             landing: None,
             step: None,
             tidying: None,
+            untidy: false,
             lean: Vec3::zero(),
         }
     }
@@ -245,6 +254,7 @@ impl Gait {
         self.ended = None;
         self.step = None;
         self.tidying = None;
+        self.untidy = false;
         self.lean = Vec3::zero();
     }
 
@@ -263,8 +273,8 @@ impl Gait {
         self.walks().then(|| self.capture.off())
     }
 
-    /// True if it stands: no step is under way, none is to come, and the body is slow enough and near enough to where it should be to begin
-    /// something else.
+    /// True if it stands: no step is under way, none is to come, its feet are where they should be, and the body is slow enough and near enough to where it
+    /// should be to begin something else.
     pub fn is_settled(&self, terms: &Terms) -> bool {
         let v = terms.com_velocity;
         let to_come = |side: usize| {
@@ -272,6 +282,7 @@ impl Gait {
             plan.is_some_and(|_| !self.feet[side].down || self.next(side).is_some())
         };
         self.step.is_none()
+            && !self.untidy
             && !(0..2).any(to_come)
             && (v.x * v.x + v.y * v.y).sqrt() < SETTLED.0
             && self.capture.off() < SETTLED.1
@@ -411,6 +422,14 @@ impl Gait {
         })
     }
 
+    /// Where they are meant to be.
+    fn meant(&self, feet: &[(PointTarget, RotationTarget); 2]) -> catch::Places {
+        std::array::from_fn(|k| {
+            let (p, r) = &feet[k];
+            plan::place(&self.soles[k], p.now, r.now)
+        })
+    }
+
     /// Contact by events: lifts feet when planned, plants them when they touch. Returns the rate at which the plan goes on.
     fn schedule(&mut self, terms: &Terms, dt: f64, sample: impl Fn() -> Target) -> f64 {
         // A stream does not wait for its figure: what it is behind it makes up for.
@@ -526,12 +545,14 @@ impl Gait {
     ) -> Option<Balance> {
         self.capture
             .update(terms, tasks.com, support.polygon(), gravity, dt);
+        let (now, home) = (self.places(terms), self.meant(tasks.feet));
+        self.untidy = (0..2).any(|k| is_untidy(now[k], home[k]));
         if self.walks() {
             for side in 0..2 {
                 self.lead_planned(terms, side, dt, &mut tasks.feet[side]);
             }
         } else if tasks.unplanned {
-            self.catch(terms, support, dt, tasks);
+            self.catch(terms, support, dt, (&now, &home), tasks);
         }
         self.keep_headings(terms, tasks.feet);
         if let Some(step) = self.step.filter(|s| s.purpose != Purpose::Tidy) {
@@ -611,18 +632,20 @@ impl Gait {
     }
 
     /// Steps that no clip planned: catches a body whose capture point has left its feet, then brings the feet back together.
-    fn catch(&mut self, terms: &Terms, support: &Support, dt: f64, tasks: &mut Led<'_>) {
-        let now = self.places(terms);
-        let home: catch::Places = std::array::from_fn(|k| {
-            let (p, r) = &tasks.feet[k];
-            plan::place(&self.soles[k], p.now, r.now)
-        });
+    fn catch(
+        &mut self,
+        terms: &Terms,
+        support: &Support,
+        dt: f64,
+        (now, home): (&catch::Places, &catch::Places),
+        tasks: &mut Led<'_>,
+    ) {
         let xi = self.capture.point();
         let Some(nearest) = support.polygon().closest(xi) else {
             return;
         };
         if self.step.is_none() {
-            self.decide(terms, support, &now, &home, (xi, nearest.margin));
+            self.decide(terms, support, now, home, (xi, nearest.margin));
         }
         // Lean over the foot that is going to stand alone, and back.
         let leaning = self.tidying.map(|side| {
@@ -642,7 +665,7 @@ impl Gait {
 
         let Some(step) = &mut self.step else { return };
         let zmp = self.capture.hold(stance_points(support, step.side), xi);
-        step.aim(xi, zmp, self.capture.omega(), (&home, &now), self.leg);
+        step.aim(xi, zmp, self.capture.omega(), (home, now), self.leg);
         step.lead(&self.soles[step.side], dt, &mut tasks.feet[step.side]);
         let step = *step;
         if step.overdue() || (step.may_land() && self.lowest(terms, step.side) < TOUCH) {
@@ -692,7 +715,8 @@ impl Gait {
             if side == 0 { y } else { -y }
         };
         // Feet that a clip is about to move again stay where it has them, if they hold the body.
-        let own = self.ended.is_none() && self.plan.as_ref().is_some_and(|p| !p.is_live());
+        let goes_on = |p: &StepPlan| !p.is_live() && !p.is_over(self.phase);
+        let own = self.ended.is_none() && self.plan.as_ref().is_some_and(goes_on);
         let crossed = !own && outward(now[side].0) < 0.5 * catch::BESIDE;
         // A body that walks leaves its feet on purpose; one that is off its plan does not.
         let meant = own && self.capture.off() < ASTRAY;
@@ -723,10 +747,7 @@ impl Gait {
             && self.capture.off() < SETTLED.1
             && self.lean.norm() < 1e-3;
         if settled {
-            self.tidying = (0..2).find(|k| {
-                (now[*k].0 - home[*k].0).norm() > catch::UNTIDY.0
-                    || anchor::wrapped(now[*k].1 - home[*k].1).abs() > catch::UNTIDY.1
-            });
+            self.tidying = (0..2).find(|k| is_untidy(now[*k], home[*k]));
         }
     }
 

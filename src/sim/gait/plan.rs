@@ -246,9 +246,10 @@ impl StepPlan {
             })
     }
 
-    /// True if both feet have stood at time `t` (s) for longer than in any stride, and go on standing for a moment.
+    /// True if both feet have stood at time `t` (s) for longer than in any stride, and go on standing for a moment, or for good.
     pub fn pauses(&self, t: f64) -> bool {
-        let stands = |f: Footfall| f.on < t - PAUSE.0 && f.off > t + PAUSE.1;
+        let stays = |f: &Footfall| f.off > t + PAUSE.1 || self.is_over(f.off);
+        let stands = |f: Footfall| f.on < t - PAUSE.0 && stays(&f);
         (0..2).all(|side| self.current(side, t).is_some_and(stands))
     }
 
