@@ -167,6 +167,24 @@ fn same_run_gives_the_same_bits_alone_and_beside_others() {
 }
 
 #[test]
+fn another_clip_follows_when_it_is_asked_for() {
+    let dir = Scratch::new("then");
+    let report = |name: &str, then: &[&str]| {
+        let path = dir.file(name);
+        let run = ["run", "builtin:idle", "--duration", "4", "--report", &path];
+        succeed(&[&run[..], then].concat());
+        json(&path)
+    };
+    let stays = report("stays.json", &[]);
+    assert_eq!(stays["then"].as_array().map(Vec::len), Some(0));
+    let waves = report("waves.json", &["--then", "builtin:wave@1"]);
+    assert_eq!(waves["then"][0]["clip"], "builtin:wave");
+    assert_eq!(number(&waves["then"][0], "at_s"), 1.0);
+    assert!(waves["fell_at_s"].is_null());
+    assert_ne!(waves["state_hash"], stays["state_hash"]);
+}
+
+#[test]
 fn files_have_the_promised_content() {
     let dir = Scratch::new("files");
     let (csv, bvh) = (dir.file("out.csv"), dir.file("out.bvh"));
@@ -354,6 +372,21 @@ fn wrong_arguments_are_told_apart() {
             "--duration NaN s: outside",
         ),
         (&["run", "builtin:idle", "--loop"], "--duration"),
+        (
+            &["run", "builtin:idle", "--then", "builtin:walk@1"],
+            "--duration",
+        ),
+        (
+            &[
+                "run",
+                "builtin:idle",
+                "--duration",
+                "2",
+                "--then",
+                "builtin:walk",
+            ],
+            "is not of the form CLIP@T",
+        ),
         (
             &["run", "builtin:idle", "--out", "a.txt"],
             "--out a.txt: the name must end in one of .bvh, .csv",

@@ -5,7 +5,7 @@
 
 mod common;
 
-use common::{authored, figure, man, mocap, recorded, recorded_with};
+use common::{figure, man, mocap, recorded, recorded_with};
 use sinew::evaluate::experiments::walk::{self as experiments, Walk, Walker};
 use sinew::sim::body::topology::{CHEST, L_HAND, R_HAND};
 use sinew::sim::body::{Body, Links, Posture, Profile, SegmentId, Sex};
@@ -277,136 +277,6 @@ fn the_old_and_the_weak_walk_it_too() {
     }
 }
 
-/// From one clip to another, or to a stand, asked for at `at` seconds.
-struct Passed {
-    /// When it fell, s after that.
-    fell: Option<f64>,
-    /// When the other clip began, s after that.
-    began: f64,
-    /// Speed of the pelvis in the end, m/s.
-    speed: f64,
-    /// Time that the planning took, ms.
-    planning: f64,
-}
-
-fn passes(
-    body: &Arc<Body>,
-    (first, looped): (&Arc<Clip>, bool),
-    second: Option<&Arc<Clip>>,
-    at: f64,
-) -> Passed {
-    let from = if looped { 0.0 } else { -first.lead_in() };
-    let (mut world, key) = playing(body, Arc::clone(first), from, looped);
-    for _ in 0..(at * RATE) as usize {
-        world.step();
-    }
-    let time = world.time();
-    let clock = std::time::Instant::now();
-    let figure = world.figure_mut(key).unwrap();
-    match second {
-        Some(clip) => {
-            let play = ClipPlayback::new(Arc::clone(clip), time + clip.lead_in());
-            let start = figure.play(play, false, time);
-            assert!(start >= time + clip.lead_in());
-        }
-        None => figure.stop(time),
-    }
-    let planning = 1e3 * clock.elapsed().as_secs_f64();
-    let long = second.map_or(4.0, |c| c.lead_in() + c.duration() + c.lead_out() + 2.0);
-    let mut out = Passed {
-        fell: None,
-        began: f64::NAN,
-        speed: f64::NAN,
-        planning,
-    };
-    while out.began.is_nan() || world.time() < time + out.began + long {
-        let figure = world.figure(key).unwrap();
-        if out.began.is_nan() && figure.next_clip().is_none() {
-            out.began = world.time() - time;
-        }
-        world.step();
-        let figure = world.figure(key).unwrap();
-        assert!(figure.report().unwrap().over_limit <= 1e-9);
-        if figure.is_fallen() {
-            out.fell = Some(world.time() - time);
-            return out;
-        }
-        assert!(world.time() < time + 60.0, "the other clip never begins");
-    }
-    let v = &world.figure(key).unwrap().state().velocity;
-    out.speed = v[3].hypot(v[4]);
-    out
-}
-
-#[test]
-fn one_clip_follows_another_in_motion() {
-    let body = man();
-    let [walk, turn, around, idle, wave] =
-        ["walk", "turn", "walk-around", "idle", "wave"].map(|name| recorded(&body, name));
-    let walks = Arc::new(cycle(&body, &walk).unwrap());
-    let squat = authored(&body, "squat");
-    let (mut all, mut fallen) = (0, Vec::new());
-    for (what, first, second, at) in [
-        ("walk to turn", (&walks, true), Some(&turn), 3.0),
-        ("walk to walk-around", (&walks, true), Some(&around), 3.0),
-        ("turn to walk", (&turn, false), Some(&walk), 3.0),
-        ("walk to idle", (&walks, true), Some(&idle), 3.0),
-        ("walk to standing", (&walks, true), None, 3.0),
-        ("wave to walk", (&wave, false), Some(&walk), 3.0),
-        ("wave to turn", (&wave, false), Some(&turn), 1.0),
-        ("squat to walk", (&squat, false), Some(&walk), 1.0),
-    ] {
-        print!("{what}:");
-        for phase in 0..4 {
-            let at = at + 0.28 * f64::from(phase);
-            let p = passes(&body, first, second, at);
-            print!(" after {:.1} s ({:.0} ms)", p.began, p.planning);
-            all += 1;
-            match p.fell {
-                Some(t) => {
-                    print!(" fell at {t:.1} s");
-                    fallen.push(format!("{what} at {at:.2} s"));
-                }
-                None => assert!(p.speed < 0.1, "{what} at {at:.2} s: {} m/s", p.speed),
-            }
-            let never = p.began.is_nan() && p.fell.is_some();
-            assert!(never || p.began < 4.0, "{what} at {at:.2} s: {} s", p.began);
-            print!(",");
-        }
-        println!();
-    }
-    println!("fell: {fallen:?} of {all}");
-    assert!(fallen.len() <= 1);
-}
-
-#[test]
-fn what_waits_can_be_taken_back_and_what_stands_begins_at_once() {
-    let body = man();
-    let walk = recorded(&body, "walk");
-    let again = |time: f64| ClipPlayback::new(Arc::clone(&walk), time + walk.lead_in());
-    let (mut world, key) = playing(&body, Arc::clone(&walk), -walk.lead_in(), false);
-    for _ in 0..150 {
-        world.step();
-    }
-    let time = world.time();
-    let figure = world.figure_mut(key).unwrap();
-    let expected = figure.play(again(time), false, time);
-    assert!(expected > time + walk.lead_in() + 0.5);
-    // Once more: it is on its way to a stand already, and only what comes then is replaced.
-    assert_eq!(figure.play(again(time), false, time), expected);
-    assert!(figure.next_clip().is_some());
-    figure.stop(time);
-    assert!(figure.next_clip().is_none());
-    for _ in 0..300 {
-        world.step();
-    }
-    let time = world.time();
-    let figure = world.figure_mut(key).unwrap();
-    assert!(!figure.is_fallen());
-    assert_eq!(figure.play(again(time), false, time), time + walk.lead_in());
-    assert!(figure.next_clip().is_none());
-}
-
 /// The repeated walk of 20 s with `mass` kg in each of `hands` from `from` until `to` (s): its measures.
 fn carries(
     body: &Arc<Body>,
@@ -593,4 +463,23 @@ fn who_jumps_takes_no_spin_along_and_lands_upright() {
     println!("{flown} ticks in the air, {spin:.1} N m s, chest off by {bow:.0} deg");
     assert!(flown > 12, "it leaves the floor for a quarter of a second");
     assert!(spin < 2.0 && bow < 25.0, "{spin} N m s, {bow} deg");
+}
+
+/// After its steps to a stand a walk is over: what pushes its figure then is caught by steps as if it had always stood.
+#[test]
+fn who_has_come_to_a_stand_steps_when_pushed() {
+    let body = man();
+    let clip = recorded(&body, "walk");
+    let over = clip.lead_in() + clip.duration() + clip.lead_out();
+    for direction in 0..4 {
+        let (y, x) = (2.0 * FRAC_PI_4 * f64::from(direction)).sin_cos();
+        let impulse = Vec3 { x, y, z: 0.0 } * 38.0;
+        let pushed = Walk {
+            push: Some((over + 1.5, impulse)),
+            seconds: over + 6.0,
+            ..Walk::once(&clip)
+        };
+        let w = experiments::walk(&Walker::new(&body), &pushed);
+        assert!(w.stood(), "direction {direction}: fell at {:?} s", w.fell_s);
+    }
 }

@@ -1,4 +1,4 @@
-//! Arguments that several commands share, and the small languages of `--load`, `--push`, `--constrain` and `--obstacle`.
+//! Arguments that several commands share, and the small languages of `--load`, `--push`, `--constrain`, `--obstacle` and `--then`.
 
 mod body;
 mod constraint;
@@ -8,6 +8,7 @@ mod obstacle;
 mod push;
 mod recording;
 mod spec;
+mod then;
 
 pub use body::{BodyArgs, BodyKind, person_name, sex_name};
 pub use constraint::ConstraintSpec;
@@ -19,3 +20,4 @@ pub use obstacle::ObstacleSpec;
 pub use push::PushSpec;
 pub use recording::RecordingArgs;
 pub use spec::SpecError;
+pub use then::ThenSpec;

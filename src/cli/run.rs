@@ -7,7 +7,7 @@ mod summary;
 
 use super::args::{
     BodyArgs, ConstraintSpec, ControllerArg, LoadSpec, ObstacleSpec, PaperOptions, PresetArg,
-    PushSpec, StepperArg,
+    PushSpec, StepperArg, ThenSpec,
 };
 use super::output::{extension, for_clip, write};
 use super::source::{Source, load};
@@ -114,6 +114,10 @@ pub struct RunArgs {
     /// Repeat the motion until --duration is over.
     #[arg(long = "loop", requires = "duration")]
     pub looped: bool,
+    /// Asks for another clip at T seconds (repeatable): turn.bvh@5. A figure that walks goes over to it from step to step where the two are alike, else by
+    /// a stand; one that stands begins at once.
+    #[arg(long, value_name = "CLIP@T", requires = "duration")]
+    pub then: Vec<ThenSpec>,
     /// Begin and end standing, with the steps that it takes before the first frame and after the last one.
     #[arg(long, conflicts_with = "looped")]
     pub standing: bool,
@@ -182,6 +186,8 @@ struct Scenario<'a> {
     args: &'a RunArgs,
     body: Arc<Body>,
     params: WorldParams,
+    /// Clips that follow, and when they are asked for, s.
+    then: Vec<(f64, Arc<Clip>)>,
 }
 
 /// Runs the command. A figure that falls is a result, not an error: the report says so.
@@ -190,8 +196,9 @@ struct Scenario<'a> {
 /// Bad arguments, unreadable clips, files that cannot be written.
 pub fn run(args: &RunArgs) -> Result<()> {
     check(args)?;
-    let scenario = Scenario {
+    let mut scenario = Scenario {
         body: Arc::new(args.build_body()?),
+        then: Vec::new(),
         params: WorldParams {
             rate_hz: args.rate_hz(),
             substeps: args.substeps,
@@ -205,6 +212,10 @@ pub fn run(args: &RunArgs) -> Result<()> {
         walk_runs: !args.keep_runs,
         ..RetargetOptions::default()
     };
+    for then in &args.then {
+        let source = load(&then.clip, &scenario.body, &options)?;
+        scenario.then.push((then.at_s, Arc::new(source.clip)));
+    }
     let sources = args
         .clips
         .iter()
@@ -384,6 +395,7 @@ fn simulate(
     let mut metrics = Metrics::new(scenario.args.rate_hz(), &start);
     let mut frames = Vec::with_capacity(shown.len());
     for n in 0..ticks {
+        ask_for_clips(scenario, &mut world, key);
         let began = Instant::now();
         world.step();
         let us = began.elapsed().as_secs_f64() * 1e6;
@@ -405,6 +417,18 @@ fn simulate(
         each(figure, metrics.time_s())?;
     }
     Ok((metrics.finish(world.state_hash()), frames))
+}
+
+/// Tells the figure to play the clips that are due in the tick to come.
+fn ask_for_clips(scenario: &Scenario<'_>, world: &mut World, key: FigureKey) {
+    let (time, dt) = (world.time(), world.dt());
+    let figure = world.figure_mut(key).expect("nobody removes the figure");
+    for (at, clip) in &scenario.then {
+        if (time - 0.5 * dt..time + 0.5 * dt).contains(at) {
+            let play = ClipPlayback::new(Arc::clone(clip), time + clip.lead_in());
+            figure.play(play, false, time);
+        }
+    }
 }
 
 /// A world with one figure that begins the clip, what happens to it, and the things around it.

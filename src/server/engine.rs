@@ -481,6 +481,7 @@ pub fn playback(
         speed,
         looped,
         origin,
+        way_in: None,
     }
 }
 

@@ -1,9 +1,9 @@
-//! What the small languages of `--load`, `--push`, `--constrain` and `--obstacle` have in common.
+//! What the small languages of `--load`, `--push`, `--constrain`, `--obstacle` and `--then` have in common.
 
 use crate::sim::body::SegmentId;
 use crate::sim::body::topology::SEGMENT_NAMES;
 
-/// Why a `--load`, `--push`, `--constrain` or `--obstacle` cannot be read.
+/// Why a `--load`, `--push`, `--constrain`, `--obstacle` or `--then` cannot be read.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SpecError {
     /// Wrong shape.

@@ -27,10 +27,18 @@ pub(super) struct Document<'a> {
     pushes: Vec<PushEntry>,
     /// As they were given.
     obstacles: Vec<&'a str>,
+    /// Clips that followed.
+    then: Vec<ThenEntry<'a>>,
     #[serde(flatten)]
     measures: &'a RunReport,
     /// `null` for built-in motions, which are made for the body.
     retarget: serde_json::Value,
+}
+
+#[derive(Serialize)]
+struct ThenEntry<'a> {
+    clip: &'a str,
+    at_s: f64,
 }
 
 #[derive(Serialize)]
@@ -111,6 +119,12 @@ pub(super) fn document<'a>(
             })
             .collect(),
         obstacles: args.obstacle.iter().map(|o| o.0.name.as_str()).collect(),
+        then: (args.then.iter())
+            .map(|t| ThenEntry {
+                clip: &t.clip,
+                at_s: t.at_s,
+            })
+            .collect(),
         measures,
         retarget: source
             .retarget

@@ -120,7 +120,7 @@ impl Walked {
 
 /// Sliding of one foot.
 #[derive(Clone, Debug, Default)]
-struct Stance {
+pub struct Stance {
     before: Vec<ContactPoint>,
     way: f64,
     /// What the foot carries, N.
@@ -128,8 +128,8 @@ struct Stance {
 }
 
 impl Stance {
-    /// Takes in the contact points of a tick; the way of a stance so far, m.
-    fn observe(&mut self, now: &[ContactPoint], segments: [SegmentId; 2]) -> f64 {
+    /// Takes in the contact points of a tick, of which those on `segments` are the foot's; the way of a stance so far, m.
+    pub fn observe(&mut self, now: &[ContactPoint], segments: [SegmentId; 2]) -> f64 {
         let mine = |c: &&ContactPoint| segments.contains(&c.segment);
         let load: f64 = now.iter().filter(mine).map(|c| c.force.z).sum();
         self.load = load;

@@ -5,6 +5,7 @@ use crate::sim::gait::StepPlan;
 use crate::sim::gait::anchor::Anchor;
 use crate::sim::math::Vec3;
 use crate::sim::motion::clip::{Clip, PlanarTransform};
+use crate::sim::motion::transition::WayIn;
 use crate::sim::motion::{LiveMotion, Target, TargetPair};
 use std::sync::Arc;
 
@@ -21,6 +22,8 @@ pub struct ClipPlayback {
     pub looped: bool,
     /// Where the clip's origin lies in the world.
     pub origin: PlanarTransform,
+    /// How the figure came into it, if that was out of another motion without standing in between.
+    pub way_in: Option<Arc<WayIn>>,
 }
 
 /// A stream that is prepared while it comes.
@@ -62,6 +65,7 @@ impl ClipPlayback {
             speed: 1.0,
             looped: false,
             origin: PlanarTransform::default(),
+            way_in: None,
         }
     }
 
@@ -73,10 +77,10 @@ impl ClipPlayback {
     /// Desired motion at world time `t`, s. No allocation.
     pub fn sample(&self, t: f64) -> Target {
         let s = self.clip_time(t);
-        let mut target = if self.looped {
-            self.clip.sample_looped(s)
-        } else {
-            self.clip.sample(s)
+        let mut target = match &self.way_in {
+            Some(way) if s < way.until => way.clip.sample(s - way.begin),
+            _ if self.looped => self.clip.sample_looped(s),
+            _ => self.clip.sample(s),
         };
         for v in &mut target.velocity {
             *v *= self.speed;

@@ -5,11 +5,12 @@ mod access;
 mod among;
 mod effort;
 mod judgement;
+mod leaving;
 mod reporting;
 mod transitions;
 
+use leaving::Leaving;
 use reporting::empty_report;
-use transitions::Stopping;
 
 use super::assist::Assist;
 use super::balance::BalanceWatch;
@@ -78,9 +79,9 @@ pub struct Figure {
     drive: Drive,
     /// The drive brings it to a stand.
     ending: bool,
-    /// The way to a stand, while it is worked out.
-    stopping: Option<Box<Stopping>>,
-    /// What it does as soon as it stands.
+    /// The way out of its motion, while it is worked out.
+    leaving: Option<Box<Leaving>>,
+    /// What it does as soon as it stands, or goes over to.
     queued: Option<Box<Queued>>,
     gait: Box<Gait>,
     target: TargetPair,
@@ -160,7 +161,7 @@ impl Figure {
             disturbances: Disturbances::default(),
             drive: Drive::Hold(setup.state.posture),
             ending: false,
-            stopping: None,
+            leaving: None,
             queued: None,
             gait: Box::new(Gait::new(&setup.body)),
             target: TargetPair {
@@ -230,7 +231,7 @@ impl Figure {
         let applied = self.disturbances.applied();
         self.terms
             .compute(&self.links, &self.state, applied, world.gravity);
-        self.begin_stop(world);
+        self.begin_to_leave(world);
         self.begin_queued(world.time());
         self.get_up();
         self.target = self.desired(world.time(), world.dt);

@@ -146,6 +146,12 @@ fn follow_mass(terms: &Terms, dt: f64, tasks: &mut Led<'_>) {
     }
 }
 
+/// True if a foot is not where it is meant to be.
+fn is_untidy(is: (Vec3, f64), meant: (Vec3, f64)) -> bool {
+    (is.0 - meant.0).norm() > catch::UNTIDY.0
+        || anchor::wrapped(is.1 - meant.1).abs() > catch::UNTIDY.1
+}
+
 /// A point of the floor.
 fn level(p: [f64; 2]) -> Vec3 {
     Vec3 {
@@ -183,6 +189,8 @@ pub struct Gait {
     step: Option<Catch>,
     /// Foot that is about to be brought back, or is.
     tidying: Option<usize>,
+    /// A foot is not where the motion has it.
+    untidy: bool,
     /// Displacement of the desired centre of mass while feet are brought back, m.
     lean: Vec3,
 }
@@ -211,6 +219,7 @@ impl Gait {
             landing: None,
             step: None,
             tidying: None,
+            untidy: false,
             lean: Vec3::zero(),
         }
     }
@@ -227,16 +236,22 @@ impl Gait {
         self.reset();
     }
 
-    /// Goes on with another plan in the middle of a motion: feet, places and lag stay. The new plan's time 0 is time `begin` (s) of the present one;
-    /// its coordinates are those of the present motion where its origin puts it.
-    pub fn go_on(&mut self, plan: StepPlan, begin: f64) {
+    /// Goes on with another plan, with its speed and origin, in the middle of a motion: feet, places and lag stay. The new plan's time 0 is time `begin`
+    /// (s) of the present one; both origins are in the same coordinates.
+    pub fn go_on(&mut self, (plan, speed, origin): (StepPlan, f64, PlanarTransform), begin: f64) {
+        let speed = speed.max(STILL);
         for foot in &mut self.feet {
-            foot.lifted = (foot.lifted - begin) / self.speed;
+            foot.lifted = (foot.lifted - begin) / self.speed * speed;
         }
         self.plan = Some(plan);
-        self.speed = 1.0;
-        self.origin = PlanarTransform::default();
+        self.speed = speed;
+        self.origin = origin;
         self.ended = None;
+    }
+
+    /// Time of the motion now, s.
+    pub fn phase(&self) -> f64 {
+        self.phase
     }
 
     /// True while it follows a motion that steps, if only later; a stream that stands does not.
@@ -261,6 +276,7 @@ impl Gait {
         self.ended = None;
         self.step = None;
         self.tidying = None;
+        self.untidy = false;
         self.lean = Vec3::zero();
     }
 
@@ -279,8 +295,8 @@ impl Gait {
         self.walks().then(|| self.capture.off())
     }
 
-    /// True if it stands: no step is under way, none is to come, and the body is slow enough and near enough to where it should be to begin
-    /// something else.
+    /// True if it stands: no step is under way, none is to come, its feet are where they should be, and the body is slow enough and near enough to where it
+    /// should be to begin something else.
     pub fn is_settled(&self, terms: &Terms) -> bool {
         let v = terms.com_velocity;
         let to_come = |side: usize| {
@@ -288,6 +304,7 @@ impl Gait {
             plan.is_some_and(|_| !self.feet[side].down || self.next(side).is_some())
         };
         self.step.is_none()
+            && !self.untidy
             && !(0..2).any(to_come)
             && (v.x * v.x + v.y * v.y).sqrt() < SETTLED.0
             && self.capture.off() < SETTLED.1
@@ -436,6 +453,14 @@ impl Gait {
         })
     }
 
+    /// Where they are meant to be.
+    fn meant(&self, feet: &[(PointTarget, RotationTarget); 2]) -> catch::Places {
+        std::array::from_fn(|k| {
+            let (p, r) = &feet[k];
+            plan::place(&self.soles[k], p.now, r.now)
+        })
+    }
+
     /// Contact by events: lifts feet when planned, plants them when they touch. Returns the rate at which the plan goes on.
     fn schedule(&mut self, terms: &Terms, dt: f64, sample: impl Fn() -> Target) -> f64 {
         // A stream does not wait for its figure: what it is behind it makes up for. Nor can it be ahead of what has come.
@@ -560,6 +585,8 @@ impl Gait {
     ) -> Option<Balance> {
         self.capture
             .update(terms, tasks.com, support.polygon(), gravity, dt);
+        let (now, home) = (self.places(terms), self.meant(tasks.feet));
+        self.untidy = (0..2).any(|k| is_untidy(now[k], home[k]));
         if self.walks() {
             for side in 0..2 {
                 self.lead_planned(terms, side, dt, &mut tasks.feet[side]);
@@ -568,7 +595,7 @@ impl Gait {
                 follow_mass(terms, dt, tasks);
             }
         } else if tasks.unplanned {
-            self.catch(terms, support, dt, tasks);
+            self.catch(terms, support, dt, (&now, &home), tasks);
         }
         self.keep_headings(terms, tasks.feet);
         if let Some(step) = self.step.filter(|s| s.purpose != Purpose::Tidy) {
@@ -658,18 +685,20 @@ impl Gait {
     }
 
     /// Steps that no clip planned: catches a body whose capture point has left its feet, then brings the feet back together.
-    fn catch(&mut self, terms: &Terms, support: &Support, dt: f64, tasks: &mut Led<'_>) {
-        let now = self.places(terms);
-        let home: catch::Places = std::array::from_fn(|k| {
-            let (p, r) = &tasks.feet[k];
-            plan::place(&self.soles[k], p.now, r.now)
-        });
+    fn catch(
+        &mut self,
+        terms: &Terms,
+        support: &Support,
+        dt: f64,
+        (now, home): (&catch::Places, &catch::Places),
+        tasks: &mut Led<'_>,
+    ) {
         let xi = self.capture.point();
         let Some(nearest) = support.polygon().closest(xi) else {
             return;
         };
         if self.step.is_none() {
-            self.decide(terms, support, &now, &home, (xi, nearest.margin));
+            self.decide(terms, support, now, home, (xi, nearest.margin));
         }
         // Lean over the foot that is going to stand alone, and back.
         let leaning = self.tidying.map(|side| {
@@ -689,7 +718,7 @@ impl Gait {
 
         let Some(step) = &mut self.step else { return };
         let zmp = self.capture.hold(stance_points(support, step.side), xi);
-        step.aim(xi, zmp, self.capture.omega(), (&home, &now), self.leg);
+        step.aim(xi, zmp, self.capture.omega(), (home, now), self.leg);
         step.lead(&self.soles[step.side], dt, &mut tasks.feet[step.side]);
         let step = *step;
         if step.overdue() || (step.may_land() && self.lowest(terms, step.side) < TOUCH) {
@@ -739,7 +768,8 @@ impl Gait {
             if side == 0 { y } else { -y }
         };
         // Feet that a clip is about to move again stay where it has them, if they hold the body.
-        let own = self.ended.is_none() && self.plan.as_ref().is_some_and(|p| !p.is_live());
+        let goes_on = |p: &StepPlan| !p.is_live() && !p.is_over(self.phase);
+        let own = self.ended.is_none() && self.plan.as_ref().is_some_and(goes_on);
         let crossed = !own && outward(now[side].0) < 0.5 * catch::BESIDE;
         // A body that walks leaves its feet on purpose; one that is off its plan does not.
         let meant = own && self.capture.off() < ASTRAY;
@@ -770,10 +800,7 @@ impl Gait {
             && self.capture.off() < SETTLED.1
             && self.lean.norm() < 1e-3;
         if settled {
-            self.tidying = (0..2).find(|k| {
-                (now[*k].0 - home[*k].0).norm() > catch::UNTIDY.0
-                    || anchor::wrapped(now[*k].1 - home[*k].1).abs() > catch::UNTIDY.1
-            });
+            self.tidying = (0..2).find(|k| is_untidy(now[*k], home[*k]));
         }
     }
 

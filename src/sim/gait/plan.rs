@@ -9,6 +9,7 @@ use crate::sim::motion::contacts::runs;
 use crate::sim::motion::foot_lock::Sole;
 use crate::sim::motion::leg_ik::forward;
 use crate::sim::motion::live::{self, LiveMotion};
+use crate::sim::motion::transition::WayIn;
 
 /// A stance of one foot as the clip has it. Times in clip seconds, place and heading in clip coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,8 +34,16 @@ pub struct StepPlan {
     duration: f64,
     /// Displacement of one round, if the clip repeats.
     round: Option<PlanarTransform>,
-    /// The way into a clip that repeats, with its first round.
-    lead: Option<Box<StepPlan>>,
+    /// What holds instead before some time: the way into a clip that repeats, with its first round, or the one out of another motion.
+    lead: Option<Box<Lead>>,
+}
+
+/// What holds before time `until`, and tells of touch-downs before time `knows`, s.
+#[derive(Clone, Debug)]
+struct Lead {
+    plan: StepPlan,
+    until: f64,
+    knows: f64,
 }
 
 /// Heading and pitch (toe-up positive) of a foot without its roll, rad. Platform-independent, since it feeds the tick.
@@ -162,7 +171,33 @@ impl StepPlan {
             begin,
             duration,
             round: looped.then(|| clip.advance()),
-            lead: (looped && clip.lead_in() > 0.0).then(|| Box::new(Self::new(body, clip, false))),
+            lead: (looped && clip.lead_in() > 0.0).then(|| {
+                Box::new(Lead {
+                    plan: Self::new(body, clip, false),
+                    until: 0.0,
+                    knows: duration,
+                })
+            }),
+        }
+    }
+
+    /// The same for a figure that comes into the clip by a way of its own.
+    pub fn entered_by(self, body: &Body, way: &WayIn) -> Self {
+        let mut plan = Self::new(body, &way.clip, false);
+        plan.begin += way.begin;
+        plan.duration += way.begin;
+        for f in plan.stances.iter_mut().flatten() {
+            f.on += way.begin;
+            f.off += way.begin;
+        }
+        let lead = Lead {
+            plan,
+            until: way.until,
+            knows: f64::INFINITY,
+        };
+        Self {
+            lead: Some(Box::new(lead)),
+            ..self
         }
     }
 
@@ -211,16 +246,17 @@ impl StepPlan {
             })
     }
 
-    /// True if both feet have stood at time `t` (s) for longer than in any stride, and go on standing for a moment.
+    /// True if both feet have stood at time `t` (s) for longer than in any stride, and go on standing for a moment, or for good.
     pub fn pauses(&self, t: f64) -> bool {
-        let stands = |f: Footfall| f.on < t - PAUSE.0 && f.off > t + PAUSE.1;
+        let stays = |f: &Footfall| f.off > t + PAUSE.1 || self.is_over(f.off);
+        let stands = |f: Footfall| f.on < t - PAUSE.0 && stays(&f);
         (0..2).all(|side| self.current(side, t).is_some_and(stands))
     }
 
     /// True if a foot leaves the floor anywhere.
     pub fn steps(&self) -> bool {
         self.is_live()
-            || self.lead.as_ref().is_some_and(|l| l.steps())
+            || self.lead.as_ref().is_some_and(|l| l.plan.steps())
             || self
                 .stances
                 .iter()
@@ -232,9 +268,9 @@ impl StepPlan {
         self.round.is_none() && t >= self.duration
     }
 
-    /// The plan that holds before a repeating clip begins.
-    fn lead_at(&self, t: f64) -> Option<&Self> {
-        self.lead.as_deref().filter(|_| t < 0.0)
+    /// The plan that holds on the way in.
+    fn lead_at(&self, t: f64) -> Option<&Lead> {
+        self.lead.as_deref().filter(|l| t < l.until)
     }
 
     /// Round of a loop that time `t` falls into, and the time within it.
@@ -273,11 +309,8 @@ impl StepPlan {
     /// Next touch-down of a foot (0 left, 1 right) after time `t` (s); `None` if it never lands again.
     pub fn next(&self, side: usize, t: f64) -> Option<Footfall> {
         if let Some(lead) = self.lead_at(t) {
-            let first = |f: &Footfall| f.on < self.duration;
-            return lead
-                .next(side, t)
-                .filter(first)
-                .or_else(|| self.next(side, 0.0));
+            let known = |f: &Footfall| f.on < lead.knows;
+            return (lead.plan.next(side, t).filter(known)).or_else(|| self.next(side, lead.until));
         }
         let (round, local) = self.round_of(t);
         let rounds = if self.round.is_some() { 2 } else { 1 };
@@ -296,7 +329,7 @@ impl StepPlan {
     /// The stance that holds at time `t` (s).
     pub fn current(&self, side: usize, t: f64) -> Option<Footfall> {
         if let Some(lead) = self.lead_at(t) {
-            return lead.current(side, t);
+            return lead.plan.current(side, t);
         }
         let (round, local) = self.round_of(t);
         let end = self.duration;
@@ -325,7 +358,7 @@ impl StepPlan {
     /// Last lift-off of a foot at or before time `t`, s; the beginning of the clip if there was none.
     pub fn last_off(&self, side: usize, t: f64) -> f64 {
         if let Some(lead) = self.lead_at(t) {
-            return lead.last_off(side, t);
+            return lead.plan.last_off(side, t);
         }
         let (round, local) = self.round_of(t);
         let s = &self.stances[side];

@@ -24,6 +24,7 @@ pub mod prepare;
 pub mod retarget;
 pub mod skeleton_map;
 pub mod target;
+pub mod transition;
 mod walked;
 
 /// Gravity that motions are prepared for, m/s².

@@ -21,13 +21,13 @@ const REACH: f64 = 0.98;
 /// For a swinging leg the pelvis is lowered by no more than this, m.
 const SWING_DROP: f64 = 0.04;
 /// The pelvis is lowered over about this time, s.
-const DROP_TIME: f64 = 0.15;
+pub(super) const DROP_TIME: f64 = 0.15;
 /// Rounds of shifting the trunk and solving the legs again.
 const ROUNDS: usize = 8;
 /// The zero-moment point is kept this far inside the support polygon, m.
-const INSET: f64 = 0.04;
+pub(super) const INSET: f64 = 0.04;
 /// A zero-moment point outside by more than this for long means that something other than the feet carries the body, m.
-const CARRIED: f64 = 0.15;
+pub(super) const CARRIED: f64 = 0.15;
 /// The trunk is never moved further than this for balance, m.
 const MOST_SHIFT: f64 = 0.2;
 /// A pelvis below the first share of its standing height may sit, one above the second does not.
@@ -58,7 +58,7 @@ const LEAST_RISE: f64 = 0.05;
 const KNEE_STEP: f64 = 0.3;
 const KNEE_STEPS: usize = 8;
 /// A planted foot that its leg cannot hold to this accuracy is declared free, m.
-const HELD: f64 = 5e-4;
+pub(super) const HELD: f64 = 5e-4;
 
 /// A recorded motion in body scale, floor at z = 0: what the preparation starts from.
 #[derive(Clone, Debug)]
@@ -128,7 +128,7 @@ const FOOT: [SegmentId; 2] = [L_FOOT, R_FOOT];
 const TOES: [SegmentId; 2] = [L_TOES, R_TOES];
 
 /// Hip joint of each side in the pelvis frame, m, and length of the leg from hip to ankle, m.
-fn leg_geometry(body: &Body) -> [(Vec3, f64); 2] {
+pub(super) fn leg_geometry(body: &Body) -> [(Vec3, f64); 2] {
     [L_THIGH, R_THIGH].map(|thigh| {
         let t = thigh.index();
         (
@@ -272,7 +272,7 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
     // Legs as recorded first; then rounds in which ankles are relieved and the trunk is shifted over the feet.
     let mut shift = vec![[0.0f64; 2]; n];
     let (mut postures, mut drop) = assemble(body, &upper, &locked, draft, &relief, &shift);
-    let mut carriers = carriers_of(body, &soles, &upper, &locked, draft);
+    let mut carriers = carriers_of(body, &soles, &upper, &locked, &draft.label);
     let mut track = mass_track(body, &postures, rate);
     let before = zmp_outside(&track, &carriers);
     let elsewhere = may_rest(body, &upper, &planted, rate);
@@ -285,7 +285,7 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
         if round + 2 < rounds {
             relief.add(body, &postures, &planted, [&stands[0], &stands[1]], rate);
             locked = lock(&relief);
-            carriers = carriers_of(body, &soles, &upper, &locked, draft);
+            carriers = carriers_of(body, &soles, &upper, &locked, &draft.label);
         }
         if options.balance && round > 0 {
             shift = pelvis_shift(
@@ -421,12 +421,12 @@ fn toe_hinge(side: usize) -> usize {
 }
 
 /// What carries the body in each sample.
-fn carriers_of(
+pub(super) fn carriers_of(
     body: &Body,
     soles: &[Sole; 2],
     upper: &[Posture],
     locked: &[LockedFoot; 2],
-    draft: &Draft,
+    label: &[[bool; 2]],
 ) -> Vec<Carrier> {
     let standing = body.standing_root_height();
     let mut corners = Vec::new();
@@ -440,7 +440,7 @@ fn carriers_of(
                 Carrier::Other
             } else if corners.len() >= 3 {
                 Carrier::Feet(hull(&corners))
-            } else if draft.label[i] == [false, false] {
+            } else if label[i] == [false, false] {
                 Carrier::Air
             } else {
                 Carrier::Other
@@ -450,7 +450,7 @@ fn carriers_of(
 }
 
 /// The same where no foot is asked to hold alone what its ankle cannot.
-fn held_by(
+pub(super) fn held_by(
     carriers: &[Carrier],
     soles: &[Sole; 2],
     locked: &[LockedFoot; 2],
@@ -491,7 +491,12 @@ fn held_by(
 }
 
 /// What else than the feet may carry the body: a seat where the pelvis is low, hands where both feet stay for a while. Who steps walks on his feet.
-fn may_rest(body: &Body, upper: &[Posture], planted: &[[bool; 2]], rate_hz: f64) -> Vec<Elsewhere> {
+pub(super) fn may_rest(
+    body: &Body,
+    upper: &[Posture],
+    planted: &[[bool; 2]],
+    rate_hz: f64,
+) -> Vec<Elsewhere> {
     let standing = body.standing_root_height();
     let n = upper.len();
     let half = (STAYS * rate_hz) as usize;

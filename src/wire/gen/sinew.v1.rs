@@ -1101,7 +1101,7 @@ pub struct Figure {
     /// Step when the capture point has left the feet (CONTROLLER_MODERN). Absent: true.
     #[prost(bool, optional, tag = "18")]
     pub protective_steps: ::core::option::Option<bool>,
-    /// Clip that begins as soon as the figure stands, `clips/{clip}`; empty if none waits. Output only.
+    /// Clip that begins as soon as the figure stands or has gone over to it, `clips/{clip}`; empty if none waits. Output only.
     #[prost(string, tag = "19")]
     pub next_clip: ::prost::alloc::string::String,
 }
@@ -2614,8 +2614,9 @@ pub struct PlayClipRequest {
 /// The clip plays, or waits until the figure stands.
 #[derive(Clone, Copy, PartialEq, ::prost::Message)]
 pub struct PlayClipResponse {
-    /// World time at which its first frame plays, s: later than asked for by the length of the steps that lead into it. If the figure has to
-    /// stand first, when that is expected; the clip begins up to 0.4 s sooner, as soon as the figure has settled, and at most 2 s later.
+    /// World time at which its first frame plays, s: later than asked for by the length of the steps that lead into it. Gone over to from step to
+    /// step, up to 0.4 s of a clip are left out, and up to a stride of one that repeats: then this may be before the request. If the figure has
+    /// to stand first, it is what is expected; the clip begins when the figure has settled, up to 1 s sooner or 3 s later.
     #[prost(double, tag = "1")]
     pub start_time_s: f64,
 }
@@ -3150,9 +3151,9 @@ pub mod motion_service_client {
                 .insert(GrpcMethod::new("sinew.v1.MotionService", "DeleteClip"));
             self.inner.unary(req, path, codec).await
         }
-        /// Lets a figure play a clip. One that walks, or is in the middle of another clip, finishes its step and stands first; until then the clip is
-        /// `Figure.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it
-        /// live.
+        /// Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else it finishes its step and
+        /// stands first, as does one in the middle of another clip. Until then the clip is `Figure.next_clip`, and a further call puts another one in
+        /// its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it live.
         pub async fn play_clip(
             &mut self,
             request: impl tonic::IntoRequest<super::PlayClipRequest>,
@@ -3300,9 +3301,9 @@ pub mod motion_service_server {
             tonic::Response<super::DeleteClipResponse>,
             tonic::Status,
         >;
-        /// Lets a figure play a clip. One that walks, or is in the middle of another clip, finishes its step and stands first; until then the clip is
-        /// `Figure.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it
-        /// live.
+        /// Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else it finishes its step and
+        /// stands first, as does one in the middle of another clip. Until then the clip is `Figure.next_clip`, and a further call puts another one in
+        /// its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it live.
         async fn play_clip(
             &self,
             request: tonic::Request<super::PlayClipRequest>,

@@ -770,9 +770,9 @@ class Figure:
     ) -> float:
         """Plays a clip from the next tick on, or from world time `start_s`; returns when its first frame plays, s.
 
-        A figure that walks, or is in the middle of another clip, finishes its step and stands first: the time is what is expected, and
-        until then `next_clip` of `get()` names the clip. `reset` puts the figure into the first posture at once; otherwise it moves there
-        by itself. It begins where the figure is, unless `position` and `yaw` are given.
+        A figure that walks goes over to it from step to step where the two motions are alike; else it finishes its step and stands first.
+        The time is what is expected then, and until then `next_clip` of `get()` names the clip. `reset` puts the figure into the first
+        posture at once; otherwise it moves there by itself. It begins where the figure is, unless `position` and `yaw` are given.
         """
         named = clip.name if isinstance(clip, Clip) else clip
         request = motion_pb2.PlayClipRequest(

@@ -98,7 +98,11 @@ impl Figure {
     pub fn set_drive(&mut self, drive: Drive) {
         self.gait.follow(match &drive {
             Drive::Clip(play) => {
-                let plan = StepPlan::new(&self.setup.body, &play.clip, play.looped);
+                let body = &self.setup.body;
+                let mut plan = StepPlan::new(body, &play.clip, play.looped);
+                if let Some(way) = &play.way_in {
+                    plan = plan.entered_by(body, way);
+                }
                 Some((plan, play.speed, play.origin))
             }
             Drive::Live(_) => Some((StepPlan::live(), 1.0, PlanarTransform::default())),
@@ -107,13 +111,13 @@ impl Figure {
         self.rising.reset();
         self.drive = drive;
         self.queued = None;
-        self.stopping = None;
+        self.leaving = None;
         self.ending = false;
     }
     /// The stream that drives it with a window, if one does: to feed it. One that is being stopped has ended.
     pub fn stream_mut(&mut self) -> Option<&mut LivePlayback> {
         match &mut self.drive {
-            Drive::Live(live) if self.stopping.is_none() => Some(live),
+            Drive::Live(live) if self.leaving.is_none() => Some(live),
             _ => None,
         }
     }
@@ -135,7 +139,7 @@ impl Figure {
     }
     /// Puts the figure into a state and forgets its past; loads stay.
     pub fn reset(&mut self, state: State) {
-        self.follow_stop();
+        self.follow_way_out();
         self.state = state;
         self.is_new = true;
         self.last_good = state;

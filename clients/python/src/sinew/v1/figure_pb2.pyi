@@ -415,7 +415,7 @@ class Figure(_message.Message):
     protective_steps: _builtins.bool
     """Step when the capture point has left the feet (CONTROLLER_MODERN). Absent: true."""
     next_clip: _builtins.str
-    """Clip that begins as soon as the figure stands, `clips/{clip}`; empty if none waits. Output only."""
+    """Clip that begins as soon as the figure stands or has gone over to it, `clips/{clip}`; empty if none waits. Output only."""
     @_builtins.property
     def profile(self) -> _body_pb2.BodyProfile:
         """Body by profile; only when `body` is empty. Fixed at creation."""

@@ -110,9 +110,9 @@ class MotionServiceServicer:
         raise NotImplementedError('Method not implemented!')
 
     def PlayClip(self, request, context):
-        """Lets a figure play a clip. One that walks, or is in the middle of another clip, finishes its step and stands first; until then the clip is
-        `Figure.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it
-        live.
+        """Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else it finishes its step and
+        stands first, as does one in the middle of another clip. Until then the clip is `Figure.next_clip`, and a further call puts another one in
+        its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it live.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')

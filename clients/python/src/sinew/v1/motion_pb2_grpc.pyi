@@ -42,9 +42,9 @@ class MotionServiceStub:
     DeleteClip: _grpc.UnaryUnaryMultiCallable[_motion_pb2.DeleteClipRequest, _motion_pb2.DeleteClipResponse]
     """Forgets a clip. Figures that play it go on. Built-in clips cannot be deleted."""
     PlayClip: _grpc.UnaryUnaryMultiCallable[_motion_pb2.PlayClipRequest, _motion_pb2.PlayClipResponse]
-    """Lets a figure play a clip. One that walks, or is in the middle of another clip, finishes its step and stands first; until then the clip is
-    `Figure.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it
-    live.
+    """Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else it finishes its step and
+    stands first, as does one in the middle of another clip. Until then the clip is `Figure.next_clip`, and a further call puts another one in
+    its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it live.
     """
     StopClip: _grpc.UnaryUnaryMultiCallable[_motion_pb2.StopClipRequest, _motion_pb2.StopClipResponse]
     """Ends a clip, and takes back the one that waits: a figure that walks finishes its step and comes to a stand, any other holds the posture
@@ -71,9 +71,9 @@ class MotionServiceAsyncStub(MotionServiceStub):
     DeleteClip: _aio.UnaryUnaryMultiCallable[_motion_pb2.DeleteClipRequest, _motion_pb2.DeleteClipResponse]  # type: ignore[assignment]
     """Forgets a clip. Figures that play it go on. Built-in clips cannot be deleted."""
     PlayClip: _aio.UnaryUnaryMultiCallable[_motion_pb2.PlayClipRequest, _motion_pb2.PlayClipResponse]  # type: ignore[assignment]
-    """Lets a figure play a clip. One that walks, or is in the middle of another clip, finishes its step and stands first; until then the clip is
-    `Figure.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it
-    live.
+    """Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else it finishes its step and
+    stands first, as does one in the middle of another clip. Until then the clip is `Figure.next_clip`, and a further call puts another one in
+    its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it live.
     """
     StopClip: _aio.UnaryUnaryMultiCallable[_motion_pb2.StopClipRequest, _motion_pb2.StopClipResponse]  # type: ignore[assignment]
     """Ends a clip, and takes back the one that waits: a figure that walks finishes its step and comes to a stand, any other holds the posture
@@ -127,9 +127,9 @@ class MotionServiceServicer(metaclass=_abc_1.ABCMeta):
         request: _motion_pb2.PlayClipRequest,
         context: _ServicerContext,
     ) -> _typing.Union[_motion_pb2.PlayClipResponse, _abc.Awaitable[_motion_pb2.PlayClipResponse]]:
-        """Lets a figure play a clip. One that walks, or is in the middle of another clip, finishes its step and stands first; until then the clip is
-        `Figure.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it
-        live.
+        """Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else it finishes its step and
+        stands first, as does one in the middle of another clip. Until then the clip is `Figure.next_clip`, and a further call puts another one in
+        its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it live.
         """
 
     @_abc_1.abstractmethod

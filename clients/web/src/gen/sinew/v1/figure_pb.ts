@@ -342,7 +342,7 @@ export type Figure = Message<"sinew.v1.Figure"> & {
   protectiveSteps?: boolean | undefined;
 
   /**
-   * Clip that begins as soon as the figure stands, `clips/{clip}`; empty if none waits. Output only.
+   * Clip that begins as soon as the figure stands or has gone over to it, `clips/{clip}`; empty if none waits. Output only.
    *
    * @generated from field: string next_clip = 19;
    */

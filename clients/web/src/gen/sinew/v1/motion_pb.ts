@@ -498,8 +498,9 @@ export const PlayClipRequestSchema: GenMessage<PlayClipRequest> = /*@__PURE__*/
  */
 export type PlayClipResponse = Message<"sinew.v1.PlayClipResponse"> & {
   /**
-   * World time at which its first frame plays, s: later than asked for by the length of the steps that lead into it. If the figure has to
-   * stand first, when that is expected; the clip begins up to 0.4 s sooner, as soon as the figure has settled, and at most 2 s later.
+   * World time at which its first frame plays, s: later than asked for by the length of the steps that lead into it. Gone over to from step to
+   * step, up to 0.4 s of a clip are left out, and up to a stride of one that repeats: then this may be before the request. If the figure has
+   * to stand first, it is what is expected; the clip begins when the figure has settled, up to 1 s sooner or 3 s later.
    *
    * @generated from field: double start_time_s = 1;
    */
@@ -1257,9 +1258,9 @@ export const MotionService: GenService<{
     output: typeof DeleteClipResponseSchema;
   },
   /**
-   * Lets a figure play a clip. One that walks, or is in the middle of another clip, finishes its step and stands first; until then the clip is
-   * `Figure.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it
-   * live.
+   * Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else it finishes its step and
+   * stands first, as does one in the middle of another clip. Until then the clip is `Figure.next_clip`, and a further call puts another one in
+   * its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it live.
    *
    * @generated from rpc sinew.v1.MotionService.PlayClip
    */

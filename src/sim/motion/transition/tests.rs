@@ -1,0 +1,100 @@
+//! Goal: a way from one motion into another begins and ends as they are, changes little where they do not differ, and lets no standing foot slide.
+//! Method: the built-in walk into itself, as it is and faster, and into standing.
+
+use super::*;
+use crate::sim::body::Posture;
+use crate::sim::body::topology::{L_FOOT, R_FOOT};
+use crate::sim::math::Vec3;
+use crate::sim::motion::builtin::builtin;
+use crate::sim::motion::foot_lock::Sole;
+use crate::sim::motion::leg_ik::forward;
+
+const NOW: usize = 70;
+
+/// The built-in walk with all but its last strides as the lead-in, and what there is of it from clip time `from` on, as ways know it.
+fn walked(body: &Body, from: f64) -> (Arc<Clip>, Vec<Sample>) {
+    let clip = builtin(body, "walk").unwrap();
+    let lead = (2.4 * clip.rate_hz()) as usize;
+    let clip = Arc::new(clip.with_ends(lead, 0));
+    let next = Next {
+        clip: Arc::clone(&clip),
+        speed: 1.0,
+        looped: false,
+    };
+    let count = ((RUN_UP + AHEAD + BEYOND) * RATE) as usize;
+    (clip, next.samples(from, count))
+}
+
+fn into(body: &Arc<Body>, known: &[Sample], clip: &Arc<Clip>, speed: f64) -> Ways {
+    let next = Next {
+        clip: Arc::clone(clip),
+        speed,
+        looped: false,
+    };
+    Ways::new(body, known.to_vec(), (NOW, NOW), next)
+}
+
+/// Largest difference of two postures, m and rad.
+fn apart(a: &Posture, b: &Posture) -> f64 {
+    let e = a.difference(b);
+    e.iter().fold(0.0, |m: f64, e| m.max(e.abs()))
+}
+
+#[test]
+fn a_walk_into_itself_goes_on_as_it_was() {
+    let body = Arc::new(Body::adult_man());
+    let (clip, known) = walked(&body, -0.6);
+    let ways = into(&body, &known, &clip, 1.0);
+    let moment = &ways.moments()[0];
+    assert!(moment.capture < 0.01 && moment.unlike < 0.02, "{moment:?}");
+    let (way, place) = ways.way(0).unwrap();
+    let mut worst = 0.0f64;
+    let whole = ((way.until - way.begin) * RATE) as usize;
+    for (i, (is, _)) in known.iter().enumerate().take(whole) {
+        let mut p = way.clip.sample(i as f64 / RATE).posture;
+        place.apply_posture(&mut p);
+        let off = apart(&p, is);
+        worst = worst.max(off);
+        assert!(i > NOW || off < 1e-9, "{i}: {off}");
+    }
+    // The pelvis is shifted where the walk itself has its zero-moment point at the edge.
+    assert!(worst < 0.05, "{worst}");
+}
+
+#[test]
+fn a_way_ends_as_the_clip_does_and_no_foot_slides_on_it() {
+    let body = Arc::new(Body::adult_man());
+    let (clip, known) = walked(&body, -0.5);
+    let soles = [0, 1].map(|s| Sole::new(&body, s));
+    for speed in [0.9, 1.0, 1.1] {
+        let ways = into(&body, &known, &clip, speed);
+        let (way, _) = ways.way(0).unwrap_or_else(|| panic!("at {speed}"));
+        for t in [way.until, way.until + 0.1 * speed] {
+            let (a, b) = (way.clip.sample(t - way.begin), clip.sample(t));
+            assert!(apart(&a.posture, &b.posture) < 1e-4, "at {speed}, {t} s");
+            let rates = a.velocity.iter().zip(&b.velocity);
+            let faster = rates.fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
+            assert!(faster < 0.02, "at {speed}, {t} s: {faster}");
+        }
+        let mut stood: [Option<Vec3>; 2] = [None; 2];
+        for (posture, planted) in way.clip.samples() {
+            let poses = forward(&body, posture);
+            let feet = [L_FOOT, R_FOOT];
+            for s in 0..2 {
+                let at = search::anchor(&soles[s], poses[feet[s].index()]).place;
+                let before = if planted[s] { stood[s] } else { None };
+                let slid = before.map_or(0.0, |b| (at - b).norm());
+                assert!(slid < 2e-4, "at {speed}: {slid} m in a sample");
+                stood[s] = planted[s].then_some(at);
+            }
+        }
+    }
+}
+
+#[test]
+fn nothing_of_a_walk_is_like_standing() {
+    let body = Arc::new(Body::adult_man());
+    let (_, known) = walked(&body, -0.6);
+    let idle = Arc::new(builtin(&body, "idle").unwrap());
+    assert!(into(&body, &known, &idle, 1.0).moments().is_empty());
+}

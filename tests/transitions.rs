@@ -1,0 +1,382 @@
+//! Goal: a figure goes over from one clip to another from step to step where the two are alike, and by a stand where they are not; what it was told last
+//! counts.
+//! Method: clips from the motion capture folder, asked for at moments spread over the first one, in torque simulation, 60 Hz with two substeps, the
+//! modern controller.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use common::{authored, figure, man, recorded, recorded_with};
+use sinew::evaluate::experiments::walk::Stance;
+use sinew::sim::body::Body;
+use sinew::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
+use sinew::sim::figure::ControllerKind;
+use sinew::sim::motion::{Clip, RetargetOptions, cycle};
+use sinew::sim::world::{ClipPlayback, Drive, FigureKey, World, WorldParams};
+use std::sync::Arc;
+
+const RATE: f64 = 60.0;
+/// Time after the other clip has begun in which the seam is looked at, s: a stride.
+const SEAM: f64 = 1.2;
+
+/// How a clip is played.
+#[derive(Clone)]
+struct Played {
+    clip: Arc<Clip>,
+    looped: bool,
+    speed: f64,
+}
+
+fn once(clip: &Arc<Clip>) -> Played {
+    Played {
+        clip: Arc::clone(clip),
+        looped: false,
+        speed: 1.0,
+    }
+}
+
+fn over_and_over(clip: &Arc<Clip>) -> Played {
+    Played {
+        looped: true,
+        ..once(clip)
+    }
+}
+
+impl Played {
+    /// From standing, at world time `time`.
+    fn playback(&self, time: f64) -> ClipPlayback {
+        ClipPlayback {
+            looped: self.looped,
+            speed: self.speed,
+            ..ClipPlayback::new(
+                Arc::clone(&self.clip),
+                time + self.clip.lead_in() / self.speed,
+            )
+        }
+    }
+
+    /// Its length with the ways in and out of it, s.
+    fn length(&self) -> f64 {
+        let c = &self.clip;
+        (c.lead_in() + c.duration() + c.lead_out()) / self.speed
+    }
+
+    /// The `k`-th of `n` moments spread over a round, or over the clip without its very ends, s from the beginning of [`begun`].
+    fn moment(&self, k: u32, n: u32) -> f64 {
+        let share = f64::from(k) / f64::from(n);
+        let c = &self.clip;
+        if self.looped {
+            c.duration() * (2.0 + share)
+        } else {
+            c.lead_in() + 0.1 + (c.duration() - 0.2) * share
+        }
+    }
+}
+
+/// A world with a figure that has played `what` for `seconds`.
+fn begun(body: &Arc<Body>, what: &Played, seconds: f64) -> (World, FigureKey) {
+    let from = if what.looped {
+        0.0
+    } else {
+        -what.clip.lead_in()
+    };
+    let mut world = World::new(WorldParams::default()).unwrap();
+    let start = what.clip.sample(from).state();
+    let key = world
+        .add_figure(figure(body, ControllerKind::Modern, start))
+        .unwrap();
+    let play = ClipPlayback {
+        start: -from,
+        ..what.playback(0.0)
+    };
+    world.figure_mut(key).unwrap().set_drive(Drive::Clip(play));
+    (0..(seconds * RATE) as usize).for_each(|_| world.step());
+    (world, key)
+}
+
+/// The clip that plays.
+fn playing(world: &World, key: FigureKey) -> &ClipPlayback {
+    match world.figure(key).unwrap().drive() {
+        Drive::Clip(play) => play,
+        other => panic!("no clip: {other:?}"),
+    }
+}
+
+/// From one clip to another, or to a stand, asked for at some moment.
+struct Passed {
+    /// When it fell, s after that.
+    fell: Option<f64>,
+    /// When the other clip began, s after that; whether from step to step.
+    began: f64,
+    over: bool,
+    /// Speed of the pelvis in the end, m/s.
+    speed: f64,
+    /// Farthest that the capture point was off, and that a foot slid in a stance, m, at the seam.
+    capture: f64,
+    slip: f64,
+}
+
+fn passes(body: &Arc<Body>, first: &Played, second: Option<&Played>, at: f64) -> Passed {
+    let (mut world, key) = begun(body, first, at);
+    let time = world.time();
+    let figure = world.figure_mut(key).unwrap();
+    let expected = second.map(|s| figure.play(s.playback(time), false, time));
+    if second.is_none() {
+        figure.stop(time);
+    }
+    let long = second.map_or(4.0, |s| s.length() + 2.0);
+    let mut out = Passed {
+        fell: None,
+        began: f64::NAN,
+        over: false,
+        speed: f64::NAN,
+        capture: 0.0,
+        slip: 0.0,
+    };
+    let mut stances = [Stance::default(), Stance::default()];
+    while out.began.is_nan() || world.time() < time + out.began + long {
+        let figure = world.figure(key).unwrap();
+        if out.began.is_nan() && figure.next_clip().is_none() {
+            out.began = world.time() - time;
+            if let (Some(s), Some(expected)) = (second, expected) {
+                let play = playing(&world, key);
+                assert!(Arc::ptr_eq(&play.clip, &s.clip));
+                out.over = play.way_in.is_some();
+                // What is told of a way over is what comes, unless another moment is taken.
+                assert!(!out.over || (play.start - expected).abs() < 1.5);
+            }
+        }
+        world.step();
+        let figure = world.figure(key).unwrap();
+        let report = figure.report().unwrap();
+        assert!(report.over_limit <= 1e-9);
+        if figure.is_fallen() {
+            out.fell = Some(world.time() - time);
+            return out;
+        }
+        let feet = [[L_FOOT, L_TOES], [R_FOOT, R_TOES]];
+        for (stance, segments) in stances.iter_mut().zip(feet) {
+            let slid = stance.observe(&report.contacts, segments);
+            if world.time() < time + out.began + SEAM {
+                out.slip = out.slip.max(slid);
+            }
+        }
+        if world.time() < time + out.began + SEAM {
+            let [x, y] = figure.gait().capture().error;
+            out.capture = out.capture.max(x.hypot(y));
+        }
+        assert!(world.time() < time + 60.0, "the other clip never begins");
+    }
+    let v = &world.figure(key).unwrap().state().velocity;
+    out.speed = v[3].hypot(v[4]);
+    out
+}
+
+#[test]
+fn clips_follow_each_other_from_step_to_step() {
+    let body = man();
+    let [walk, turn, around, carry, salsa] =
+        ["walk", "turn", "walk-around", "carry", "salsa-a"].map(|n| recorded(&body, n));
+    let walked = RetargetOptions {
+        walk_runs: true,
+        ..RetargetOptions::default()
+    };
+    let run = recorded_with(&body, "run", &walked);
+    let walks = over_and_over(&Arc::new(cycle(&body, &walk).unwrap()));
+    let faster = Played {
+        speed: 1.2,
+        ..once(&walk)
+    };
+    // Of eight moments so many are left from step to step; who dances sideways is seldom like one who walks.
+    for (what, first, second, least) in [
+        ("walk to turn", &walks, once(&turn), 8),
+        ("walk to walk-around", &walks, once(&around), 8),
+        ("walk to carry", &walks, once(&carry), 8),
+        ("walk to run, walked", &walks, once(&run), 8),
+        ("walk to walk", &walks, once(&walk), 8),
+        ("walk to a faster walk", &walks, faster, 8),
+        ("turn to walk", &once(&turn), once(&walk), 8),
+        ("walk-around to walk", &once(&around), walks.clone(), 5),
+        ("salsa-a to walk", &once(&salsa), once(&walk), 2),
+    ] {
+        let (mut over, mut longest) = (0, 0.0f64);
+        let (mut capture, mut slip) = (0.0f64, 0.0f64);
+        for k in 0..8 {
+            let at = first.moment(k, 8);
+            let p = passes(&body, first, Some(&second), at);
+            assert!(p.fell.is_none(), "{what} at {at:.2} s: fell {:?}", p.fell);
+            assert!(second.looped || p.speed < 0.1, "{what} at {at:.2} s");
+            if p.over {
+                over += 1;
+                longest = longest.max(p.began);
+                capture = capture.max(p.capture);
+                slip = slip.max(p.slip);
+            }
+        }
+        let (capture, slip) = (1e3 * capture, 1e3 * slip);
+        println!(
+            "{what}: {over} of 8, within {longest:.2} s, capture point off by {capture:.0} mm, slip {slip:.1} mm"
+        );
+        assert!(over >= least, "{what}: {over} of 8");
+        assert!(longest < 1.7 && capture < 110.0 && slip < 3.0, "{what}");
+    }
+}
+
+#[test]
+fn a_walk_that_is_followed_by_itself_goes_on() {
+    let body = man();
+    let walks = over_and_over(&Arc::new(cycle(&body, &recorded(&body, "walk")).unwrap()));
+    for k in 0..8 {
+        let at = walks.moment(k, 8);
+        let p = passes(&body, &walks, Some(&walks), at);
+        assert!(p.over && p.fell.is_none() && p.began < 0.5, "at {at:.2} s");
+        // A walk that just goes on is off by 25 mm.
+        assert!(p.capture < 0.03, "at {at:.2} s: {} m", p.capture);
+        assert!(p.slip < 1.5e-3, "at {at:.2} s: {} m", p.slip);
+    }
+}
+
+#[test]
+fn what_begins_standing_waits_for_a_stand() {
+    let body = man();
+    let [walk, turn, idle, wave] =
+        ["walk", "turn", "idle", "wave"].map(|name| recorded(&body, name));
+    let walks = over_and_over(&Arc::new(cycle(&body, &walk).unwrap()));
+    let squat = authored(&body, "squat");
+    let (mut all, mut fallen) = (0, Vec::new());
+    for (what, first, second, at) in [
+        ("walk to idle", &walks, Some(once(&idle)), 3.0),
+        ("walk to wave", &walks, Some(once(&wave)), 3.0),
+        ("walk to standing", &walks, None, 3.0),
+        ("wave to walk", &once(&wave), Some(once(&walk)), 3.0),
+        ("wave to turn", &once(&wave), Some(once(&turn)), 1.0),
+        ("squat to walk", &once(&squat), Some(once(&walk)), 1.0),
+    ] {
+        print!("{what}:");
+        for phase in 0..4 {
+            let at = at + 0.28 * f64::from(phase);
+            let p = passes(&body, first, second.as_ref(), at);
+            print!(" after {:.1} s", p.began);
+            all += 1;
+            match p.fell {
+                Some(t) => {
+                    print!(" fell at {t:.1} s");
+                    fallen.push(format!("{what} at {at:.2} s"));
+                }
+                None => assert!(p.speed < 0.1, "{what} at {at:.2} s: {} m/s", p.speed),
+            }
+            assert!(!p.over, "{what} at {at:.2} s");
+            let never = p.began.is_nan() && p.fell.is_some();
+            assert!(never || p.began < 4.0, "{what} at {at:.2} s: {} s", p.began);
+            print!(",");
+        }
+        println!();
+    }
+    println!("fell: {fallen:?} of {all}");
+    assert!(fallen.len() <= 1);
+}
+
+#[test]
+fn what_waits_can_be_taken_back_and_what_stands_begins_at_once() {
+    let body = man();
+    let [walk, idle] = ["walk", "idle"].map(|n| once(&recorded(&body, n)));
+    let (mut world, key) = begun(&body, &walk, 2.5);
+    let time = world.time();
+    let figure = world.figure_mut(key).unwrap();
+    let expected = figure.play(idle.playback(time), false, time);
+    assert!(expected > time + 1.0);
+    // Once more: it is on its way to a stand already, and only what comes then is replaced.
+    assert_eq!(figure.play(idle.playback(time), false, time), expected);
+    assert!(figure.next_clip().is_some());
+    figure.stop(time);
+    assert!(figure.next_clip().is_none());
+    (0..300).for_each(|_| world.step());
+    let time = world.time();
+    let figure = world.figure_mut(key).unwrap();
+    assert!(!figure.is_fallen());
+    let begins = figure.play(walk.playback(time), false, time);
+    assert_eq!(begins, time + walk.clip.lead_in());
+    assert!(figure.next_clip().is_none());
+}
+
+/// Told to turn, and told something else before it has begun to: in the same tick, when the way is decided, and on that way.
+#[test]
+fn who_goes_over_does_what_it_was_told_last() {
+    let body = man();
+    let [walk, turn, around] = ["walk", "turn", "walk-around"].map(|n| recorded(&body, n));
+    let walks = over_and_over(&Arc::new(cycle(&body, &walk).unwrap()));
+    for later in [0, 3, 6, 30] {
+        for stop in [true, false] {
+            let (mut world, key) = begun(&body, &walks, 5.0);
+            let time = world.time();
+            let figure = world.figure_mut(key).unwrap();
+            figure.play(once(&turn).playback(time), false, time);
+            let next = figure.next_clip().cloned();
+            assert!(next.is_some_and(|c| Arc::ptr_eq(&c, &turn)));
+            (0..later).for_each(|_| world.step());
+            let time = world.time();
+            let figure = world.figure_mut(key).unwrap();
+            if stop {
+                figure.stop(time);
+                (0..300).for_each(|_| world.step());
+                let figure = world.figure(key).unwrap();
+                let v = &figure.state().velocity;
+                let stands = v[3].hypot(v[4]) < 0.1 && !figure.is_fallen();
+                assert!(stands, "{later} ticks later");
+                continue;
+            }
+            figure.play(once(&around).playback(time), false, time);
+            let next = figure.next_clip().cloned();
+            assert!(next.is_some_and(|c| Arc::ptr_eq(&c, &around)));
+            (0..240).for_each(|_| world.step());
+            let figure = world.figure(key).unwrap();
+            assert!(!figure.is_fallen() && figure.next_clip().is_none());
+            assert!(Arc::ptr_eq(&playing(&world, key).clip, &around));
+        }
+    }
+}
+
+/// The way over is worked out aside and taken four ticks later, whether it has been done for long by then, has just begun, or has found nobody to work it
+/// out; until the one clip turns into the other, the other one is the next.
+#[test]
+fn a_way_over_is_taken_at_its_tick_however_fast_it_is_worked_out() {
+    let body = man();
+    let [walk, turn] = ["walk", "turn"].map(|n| recorded(&body, n));
+    let walks = over_and_over(&Arc::new(cycle(&body, &walk).unwrap()));
+    let goes_over = |wait: u64, others: usize| {
+        let (mut world, key) = begun(&body, &walks, 5.3);
+        // Plans of figures that are gone before they are needed.
+        for _ in 0..others {
+            let (mut other, key) = begun(&body, &walks, 2.0);
+            let time = other.time();
+            let figure = other.figure_mut(key).unwrap();
+            figure.play(once(&turn).playback(time), false, time);
+            assert!(other.remove_figure(key));
+        }
+        let time = world.time();
+        let figure = world.figure_mut(key).unwrap();
+        let expected = figure.play(once(&turn).playback(time), false, time);
+        let (_keep, nothing) = std::sync::mpsc::sync_channel::<()>(0);
+        let _ = nothing.recv_timeout(std::time::Duration::from_millis(wait));
+        let (mut taken, mut entered) = (None, None);
+        for tick in 0..120 {
+            world.step();
+            let waits = world.figure(key).unwrap().next_clip().is_some();
+            let play = playing(&world, key);
+            assert!(waits || Arc::ptr_eq(&play.clip, &turn));
+            if taken.is_none() && play.way_in.is_some() {
+                assert!((play.start - expected).abs() < 1e-9);
+                taken = Some(tick);
+            }
+            if entered.is_none() && !waits {
+                entered = Some(tick);
+            }
+        }
+        assert_eq!(taken, Some(4), "ticks of 1/60 s");
+        assert!(entered > Some(8), "it walks on until the seam");
+        world.state_hash()
+    };
+    let at_once = goes_over(0, 0);
+    assert_eq!(goes_over(300, 0), at_once);
+    assert_eq!(goes_over(0, 3), at_once);
+}
