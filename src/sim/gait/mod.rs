@@ -6,7 +6,10 @@
 pub mod anchor;
 pub mod balance;
 pub mod catch;
+mod events;
 pub mod plan;
+mod swings;
+mod unplanned;
 
 pub use balance::Capture;
 pub use catch::{Catch, Purpose};
@@ -23,41 +26,19 @@ use crate::sim::motion::leg_ik::forward;
 use crate::sim::motion::{LiveMotion, PlanarTransform, Target, TargetPair};
 use crate::sim::support::Support;
 use anchor::Anchor;
+use swings::follow_mass;
+use unplanned::is_untidy;
 
 const FOOT: [SegmentId; 2] = [L_FOOT, R_FOOT];
 const TOES: [SegmentId; 2] = [L_TOES, R_TOES];
 /// A sole lower than this touches, m.
 const TOUCH: f64 = 0.004;
-/// A foot may land this long before its time, s; earlier touches are scuffs.
-const EARLY: f64 = 0.06;
-/// Who comes down from a flight may do so this long before, s.
-const EARLY_DOWN: f64 = 0.2;
 /// A flight is looked ahead to for so long, s.
 const AHEAD: f64 = 0.2;
-/// A foot that finds no floor counts as planted after this time, s; until then it goes down at this speed, m/s.
-const LATE: f64 = 0.15;
-const LOWERING: f64 = 0.5;
-/// Rate at which the plan catches up with a foot that landed early.
-const HURRY: f64 = 2.0;
-/// Rate at which a figure that is behind its stream makes up for it, and how far it may fall behind in a step of its own, s.
-const CATCH_UP: f64 = 1.05;
-const MOST_BEHIND: f64 = 0.5;
-/// Time over which a lifting foot gives up its offset from the plan, s.
-const RELEASE: f64 = 0.25;
-/// Part of a swing in which the foot is led to its displaced foothold.
-const SWING_SHARE: f64 = 0.9;
-/// Least height of a swinging sole, m, and how fast it must come up and may come down, m/s.
-const CLEARANCE: f64 = 0.03;
-const CLEARANCE_RATE: f64 = 0.35;
-/// Share of its distance from home by which a foothold is pulled there, and the most, m. A foothold that is pulled is that far from where it would
-/// catch the body, and one foot holds no more than this against it to its side: with 4 cm a body that was moved drifted on.
-const HOME: (f64, f64) = (0.3, 0.015);
 /// Time in which a motion that ended turns into standing, s.
 const EASE: f64 = 0.6;
 /// A body slower than this, and a capture point closer to its place than this, is settled: m/s and m.
 const SETTLED: (f64, f64) = (0.1, 0.03);
-/// A capture point this far from where the clip has it is not where it is meant to be, m.
-const ASTRAY: f64 = 0.06;
 /// Slowest clip-time rate that counts as playing at all.
 const STILL: f64 = 1e-9;
 
@@ -131,25 +112,6 @@ fn stance_points(support: &Support, side: usize) -> impl Iterator<Item = [f64; 2
 fn middle(feet: &catch::Places) -> (Vec3, f64) {
     let yaw = feet[0].1 + 0.5 * anchor::wrapped(feet[1].1 - feet[0].1);
     ((feet[0].0 + feet[1].0) * 0.5, yaw)
-}
-
-/// Leads the feet of who flies about his centre of mass, whose way nothing changes: led to where the motion has them they would pull the legs up
-/// or stretch them, and turn the trunk.
-fn follow_mass(terms: &Terms, dt: f64, tasks: &mut Led<'_>) {
-    let off = terms.com - tasks.com.now;
-    let drift = terms.com_velocity - tasks.com.now_velocity;
-    for (foot, _) in tasks.feet.iter_mut() {
-        foot.now += off;
-        foot.next += off + drift * dt;
-        foot.now_velocity += drift;
-        foot.next_velocity += drift;
-    }
-}
-
-/// True if a foot is not where it is meant to be.
-fn is_untidy(is: (Vec3, f64), meant: (Vec3, f64)) -> bool {
-    (is.0 - meant.0).norm() > catch::UNTIDY.0
-        || anchor::wrapped(is.1 - meant.1).abs() > catch::UNTIDY.1
 }
 
 /// A point of the floor.
@@ -461,104 +423,6 @@ impl Gait {
         })
     }
 
-    /// Contact by events: lifts feet when planned, plants them when they touch. Returns the rate at which the plan goes on.
-    fn schedule(&mut self, terms: &Terms, dt: f64, sample: impl Fn() -> Target) -> f64 {
-        // A stream does not wait for its figure: what it is behind it makes up for. Nor can it be ahead of what has come.
-        let live = self.plan.as_ref().is_some_and(StepPlan::is_live);
-        let most = |rate: f64| {
-            if live {
-                (1.0 + self.lag / dt).clamp(1.0, rate)
-            } else {
-                rate
-            }
-        };
-        let (mut rate, hurry) = (if live { most(CATCH_UP) } else { 1.0 }, most(HURRY));
-        if self.step.is_some() {
-            return if self.lag < MOST_BEHIND { 0.0 } else { rate };
-        }
-        let mut lifted = [false; 2];
-        let comes_down = self.started && self.flies() && terms.com_velocity.z < 0.0;
-        let early = if comes_down { EARLY_DOWN } else { EARLY };
-        if !self.started {
-            self.started = true;
-            for side in 0..2 {
-                self.feet[side].down = self.planned(side).is_some();
-                self.feet[side].lifted = self.last_off(side);
-            }
-        }
-        for side in 0..2 {
-            let planned = self.planned(side);
-            let touches = self.lowest(terms, side) < TOUCH;
-            let mut foot = self.feet[side];
-            if foot.down {
-                if planned.is_some() {
-                    foot.early = false;
-                } else if foot.early {
-                    rate = hurry;
-                } else {
-                    let other = 1 - side;
-                    let waits = !self.feet[other].down && self.planned(other).is_some();
-                    if !waits {
-                        foot.down = false;
-                        foot.lifted = self.phase;
-                        foot.shift = [0.0; 2];
-                        foot.late = 0.0;
-                        lifted[side] = true;
-                    }
-                }
-                self.feet[side] = foot;
-                continue;
-            }
-            if let Some(f) = planned {
-                if touches || foot.late > LATE {
-                    self.land(terms, side, &f, foot.late);
-                } else {
-                    rate = 0.0;
-                    self.feet[side].late += dt;
-                }
-            } else if touches
-                && let Some(f) = self.next(side)
-                && (f.on - self.phase) / self.speed < early
-            {
-                self.land(terms, side, &f, (self.phase - f.on) / self.speed);
-                self.feet[side].early = true;
-            }
-        }
-        if lifted != [false; 2] {
-            let mut target = sample();
-            self.anchor.transform().apply_to(&mut target);
-            let poses = self.capture.feet(&target.posture);
-            for side in 0..2 {
-                if lifted[side] {
-                    self.feet[side].release =
-                        terms.segment_position(FOOT[side].index()) - poses[side].0;
-                }
-            }
-        }
-        rate
-    }
-
-    fn land(&mut self, terms: &Terms, side: usize, planned: &Footfall, late: f64) {
-        let planned = self.placed(planned);
-        let s = FOOT[side].index();
-        let (actual, yaw) = plan::place(
-            &self.soles[side],
-            terms.segment_position(s),
-            Quat::from_mat3(&terms.kin.rotation[s]),
-        );
-        self.landing = Some(Landing {
-            side,
-            late,
-            off: actual - self.anchor.point(planned.place),
-        });
-        self.anchor.land(planned.place, planned.yaw, actual, yaw);
-        let foot = &mut self.feet[side];
-        foot.down = true;
-        foot.early = false;
-        foot.late = 0.0;
-        foot.shift = [0.0; 2];
-    }
-
     /// Height of the lowest point of a sole, m.
     fn lowest(&self, terms: &Terms, side: usize) -> f64 {
         let mut low = f64::INFINITY;
@@ -623,187 +487,6 @@ impl Gait {
         self.flight.as_ref().map(|(after, target)| (*after, target))
     }
 
-    /// A standing foot keeps the heading it landed with: it could only be turned by scraping.
-    fn keep_headings(&self, terms: &Terms, feet: &mut [(PointTarget, RotationTarget); 2]) {
-        for (side, (_, target)) in feet.iter_mut().enumerate() {
-            let swings = self.step.is_some_and(|s| s.side == side)
-                || (self.walks() && !self.feet[side].down);
-            if swings {
-                continue;
-            }
-            let actual = Quat::from_mat3(&terms.kin.rotation[FOOT[side].index()]);
-            let off = plan::heading(actual).0 - plan::heading(target.now).0;
-            let turn = Quat::exp(Vec3::Z * anchor::wrapped(off));
-            target.now = turn * target.now;
-            target.next = turn * target.next;
-        }
-    }
-
-    fn lead_planned(
-        &mut self,
-        terms: &Terms,
-        side: usize,
-        dt: f64,
-        target: &mut (PointTarget, RotationTarget),
-    ) {
-        if self.feet[side].down {
-            if self.feet[side].early {
-                self.lower_early(side, target);
-            }
-            return;
-        }
-        let (current, next) = (self.planned(side), self.next(side));
-        if let Some(f) = current.or(next) {
-            self.adapt(terms, side, &f, dt);
-        }
-        let foot = self.feet[side];
-        let since = (self.phase - foot.lifted).max(0.0) / self.speed;
-        let on = match (current, next) {
-            (Some(_), _) => self.phase,
-            (None, Some(f)) => f.on,
-            (None, None) => self.phase + self.speed,
-        };
-        let remaining = (on - self.phase).max(0.0) / self.speed;
-        let u = (since / (since + remaining).max(0.1) / SWING_SHARE).clamp(0.0, 1.0);
-        let s = u * u * u * (10.0 - 15.0 * u + 6.0 * u * u);
-        let kept = (1.0 - since / RELEASE).max(0.0);
-        let mut offset = foot.release * (kept * kept);
-        offset.x += s * foot.shift[0];
-        offset.y += s * foot.shift[1];
-        let wanted = CLEARANCE
-            .min(CLEARANCE_RATE * since)
-            .min(CLEARANCE_RATE * remaining);
-        offset.z += (wanted - self.lowest(terms, side)).clamp(0.0, CLEARANCE);
-        let target = &mut target.0;
-        if foot.late > 0.0 {
-            offset.z -= LOWERING * foot.late;
-            target.now_velocity = Vec3::Z * -LOWERING;
-            target.next_velocity = Vec3::Z * -LOWERING;
-        }
-        target.now += offset;
-        target.next += offset;
-    }
-
-    /// Steps that no clip planned: catches a body whose capture point has left its feet, then brings the feet back together.
-    fn catch(
-        &mut self,
-        terms: &Terms,
-        support: &Support,
-        dt: f64,
-        (now, home): (&catch::Places, &catch::Places),
-        tasks: &mut Led<'_>,
-    ) {
-        let xi = self.capture.point();
-        let Some(nearest) = support.polygon().closest(xi) else {
-            return;
-        };
-        if self.step.is_none() {
-            self.decide(terms, support, now, home, (xi, nearest.margin));
-        }
-        // Lean over the foot that is going to stand alone, and back.
-        let leaning = self.tidying.map(|side| {
-            let (place, yaw) = now[1 - side];
-            place + Quat::exp(Vec3::Z * yaw).rotate(Vec3::X * catch::SOLE_MIDDLE) - tasks.com.now
-        });
-        let wanted = leaning.unwrap_or_default();
-        let way = Vec3 {
-            z: 0.0,
-            ..wanted - self.lean
-        };
-        let most = catch::LEAN_SPEED * dt;
-        let far = way.norm();
-        self.lean += if far > most { way * (most / far) } else { way };
-        tasks.com.now += self.lean;
-        tasks.com.next += self.lean;
-
-        let Some(step) = &mut self.step else { return };
-        let zmp = self.capture.hold(stance_points(support, step.side), xi);
-        step.aim(xi, zmp, self.capture.omega(), (home, now), self.leg);
-        step.lead(&self.soles[step.side], dt, &mut tasks.feet[step.side]);
-        let step = *step;
-        if step.overdue() || (step.may_land() && self.lowest(terms, step.side) < TOUCH) {
-            self.step = None;
-            self.tidying = None;
-            self.feet[step.side].down = true;
-            self.landing = Some(Landing {
-                side: step.side,
-                late: step.since - step.duration(),
-                off: now[step.side].0 - home[step.side].0,
-            });
-            if step.purpose != Purpose::Tidy {
-                self.anchor.pin(home[step.side].0, now[step.side].0);
-            }
-        }
-    }
-
-    /// Begins a step if the body needs one.
-    fn decide(
-        &mut self,
-        terms: &Terms,
-        support: &Support,
-        now: &catch::Places,
-        home: &catch::Places,
-        (xi, margin): ([f64; 2], f64),
-    ) {
-        let points = support.points().iter();
-        let on_feet = support.rests().is_empty()
-            && points
-                .map(|p| p.support)
-                .all(|s| FOOT.contains(&s) || TOES.contains(&s));
-        let start = |side: usize, purpose: Purpose| {
-            let ankle = terms.segment_position(FOOT[side].index());
-            Some(Catch::new(side, purpose, ankle, now[side].1))
-        };
-        if !on_feet || margin < -catch::HOPELESS {
-            return;
-        }
-        // The foot that carries less swings.
-        let carried =
-            |side: usize| support.load()[FOOT[side].index()] + support.load()[TOES[side].index()];
-        let side = usize::from(carried(1) <= carried(0));
-        // Places to the own side of the stance foot are positive.
-        let outward = |p: Vec3| {
-            let (at, yaw) = now[1 - side];
-            let y = Quat::exp(Vec3::Z * -yaw).rotate(p - at).y;
-            if side == 0 { y } else { -y }
-        };
-        // Feet that a clip is about to move again stay where it has them, if they hold the body.
-        let goes_on = |p: &StepPlan| !p.is_live() && !p.is_over(self.phase);
-        let own = self.ended.is_none() && self.plan.as_ref().is_some_and(goes_on);
-        let crossed = !own && outward(now[side].0) < 0.5 * catch::BESIDE;
-        // A body that walks leaves its feet on purpose; one that is off its plan does not.
-        let meant = own && self.capture.off() < ASTRAY;
-        if (margin < -catch::LOST && !meant) || crossed {
-            self.tidying = None;
-            self.step = start(
-                side,
-                if crossed {
-                    Purpose::CatchBeside
-                } else {
-                    Purpose::Catch
-                },
-            );
-            return;
-        }
-        if own {
-            return;
-        }
-        if let Some(side) = self.tidying {
-            let over = now[1 - side];
-            let stance = over.0 + Quat::exp(Vec3::Z * over.1).rotate(Vec3::X * catch::SOLE_MIDDLE);
-            if (level(xi) - level([stance.x, stance.y])).norm() < SETTLED.1 {
-                self.step = start(side, Purpose::Tidy);
-            }
-            return;
-        }
-        let settled = terms.com_velocity.norm() < SETTLED.0
-            && self.capture.off() < SETTLED.1
-            && self.lean.norm() < 1e-3;
-        if settled {
-            self.tidying = (0..2).find(|k| is_untidy(now[*k], home[*k]));
-        }
-    }
-
     /// A foothold of the clip where its origin puts it.
     fn placed(&self, f: &Footfall) -> Footfall {
         Footfall {
@@ -825,37 +508,5 @@ impl Gait {
         self.plan
             .as_ref()
             .map_or(0.0, |p| p.last_off(side, self.phase))
-    }
-
-    /// A foot that landed before its time stands where the plan still has it in the air.
-    fn lower_early(&self, side: usize, target: &mut (PointTarget, RotationTarget)) {
-        let low = target.0.next.z + self.soles[side].lowest(target.1.next, 0.0);
-        target.0.now.z -= low.max(0.0);
-        target.0.next.z -= low.max(0.0);
-    }
-
-    /// Displacement of the foothold `f` of a swinging foot.
-    fn adapt(&mut self, terms: &Terms, side: usize, f: &Footfall, dt: f64) {
-        let f = self.placed(f);
-        let foot = &self.feet[side];
-        let remaining = (f.on - self.phase).max(0.0) / self.speed;
-        let home = self.anchor.point(f.place);
-        let away = home - f.place;
-        let pull = HOME
-            .0
-            .min(HOME.1 / level([away.x, away.y]).norm().max(1e-9));
-        let mut d = self.capture.left_over(remaining);
-        d[0] -= pull * away.x;
-        d[1] -= pull * away.y;
-        let stance = terms.segment_position(FOOT[1 - side].index());
-        let heading = self.anchor.yaw() + f.yaw;
-        let d = balance::within_reach(d, home, stance, heading, side);
-        if remaining > balance::FREEZE || foot.shift == [0.0; 2] {
-            let a = balance::smoothing(dt);
-            let foot = &mut self.feet[side];
-            for (x, y) in foot.shift.iter_mut().zip(d) {
-                *x += a * (y - *x);
-            }
-        }
     }
 }

@@ -1,0 +1,119 @@
+//! Contact by events: feet are down when they touch, not when the clock says (WALKING §3).
+
+use super::plan::{self, Footfall, StepPlan};
+use super::{FOOT, Gait, Landing, TOUCH};
+use crate::sim::dynamics::Terms;
+use crate::sim::math::Quat;
+use crate::sim::motion::Target;
+
+/// A foot may land this long before its time, s; earlier touches are scuffs.
+const EARLY: f64 = 0.06;
+/// Who comes down from a flight may do so this long before, s.
+const EARLY_DOWN: f64 = 0.2;
+/// A foot that finds no floor counts as planted after this time, s.
+const LATE: f64 = 0.15;
+/// Rate at which the plan catches up with a foot that landed early.
+const HURRY: f64 = 2.0;
+/// Rate at which a figure that is behind its stream makes up for it, and how far it may fall behind in a step of its own, s.
+const CATCH_UP: f64 = 1.05;
+const MOST_BEHIND: f64 = 0.5;
+
+impl Gait {
+    /// Contact by events: lifts feet when planned, plants them when they touch. Returns the rate at which the plan goes on.
+    pub(super) fn schedule(&mut self, terms: &Terms, dt: f64, sample: impl Fn() -> Target) -> f64 {
+        // A stream does not wait for its figure: what it is behind it makes up for. Nor can it be ahead of what has come.
+        let live = self.plan.as_ref().is_some_and(StepPlan::is_live);
+        let most = |rate: f64| {
+            if live {
+                (1.0 + self.lag / dt).clamp(1.0, rate)
+            } else {
+                rate
+            }
+        };
+        let (mut rate, hurry) = (if live { most(CATCH_UP) } else { 1.0 }, most(HURRY));
+        if self.step.is_some() {
+            return if self.lag < MOST_BEHIND { 0.0 } else { rate };
+        }
+        let mut lifted = [false; 2];
+        let comes_down = self.started && self.flies() && terms.com_velocity.z < 0.0;
+        let early = if comes_down { EARLY_DOWN } else { EARLY };
+        if !self.started {
+            self.started = true;
+            for side in 0..2 {
+                self.feet[side].down = self.planned(side).is_some();
+                self.feet[side].lifted = self.last_off(side);
+            }
+        }
+        for side in 0..2 {
+            let planned = self.planned(side);
+            let touches = self.lowest(terms, side) < TOUCH;
+            let mut foot = self.feet[side];
+            if foot.down {
+                if planned.is_some() {
+                    foot.early = false;
+                } else if foot.early {
+                    rate = hurry;
+                } else {
+                    let other = 1 - side;
+                    let waits = !self.feet[other].down && self.planned(other).is_some();
+                    if !waits {
+                        foot.down = false;
+                        foot.lifted = self.phase;
+                        foot.shift = [0.0; 2];
+                        foot.late = 0.0;
+                        lifted[side] = true;
+                    }
+                }
+                self.feet[side] = foot;
+                continue;
+            }
+            if let Some(f) = planned {
+                if touches || foot.late > LATE {
+                    self.land(terms, side, &f, foot.late);
+                } else {
+                    rate = 0.0;
+                    self.feet[side].late += dt;
+                }
+            } else if touches
+                && let Some(f) = self.next(side)
+                && (f.on - self.phase) / self.speed < early
+            {
+                self.land(terms, side, &f, (self.phase - f.on) / self.speed);
+                self.feet[side].early = true;
+            }
+        }
+        if lifted != [false; 2] {
+            let mut target = sample();
+            self.anchor.transform().apply_to(&mut target);
+            let poses = self.capture.feet(&target.posture);
+            for side in 0..2 {
+                if lifted[side] {
+                    self.feet[side].release =
+                        terms.segment_position(FOOT[side].index()) - poses[side].0;
+                }
+            }
+        }
+        rate
+    }
+
+    fn land(&mut self, terms: &Terms, side: usize, planned: &Footfall, late: f64) {
+        let planned = self.placed(planned);
+        let s = FOOT[side].index();
+        let (actual, yaw) = plan::place(
+            &self.soles[side],
+            terms.segment_position(s),
+            Quat::from_mat3(&terms.kin.rotation[s]),
+        );
+        self.landing = Some(Landing {
+            side,
+            late,
+            off: actual - self.anchor.point(planned.place),
+        });
+        self.anchor.land(planned.place, planned.yaw, actual, yaw);
+        let foot = &mut self.feet[side];
+        foot.down = true;
+        foot.early = false;
+        foot.late = 0.0;
+        foot.shift = [0.0; 2];
+    }
+}
