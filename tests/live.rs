@@ -233,6 +233,21 @@ fn a_streamed_walk_goes_on() {
 }
 
 #[test]
+fn a_streamed_jump_is_landed_where_the_window_sees_the_landing() {
+    let body = man();
+    let raw = bare(&body, "jump");
+    let seconds = raw.duration();
+    let f = follow(&body, |t| Some(raw.sample(t).posture), seconds, 1.0);
+    println!(
+        "joints {:.2} deg rms, capture point within {:.0} mm",
+        f.joints,
+        1e3 * f.capture
+    );
+    assert_eq!(f.fell, None);
+    assert!(f.joints < 5.0);
+}
+
+#[test]
 fn a_driver_that_goes_silent_leaves_its_figure_standing() {
     let body = man();
     let walk = cycle(&body, &recorded(&body, "walk")).unwrap();

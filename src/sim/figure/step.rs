@@ -31,7 +31,7 @@ use crate::sim::body::topology::DOF_COUNT;
 use crate::sim::body::{Body, Links, Posture, State};
 use crate::sim::collide::shape::BodyShape;
 use crate::sim::contact::Tissue;
-use crate::sim::control::{Command, Modern, Paper, TakeOff};
+use crate::sim::control::{Command, Modern, Paper};
 use crate::sim::dynamics::{Kinematics, Terms, center_of_mass};
 use crate::sim::gait::{Gait, Led};
 use crate::sim::math::Vec3;
@@ -329,10 +329,7 @@ impl Figure {
                 world.dt,
                 &mut led,
             );
-            take_off = self.gait.coming_flight().map(|(after, middle)| TakeOff {
-                after,
-                spin: self.tasks.spin(&self.links, middle),
-            });
+            take_off = self.take_off();
         }
         self.prescribed = self.prescribes();
         let (lower, upper) = (self.pending.lower, self.pending.upper);

@@ -70,6 +70,15 @@ pub struct Landing {
     pub off: Vec3,
 }
 
+/// A flight of the motion that is still to come.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flight {
+    /// Time until no foot is to be on the floor, s.
+    pub after: f64,
+    /// World time at which the motion has its middle, if nothing delays it, s.
+    pub middle: f64,
+}
+
 /// What the gait may change in a tick.
 #[derive(Debug)]
 pub struct Led<'a> {
@@ -145,8 +154,7 @@ pub struct Gait {
     /// Clip time now, s.
     phase: f64,
     capture: Capture,
-    /// Time until a flight of the motion, s, and the motion in the middle of it.
-    flight: Option<(f64, Target)>,
+    flight: Option<Flight>,
     landing: Option<Landing>,
     step: Option<Catch>,
     /// Foot that is about to be brought back, or is.
@@ -344,12 +352,7 @@ impl Gait {
             let rate = self.schedule(terms, dt, || pair(now, now).now);
             self.lag += (1.0 - rate) * dt;
             out = pair(now, time + dt - self.lag);
-            self.flight = self.plan.as_ref().and_then(|plan| {
-                let (off, on) = plan.next_flight(self.phase)?;
-                let soon = (off - self.phase).max(0.0) / self.speed;
-                let middle = now + (0.5 * (off + on) - self.phase) / self.speed;
-                (soon < AHEAD && !self.flies()).then(|| (soon, pair(middle, middle).now))
-            });
+            self.flight = self.coming(now).filter(|f| f.after < AHEAD);
             planted = [self.feet[0].down, self.feet[1].down];
         } else {
             out = pair(time, time + dt);
@@ -357,9 +360,6 @@ impl Gait {
         }
         if self.anchor != Anchor::default() {
             let place = self.anchor.transform();
-            if let Some((_, middle)) = &mut self.flight {
-                place.apply_to(middle);
-            }
             place.apply_to(&mut out.now);
             place.apply_to(&mut out.next);
         }
@@ -482,9 +482,24 @@ impl Gait {
         self.feet.iter().all(|foot| !foot.down)
     }
 
-    /// The flight that the motion has next, if it begins soon: time until then, s, and the motion in the middle of it.
-    pub fn coming_flight(&self) -> Option<(f64, &Target)> {
-        self.flight.as_ref().map(|(after, target)| (*after, target))
+    /// The flight that the motion has next, if it begins soon.
+    pub fn coming_flight(&self) -> Option<Flight> {
+        self.flight
+    }
+
+    /// The next flight as planned, if a foot stands now; the motion is at world time `now`, s.
+    fn coming(&self, now: f64) -> Option<Flight> {
+        let (off, on) = self.plan.as_ref()?.next_flight(self.phase)?;
+        let until = |phase: f64| (phase - self.phase) / self.speed;
+        (!self.flies()).then(|| Flight {
+            after: until(off).max(0.0),
+            middle: now + until(0.5 * (off + on)),
+        })
+    }
+
+    /// A direction of the motion as its origin is turned to where the feet are.
+    pub fn turned(&self, v: Vec3) -> Vec3 {
+        Quat::exp(Vec3::Z * self.anchor.yaw()).rotate(v)
     }
 
     /// A foothold of the clip where its origin puts it.

@@ -53,6 +53,20 @@ impl Figure {
             && self.setup.options.assist < 1.0
     }
 
+    /// The flight that the motion has next, with the angular momentum that the motion has in it; `None` where that is not known.
+    pub(super) fn take_off(&mut self) -> Option<TakeOff> {
+        let flight = self.gait.coming_flight()?;
+        let spin = match &self.drive {
+            Drive::Clip(play) => self.tasks.spin(&self.links, &play.sample(flight.middle)),
+            Drive::Live(live) => live.motion.spin_at(live.stream_time(flight.middle))?,
+            Drive::Hold(_) | Drive::External(_) => return None,
+        };
+        Some(TakeOff {
+            after: flight.after,
+            spin: self.gait.turned(spin),
+        })
+    }
+
     /// Factors on the muscles: a fallen figure relaxes, a tired one has less.
     pub(super) fn available_strength(&self) -> MuscleScale {
         let fallen = if self.is_limp() { FALLEN_STRENGTH } else { 1.0 };

@@ -812,6 +812,15 @@ impl LiveMotion {
         between(knot(i), knot(i + 1), H, (x - i as f64).clamp(0.0, 1.0))
     }
 
+    /// Centroidal angular momentum of the recording at time `t`, s, also of what is not put out yet, N·m·s, axes of the stream; `None` where
+    /// that is not known. In flight a recorded body keeps it, whatever is made of its legs.
+    pub fn spin_at(&self, t: f64) -> Option<Vec3> {
+        let i = (t * RATE).round() as i64;
+        let newest = self.count - SMOOTH - 2;
+        let held = self.count - self.ring.len() as i64;
+        (i > held.max(0) && i <= newest).then(|| self.at(i).momentum)
+    }
+
     /// Latest time that can be sampled, s.
     pub fn ready(&self) -> f64 {
         (self.out - 2).max(0) as f64 * H

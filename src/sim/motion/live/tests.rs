@@ -178,6 +178,41 @@ fn where_a_stream_walks_makes_no_difference() {
     }
 }
 
+#[test]
+fn the_momentum_of_the_stream_is_known_ahead_of_what_is_put_out() {
+    let body = Arc::new(Body::adult_man());
+    let fall = |t: f64| {
+        let mut p = at_ease(&body);
+        p.root_rotation = Quat::exp(Vec3::Y * (2.0 * t)) * p.root_rotation;
+        p.root_position.z += 2.0;
+        p
+    };
+    let (live, out) = through(&body, 0.5, 120, |i| fall(i as f64 / RATE));
+    let newest = 119.0 / RATE;
+    let put_out = live.ready();
+    assert!(out.len() > 60 && put_out < newest - 0.4);
+    assert_eq!(live.spin_at(newest), None, "its neighbours have not come");
+    assert_eq!(live.spin_at(f64::NAN), None);
+    for t in [-1.0, f64::INFINITY, f64::NEG_INFINITY, 1e300] {
+        assert_eq!(live.spin_at(t), None, "{t}");
+    }
+    // One rigid body that turns: inertia about the lateral axis times the rate, by its own links.
+    for t in [put_out, put_out + 0.2, newest - 0.1] {
+        let poses = forward(&body, &fall(t));
+        let com = crate::sim::motion::leg_ik::center_of_mass(&body, &poses);
+        let rate = Vec3::Y * 2.0;
+        let mut expected = Vec3::zero();
+        for (segment, (at, q)) in body.segments.iter().zip(&poses) {
+            let arm = *at + q.rotate(segment.com) - com;
+            expected += arm.cross(rate.cross(arm)) * segment.mass
+                + q.rotate(segment.inertia * q.conjugate().rotate(rate));
+        }
+        let found = live.spin_at(t).unwrap();
+        let off = (found - expected).norm();
+        assert!(off < 0.01 * expected.norm(), "{t}: {found:?} {expected:?}");
+    }
+}
+
 /// A standing man whose feet are moved: by how much each is raised, m, turned about the vertical and pitched, toes up, rad.
 fn standing_with(body: &Body, feet: [(f64, f64, f64); 2]) -> Posture {
     let mut p = at_ease(body);
