@@ -10,6 +10,7 @@ use crate::sim::body::topology::{
     R_FOOT, R_FOREARM, R_HAND, R_TOES, R_UPPER_ARM, SEGMENT_COUNT,
 };
 use crate::sim::body::{Body, Links, NV, Posture, SegmentId};
+use crate::sim::math::ease::fall;
 use crate::sim::math::exp::exp;
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::leg_ik::{forward, solve_leg};
@@ -219,8 +220,8 @@ impl Lean<'_> {
         let (Joint::Hinge2(elbow), Joint::Hinge2(wrist)) = (JOINT[fore], JOINT[hand]) else {
             unreachable!("elbows and wrists have two hinges");
         };
-        let less = share(swing(planned).abs(), HANGS)
-            * share(posture.hinge[elbow].abs(), STRETCHED)
+        let less = fall(swing(planned).abs(), HANGS)
+            * fall(posture.hinge[elbow].abs(), STRETCHED)
             * (load / (load + HALF_SWING));
         // The forearm keeps its turn about its own axis, which is its second angle.
         for angle in [elbow, wrist, wrist + 1] {
@@ -246,12 +247,6 @@ fn tilt(posture: &mut Posture, poses: &Poses, by: Vec3) {
             posture.ball[b] = (turned[PARENT[s]].conjugate() * turned[s]).normalized();
         }
     }
-}
-
-/// 1 below the first angle, 0 from the second on, C¹ between.
-fn share(angle: f64, (full, none): (f64, f64)) -> f64 {
-    let u = ((none - angle) / (none - full)).clamp(0.0, 1.0);
-    u * u * (3.0 - 2.0 * u)
 }
 
 /// Capped in norm.

@@ -24,8 +24,9 @@ use crate::sim::body::topology::{
     L_FOOT, L_THIGH, L_TOES, NV, R_FOOT, R_THIGH, R_TOES, SEGMENT_COUNT,
 };
 use crate::sim::body::{Body, Posture};
+use crate::sim::math::ease::{smootherstep, smoothstep};
 use crate::sim::math::exp::exp;
-use crate::sim::math::{Quat, Vec3, trig};
+use crate::sim::math::{Quat, Vec3};
 use balance::{Balance, Balanced};
 use foot::Foot;
 pub use foot::Stance;
@@ -219,12 +220,6 @@ fn level(v: Vec3) -> Vec3 {
     Vec3 { z: 0.0, ..v }
 }
 
-/// Heading of a rotation about the vertical, rad.
-fn heading(q: Quat) -> f64 {
-    let x = q.rotate(Vec3::X);
-    trig::atan2(x.y, x.x)
-}
-
 impl LiveMotion {
     /// A stream without samples, prepared `window` seconds behind its newest one (within [`WINDOW`]). Allocates all it will ever need.
     pub fn new(body: Arc<Body>, window: f64) -> Self {
@@ -355,7 +350,7 @@ impl LiveMotion {
             || off[6..].iter().filter(beyond).count() >= SEVERAL;
         if jumped {
             // The place of the pelvis over the floor and its heading go on as they were; the rest is spread.
-            let yaw = heading(led.root_rotation) - heading(p.root_rotation);
+            let yaw = led.root_rotation.heading() - p.root_rotation.heading();
             let turn = PlanarTransform {
                 x: 0.0,
                 y: 0.0,
@@ -385,7 +380,7 @@ impl LiveMotion {
         let mut p = *posture;
         if let Some((e, since)) = &self.fade {
             let u = (*since as f64 * H / FADE).min(1.0);
-            let s = 1.0 - u * u * u * (10.0 - 15.0 * u + 6.0 * u * u);
+            let s = 1.0 - smootherstep(u);
             p.integrate(&e.map(|e| e * s), 1.0);
         }
         p
@@ -544,17 +539,14 @@ impl LiveMotion {
 
     /// Place, heading and pitch of a foot of a smoothed sample, and how fast its place moves, m/s.
     fn standing(&self, side: usize, i: i64) -> foot::Standing {
-        let at = |i: i64| {
-            let (ankle, rotation) = self.at(i).poses[[L_FOOT, R_FOOT][side].index()];
-            foot::place(&self.soles[side], ankle, rotation)
-        };
-        let (place, yaw, pitch) = at(i);
+        let pose = |i: i64| self.at(i).poses[[L_FOOT, R_FOOT][side].index()];
+        let [before, at] = [i - 1, i].map(|i| self.soles[side].footing(pose(i)));
         foot::Standing {
-            place,
-            yaw,
-            pitch,
-            steep: foot::steepness(self.at(i).poses[[L_FOOT, R_FOOT][side].index()].1, pitch),
-            speed: (place - at(i - 1).0).norm() * RATE,
+            place: at.place,
+            yaw: at.yaw,
+            pitch: at.pitch,
+            steep: foot::steepness(pose(i).1, at.pitch),
+            speed: (at.place - before.place).norm() * RATE,
         }
     }
 
@@ -569,7 +561,7 @@ impl LiveMotion {
         // About a second: peaks of gait are corrected, a chair is not.
         self.lasting += (far - self.lasting) * (1.0 - exp(-H));
         let u = ((self.lasting - 0.7 * CARRIED) / (0.6 * CARRIED)).clamp(0.0, 1.0);
-        let trust = 1.0 - u * u * (3.0 - 2.0 * u);
+        let trust = 1.0 - smoothstep(u);
         self.at_mut(j).trust = trust;
         balanced.weight = trust * load * load;
         self.balance.push(balanced);
@@ -584,7 +576,7 @@ impl LiveMotion {
         let mass: f64 = self.body.segments.iter().map(|s| s.mass).sum();
         let load = 1.0 + acc.z / GRAVITY;
         let omega2 = ((GRAVITY + acc.z) / b.z.max(0.2)).clamp(3.0, 40.0);
-        let looks = heading(self.at(j).smooth.root_rotation);
+        let looks = self.at(j).smooth.root_rotation.heading();
         let mut balanced = Balanced::new([b.x, b.y], omega2, looks);
         if load > super::balance::LIGHT && j >= 2 {
             let force = (acc + Vec3::Z * GRAVITY) * mass;
