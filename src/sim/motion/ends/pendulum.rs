@@ -7,6 +7,7 @@ use super::start::Start;
 use super::{FOOT, SWING, flat, ground, level, turned};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::Vec3;
+use crate::sim::math::ease::rise;
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::foot_lock::{Anchor, Sole, turn, yaw_pitch};
 use crate::sim::motion::leg_ik::{center_of_mass, forward};
@@ -41,6 +42,9 @@ const PRICE_OF_HOP: f64 = 1e-3;
 const WORTH_OF_SPARE: f64 = 0.1;
 /// Gain of the zero-moment point on the way to a place, how close counts as there, m, and when patience ends, s.
 const LEAN: (f64, f64, f64) = (2.0, 0.015, 0.9);
+/// A foot that belongs farther than the first from the other one, m, is not put there by a body that stays over that one, deep in its knee; from the
+/// second on the capture point is half-way when it lands.
+const STRIDES: (f64, f64) = (0.35, 0.6);
 /// A foot this close to where it belongs stays, m and rad.
 const HOME: (f64, f64) = (0.04, 0.15);
 /// Turns of the whole, as shares of the way to where the body moves, tried in turn until steps are found; and how far aside that may be, rad.
@@ -319,14 +323,24 @@ impl Stop<'_> {
         }
     }
 
-    /// Foot `side` swings for `time` s while the other one carries the body.
-    fn swing(&mut self, side: usize, time: f64, place: Vec3) {
+    /// Foot `side` swings for `time` s while the other one carries the body, with the capture point at `goal` when it lands if there is one.
+    fn swing(&mut self, side: usize, time: f64, place: Vec3, goal: Option<Vec3>) {
         let off = self.now();
         let mut down = [true; 2];
         down[side] = false;
         let support = Support::of(&self.feet, down);
-        for _ in 0..((time / self.dt).round() as usize).max(1) {
-            self.advance(self.hold(&support));
+        let count = ((time / self.dt).round() as usize).max(1);
+        for left in (1..=count).rev() {
+            let p = match goal {
+                Some(goal) => {
+                    // ξ(t) = p + (ξ − p) e^{ωt}, solved for p.
+                    let grows = (self.omega * self.dt * left as f64).exp();
+                    let p = (self.capture * grows - goal) * (1.0 / (grows - 1.0));
+                    support.pressure.nearest(flat(p))
+                }
+                None => self.hold(&support),
+            };
+            self.advance(p);
         }
         self.steps.push(Step {
             side,
@@ -484,7 +498,7 @@ impl Stop<'_> {
         let least = (SWING.0 - since).max(self.way.rest);
         let (time, place, _) = self.catching(side, self.from.ankle[side], least);
         let in_flight = self.path.len() > 1;
-        self.swing(side, time, place);
+        self.swing(side, time, place, None);
         if let Some(step) = self.steps.last_mut().filter(|_| in_flight) {
             step.off = 0.0;
         }
@@ -506,7 +520,7 @@ impl Stop<'_> {
             let [left, right] = [0, 1].map(|s: usize| self.catching(s, ankle[s], SWING.0));
             let side = first.take().unwrap_or(usize::from(right.2 > left.2));
             let (time, place, _) = [left, right][side];
-            self.swing(side, time, place);
+            self.swing(side, time, place, None);
             self.both(BOTH);
         }
     }
@@ -521,9 +535,13 @@ impl Stop<'_> {
                 break;
             }
             let side = if self.is_home(side) { 1 - side } else { side };
-            self.lean(self.feet.middle(1 - side));
+            let over = self.feet.middle(1 - side);
+            self.lean(over);
             let place = self.beside(side);
-            self.swing(side, CLOSING, place);
+            let way = place - self.feet.place[1 - side];
+            let strides = 0.5 * rise(way.norm(), STRIDES);
+            let goal = (strides > 0.0).then(|| over + way * strides);
+            self.swing(side, CLOSING, place, goal);
             self.both(BOTH);
         }
         let middle = (self.feet.place[0] + self.feet.place[1]) * 0.5;
