@@ -161,6 +161,7 @@ impl Standing {
             };
             Self {
                 at: Anchor {
+                    tip: 0.0,
                     place,
                     yaw: turn(0.0, yaw),
                     pitch,

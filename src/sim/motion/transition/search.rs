@@ -64,6 +64,7 @@ pub(super) fn anchor(sole: &Sole, (ankle, rotation): (Vec3, Quat)) -> Anchor {
     let pitch = trig::atan2(x.z, (x.x * x.x + x.y * x.y).sqrt());
     let place = ankle - sole.stand(Vec3::zero(), yaw, pitch).ankle;
     Anchor {
+        tip: 0.0,
         place: Vec3 { z: 0.0, ..place },
         yaw,
         pitch,
