@@ -371,6 +371,29 @@ fn loads_are_carried_around_corners_and_by_others() {
 }
 
 /// The frames of a recording from `from` on for `seconds`, as a file of its own.
+#[test]
+fn who_waves_a_load_about_does_not_fall_over_it() {
+    let body = man();
+    for (name, mass) in [("wave", 3.0), ("wave", 5.0), ("salsa-a", 15.0)] {
+        let clip = recorded(&body, name);
+        let (mut world, key) = playing(&body, Arc::clone(&clip), -clip.lead_in(), false);
+        let load = Perturbation::Load {
+            segment: R_HAND,
+            point: body.segment(R_HAND).com,
+            mass,
+            from: 0.0,
+            to: f64::INFINITY,
+        };
+        world.perturb(key, load).unwrap();
+        let seconds = clip.lead_in() + clip.duration() + clip.lead_out() + 1.0;
+        let (rms, capture) = run(&mut world, key, name, seconds, 0.0);
+        assert!(
+            rms < 5.0 && capture < 0.2,
+            "{name}, {mass} kg: {rms} deg, {capture} m"
+        );
+    }
+}
+
 fn piece(name: &str, from: f64, seconds: f64) -> Bvh {
     let text = String::from_utf8(mocap::read(&format!("{name}.bvh"))).unwrap();
     let head = text.find("Frames:").unwrap();

@@ -4,6 +4,7 @@ use super::{explain, world_resource};
 use crate::client::{Client, Driver};
 use crate::server::engine;
 use crate::sim::body::Body;
+use crate::sim::math::Quat;
 use crate::sim::motion::{Bvh, Clip, PlanarTransform, RetargetOptions, cycle};
 use crate::wire::convert::{self, motion::figure_motion};
 use crate::wire::frame::values;
@@ -346,9 +347,7 @@ async fn current_place(client: &Client, world: &str, figure: &str) -> anyhow::Re
     Ok(Place {
         x: pose[0],
         y: pose[1],
-        yaw: engine::heading(crate::sim::math::Quat::from_xyzw([
-            pose[3], pose[4], pose[5], pose[6],
-        ])),
+        yaw: Quat::from_xyzw([pose[3], pose[4], pose[5], pose[6]]).heading(),
     })
 }
 

@@ -232,18 +232,12 @@ pub fn standing(body: &Body, place: Place) -> Posture {
     }
 }
 
-/// Heading of a rotation about the vertical, rad.
-pub fn heading(q: Quat) -> f64 {
-    let forward = q.rotate(Vec3::X);
-    forward.y.atan2(forward.x)
-}
-
 /// Where a figure stands: pelvis over the ground and its heading.
 pub fn place_of(posture: &Posture) -> Place {
     Place {
         x: posture.root_position.x,
         y: posture.root_position.y,
-        yaw: heading(posture.root_rotation),
+        yaw: posture.root_rotation.heading(),
     }
 }
 

@@ -4,6 +4,7 @@
 //! From 20 to 44 years all of them are those of the adult tables, to the last bit.
 
 use super::model::{Profile, Sex};
+use crate::sim::math::ease::rise;
 
 /// Where a number comes from and how far to trust it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,15 +35,9 @@ pub fn polyline<const N: usize>(nodes: &[(f64, [f64; N])], x: f64) -> [f64; N] {
     std::array::from_fn(|i| from[i] + t * (to[i] - from[i]))
 }
 
-/// 0 up to `from`, 1 from `to` on, C¹ between.
-pub fn smooth(from: f64, to: f64, x: f64) -> f64 {
-    let x = ((x - from) / (to - from)).clamp(0.0, 1.0);
-    x * x * (3.0 - 2.0 * x)
-}
-
 /// Share of the men's tables in a person: 1 and 0 for adults, ½ for both sexes up to ten years.
 pub fn male_share(sex: Sex, age: f64) -> f64 {
-    let apart = smooth(SEXES_PART[0], SEXES_PART[1], age);
+    let apart = rise(age, SEXES_PART.into());
     match sex {
         Sex::Male => 0.5 + 0.5 * apart,
         Sex::Female => 0.5 - 0.5 * apart,
@@ -253,7 +248,7 @@ impl MassFractions {
             Sex::Female => OLDER_WOMAN,
         };
         let older = Self::whole_trunk(row, head, trunk, limb, adult);
-        adult.blend(&older, smooth(OLDER[0], OLDER[1], age))
+        adult.blend(&older, rise(age, OLDER.into()))
     }
 }
 
@@ -361,8 +356,8 @@ pub const LEG_CHANGE: [LimitChange; 5] = [
 impl LimitChange {
     /// Change at `age` in rad; 0 from 20 to 44 years.
     pub fn at(&self, age: f64) -> f64 {
-        let child = 1.0 - smooth(CHILD_RANGE[0], CHILD_RANGE[1], age);
-        let older = smooth(OLDER_RANGE[0], OLDER_RANGE[1], age);
+        let child = 1.0 - rise(age, CHILD_RANGE.into());
+        let older = rise(age, OLDER_RANGE.into());
         (self.child * child + self.older * older).to_radians()
     }
 }

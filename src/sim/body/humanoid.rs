@@ -11,6 +11,7 @@ use super::age::{MassFractions, height_range, male_share, mass_range, mix};
 use super::model::{Body, BodyError, Profile, Segment, Sex};
 use super::topology::{self as t, DOF_COUNT, SEGMENT_COUNT};
 use crate::sim::math::Vec3;
+use crate::sim::math::ease::rise;
 use parts::{Dimensions, mirror, mirror_point};
 use tables::{Table, joint_limits};
 
@@ -145,7 +146,7 @@ fn assemble(profile: Profile, male: f64, adult: &Table) -> Body {
 /// Reflected inertia goes with the body, as strength does, while it grows.
 fn armature(profile: &Profile) -> f64 {
     let size = profile.mass * profile.height * profile.height / REFERENCE_SIZE;
-    let grown = super::age::smooth(AGE_RANGE[0], super::age::GROWN, profile.age);
+    let grown = rise(profile.age, (AGE_RANGE[0], super::age::GROWN));
     ARMATURE * mix(grown, 1.0, size.min(1.0))
 }
 

@@ -19,6 +19,7 @@ use crate::sim::dynamics::Terms;
 use crate::sim::dynamics::terms::WIDTH;
 use crate::sim::figure::Flags;
 use crate::sim::figure::report::MAX_CONTACTS;
+use crate::sim::math::ease::fall;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::TargetPair;
 use crate::sim::support::Polygon;
@@ -172,7 +173,7 @@ fn danger(input: &ControlInput<'_>) -> f64 {
     let (t, goal) = (input.terms, input.com);
     let time = pendulum_time(input);
     let off = (t.com - goal.now) + (t.com_velocity - goal.now_velocity) * time;
-    1.0 - smooth_step((off.x * off.x + off.y * off.y).sqrt(), DANGER)
+    1.0 - fall((off.x * off.x + off.y * off.y).sqrt(), DANGER)
 }
 
 /// The law of joints and rotations.
@@ -190,12 +191,6 @@ fn blend(a: f64, b: f64, share: f64) -> f64 {
 fn law_feedback(law: &Law, error: Vec3, rate: Vec3) -> Vec3 {
     let t = law.horizon_or_step();
     error * (0.25 / (t * t)) + rate * (1.0 / t)
-}
-
-/// 1 below the first height, 0 above the second, C¹ between.
-fn smooth_step(z: f64, (low, high): (f64, f64)) -> f64 {
-    let u = ((high - z) / (high - low)).clamp(0.0, 1.0);
-    u * u * (3.0 - 2.0 * u)
 }
 
 /// Capped in norm.

@@ -10,6 +10,7 @@ use crate::sim::body::topology::{
     R_FOOT, R_FOREARM, R_HAND, R_TOES, R_UPPER_ARM, SEGMENT_COUNT,
 };
 use crate::sim::body::{Body, Links, NV, Posture, SegmentId};
+use crate::sim::math::ease::fall;
 use crate::sim::math::exp::exp;
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::leg_ik::{forward, solve_leg};
@@ -27,9 +28,13 @@ const SAME: f64 = 1e-6;
 /// Load with which an arm swings half as far, kg: about the mass of an arm.
 const HALF_SWING: f64 = 4.0;
 /// An arm hangs whose hand is less than the first angle before or behind its shoulder, and whose elbow is bent by less than the first of these;
-/// from the second on it does not, rad. (Forearms that are held level carry something in front of the body.)
-const HANGS: (f64, f64) = (0.9, 1.2);
-const STRETCHED: (f64, f64) = (1.1, 1.45);
+/// from the second on it does not, rad. (Forearms that are held level carry something in front of the body.) What an arm had less of
+/// its swing comes back while it is raised from the one to the other: the farther apart they are, the less it has to hurry.
+const HANGS: (f64, f64) = (0.7, 1.6);
+const STRETCHED: (f64, f64) = (0.9, 1.5);
+/// Time constant with which an arm gets used to hanging, or to something else, s: one that comes down between two movements goes on as the motion
+/// has it.
+const GETS_USED: f64 = 0.7;
 /// Pelvis and trunk move by this much more than the centre of mass, because the feet stay.
 const LEAD: f64 = 1.15;
 /// Rounds in which the shift of the pelvis is found: each leaves a tenth of what was off.
@@ -89,6 +94,13 @@ impl Masses {
     }
 }
 
+/// What is felt at a moment.
+struct Felt {
+    load: Masses,
+    /// How much each arm is used to hang, 0…1.
+    used: [f64; 2],
+}
+
 /// What one figure carries and how it feels it.
 #[derive(Clone, Debug)]
 pub(super) struct Carrying {
@@ -96,6 +108,8 @@ pub(super) struct Carrying {
     /// What it carries as it follows from loads that come and go at once: after one time constant, and after both.
     halfway: Masses,
     felt: Masses,
+    /// How much each arm has hung lately, 0…1; `None` before something is carried.
+    used: Option<[f64; 2]>,
 }
 
 impl Carrying {
@@ -106,12 +120,14 @@ impl Carrying {
             unloaded,
             halfway: unloaded,
             felt: unloaded,
+            used: None,
         }
     }
 
     /// Forgets the past.
     pub fn reset(&mut self) {
         (self.halfway, self.felt) = (self.unloaded, self.unloaded);
+        self.used = None;
     }
 
     /// Changes the desired motion of a tick of `dt` seconds for a body with the present loads, `links`; `steps` if the motion steps: one that stays
@@ -127,6 +143,7 @@ impl Carrying {
         let real = Masses::of(links);
         let carried = if steps { real } else { self.unloaded };
         if carried == self.unloaded && self.felt == self.unloaded {
+            self.used = None;
             return;
         }
         let lean = Lean {
@@ -134,10 +151,20 @@ impl Carrying {
             unloaded: &self.unloaded,
             real: &real,
         };
-        let felt = |ahead: f64| self.felt_in(&carried, ahead).1;
+        let hang = ARMS.map(|arm| hangs(&target.now.posture, body, arm));
+        let used = self.used.unwrap_or(hang);
+        let used_in = |t: f64| {
+            let left = exp(-t / GETS_USED);
+            [0, 1].map(|arm| hang[arm] + (used[arm] - hang[arm]) * left)
+        };
+        let felt = |t: f64| Felt {
+            load: self.felt_in(&carried, t).1,
+            used: used_in(t),
+        };
         let around = |t: f64| [t - INSTANT, t, t + INSTANT].map(felt);
         lean.change(&mut target.now, &around(0.0));
         lean.change(&mut target.next, &around(dt));
+        self.used = Some(used_in(dt));
         (self.halfway, self.felt) = self.felt_in(&carried, dt);
         if self.felt.is_near(&carried) && self.halfway.is_near(&carried) {
             (self.halfway, self.felt) = (carried, carried);
@@ -164,7 +191,7 @@ struct Lean<'a> {
 
 impl Lean<'_> {
     /// Changes a target and its rates for what is felt an instant before, now, and an instant later.
-    fn change(&self, target: &mut Target, [before, felt, after]: &[Masses; 3]) {
+    fn change(&self, target: &mut Target, [before, felt, after]: &[Felt; 3]) {
         let moved = |seconds: f64| {
             let mut p = target.posture;
             p.integrate(&target.velocity, seconds);
@@ -177,14 +204,14 @@ impl Lean<'_> {
     }
 
     /// The posture in which the body with what is `felt` has its centre of mass where the unloaded one has it in `posture`.
-    fn leaned(&self, posture: &Posture, felt: &Masses) -> Posture {
+    fn leaned(&self, posture: &Posture, felt: &Felt) -> Posture {
         let planned = forward(self.body, posture);
         let mut out = *posture;
-        for arm in ARMS {
-            self.hang(&mut out, &planned, arm, felt);
+        for (arm, used) in ARMS.into_iter().zip(felt.used) {
+            self.hang(&mut out, &planned, arm, &felt.load, used);
         }
         let poses = forward(self.body, &out);
-        let by = self.unloaded.center(&planned) - felt.center(&poses);
+        let by = self.unloaded.center(&planned) - felt.load.center(&poses);
         let by = Vec3 { z: 0.0, ..by };
         tilt(&mut out, &poses, by);
         let goal = self.real.center(&poses) + by;
@@ -203,36 +230,61 @@ impl Lean<'_> {
         out
     }
 
-    /// Lets an arm that hangs in the motion hang straighter and swing less, by what its hand carries.
-    fn hang(&self, posture: &mut Posture, planned: &Poses, arm: [SegmentId; 3], felt: &Masses) {
+    /// Lets an arm that hangs in the motion, and is `used` to it, hang straighter and swing less, by what its hand carries.
+    fn hang(
+        &self,
+        posture: &mut Posture,
+        planned: &Poses,
+        arm: [SegmentId; 3],
+        felt: &Masses,
+        used: f64,
+    ) {
         let [upper, fore, hand] = arm.map(SegmentId::index);
         let load = felt.mass[hand] - self.unloaded.mass[hand];
         if load <= 0.0 {
             return;
         }
-        let ahead = planned[0].1.rotate(Vec3::X);
-        let ahead = Vec3 { z: 0.0, ..ahead }.normalized_or(Vec3::X);
-        let swing = |poses: &Poses| {
-            let line = poses[hand].0 - poses[upper].0;
-            trig::atan2(line.dot(ahead), -line.z)
-        };
         let (Joint::Hinge2(elbow), Joint::Hinge2(wrist)) = (JOINT[fore], JOINT[hand]) else {
             unreachable!("elbows and wrists have two hinges");
         };
-        let less = share(swing(planned).abs(), HANGS)
-            * share(posture.hinge[elbow].abs(), STRETCHED)
-            * (load / (load + HALF_SWING));
+        let hung = hanging(swing(planned, arm), posture.hinge[elbow]);
+        let less = used * hung * (load / (load + HALF_SWING));
         // The forearm keeps its turn about its own axis, which is its second angle.
         for angle in [elbow, wrist, wrist + 1] {
             posture.hinge[angle] *= 1.0 - less;
         }
         let poses = forward(self.body, posture);
-        let back = Quat::exp(Vec3::Z.cross(ahead) * (less * swing(&poses)));
+        let back = Quat::exp(Vec3::Z.cross(ahead(planned)) * (less * swing(&poses, arm)));
         if let Joint::Ball(b) = JOINT[upper] {
             let turned = back * poses[upper].1;
             posture.ball[b] = (poses[PARENT[upper]].1.conjugate() * turned).normalized();
         }
     }
+}
+
+/// How much an arm hangs, 0…1.
+fn hangs(posture: &Posture, body: &Body, arm: [SegmentId; 3]) -> f64 {
+    let Joint::Hinge2(elbow) = JOINT[arm[1].index()] else {
+        unreachable!("elbows have two hinges");
+    };
+    hanging(swing(&forward(body, posture), arm), posture.hinge[elbow])
+}
+
+/// How much an arm with these angles of swing and elbow hangs, 0…1.
+fn hanging(swing: f64, elbow: f64) -> f64 {
+    fall(swing.abs(), HANGS) * fall(elbow.abs(), STRETCHED)
+}
+
+/// Angle of an arm before the vertical through its shoulder, rad, as the pelvis looks.
+fn swing(poses: &Poses, [upper, _, hand]: [SegmentId; 3]) -> f64 {
+    let line = poses[hand.index()].0 - poses[upper.index()].0;
+    trig::atan2(line.dot(ahead(poses)), -line.z)
+}
+
+/// Where the pelvis looks, level.
+fn ahead(poses: &Poses) -> Vec3 {
+    let x = poses[0].1.rotate(Vec3::X);
+    Vec3 { z: 0.0, ..x }.normalized_or(Vec3::X)
 }
 
 /// Tilts the trunk towards `by`, half of it in the waist; head and arms keep the directions they have in `poses`.
@@ -246,12 +298,6 @@ fn tilt(posture: &mut Posture, poses: &Poses, by: Vec3) {
             posture.ball[b] = (turned[PARENT[s]].conjugate() * turned[s]).normalized();
         }
     }
-}
-
-/// 1 below the first angle, 0 from the second on, C¹ between.
-fn share(angle: f64, (full, none): (f64, f64)) -> f64 {
-    let u = ((none - angle) / (none - full)).clamp(0.0, 1.0);
-    u * u * (3.0 - 2.0 * u)
 }
 
 /// Capped in norm.
@@ -385,5 +431,42 @@ mod tests {
             legs[..8].copy_from_slice(&before.now.posture.hinge[..8]);
             legs
         });
+    }
+
+    /// How far the hand of a loaded arm is from where the motion has it as the arm comes down once more after `raised` seconds, m.
+    fn let_down(raised: f64) -> f64 {
+        let body = Body::adult_man();
+        let clip = walk(&body);
+        let links = with_load(&body, R_HAND, 5.0);
+        let mut carrying = used_to(&body, &clip, &links);
+        let Joint::Ball(shoulder) = JOINT[R_UPPER_ARM.index()] else {
+            unreachable!()
+        };
+        let arm_at = |swing: f64| {
+            let mut pair = at(&clip, 1.0, DT);
+            for t in [&mut pair.now, &mut pair.next] {
+                t.posture.ball[shoulder] = Quat::exp(Vec3::Y * -swing);
+            }
+            pair
+        };
+        for _ in 0..(raised / DT) as usize {
+            carrying.lean(&body, &links, &mut arm_at(2.0), true, DT);
+        }
+        let planned = arm_at(0.5);
+        let mut pair = planned.clone();
+        carrying.lean(&body, &links, &mut pair, true, DT);
+        let arm = |p: &Posture| {
+            let poses = forward(&body, p);
+            poses[R_HAND.index()].0 - poses[R_UPPER_ARM.index()].0
+        };
+        (arm(&pair.now.posture) - arm(&planned.now.posture)).norm()
+    }
+
+    #[test]
+    fn an_arm_that_comes_down_between_two_movements_goes_on_as_the_motion_has_it() {
+        let [used, once, busy] = [0.0, 0.3, 3.0].map(let_down);
+        assert!(used > 0.1, "{used}");
+        assert!(once < used && once > 0.5 * used, "{once} of {used}");
+        assert!(busy < 0.03 * used, "{busy} of {used}");
     }
 }

@@ -8,6 +8,7 @@ use crate::sim::body::{Body, SegmentId};
 use crate::sim::control::goals::MAX_GOALS;
 use crate::sim::control::{Effector, Goal, PointTarget};
 use crate::sim::dynamics::Terms;
+use crate::sim::math::ease::smoothstep;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::support::{Polygon, Support};
 
@@ -66,11 +67,11 @@ impl Constraint {
     pub fn level(&self, time: f64) -> f64 {
         let ramp = |t: f64| {
             let u = if self.ease > 0.0 {
-                (t / self.ease).clamp(0.0, 1.0)
+                t / self.ease
             } else {
                 f64::from(u8::from(t >= 0.0))
             };
-            u * u * (3.0 - 2.0 * u)
+            smoothstep(u)
         };
         let ends = if self.to.is_finite() {
             ramp(self.to - time)

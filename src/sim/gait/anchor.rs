@@ -23,16 +23,10 @@ pub struct Anchor {
     yaw_goal: f64,
 }
 
-/// The same direction within −π…π.
-pub fn wrapped(angle: f64) -> f64 {
-    let (s, c) = trig::sin_cos(angle);
-    trig::atan2(s, c)
-}
-
 impl Anchor {
     /// Maps a planned place and heading to a real one at once.
     pub fn between(planned: (Vec3, f64), real: (Vec3, f64)) -> Self {
-        let yaw = wrapped(real.1 - planned.1);
+        let yaw = trig::wrapped(real.1 - planned.1);
         let level = |p: Vec3| Vec3 { z: 0.0, ..p };
         Self {
             planned: level(planned.0),
@@ -90,7 +84,7 @@ impl Anchor {
         self.at = self.point(Vec3 { z: 0.0, ..planned });
         self.planned = Vec3 { z: 0.0, ..planned };
         self.goal = Vec3 { z: 0.0, ..actual };
-        let off = wrapped(actual_yaw - planned_yaw - self.yaw);
+        let off = trig::wrapped(actual_yaw - planned_yaw - self.yaw);
         self.yaw_goal = (1.0 - HEADING_HOME) * (self.yaw + HEADING_GAIN * off);
     }
 

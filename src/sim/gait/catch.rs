@@ -4,8 +4,9 @@
 //! falls to the side it would have to come from. Pure functions of the state plus a few numbers of memory; nothing allocates.
 
 use crate::sim::control::{PointTarget, RotationTarget};
+use crate::sim::math::ease::smootherstep;
 use crate::sim::math::exp::exp;
-use crate::sim::math::{Quat, Vec3};
+use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::foot_lock::Sole;
 
 /// The capture point is lost when it leaves the support by this much, m: what arms and trunk bring back without a step.
@@ -148,14 +149,14 @@ impl Catch {
     /// Pose of the swinging foot `ahead` seconds from now: ankle, heading.
     fn pose(&self, sole: &Sole, ahead: f64) -> (Vec3, f64) {
         let u = ((self.since + ahead) / self.duration()).clamp(0.0, 1.0);
-        let s = u * u * u * (10.0 - 15.0 * u + 6.0 * u * u);
+        let s = smootherstep(u);
         let mut p = self.start + (self.goal - self.start) * s;
         let over = (self.since + ahead - self.duration()).max(0.0);
         let flat = self.start.z + (sole.ankle_height - self.start.z) * s;
         p.z = flat + ARC * 16.0 * u * u * (1.0 - u) * (1.0 - u) - LOWERING * over;
         (
             p,
-            self.start_yaw + super::anchor::wrapped(self.goal_yaw - self.start_yaw) * s,
+            self.start_yaw + trig::wrapped(self.goal_yaw - self.start_yaw) * s,
         )
     }
 

@@ -1,9 +1,8 @@
 //! Contact by events: feet are down when they touch, not when the clock says (WALKING §3).
 
-use super::plan::{self, Footfall, StepPlan};
+use super::plan::{Footfall, StepPlan};
 use super::{FOOT, Gait, Landing, TOUCH};
 use crate::sim::dynamics::Terms;
-use crate::sim::math::Quat;
 use crate::sim::motion::Target;
 
 /// A foot may land this long before its time, s; earlier touches are scuffs.
@@ -125,12 +124,7 @@ impl Gait {
 
     fn land(&mut self, terms: &Terms, side: usize, planned: &Footfall, late: f64) {
         let planned = self.placed(planned);
-        let s = FOOT[side].index();
-        let (actual, yaw) = plan::place(
-            &self.soles[side],
-            terms.segment_position(s),
-            Quat::from_mat3(&terms.kin.rotation[s]),
-        );
+        let (actual, yaw) = self.place(terms, side);
         self.landing = Some(Landing {
             side,
             late,

@@ -19,7 +19,8 @@ use crate::sim::body::topology::{L_FOOT, L_TOES, NV, R_FOOT, R_TOES};
 use crate::sim::body::{Body, Posture, SegmentId};
 use crate::sim::control::{Balance, PointTarget, RotationTarget, com_law};
 use crate::sim::dynamics::Terms;
-use crate::sim::math::{Quat, Vec3};
+use crate::sim::math::ease::smoothstep;
+use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::builtin::at_ease;
 use crate::sim::motion::foot_lock::Sole;
 use crate::sim::motion::leg_ik::forward;
@@ -94,8 +95,7 @@ pub struct Led<'a> {
 
 /// From posture `a` to posture `b`: the joints turn, the pelvis is already where `b` has it. `u` beyond 0…1 is clamped.
 fn eased(a: &Posture, b: &Posture, u: f64) -> Posture {
-    let u = u.clamp(0.0, 1.0);
-    let s = u * u * (3.0 - 2.0 * u);
+    let s = smoothstep(u);
     let mut rates = [0.0; NV];
     let way = a.joint_difference(b);
     for (r, w) in rates[6..].iter_mut().zip(way) {
@@ -119,7 +119,7 @@ fn stance_points(support: &Support, side: usize) -> impl Iterator<Item = [f64; 2
 
 /// The middle between two feet, and the mean of their headings, rad.
 fn middle(feet: &catch::Places) -> (Vec3, f64) {
-    let yaw = feet[0].1 + 0.5 * anchor::wrapped(feet[1].1 - feet[0].1);
+    let yaw = feet[0].1 + 0.5 * trig::wrapped(feet[1].1 - feet[0].1);
     ((feet[0].0 + feet[1].0) * 0.5, yaw)
 }
 
@@ -292,8 +292,7 @@ impl Gait {
     pub fn stance_of(&self, body: &Body, posture: &Posture) -> (Vec3, f64) {
         let poses = forward(body, posture);
         middle(&std::array::from_fn(|k| {
-            let (ankle, rotation) = poses[FOOT[k].index()];
-            plan::place(&self.soles[k], ankle, rotation)
+            self.place_of(k, poses[FOOT[k].index()])
         }))
     }
 
@@ -385,8 +384,7 @@ impl Gait {
     fn end(&mut self, terms: &Terms, last: &Posture) {
         let now = self.places(terms);
         let poses = self.capture.feet(&self.ease);
-        let home: catch::Places =
-            std::array::from_fn(|k| plan::place(&self.soles[k], poses[k].0, poses[k].1));
+        let home: catch::Places = std::array::from_fn(|k| self.place_of(k, poses[k]));
         // It stands where the foot is that the body moves over, and looks where the feet look.
         let xi = self.capture.point();
         let far = |k: usize| level([now[k].0.x - xi[0], now[k].0.y - xi[1]]).norm();
@@ -406,23 +404,28 @@ impl Gait {
         }
     }
 
+    /// Point of the floor on which a foot with this pose stands, or would, and its heading.
+    fn place_of(&self, side: usize, pose: (Vec3, Quat)) -> (Vec3, f64) {
+        self.soles[side].footing(pose).place_and_yaw()
+    }
+
+    /// Where a foot is.
+    fn place(&self, terms: &Terms, side: usize) -> (Vec3, f64) {
+        let s = FOOT[side].index();
+        let rotation = Quat::from_mat3(&terms.segment_rotation(s));
+        self.place_of(side, (terms.segment_position(s), rotation))
+    }
+
     /// Where the feet are.
     fn places(&self, terms: &Terms) -> catch::Places {
-        std::array::from_fn(|k| {
-            let s = FOOT[k].index();
-            plan::place(
-                &self.soles[k],
-                terms.segment_position(s),
-                Quat::from_mat3(&terms.kin.rotation[s]),
-            )
-        })
+        [0, 1].map(|k| self.place(terms, k))
     }
 
     /// Where they are meant to be.
     fn meant(&self, feet: &[(PointTarget, RotationTarget); 2]) -> catch::Places {
         std::array::from_fn(|k| {
             let (p, r) = &feet[k];
-            plan::place(&self.soles[k], p.now, r.now)
+            self.place_of(k, (p.now, r.now))
         })
     }
 

@@ -2,7 +2,7 @@
 
 use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::body::{Body, Posture, SegmentId};
-use crate::sim::math::{Quat, Vec3, trig};
+use crate::sim::math::Vec3;
 use crate::sim::motion::Clip;
 use crate::sim::motion::balance::mass_track;
 use crate::sim::motion::clip::PlanarTransform;
@@ -45,22 +45,6 @@ struct Lead {
     plan: StepPlan,
     until: f64,
     knows: f64,
-}
-
-/// Heading and pitch (toe-up positive) of a foot without its roll, rad. Platform-independent, since it feeds the tick.
-pub fn heading(rotation: Quat) -> (f64, f64) {
-    let x = rotation.rotate(Vec3::X);
-    let level = (x.x * x.x + x.y * x.y).sqrt();
-    (trig::atan2(x.y, x.x), trig::atan2(x.z, level))
-}
-
-/// Point of the floor under the flat ankle of a foot that is rolled about its heel edge or its toe joint, and its heading.
-pub fn place(sole: &Sole, ankle: Vec3, rotation: Quat) -> (Vec3, f64) {
-    let (yaw, pitch) = heading(rotation);
-    let rolled = sole.stand(Vec3::zero(), yaw, pitch).ankle;
-    let mut p = ankle - rolled;
-    p.z = 0.0;
-    (p, yaw)
 }
 
 /// Feet pause that have stood together for so long, s, and will for so long: that leaves time for a step that nobody planned.
@@ -171,7 +155,7 @@ impl StepPlan {
                 // The middle of a stance is its flattest part.
                 let (ankle, rotation) =
                     forward(body, samples[(start + i - 1) / 2].0)[feet[side].index()];
-                let (place, yaw) = place(&sole, ankle, rotation);
+                let (place, yaw) = sole.footing((ankle, rotation)).place_and_yaw();
                 // A sample speaks for the half-interval on either side of it.
                 out.push(Footfall {
                     on: if start == 0 {

@@ -1,10 +1,11 @@
 //! Where swinging feet are led: to footholds that catch the body, clear of the floor, in the air about the centre of mass (WALKING §4).
 
-use super::plan::{self, Footfall};
-use super::{FOOT, Gait, Led, anchor, balance, level};
+use super::plan::Footfall;
+use super::{FOOT, Gait, Led, balance, level};
 use crate::sim::control::{PointTarget, RotationTarget};
 use crate::sim::dynamics::Terms;
-use crate::sim::math::{Quat, Vec3};
+use crate::sim::math::ease::smootherstep;
+use crate::sim::math::{Quat, Vec3, trig};
 
 /// A foot that finds no floor goes down at this speed, m/s.
 const LOWERING: f64 = 0.5;
@@ -33,8 +34,8 @@ impl Gait {
                 continue;
             }
             let actual = Quat::from_mat3(&terms.kin.rotation[FOOT[side].index()]);
-            let off = plan::heading(actual).0 - plan::heading(target.now).0;
-            let turn = Quat::exp(Vec3::Z * anchor::wrapped(off));
+            let off = actual.heading() - target.now.heading();
+            let turn = Quat::exp(Vec3::Z * trig::wrapped(off));
             target.now = turn * target.now;
             target.next = turn * target.next;
         }
@@ -67,7 +68,7 @@ impl Gait {
         };
         let remaining = (on - self.phase).max(0.0) / self.speed;
         let u = (since / (since + remaining).max(0.1) / SWING_SHARE).clamp(0.0, 1.0);
-        let s = u * u * u * (10.0 - 15.0 * u + 6.0 * u * u);
+        let s = smootherstep(u);
         let kept = (1.0 - since / RELEASE).max(0.0);
         let mut offset = foot.release * (kept * kept);
         offset.x += s * foot.shift[0];

@@ -2,9 +2,9 @@
 
 use super::catch::{self, Catch, Purpose};
 use super::plan::StepPlan;
-use super::{FOOT, Gait, Landing, Led, SETTLED, TOES, TOUCH, anchor, level, stance_points};
+use super::{FOOT, Gait, Landing, Led, SETTLED, TOES, TOUCH, level, stance_points};
 use crate::sim::dynamics::Terms;
-use crate::sim::math::{Quat, Vec3};
+use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::support::Support;
 
 /// A capture point this far from where the clip has it is not where it is meant to be, m.
@@ -135,5 +135,5 @@ impl Gait {
 /// True if a foot is not where it is meant to be.
 pub(super) fn is_untidy(is: (Vec3, f64), meant: (Vec3, f64)) -> bool {
     (is.0 - meant.0).norm() > catch::UNTIDY.0
-        || anchor::wrapped(is.1 - meant.1).abs() > catch::UNTIDY.1
+        || trig::wrapped(is.1 - meant.1).abs() > catch::UNTIDY.1
 }

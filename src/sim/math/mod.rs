@@ -4,6 +4,7 @@
 //! for all of them: no fused multiply-add, and sine, cosine and arc tangent come from [`trig`], never from the platform, so a
 //! figure gets the same bits alone, in a batch, and on any instruction set.
 
+pub mod ease;
 pub mod exp;
 pub mod hash;
 pub mod lane;

@@ -207,6 +207,12 @@ impl Quat<f64> {
     pub fn slerp(self, to: Self, u: f64) -> Self {
         (self * Self::exp((self.conjugate() * to).log() * u)).normalized()
     }
+
+    /// Direction of the x axis seen from above, rad about z from x, −π…π.
+    pub fn heading(self) -> f64 {
+        let x = self.rotate(Vec3::X);
+        trig::atan2(x.y, x.x)
+    }
     /// True if every component is finite.
     pub fn is_finite(self) -> bool {
         self.to_xyzw().iter().all(|c| c.is_finite())

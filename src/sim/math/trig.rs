@@ -101,6 +101,13 @@ pub fn atan2<L: Lane>(y: L, x: L) -> L {
     y.select_lt(L::zero(), -a, a)
 }
 
+/// The same direction within −π…π, rad.
+#[inline]
+pub fn wrapped(angle: f64) -> f64 {
+    let (s, c) = sin_cos(angle);
+    atan2(s, c)
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::F64x8;

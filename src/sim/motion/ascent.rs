@@ -16,6 +16,7 @@ use crate::sim::body::topology::{
 };
 use crate::sim::body::{Body, Posture};
 use crate::sim::dynamics::Terms;
+use crate::sim::math::ease::smootherstep;
 use crate::sim::math::exp::exp;
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::{PlanarTransform, Target, TargetPair};
@@ -65,12 +66,6 @@ pub struct Ascent {
 /// How far who looks to `front` is turned from lying on the belly, rad: π on the back, π/2 on the right side.
 fn roll(front: Vec3) -> f64 {
     trig::atan2(front.y, -front.z)
-}
-
-/// The same direction within −π…π.
-fn wrapped(angle: f64) -> f64 {
-    let (s, c) = trig::sin_cos(angle);
-    trig::atan2(s, c)
 }
 
 /// Turns a point of the world into one of the way.
@@ -276,7 +271,7 @@ impl Ascent {
         self.look_around(terms, dt);
         let stage = &self.stages[self.stage];
         let u = (self.since / stage.seconds).min(1.0);
-        let share = u * u * u * (10.0 - 15.0 * u + 6.0 * u * u);
+        let share = smootherstep(u);
         self.now = self.from.mix(&self.goals(self.stage), share);
         let mut goals = self.now;
         if let Some((side, height)) = stage.step {
@@ -314,7 +309,7 @@ impl Ascent {
             real.root_rotation.rotate(Vec3::Y).cross(Vec3::Z)
         };
         let yaw = trig::atan2(heading.y, heading.x) - self.place.yaw;
-        let off = wrapped(yaw - self.here.yaw);
+        let off = trig::wrapped(yaw - self.here.yaw);
         self.here.yaw += share * off;
         let down = self.stages[self.stage].down;
         for side in 0..2 {

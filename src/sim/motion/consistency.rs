@@ -7,7 +7,7 @@
 use super::GRAVITY;
 use super::balance::{LIGHT, mass_track};
 use super::contacts::runs;
-use super::foot_lock::{Anchor, Sole, turn, yaw_pitch};
+use super::foot_lock::{Anchor, Sole};
 use super::leg_ik::forward;
 use super::polygon::{hull, margin};
 use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
@@ -149,10 +149,6 @@ impl Standing {
         let poses = forward(body, posture);
         [(L_FOOT, L_TOES), (R_FOOT, R_TOES)].map(|(foot, toes)| {
             let sole = &soles[usize::from(foot == R_FOOT)];
-            let (ankle, rotation) = poses[foot.index()];
-            let (yaw, pitch) = yaw_pitch(rotation);
-            let mut place = ankle - sole.stand(Vec3::zero(), yaw, pitch).ankle;
-            place.z = 0.0;
             let lowest = |(at, q): (Vec3, Quat), points: &[Vec3]| {
                 points
                     .iter()
@@ -160,12 +156,7 @@ impl Standing {
                     .fold(f64::INFINITY, f64::min)
             };
             Self {
-                at: Anchor {
-                    tip: 0.0,
-                    place,
-                    yaw: turn(0.0, yaw),
-                    pitch,
-                },
+                at: sole.footing(poses[foot.index()]),
                 low: lowest(poses[foot.index()], sole.foot_points())
                     .min(lowest(poses[toes.index()], sole.toe_points())),
             }

@@ -9,6 +9,7 @@ use super::cycle::label;
 use super::foot_lock::{fade, turn, yaw_pitch};
 use super::prepare::{Draft, PrepareOptions, prepare_in};
 use crate::sim::body::{Body, Posture};
+use crate::sim::math::ease::smootherstep;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 
@@ -265,7 +266,7 @@ fn finish_step(postures: &mut Vec<Posture>, label: &mut Vec<[bool; 2]>) {
     let off = placed(&postures[from]).difference(&postures[end]);
     for i in from + 1..=end {
         let u = ((i - from) as f64 / (BLEND * FINE)).min(1.0);
-        let s = 1.0 - u * u * u * (10.0 - 15.0 * u + 6.0 * u * u);
+        let s = 1.0 - smootherstep(u);
         let mut p = placed(&postures[i]);
         p.integrate(&off.map(|e| e * s), 1.0);
         postures.push(p);

@@ -17,6 +17,7 @@ use crate::sim::body::topology::{
     R_FOOT, R_SHANK, R_THIGH, R_TOES, SegmentId,
 };
 use crate::sim::body::{Body, Posture};
+use crate::sim::math::ease::smoothstep;
 use crate::sim::math::{Quat, Vec3};
 
 /// A planted leg reaches at most this fraction of its length: a straight knee makes inverse kinematics jump.
@@ -756,7 +757,7 @@ fn in_flight(locked: &[LockedFoot; 2], rate_hz: f64) -> Vec<f64> {
         }
         for (k, s) in share.iter_mut().enumerate().take(j).skip(i) {
             let u = ((k + 1 - i).min(j - k) as f64 / (FLIGHT_EDGE * rate_hz)).min(1.0);
-            *s = u * u * (3.0 - 2.0 * u);
+            *s = smoothstep(u);
         }
     }
     share
@@ -775,7 +776,7 @@ fn smooth_swings(postures: &mut [Posture], side: usize, planted: &[bool], rate_h
             let since = if i > 0 { k + 1 - i } else { usize::MAX };
             let until = if j < planted.len() { j - k } else { usize::MAX };
             let u = (since.min(until) as f64 / (SWING_EDGE * rate_hz)).min(1.0);
-            *s = if on { 0.0 } else { u * u * (3.0 - 2.0 * u) };
+            *s = if on { 0.0 } else { smoothstep(u) };
         }
     }
     for segment in leg {

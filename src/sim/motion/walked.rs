@@ -9,6 +9,7 @@
 use super::GRAVITY;
 use super::contacts::runs;
 use super::filter::{low_pass, low_pass_points, speeds};
+use crate::sim::math::ease::smootherstep;
 use crate::sim::math::{Quat, Vec3};
 
 /// People run above this speed, m/s (and walk up to it: half of the speed at which a leg of 0.9 m would leave the floor, squared).
@@ -303,7 +304,7 @@ fn swing(ankle: &mut [Vec3], foot: &mut [Quat], i: usize, j: usize) {
     let turn = (q.1 * p.1.conjugate()).log();
     for k in i..j {
         let u = (k + 1 - i) as f64 / (j + 1 - i) as f64;
-        let s = u * u * u * (10.0 - 15.0 * u + 6.0 * u * u);
+        let s = smootherstep(u);
         let over = 16.0 * u * u * (1.0 - u) * (1.0 - u);
         ankle[k] = p.0 + (q.0 - p.0) * s + Vec3::Z * (ARC * over);
         foot[k] = (Quat::exp(turn * s) * p.1).normalized();
@@ -322,7 +323,7 @@ fn bend(
     let (i, j) = (free.min(stands + 1), free.max(stands));
     for k in i..j {
         let u = k.abs_diff(free) as f64 / stands.abs_diff(free) as f64;
-        let s = u * u * u * (10.0 - 15.0 * u + 6.0 * u * u);
+        let s = smootherstep(u);
         ankle[k] = recorded.0[k] + off * s;
         foot[k] = (Quat::exp(turn * s) * recorded.1[k]).normalized();
     }

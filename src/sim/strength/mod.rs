@@ -10,8 +10,9 @@ pub mod tables;
 #[cfg(test)]
 mod tests;
 
-use crate::sim::body::age::{male_share, mix, smooth};
+use crate::sim::body::age::{male_share, mix};
 use crate::sim::body::{Body, DOF_COUNT, Sex};
+use crate::sim::math::ease::rise;
 use crate::sim::math::exp::{exp, ln};
 use curve::{AngleFactor, Muscle, VelocityFactor};
 use tables::{Action, AndersonRow, Group, Leg, Origin, Tissue};
@@ -585,7 +586,7 @@ fn deviations(percentile: f64) -> f64 {
 /// Values of the three groups of [`tables::ANDERSON`] at an age between them: smoothstep between their middle ages.
 fn by_age(v: [f64; 3], age: f64) -> f64 {
     let [young, middle, senior] = tables::ANDERSON_AGE;
-    let (a, b) = (smooth(young, middle, age), smooth(middle, senior, age));
+    let (a, b) = (rise(age, (young, middle)), rise(age, (middle, senior)));
     v[0] + a * (v[1] - v[0]) + b * (v[2] - v[1])
 }
 

@@ -1,13 +1,14 @@
 //! What the plan may push against: the points of planted feet, of a body that works on the floor, and of what rests on seats and tables, each with
 //! the acceleration that keeps it where it is.
 
-use super::{Hold, MEANT_FADE, Modern, POINTS, blend, smooth_step, soft, weight};
+use super::{Hold, MEANT_FADE, Modern, POINTS, blend, soft, weight};
 use crate::sim::body::topology::{
     JOINT, Joint, L_FOOT, L_HAND, L_TOES, R_FOOT, R_HAND, R_TOES, SEGMENT_COUNT,
 };
 use crate::sim::contact::rows::PointRow;
 use crate::sim::control::ControlInput;
 use crate::sim::figure::report::MAX_CONTACTS;
+use crate::sim::math::ease::fall;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::support::Rest;
 
@@ -58,7 +59,7 @@ impl Modern {
                     continue;
                 }
                 // What rests on a seat or a table is pushed by it as the solution needs, starting from what it gave.
-                let stays = smooth_step(rest.lift, LIFTED);
+                let stays = fall(rest.lift, LIFTED);
                 let share = stays * (rest.force.norm() / (REST_FULL * mg)).min(1.0);
                 let r = rest.position - t.segment_position(s);
                 let local = t.kin.rotation[s].transpose_mul(r);
@@ -97,12 +98,12 @@ impl Modern {
             {
                 let r = t.kin.rotation[s] * *p;
                 let z = t.segment_position(s).z + r.z;
-                let mut fade = smooth_step(z, FADE);
+                let mut fade = fall(z, FADE);
                 let (mut slides, mut held) = (false, 1.0);
                 if let Some(floor) = input.on_floor {
                     slides = floor.slides[s];
-                    let meant = smooth_step(floor.heights[s * POINTS + vertex], MEANT_FADE);
-                    fade = smooth_step(z, FLOOR_FADE);
+                    let meant = fall(floor.heights[s * POINTS + vertex], MEANT_FADE);
+                    fade = fall(z, FLOOR_FADE);
                     // Who rolls over carries itself with whatever touches, also where that is about to come off.
                     if floor.rolls {
                         held = meant;
@@ -121,7 +122,7 @@ impl Modern {
                 let v = t.kin.velocity[s] + t.kin.omega[s].cross(r);
                 let rise = (-0.2 * z / input.dt).clamp(-HOLD_SPEED, HOLD_SPEED);
                 // What strikes the floor within the tick is at rest at its end, whatever is planned.
-                let strikes = 1.0 - smooth_step(-v.z - z.max(0.0) / input.dt, STRIKES);
+                let strikes = 1.0 - fall(-v.z - z.max(0.0) / input.dt, STRIKES);
                 let pace = blend(1.0 / HOLD_TIME, 1.0 / input.dt, strikes);
                 let to_rest = Vec3 {
                     x: -v.x,
@@ -192,9 +193,9 @@ fn planned(input: &ControlInput<'_>, s: usize, point: Vec3) -> f64 {
         let extended = Quat::exp(Vec3::Y * -input.target.next.posture.hinge[h]);
         let local = input.body.joint_offset[s] + extended.rotate(point);
         let z = position.next.z + rotation.next.rotate(local).z;
-        return smooth_step(z, TIP_FADE);
+        return fall(z, TIP_FADE);
     }
-    smooth_step(
+    fall(
         position.next.z + rotation.next.rotate(point).z,
         PLANNED_FADE,
     )

@@ -2,7 +2,7 @@
 
 use super::{
     Law, MEANT_FADE, Modern, POINTS, ROTATION_FEEDBACK, Seat, TaskRow, danger, law_feedback,
-    rotation_error, smooth_step, soft, weight,
+    rotation_error, soft, weight,
 };
 use crate::sim::body::SegmentId;
 use crate::sim::body::topology::{L_FOOT, L_THIGH, L_TOES, PELVIS, R_FOOT, R_THIGH, R_TOES};
@@ -12,6 +12,7 @@ use crate::sim::dynamics::Terms;
 use crate::sim::dynamics::terms::WIDTH;
 use crate::sim::figure::report::MAX_CONTACTS;
 use crate::sim::math::Vec3;
+use crate::sim::math::ease::fall;
 
 /// How constraints from outside are approached.
 const GOAL_PACE: Pace = Pace {
@@ -145,7 +146,7 @@ impl Modern {
         let mut most = 1.0;
         if planted == [[true; 2]; 2] {
             let margin = self.margin_on_feet(input, [input.com.now.x, input.com.now.y]);
-            most -= (1.0 - SEATED_LEAST) * smooth_step(margin, SITS_DOWN);
+            most -= (1.0 - SEATED_LEAST) * fall(margin, SITS_DOWN);
         }
         if self.seat.carries > 0.0 {
             let least = 1.0 - (1.0 - SEATED_LEAST) * self.seat.needed;
@@ -172,7 +173,7 @@ impl Modern {
         }
         let capture = input.com.now + input.com.now_velocity * pendulum_time(input);
         let margin = self.margin_on_feet(input, [capture.x, capture.y]);
-        let needed = smooth_step(margin, NEEDS_SEAT);
+        let needed = fall(margin, NEEDS_SEAT);
         Seat { carries, needed }
     }
 

@@ -2,7 +2,8 @@
 
 use super::pendulum::Step;
 use super::start::Start;
-use super::{SWING, min_jerk_3, smooth, turned};
+use super::{SWING, min_jerk_3, turned};
+use crate::sim::math::ease::smootherstep;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::foot_lock::{Sole, yaw_pitch};
 
@@ -30,8 +31,8 @@ impl Stance {
     fn pose(&self, sole: &Sole, t: f64) -> (Vec3, Quat) {
         let [first, middle, last] = self.pitch;
         let half = 0.5 * (self.off - self.on);
-        let rise = smooth(1.0 - (self.off - t) / ROLL.min(half).max(1e-9));
-        let settle = smooth((t - self.on) / ROLL.min(half).max(1e-9));
+        let rise = smootherstep(1.0 - (self.off - t) / ROLL.min(half).max(1e-9));
+        let settle = smootherstep((t - self.on) / ROLL.min(half).max(1e-9));
         let pitch = first + (middle - first) * settle + (last - middle) * rise;
         let pose = sole.stand(self.place, self.yaw, pitch);
         (pose.ankle, pose.rotation)

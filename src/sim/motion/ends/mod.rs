@@ -16,6 +16,7 @@ use super::leg_ik::{forward, knee_axis};
 use super::prepare::Draft;
 use crate::sim::body::topology::{L_FOOT, NV, R_FOOT};
 use crate::sim::body::{Body, Posture};
+use crate::sim::math::ease::smootherstep;
 use crate::sim::math::{Quat, Vec3};
 use pendulum::{Footsteps, Stand, footsteps, frequency};
 use start::Start;
@@ -48,11 +49,6 @@ fn min_jerk(x0: f64, v0: f64, x1: f64, end: f64, t: f64) -> f64 {
 fn min_jerk_3(x0: Vec3, v0: Vec3, x1: Vec3, end: f64, t: f64) -> Vec3 {
     let (a, v, b) = (x0.to_array(), v0.to_array(), x1.to_array());
     Vec3::from_array(std::array::from_fn(|k| min_jerk(a[k], v[k], b[k], end, t)))
-}
-
-fn smooth(u: f64) -> f64 {
-    let u = u.clamp(0.0, 1.0);
-    u * u * u * (10.0 - 15.0 * u + 6.0 * u * u)
 }
 
 fn turned(yaw: f64, v: Vec3) -> Vec3 {
@@ -118,7 +114,7 @@ fn walk(
     let mut out = Draft::empty(rate);
     for i in 1..path.len() {
         let t = i as f64 / rate;
-        let s = smooth(t / EASE);
+        let s = smootherstep(t / EASE);
         let mut p = from.posture;
         // Rates die away while the joints come to ease.
         let mut rates = from.rates;

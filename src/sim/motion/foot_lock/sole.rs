@@ -2,7 +2,7 @@
 
 use crate::sim::body::Body;
 use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
-use crate::sim::math::{Quat, Vec3};
+use crate::sim::math::{Quat, Vec3, trig};
 
 /// Length of the toes' tip, m; toes are on it when they are turned up by more than this, rad.
 const TIP: f64 = 0.02;
@@ -45,6 +45,11 @@ pub struct Anchor {
 }
 
 impl Anchor {
+    /// Point of the floor, m, and heading, rad.
+    pub fn place_and_yaw(&self) -> (Vec3, f64) {
+        (self.place, self.yaw)
+    }
+
     /// Direction in which the foot points, x and y.
     pub(in crate::sim::motion) fn ahead(&self) -> [f64; 2] {
         let x = Quat::exp(Vec3::Z * self.yaw).rotate(Vec3::X);
@@ -156,6 +161,21 @@ impl Sole {
         pose
     }
 
+    /// Where a foot at `ankle` with `world_from_foot` stands, or would: rolled about its heel edge or its toe joint, as it is pitched. The
+    /// same bits on every machine, since ticks use it.
+    pub fn footing(&self, (ankle, rotation): (Vec3, Quat)) -> Anchor {
+        let x = rotation.rotate(Vec3::X);
+        let level = (x.x * x.x + x.y * x.y).sqrt();
+        let (yaw, pitch) = (trig::atan2(x.y, x.x), trig::atan2(x.z, level));
+        let place = ankle - self.stand(Vec3::zero(), yaw, pitch).ankle;
+        Anchor {
+            place: Vec3 { z: 0.0, ..place },
+            yaw,
+            pitch,
+            tip: 0.0,
+        }
+    }
+
     /// Middle of the front edge of the toes, toe frame, m.
     pub fn toe_tip(&self) -> Vec3 {
         let front = self.toes.iter().map(|p| p.x).fold(0.0, f64::max);
@@ -219,13 +239,13 @@ impl Sole {
     }
 }
 
-/// Heading and pitch of a foot, rad: `world_from_foot` without roll.
+/// Heading and pitch (toe-up positive) of a foot of a recording, rad: `world_from_foot` without roll.
 pub fn yaw_pitch(rotation: Quat) -> (f64, f64) {
     let x = rotation.rotate(Vec3::X);
     (x.y.atan2(x.x), x.z.clamp(-1.0, 1.0).asin())
 }
 
-/// Difference of two headings in −π…π, rad.
+/// Difference of two headings of a recording in −π…π, rad.
 pub fn turn(from: f64, to: f64) -> f64 {
     (to - from).sin().atan2((to - from).cos())
 }

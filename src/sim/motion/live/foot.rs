@@ -123,25 +123,10 @@ pub struct Foot {
     posed: i64,
 }
 
-/// Point of the floor under the flat ankle of a foot that is rolled about heel edge or toe joint, its heading and its pitch.
-pub fn place(sole: &Sole, ankle: Vec3, rotation: Quat) -> (Vec3, f64, f64) {
-    let x = rotation.rotate(Vec3::X);
-    let along = (x.x * x.x + x.y * x.y).sqrt();
-    let (yaw, pitch) = (trig::atan2(x.y, x.x), trig::atan2(x.z, along));
-    let mut p = ankle - sole.stand(Vec3::zero(), yaw, pitch).ankle;
-    p.z = 0.0;
-    (p, yaw, pitch)
-}
-
 /// How steep or rolled a foot is; beyond 1 it does not stand on its sole.
 pub fn steepness(rotation: Quat, pitch: f64) -> f64 {
     let roll = rotation.rotate(Vec3::Y).z.abs() / ROLLED;
     roll.max(pitch / STEEPEST.0).max(pitch / STEEPEST.1)
-}
-
-fn turn(from: f64, to: f64) -> f64 {
-    let (s, c) = trig::sin_cos(to - from);
-    trig::atan2(s, c)
 }
 
 /// Pitch of a standing foot: flat within a band, with a smooth beginning. `age`: for how long it has stood, samples.
@@ -336,8 +321,8 @@ impl Foot {
         } else {
             self.estimate(st.start, j, standing)
         };
-        let strays =
-            (now.place - at.place).norm() > STRAY.0 || turn(at.yaw, now.yaw).abs() > STRAY.1;
+        let strays = (now.place - at.place).norm() > STRAY.0
+            || trig::wrapped(now.yaw - at.yaw).abs() > STRAY.1;
         self.strayed = if strays { self.strayed + 1 } else { 0 };
         let carried = |i: i64| (1..=DRAGS).all(|k| other.is_down(i - k));
         if self.strayed <= STEADY || !(other.touches(j) && carried(j) && j >= other.moving) {
@@ -378,7 +363,7 @@ impl Foot {
             let w = QUIET * QUIET / (QUIET * QUIET + s.speed * s.speed);
             sum += w;
             place += (s.place - first.place) * w;
-            yaw += turn(first.yaw, s.yaw) * w;
+            yaw += trig::wrapped(s.yaw - first.yaw) * w;
         }
         out.place = first.place + place * (1.0 / sum);
         out.yaw = first.yaw + yaw / sum;

@@ -9,27 +9,25 @@
 //! body is to be (up to `FORESEEN` before the output), put out (the window).
 
 mod balance;
+mod dynamics;
 mod foot;
 mod polygon;
+mod posing;
 
-use super::GRAVITY;
-use super::balance::zero_moment_point;
 use super::clip::{Knot, PlanarTransform, between};
 use super::foot_lock::{FootPose, Sole};
-use super::leg_ik::{center_of_mass, forward, knee_axis, solve_leg_in_plane};
-use super::one_foot::{OneFoot, Over};
+use super::leg_ik::{center_of_mass, forward};
+use super::one_foot::OneFoot;
 use super::target::Target;
-use crate::sim::body::angles::clamp_to_limits;
-use crate::sim::body::topology::{
-    L_FOOT, L_THIGH, L_TOES, NV, R_FOOT, R_THIGH, R_TOES, SEGMENT_COUNT,
-};
+use crate::sim::body::topology::{L_FOOT, L_TOES, NV, R_FOOT, R_TOES, SEGMENT_COUNT};
 use crate::sim::body::{Body, Posture};
+use crate::sim::math::ease::smootherstep;
 use crate::sim::math::exp::exp;
-use crate::sim::math::{Quat, Vec3, trig};
-use balance::{Balance, Balanced};
+use crate::sim::math::{Quat, Vec3};
+use balance::Balance;
 use foot::Foot;
 pub use foot::Stance;
-use polygon::Polygon;
+use posing::Lowering;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
@@ -56,30 +54,8 @@ const POSED: i64 = 2;
 const FORESEEN: i64 = 16;
 /// Samples behind the output that balance looks back on, and that a figure which is late may still ask for.
 const PAST: i64 = 90;
-/// The zero-moment point is kept this far inside the soles, m.
-const INSET: f64 = 0.04;
-/// How much farther the pelvis moves than the centre of mass: the feet stay.
-const LEAD: f64 = 1.15;
-/// Most shift of the centre of mass, m.
-const MOST_SHIFT: f64 = 0.12;
-/// Outside by this much for about a second, m: something other than the feet carries the body.
-const CARRIED: f64 = 0.15;
-/// A leg reaches this share of its length; for a swinging one the pelvis is lowered by no more than this, m.
-const REACH: f64 = 0.98;
-const SWING_DROP: f64 = 0.04;
-/// A foot that the hip is less than the first ahead of does not rise on its toes for its leg to reach, m; from the second on it does. What its leg
-/// lacks then is the pelvis's to give, up to so much, m.
-const BEHIND: (f64, f64) = (0.0, 0.15);
-const SPARED: f64 = 0.1;
-/// How many samples ahead the pelvis looks for what it needs.
-const AHEAD: i64 = 20;
-/// How fast a lowered pelvis comes up again, m/s, and how fast it goes down, 1/s.
-const FORGET: f64 = 0.01;
-const STIFF: f64 = 8.0;
 /// A pelvis below this share of standing height is not one that stands on feet.
 const UPRIGHT: f64 = 0.45;
-/// Angles are kept this far from their limits, rad.
-const LIMIT_MARGIN: f64 = 0.005;
 /// A stream that is this far from where its last samples were leading has jumped: joints and tilt, rad; pelvis, m.
 const JUMP: (f64, f64) = (0.25, 0.06);
 /// So many coordinates of the joints jump together.
@@ -88,28 +64,6 @@ const SEVERAL: usize = 4;
 const FADE: f64 = 0.4;
 /// Samples that may wait to be prepared: ten seconds.
 pub const MOST_PENDING: usize = 600;
-
-/// Lowering of the pelvis: as low as was needed in the last seconds, so that it does not add to the ups and downs of the gait.
-#[derive(Clone, Copy, Debug, Default)]
-struct Drop {
-    /// What is needed, forgotten slowly, m.
-    needed: f64,
-    at: f64,
-    speed: f64,
-}
-
-impl Drop {
-    /// Takes the next need; the first one holds at once.
-    fn take(&mut self, need: f64, first: bool) {
-        if first {
-            (self.needed, self.at) = (need, need);
-        }
-        self.needed = need.min(self.needed + FORGET * H).min(0.0);
-        let pull = STIFF * STIFF * (self.needed - self.at) - 2.0 * STIFF * self.speed;
-        self.speed += pull * H;
-        self.at += self.speed * H;
-    }
-}
 
 /// A sample as it came.
 #[derive(Clone, Copy, Debug)]
@@ -205,7 +159,7 @@ pub struct LiveMotion {
     feet: [Foot; 2],
     /// Shift of the centre of mass for balance, at the output and one sample before, newest last, m.
     shift: [[f64; 2]; 2],
-    drop: Drop,
+    lowering: Lowering,
     lasting: f64,
     balance: Balance,
     /// Where the stream lies: a stream that jumps goes on from where it was.
@@ -213,16 +167,6 @@ pub struct LiveMotion {
     /// What is left of a jump, and the samples since.
     fade: Option<([f64; NV], i64)>,
     weights: [f64; SMOOTH as usize + 1],
-}
-
-fn level(v: Vec3) -> Vec3 {
-    Vec3 { z: 0.0, ..v }
-}
-
-/// Heading of a rotation about the vertical, rad.
-fn heading(q: Quat) -> f64 {
-    let x = q.rotate(Vec3::X);
-    trig::atan2(x.y, x.x)
 }
 
 impl LiveMotion {
@@ -250,7 +194,7 @@ impl LiveMotion {
             out: -1,
             feet: [Foot::new(), Foot::new()],
             shift: [[0.0; 2]; 2],
-            drop: Drop::default(),
+            lowering: Lowering::default(),
             lasting: 0.0,
             balance: Balance::new(window as usize),
             frame: PlanarTransform::default(),
@@ -355,7 +299,7 @@ impl LiveMotion {
             || off[6..].iter().filter(beyond).count() >= SEVERAL;
         if jumped {
             // The place of the pelvis over the floor and its heading go on as they were; the rest is spread.
-            let yaw = heading(led.root_rotation) - heading(p.root_rotation);
+            let yaw = led.root_rotation.heading() - p.root_rotation.heading();
             let turn = PlanarTransform {
                 x: 0.0,
                 y: 0.0,
@@ -385,7 +329,7 @@ impl LiveMotion {
         let mut p = *posture;
         if let Some((e, since)) = &self.fade {
             let u = (*since as f64 * H / FADE).min(1.0);
-            let s = 1.0 - u * u * u * (10.0 - 15.0 * u + 6.0 * u * u);
+            let s = 1.0 - smootherstep(u);
             p.integrate(&e.map(|e| e * s), 1.0);
         }
         p
@@ -502,31 +446,6 @@ impl LiveMotion {
         }
     }
 
-    /// Angular momentum of sample `i` by central differences.
-    fn momentum(&mut self, i: i64) {
-        if i >= 0 {
-            let poses = |i: i64| &self.at(i).poses;
-            let sum = self.spin([poses(i - 1), poses(i), poses(i + 1)]);
-            self.at_mut(i).momentum = sum;
-        }
-    }
-
-    /// Angular momentum about the centre of mass in the middle of three successive poses, kg·m²/s.
-    fn spin(&self, [a, b, c]: [&[(Vec3, Quat); SEGMENT_COUNT]; 3]) -> Vec3 {
-        let com = center_of_mass(&self.body, b);
-        let mut sum = Vec3::zero();
-        for (s, segment) in self.body.segments.iter().enumerate() {
-            let centre = |p: &[(Vec3, Quat); SEGMENT_COUNT]| p[s].0 + p[s].1.rotate(segment.com);
-            let v = (centre(c) - centre(a)) * (0.5 * RATE);
-            let q = b[s].1;
-            let turn = (c[s].1 * a[s].1.conjugate()).log() * (0.5 * RATE);
-            let spin = q.conjugate().rotate(turn);
-            let arm = centre(b) - com;
-            sum += arm.cross(v) * segment.mass + q.rotate(segment.inertia * spin);
-        }
-        sum
-    }
-
     /// Settles which feet stand in sample `j`; `last` is the newest one that was looked at.
     fn label(&mut self, j: i64, last: i64) {
         let upright =
@@ -544,224 +463,15 @@ impl LiveMotion {
 
     /// Place, heading and pitch of a foot of a smoothed sample, and how fast its place moves, m/s.
     fn standing(&self, side: usize, i: i64) -> foot::Standing {
-        let at = |i: i64| {
-            let (ankle, rotation) = self.at(i).poses[[L_FOOT, R_FOOT][side].index()];
-            foot::place(&self.soles[side], ankle, rotation)
-        };
-        let (place, yaw, pitch) = at(i);
+        let pose = |i: i64| self.at(i).poses[[L_FOOT, R_FOOT][side].index()];
+        let [before, at] = [i - 1, i].map(|i| self.soles[side].footing(pose(i)));
         foot::Standing {
-            place,
-            yaw,
-            pitch,
-            steep: foot::steepness(self.at(i).poses[[L_FOOT, R_FOOT][side].index()].1, pitch),
-            speed: (place - at(i - 1).0).norm() * RATE,
+            place: at.place,
+            yaw: at.yaw,
+            pitch: at.pitch,
+            steep: foot::steepness(pose(i).1, at.pitch),
+            speed: (at.place - before.place).norm() * RATE,
         }
-    }
-
-    /// How far the zero-moment point of sample `j` is from where the feet could have it, as it came.
-    fn balance(&mut self, j: i64) {
-        let (mut balanced, load) = self.balanced(j, |s| (s.com, s.momentum));
-        let inside = balanced.support.and_then(|s| s.nearest(balanced.zmp));
-        let far = inside.map_or(0.0, |p| {
-            let off = [p[0] - balanced.zmp[0], p[1] - balanced.zmp[1]];
-            (off[0] * off[0] + off[1] * off[1]).sqrt()
-        });
-        // About a second: peaks of gait are corrected, a chair is not.
-        self.lasting += (far - self.lasting) * (1.0 - exp(-H));
-        let u = ((self.lasting - 0.7 * CARRIED) / (0.6 * CARRIED)).clamp(0.0, 1.0);
-        let trust = 1.0 - u * u * (3.0 - 2.0 * u);
-        self.at_mut(j).trust = trust;
-        balanced.weight = trust * load * load;
-        self.balance.push(balanced);
-    }
-
-    /// The balance of sample `j` with the centre of mass and the angular momentum that are meant, and its load, 0…1.
-    fn balanced(&self, j: i64, of: impl Fn(&Sample) -> (Vec3, Vec3)) -> (Balanced, f64) {
-        let at = |i: i64| of(self.at(i));
-        let (a, b, c) = (at(j - 2).0, at(j).0, at(j + 2).0);
-        let acc = (c - b * 2.0 + a) * (0.25 * RATE * RATE);
-        let rate = (at(j + 1).1 - at(j - 1).1) * (0.5 * RATE);
-        let mass: f64 = self.body.segments.iter().map(|s| s.mass).sum();
-        let load = 1.0 + acc.z / GRAVITY;
-        let omega2 = ((GRAVITY + acc.z) / b.z.max(0.2)).clamp(3.0, 40.0);
-        let looks = heading(self.at(j).smooth.root_rotation);
-        let mut balanced = Balanced::new([b.x, b.y], omega2, looks);
-        if load > super::balance::LIGHT && j >= 2 {
-            let force = (acc + Vec3::Z * GRAVITY) * mass;
-            let z = zero_moment_point(b, (force, rate));
-            let way = (c - a) * (0.25 * RATE);
-            let over = Over {
-                height: b.z,
-                speed: (way.x * way.x + way.y * way.y).sqrt(),
-                lean: [b.x - z[0], b.y - z[1]],
-                load: None,
-            };
-            let anchors: [_; 2] =
-                std::array::from_fn(|side| self.feet[side].anchor(j, |i| self.standing(side, i)));
-            let alone = anchors[0].is_some() != anchors[1].is_some();
-            let mut polygon = Polygon::default();
-            for (sole, anchor) in self.soles.iter().zip(&anchors) {
-                match anchor {
-                    Some(at) if alone => {
-                        self.one_foot
-                            .each_corner(sole, at, &over, |p| polygon.add(p));
-                    }
-                    Some(at) => sole.each_corner(at, |p| polygon.add(p)),
-                    None => {}
-                }
-            }
-            balanced = Balanced::new(z, omega2, looks);
-            balanced.support = polygon.inner(INSET);
-        }
-        (balanced, load.clamp(0.0, 1.0))
-    }
-
-    /// Puts sample `i` together as it is going to be, and looks at the balance of that.
-    fn build(&mut self, i: i64) {
-        let shift = self.planned(i);
-        let posture = self.posture(i, shift);
-        let poses = forward(&self.body, &posture);
-        let com = center_of_mass(&self.body, &poses);
-        let s = self.at_mut(i);
-        s.built.poses = poses;
-        s.built.com = com
-            - Vec3 {
-                x: shift[0],
-                y: shift[1],
-                z: 0.0,
-            };
-        let before = |k: i64| &self.at(i - k).built.poses;
-        let sum = self.spin([before(2), before(1), before(0)]);
-        if i < 4 {
-            return;
-        }
-        self.at_mut(i - 1).built.momentum = sum;
-        self.improve(i - 2, |s| (s.built.com, s.built.momentum));
-    }
-
-    /// Looks at the balance of sample `i` again, with the centre of mass and the angular momentum that are meant.
-    fn improve(&mut self, i: i64, of: impl Fn(&Sample) -> (Vec3, Vec3)) {
-        let (mut better, load) = self.balanced(i, of);
-        better.weight = self.at(i).trust * load * load;
-        self.balance.improve(i, better);
-    }
-
-    /// Poses of the feet of sample `f`, and what they ask of the pelvis.
-    fn pose_feet(&mut self, f: i64, seen: i64, labelled: i64) {
-        for side in 0..2 {
-            let mut foot = std::mem::replace(&mut self.feet[side], Foot::new());
-            let sole = &self.soles[side];
-            let raw = |i: i64| self.at(i).poses[[L_FOOT, R_FOOT][side].index()];
-            let standing = |i: i64| self.standing(side, i);
-            let lacks = |ankle: Vec3| self.lacks(f, side, ankle);
-            let posed = foot.pose(sole, f, (labelled, seen), raw, standing, lacks);
-            self.feet[side] = foot;
-            let s = self.at_mut(f);
-            s.feet[side] = posed.pose;
-            s.down[side] = posed.down;
-            s.lift[side] = posed.lift;
-        }
-        let mut drop = self.needs(f, |s, side| (s.feet[side].ankle, s.down[side]));
-        // Who looks ahead comes down in time.
-        for i in f + 1..=labelled.min(f + AHEAD) {
-            let ankle = |s: &Sample, side: usize| {
-                let sole = &self.soles[side];
-                match self.feet[side].anchor(i, |i| self.standing(side, i)) {
-                    Some(at) => {
-                        let pitch = foot::risen(sole, &at, &|a| self.lacks(i, side, a));
-                        (sole.stand(at.place, at.yaw, pitch).ankle, true)
-                    }
-                    None => (s.feet[side].ankle, false),
-                }
-            };
-            drop = drop.min(self.needs(i, ankle));
-        }
-        self.drop.take(drop, f == 0);
-        self.at_mut(f).drop = self.drop.at;
-    }
-
-    /// Hip of a side in sample `i` without the lowering of the pelvis, m, and how far its ankle may be from it, m.
-    fn hip(&self, i: i64, side: usize) -> (Vec3, f64) {
-        let s = self.at(i);
-        let t = [L_THIGH, R_THIGH][side].index();
-        let length = self.body.joint_offset[t + 1].norm() + self.body.joint_offset[t + 2].norm();
-        let [x, y] = self.planned(i).map(|d| LEAD * d);
-        let shift = Vec3 { x, y, z: 0.0 };
-        let offset = s.smooth.root_rotation.rotate(self.body.joint_offset[t]);
-        (s.smooth.root_position + offset + shift, REACH * length)
-    }
-
-    /// How far an ankle is out of the leg's reach in sample `i` while the pelvis is as low as it is now, m.
-    fn lacks(&self, i: i64, side: usize, ankle: Vec3) -> f64 {
-        let (hip, most) = self.hip(i, side);
-        let far = hip + Vec3::Z * self.drop.at - ankle;
-        // Who has left a foot behind rises on its toes; who stands over it comes down.
-        let ahead = self.at(i).smooth.root_rotation.rotate(Vec3::X);
-        let behind = (far.x * ahead.x + far.y * ahead.y - BEHIND.0) / (BEHIND.1 - BEHIND.0);
-        far.norm() - most - SPARED * (1.0 - behind.clamp(0.0, 1.0))
-    }
-
-    /// How far the pelvis of sample `i` has to come down so that both legs reach their ankles, m (≤ 0).
-    ///
-    /// * `ankle`: of a side, and whether that foot stands.
-    fn needs(&self, i: i64, ankle: impl Fn(&Sample, usize) -> (Vec3, bool)) -> f64 {
-        let s = self.at(i);
-        let of = |side: usize| {
-            let (ankle, down) = ankle(s, side);
-            let (hip, most) = self.hip(i, side);
-            let d = hip - ankle;
-            let along = level(d).norm();
-            let height = (most * most - along * along).max(0.04 * most * most).sqrt();
-            let need = (height - d.z).min(0.0);
-            if down {
-                need
-            } else {
-                need.max(-SWING_DROP) * ((0.6 - along / most) / 0.15).clamp(0.0, 1.0)
-            }
-        };
-        of(0).min(of(1))
-    }
-
-    /// The shift of the centre of mass that sample `i` is going to have, as it looks now, m.
-    fn planned(&self, i: i64) -> [f64; 2] {
-        let planned = self.balance.planned(i);
-        planned.map(|x| x.clamp(-MOST_SHIFT, MOST_SHIFT))
-    }
-
-    /// Moves the shift of the trunk on to sample `out`.
-    fn shift_on(&mut self, out: i64) {
-        let next = self.balance.next((out > 0).then_some(self.shift));
-        let next = next.map(|x| x.clamp(-MOST_SHIFT, MOST_SHIFT));
-        self.shift = if out > 0 {
-            [self.shift[1], next]
-        } else {
-            [next; 2]
-        };
-    }
-
-    /// The whole posture of sample `i` with a shift of the centre of mass, m.
-    fn posture(&self, i: i64, shift: [f64; 2]) -> Posture {
-        let s = self.at(i);
-        let [x, y] = shift.map(|d| d * LEAD);
-        let mut posture = s.smooth;
-        posture.root_position += Vec3 { x, y, z: s.drop };
-        for side in 0..2 {
-            let left = side == 0;
-            let lift = (-2..=2i64)
-                .map(|d| {
-                    [3.0, 2.0, 1.0][d.unsigned_abs() as usize] / 9.0 * self.at(i + d).lift[side]
-                })
-                .sum::<f64>();
-            let mut pose = s.feet[side];
-            if !s.down[side] {
-                pose.ankle.z += lift;
-            }
-            let axis = knee_axis(&s.smooth, left);
-            let foot = (pose.ankle, pose.rotation);
-            solve_leg_in_plane(&self.body, &mut posture, left, foot, pose.toe, axis);
-        }
-        clamp_to_limits(&self.body, &mut posture, LIMIT_MARGIN);
-        posture
     }
 
     /// The whole posture of sample `out`.

@@ -79,7 +79,7 @@ fn planted_feet_do_not_slide_and_the_motion_is_its_own_derivative() {
         let poses = forward(&body, &pair[1].posture);
         for (side, foot) in [L_FOOT, R_FOOT].into_iter().enumerate() {
             let (ankle, rotation) = poses[foot.index()];
-            let at = foot::place(&Sole::new(&body, side), ankle, rotation).0;
+            let at = Sole::new(&body, side).footing((ankle, rotation)).place;
             if !pair[1].planted[side] {
                 steps += usize::from(stands[side].is_some());
                 stands[side] = None;
@@ -254,7 +254,7 @@ fn feet_that_turn_on_the_floor_are_set_down_anew_one_after_the_other() {
         assert!(lifted(0) > 5, "{window} s: {}", lifted(0));
         assert_eq!(lifted(1) > 5, both, "{window} s: {}", lifted(1));
         let end = forward(&body, &out[out.len() - 1].posture)[L_FOOT.index()].1;
-        let off = heading(end) - heading(forward(&body, &turning(399))[L_FOOT.index()].1);
+        let off = end.heading() - forward(&body, &turning(399))[L_FOOT.index()].1.heading();
         assert!(off.abs() < 0.45, "{window} s: {off}");
     }
 }

@@ -1,6 +1,7 @@
 //! Where the segments point: their frames from end points, hinge planes, and bones relative to a calibration pose.
 
 use super::scene::Scene;
+use crate::sim::math::ease::rise;
 use crate::sim::math::{Mat3, Quat, Vec3};
 use crate::sim::motion::filter::percentile;
 use crate::sim::motion::skeleton_map::SkeletonMap;
@@ -56,11 +57,6 @@ pub(super) fn shortest(a: Vec3, b: Vec3) -> Quat {
         return Quat::exp(a.cross(side).normalized_or(Vec3::Y) * std::f64::consts::PI);
     }
     Quat::exp(c * (s.atan2(a.dot(b)) / s))
-}
-
-fn smoothstep(x: f64, from: f64, to: f64) -> f64 {
-    let u = ((x - from) / (to - from)).clamp(0.0, 1.0);
-    u * u * (3.0 - 2.0 * u)
 }
 
 impl Scene<'_> {
@@ -238,9 +234,8 @@ impl Scene<'_> {
                 let v = (c[i] - b[i]).normalized_or(u);
                 off.push(v.dot(own).abs().clamp(0.0, 1.0).asin());
             }
-            let w = smoothstep(bend, PLANE_TRUST.0, PLANE_TRUST.1)
-                * (1.0 - smoothstep(bend, 2.6, 2.9))
-                * smoothstep(agree, 0.3, 0.7);
+            let w =
+                rise(bend, PLANE_TRUST) * (1.0 - rise(bend, (2.6, 2.9))) * rise(agree, (0.3, 0.7));
             axis.push((own * (1.0 - w) + plane * w).normalized_or(own));
         }
         (axis, off)

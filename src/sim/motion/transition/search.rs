@@ -57,33 +57,13 @@ pub(super) struct Looks<'a> {
     feet: Vec<[Anchor; 2]>,
 }
 
-/// Where a foot stands, or would.
-pub(super) fn anchor(sole: &Sole, (ankle, rotation): (Vec3, Quat)) -> Anchor {
-    let x = rotation.rotate(Vec3::X);
-    let yaw = trig::atan2(x.y, x.x);
-    let pitch = trig::atan2(x.z, (x.x * x.x + x.y * x.y).sqrt());
-    let place = ankle - sole.stand(Vec3::zero(), yaw, pitch).ankle;
-    Anchor {
-        tip: 0.0,
-        place: Vec3 { z: 0.0, ..place },
-        yaw,
-        pitch,
-    }
-}
-
-/// The same direction within −π…π.
-pub(super) fn wrapped(angle: f64) -> f64 {
-    let (s, c) = trig::sin_cos(angle);
-    trig::atan2(s, c)
-}
-
 impl<'a> Looks<'a> {
     pub fn new(body: &Body, samples: &'a [Sample]) -> Self {
         let soles = [Sole::new(body, 0), Sole::new(body, 1)];
         let of = |(posture, _): &Sample| {
             let poses = forward(body, posture);
             let feet = [L_FOOT, R_FOOT].map(|f| poses[f.index()]);
-            let feet = [anchor(&soles[0], feet[0]), anchor(&soles[1], feet[1])];
+            let feet = [soles[0].footing(feet[0]), soles[1].footing(feet[1])];
             (center_of_mass(body, &poses), feet)
         };
         let (com, feet) = samples.iter().map(of).unzip();
@@ -194,7 +174,7 @@ fn compare(left: &Looks<'_>, i: usize, entered: &Looks<'_>, j: usize) -> Option<
     let capture = far(sum(&a), sum(&b));
     let step = far(a[2], b[2]);
     let (from, to) = (&entered.feet[j][side], &left.feet[i][side]);
-    let turn = wrapped(to.yaw - from.yaw - yaw).abs();
+    let turn = trig::wrapped(to.yaw - from.yaw - yaw).abs();
     if capture > CAPTURE || step > STEP || turn > TURN {
         return None;
     }

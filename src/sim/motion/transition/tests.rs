@@ -81,7 +81,7 @@ fn a_way_ends_as_the_clip_does_and_no_foot_slides_on_it() {
             let poses = forward(&body, posture);
             let feet = [L_FOOT, R_FOOT];
             for s in 0..2 {
-                let at = search::anchor(&soles[s], poses[feet[s].index()]).place;
+                let at = soles[s].footing(poses[feet[s].index()]).place;
                 let before = if planted[s] { stood[s] } else { None };
                 let slid = before.map_or(0.0, |b| (at - b).norm());
                 assert!(slid < 2e-4, "at {speed}: {slid} m in a sample");

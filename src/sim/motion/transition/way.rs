@@ -4,14 +4,15 @@
 //! is fades from the seam on; a foot that stands stays in its place until it leaves the floor, legs follow the feet, and the pelvis is shifted where
 //! the zero-moment point would leave the support.
 
-use super::search::{Moment, anchor, wrapped};
+use super::search::Moment;
 use super::{Next, RATE, WayIn};
 use crate::sim::body::angles::clamp_to_limits;
 use crate::sim::body::topology::{
     DOF_START, JOINT, Joint, L_FOOT, L_THIGH, L_TOES, L_UPPER_ARM, NV, R_FOOT, R_TOES,
 };
 use crate::sim::body::{Body, Posture};
-use crate::sim::math::{Quat, Vec3};
+use crate::sim::math::ease::smootherstep;
+use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::balance::{mass_track, pelvis_shift};
 use crate::sim::motion::clip::Clip;
 use crate::sim::motion::consistency::consistency;
@@ -56,11 +57,6 @@ const FOOT: [usize; 2] = [L_FOOT.index(), R_FOOT.index()];
 
 fn samples_in(seconds: f64) -> usize {
     (seconds * RATE).round() as usize
-}
-
-fn smooth(u: f64) -> f64 {
-    let u = u.clamp(0.0, 1.0);
-    u * u * u * (10.0 - 15.0 * u + 6.0 * u * u)
 }
 
 /// A difference before, at and after the seam, that fades from there on.
@@ -115,7 +111,7 @@ fn feet_of(body: &Body, posture: &Posture) -> [FootPose; 2] {
 }
 
 fn stood(sole: &Sole, pose: &FootPose) -> Anchor {
-    anchor(sole, (pose.ankle, pose.rotation))
+    sole.footing((pose.ankle, pose.rotation))
 }
 
 /// From one pose of a foot to another: translation, rotation vector, toes.
@@ -236,7 +232,7 @@ impl Seam {
         let [is, should] = [&self.from[1], &self.feet[1]].map(|f| stood(sole, &f[side]));
         let stays = change == self.label.len();
         let near = (is.place - should.place).norm() < IN_PLACE.0
-            && wrapped(is.yaw - should.yaw).abs() < IN_PLACE.1;
+            && trig::wrapped(is.yaw - should.yaw).abs() < IN_PLACE.1;
         (stays && near).then_some(0)
     }
 
@@ -392,7 +388,7 @@ pub(super) fn lead_over(
     let share = |i: usize| {
         let since = (i + cut).saturating_sub(held) as f64;
         let until = ends_at.saturating_sub(i) as f64;
-        smooth(since.min(until) / (EDGE * RATE))
+        smootherstep(since.min(until) / (EDGE * RATE))
     };
     let draft = Draft {
         body,
