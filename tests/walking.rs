@@ -472,7 +472,7 @@ fn who_jumps_takes_no_spin_along_and_lands_upright() {
     let clip = recorded(&body, "jump");
     let seconds = clip.duration() + 0.5;
     let (rms, capture) = walk(&body, "jump", &clip, false, seconds);
-    assert!(rms < 2.0 && capture < 0.12, "{rms} deg, {capture} m");
+    assert!(rms < 1.2 && capture < 0.12, "{rms} deg, {capture} m");
 
     let (mut world, key) = playing(&body, clip, 0.0, false);
     let (mut spin, mut bow, mut flown) = (0.0f64, 0.0f64, 0);

@@ -34,6 +34,8 @@ mod tasks;
 /// m/s² of the body (WALKING §5). Hands, joints and planted feet were set on recorded motion: docs/adr/0004.
 mod weight {
     pub(super) const COM: [f64; 3] = [1000.0, 1000.0, 300.0];
+    /// Upwards, of who is about to take off: what is missing then nobody makes up for in the air.
+    pub(super) const COM_TAKES_OFF: f64 = 1000.0;
     pub(super) const HAND: f64 = 1.0;
     /// Constraints from outside, fully in force: a bounded pull that moves the centre of mass by 3 cm when it cannot be met.
     pub(super) const GOAL: f64 = 100.0;

@@ -13,6 +13,12 @@ const EARLY_DOWN: f64 = 0.2;
 const LATE: f64 = 0.15;
 /// Rate at which the plan catches up with a foot that landed early.
 const HURRY: f64 = 2.0;
+/// Least rate of a motion in the air; feet that leave within this time of each other jump, s; no flight lasts longer than this, s, nor is there any
+/// with less gravity than this, m/s².
+const SLOWS: f64 = 0.5;
+const TOGETHER: f64 = 0.1;
+const LONGEST_FLIGHT: f64 = 1.0;
+const LIGHT: f64 = 1.0;
 /// Rate at which a figure that is behind its stream makes up for it, and how far it may fall behind in a step of its own, s.
 const CATCH_UP: f64 = 1.05;
 const MOST_BEHIND: f64 = 0.5;
@@ -32,6 +38,9 @@ impl Gait {
         let (mut rate, hurry) = (if live { most(CATCH_UP) } else { 1.0 }, most(HURRY));
         if self.step.is_some() {
             return if self.lag < MOST_BEHIND { 0.0 } else { rate };
+        }
+        if !live && self.started && self.flies() {
+            rate = self.rate_aloft(terms);
         }
         let mut lifted = [false; 2];
         let comes_down = self.started && self.flies() && terms.com_velocity.z < 0.0;
@@ -93,6 +102,24 @@ impl Gait {
             }
         }
         rate
+    }
+
+    /// Rate at which a jump goes on in the air: its feet are ready to land when the body comes down, which is earlier than planned for who left the
+    /// floor too slowly. The legs of a runner swing all the time; hurried, they would turn the trunk.
+    fn rate_aloft(&self, terms: &Terms) -> f64 {
+        let next = (0..2).filter_map(|side| self.planned(side).or(self.next(side)));
+        let on = next.map(|f| f.on).fold(f64::INFINITY, f64::min);
+        let planned = (on - self.phase) / self.speed;
+        let (high, fast, g) = self.above;
+        let apart = (self.feet[0].lifted - self.feet[1].lifted).abs() / self.speed;
+        if apart > TOGETHER || !(planned > 0.0 && planned < LONGEST_FLIGHT) || g < LIGHT {
+            return 1.0;
+        }
+        let v = terms.com_velocity.z;
+        // Both fall alike: the height at which the motion lands, from here.
+        let drop = high - (v - fast) * planned + 0.5 * g * planned * planned;
+        let real = (v + (v * v + 2.0 * g * drop).max(0.0).sqrt()) / g;
+        (planned / real.max(1e-3)).clamp(SLOWS, HURRY)
     }
 
     fn land(&mut self, terms: &Terms, side: usize, planned: &Footfall, late: f64) {

@@ -155,6 +155,8 @@ pub struct Gait {
     phase: f64,
     capture: Capture,
     flight: Option<Flight>,
+    /// How much higher the centre of mass was in the last tick than it should have been, m, and how much faster it rose, m/s; and gravity, m/s².
+    above: (f64, f64, f64),
     landing: Option<Landing>,
     step: Option<Catch>,
     /// Foot that is about to be brought back, or is.
@@ -186,6 +188,7 @@ impl Gait {
             phase: 0.0,
             capture: Capture::new(body),
             flight: None,
+            above: (0.0, 0.0, 0.0),
             landing: None,
             step: None,
             tidying: None,
@@ -452,6 +455,11 @@ impl Gait {
     ) -> Option<Balance> {
         self.capture
             .update(terms, tasks.com, support.polygon(), gravity, dt);
+        self.above = (
+            terms.com.z - tasks.com.now.z,
+            terms.com_velocity.z - tasks.com.now_velocity.z,
+            gravity,
+        );
         let (now, home) = (self.places(terms), self.meant(tasks.feet));
         self.untidy = (0..2).any(|k| is_untidy(now[k], home[k]));
         if self.walks() {

@@ -4,6 +4,7 @@ use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::body::{Body, Posture, SegmentId};
 use crate::sim::math::Vec3;
 use crate::sim::motion::Clip;
+use crate::sim::motion::balance::mass_track;
 use crate::sim::motion::clip::PlanarTransform;
 use crate::sim::motion::contacts::runs;
 use crate::sim::motion::foot_lock::Sole;
@@ -51,14 +52,37 @@ const PAUSE: (f64, f64) = (0.2, 0.1);
 /// A foot this close to the floor carries the body if no other does, m.
 const NEAR_FLOOR: f64 = 0.03;
 
+/// A body falls while the floor would give less than this share of its weight.
+const FALLS: f64 = 0.5;
+
+/// In which of the samples without a planted foot the body falls.
+fn falling(body: &Body, samples: &[(&Posture, [bool; 2])], rate_hz: f64) -> Vec<bool> {
+    // Second differences over five samples.
+    const AROUND: usize = 3;
+    let mut falls = vec![false; samples.len()];
+    let off: Vec<bool> = samples.iter().map(|s| s.1 == [false; 2]).collect();
+    for (i, j, _) in runs(&off).into_iter().filter(|r| r.2) {
+        let from = i.saturating_sub(AROUND);
+        let near = &samples[from..(j + AROUND).min(samples.len())];
+        let postures: Vec<Posture> = near.iter().map(|s| *s.0).collect();
+        let track = mass_track(body, &postures, rate_hz);
+        for k in i..j {
+            falls[k] = track.load[k - from] < FALLS;
+        }
+    }
+    falls
+}
+
 /// Which feet carry the body in each sample: the planted ones, or, where none is and one stays near the floor, that one. (The preparation
 /// declares a foot free that its leg cannot hold in place exactly; that is no flight.)
-fn carried(body: &Body, samples: &[(&Posture, [bool; 2])]) -> Vec<[bool; 2]> {
+fn carried(body: &Body, samples: &[(&Posture, [bool; 2])], rate_hz: f64) -> Vec<[bool; 2]> {
+    let falls = falling(body, samples, rate_hz);
     let soles = [Sole::new(body, 0), Sole::new(body, 1)];
     samples
         .iter()
-        .map(|&(posture, planted)| {
-            if planted != [false; 2] {
+        .enumerate()
+        .map(|(i, &(posture, planted))| {
+            if planted != [false; 2] || falls[i] {
                 return planted;
             }
             let poses = forward(body, posture);
@@ -111,7 +135,7 @@ impl StepPlan {
         };
         let n = ((duration - begin) * rate).round() as usize + 1;
         let samples: Vec<_> = clip.samples().skip(skipped).take(n).collect();
-        let mut planted = carried(body, &samples);
+        let mut planted = carried(body, &samples, rate);
         for side in 0..2 {
             steady(&mut planted, side, rate);
         }

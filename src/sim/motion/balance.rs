@@ -9,6 +9,7 @@ use super::banded::Pentadiagonal;
 use super::filter::low_pass;
 use super::leg_ik::forward;
 use super::polygon::{Region, margin};
+use super::running::falls;
 use crate::sim::body::topology::SEGMENT_COUNT;
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::Vec3;
@@ -127,7 +128,7 @@ pub enum Carrier {
 }
 
 /// Pelvis and trunk move by this much more than the centre of mass, because the feet stay.
-const LEAD: f64 = 1.15;
+pub(super) const LEAD: f64 = 1.15;
 /// A zero-moment point this much outside costs as much as a shift of one metre, m.
 const COST: f64 = 0.1;
 /// Time below which a shift is not to change, s.
@@ -236,6 +237,42 @@ pub fn pelvis_shift(
     (inset, reach): (f64, f64),
     rate_hz: f64,
 ) -> Vec<[f64; 2]> {
+    let around = (carriers, elsewhere);
+    shift_with(track, so_far, around, (inset, reach), None, rate_hz)
+}
+
+/// The same for a body that runs, which flies where `air` is set: the path of its mass is straight there, whatever it was.
+pub(super) fn pelvis_shift_in_run(
+    track: &MassTrack,
+    so_far: &[[f64; 2]],
+    around: (&[Carrier], &[Elsewhere]),
+    limits: (f64, f64),
+    air: &[bool],
+    rate_hz: f64,
+) -> Vec<[f64; 2]> {
+    let mut straight = vec![[0.0; 2]; air.len()];
+    let plain = |i: usize, k: usize| track.com[i].to_array()[k] - so_far[i][k] / LEAD;
+    let price = FREE * PRICE * rate_hz.powi(4);
+    for i in (1..air.len() - 1).filter(|i| falls(air, *i)) {
+        for k in 0..2 {
+            let bend = plain(i - 1, k) - 2.0 * plain(i, k) + plain(i + 1, k);
+            for (j, r) in [(i - 1, 1.0), (i, -2.0), (i + 1, 1.0)] {
+                straight[j][k] -= price * r * LEAD * bend;
+            }
+        }
+    }
+    shift_with(track, so_far, around, limits, Some(&straight), rate_hz)
+}
+
+/// [`pelvis_shift`] with another pull on the shift, per sample, from whatever else is asked of it.
+fn shift_with(
+    track: &MassTrack,
+    so_far: &[[f64; 2]],
+    (carriers, elsewhere): (&[Carrier], &[Elsewhere]),
+    (inset, reach): (f64, f64),
+    pull: Option<&[[f64; 2]]>,
+    rate_hz: f64,
+) -> Vec<[f64; 2]> {
     let n = track.com.len();
     let rows: Vec<[f64; 3]> = (0..n)
         .map(|i| answer(track.omega2[i], rate_hz, i, n).map(|x| x / LEAD))
@@ -258,7 +295,10 @@ pub fn pelvis_shift(
     let mut debt = vec![[0.0; 2]; n];
     for _ in 0..ALTERNATIONS {
         // PRICE Aᵀ (goal − debt − plain)
-        shift.fill([0.0; 2]);
+        match pull {
+            Some(pull) => shift.copy_from_slice(pull),
+            None => shift.fill([0.0; 2]),
+        }
         for i in 0..n {
             let want = minus(minus(goal[i], debt[i]), plain[i]).map(|w| PRICE * w);
             let [l, d, r] = rows[i];

@@ -7,6 +7,7 @@
 mod sole;
 mod stances;
 
+pub(in crate::sim::motion) use sole::ON_TIP;
 pub use sole::{Anchor, FootPose, Sole, turn, yaw_pitch};
 pub use stances::{Stance, stances};
 
@@ -37,7 +38,7 @@ const FLAT: f64 = 0.12;
 /// Stances longer than this are standing, not walking, s.
 const LONG_STANCE: f64 = 1.5;
 /// A foot steeper or more rolled than this does not stand on its sole, rad.
-const STEEPEST: (f64, f64, f64) = (-1.05, 0.6, 0.6);
+pub(super) const STEEPEST: (f64, f64, f64) = (-1.05, 0.6, 0.6);
 /// A swinging sole passes at least this high, m, for a step of normal length.
 const CLEARANCE: f64 = 0.045;
 /// How fast a sole rises after lift-off and sinks before touch-down at least, m/s.
@@ -92,7 +93,7 @@ pub fn lock_foot(
     ankles: &[Vec3],
     rotations: &[Quat],
     (stances, other): (&[Stance], &[Stance]),
-    (heel_up, toe_out): (&[f64], &[f64]),
+    (heel_up, toe_out, tip): (&[f64], &[f64], &[f64]),
     side: usize,
     rate_hz: f64,
 ) -> LockedFoot {
@@ -131,11 +132,12 @@ pub fn lock_foot(
                 place: stays - arm(yaw),
                 yaw,
                 pitch: (pitch[k - i] - heel_up[k]).max(STEEPEST.0),
+                tip: tip[k],
             };
             out.slide_before = out.slide_before.max((track.point[k] - at.place).norm());
             out.planted[k] = true;
             out.anchors[k] = at;
-            out.poses[k] = sole.stand(at.place, at.yaw, at.pitch);
+            out.poses[k] = sole.stand_on_tip(&at);
         }
     }
     let recorded = Recorded {

@@ -19,6 +19,8 @@ const LONGER: f64 = 0.4;
 /// Nobody is planned on less than this share of his sole before the ankle: whose calf is weaker than that is weak in knees and hips too, and falls by those
 /// when he is kept farther back. At speed he gets as much again as he lacked.
 const LEAST: f64 = 0.61;
+/// A runner's foot that carries less than this share of his weight is as strong as one that carries so much.
+const LEAST_LOAD: f64 = 0.5;
 /// The support is moved against the lean of the body by no more than this, m.
 const MOST_MOVED: f64 = 0.03;
 
@@ -31,6 +33,8 @@ pub struct Over {
     pub speed: f64,
     /// From the zero-moment point to the centre of mass, over the floor, m.
     pub lean: [f64; 2],
+    /// What a runner's foot carries, in units of the weight; absent for who walks.
+    pub load: Option<f64>,
 }
 
 /// Limits of the support of one foot that carries a whole body.
@@ -82,9 +86,13 @@ impl OneFoot {
             height,
             speed,
             lean,
+            load,
         } = *over;
         let hurry = ((speed - SLOW) / (FAST - SLOW)).clamp(0.0, 1.0);
-        let front = self.front * (1.0 + LONGER * hurry) + self.lacks * hurry;
+        let mut front = self.front * (1.0 + LONGER * hurry) + self.lacks * hurry;
+        if let Some(load) = load {
+            front = self.front / load.max(LEAST_LOAD);
+        }
         let rise = self.ankle / height.max(self.ankle);
         let lean = lean.map(|d| d * rise);
         let far = (lean[0] * lean[0] + lean[1] * lean[1]).sqrt();
@@ -115,6 +123,7 @@ mod tests {
         },
         yaw: 0.7,
         pitch: 0.0,
+        tip: 0.0,
     };
 
     fn support(one: &OneFoot, sole: &Sole, lean: [f64; 2], speed: f64) -> Vec<[f64; 2]> {
@@ -123,6 +132,7 @@ mod tests {
             height: 1.0,
             speed,
             lean,
+            load: None,
         };
         one.each_corner(sole, &AT, &over, |p| corners.push(p));
         hull(&corners)
@@ -141,6 +151,32 @@ mod tests {
             let hurried = support(&one, &sole, [0.0, 0.0], 2.0);
             assert!(margin(&hurried, before(one.front)) > 0.01);
         }
+    }
+
+    #[test]
+    fn the_more_a_runner_weighs_on_his_foot_the_nearer_to_his_ankle() {
+        let body = Body::adult_man();
+        let (one, sole) = (OneFoot::new(&body), Sole::new(&body, 0));
+        let reach = |load: f64| {
+            let over = Over {
+                height: 1.0,
+                speed: 3.5,
+                lean: [0.0, 0.0],
+                load: Some(load),
+            };
+            let mut most = f64::NEG_INFINITY;
+            one.each_corner(&sole, &AT, &over, |p| {
+                let x = (p[0] - AT.place.x) * 0.7f64.cos() + (p[1] - AT.place.y) * 0.7f64.sin();
+                most = most.max(x);
+            });
+            most
+        };
+        // Where the moment about the ankle is what it gives.
+        assert!((reach(1.0) - one.front).abs() < 1e-9);
+        assert!((reach(2.5) - one.front / 2.5).abs() < 1e-9);
+        // But no farther than the toes.
+        let toes = sole.points(0.0).map(|p| p.x).fold(0.0, f64::max);
+        assert!((reach(0.1) - toes).abs() < 1e-9);
     }
 
     #[test]

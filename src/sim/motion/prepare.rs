@@ -1,13 +1,16 @@
 //! From a recorded motion in body scale to a reference that a body can follow: feet locked, legs reaching, balance kept.
 
-use super::balance::{Carrier, Elsewhere, LIGHT, MassTrack, mass_track, pelvis_shift};
+use super::balance::{
+    Carrier, Elsewhere, LIGHT, MassTrack, mass_track, pelvis_shift, pelvis_shift_in_run,
+};
 use super::contacts::runs;
 use super::envelope::smoothest_below;
 use super::filter::{low_pass, low_pass_points, low_pass_rotations, percentile, smooth_minimum};
-use super::foot_lock::{LockedFoot, Sole, Stance, lock_foot, stances};
+use super::foot_lock::{LockedFoot, ON_TIP, Sole, Stance, lock_foot, stances};
 use super::leg_ik::{forward, knee_axis, solve_leg_in_plane};
 use super::one_foot::{OneFoot, Over};
 use super::polygon::{hull, margin};
+use super::running::{Flights, roll_off};
 use crate::sim::body::angles::{anatomical_angles, clamp_to_limits};
 use crate::sim::body::topology::{
     BALL_COUNT, DOF_COUNT, DOF_START, HINGE_COUNT, JOINT, Joint, L_FOOT, L_SHANK, L_THIGH, L_TOES,
@@ -27,6 +30,8 @@ pub(super) const DROP_TIME: f64 = 0.15;
 const ROUNDS: usize = 8;
 /// The zero-moment point is kept this far inside the support polygon, m.
 pub(super) const INSET: f64 = 0.04;
+/// The same for runners, whose ankles limit it anyway.
+const RUN_INSET: f64 = 0.02;
 /// A zero-moment point outside by more than this for long means that something other than the feet carries the body, m.
 pub(super) const CARRIED: f64 = 0.15;
 /// The trunk is never moved further than this for balance, m.
@@ -43,6 +48,8 @@ const LEAN_CUTOFF: f64 = 4.0;
 const LIMIT_MARGIN: f64 = 0.01;
 /// Ankles of planted feet are kept this far from their limits, rad.
 const RELIEF_MARGIN: f64 = 0.03;
+/// What is bent for an ankle's sake is so this long before and after, s: of who walks and of who runs, whose whole stance takes 0.2 s.
+const RELIEF_AROUND: (f64, f64) = (0.1, 0.025);
 /// A leg is turned at most this far for its ankle's sake, rad.
 const MOST_TURN: f64 = 0.6;
 /// Cut-off of the joints of swinging legs, Hz, and the time over which it comes in and goes out, s.
@@ -147,6 +154,8 @@ struct Relief {
     turn_in: [Vec<f64>; 2],
     /// Foot turned outwards on the floor, rad; one value per stance.
     toe_out: [Vec<f64>; 2],
+    /// Toes turned up about their tip, rad.
+    tip: [Vec<f64>; 2],
 }
 
 impl Relief {
@@ -155,6 +164,7 @@ impl Relief {
             heel_up: [vec![0.0; n], vec![0.0; n]],
             turn_in: [vec![0.0; n], vec![0.0; n]],
             toe_out: [vec![0.0; n], vec![0.0; n]],
+            tip: [vec![0.0; n], vec![0.0; n]],
         }
     }
 
@@ -166,10 +176,15 @@ impl Relief {
         postures: &[Posture],
         planted: &[[bool; 2]],
         stances: [&[Stance]; 2],
+        runs: bool,
         rate_hz: f64,
     ) {
         let n = postures.len();
-        let half = (0.1 * rate_hz) as usize;
+        let half = (if runs {
+            RELIEF_AROUND.1
+        } else {
+            RELIEF_AROUND.0
+        } * rate_hz) as usize;
         let angles: Vec<_> = postures.iter().map(anatomical_angles).collect();
         for s in 0..2 {
             let d = DOF_START[FOOT[s].index()];
@@ -191,7 +206,12 @@ impl Relief {
                 smooth_minimum(&raw, half).into_iter().map(|x| -x).collect()
             };
             let hip = DOF_START[[L_THIGH, R_THIGH][s].index()];
-            for (sum, e) in self.heel_up[s].iter_mut().zip(over(d, true)) {
+            for (i, (sum, e)) in self.heel_up[s].iter_mut().zip(over(d, true)).enumerate() {
+                // A runner's pelvis is lower in the first rounds than in the last: what was too much is given back.
+                if runs && e == 0.0 && *sum > 0.0 && planted[i][s] && self.tip[s][i] < ON_TIP {
+                    let spare = (body.upper[d] - RELIEF_MARGIN - angles[i][d]).max(0.0);
+                    *sum = (*sum - spare).max(0.0);
+                }
                 *sum += e;
             }
             let (inward, outward) = (over(d + 2, true), over(d + 2, false));
@@ -250,7 +270,7 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
                 &draft.ankle[s],
                 &draft.foot[s],
                 (&stands[s], &stands[1 - s]),
-                (&relief.heel_up[s], &relief.toe_out[s]),
+                (&relief.heel_up[s], &relief.toe_out[s], &relief.tip[s]),
                 s,
                 rate,
             )
@@ -258,6 +278,25 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
     };
     let mut relief = Relief::new(n);
     let mut locked = lock(&relief);
+    let fits = options.lock_feet && options.balance;
+    let mut flights = fits
+        .then(|| Flights::of(&upper, &draft.label, rate))
+        .flatten();
+    if flights.is_some() {
+        for s in 0..2 {
+            let roll = (&mut relief.heel_up[s], &mut relief.tip[s]);
+            let roll = (roll.0.as_mut_slice(), roll.1.as_mut_slice());
+            roll_off(
+                &soles[s],
+                &draft.ankle[s],
+                &locked[s],
+                &stands[s],
+                roll,
+                rate,
+            );
+        }
+        locked = lock(&relief);
+    }
     let mut planted: Vec<[bool; 2]> = (0..n)
         .map(|i| [locked[0].planted[i], locked[1].planted[i]])
         .collect();
@@ -272,7 +311,7 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
 
     // Legs as recorded first; then rounds in which ankles are relieved and the trunk is shifted over the feet.
     let mut shift = vec![[0.0f64; 2]; n];
-    let (mut postures, mut drop) = assemble(body, &upper, &locked, draft, &relief, &shift);
+    let (mut postures, mut drop) = assemble(body, &upper, &locked, draft, &relief, &shift, None);
     let mut carriers = carriers_of(body, &soles, &upper, &locked, &draft.label);
     let mut track = mass_track(body, &postures, rate);
     let before = zmp_outside(&track, &carriers);
@@ -284,19 +323,40 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
     };
     for round in 0..rounds {
         if round + 2 < rounds {
-            relief.add(body, &postures, &planted, [&stands[0], &stands[1]], rate);
+            relief.add(
+                body,
+                &postures,
+                &planted,
+                [&stands[0], &stands[1]],
+                flights.is_some(),
+                rate,
+            );
             locked = lock(&relief);
             carriers = carriers_of(body, &soles, &upper, &locked, &draft.label);
         }
         if options.balance && round > 0 {
-            shift = pelvis_shift(
-                &track,
-                &shift,
-                &held_by(&carriers, &soles, &locked, (&one_foot, &track), rate),
-                &elsewhere,
-                (INSET, CARRIED),
+            let held = held_in_gait(
+                &carriers,
+                &soles,
+                &locked,
+                (&one_foot, &track),
+                flights.is_some(),
                 rate,
             );
+            shift = match &flights {
+                None => {
+                    let reach = (INSET, CARRIED);
+                    pelvis_shift(&track, &shift, &held, &elsewhere, reach, rate)
+                }
+                Some(f) => pelvis_shift_in_run(
+                    &track,
+                    &shift,
+                    (&held, &elsewhere),
+                    (RUN_INSET, CARRIED),
+                    f.air(),
+                    rate,
+                ),
+            };
             for s in &mut shift {
                 let far = s[0].hypot(s[1]);
                 if far > MOST_SHIFT {
@@ -304,7 +364,18 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
                 }
             }
         }
-        (postures, drop) = assemble(body, &upper, &locked, draft, &relief, &shift);
+        if let Some(f) = &mut flights {
+            f.observe(&track, &drop);
+        }
+        (postures, drop) = assemble(
+            body,
+            &upper,
+            &locked,
+            draft,
+            &relief,
+            &shift,
+            flights.as_ref(),
+        );
         track = mass_track(body, &postures, rate);
     }
 
@@ -458,6 +529,18 @@ pub(super) fn held_by(
     (one_foot, track): (&OneFoot, &MassTrack),
     rate_hz: f64,
 ) -> Vec<Carrier> {
+    held_in_gait(carriers, soles, locked, (one_foot, track), false, rate_hz)
+}
+
+/// The same, of who `runs` or walks.
+fn held_in_gait(
+    carriers: &[Carrier],
+    soles: &[Sole; 2],
+    locked: &[LockedFoot; 2],
+    (one_foot, track): (&OneFoot, &MassTrack),
+    runs: bool,
+    rate_hz: f64,
+) -> Vec<Carrier> {
     let half = (0.5 * PASSING * rate_hz) as usize;
     // Without the jumps of touch-downs, from which the rounds would not settle.
     let lean: [Vec<f64>; 2] = std::array::from_fn(|k| {
@@ -483,6 +566,7 @@ pub(super) fn held_by(
             height: track.com[i].z,
             speed: way.x.hypot(way.y) * rate_hz / (after - before).max(1) as f64,
             lean: [lean[0][i], lean[1][i]],
+            load: runs.then(|| track.load[i]),
         };
         let at = &locked[side].anchors[i];
         one_foot.each_corner(&soles[side], at, &over, |p| corners.push(p));
@@ -575,6 +659,7 @@ fn assemble(
     draft: &Draft,
     relief: &Relief,
     shift: &[[f64; 2]],
+    flights: Option<&Flights>,
 ) -> (Vec<Posture>, Vec<f64>) {
     let n = upper.len();
     let legs = leg_geometry(body);
@@ -603,7 +688,10 @@ fn assemble(
             drop[i] = drop[i].min(need);
         }
     }
-    let drop = smoothest_below(&drop, DROP_TIME, draft.rate_hz);
+    let drop = match flights {
+        None => smoothest_below(&drop, DROP_TIME, draft.rate_hz),
+        Some(f) => f.heights(&drop),
+    };
     let mut path: Vec<Vec3> = (0..n)
         .map(|i| {
             let mut p = out[i].root_position;
@@ -611,10 +699,16 @@ fn assemble(
             p
         })
         .collect();
-    low_pass_points(&mut path, 10.0, draft.rate_hz);
-    let flies = in_flight(locked, draft.rate_hz);
+    if flights.is_none() {
+        low_pass_points(&mut path, 10.0, draft.rate_hz);
+    }
+    let flies = if flights.is_some() {
+        vec![0.0; n]
+    } else {
+        in_flight(locked, draft.rate_hz)
+    };
     for i in 0..n {
-        // In the air the feet go where the pelvis goes.
+        // In the air the feet go where the pelvis goes; a runner's swing on.
         let moved = (path[i] - upper[i].root_position) * flies[i];
         out[i].root_position = path[i];
         for (s, (hip, length)) in legs.iter().enumerate() {

@@ -24,6 +24,7 @@ use super::contacts::{label_feet, phases};
 use super::filter::renormalised;
 use super::foot_lock::Sole;
 use super::prepare::{Draft, PrepareOptions, Prepared, prepare};
+use super::running;
 use super::skeleton_map::map_skeleton;
 use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES, L_FOOT, L_SHANK};
 use crate::sim::body::{Body, Posture};
@@ -129,6 +130,7 @@ pub fn retarget(
     let (unit_m, stature) = unit(options.unit_m, measured.stature)?;
     let recorded = (places, turns, take.rest(bvh));
     let (mut scene, seen) = Scene::new(&take, &map, recorded, (up, unit_m), source_rate, options);
+    let keeps_run = seen.keeps_run();
     let (mut feet, rate) = (seen.feet, scene.rate);
     let sides_swapped = scene.settle_sides(&mut map);
     if sides_swapped {
@@ -216,7 +218,7 @@ pub fn retarget(
     }
 
     // Feet and balance.
-    let draft = Draft {
+    let mut draft = Draft {
         rate_hz: rate,
         postures,
         knee_axis: frames.knee_axis.map(directed),
@@ -224,6 +226,14 @@ pub fn retarget(
         foot,
         label,
     };
+    if keeps_run {
+        let bare = PrepareOptions {
+            lock_feet: false,
+            balance: false,
+        };
+        let recorded = prepare(body, &draft, bare).postures;
+        running::label_runs(body, &recorded, &mut draft.label, rate);
+    }
     let phases = phases(&draft.label, rate);
     let how = PrepareOptions {
         lock_feet: options.lock_feet && options.floor,

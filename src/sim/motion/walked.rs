@@ -1,7 +1,7 @@
 //! Runs that are walked: a run slowed down and shortened until a body whose muscles cannot run takes the same steps.
 //!
-//! A run needs 1.7 to 2 times the strength that is measured in people's joints: at its take-off the ankle turns so fast that it gives a third of what
-//! it holds (docs/adr/0021). What can be kept of it is its steps, their order, rhythm and headings, and what trunk and arms do. Time
+//! A run needs 1.3 to 1.5 times the strength that is measured in people's joints: hip, knee and ankle are at their limits together, and at take-off
+//! the ankle turns so fast that it gives a third of what it holds (docs/adr/0021, 0032). What can be kept of it is its steps, their order, rhythm and headings, and what trunk and arms do. Time
 //! runs as much slower as makes its steps last as long as walked ones, the way is shortened along with them until it is walked at a walk's speed (and
 //! until nobody leans more than such a speed can be braked with), every foot stays down until the other one has landed, and between
 //! its places it swings as a walking foot does.

@@ -55,10 +55,14 @@ impl Modern {
             }
             let urgency = self.urgency(input);
             let a = a - t.com_bias;
+            let mut com = weight::COM;
+            if input.take_off.is_some() {
+                com[2] = weight::COM_TAKES_OFF;
+            }
             for (k, value) in [a.x, a.y, a.z].into_iter().enumerate() {
                 self.rows.push(TaskRow {
                     row: t.jc[k],
-                    weight: weight::COM[k] * urgency,
+                    weight: com[k] * urgency,
                     value,
                 });
             }

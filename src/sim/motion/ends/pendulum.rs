@@ -82,6 +82,7 @@ impl Feet<'_> {
         let mut corners = Vec::new();
         for s in (0..2).filter(|s| down[*s]) {
             let at = Anchor {
+                tip: 0.0,
                 place: self.place[s],
                 yaw: self.yaw[s],
                 pitch: 0.0,

@@ -4,6 +4,10 @@ use crate::sim::body::Body;
 use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::math::{Quat, Vec3, trig};
 
+/// Length of the toes' tip, m; toes are on it when they are turned up by more than this, rad.
+const TIP: f64 = 0.02;
+pub(in crate::sim::motion) const ON_TIP: f64 = 0.02;
+
 /// Pose of one foot: ankle position, `world_from_foot`, toe extension.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FootPose {
@@ -20,7 +24,7 @@ pub struct FootPose {
 pub struct Sole {
     pub(super) foot: Vec<Vec3>,
     pub(super) toes: Vec<Vec3>,
-    pub(super) toe_joint: Vec3,
+    pub(in crate::sim::motion) toe_joint: Vec3,
     pub(super) heel: Vec3,
     /// Height of the ankle over the floor when the foot is flat, m.
     pub ankle_height: f64,
@@ -36,6 +40,8 @@ pub struct Anchor {
     pub yaw: f64,
     /// Pitch, rad, toe-up positive.
     pub pitch: f64,
+    /// By how much the toes are turned up about their tip, as at the end of a runner's stance, rad; the foot with them.
+    pub tip: f64,
 }
 
 impl Anchor {
@@ -141,6 +147,20 @@ impl Sole {
         }
     }
 
+    /// The same with the toes turned up about their tip by `tip` rad, and the foot with them.
+    pub fn stand_on_tip(&self, at: &Anchor) -> FootPose {
+        let mut pose = self.stand(at.place, at.yaw, at.pitch);
+        if at.tip > 0.0 {
+            let toes = pose.rotation * Quat::exp(Vec3::Y * -pose.toe);
+            let tip =
+                pose.ankle + pose.rotation.rotate(self.toe_joint) + toes.rotate(self.toe_tip());
+            let turn = Quat::exp(pose.rotation.rotate(Vec3::Y) * at.tip);
+            pose.ankle = tip + turn.rotate(pose.ankle - tip);
+            pose.rotation = (turn * pose.rotation).normalized();
+        }
+        pose
+    }
+
     /// Where a foot at `ankle` with `world_from_foot` stands, or would: rolled about its heel edge or its toe joint, as it is pitched. The
     /// same bits on every machine, since ticks use it.
     pub fn footing(&self, (ankle, rotation): (Vec3, Quat)) -> Anchor {
@@ -152,6 +172,7 @@ impl Sole {
             place: Vec3 { z: 0.0, ..place },
             yaw,
             pitch,
+            tip: 0.0,
         }
     }
 
@@ -178,6 +199,7 @@ impl Sole {
             place: anchor,
             yaw,
             pitch,
+            tip,
         } = *at;
         let heading = Quat::exp(Vec3::Z * yaw);
         let ball = self.toe_joint.x;
@@ -192,8 +214,21 @@ impl Sole {
             }
         }
         if pitch < 0.02 {
+            // On their tip the toes still carry with a strip of it.
+            let front = self.toe_tip().x;
+            let back = if tip < ON_TIP {
+                f64::NEG_INFINITY
+            } else {
+                front - TIP
+            };
             for p in &self.toes {
-                push(self.toe_joint + *p);
+                push(
+                    self.toe_joint
+                        + Vec3 {
+                            x: p.x.max(back),
+                            ..*p
+                        },
+                );
             }
         }
     }

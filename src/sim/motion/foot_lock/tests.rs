@@ -111,7 +111,7 @@ fn locked(
         place,
         turned,
         (&stands, &other),
-        (&still, &still),
+        (&still, &still, &still),
         0,
         120.0,
     );
@@ -165,7 +165,7 @@ fn feet_that_turn_together_step_in_turn_and_one_of_them_always_stands() {
                 &place,
                 &turned,
                 (&of, &others),
-                (&still, &still),
+                (&still, &still, &still),
                 s,
                 120.0,
             );

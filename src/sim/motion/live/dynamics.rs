@@ -79,6 +79,7 @@ impl LiveMotion {
                 height: b.z,
                 speed: (way.x * way.x + way.y * way.y).sqrt(),
                 lean: [b.x - z[0], b.y - z[1]],
+                load: None,
             };
             let anchors: [_; 2] =
                 std::array::from_fn(|side| self.feet[side].anchor(j, |i| self.standing(side, i)));

@@ -374,6 +374,7 @@ impl Foot {
     pub fn anchor(&self, j: i64, standing: impl Fn(i64) -> Standing) -> Option<Anchor> {
         let st = &self.stances[self.stance_at(j)?];
         Some(Anchor {
+            tip: 0.0,
             place: st.place,
             yaw: st.yaw,
             pitch: stance_pitch(standing(j).pitch, j - st.start, st.rolled),
@@ -422,6 +423,7 @@ impl Foot {
             let st = &mut self.stances[k];
             st.rolled |= now.pitch < FLAT.0;
             let at = Anchor {
+                tip: 0.0,
                 place: st.place,
                 yaw: st.yaw,
                 pitch: stance_pitch(now.pitch, f - st.start, st.rolled),

@@ -6,6 +6,7 @@ use crate::sim::math::{Mat3, Quat, Vec3};
 use crate::sim::motion::filter::{
     low_pass_points, low_pass_rotations, resample_points, resample_rotations,
 };
+use crate::sim::motion::running;
 use crate::sim::motion::skeleton_map::SkeletonMap;
 use crate::sim::motion::walked::{self, Slowed};
 
@@ -29,6 +30,13 @@ pub(super) struct Seen {
     /// Speed of the fastest run, m/s, if there is one, and how it is slowed down if it is to be walked.
     pub runs: Option<f64>,
     pub slowed: Option<Slowed>,
+}
+
+impl Seen {
+    /// True if somebody runs and is to run.
+    pub(super) fn keeps_run(&self) -> bool {
+        self.runs.is_some() && self.slowed.is_none()
+    }
 }
 
 impl<'a> Scene<'a> {
@@ -71,6 +79,12 @@ impl<'a> Scene<'a> {
             .flatten();
         let count = slowed.as_ref().map_or(count, Slowed::count);
         let mut smoothing = (0.0, 0usize);
+        let runs = walked::fastest(&way, source_rate);
+        let cutoff_hz = if runs.is_some() && slowed.is_none() {
+            options.cutoff_hz.max(running::CUTOFF)
+        } else {
+            options.cutoff_hz
+        };
         let same = (rate - source_rate).abs() < 1e-9;
         let mut feet: [Vec<Vec<Vec3>>; 2] = Default::default();
         for (k, path) in places.iter_mut().enumerate() {
@@ -86,7 +100,7 @@ impl<'a> Scene<'a> {
                 }
             }
             let before = path.clone();
-            low_pass_points(path, options.cutoff_hz, rate);
+            low_pass_points(path, cutoff_hz, rate);
             for (a, b) in before.iter().zip(path.iter()) {
                 smoothing.0 += (*a - *b).dot(*a - *b);
                 smoothing.1 += 1;
@@ -98,7 +112,7 @@ impl<'a> Scene<'a> {
             } else if !same {
                 *path = resample_rotations(path, source_rate, rate, count);
             }
-            low_pass_rotations(path, options.cutoff_hz, rate);
+            low_pass_rotations(path, cutoff_hz, rate);
         }
         let scene = Self {
             take,
@@ -115,7 +129,7 @@ impl<'a> Scene<'a> {
             Seen {
                 feet,
                 smoothing_rms,
-                runs: walked::fastest(&way, source_rate),
+                runs,
                 slowed,
             },
         )
