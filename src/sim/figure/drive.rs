@@ -23,7 +23,7 @@ pub struct ClipPlayback {
     pub looped: bool,
     /// Where the clip's origin lies in the world.
     pub origin: PlanarTransform,
-    /// How the figure came into it, if that was out of another motion without standing in between.
+    /// How the figure came into it, if that was out of another motion without standing in between, or from a stand that is not like its beginning.
     pub way_in: Option<Arc<WayIn>>,
 }
 

@@ -15,8 +15,9 @@ use crate::sim::motion::foot_lock::Anchor;
 use crate::sim::motion::join::{BLEND, FINE, HOW, ROUNDS, Sample, TAKES_PART, hold_on};
 use crate::sim::motion::prepare::{Draft, prepare_in};
 
-/// A clip begins as a figure stands if no foot is farther from where it has it than this, m and rad, the capture point no farther, m, and no joint, rad.
-const ALIKE: (f64, f64, f64, f64) = (0.04, 0.2, 0.05, 0.25);
+/// A clip begins as a figure stands if no foot is farther from where it has it than this, m and rad, the capture point no farther, m, and no joint, rad; and if
+/// no joint is faster, rad/s.
+const ALIKE: (f64, f64, f64, f64, f64) = (0.04, 0.2, 0.05, 0.25, 1.0);
 
 impl Next {
     /// True if nobody who stands like `stand` need do anything before the clip begins at clip time `first`, s. No platform-dependent rounding, since it
@@ -31,10 +32,12 @@ impl Next {
         let moves = (looks.com[2] - looks.com[1]) * (FINE / omega);
         let begins = seen(&looks.feet[1], looks.com[1] + moves);
         let joints = stand.joint_difference(&samples[1].0);
+        let rates = samples[1].0.joint_difference(&samples[2].0);
         far(is.0, begins.0) < ALIKE.0
             && wrapped(begins.1 - is.1).abs() < ALIKE.1
             && far(is.2, begins.2) < ALIKE.2
             && joints.iter().all(|e| e.abs() < ALIKE.3)
+            && rates.iter().all(|e| e.abs() * FINE < ALIKE.4)
     }
 
     /// The way from standing like `stand` into the clip, which begins at clip time `first`, s. `None` if there is none.
