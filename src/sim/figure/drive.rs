@@ -1,11 +1,12 @@
 //! Where a figure's desired motion comes from.
 
+use super::planning::Plan;
 use crate::sim::body::Posture;
 use crate::sim::gait::StepPlan;
 use crate::sim::gait::anchor::Anchor;
 use crate::sim::math::Vec3;
 use crate::sim::motion::clip::{Clip, PlanarTransform};
-use crate::sim::motion::transition::WayIn;
+use crate::sim::motion::transition::{Next, WayIn};
 use crate::sim::motion::{LiveMotion, Target, TargetPair};
 use std::sync::Arc;
 
@@ -22,7 +23,7 @@ pub struct ClipPlayback {
     pub looped: bool,
     /// Where the clip's origin lies in the world.
     pub origin: PlanarTransform,
-    /// How the figure came into it, if that was out of another motion without standing in between.
+    /// How the figure came into it, if that was out of another motion without standing in between, or from a stand that is not like its beginning.
     pub way_in: Option<Arc<WayIn>>,
 }
 
@@ -69,6 +70,15 @@ impl ClipPlayback {
         }
     }
 
+    /// The motion, without place and time.
+    pub(super) fn motion(&self) -> Next {
+        Next {
+            clip: Arc::clone(&self.clip),
+            speed: self.speed,
+            looped: self.looped,
+        }
+    }
+
     /// Clip time at world time `t`, s.
     pub fn clip_time(&self, t: f64) -> f64 {
         (t - self.start) * self.speed
@@ -94,7 +104,7 @@ impl ClipPlayback {
 }
 
 /// A clip that begins as soon as its figure stands.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(super) struct Queued {
     /// The clip, as it would play if it began now.
     pub play: ClipPlayback,
@@ -108,6 +118,10 @@ pub(super) struct Queued {
     pub stance: Option<(Vec3, f64)>,
     /// When the figure should stand, s.
     pub due: f64,
+    /// It begins standing, where its figure is.
+    pub led: bool,
+    /// The way from that stand into the clip, if it does not begin so.
+    pub entry: Option<Plan<Option<WayIn>>>,
 }
 
 impl Queued {

@@ -233,7 +233,7 @@ impl Figure {
             .compute(&self.links, &self.state, applied, world.gravity);
         self.begin_to_leave(world);
         self.begin_queued(world.time());
-        self.get_up();
+        self.get_up(world.time());
         self.target = self.desired(world.time(), world.dt);
         let steps = self.steps() && self.gait.is_walking();
         self.carrying.lean(

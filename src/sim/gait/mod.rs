@@ -253,6 +253,21 @@ impl Gait {
         self.lean = Vec3::zero();
     }
 
+    /// How it stands at ease.
+    pub fn ease(&self) -> &Posture {
+        &self.ease
+    }
+
+    /// The posture in which it comes to a stand after a clip that ended in motion.
+    pub fn comes_to(&self) -> Option<&Posture> {
+        self.ended.is_some().then_some(&self.ease)
+    }
+
+    /// True while it does so.
+    pub fn eases(&self, terms: &Terms) -> bool {
+        self.ended.is_some() && !self.is_settled(terms)
+    }
+
     /// World time by which the clip is behind its schedule, s.
     pub fn lag(&self) -> f64 {
         self.lag

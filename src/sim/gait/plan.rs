@@ -189,8 +189,13 @@ impl StepPlan {
         }
     }
 
-    /// The same for a figure that comes into the clip by a way of its own.
-    pub fn entered_by(self, body: &Body, way: &WayIn) -> Self {
+    /// The same for a figure that comes into the clip by a way of its own; one into its lead-in leaves what is left of that.
+    pub fn entered_by(mut self, body: &Body, way: &WayIn) -> Self {
+        if let Some(mut lead) = self.lead.take_if(|l| way.until < l.until) {
+            lead.plan = lead.plan.entered_by(body, way);
+            self.lead = Some(lead);
+            return self;
+        }
         let mut plan = Self::new(body, &way.clip, false);
         plan.begin += way.begin;
         plan.duration += way.begin;

@@ -22,7 +22,7 @@ const RATE_SHARE: f64 = 0.05;
 const ALIKE: f64 = 0.3;
 const LEAST_BACK: usize = 48;
 /// Time over which one motion turns into another, s.
-const BLEND: f64 = 0.3;
+pub(super) const BLEND: f64 = 0.3;
 /// How far ahead it is looked for a place to stop, s, and samples between the places that are tried.
 const STEP: f64 = 0.55;
 const APART: usize = 14;
@@ -30,13 +30,13 @@ const APART: usize = 14;
 /// those above 0.6 most fall, of those above 0.05 some.
 const EASY: f64 = 0.03;
 /// Rounds of preparation: what is known so far has been prepared, or comes off a window.
-const ROUNDS: usize = 4;
+pub(super) const ROUNDS: usize = 4;
 /// Time of the motion so far that is prepared with its end, s.
-const TAKES_PART: f64 = 0.4;
+pub(super) const TAKES_PART: f64 = 0.4;
 /// Samples per second of what is prepared.
-const FINE: f64 = 2.0 * RATE;
+pub(super) const FINE: f64 = 2.0 * RATE;
 
-const HOW: PrepareOptions = PrepareOptions {
+pub(super) const HOW: PrepareOptions = PrepareOptions {
     lock_feet: true,
     balance: true,
 };
@@ -212,7 +212,7 @@ fn finer(known: &[Sample]) -> Option<Vec<Sample>> {
 }
 
 /// What is played already stays as it was: the difference that preparation makes to the samples `before` up to `now` grows in after that.
-fn hold_on(postures: &mut [Posture], before: &[Sample], now: usize) {
+pub(super) fn hold_on(postures: &mut [Posture], before: &[Sample], now: usize) {
     if now < 1 || now >= postures.len().min(before.len()) {
         return;
     }

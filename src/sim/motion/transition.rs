@@ -3,9 +3,11 @@
 //! As in motion graphs (Kovar, Gleicher & Pighin 2002) the coming part of the one is searched for moments that are like the beginning of the
 //! other; what makes them like is said in terms of the body that has to go over: the capture point over the foot that stands, where the other
 //! foot is, and the joints ([`search`]). At such a moment the second motion is put on the standing foot, the difference between the two fades,
-//! and both are prepared together as one draft, so that no planted foot slides and the zero-moment point stays in the support ([`way`]).
+//! and both are prepared together as one draft, so that no planted foot slides and the zero-moment point stays in the support ([`way`]). Who stands when it
+//! begins, but not as the clip begins, is led into it from there ([`stand`]).
 
 mod search;
+mod stand;
 mod way;
 
 pub use search::Moment;
@@ -70,17 +72,24 @@ impl Next {
     }
 }
 
-/// The way from a motion into a clip, in the place and time of the clip: it plays instead of what the clip has before `until`.
+/// The way from a motion or a stand into a clip, in the place and time of the clip: it plays instead of what the clip has before `until`.
 #[derive(Clone, Debug)]
 pub struct WayIn {
     /// The motion: first the one that is left, at last the clip itself.
     pub clip: Clip,
     /// Clip time of its first sample, s.
     pub begin: f64,
-    /// Clip time at which the one turns into the other, s.
+    /// Clip time at which the one turns into the other, s; from a stand it is on its way into the clip from its first sample on.
     pub enters: f64,
     /// Clip time from which on it is the clip, s.
     pub until: f64,
+}
+
+impl WayIn {
+    /// True if it comes out of another motion, not from a stand.
+    pub fn leads_over(&self) -> bool {
+        self.enters > self.begin
+    }
 }
 
 /// The ways from a motion into a clip, at the moments that are most alike. Each can be worked out on its own; the first one that a body can go is taken.

@@ -8,13 +8,13 @@ use crate::sim::figure::planning::Plan;
 use crate::sim::gait::StepPlan;
 use crate::sim::motion::clip::{Clip, PlanarTransform};
 use crate::sim::motion::join::{self, Ends, RUN_UP, Sample};
-use crate::sim::motion::transition::{self, Next, WayIn, Ways};
+use crate::sim::motion::transition::{self, WayIn, Ways};
 use std::sync::Arc;
 
 /// How far ahead a clip is looked at for a place to stop, s.
 const STOP_AHEAD: f64 = 0.8;
 /// Samples (of joins) that still play before a motion is left: the time that there is to work out how.
-const ASIDE: usize = 4;
+pub(super) const ASIDE: usize = 4;
 /// A body slower than this is led into the posture in which the next clip begins; a faster one comes to its ease first, m/s.
 const SLOW: f64 = 0.2;
 /// Time that the steps to a stand take, as is expected before they are worked out, s.
@@ -83,6 +83,7 @@ impl Figure {
     ) -> (f64, Option<f64>) {
         let stands = match &self.drive {
             Drive::Clip(end) if self.ending => end.start + end.clip.duration() + self.gait.lag(),
+            Drive::Hold(_) if self.crouches() => time + STANDS_AFTER,
             Drive::Hold(_) | Drive::External(_) => time,
             Drive::Clip(_) | Drive::Live(_) => time + STANDS_AFTER,
         };
@@ -108,7 +109,12 @@ impl Figure {
             let at = time - transition::RUN_UP + first.left as f64 / transition::RATE;
             at - ways.enters(first) / play.speed
         });
-        let ends = !self.ending && matches!(self.drive, Drive::Clip(_) | Drive::Live(_));
+        let ends = !self.ending
+            && match &self.drive {
+                Drive::Clip(_) | Drive::Live(_) => true,
+                Drive::Hold(_) => self.crouches(),
+                Drive::External(_) => false,
+            };
         if ends {
             self.plan_ends(&mut leaving, goal, over.as_ref(), time);
         }
@@ -140,13 +146,8 @@ impl Figure {
             let ahead = (t - time + transition::RUN_UP).max(0.0);
             (ahead * transition::RATE - 1e-6).ceil() as usize
         };
-        let next = Next {
-            clip: Arc::clone(&play.clip),
-            speed: play.speed,
-            looped: play.looped,
-        };
         let from = (sample(due), sample(from));
-        let ways = Ways::new(&self.setup.body, known, from, next);
+        let ways = Ways::new(&self.setup.body, known, from, play.motion());
         (!ways.moments().is_empty()).then(|| Arc::new(ways))
     }
 
@@ -155,6 +156,12 @@ impl Figure {
         let mut leaving = Leaving::at(time + ASIDE as f64 / join::RATE);
         self.plan_ends(&mut leaving, None, None, time);
         self.leaving = Some(Box::new(leaving));
+    }
+
+    /// True if it hardly moves, or stands in its motion.
+    pub(super) fn is_slow(&self) -> bool {
+        let v = self.terms.com_velocity;
+        (v.x * v.x + v.y * v.y).sqrt() < SLOW || !self.gait.is_walking()
     }
 
     /// Begins to work out the ends of the motion; they are left out if there is a way over.
@@ -168,8 +175,7 @@ impl Figure {
         let after = ((leaving.due - time) * join::RATE).round() as usize;
         let (given, so_far) = self.motion_until_stop(time, after);
         (leaving.begin, leaving.before) = (given.begin, given.before);
-        let v = self.terms.com_velocity;
-        let slow = (v.x * v.x + v.y * v.y).sqrt() < SLOW || !self.gait.is_walking();
+        let slow = self.is_slow();
         let plans = |so_far: Vec<Sample>, goal: Option<Posture>| -> Vec<Plan<End>> {
             let how = (goal, given.streamed);
             let ends = Arc::new(Ends::new(&self.setup.body, so_far, given.now, how));
@@ -218,6 +224,7 @@ impl Figure {
         }
         // One that ends already goes on to do so.
         if ends.is_empty() {
+            self.plan_entry(due);
             return;
         }
         let best = Ends::best(ends.into_iter().map(Plan::take));
@@ -232,6 +239,7 @@ impl Figure {
                 _ => due,
             };
         }
+        self.plan_entry(due);
     }
 
     /// Goes over to the clip that waits. World time of the first sample of the way is `begin`, s.
@@ -305,7 +313,11 @@ impl Figure {
                 let (first, so_far) = live.motion.known(t - RUN_UP, came);
                 (from + first - t, so_far)
             }
-            Drive::Hold(_) | Drive::External(_) => (0.0, Vec::new()),
+            Drive::Hold(posture) => {
+                let count = ((RUN_UP + STOP_AHEAD) * join::RATE) as usize;
+                (from - RUN_UP, vec![(*posture, [true; 2]); count])
+            }
+            Drive::External(_) => (0.0, Vec::new()),
         }
     }
 }

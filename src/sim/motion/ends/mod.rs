@@ -72,20 +72,40 @@ fn flat(v: Vec3) -> [f64; 2] {
     [v.x, v.y]
 }
 
-/// Samples after the last one of `draft`, from its motion to standing as `goal` does, or at ease. `None` if it stands like that already, or at
-/// all if there is no goal, if it does not walk, or if no steps are found that stop it.
-fn tail(body: &Body, draft: &Draft, goal: Option<&Posture>, spare: f64) -> Option<Draft> {
+/// How a motion is to end.
+#[derive(Clone, Copy)]
+enum Goal<'a> {
+    /// Standing, at ease if it does not stand.
+    Stand,
+    /// Standing like this, if it does not stand like that.
+    Like(&'a Posture),
+    /// At rest in this posture, however near to it and slow it is.
+    Rest(&'a Posture),
+}
+
+/// Samples after the last one of `draft`, from its motion to its goal. `None` if it is there already, if it does not walk, or if no steps are found that
+/// stop it.
+fn tail(body: &Body, draft: &Draft, goal: Goal<'_>, spare: f64) -> Option<Draft> {
     if draft.postures.len() < 3 {
         return None;
     }
     let soles = [Sole::new(body, 0), Sole::new(body, 1)];
     let from = Start::of(body, draft, &soles);
-    let stand = Stand::of(body, goal.unwrap_or(&at_ease(body)));
-    if from.posture.root_position.z < UPRIGHT * body.standing_root_height() {
+    let stand = match goal {
+        Goal::Stand => Stand::of(body, &at_ease(body)),
+        Goal::Like(posture) | Goal::Rest(posture) => Stand::of(body, posture),
+    };
+    // Who sits or lies is not led to a stand; who squats stands on his feet.
+    let stands = from.stands(&soles, frequency(&from, &stand));
+    if !stands && from.posture.root_position.z < UPRIGHT * body.standing_root_height() {
         return None;
     }
-    let stands = from.stands(&soles, frequency(&from, &stand));
-    if stands && goal.is_none_or(|g| alike(&from.posture, g)) {
+    let is_there = match goal {
+        Goal::Stand => true,
+        Goal::Like(posture) => alike(&from.posture, posture),
+        Goal::Rest(_) => false,
+    };
+    if is_there && stands {
         return None;
     }
     let how = (leg_length(body), draft.rate_hz, spare);
@@ -246,7 +266,14 @@ impl Draft {
     /// Continues a draft of whole postures so that it ends standing like `goal`, wherever that is. Returns how many samples it took.
     pub fn end_like(&mut self, body: &Body, goal: &Posture) -> usize {
         self.put_down();
-        let after = tail(body, self, Some(goal), 0.0);
+        let after = tail(body, self, Goal::Like(goal), 0.0);
+        self.go_on(after)
+    }
+
+    /// The same, but to rest in just that posture, however little that takes.
+    pub fn end_at_rest(&mut self, body: &Body, goal: &Posture) -> usize {
+        self.put_down();
+        let after = tail(body, self, Goal::Rest(goal), 0.0);
         self.go_on(after)
     }
 
@@ -255,7 +282,7 @@ impl Draft {
     /// * `given`: the moment is given, or the motion poorly known: more is kept in hand than for a moment that was chosen for being easy.
     pub fn end_standing(&mut self, body: &Body, given: bool) -> usize {
         self.put_down();
-        let after = tail(body, self, None, if given { SPARE } else { 0.0 });
+        let after = tail(body, self, Goal::Stand, if given { SPARE } else { 0.0 });
         self.go_on(after)
     }
 
@@ -263,10 +290,10 @@ impl Draft {
     /// many samples came before and after.
     pub fn add_ends(&mut self, body: &Body) -> (usize, usize) {
         self.put_down();
-        let after = tail(body, self, None, SPARE);
+        let after = tail(body, self, Goal::Stand, SPARE);
         self.reverse();
         self.put_down();
-        let before = tail(body, self, None, SPARE);
+        let before = tail(body, self, Goal::Stand, SPARE);
         let before = self.go_on(before);
         self.reverse();
         (before, self.go_on(after))

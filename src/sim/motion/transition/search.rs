@@ -53,8 +53,8 @@ pub struct Moment {
 /// A motion as it is compared.
 pub(super) struct Looks<'a> {
     samples: &'a [Sample],
-    com: Vec<Vec3>,
-    feet: Vec<[Anchor; 2]>,
+    pub com: Vec<Vec3>,
+    pub feet: Vec<[Anchor; 2]>,
 }
 
 impl<'a> Looks<'a> {
@@ -119,12 +119,12 @@ fn nearest_turn(a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
     trig::atan2(cross, dot)
 }
 
-fn turned(p: [f64; 2], yaw: f64) -> [f64; 2] {
+pub(super) fn turned(p: [f64; 2], yaw: f64) -> [f64; 2] {
     let (s, c) = trig::sin_cos(yaw);
     [c * p[0] - s * p[1], s * p[0] + c * p[1]]
 }
 
-fn far(a: [f64; 2], b: [f64; 2]) -> f64 {
+pub(super) fn far(a: [f64; 2], b: [f64; 2]) -> f64 {
     let (x, y) = (a[0] - b[0], a[1] - b[1]);
     (x * x + y * y).sqrt()
 }
