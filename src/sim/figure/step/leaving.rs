@@ -2,7 +2,7 @@
 //! in a tick that is fixed when they are asked for.
 
 use super::{Figure, TickContext};
-use crate::sim::body::Posture;
+use crate::sim::body::{Body, Posture};
 use crate::sim::figure::drive::{ClipPlayback, Drive, Queued};
 use crate::sim::figure::planning::Plan;
 use crate::sim::gait::StepPlan;
@@ -25,8 +25,27 @@ type End = Option<(f64, Clip)>;
 /// A way into a clip, and where that puts the clip's origin.
 type Over = Option<(WayIn, PlanarTransform)>;
 
-/// The motion, up to which sample of it plays, whether it is a stream, and how it is to stand.
-type LastResort = (Vec<Sample>, usize, bool, Posture);
+/// What a motion is stopped from if no planned way leads out of it.
+#[derive(Debug)]
+struct LastResort {
+    so_far: Vec<Sample>,
+    /// Sample up to which it still plays.
+    now: usize,
+    streamed: bool,
+    /// How it is to stand.
+    goal: Posture,
+}
+
+impl LastResort {
+    fn end(self, body: &Arc<Body>) -> Option<Clip> {
+        join::stop(
+            body,
+            self.so_far,
+            self.now,
+            (Some(self.goal), self.streamed),
+        )
+    }
+}
 
 /// What is worked out aside when a motion is left.
 #[derive(Debug, Default)]
@@ -36,7 +55,7 @@ pub(super) struct Leaving {
     /// To a stand.
     ends: Vec<Plan<End>>,
     /// What is tried if there is no such way: to stand as the next clip begins.
-    goal: Option<LastResort>,
+    last_resort: Option<LastResort>,
     /// World time of the first sample of the ways over, s.
     known_from: f64,
     /// When the motion turns from its own way to that one, s.
@@ -192,7 +211,12 @@ impl Figure {
             leaving.ends = plans(so_far, goal);
         } else {
             leaving.ends = plans(so_far.clone(), None);
-            leaving.goal = goal.map(|g| (so_far, given.now, given.streamed, g));
+            leaving.last_resort = goal.map(|goal| LastResort {
+                so_far,
+                now: given.now,
+                streamed: given.streamed,
+                goal,
+            });
         }
     }
 
@@ -212,7 +236,7 @@ impl Figure {
         let Leaving {
             over,
             ends,
-            goal,
+            last_resort,
             known_from,
             due,
             begin,
@@ -228,10 +252,7 @@ impl Figure {
             return;
         }
         let best = Ends::best(ends.into_iter().map(Plan::take));
-        let clip = best.or_else(|| {
-            let (so_far, now, streamed, goal) = goal?;
-            join::stop(&self.setup.body, so_far, now, (Some(goal), streamed))
-        });
+        let clip = best.or_else(|| last_resort?.end(&self.setup.body));
         self.follow_end(clip, begin, before);
         if let Some(q) = &mut self.queued {
             q.due = match &self.drive {
