@@ -10,8 +10,8 @@ use sinew::sim::motion::contacts::ContactPhase;
 use sinew::sim::motion::foot_lock::Sole;
 use sinew::sim::motion::leg_ik::forward;
 
-/// Heel and toe joint of both feet, and the lowest point of either sole.
-fn soles(body: &Body, posture: &Posture) -> [(Vec3, Vec3, f64); 2] {
+/// Heel, toe joint and tip of the toes of both feet, and the lowest point of either sole.
+fn soles(body: &Body, posture: &Posture) -> [([Vec3; 3], f64); 2] {
     let poses = forward(body, posture);
     [(L_FOOT, L_TOES), (R_FOOT, R_TOES)].map(|(foot, toes)| {
         let (at, q) = poses[foot.index()];
@@ -32,7 +32,11 @@ fn soles(body: &Body, posture: &Posture) -> [(Vec3, Vec3, f64); 2] {
                     .map(move |p| (at + q.rotate(*p)).z)
             })
             .fold(f64::INFINITY, f64::min);
-        (heel, poses[toes.index()].0, low)
+        let (toe, q) = poses[toes.index()];
+        let front = body.segment(toes).contact_points.iter();
+        let front = front.max_by(|a, b| a.x.total_cmp(&b.x)).unwrap();
+        let tip = toe + q.rotate(Vec3 { y: 0.0, ..*front });
+        ([heel, toe, tip], low)
     })
 }
 
@@ -41,8 +45,9 @@ fn planted_feet_neither_slide_nor_sink() {
     for body in [Body::adult_man(), Body::adult_woman()] {
         for name in CLIPS {
             let r = take(&text(name), &body, &RetargetOptions::default()).unwrap();
-            // A planted foot is held by its heel or by its toe joint; while one holds, the other may lift off and come down elsewhere.
-            let mut held: [Option<(Vec3, Vec3)>; 2] = [None; 2];
+            // A planted foot is held by its heel, by its toe joint or, of a runner, by the tip of its toes; while one holds, the others may lift off
+            // and come down elsewhere.
+            let mut held: [Option<[Vec3; 3]>; 2] = [None; 2];
             for i in 0..r.clip.len() {
                 let now = soles(&body, r.clip.posture(i));
                 for s in 0..2 {
@@ -50,18 +55,18 @@ fn planted_feet_neither_slide_nor_sink() {
                         held[s] = None;
                         continue;
                     }
-                    let (heel, toe, low) = now[s];
-                    let (heel_at, toe_at) = held[s].unwrap_or((heel, toe));
-                    let off = |a: Vec3, b: Vec3| (a.x - b.x).hypot(a.y - b.y);
-                    let (by_heel, by_toe) = (off(heel, heel_at), off(toe, toe_at));
+                    let (points, low) = now[s];
+                    let at = held[s].unwrap_or(points);
+                    let off: [f64; 3] = std::array::from_fn(|k| {
+                        (points[k].x - at[k].x).hypot(points[k].y - at[k].y)
+                    });
                     assert!(
-                        by_heel.min(by_toe) < 1e-3,
-                        "{name}: foot {s} slides {by_heel} and {by_toe} m at sample {i}"
+                        off.iter().any(|d| *d < 1e-3),
+                        "{name}: foot {s} slides by {off:?} m at sample {i}"
                     );
-                    held[s] = Some((
-                        if by_heel < 1e-3 { heel_at } else { heel },
-                        if by_toe < 1e-3 { toe_at } else { toe },
-                    ));
+                    held[s] = Some(std::array::from_fn(|k| {
+                        if off[k] < 1e-3 { at[k] } else { points[k] }
+                    }));
                     assert!(
                         low > -1e-3,
                         "{name}: foot {s} is {} m under the floor at sample {i}",
@@ -126,6 +131,26 @@ fn contact_phases_agree_with_the_statistics() {
             "{name}"
         );
         for (p, k) in ours.iter().zip(&known) {
+            if name == "run" {
+                // The statistics call a foot planted while it is slow, which loses landing and roll-off (ADR 0032): theirs is the middle of each stance.
+                // The recorded body leaves the floor at 0.6 m/s, which is 0.12 s of free fall.
+                let flight = p.end - p.start;
+                let contains = p.start < k.0 + 0.03 && p.end > k.1 - 0.03;
+                assert!(
+                    if p.letter() == '-' {
+                        (0.1..0.16).contains(&flight)
+                    } else {
+                        contains
+                    },
+                    "{name}: {} {:.3}…{:.3} against {:.3}…{:.3}",
+                    p.letter(),
+                    p.start,
+                    p.end,
+                    k.0,
+                    k.1
+                );
+                continue;
+            }
             assert!(
                 (p.start - k.0).abs() < 0.06 && (p.end - k.1).abs() < 0.06,
                 "{name}: {} {:.3}…{:.3} against {:.3}…{:.3}",
@@ -163,7 +188,7 @@ fn swinging_feet_clear_the_floor() {
     for s in 0..2 {
         let (mut top, mut stood) = (0.0f64, false);
         for i in 0..r.clip.len() {
-            let low = soles(&body, r.clip.posture(i))[s].2;
+            let low = soles(&body, r.clip.posture(i))[s].1;
             assert!(low > -2e-3, "foot {s} at {low} m in sample {i}");
             if r.clip.planted(i)[s] {
                 if top > 0.0 {
@@ -195,7 +220,7 @@ fn no_sole_is_in_the_floor_on_the_way_in_and_out_either() {
         .filter(|n| !["get-up", "fall-rise"].contains(n))
     {
         let clip = take(&text(name), &body, &options).unwrap().clip;
-        let low = |posture: &Posture| soles(&body, posture).map(|s| s.2);
+        let low = |posture: &Posture| soles(&body, posture).map(|s| s.1);
         let lowest = clip
             .samples()
             .flat_map(|(posture, _)| low(posture))

