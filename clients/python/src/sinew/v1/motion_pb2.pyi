@@ -565,7 +565,7 @@ class PlayClipResponse(_message.Message):
     start_time_s: _builtins.float
     """World time at which its first frame plays, s: later than asked for by the length of the steps that lead into it. Gone over to from step to
     step, up to 0.4 s of a clip are left out, and up to a stride of one that repeats: then this may be before the request. If the figure has
-    to stand first, it is what is expected; the clip begins when the figure has settled, up to 1 s sooner or 3 s later.
+    to stand first, or is led into it, it is what is expected; the clip begins when the figure has settled, up to 2 s sooner or 3 s later.
     """
     def __init__(
         self,
