@@ -110,14 +110,15 @@ impl Gait {
         let next = (0..2).filter_map(|side| self.planned(side).or(self.next(side)));
         let on = next.map(|f| f.on).fold(f64::INFINITY, f64::min);
         let planned = (on - self.phase) / self.speed;
-        let (high, fast, g) = self.above;
+        let g = self.above.gravity;
         let apart = (self.feet[0].lifted - self.feet[1].lifted).abs() / self.speed;
         if apart > TOGETHER || !(planned > 0.0 && planned < LONGEST_FLIGHT) || g < LIGHT {
             return 1.0;
         }
         let v = terms.com_velocity.z;
         // Both fall alike: the height at which the motion lands, from here.
-        let drop = high - (v - fast) * planned + 0.5 * g * planned * planned;
+        let drop =
+            self.above.height - (v - self.above.speed) * planned + 0.5 * g * planned * planned;
         let real = (v + (v * v + 2.0 * g * drop).max(0.0).sqrt()) / g;
         (planned / real.max(1e-3)).clamp(SLOWS, HURRY)
     }

@@ -80,6 +80,17 @@ pub struct Flight {
     pub middle: f64,
 }
 
+/// By how much the centre of mass was above the motion's in the last tick.
+#[derive(Clone, Copy, Debug, Default)]
+struct Above {
+    /// How much higher it was, m.
+    height: f64,
+    /// How much faster it rose, m/s.
+    speed: f64,
+    /// Gravity, m/s².
+    gravity: f64,
+}
+
 /// What the gait may change in a tick.
 #[derive(Debug)]
 pub struct Led<'a> {
@@ -155,8 +166,7 @@ pub struct Gait {
     phase: f64,
     capture: Capture,
     flight: Option<Flight>,
-    /// How much higher the centre of mass was in the last tick than it should have been, m, and how much faster it rose, m/s; and gravity, m/s².
-    above: (f64, f64, f64),
+    above: Above,
     landing: Option<Landing>,
     step: Option<Catch>,
     /// Foot that is about to be brought back, or is.
@@ -188,7 +198,7 @@ impl Gait {
             phase: 0.0,
             capture: Capture::new(body),
             flight: None,
-            above: (0.0, 0.0, 0.0),
+            above: Above::default(),
             landing: None,
             step: None,
             tidying: None,
@@ -470,11 +480,11 @@ impl Gait {
     ) -> Option<Balance> {
         self.capture
             .update(terms, tasks.com, support.polygon(), gravity, dt);
-        self.above = (
-            terms.com.z - tasks.com.now.z,
-            terms.com_velocity.z - tasks.com.now_velocity.z,
+        self.above = Above {
+            height: terms.com.z - tasks.com.now.z,
+            speed: terms.com_velocity.z - tasks.com.now_velocity.z,
             gravity,
-        );
+        };
         let (now, home) = (self.places(terms), self.meant(tasks.feet));
         self.untidy = (0..2).any(|k| is_untidy(now[k], home[k]));
         if self.walks() {
