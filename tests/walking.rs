@@ -11,6 +11,7 @@ use sinew::sim::body::topology::{CHEST, L_HAND, R_HAND};
 use sinew::sim::body::{Body, Links, Posture, Profile, SegmentId, Sex};
 use sinew::sim::dynamics::{Kinematics, momentum};
 use sinew::sim::figure::{ControllerKind, Flags, Perturbation};
+use sinew::sim::gait::Purpose;
 use sinew::sim::math::Vec3;
 use sinew::sim::motion::{Bvh, Clip, RetargetOptions, cycle, retarget};
 use sinew::sim::world::{ClipPlayback, Drive, FigureKey, World, WorldParams};
@@ -128,6 +129,61 @@ fn who_dances_turns_by_steps_and_stays_on_his_feet() {
         let w = experiments::walk(&walker, &Walk { seconds, ..once });
         let rms = w.report.joint_rms_deg;
         assert!(w.stood() && rms < 1.2, "{speed}, {friction}: {rms} deg");
+    }
+}
+
+/// Puts the raised foot down where the other one alone cannot keep the body, and goes on with the motion: how often, until `seconds`.
+fn puts_down(body: &Arc<Body>, clip: &Arc<Clip>, looped: bool, seconds: f64) -> usize {
+    let lead = clip.lead_in();
+    let (mut world, key) = playing(body, Arc::clone(clip), -lead, looped);
+    let (mut count, mut under_way) = (0, false);
+    while world.time() < seconds {
+        world.step();
+        let figure = world.figure(key).unwrap();
+        assert!(!figure.is_fallen(), "falls at {:.2} s", world.time());
+        assert!(figure.report().unwrap().over_limit <= 1e-9);
+        let now = figure.gait().unplanned();
+        let alone = now.is_some_and(|step| step.purpose == Purpose::CatchAlone);
+        count += usize::from(alone && !under_way);
+        under_way = alone;
+    }
+    let figure = world.figure(key).unwrap();
+    let off = figure.report().unwrap().joint_error;
+    let rms = (off.iter().map(|e| e * e).sum::<f64>() / off.len() as f64).sqrt();
+    // It is back in the motion, which has not waited longer than 3 s for each foot.
+    let lag = figure.gait().lag();
+    assert!(
+        rms.to_degrees() < 4.0 && lag < 3.0 * count as f64 + 0.2,
+        "{:.1} deg, {lag:.1} s, {count}",
+        rms.to_degrees()
+    );
+    count
+}
+
+#[test]
+fn who_loses_balance_on_one_foot_puts_the_other_one_down_and_goes_on() {
+    let man = man();
+    let size = |height, mass| Profile {
+        height,
+        mass,
+        ..Profile::ordinary(Sex::Male, 30.0)
+    };
+    let small = Arc::new(Body::humanoid(size(1.65, 62.0)).unwrap());
+    let woman = Arc::new(Body::adult_woman());
+    // Without that they fall at 8.5, 8.6 and 7.8 s, on one foot.
+    let clip = recorded(&man, "dance");
+    let repeated = Arc::new(cycle(&man, &clip).unwrap());
+    assert!(puts_down(&man, &repeated, true, 40.0) > 0);
+    for body in [small, woman] {
+        let clip = recorded(&body, "dance");
+        let seconds = clip.lead_in() + clip.duration() + clip.lead_out() + 8.0;
+        assert!(puts_down(&body, &clip, false, seconds) > 0);
+    }
+    // Who keeps his balance does nothing of the kind.
+    for name in ["dance", "salsa-b", "carry"] {
+        let clip = recorded(&man, name);
+        let seconds = clip.lead_in() + clip.duration() + clip.lead_out() + 1.0;
+        assert_eq!(puts_down(&man, &clip, false, seconds), 0, "{name}");
     }
 }
 

@@ -147,6 +147,12 @@ impl Capture {
         self.inner.closest(xi).map_or(xi, |c| c.point)
     }
 
+    /// How far the capture point is inside the hull of `points`, m.
+    pub(super) fn margin(&mut self, points: impl Iterator<Item = [f64; 2]>) -> Option<f64> {
+        self.stance.set_hull(points);
+        self.stance.closest(self.point).map(|c| c.margin)
+    }
+
     /// Horizontal acceleration with which the pendulum over the stance `points` falls slowest, m/s².
     pub(super) fn slowest(
         &mut self,

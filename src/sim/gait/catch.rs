@@ -17,8 +17,11 @@ pub(super) const HOPELESS: f64 = 0.6;
 /// lost before the foot is there.
 const CATCH_TIME: f64 = 0.25;
 const TIDY_TIME: f64 = 0.5;
+const ALONE_TIME: f64 = 0.35;
 /// Least time in the air before touching the floor counts as landing, share of the swing.
 const LANDS_AFTER: f64 = 0.5;
+/// A raised foot whose ankle is this much higher than where it stands has not landed if its toes touch, m.
+const HANGS: f64 = 0.04;
 /// Height of the ankle's arc, m.
 const ARC: f64 = 0.07;
 /// Farthest step forward, backward, to the side, and across, in leg lengths.
@@ -27,6 +30,11 @@ const FARTHEST: (f64, f64, f64, f64) = (0.75, 0.65, 0.6, 0.35);
 const CROSS_ROOM: f64 = 0.18;
 /// Closer than this to the stance foot counts as crossing, m.
 pub(super) const BESIDE: f64 = 0.1;
+/// A capture point this far on the other side of the stance foot is beyond its sole, m; who crosses it lands this much beyond that, m; who does
+/// not stands this wide, leg lengths.
+const UNDER: f64 = 0.03;
+const BEYOND: f64 = 0.12;
+pub(super) const WIDTH: f64 = 0.18;
 /// Distance of the middle of the sole before the ankle, m.
 pub(super) const SOLE_MIDDLE: f64 = 0.05;
 /// Speed of a foot that looks for the floor, m/s.
@@ -43,6 +51,8 @@ pub enum Purpose {
     Catch,
     /// To catch the body on the foot's own side, where feet have crossed or a clip has just ended.
     CatchBeside,
+    /// To catch the body with the raised foot, where the other one stands alone for long.
+    CatchAlone,
     /// To bring the foot back to its place.
     Tidy,
 }
@@ -60,6 +70,8 @@ pub struct Catch {
     start_yaw: f64,
     goal: Vec3,
     goal_yaw: f64,
+    /// Of a raised foot: it comes from behind the other one.
+    behind: bool,
 }
 
 /// Places of both feet: point of the floor under the flat ankle and heading.
@@ -76,6 +88,15 @@ impl Catch {
             start_yaw: yaw,
             goal: Vec3 { z: 0.0, ..ankle },
             goal_yaw: yaw,
+            behind: false,
+        }
+    }
+
+    /// The same of a raised foot, which passes the other one on its own side, behind or before it.
+    pub(super) fn alone(side: usize, ankle: Vec3, yaw: f64, behind: bool) -> Self {
+        Self {
+            behind,
+            ..Self::new(side, Purpose::CatchAlone, ankle, yaw)
         }
     }
 
@@ -84,12 +105,14 @@ impl Catch {
         match self.purpose {
             Purpose::Tidy => TIDY_TIME,
             Purpose::Catch | Purpose::CatchBeside => CATCH_TIME,
+            Purpose::CatchAlone => ALONE_TIME,
         }
     }
 
     /// True once touching the floor means having landed.
-    pub(super) fn may_land(&self) -> bool {
-        self.since > LANDS_AFTER * self.duration()
+    pub(super) fn may_land(&self, flat: f64, ankle: f64) -> bool {
+        let hangs = self.purpose == Purpose::CatchAlone && ankle > flat + HANGS;
+        self.since > LANDS_AFTER * self.duration() && !hangs
     }
 
     /// True if the floor did not come for long after it should have.
@@ -110,7 +133,9 @@ impl Catch {
         leg: f64,
     ) {
         let side = self.side;
-        self.goal_yaw = home[side].1;
+        let alone = self.purpose == Purpose::CatchAlone;
+        // The motion has a raised foot turned as it likes.
+        self.goal_yaw = if alone { now[1 - side].1 } else { home[side].1 };
         if self.purpose == Purpose::Tidy {
             self.goal = home[side].0;
             return;
@@ -128,7 +153,18 @@ impl Catch {
         let apart = back.rotate(home[side].0 - home[1 - side].0).y * outward;
         let mut x = local.x - SOLE_MIDDLE;
         let wanted = local.y * outward;
-        let y = if wanted > BESIDE {
+        let y = if alone {
+            if wanted > -UNDER {
+                wanted.max(WIDTH * leg)
+            } else {
+                x = if self.behind {
+                    x.min(-CROSS_ROOM)
+                } else {
+                    x.max(CROSS_ROOM)
+                };
+                (wanted - BEYOND).min(-BESIDE)
+            }
+        } else if wanted > BESIDE {
             wanted.max(apart)
         } else if wanted > -BESIDE || self.purpose == Purpose::CatchBeside {
             apart.max(BESIDE)

@@ -36,6 +36,10 @@ impl Gait {
             }
         };
         let (mut rate, hurry) = (if live { most(CATCH_UP) } else { 1.0 }, most(HURRY));
+        self.wait.keep(dt);
+        if let Some(pace) = self.wait.pace().filter(|_| self.wait.waits()) {
+            return pace;
+        }
         if self.step.is_some() {
             return if self.lag < MOST_BEHIND { 0.0 } else { rate };
         }
@@ -101,7 +105,7 @@ impl Gait {
                 }
             }
         }
-        rate
+        self.wait.pace().map_or(rate, |pace| rate.min(pace))
     }
 
     /// Rate at which a jump goes on in the air: its feet are ready to land when the body comes down, which is earlier than planned for who left the

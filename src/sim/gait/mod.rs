@@ -3,6 +3,7 @@
 //! The motion layer decides *when* (contact by events, not by the clock) and *where* (re-anchoring, step adaptation); the controller only
 //! sees targets and which feet are planted. A clip whose feet never leave the floor passes through unchanged, bit for bit.
 
+mod alone;
 pub mod anchor;
 pub mod balance;
 pub mod catch;
@@ -26,6 +27,7 @@ use crate::sim::motion::foot_lock::Sole;
 use crate::sim::motion::leg_ik::forward;
 use crate::sim::motion::{LiveMotion, PlanarTransform, Target, TargetPair};
 use crate::sim::support::Support;
+use alone::Wait;
 use anchor::Anchor;
 use swings::follow_mass;
 use unplanned::is_untidy;
@@ -171,6 +173,8 @@ pub struct Gait {
     step: Option<Catch>,
     /// Foot that is about to be brought back, or is.
     tidying: Option<usize>,
+    /// Whether the motion waits for a body that has put its raised foot down.
+    wait: Wait,
     /// A foot is not where the motion has it.
     untidy: bool,
     /// Displacement of the desired centre of mass while feet are brought back, m.
@@ -202,6 +206,7 @@ impl Gait {
             landing: None,
             step: None,
             tidying: None,
+            wait: Wait::default(),
             untidy: false,
             lean: Vec3::zero(),
         }
@@ -230,6 +235,7 @@ impl Gait {
         self.speed = speed;
         self.origin = origin;
         self.ended = None;
+        self.wait.end();
     }
 
     /// Time of the motion now, s.
@@ -259,6 +265,7 @@ impl Gait {
         self.ended = None;
         self.step = None;
         self.tidying = None;
+        self.wait = Wait::default();
         self.untidy = false;
         self.lean = Vec3::zero();
     }
@@ -302,6 +309,7 @@ impl Gait {
             plan.is_some_and(|_| !self.feet[side].down || self.next(side).is_some())
         };
         self.step.is_none()
+            && !self.wait.waits()
             && !self.untidy
             && !(0..2).any(to_come)
             && (v.x * v.x + v.y * v.y).sqrt() < SETTLED.0
@@ -331,7 +339,7 @@ impl Gait {
             } else {
                 down && p.pauses(self.phase)
             };
-            self.step.is_some() || rests
+            self.step.is_some() || self.wait.waits() || rests
         };
         self.ended.is_none() && self.plan.as_ref().is_some_and(|p| !stands(p))
     }
@@ -379,6 +387,7 @@ impl Gait {
             let rate = self.schedule(terms, dt, || pair(now, now).now);
             self.lag += (1.0 - rate) * dt;
             out = pair(now, time + dt - self.lag);
+            self.wait.slow(&mut out, &self.ease, dt);
             self.flight = self.coming(now).filter(|f| f.after < AHEAD);
             planted = [self.feet[0].down, self.feet[1].down];
         } else {
@@ -478,6 +487,7 @@ impl Gait {
         dt: f64,
         tasks: &mut Led<'_>,
     ) -> Option<Balance> {
+        self.wait.lean(tasks.com, self.capture.omega(), dt);
         self.capture
             .update(terms, tasks.com, support.polygon(), gravity, dt);
         self.above = Above {
@@ -487,6 +497,9 @@ impl Gait {
         };
         let (now, home) = (self.places(terms), self.meant(tasks.feet));
         self.untidy = (0..2).any(|k| is_untidy(now[k], home[k]));
+        if tasks.unplanned && self.walks() {
+            self.fall_alone(terms, support, &now, dt);
+        }
         if self.walks() {
             for side in 0..2 {
                 self.lead_planned(terms, side, dt, &mut tasks.feet[side]);
@@ -495,7 +508,9 @@ impl Gait {
                 follow_mass(terms, dt, tasks);
             }
         } else if tasks.unplanned {
+            let home = self.wait.standing(home, self.leg);
             self.catch(terms, support, dt, (&now, &home), tasks);
+            self.stand_by((terms, support), &now, dt, tasks.feet);
         }
         self.keep_headings(terms, tasks.feet);
         if let Some(step) = self.step.filter(|s| s.purpose != Purpose::Tidy) {

@@ -8,7 +8,7 @@ use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::support::Support;
 
 /// A capture point this far from where the clip has it is not where it is meant to be, m.
-const ASTRAY: f64 = 0.06;
+pub(super) const ASTRAY: f64 = 0.06;
 
 impl Gait {
     /// Steps that no clip planned: catches a body whose capture point has left its feet, then brings the feet back together.
@@ -48,7 +48,11 @@ impl Gait {
         step.aim(xi, zmp, self.capture.omega(), (home, now), self.leg);
         step.lead(&self.soles[step.side], dt, &mut tasks.feet[step.side]);
         let step = *step;
-        if step.overdue() || (step.may_land() && self.lowest(terms, step.side) < TOUCH) {
+        let ankle = terms.segment_position(FOOT[step.side].index()).z;
+        if step.overdue()
+            || (step.may_land(self.soles[step.side].ankle_height, ankle)
+                && self.lowest(terms, step.side) < TOUCH)
+        {
             self.step = None;
             self.tidying = None;
             self.feet[step.side].down = true;
@@ -57,9 +61,12 @@ impl Gait {
                 late: step.since - step.duration(),
                 off: now[step.side].0 - home[step.side].0,
             });
-            if step.purpose != Purpose::Tidy {
+            let mut off = terms.com - (tasks.com.now - self.wait.shift());
+            if step.purpose != Purpose::Tidy && !self.wait.is_for(step.side) {
                 self.anchor.pin(home[step.side].0, now[step.side].0);
+                off -= now[step.side].0 - home[step.side].0;
             }
+            self.wait.begin_at(off);
         }
     }
 
@@ -87,7 +94,8 @@ impl Gait {
         // The foot that carries less swings.
         let carried =
             |side: usize| support.load()[FOOT[side].index()] + support.load()[TOES[side].index()];
-        let side = usize::from(carried(1) <= carried(0));
+        let uncrosses = self.uncrosses(now, xi);
+        let side = uncrosses.unwrap_or_else(|| usize::from(carried(1) <= carried(0)));
         // Places to the own side of the stance foot are positive.
         let outward = |p: Vec3| {
             let (at, yaw) = now[1 - side];
@@ -100,7 +108,12 @@ impl Gait {
         let crossed = !own && outward(now[side].0) < 0.5 * catch::BESIDE;
         // A body that walks leaves its feet on purpose; one that is off its plan does not.
         let meant = own && self.capture.off() < ASTRAY;
-        if (margin < -catch::LOST && !meant) || crossed {
+        let lost = if uncrosses.is_some() {
+            0.0
+        } else {
+            -catch::LOST
+        };
+        if (margin < lost && !meant) || crossed {
             self.tidying = None;
             self.step = start(
                 side,
