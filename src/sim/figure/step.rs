@@ -319,6 +319,7 @@ impl Figure {
             let mut led = Led {
                 com: &mut tasks.com,
                 moment: (tasks.spin[1] - tasks.spin[0]) * (1.0 / world.dt),
+                spin: tasks.spin[0],
                 feet: &mut tasks.feet,
                 unplanned: self.setup.params.protective_steps,
             };

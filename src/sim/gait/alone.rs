@@ -211,7 +211,7 @@ impl Gait {
             let d = self.capture.left_over(remaining);
             let heading = self.anchor.yaw() + f.yaw + self.origin.yaw;
             let stance = terms.segment_position(FOOT[1 - side].index());
-            let can = balance::within_reach(d, home, stance, heading, side);
+            let can = balance::within_reach(d, home, stance, heading, side, balance::REACH.0);
             level([d[0] - can[0], d[1] - can[1]]).norm() > LEFT
         });
         // The whole sole counts: who stands on his toes can put the heel down.

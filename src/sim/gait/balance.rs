@@ -3,9 +3,10 @@
 use crate::sim::body::topology::{L_FOOT, R_FOOT};
 use crate::sim::body::{Body, Links, Posture};
 use crate::sim::control::PointTarget;
-use crate::sim::dynamics::{Kinematics, Terms};
+use crate::sim::dynamics::{Kinematics, Terms, center_of_mass, momentum};
 use crate::sim::math::exp::exp;
 use crate::sim::math::{Quat, Vec3};
+use crate::sim::motion::Target;
 use crate::sim::support::Polygon;
 
 /// Gain k of `p* = p_ref + (1 + k) e`.
@@ -13,7 +14,7 @@ const GAIN: f64 = 1.0;
 /// The zero-moment point stays this far inside the polygon, m.
 const INSET: f64 = 0.01;
 /// Largest displacement of a foothold along and across its heading, m.
-const REACH: (f64, f64) = (0.30, 0.60);
+pub(super) const REACH: (f64, f64) = (0.30, 0.60);
 /// Least distance to the side from the stance foot, m, unless the plan itself comes closer or crosses.
 const SEPARATION: f64 = 0.03;
 /// A displacement to the side greater than the first brings the foot closer by this many times what it is greater, even across, by up to
@@ -39,6 +40,10 @@ pub struct Capture {
     handled: [f64; 2],
     omega: f64,
     point: [f64; 2],
+    /// How far the angular momentum beyond the motion's moves the capture point once it is given up, m.
+    turning: [f64; 2],
+    /// What pushes the body from outside accelerates it by this, m/s².
+    pushed: [f64; 2],
     inner: Polygon,
     stance: Polygon,
     links: Option<Links>,
@@ -52,6 +57,8 @@ impl Default for Capture {
             handled: [0.0; 2],
             omega: 3.0,
             point: [0.0; 2],
+            turning: [0.0; 2],
+            pushed: [0.0; 2],
             inner: Polygon::with_capacity(64),
             stance: Polygon::with_capacity(64),
             links: None,
@@ -86,6 +93,69 @@ impl Capture {
                 Quat::from_mat3(&self.kin.rotation[s.index()]),
             )
         })
+    }
+
+    /// The capture point of a motion of these `links`, m.
+    pub(super) fn point_of(&mut self, links: &Links, target: &Target) -> [f64; 2] {
+        self.kin.set_posture(links, &target.posture);
+        self.kin.set_velocity(&target.velocity);
+        let (c, mass) = center_of_mass(links, &self.kin);
+        let c = target.posture.root_position + c;
+        let v = momentum(links, &self.kin).linear * (1.0 / mass);
+        [c.x + v.x / self.omega, c.y + v.y / self.omega]
+    }
+
+    /// Takes in what pushes the body, and how it turns while the motion has the angular momentum `spin`, N·m·s. Blows seldom go through the centre of
+    /// mass, and who gives up the momentum that he got pays with the capture point: about the foot it is kept. Who walks goes with the push; who
+    /// stands gives way with his trunk until it is over.
+    pub(super) fn feel(&mut self, terms: &Terms, spin: Vec3, walks: bool) {
+        let (rows, _) = terms.spin_rows();
+        let of = |k: usize| -> f64 {
+            let velocity = &terms.state.velocity;
+            rows[k].iter().zip(velocity).map(|(a, v)| a * v).sum()
+        };
+        let per = 1.0 / (terms.mass * terms.com.z.max(0.1) * self.omega);
+        self.turning = [(of(1) - spin.y) * per, (spin.x - of(0)) * per];
+        // Of `M v̇ + h`, which is what the floor gives, the rows of the force hold what others push with.
+        let (bias, h) = (terms.com_bias, &terms.h);
+        let pushed = [bias.x - h[3] / terms.mass, bias.y - h[4] / terms.mass];
+        self.pushed = if walks { pushed } else { [0.0; 2] };
+    }
+
+    /// Sets the support within which [`Capture::within`] looks.
+    pub(super) fn stand_on(&mut self, points: impl Iterator<Item = [f64; 2]>) {
+        self.stance.set_hull(points);
+        self.inner.set_inset(&self.stance, INSET);
+    }
+
+    /// The nearest point to `p` of the support that was set last.
+    pub(super) fn within(&self, p: [f64; 2]) -> [f64; 2] {
+        self.inner.closest(p).map_or(p, |c| c.point)
+    }
+
+    /// The zero-moment point about which the capture point would come to `goal` in `time` seconds, as [`Capture::lands`] has it.
+    pub(super) fn zmp_for(&self, goal: [f64; 2], time: f64) -> [f64; 2] {
+        let grows = exp(self.omega * time);
+        std::array::from_fn(|k| (goal[k] - self.turning[k] - self.point[k] * grows) / (1.0 - grows))
+    }
+
+    /// Where the capture point comes to about `zmp` in `time` seconds, with the angular momentum given up.
+    pub(super) fn lands(&self, zmp: [f64; 2], time: f64) -> [f64; 2] {
+        let grows = exp(self.omega * time);
+        std::array::from_fn(|k| zmp[k] + (self.point[k] - zmp[k]) * grows + self.turning[k])
+    }
+
+    /// Horizontal acceleration of the pendulum about the point of `polygon` nearest to `zmp`, m/s².
+    pub(super) fn about(&mut self, terms: &Terms, polygon: &Polygon, zmp: [f64; 2]) -> [f64; 2] {
+        self.inner.set_inset(polygon, INSET);
+        self.falls(terms, self.within(zmp))
+    }
+
+    /// Horizontal acceleration of the pendulum about `zmp`, m/s².
+    fn falls(&self, terms: &Terms, zmp: [f64; 2]) -> [f64; 2] {
+        let w2 = self.omega * self.omega;
+        let c = [terms.com.x, terms.com.y];
+        std::array::from_fn(|k| w2 * (c[k] - zmp[k]) + self.pushed[k])
     }
 
     /// Compares the state with the desired centre of mass over a support `polygon`.
@@ -142,9 +212,8 @@ impl Capture {
         points: impl Iterator<Item = [f64; 2]>,
         xi: [f64; 2],
     ) -> [f64; 2] {
-        self.stance.set_hull(points);
-        self.inner.set_inset(&self.stance, INSET);
-        self.inner.closest(xi).map_or(xi, |c| c.point)
+        self.stand_on(points);
+        self.within(xi)
     }
 
     /// How far the capture point is inside the hull of `points`, m.
@@ -160,8 +229,7 @@ impl Capture {
         points: impl Iterator<Item = [f64; 2]>,
     ) -> [f64; 2] {
         let p = self.hold(points, self.point);
-        let w2 = self.omega * self.omega;
-        [w2 * (terms.com.x - p[0]), w2 * (terms.com.y - p[1])]
+        self.falls(terms, p)
     }
 
     /// The wanted acceleration `a` of the centre of mass with its zero-moment point brought back into the support: what lies beyond would only
@@ -182,9 +250,13 @@ impl Capture {
         let far = far.max(MOST_TURNED);
         let turned = turned.map(|t| t * MOST_TURNED / far);
         let middle = [c.x - turned[0], c.y - turned[1]];
-        let wanted = [middle[0] - a.x / w2, middle[1] - a.y / w2];
+        let push = self.pushed;
+        let wanted = [
+            middle[0] - (a.x - push[0]) / w2,
+            middle[1] - (a.y - push[1]) / w2,
+        ];
         let p = polygon.closest(wanted)?.point;
-        Some([w2 * (middle[0] - p[0]), w2 * (middle[1] - p[1])])
+        Some(std::array::from_fn(|k| w2 * (middle[k] - p[k]) + push[k]))
     }
 
     /// Error that is left after `remaining` seconds of swing: a foothold displaced by it makes the error zero.
@@ -197,22 +269,28 @@ impl Capture {
     }
 }
 
-/// Limits a displacement `d` (m, world) of a foothold at `home` with heading `yaw` to what a leg can do beside the stance foot.
+/// Limits a displacement `d` (m, world) of a foothold at `home` with heading `yaw` to what a leg can do beside the stance foot; `shorter`: by how much
+/// the step may get shorter along its heading, m.
 pub(super) fn within_reach(
     d: [f64; 2],
     home: Vec3,
     stance: Vec3,
     yaw: f64,
     side: usize,
+    shorter: f64,
 ) -> [f64; 2] {
     let back = Quat::exp(Vec3::Z * -yaw);
     let level = |x: f64, y: f64| Vec3 { x, y, z: 0.0 };
     let mut local = back.rotate(level(d[0], d[1]));
     let pressed = (ACROSS.1 * (local.y.abs() - ACROSS.0)).clamp(0.0, SEPARATION + ACROSS.2);
-    local.x = local.x.clamp(-REACH.0, REACH.0);
     local.y = local.y.clamp(-REACH.1, REACH.1);
     let outward = if side == 0 { 1.0 } else { -1.0 };
     let planned = back.rotate(level(home.x - stance.x, home.y - stance.y));
+    local.x = if planned.x < 0.0 {
+        local.x.clamp(-REACH.0, shorter)
+    } else {
+        local.x.clamp(-shorter, REACH.0)
+    };
     // A step that the plan itself crosses with may.
     let least = (SEPARATION - pressed).min(planned.y * outward);
     let away = (planned.y + local.y) * outward;
@@ -225,4 +303,45 @@ pub(super) fn within_reach(
     }
     let world = Quat::exp(Vec3::Z * yaw).rotate(local);
     [world.x, world.y]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
+        (a[0] - b[0]).hypot(a[1] - b[1])
+    }
+
+    #[test]
+    fn about_the_point_chosen_for_it_the_capture_point_lands_where_it_should() {
+        let capture = Capture {
+            omega: 3.1,
+            point: [0.3, 0.2],
+            turning: [0.01, -0.04],
+            ..Capture::default()
+        };
+        for time in [0.1, 0.3, 0.6] {
+            let goal = [0.6, 0.1];
+            let zmp = capture.zmp_for(goal, time);
+            let off = apart(capture.lands(zmp, time), goal);
+            assert!(off < 1e-12, "{off:e} m after {time} s");
+        }
+    }
+
+    #[test]
+    fn steps_get_shorter_by_more_than_longer() {
+        let home = Vec3::X * 0.6 + Vec3::Y * 0.2;
+        let ahead = |d: f64, shorter: f64| {
+            let at = |home| within_reach([d, 0.0], home, Vec3::zero(), 0.0, 0, shorter)[0];
+            // Who walks backwards shortens his steps forwards.
+            let back = Vec3 { x: -home.x, ..home };
+            let mirrored = within_reach([-d, 0.0], back, Vec3::zero(), 0.0, 0, shorter)[0];
+            assert!((at(home) + mirrored).abs() < 1e-15);
+            at(home)
+        };
+        assert!((ahead(1.0, 0.5) - REACH.0).abs() < 1e-15);
+        assert!((ahead(-1.0, 0.5) + 0.5).abs() < 1e-15);
+        assert!((ahead(-1.0, REACH.0) + REACH.0).abs() < 1e-15);
+    }
 }

@@ -46,6 +46,9 @@ impl Gait {
         if !live && self.started && self.flies() {
             rate = self.rate_aloft(terms);
         }
+        if let Some(quick) = &self.quick {
+            rate = quick.rate;
+        }
         let mut lifted = [false; 2];
         let comes_down = self.started && self.flies() && terms.com_velocity.z < 0.0;
         let early = if comes_down { EARLY_DOWN } else { EARLY };

@@ -9,6 +9,7 @@ pub mod balance;
 pub mod catch;
 mod events;
 pub mod plan;
+mod quicken;
 mod swings;
 mod unplanned;
 
@@ -17,7 +18,7 @@ pub use catch::{Catch, Purpose};
 pub use plan::{Footfall, StepPlan};
 
 use crate::sim::body::topology::{L_FOOT, L_TOES, NV, R_FOOT, R_TOES};
-use crate::sim::body::{Body, Posture, SegmentId};
+use crate::sim::body::{Body, Links, Posture, SegmentId};
 use crate::sim::control::{Balance, PointTarget, RotationTarget, com_law};
 use crate::sim::dynamics::Terms;
 use crate::sim::math::ease::smoothstep;
@@ -29,6 +30,7 @@ use crate::sim::motion::{LiveMotion, PlanarTransform, Target, TargetPair};
 use crate::sim::support::Support;
 use alone::Wait;
 use anchor::Anchor;
+use quicken::{Arrival, Quick};
 use swings::follow_mass;
 use unplanned::is_untidy;
 
@@ -100,6 +102,8 @@ pub struct Led<'a> {
     pub com: &'a mut PointTarget,
     /// Rate of the desired centroidal angular momentum, N·m.
     pub moment: Vec3,
+    /// Desired centroidal angular momentum, N·m·s.
+    pub spin: Vec3,
     /// Desired ankles and rotations of the feet.
     pub feet: &'a mut [(PointTarget, RotationTarget); 2],
     /// Steps may be made that no clip planned.
@@ -179,6 +183,10 @@ pub struct Gait {
     untidy: bool,
     /// Displacement of the desired centre of mass while feet are brought back, m.
     lean: Vec3,
+    /// What the motion has in store for the next touch-down, while that matters.
+    arrival: Option<Arrival>,
+    /// The next step, if it is made in a hurry.
+    quick: Option<Quick>,
 }
 
 impl Gait {
@@ -209,6 +217,8 @@ impl Gait {
             wait: Wait::default(),
             untidy: false,
             lean: Vec3::zero(),
+            arrival: None,
+            quick: None,
         }
     }
 
@@ -268,6 +278,7 @@ impl Gait {
         self.wait = Wait::default();
         self.untidy = false;
         self.lean = Vec3::zero();
+        (self.arrival, self.quick) = (None, None);
     }
 
     /// How it stands at ease.
@@ -295,9 +306,13 @@ impl Gait {
         &self.capture
     }
 
-    /// Distance of the capture point from where a motion that steps has it, m; `None` while the figure follows no such motion.
+    /// Distance of the capture point from where a motion that steps has it, or from where that will be with the foothold to which a foot is led, m;
+    /// `None` while the figure follows no such motion.
     pub fn off_plan(&self) -> Option<f64> {
-        self.walks().then(|| self.capture.off())
+        let [x, y] = self.capture.error;
+        let swings = self.feet.iter().filter(|foot| !foot.down);
+        let led = swings.map(|foot| (x - foot.shift[0]).hypot(y - foot.shift[1]));
+        self.walks().then(|| led.fold(self.capture.off(), f64::min))
     }
 
     /// True if it stands: no step is under way, none is to come, its feet are where they should be, and the body is slow enough and near enough to where it
@@ -356,12 +371,12 @@ impl Gait {
 
     /// Desired motion of the tick that starts at world time `time`.
     ///
-    /// * `terms`: those of the present state; `clip_time`: clip time at a world time; `pair(now, next)`: the motion as planned, at two world times.
+    /// * `links`: with what is carried; `terms`: those of the present state; `clip_time`: clip time at a world time; `pair(now, next)`: the motion as planned, at two world times.
     pub fn targets(
         &mut self,
         time: f64,
         dt: f64,
-        terms: &Terms,
+        (links, terms): (&Links, &Terms),
         clip_time: impl Fn(f64) -> f64,
         pair: impl Fn(f64, f64) -> TargetPair,
     ) -> TargetPair {
@@ -386,6 +401,7 @@ impl Gait {
         } else if self.plan.is_some() {
             let rate = self.schedule(terms, dt, || pair(now, now).now);
             self.lag += (1.0 - rate) * dt;
+            self.foresee(links, |ahead| pair(now + ahead, now + ahead).now);
             out = pair(now, time + dt - self.lag);
             self.wait.slow(&mut out, &self.ease, dt);
             self.flight = self.coming(now).filter(|f| f.after < AHEAD);
@@ -490,6 +506,7 @@ impl Gait {
         self.wait.lean(tasks.com, self.capture.omega(), dt);
         self.capture
             .update(terms, tasks.com, support.polygon(), gravity, dt);
+        self.capture.feel(terms, tasks.spin, self.walks());
         self.above = Above {
             height: terms.com.z - tasks.com.now.z,
             speed: terms.com_velocity.z - tasks.com.now_velocity.z,
@@ -501,16 +518,20 @@ impl Gait {
             self.fall_alone(terms, support, &now, dt);
         }
         if self.walks() {
+            self.quicken(terms, support);
             for side in 0..2 {
                 self.lead_planned(terms, side, dt, &mut tasks.feet[side]);
             }
             if self.flies() {
                 follow_mass(terms, dt, tasks);
             }
-        } else if tasks.unplanned {
-            let home = self.wait.standing(home, self.leg);
-            self.catch(terms, support, dt, (&now, &home), tasks);
-            self.stand_by((terms, support), &now, dt, tasks.feet);
+        } else {
+            self.quick = None;
+            if tasks.unplanned {
+                let home = self.wait.standing(home, self.leg);
+                self.catch(terms, support, dt, (&now, &home), tasks);
+                self.stand_by((terms, support), &now, dt, tasks.feet);
+            }
         }
         self.keep_headings(terms, tasks.feet);
         if let Some(step) = self.step.filter(|s| s.purpose != Purpose::Tidy) {
@@ -520,6 +541,9 @@ impl Gait {
                     .capture
                     .slowest(terms, stance_points(support, step.side)),
             });
+        }
+        if let Some(acceleration) = self.hurries(terms, support) {
+            return Some(Balance { acceleration });
         }
         let wanted = com_law(tasks.com, terms.com, terms.com_velocity, dt);
         let acceleration =

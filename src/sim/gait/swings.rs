@@ -67,8 +67,9 @@ impl Gait {
             (None, None) => self.phase + self.speed,
         };
         let remaining = (on - self.phase).max(0.0) / self.speed;
-        let u = (since / (since + remaining).max(0.1) / SWING_SHARE).clamp(0.0, 1.0);
-        let s = smootherstep(u);
+        let whole = (since + remaining).max(0.1) * SWING_SHARE;
+        let share = |t: f64| smootherstep((t / whole).clamp(0.0, 1.0));
+        let s = share(since);
         let kept = (1.0 - since / RELEASE).max(0.0);
         let mut offset = foot.release * (kept * kept);
         offset.x += s * foot.shift[0];
@@ -78,6 +79,15 @@ impl Gait {
             .min(CLEARANCE_RATE * remaining);
         offset.z += (wanted - self.lowest(terms, side)).clamp(0.0, CLEARANCE);
         let target = &mut target.0;
+        if let Some(quick) = self.quick.filter(|_| remaining > 0.0) {
+            // In a hurry a foot lags by a tenth of a second if it is not told how fast it is led aside.
+            let ahead = |t: f64| share(since + t * quick.rate);
+            let (next, after) = (ahead(dt), ahead(2.0 * dt));
+            let way = level(foot.shift);
+            target.now_velocity += way * ((next - s) / dt);
+            target.next_velocity += way * ((after - next) / dt);
+            target.next += way * (next - s);
+        }
         if foot.late > 0.0 {
             offset.z -= LOWERING * foot.late;
             target.now_velocity = Vec3::Z * -LOWERING;
@@ -109,7 +119,10 @@ impl Gait {
         d[1] -= pull * away.y;
         let stance = terms.segment_position(FOOT[1 - side].index());
         let heading = self.anchor.yaw() + f.yaw;
-        let d = balance::within_reach(d, home, stance, heading, side);
+        let d = match self.quick.filter(|q| q.side == side) {
+            Some(quick) => [quick.place.x - home.x, quick.place.y - home.y],
+            None => balance::within_reach(d, home, stance, heading, side, balance::REACH.0),
+        };
         if remaining > balance::FREEZE || foot.shift == [0.0; 2] {
             let a = balance::smoothing(dt);
             let foot = &mut self.feet[side];
