@@ -296,7 +296,7 @@ fn pushes_while_walking_are_caught_by_steps() {
 }
 
 /// People who are pushed hard to the side put the swinging foot down at once and take the next step quickly too; and the trunk comes along instead of
-/// giving way. Without hurry 2 of these 8 are survived.
+/// giving way.
 #[test]
 fn hard_pushes_to_the_side_are_caught_by_quick_steps() {
     let body = man();
