@@ -7,12 +7,13 @@ mod common;
 
 use common::{figure, man, mocap, recorded, recorded_with};
 use sinew::evaluate::experiments::walk::{self as experiments, Walk, Walker};
-use sinew::sim::body::topology::{CHEST, L_HAND, R_HAND};
+use sinew::sim::body::topology::{CHEST, L_FOOT, L_HAND, L_TOES, R_FOOT, R_HAND, R_TOES};
 use sinew::sim::body::{Body, Links, Posture, Profile, SegmentId, Sex};
 use sinew::sim::dynamics::{Kinematics, momentum};
 use sinew::sim::figure::{ControllerKind, Flags, Perturbation};
 use sinew::sim::gait::Purpose;
 use sinew::sim::math::Vec3;
+use sinew::sim::motion::leg_ik::forward;
 use sinew::sim::motion::{Bvh, Clip, RetargetOptions, cycle, retarget};
 use sinew::sim::world::{ClipPlayback, Drive, FigureKey, World, WorldParams};
 use std::f64::consts::FRAC_PI_4;
@@ -132,21 +133,46 @@ fn who_dances_turns_by_steps_and_stays_on_his_feet() {
     }
 }
 
-/// Puts the raised foot down where the other one alone cannot keep the body, and goes on with the motion: how often, until `seconds`.
-fn puts_down(body: &Arc<Body>, clip: &Arc<Clip>, looped: bool, seconds: f64) -> usize {
+/// Plays `clip` until `seconds` and does not fall; returns how often a raised foot was put down because the other one alone could not keep the body.
+/// `push`: with that impulse at the chest after a second on one foot, N·s.
+fn puts_down(body: &Arc<Body>, clip: &Arc<Clip>, looped: bool, seconds: f64, push: Vec3) -> usize {
+    const PUSHED: f64 = 0.1;
     let lead = clip.lead_in();
     let (mut world, key) = playing(body, Arc::clone(clip), -lead, looped);
     let (mut count, mut under_way) = (0, false);
+    let (mut alone_since, mut pushed) = (f64::INFINITY, push.norm() == 0.0);
     while world.time() < seconds {
         world.step();
+        let now = world.time();
         let figure = world.figure(key).unwrap();
-        assert!(!figure.is_fallen(), "falls at {:.2} s", world.time());
+        assert!(
+            !figure.is_fallen(),
+            "falls at {now:.2} s, pushed by {push:?}"
+        );
         assert!(figure.report().unwrap().over_limit <= 1e-9);
-        let now = figure.gait().unplanned();
-        let alone = now.is_some_and(|step| step.purpose == Purpose::CatchAlone);
+        let step = figure.gait().unplanned();
+        let alone = step.is_some_and(|step| step.purpose == Purpose::CatchAlone);
         count += usize::from(alone && !under_way);
         under_way = alone;
+        let [left, right] = figure.target().next.planted;
+        alone_since = if left == right {
+            f64::INFINITY
+        } else {
+            alone_since.min(now)
+        };
+        if !pushed && now > alone_since + 1.0 {
+            pushed = true;
+            let force = Perturbation::Force {
+                segment: CHEST,
+                point: Vec3::Z * 0.1,
+                force: push * (1.0 / PUSHED),
+                from: now,
+                to: now + PUSHED,
+            };
+            world.perturb(key, force).unwrap();
+        }
     }
+    assert!(pushed, "it never stands on one foot for a second");
     let figure = world.figure(key).unwrap();
     let off = figure.report().unwrap().joint_error;
     let rms = (off.iter().map(|e| e * e).sum::<f64>() / off.len() as f64).sqrt();
@@ -163,27 +189,61 @@ fn puts_down(body: &Arc<Body>, clip: &Arc<Clip>, looped: bool, seconds: f64) -> 
 #[test]
 fn who_loses_balance_on_one_foot_puts_the_other_one_down_and_goes_on() {
     let man = man();
-    let size = |height, mass| Profile {
-        height,
-        mass,
-        ..Profile::ordinary(Sex::Male, 30.0)
-    };
-    let small = Arc::new(Body::humanoid(size(1.65, 62.0)).unwrap());
-    let woman = Arc::new(Body::adult_woman());
-    // Without that they fall at 8.5, 8.6 and 7.8 s, on one foot.
     let clip = recorded(&man, "dance");
-    let repeated = Arc::new(cycle(&man, &clip).unwrap());
-    assert!(puts_down(&man, &repeated, true, 40.0) > 0);
-    for body in [small, woman] {
-        let clip = recorded(&body, "dance");
-        let seconds = clip.lead_in() + clip.duration() + clip.lead_out() + 8.0;
-        assert!(puts_down(&body, &clip, false, seconds) > 0);
+    let whole = |clip: &Clip| clip.lead_in() + clip.duration() + clip.lead_out();
+    let mut steps = 0;
+    for eighth in 0..8 {
+        let (y, x) = (f64::from(eighth) * FRAC_PI_4).sin_cos();
+        let push = Vec3 { x, y, z: 0.0 } * 15.0;
+        steps += usize::from(puts_down(&man, &clip, false, whole(&clip) + 8.0, push) > 0);
     }
+    assert!(steps >= 4, "{steps} of 8 pushes are stepped for");
+    let repeated = Arc::new(cycle(&man, &clip).unwrap());
+    puts_down(&man, &repeated, true, 40.0, Vec3::zero());
     // Who keeps his balance does nothing of the kind.
     for name in ["dance", "salsa-b", "carry"] {
         let clip = recorded(&man, name);
-        let seconds = clip.lead_in() + clip.duration() + clip.lead_out() + 1.0;
-        assert_eq!(puts_down(&man, &clip, false, seconds), 0, "{name}");
+        let steps = puts_down(&man, &clip, false, whole(&clip) + 1.0, Vec3::zero());
+        assert_eq!(steps, 0, "{name}");
+    }
+}
+
+#[test]
+fn what_a_heel_carried_the_toes_carry_when_it_rises() {
+    let body = man();
+    let feet = [(L_FOOT, L_TOES), (R_FOOT, R_TOES)];
+    for name in ["walk", "turn"] {
+        let clip = recorded(&body, name);
+        let seconds = clip.lead_in() + clip.duration();
+        let (mut world, key) = playing(&body, Arc::clone(&clip), -clip.lead_in(), false);
+        let (mut rises, mut most) = (0, 0.0f64);
+        for _ in 0..(seconds * RATE) as usize {
+            world.step();
+            let figure = world.figure(key).unwrap();
+            let target = &figure.target().next;
+            for (side, (foot, toes)) in feet.into_iter().enumerate() {
+                // One foot that is being rolled off, with the other one in the air.
+                let (ankle, rotation) = forward(&body, &target.posture)[foot.index()];
+                let heel = body.segment(foot).contact_points[0];
+                let height = (ankle + rotation.rotate(heel)).z;
+                let alone = target.planted[side] && !target.planted[1 - side];
+                if !alone || !(0.003..0.012).contains(&height) {
+                    continue;
+                }
+                let contacts = &figure.report().unwrap().contacts;
+                let load = |s: SegmentId| -> f64 {
+                    contacts
+                        .iter()
+                        .filter(|c| c.segment == s)
+                        .map(|c| c.force.z)
+                        .sum()
+                };
+                rises += 1;
+                most = most.max(load(foot) / (load(foot) + load(toes)));
+            }
+        }
+        println!("{name}: the heel carries {most:.2} at most in {rises} ticks");
+        assert!(rises > 4 && most < 0.2, "{name}: {most} in {rises} ticks");
     }
 }
 
@@ -193,12 +253,12 @@ fn feet_stay_where_they_land_and_come_down_softly() {
     // Furthest slide in a stance, m, by the load on each point, and largest push of the floor, weights: what the recordings themselves ask of
     // it is 1.5 (salsa-a) to 1.95 (walk-around).
     for (name, slides, pushes) in [
-        ("walk", 0.002, 2.3),
-        ("turn", 0.002, 2.2),
+        ("walk", 0.002, 2.0),
+        ("turn", 0.002, 2.0),
         ("walk-around", 0.006, 2.3),
         ("salsa-a", 0.002, 1.8),
         ("carry", 0.002, 2.3),
-        ("hit", 0.005, 1.9),
+        ("hit", 0.004, 1.8),
     ] {
         let clip = recorded(&body, name);
         let w = experiments::walk(&Walker::new(&body), &Walk::once(&clip));
@@ -219,7 +279,7 @@ fn a_walk_repeats_for_a_minute() {
     let walk_cycle = cycle(&body, &recorded(&body, "walk")).expect("a walk has a cycle");
     assert!(walk_cycle.duration() > 1.0 && walk_cycle.advance().x > 1.0);
     let (rms, capture) = walk(&body, "walk", &Arc::new(walk_cycle), true, 60.0);
-    assert!(rms < 4.0, "{rms} deg");
+    assert!(rms < 0.5, "{rms} deg");
     assert!(capture < 0.04, "{capture} m");
 }
 

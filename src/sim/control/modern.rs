@@ -27,6 +27,7 @@ use multiversion::multiversion;
 use tasks::pendulum_time;
 
 mod contacts;
+mod roll;
 mod take_off;
 mod tasks;
 

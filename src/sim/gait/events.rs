@@ -13,6 +13,8 @@ const EARLY_DOWN: f64 = 0.2;
 const LATE: f64 = 0.15;
 /// Rate at which the plan catches up with a foot that landed early.
 const HURRY: f64 = 2.0;
+/// A landing that the plan has within this time is waited for, s.
+const SOON: f64 = 0.03;
 /// Least rate of a motion in the air; feet that leave within this time of each other jump, s; no flight lasts longer than this, s, nor is there any
 /// with less gravity than this, m/s².
 const SLOWS: f64 = 0.5;
@@ -67,7 +69,9 @@ impl Gait {
                 if planned.is_some() {
                     foot.early = false;
                 } else if foot.early {
-                    rate = hurry;
+                    if !self.is_due(side) {
+                        rate = hurry;
+                    }
                 } else {
                     let other = 1 - side;
                     let waits = !self.feet[other].down && self.planned(other).is_some();
@@ -109,6 +113,16 @@ impl Gait {
             }
         }
         self.wait.pace().map_or(rate, |pace| rate.min(pace))
+    }
+
+    /// True if the plan has foot `side`, which landed early, down so soon that to hurry would only jolt the whole body. Who runs has no time to lose
+    /// for the next flight.
+    fn is_due(&self, side: usize) -> bool {
+        let flies_on = |p: &StepPlan, f: &Footfall| p.next_flight(f.on).is_some();
+        self.next(side).is_some_and(|f| {
+            let soon = (f.on - self.phase) / self.speed < SOON;
+            soon && !self.plan.as_ref().is_some_and(|p| flies_on(p, &f))
+        })
     }
 
     /// Rate at which a jump goes on in the air: its feet are ready to land when the body comes down, which is earlier than planned for who left the

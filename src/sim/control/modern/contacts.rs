@@ -2,14 +2,12 @@
 //! the acceleration that keeps it where it is.
 
 use super::{Hold, MEANT_FADE, Modern, POINTS, blend, soft, weight};
-use crate::sim::body::topology::{
-    JOINT, Joint, L_FOOT, L_HAND, L_TOES, R_FOOT, R_HAND, R_TOES, SEGMENT_COUNT,
-};
+use crate::sim::body::topology::{L_FOOT, L_HAND, L_TOES, R_FOOT, R_HAND, R_TOES, SEGMENT_COUNT};
 use crate::sim::contact::rows::PointRow;
 use crate::sim::control::ControlInput;
 use crate::sim::figure::report::MAX_CONTACTS;
+use crate::sim::math::Vec3;
 use crate::sim::math::ease::fall;
-use crate::sim::math::{Quat, Vec3};
 use crate::sim::support::Rest;
 
 /// Time constant that brings a planted point to rest, s.
@@ -22,10 +20,6 @@ const STOP: f64 = 150.0;
 const HOLD_SPEED: f64 = 0.3;
 /// A planted point counts fully below the first height and not at all above the second, m.
 const FADE: (f64, f64) = (0.004, 0.010);
-/// A point of a planted foot is planned down fully where the motion has it below the first height, not at all above the second, m.
-const PLANNED_FADE: (f64, f64) = (0.001, 0.006);
-/// The same of toes that roll over their tip.
-const TIP_FADE: (f64, f64) = (0.003, 0.010);
 /// The same of what touches while the whole body works on the floor, m.
 const FLOOR_FADE: (f64, f64) = (0.006, 0.020);
 /// There knees bear weight more easily than feet, and hands less, for what they cost the program: a knee has one contact point where a palm has
@@ -53,6 +47,7 @@ impl Modern {
         let t = input.terms;
         let planted = input.target.next.planted;
         let mg = t.mass * input.gravity.max(1.0);
+        let roll = self.roll(input);
         for s in 0..SEGMENT_COUNT {
             for rest in input.support.rests().iter().filter(|r| r.is_level()) {
                 if rest.segment.index() != s || self.contacts.points.len() >= MAX_CONTACTS {
@@ -111,7 +106,8 @@ impl Modern {
                         fade *= meant;
                     }
                 } else if foot {
-                    fade *= planned(input, s, *p);
+                    let side = usize::from(s >= R_FOOT.index());
+                    fade *= roll[side].kept(input, s, *p);
                 } else {
                     fade *= OTHER_SEGMENT;
                 }
@@ -171,32 +167,4 @@ fn hold(along: f64, across: f64, normal: Vec3) -> Hold {
             own + (across - along) * n[i] * n[j]
         })
     })
-}
-
-/// Hinge of a segment that has one axis.
-fn toe_hinge(s: usize) -> Option<usize> {
-    match JOINT[s] {
-        Joint::Hinge1(h) => Some(h),
-        _ => None,
-    }
-}
-
-/// How far the plan keeps a point of a planted foot down: a heel that the motion lifts is not held.
-fn planned(input: &ControlInput<'_>, s: usize, point: Vec3) -> f64 {
-    let side = usize::from(s >= R_FOOT.index());
-    let (position, rotation) = &input.feet[side];
-    if s == L_TOES.index() || s == R_TOES.index() {
-        let Some(h) = toe_hinge(s).filter(|_| input.take_off.is_some()) else {
-            return 1.0;
-        };
-        // Who takes off rolls over the tip of his toes.
-        let extended = Quat::exp(Vec3::Y * -input.target.next.posture.hinge[h]);
-        let local = input.body.joint_offset[s] + extended.rotate(point);
-        let z = position.next.z + rotation.next.rotate(local).z;
-        return fall(z, TIP_FADE);
-    }
-    fall(
-        position.next.z + rotation.next.rotate(point).z,
-        PLANNED_FADE,
-    )
 }

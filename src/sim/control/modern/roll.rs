@@ -1,0 +1,145 @@
+//! Which points of a planted foot the plan keeps on the floor while the motion rolls it off: the heel goes first, the toes with the whole foot.
+
+use super::{Modern, POINTS};
+use crate::sim::body::Body;
+use crate::sim::body::topology::{DOF_START, JOINT, Joint, L_FOOT, L_TOES, R_FOOT, R_TOES};
+use crate::sim::control::ControlInput;
+use crate::sim::math::ease::fall;
+use crate::sim::math::{Quat, Vec3};
+use crate::sim::motion::Target;
+
+/// A point of a planted foot is planned down fully where the motion has it below the first height, not at all above the second, m.
+const PLANNED_FADE: (f64, f64) = (0.001, 0.006);
+/// The same of toes that roll over their tip.
+const TIP_FADE: (f64, f64) = (0.003, 0.010);
+/// A point that the motion lifts faster than the first leaves the floor, m/s. All of these bounds are narrow on purpose: a point that is half let
+/// go is turned up with its force still there.
+const RISES: (f64, f64) = (0.035, 0.045);
+/// A heel is needed where the zero-moment point is wanted less than this far from it, as a share of the way to the toe joint: who brakes stands
+/// on it still.
+const NEEDED: (f64, f64) = (0.45, 0.55);
+/// An ankle that needs more than this share of its strength to carry the foot's load on the toe joint does not lift the heel.
+const STRAINED: (f64, f64) = (0.85, 0.90);
+/// Toes that carry more than this share of the weight are kept to the end of the stance.
+const CARRIES: (f64, f64) = (0.10, 0.15);
+/// Who stands on both feet strides if he moves faster than this, m/s.
+const WALKS: f64 = 0.5;
+
+/// What one planted foot does in this tick.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Roll {
+    /// Height that the motion adds to the heel within the tick, m.
+    heel_rise: f64,
+    /// 1 where the foot can do without its heel, 0 where it cannot.
+    free: f64,
+    /// 1 where the foot carries next to nothing, 0 where it carries.
+    idle: f64,
+}
+
+impl Modern {
+    /// What both feet do, left and right.
+    pub(super) fn roll(&self, input: &ControlInput<'_>) -> [Roll; 2] {
+        const FEET: [usize; 2] = [L_FOOT.index(), R_FOOT.index()];
+        let heel_rise = FEET.map(|s| {
+            let [before, z] = heights(input, s, heel(input.body, s));
+            z - before
+        });
+        // Who squats, sits down or steps about lifts his heels too and stands on them meanwhile.
+        let v = input.com.now_velocity;
+        let walks = v.x * v.x + v.y * v.y > WALKS * WALKS;
+        let strides = |side: usize| walks || !input.target.next.planted[1 - side];
+        let mg = input.terms.mass * input.gravity.max(1.0);
+        std::array::from_fn(|side| {
+            let s = FEET[side];
+            let free =
+                (1.0 - fall(wanted(input, s), NEEDED)) * fall(self.strain(input, s), STRAINED);
+            Roll {
+                heel_rise: heel_rise[side],
+                free: if strides(side) { free } else { 0.0 },
+                idle: fall(self.force(s).z / mg, CARRIES),
+            }
+        })
+    }
+
+    /// What foot `s` and its toes carried in the last plan, N.
+    fn force(&self, s: usize) -> Vec3 {
+        let points = &self.last_force[s * POINTS..(s + 2) * POINTS];
+        points.iter().fold(Vec3::zero(), |sum, f| sum + *f)
+    }
+
+    /// Torque that the ankle of foot `s` needs if its toe joint carries what the whole foot did in the last plan, as a share of its strength.
+    fn strain(&self, input: &ControlInput<'_>, s: usize) -> f64 {
+        let t = input.terms;
+        let ball = Vec3 {
+            z: 0.0,
+            ..t.segment_position(s + 1)
+        };
+        let moment = (ball - t.segment_position(s)).cross(self.force(s));
+        let needed = moment.dot(t.kin.rotation[s] * Vec3::Y).abs();
+        needed / (-input.lower[DOF_START[s]]).max(1.0)
+    }
+}
+
+/// Rearmost point of foot `s`, foot frame, m.
+fn heel(body: &Body, s: usize) -> Vec3 {
+    let points = body.segments[s].contact_points.iter();
+    let rearmost = points.min_by(|p, q| p.x.total_cmp(&q.x));
+    rearmost.copied().unwrap_or_default()
+}
+
+/// Where the zero-moment point is wanted along foot `s`: 0 under its heel, 1 under its toe joint.
+fn wanted(input: &ControlInput<'_>, s: usize) -> f64 {
+    let t = input.terms;
+    let Some(balance) = input.balance else {
+        return 0.0;
+    };
+    let [x, y] = balance.acceleration;
+    let zmp = t.com - Vec3 { x, y, z: 0.0 } * (t.com.z / input.gravity.max(1.0));
+    let heel = t.point_world(s, heel(input.body, s));
+    let way = t.segment_position(s + 1) - heel;
+    let level = way.x * way.x + way.y * way.y;
+    ((zmp.x - heel.x) * way.x + (zmp.y - heel.y) * way.y) / level.max(1e-6)
+}
+
+impl Roll {
+    /// How far the plan keeps a point of segment `s` down. What the motion lifts the floor does not push: contacts of the plan have no
+    /// complementarity, and a heel that is turned up with its force still there turns by that force, with the whole weight on it.
+    pub(super) fn kept(&self, input: &ControlInput<'_>, s: usize, point: Vec3) -> f64 {
+        let [before, z] = heights(input, s, point);
+        let stays = |rise: f64| fall(rise / input.dt, RISES);
+        if toes(s).is_none() {
+            let gives_way = self.free * (1.0 - stays(z - before));
+            return (1.0 - gives_way).min(fall(z, PLANNED_FADE));
+        }
+        if input.take_off.is_some() {
+            // Who takes off rolls over the tip of his toes.
+            return fall(z, TIP_FADE);
+        }
+        // Toes are turned up about a heel that stays, and carry meanwhile; they leave with it.
+        1.0 - self.idle * (1.0 - stays((z - before).min(self.heel_rise)))
+    }
+}
+
+/// Hinge of the toes, for a segment of toes.
+fn toes(s: usize) -> Option<usize> {
+    match JOINT[s] {
+        Joint::Hinge1(h) if s == L_TOES.index() || s == R_TOES.index() => Some(h),
+        _ => None,
+    }
+}
+
+/// Heights over the floor at which the motion has a point of a foot at the beginning and at the end of the tick, m.
+fn heights(input: &ControlInput<'_>, s: usize, point: Vec3) -> [f64; 2] {
+    let (position, rotation) = &input.feet[usize::from(s >= R_FOOT.index())];
+    let local = |target: &Target| {
+        toes(s).map_or(point, |h| {
+            let extended = Quat::exp(Vec3::Y * -target.posture.hinge[h]);
+            input.body.joint_offset[s] + extended.rotate(point)
+        })
+    };
+    let (now, next) = (local(&input.target.now), local(&input.target.next));
+    [
+        position.now.z + rotation.now.rotate(now).z,
+        position.next.z + rotation.next.rotate(next).z,
+    ]
+}
