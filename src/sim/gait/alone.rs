@@ -207,9 +207,10 @@ impl Gait {
             return None;
         }
         let left = next.is_none_or(|f| {
-            let home = self.anchor.point(self.placed(&f).place);
+            let f = self.placed(&f);
+            let home = self.anchor.point(f.place);
             let d = self.capture.left_over(remaining);
-            let heading = self.anchor.yaw() + f.yaw + self.origin.yaw;
+            let heading = self.anchor.yaw() + f.yaw;
             let stance = terms.segment_position(FOOT[1 - side].index());
             let can = balance::within_reach(d, home, stance, heading, side, balance::REACH.0);
             level([d[0] - can[0], d[1] - can[1]]).norm() > LEFT
@@ -274,10 +275,7 @@ impl Gait {
         if back || (self.step.is_none() && since > LONGEST) {
             self.wait.end();
             let foot = &mut self.feet[side];
-            foot.down = false;
-            foot.lifted = self.phase;
-            foot.shift = [0.0; 2];
-            foot.late = 0.0;
+            foot.lift(self.phase);
             foot.release = terms.segment_position(FOOT[side].index()) - feet[side].0.now;
             return;
         }

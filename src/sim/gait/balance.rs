@@ -105,17 +105,20 @@ impl Capture {
         [c.x + v.x / self.omega, c.y + v.y / self.omega]
     }
 
-    /// Takes in what pushes the body, and how it turns while the motion has the angular momentum `spin`, N·m·s. Blows seldom go through the centre of
+    /// Takes in what pushes the body, and how it turns while the motion has the angular momentum `spin`, N·m·s, if that is asked for. Blows seldom go through the centre of
     /// mass, and who gives up the momentum that he got pays with the capture point: about the foot it is kept. Who walks goes with the push; who
     /// stands gives way with his trunk until it is over.
-    pub(super) fn feel(&mut self, terms: &Terms, spin: Vec3, walks: bool) {
-        let (rows, _) = terms.spin_rows();
-        let of = |k: usize| -> f64 {
-            let velocity = &terms.state.velocity;
-            rows[k].iter().zip(velocity).map(|(a, v)| a * v).sum()
-        };
-        let per = 1.0 / (terms.mass * terms.com.z.max(0.1) * self.omega);
-        self.turning = [(of(1) - spin.y) * per, (spin.x - of(0)) * per];
+    pub(super) fn feel(&mut self, terms: &Terms, spin: Option<Vec3>, walks: bool) {
+        self.turning = [0.0; 2];
+        if let Some(spin) = spin {
+            let (rows, _) = terms.spin_rows();
+            let of = |k: usize| -> f64 {
+                let velocity = &terms.state.velocity;
+                rows[k].iter().zip(velocity).map(|(a, v)| a * v).sum()
+            };
+            let per = 1.0 / (terms.mass * terms.com.z.max(0.1) * self.omega);
+            self.turning = [(of(1) - spin.y) * per, (spin.x - of(0)) * per];
+        }
         // Of `M v̇ + h`, which is what the floor gives, the rows of the force hold what others push with.
         let (bias, h) = (terms.com_bias, &terms.h);
         let pushed = [bias.x - h[3] / terms.mass, bias.y - h[4] / terms.mass];

@@ -76,10 +76,7 @@ impl Gait {
                     let other = 1 - side;
                     let waits = !self.feet[other].down && self.planned(other).is_some();
                     if !waits {
-                        foot.down = false;
-                        foot.lifted = self.phase;
-                        foot.shift = [0.0; 2];
-                        foot.late = 0.0;
+                        foot.lift(self.phase);
                         lifted[side] = true;
                     }
                 }

@@ -64,6 +64,19 @@ struct Foot {
     shift: [f64; 2],
 }
 
+impl Foot {
+    /// Leaves the floor at clip time `phase`, for the foothold that the plan has next.
+    fn lift(&mut self, phase: f64) {
+        *self = Self {
+            down: false,
+            late: 0.0,
+            lifted: phase,
+            shift: [0.0; 2],
+            ..*self
+        };
+    }
+}
+
 /// How a foot came down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Landing {
@@ -506,7 +519,9 @@ impl Gait {
         self.wait.lean(tasks.com, self.capture.omega(), dt);
         self.capture
             .update(terms, tasks.com, support.polygon(), gravity, dt);
-        self.capture.feel(terms, tasks.spin, self.walks());
+        // Only a step in a hurry counts it.
+        let spin = self.arrival.map(|_| tasks.spin);
+        self.capture.feel(terms, spin, self.walks());
         self.above = Above {
             height: terms.com.z - tasks.com.now.z,
             speed: terms.com_velocity.z - tasks.com.now_velocity.z,

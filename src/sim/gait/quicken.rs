@@ -15,7 +15,7 @@ use crate::sim::motion::Target;
 use crate::sim::support::Support;
 
 /// A capture point nearer to the motion's than this is left to the step as planned, m: those of clips that nobody disturbs are.
-const ASTRAY: f64 = 0.15;
+const HURRIES: f64 = 0.15;
 /// Rates at which a motion may be played: up to the first, in so many steps.
 const FASTEST: f64 = 2.0;
 const RATES: u32 = 8;
@@ -71,7 +71,7 @@ impl Gait {
     /// Looks ahead to where the motion has its capture point at the next touch-down; `sample`: the motion so many seconds from now.
     pub(super) fn foresee(&mut self, links: &Links, sample: impl Fn(f64) -> Target) {
         let known = self.arrival.take();
-        if !self.walks() || (self.quick.is_none() && self.capture.off() < ASTRAY) {
+        if !self.walks() || (self.quick.is_none() && self.capture.off() < HURRIES) {
             return;
         }
         let Some((side, f)) = self.coming_step() else {

@@ -28,6 +28,8 @@ const WALKS: f64 = 0.5;
 /// What one planted foot does in this tick.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Roll {
+    /// `foot_from_toes` as the motion has it at the beginning and at the end of the tick.
+    toes: [Quat; 2],
     /// Height that the motion adds to the heel within the tick, m.
     heel_rise: f64,
     /// 1 where the foot can do without its heel, 0 where it cannot.
@@ -41,7 +43,7 @@ impl Modern {
     pub(super) fn roll(&self, input: &ControlInput<'_>) -> [Roll; 2] {
         const FEET: [usize; 2] = [L_FOOT.index(), R_FOOT.index()];
         let heel_rise = FEET.map(|s| {
-            let [before, z] = heights(input, s, heel(input.body, s));
+            let [before, z] = heights(input, s, [heel(input.body, s); 2]);
             z - before
         });
         // Who squats, sits down or steps about lifts his heels too and stands on them meanwhile.
@@ -53,7 +55,12 @@ impl Modern {
             let s = FEET[side];
             let free =
                 (1.0 - fall(wanted(input, s), NEEDED)) * fall(self.strain(input, s), STRAINED);
+            let bent = |target: &Target| match JOINT[s + 1] {
+                Joint::Hinge1(h) => Quat::exp(Vec3::Y * -target.posture.hinge[h]),
+                _ => unreachable!("the toes are on a hinge"),
+            };
             Roll {
+                toes: [bent(&input.target.now), bent(&input.target.next)],
                 heel_rise: heel_rise[side],
                 free: if strides(side) { free } else { 0.0 },
                 idle: fall(self.force(s).z / mg, CARRIES),
@@ -105,9 +112,17 @@ impl Roll {
     /// How far the plan keeps a point of segment `s` down. What the motion lifts the floor does not push: contacts of the plan have no
     /// complementarity, and a heel that is turned up with its force still there turns by that force, with the whole weight on it.
     pub(super) fn kept(&self, input: &ControlInput<'_>, s: usize, point: Vec3) -> f64 {
-        let [before, z] = heights(input, s, point);
+        let toes = s == L_TOES.index() || s == R_TOES.index();
+        let local = |foot_from_toes: Quat| {
+            if toes {
+                input.body.joint_offset[s] + foot_from_toes.rotate(point)
+            } else {
+                point
+            }
+        };
+        let [before, z] = heights(input, s, self.toes.map(local));
         let stays = |rise: f64| fall(rise / input.dt, RISES);
-        if toes(s).is_none() {
+        if !toes {
             let gives_way = self.free * (1.0 - stays(z - before));
             return (1.0 - gives_way).min(fall(z, PLANNED_FADE));
         }
@@ -120,24 +135,10 @@ impl Roll {
     }
 }
 
-/// Hinge of the toes, for a segment of toes.
-fn toes(s: usize) -> Option<usize> {
-    match JOINT[s] {
-        Joint::Hinge1(h) if s == L_TOES.index() || s == R_TOES.index() => Some(h),
-        _ => None,
-    }
-}
-
-/// Heights over the floor at which the motion has a point of a foot at the beginning and at the end of the tick, m.
-fn heights(input: &ControlInput<'_>, s: usize, point: Vec3) -> [f64; 2] {
+/// Heights over the floor at which the motion has a point of the foot of segment `s`, foot frame, at the beginning and at the end of the tick, m.
+fn heights(input: &ControlInput<'_>, s: usize, point: [Vec3; 2]) -> [f64; 2] {
     let (position, rotation) = &input.feet[usize::from(s >= R_FOOT.index())];
-    let local = |target: &Target| {
-        toes(s).map_or(point, |h| {
-            let extended = Quat::exp(Vec3::Y * -target.posture.hinge[h]);
-            input.body.joint_offset[s] + extended.rotate(point)
-        })
-    };
-    let (now, next) = (local(&input.target.now), local(&input.target.next));
+    let [now, next] = point;
     [
         position.now.z + rotation.now.rotate(now).z,
         position.next.z + rotation.next.rotate(next).z,
