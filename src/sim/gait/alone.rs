@@ -1,5 +1,5 @@
 //! Who stands on one foot for long and loses his balance there puts the raised foot down, early and where it catches him, and lifts it again
-//! when he stands over the other one as the motion has it. The motion waits for him.
+//! when he stands over the other one as the motion has it. The motion waits for him; a stream goes on without him.
 
 use super::catch::{self, Catch, Places};
 use super::unplanned::ASTRAY;
@@ -29,6 +29,8 @@ const LEFT: f64 = 0.1;
 const SLOWING: f64 = 0.2;
 /// The foot is lifted again after this time, whether the body is back or not, s.
 const LONGEST: f64 = 3.0;
+/// A stream, which does not wait, lifts it so long before it lands, s.
+const RETURNS: f64 = 0.4;
 
 const LEG: [[SegmentId; 4]; 2] = [
     [L_THIGH, L_SHANK, L_FOOT, L_TOES],
@@ -74,6 +76,11 @@ impl Wait {
     /// The motion goes on.
     pub(super) fn end(&mut self) {
         self.foot = None;
+    }
+
+    /// The foot that stands out of its turn.
+    pub(super) fn foot(&self) -> Option<usize> {
+        self.foot.map(|(side, _)| side)
     }
 
     /// True for the foot that the motion waits for.
@@ -197,15 +204,15 @@ impl Gait {
             [false, true] => 0,
             _ => return None,
         };
-        let plan = self.plan.as_ref().filter(|p| !p.is_live())?;
+        let plan = self.plan.as_ref()?;
         if plan.current(side, self.phase).is_some() || self.capture.off() < AWAY {
             return None;
         }
-        let next = self.next(side);
-        let remaining = next.map_or(f64::INFINITY, |f| (f.on - self.phase) / self.speed);
+        let remaining = (plan.earliest(side, self.phase) - self.phase) / self.speed;
         if remaining < NEAR {
             return None;
         }
+        let next = self.next(side);
         let left = next.is_none_or(|f| {
             let f = self.placed(&f);
             let home = self.anchor.point(f.place);
@@ -268,11 +275,14 @@ impl Gait {
         let xi = self.capture.point();
         let held = self.capture.hold(stance_points(support, side), xi) == xi;
         let off = self.capture.off();
-        let back = self.step.is_none()
-            && self.wait.rest(self.capture.omega()) < 1e-3
+        let (live, earliest) = self.plan.as_ref().map_or((false, f64::INFINITY), |p| {
+            (p.is_live(), p.earliest(side, self.phase))
+        });
+        let back = self.wait.rest(self.capture.omega()) < 1e-3
             && (off < SETTLED.1 || (held && off < ASTRAY))
-            && terms.com_velocity.norm() < SETTLED.0;
-        if back || (self.step.is_none() && since > LONGEST) {
+            && (live || terms.com_velocity.norm() < SETTLED.0);
+        let due = live && (earliest - self.phase) / self.speed < RETURNS;
+        if self.step.is_none() && (back || due || since > LONGEST) {
             self.wait.end();
             let foot = &mut self.feet[side];
             foot.lift(self.phase);

@@ -88,10 +88,34 @@ impl Anchor {
         self.yaw_goal = (1.0 - HEADING_HOME) * (self.yaw + HEADING_GAIN * off);
     }
 
+    /// What is left of the way to the new anchor, m.
+    pub fn rest(&self) -> Vec3 {
+        self.goal - self.at
+    }
+
     /// Moves on by `dt` seconds.
     pub fn settle(&mut self, dt: f64) {
         let a = 1.0 - exp(-dt / SETTLE);
         self.at += (self.goal - self.at) * a;
         self.yaw += (self.yaw_goal - self.yaw) * a;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_of_the_way_leads_from_the_motion_as_it_lies_to_the_foot() {
+        let mut anchor = Anchor::default();
+        let (planned, actual) = (Vec3::X * 0.4, Vec3::X * 0.5 + Vec3::Y * 0.2);
+        assert_eq!(anchor.rest(), Vec3::zero());
+        anchor.land(planned, 0.0, actual, 0.3);
+        assert!((anchor.rest() - (actual - planned)).norm() < 1e-15);
+        for _ in 0..60 {
+            anchor.settle(1.0 / 60.0);
+            assert!((anchor.point(planned) + anchor.rest() - actual).norm() < 1e-15);
+        }
+        assert!(anchor.rest().norm() < 1e-9);
     }
 }

@@ -29,7 +29,7 @@ impl Gait {
     /// Contact by events: lifts feet when planned, plants them when they touch. Returns the rate at which the plan goes on.
     pub(super) fn schedule(&mut self, terms: &Terms, dt: f64, sample: impl Fn() -> Target) -> f64 {
         // A stream does not wait for its figure: what it is behind it makes up for. Nor can it be ahead of what has come.
-        let live = self.plan.as_ref().is_some_and(StepPlan::is_live);
+        let live = self.is_live();
         let most = |rate: f64| {
             if live {
                 (1.0 + self.lag / dt).clamp(1.0, rate)
@@ -38,6 +38,16 @@ impl Gait {
             }
         };
         let (mut rate, hurry) = (if live { most(CATCH_UP) } else { 1.0 }, most(HURRY));
+        if live && let Some(side) = self.wait.foot() {
+            // Down before its turn, and still when that has come: the step under way was its own.
+            if self.step.is_none()
+                && let Some(f) = self.planned(side)
+            {
+                self.land(terms, side, &f, 0.0);
+                self.wait.end();
+            }
+            return rate;
+        }
         self.wait.keep(dt);
         if let Some(pace) = self.wait.pace().filter(|_| self.wait.waits()) {
             return pace;

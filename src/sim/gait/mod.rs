@@ -517,6 +517,13 @@ impl Gait {
         tasks: &mut Led<'_>,
     ) -> Option<Balance> {
         self.wait.lean(tasks.com, self.capture.omega(), dt);
+        if self.is_live() {
+            // Balance is kept where the motion goes, not where it still is: limbs take time to get there, and what that looks off by is none to be driven
+            // out over the foot that has just landed.
+            let rest = self.anchor.rest();
+            tasks.com.now += rest;
+            tasks.com.next += rest;
+        }
         self.capture
             .update(terms, tasks.com, support.polygon(), gravity, dt);
         // Only a step in a hurry counts it.
@@ -565,6 +572,11 @@ impl Gait {
             self.capture
                 .feasible(terms, (wanted, tasks.moment), support.polygon(), gravity)?;
         Some(Balance { acceleration })
+    }
+
+    /// True while it follows a stream.
+    fn is_live(&self) -> bool {
+        self.plan.as_ref().is_some_and(StepPlan::is_live)
     }
 
     /// True if no foot is on the floor.

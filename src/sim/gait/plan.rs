@@ -33,6 +33,8 @@ pub struct StepPlan {
     begin: f64,
     /// When it is over, s: with its lead-out.
     duration: f64,
+    /// Up to when touch-downs are known, s: a stream's only as far as it has come.
+    seen: f64,
     /// Displacement of one round, if the clip repeats.
     round: Option<PlanarTransform>,
     /// What holds instead before some time: the way into a clip that repeats, with its first round, or the one out of another motion.
@@ -178,6 +180,7 @@ impl StepPlan {
             stances,
             begin,
             duration,
+            seen: f64::INFINITY,
             round: looped.then(|| clip.advance()),
             lead: (looped && clip.lead_in() > 0.0).then(|| {
                 Box::new(Lead {
@@ -220,6 +223,7 @@ impl StepPlan {
             stances: std::array::from_fn(|_| Vec::with_capacity(live::MOST_STANCES)),
             begin: 0.0,
             duration: f64::INFINITY,
+            seen: 0.0,
             round: None,
             lead: None,
         }
@@ -232,6 +236,7 @@ impl StepPlan {
 
     /// What is known of a stream now. No allocation.
     pub fn refresh(&mut self, motion: &LiveMotion) {
+        self.seen = motion.seen();
         for (side, known) in self.stances.iter_mut().enumerate() {
             known.clear();
             let seconds = |sample: i64| (sample as f64 - 0.5) / live::RATE;
@@ -339,6 +344,11 @@ impl StepPlan {
         None
     }
 
+    /// Earliest time at which a foot may touch down after time `t`, as far as is known, s; infinity if it never does.
+    pub fn earliest(&self, side: usize, t: f64) -> f64 {
+        self.next(side, t).map_or(self.seen, |f| f.on)
+    }
+
     /// The stance that holds at time `t` (s).
     pub fn current(&self, side: usize, t: f64) -> Option<Footfall> {
         if let Some(lead) = self.lead_at(t) {
@@ -353,7 +363,8 @@ impl StepPlan {
         Some(self.unrolled(*f, round))
     }
 
-    /// The next time in which no foot stands after time `t`, at which one does: from and to, s; `None` if a foot lands before the others have left.
+    /// The next time in which no foot stands after time `t`, at which one does: from and to, s, of a stream as far as it is seen; `None` if a foot lands
+    /// before the others have left.
     pub fn next_flight(&self, t: f64) -> Option<(f64, f64)> {
         let stands_until = |side: usize| {
             let now = self.current(side, t)?;
@@ -363,9 +374,8 @@ impl StepPlan {
             Some(if goes_on { first.off } else { now.off })
         };
         let off = (0..2).filter_map(stands_until).reduce(f64::max)?;
-        let lands = |side: usize| Some(self.next(side, t)?.on);
-        let on = (0..2).filter_map(lands).reduce(f64::min)?;
-        (on > off + SHORTEST).then_some((off, on))
+        let on = f64::min(self.earliest(0, t), self.earliest(1, t));
+        (on > off + SHORTEST && on < f64::INFINITY).then_some((off, on))
     }
 
     /// Last lift-off of a foot at or before time `t`, s; the beginning of the clip if there was none.
@@ -408,9 +418,27 @@ mod tests {
             stances: [stances(left), stances(right)],
             begin: 0.0,
             duration: 1.0,
+            seen: f64::INFINITY,
             round: round.then(PlanarTransform::default),
             lead: None,
         }
+    }
+
+    #[test]
+    fn a_stream_flies_before_its_landing_has_come() {
+        let stream = |left: &[(f64, f64)], seen: f64| StepPlan {
+            duration: f64::INFINITY,
+            seen,
+            ..plan(left, &[(0.0, 0.35)], false)
+        };
+        let stands = stream(&[(0.0, f64::INFINITY)], 0.5);
+        assert_eq!(stands.next_flight(0.2), None, "one foot stays");
+        assert_eq!(stands.earliest(1, 0.4), 0.5, "it may land as soon as that");
+        let left = &[(0.0, 0.3)];
+        assert_eq!(stream(left, 0.38).next_flight(0.2), None, "too short");
+        assert_eq!(stream(left, 0.5).next_flight(0.2), Some((0.35, 0.5)));
+        let landing = &[(0.0, 0.3), (0.6, f64::INFINITY)];
+        assert_eq!(stream(landing, 0.7).next_flight(0.2), Some((0.35, 0.6)));
     }
 
     #[test]
@@ -424,6 +452,7 @@ mod tests {
         assert_eq!(jump.next_flight(0.32), Some((0.35, 0.65)));
         assert_eq!(jump.next_flight(0.5), None, "it flies already");
         assert_eq!(jump.next_flight(0.8), None, "it stays down");
+        assert_eq!(jump.earliest(0, 0.8), f64::INFINITY, "it never lands again");
         let run = plan(&[(0.0, 0.3)], &[(0.5, 0.8)], true);
         assert_eq!(run.next_flight(0.1), Some((0.3, 0.5)));
         let next = run.next_flight(0.6).unwrap();

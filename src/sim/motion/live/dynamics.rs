@@ -14,7 +14,7 @@ use crate::sim::motion::one_foot::Over;
 
 /// The zero-moment point is kept this far inside the soles, m.
 const INSET: f64 = 0.04;
-/// Outside by this much for about a second, m: something other than the feet carries the body.
+/// Outside to the same side by this much for about a second, m: something other than the feet carries the body.
 const CARRIED: f64 = 0.15;
 
 impl LiveMotion {
@@ -47,13 +47,16 @@ impl LiveMotion {
     pub(super) fn balance(&mut self, j: i64) {
         let (mut balanced, load) = self.balanced(j, |s| (s.com, s.momentum));
         let inside = balanced.support.and_then(|s| s.nearest(balanced.zmp));
-        let far = inside.map_or(0.0, |p| {
-            let off = [p[0] - balanced.zmp[0], p[1] - balanced.zmp[1]];
-            (off[0] * off[0] + off[1] * off[1]).sqrt()
+        let way = inside.map_or([0.0; 2], |p| {
+            [p[0] - balanced.zmp[0], p[1] - balanced.zmp[1]]
         });
-        // About a second: peaks of gait are corrected, a chair is not.
-        self.lasting += (far - self.lasting) * (1.0 - exp(-H));
-        let u = ((self.lasting - 0.7 * CARRIED) / (0.6 * CARRIED)).clamp(0.0, 1.0);
+        // About a second: peaks of gait, which go there and back, are corrected, a chair is not.
+        for (lasting, way) in self.lasting.iter_mut().zip(way) {
+            *lasting += (way - *lasting) * (1.0 - exp(-H));
+        }
+        let [x, y] = self.lasting;
+        let far = (x * x + y * y).sqrt();
+        let u = ((far - 0.7 * CARRIED) / (0.6 * CARRIED)).clamp(0.0, 1.0);
         let trust = 1.0 - smoothstep(u);
         self.at_mut(j).trust = trust;
         balanced.weight = trust * load * load;

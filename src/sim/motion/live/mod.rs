@@ -160,7 +160,8 @@ pub struct LiveMotion {
     /// Shift of the centre of mass for balance, at the output and one sample before, newest last, m.
     shift: [[f64; 2]; 2],
     lowering: Lowering,
-    lasting: f64,
+    /// Way from the zero-moment point into the feet on average over about a second, m.
+    lasting: [f64; 2],
     balance: Balance,
     /// Where the stream lies: a stream that jumps goes on from where it was.
     frame: PlanarTransform,
@@ -195,7 +196,7 @@ impl LiveMotion {
             feet: [Foot::new(), Foot::new()],
             shift: [[0.0; 2]; 2],
             lowering: Lowering::default(),
-            lasting: 0.0,
+            lasting: [0.0; 2],
             balance: Balance::new(window as usize),
             frame: PlanarTransform::default(),
             fade: None,
@@ -530,6 +531,11 @@ impl LiveMotion {
         let newest = self.count - SMOOTH - 2;
         let held = self.count - self.ring.len() as i64;
         (i > held.max(0) && i <= newest).then(|| self.at(i).momentum)
+    }
+
+    /// Time up to which touch-downs are seen, s.
+    pub fn seen(&self) -> f64 {
+        (self.count - SMOOTH - 2).max(0) as f64 * H
     }
 
     /// Latest time that can be sampled, s.

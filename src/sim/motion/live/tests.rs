@@ -1,4 +1,5 @@
 use super::*;
+use crate::sim::math::trig;
 use crate::sim::motion::builtin::{at_ease, builtin};
 use crate::sim::motion::leg_ik::{forward, solve_leg};
 
@@ -257,4 +258,32 @@ fn feet_that_turn_on_the_floor_are_set_down_anew_one_after_the_other() {
         let off = end.heading() - forward(&body, &turning(399))[L_FOOT.index()].1.heading();
         assert!(off.abs() < 0.45, "{window} s: {off}");
     }
+}
+
+#[test]
+fn who_rocks_to_and_fro_is_not_carried_by_a_chair() {
+    let body = Arc::new(Body::adult_man());
+    let stand = at_ease(&body);
+    // Share to which feet are believed to carry a body that moves like that.
+    let believed = |posture: &dyn Fn(f64) -> Posture| {
+        let mut live = LiveMotion::new(Arc::clone(&body), 0.5);
+        for i in 0..300 {
+            live.push(&posture(i as f64 / RATE), Some([true; 2]));
+            live.advance((i + 1) as f64 / RATE - live.window());
+        }
+        live.at(live.count - 1 - LABEL).trust
+    };
+    // Its zero-moment point is 0.3 m outside the feet, to either side, at every turn.
+    let rocks = believed(&|t| {
+        let mut p = stand;
+        p.root_position.y += 0.035 * trig::sin_cos(4.0 * std::f64::consts::PI * t).0;
+        p
+    });
+    assert!(rocks > 0.99, "{rocks}");
+    let leans = believed(&|_| {
+        let mut p = stand;
+        p.root_rotation = Quat::exp(Vec3::Y * 0.45) * p.root_rotation;
+        p
+    });
+    assert!(leans < 0.01, "{leans}");
 }
