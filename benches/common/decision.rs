@@ -90,6 +90,7 @@ impl Decision {
             goals: &[],
             feet: &tasks.feet,
             balance: None,
+            carried: [0.0; 2],
             take_off: None,
             lower: &self.lower,
             upper: &self.upper,

@@ -19,7 +19,7 @@ pub use modern::Modern;
 pub use paper::Paper;
 pub use tracking::Law;
 
-use crate::sim::body::topology::SEGMENT_COUNT;
+use crate::sim::body::topology::{L_HAND, R_HAND, SEGMENT_COUNT};
 use crate::sim::body::{Body, DOF_COUNT, NV, SegmentId};
 use crate::sim::dynamics::Terms;
 use crate::sim::figure::report::MAX_CONTACTS;
@@ -86,6 +86,8 @@ pub struct ControlInput<'a> {
     pub goals: &'a [Goal],
     /// Left and right foot: ankle and rotation of the foot, for feet that the motion swings.
     pub feet: &'a [(PointTarget, RotationTarget); 2],
+    /// What the left and the right hand of a figure that steps carry, kg.
+    pub carried: [f64; 2],
     /// What balance asks of the centre of mass; without it the tracking law's own demand holds.
     pub balance: Option<Balance>,
     /// The flight that the motion has next, if it begins soon.
@@ -107,6 +109,17 @@ pub struct ControlInput<'a> {
     pub kinematic: bool,
     /// While the whole body works on the floor, as on the way up: whatever touches and is meant to then carries; without, feet and seats do.
     pub on_floor: Option<OnFloor<'a>>,
+}
+
+impl ControlInput<'_> {
+    /// What a hand carries, kg; of other segments nothing is known.
+    pub fn carried_by(&self, segment: SegmentId) -> f64 {
+        match segment {
+            L_HAND => self.carried[0],
+            R_HAND => self.carried[1],
+            _ => 0.0,
+        }
+    }
 }
 
 /// How the motion means the body to touch the floor.

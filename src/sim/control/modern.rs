@@ -8,7 +8,7 @@ use super::goals::MAX_GOALS;
 use super::tracking::{Law, initial_acceleration};
 use super::{Command, ControlInput, Controller};
 use crate::sim::body::topology::{
-    DOF_COUNT, DOF_LEN, DOF_START, L_HAND, NV, R_HAND, SEGMENT_COUNT,
+    DOF_COUNT, DOF_LEN, DOF_START, L_HAND, L_UPPER_ARM, NV, R_HAND, R_UPPER_ARM, SEGMENT_COUNT,
 };
 use crate::sim::contact::dense::{Dense, cholesky, solve_lower, solve_upper};
 use crate::sim::contact::rows::{CHAIN_WIDTH, add_point_stiffness};
@@ -64,6 +64,10 @@ const LEAST_JOINT_WEIGHT: f64 = 0.05;
 /// Weights of the joints of a limb that a constraint from outside leads, and of its wrist, which is light and would go to its limit first.
 const LED_LIMB: f64 = 0.02;
 const LED_WRIST: f64 = 0.2;
+/// Load in a hand with which arm and hand count a quarter, kg.
+const HALF_ARM: f64 = 2.0;
+/// Degrees of freedom from the shoulder to the wrist, which follow each other.
+const ARM_DOFS: usize = 7;
 /// Friction the plan counts on; below the simulator's.
 const FRICTION_MARGIN: f64 = 0.7 / 0.9;
 /// Horizon of joints and rotations as a share of the one that is set (0.1 s): 278/s² and 33/s. Gait needs limbs that are on time; the continuous program stays free of chatter with them, unlike the paper's active set.
@@ -177,6 +181,13 @@ fn danger(input: &ControlInput<'_>) -> f64 {
     1.0 - fall((off.x * off.x + off.y * off.y).sqrt(), DANGER)
 }
 
+/// What is left of the weights of an arm whose hand carries `load`, kg. A joint at its limit is turned all the same by moving what it hangs on: an arm too
+/// weak for its load would twist the trunk under it. So the arm gives way, and where it has the strength the weight does not matter.
+fn gives_way(load: f64) -> f64 {
+    let share = HALF_ARM / (HALF_ARM + load);
+    share * share
+}
+
 /// The law of joints and rotations.
 fn sharp_law(input: &ControlInput<'_>, danger: f64) -> Law {
     let share = blend(SHARPNESS, YIELDING_SHARPNESS, danger);
@@ -260,6 +271,16 @@ impl Controller for Modern {
             self.motors.upper[j] = input.upper[j];
             self.motors.rest[j] =
                 self.last_torque[j].clamp(input.lower[j], input.upper[j]) / self.motors.gain[j];
+        }
+        for (upper, load) in [L_UPPER_ARM, R_UPPER_ARM].into_iter().zip(input.carried) {
+            if load > 0.0 {
+                let keep = gives_way(load);
+                let first = 6 + DOF_START[upper.index()];
+                for d in first..first + ARM_DOFS {
+                    diagonal[d] *= keep;
+                    linear[d] *= keep;
+                }
+            }
         }
         // A limb that is led from outside lets go of its posture, or that would hold it back.
         for goal in input.goals.iter().take(MAX_GOALS) {

@@ -94,6 +94,7 @@ impl Scene {
 
     pub(crate) fn input(&self) -> ControlInput<'_> {
         ControlInput {
+            carried: [0.0; 2],
             terms: &self.terms,
             body: &self.body,
             support: &self.support,

@@ -3,18 +3,21 @@
 //! A motion is prepared for an unloaded body. With a load its centre of mass lies elsewhere, by m/M of the way to the load: 10 kg in one hand
 //! move it 5 cm to that side, half a foot's width from where every step of the motion has its zero-moment point. So the trunk leans and the pelvis
 //! shifts until the loaded body has its centre of mass, over the floor, where the unloaded one has it in the motion. The feet stay, the head keeps its
-//! direction, and an arm that hangs swings the less the more it carries: no shoulder swings 15 kg as it swings an empty hand.
+//! direction, and what carries is moved with the forces that an empty hand takes: an arm that hangs swings the less the more it carries, and what
+//! any arm does quickly it does less of.
+
+mod arm;
 
 use crate::sim::body::topology::{
-    ABDOMEN, CHEST, HEAD, JOINT, Joint, L_FOOT, L_FOREARM, L_HAND, L_TOES, L_UPPER_ARM, PARENT,
-    R_FOOT, R_FOREARM, R_HAND, R_TOES, R_UPPER_ARM, SEGMENT_COUNT,
+    ABDOMEN, CHEST, HEAD, JOINT, Joint, L_FOOT, L_TOES, L_UPPER_ARM, PARENT, R_FOOT, R_TOES,
+    R_UPPER_ARM, SEGMENT_COUNT,
 };
 use crate::sim::body::{Body, Links, NV, Posture, SegmentId};
-use crate::sim::math::ease::fall;
 use crate::sim::math::exp::exp;
-use crate::sim::math::{Quat, Vec3, trig};
+use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::leg_ik::{forward, solve_leg};
 use crate::sim::motion::{Target, TargetPair};
+use arm::{ARMS, Arm, Habit, Poses};
 
 /// Lean of the trunk per shift of the centre of mass, rad/m, and most of it, rad: it does about half, and the pelvis the rest.
 const LEAN: f64 = 1.8;
@@ -25,16 +28,6 @@ const MOST_SHIFT: f64 = 0.12;
 const FELT: f64 = 0.2;
 /// A load that differs by less than this from what is felt is felt as it is, kg and kg·m.
 const SAME: f64 = 1e-6;
-/// Load with which an arm swings half as far, kg: about the mass of an arm.
-const HALF_SWING: f64 = 4.0;
-/// An arm hangs whose hand is less than the first angle before or behind its shoulder, and whose elbow is bent by less than the first of these;
-/// from the second on it does not, rad. (Forearms that are held level carry something in front of the body.) What an arm had less of
-/// its swing comes back while it is raised from the one to the other: the farther apart they are, the less it has to hurry.
-const HANGS: (f64, f64) = (0.7, 1.6);
-const STRETCHED: (f64, f64) = (0.9, 1.5);
-/// Time constant with which an arm gets used to hanging, or to something else, s: one that comes down between two movements goes on as the motion
-/// has it.
-const GETS_USED: f64 = 0.7;
 /// Pelvis and trunk move by this much more than the centre of mass, because the feet stay.
 const LEAD: f64 = 1.15;
 /// Rounds in which the shift of the pelvis is found: each leaves a tenth of what was off.
@@ -42,13 +35,6 @@ const ROUNDS: usize = 3;
 /// The rates of a changed motion are taken over so long before and after a moment, s: short enough to be those of the moment, long enough for what
 /// mirrored and turned bodies round differently to stay below 1e-9 in their torques.
 const INSTANT: f64 = 5e-4;
-
-const ARMS: [[SegmentId; 3]; 2] = [
-    [L_UPPER_ARM, L_FOREARM, L_HAND],
-    [R_UPPER_ARM, R_FOREARM, R_HAND],
-];
-
-type Poses = [(Vec3, Quat); SEGMENT_COUNT];
 
 /// Masses and first moments of mass of the segments with a load, segment frames, kg and kg·m.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,8 +83,10 @@ impl Masses {
 /// What is felt at a moment.
 struct Felt {
     load: Masses,
-    /// How much each arm is used to hang, 0…1.
-    used: [f64; 2],
+    /// What the arms had done lately when the tick began, how much they hung then, 0…1, and how long ago that was, s.
+    before: [Habit; 2],
+    hung: [f64; 2],
+    ahead: f64,
 }
 
 /// What one figure carries and how it feels it.
@@ -108,8 +96,8 @@ pub(super) struct Carrying {
     /// What it carries as it follows from loads that come and go at once: after one time constant, and after both.
     halfway: Masses,
     felt: Masses,
-    /// How much each arm has hung lately, 0…1; `None` before something is carried.
-    used: Option<[f64; 2]>,
+    /// What each arm has done lately; `None` before something is carried.
+    habits: Option<[Habit; 2]>,
 }
 
 impl Carrying {
@@ -120,14 +108,19 @@ impl Carrying {
             unloaded,
             halfway: unloaded,
             felt: unloaded,
-            used: None,
+            habits: None,
         }
+    }
+
+    /// What the left and the right hand of a figure that steps feel, kg. One that stays where it is lifts its loads as the motion has it.
+    pub fn in_hands(&self) -> [f64; 2] {
+        ARMS.map(|[.., hand]| self.felt.mass[hand.index()] - self.unloaded.mass[hand.index()])
     }
 
     /// Forgets the past.
     pub fn reset(&mut self) {
         (self.halfway, self.felt) = (self.unloaded, self.unloaded);
-        self.used = None;
+        self.habits = None;
     }
 
     /// Changes the desired motion of a tick of `dt` seconds for a body with the present loads, `links`; `steps` if the motion steps: one that stays
@@ -143,7 +136,7 @@ impl Carrying {
         let real = Masses::of(links);
         let carried = if steps { real } else { self.unloaded };
         if carried == self.unloaded && self.felt == self.unloaded {
-            self.used = None;
+            self.habits = None;
             return;
         }
         let lean = Lean {
@@ -151,20 +144,20 @@ impl Carrying {
             unloaded: &self.unloaded,
             real: &real,
         };
-        let hang = ARMS.map(|arm| hangs(&target.now.posture, body, arm));
-        let used = self.used.unwrap_or(hang);
-        let used_in = |t: f64| {
-            let left = exp(-t / GETS_USED);
-            [0, 1].map(|arm| hang[arm] + (used[arm] - hang[arm]) * left)
-        };
-        let felt = |t: f64| Felt {
-            load: self.felt_in(&carried, t).1,
-            used: used_in(t),
+        let now = ARMS.map(|arm| Habit::of(body, &target.now.posture, arm));
+        let before = self.habits.unwrap_or(now);
+        let hung = now.map(|h| h.hangs);
+        let next = target.next.posture;
+        let felt = |ahead: f64| Felt {
+            load: self.felt_in(&carried, ahead).1,
+            before,
+            hung,
+            ahead,
         };
         let around = |t: f64| [t - INSTANT, t, t + INSTANT].map(felt);
         lean.change(&mut target.now, &around(0.0));
         lean.change(&mut target.next, &around(dt));
-        self.used = Some(used_in(dt));
+        self.habits = Some([0, 1].map(|k| before[k].after(dt, hung[k], Arm::of(&next, ARMS[k]))));
         (self.halfway, self.felt) = self.felt_in(&carried, dt);
         if self.felt.is_near(&carried) && self.halfway.is_near(&carried) {
             (self.halfway, self.felt) = (carried, carried);
@@ -207,8 +200,14 @@ impl Lean<'_> {
     fn leaned(&self, posture: &Posture, felt: &Felt) -> Posture {
         let planned = forward(self.body, posture);
         let mut out = *posture;
-        for (arm, used) in ARMS.into_iter().zip(felt.used) {
-            self.hang(&mut out, &planned, arm, &felt.load, used);
+        for (k, arm) in ARMS.into_iter().enumerate() {
+            let hand = arm[2].index();
+            let load = felt.load.mass[hand] - self.unloaded.mass[hand];
+            if load > 0.0 {
+                let habit = felt.before[k].after(felt.ahead, felt.hung[k], Arm::of(posture, arm));
+                arm::slow(&mut out, arm, load, &habit);
+                arm::hang(self.body, &mut out, &planned, arm, load, &habit);
+            }
         }
         let poses = forward(self.body, &out);
         let by = self.unloaded.center(&planned) - felt.load.center(&poses);
@@ -229,62 +228,6 @@ impl Lean<'_> {
         }
         out
     }
-
-    /// Lets an arm that hangs in the motion, and is `used` to it, hang straighter and swing less, by what its hand carries.
-    fn hang(
-        &self,
-        posture: &mut Posture,
-        planned: &Poses,
-        arm: [SegmentId; 3],
-        felt: &Masses,
-        used: f64,
-    ) {
-        let [upper, fore, hand] = arm.map(SegmentId::index);
-        let load = felt.mass[hand] - self.unloaded.mass[hand];
-        if load <= 0.0 {
-            return;
-        }
-        let (Joint::Hinge2(elbow), Joint::Hinge2(wrist)) = (JOINT[fore], JOINT[hand]) else {
-            unreachable!("elbows and wrists have two hinges");
-        };
-        let hung = hanging(swing(planned, arm), posture.hinge[elbow]);
-        let less = used * hung * (load / (load + HALF_SWING));
-        // The forearm keeps its turn about its own axis, which is its second angle.
-        for angle in [elbow, wrist, wrist + 1] {
-            posture.hinge[angle] *= 1.0 - less;
-        }
-        let poses = forward(self.body, posture);
-        let back = Quat::exp(Vec3::Z.cross(ahead(planned)) * (less * swing(&poses, arm)));
-        if let Joint::Ball(b) = JOINT[upper] {
-            let turned = back * poses[upper].1;
-            posture.ball[b] = (poses[PARENT[upper]].1.conjugate() * turned).normalized();
-        }
-    }
-}
-
-/// How much an arm hangs, 0…1.
-fn hangs(posture: &Posture, body: &Body, arm: [SegmentId; 3]) -> f64 {
-    let Joint::Hinge2(elbow) = JOINT[arm[1].index()] else {
-        unreachable!("elbows have two hinges");
-    };
-    hanging(swing(&forward(body, posture), arm), posture.hinge[elbow])
-}
-
-/// How much an arm with these angles of swing and elbow hangs, 0…1.
-fn hanging(swing: f64, elbow: f64) -> f64 {
-    fall(swing.abs(), HANGS) * fall(elbow.abs(), STRETCHED)
-}
-
-/// Angle of an arm before the vertical through its shoulder, rad, as the pelvis looks.
-fn swing(poses: &Poses, [upper, _, hand]: [SegmentId; 3]) -> f64 {
-    let line = poses[hand.index()].0 - poses[upper.index()].0;
-    trig::atan2(line.dot(ahead(poses)), -line.z)
-}
-
-/// Where the pelvis looks, level.
-fn ahead(poses: &Poses) -> Vec3 {
-    let x = poses[0].1.rotate(Vec3::X);
-    Vec3 { z: 0.0, ..x }.normalized_or(Vec3::X)
 }
 
 /// Tilts the trunk towards `by`, half of it in the waist; head and arms keep the directions they have in `poses`.
@@ -309,6 +252,7 @@ fn capped(v: Vec3, most: f64) -> Vec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sim::body::topology::{L_HAND, R_FOREARM, R_HAND};
     use crate::sim::motion::Clip;
     use crate::sim::motion::builtin::builtin;
 
@@ -414,59 +358,25 @@ mod tests {
         let clip = walk(&body);
         let links = with_load(&body, R_HAND, 10.0);
         let mut carrying = used_to(&body, &clip, &links);
-        let mut pair = at(&clip, 1.0, DT);
         let (Joint::Ball(shoulder), Joint::Hinge2(elbow)) =
             (JOINT[R_UPPER_ARM.index()], JOINT[R_FOREARM.index()])
         else {
             unreachable!()
         };
-        for t in [&mut pair.now, &mut pair.next] {
+        let mut before = at(&clip, 1.0, DT);
+        for t in [&mut before.now, &mut before.next] {
             t.posture.ball[shoulder] = Quat::identity();
             t.posture.hinge[elbow] = 1.6;
         }
-        let before = pair.clone();
-        carrying.lean(&body, &links, &mut pair, true, DT);
-        assert_eq!(pair.now.posture.hinge, {
-            let mut legs = pair.now.posture.hinge;
-            legs[..8].copy_from_slice(&before.now.posture.hinge[..8]);
-            legs
-        });
-    }
-
-    /// How far the hand of a loaded arm is from where the motion has it as the arm comes down once more after `raised` seconds, m.
-    fn let_down(raised: f64) -> f64 {
-        let body = Body::adult_man();
-        let clip = walk(&body);
-        let links = with_load(&body, R_HAND, 5.0);
-        let mut carrying = used_to(&body, &clip, &links);
-        let Joint::Ball(shoulder) = JOINT[R_UPPER_ARM.index()] else {
-            unreachable!()
-        };
-        let arm_at = |swing: f64| {
-            let mut pair = at(&clip, 1.0, DT);
-            for t in [&mut pair.now, &mut pair.next] {
-                t.posture.ball[shoulder] = Quat::exp(Vec3::Y * -swing);
-            }
-            pair
-        };
-        for _ in 0..(raised / DT) as usize {
-            carrying.lean(&body, &links, &mut arm_at(2.0), true, DT);
+        // Once they have got there: what is done at once is done slowly.
+        let mut pair = before.clone();
+        for _ in 0..1800 {
+            pair = before.clone();
+            carrying.lean(&body, &links, &mut pair, true, DT);
         }
-        let planned = arm_at(0.5);
-        let mut pair = planned.clone();
-        carrying.lean(&body, &links, &mut pair, true, DT);
-        let arm = |p: &Posture| {
-            let poses = forward(&body, p);
-            poses[R_HAND.index()].0 - poses[R_UPPER_ARM.index()].0
-        };
-        (arm(&pair.now.posture) - arm(&planned.now.posture)).norm()
-    }
-
-    #[test]
-    fn an_arm_that_comes_down_between_two_movements_goes_on_as_the_motion_has_it() {
-        let [used, once, busy] = [0.0, 0.3, 3.0].map(let_down);
-        assert!(used > 0.1, "{used}");
-        assert!(once < used && once > 0.5 * used, "{once} of {used}");
-        assert!(busy < 0.03 * used, "{busy} of {used}");
+        let arms = before.now.posture.hinge[..8].iter();
+        for (is, meant) in pair.now.posture.hinge.iter().zip(arms) {
+            assert!((is - meant).abs() < 1e-9, "{is} for {meant} rad");
+        }
     }
 }

@@ -46,25 +46,9 @@ pub struct Capture {
     pushed: [f64; 2],
     inner: Polygon,
     stance: Polygon,
-    links: Option<Links>,
+    /// Without loads.
+    links: Links,
     kin: Kinematics<f64>,
-}
-
-impl Default for Capture {
-    fn default() -> Self {
-        Self {
-            error: [0.0; 2],
-            handled: [0.0; 2],
-            omega: 3.0,
-            point: [0.0; 2],
-            turning: [0.0; 2],
-            pushed: [0.0; 2],
-            inner: Polygon::with_capacity(64),
-            stance: Polygon::with_capacity(64),
-            links: None,
-            kin: Kinematics::default(),
-        }
-    }
 }
 
 /// Share of the way to a new value in `dt` seconds.
@@ -76,17 +60,22 @@ impl Capture {
     /// For figures with this body.
     pub fn new(body: &Body) -> Self {
         Self {
-            links: Some(Links::new(body)),
-            ..Self::default()
+            error: [0.0; 2],
+            handled: [0.0; 2],
+            omega: 3.0,
+            point: [0.0; 2],
+            turning: [0.0; 2],
+            pushed: [0.0; 2],
+            inner: Polygon::with_capacity(64),
+            stance: Polygon::with_capacity(64),
+            links: Links::new(body),
+            kin: Kinematics::default(),
         }
     }
 
     /// Ankles and rotations of both feet of a posture.
     pub(super) fn feet(&mut self, posture: &Posture) -> [(Vec3, Quat); 2] {
-        let Some(links) = &self.links else {
-            return [(Vec3::zero(), Quat::identity()); 2];
-        };
-        self.kin.set_posture(links, posture);
+        self.kin.set_posture(&self.links, posture);
         [L_FOOT, R_FOOT].map(|s| {
             (
                 posture.root_position + self.kin.position[s.index()],
@@ -95,8 +84,9 @@ impl Capture {
         })
     }
 
-    /// The capture point of a motion of these `links`, m.
-    pub(super) fn point_of(&mut self, links: &Links, target: &Target) -> [f64; 2] {
+    /// The capture point of a motion as it is planned, which is without loads, m.
+    pub(super) fn point_of(&mut self, target: &Target) -> [f64; 2] {
+        let links = &self.links;
         self.kin.set_posture(links, &target.posture);
         self.kin.set_velocity(&target.velocity);
         let (c, mass) = center_of_mass(links, &self.kin);
@@ -322,7 +312,7 @@ mod tests {
             omega: 3.1,
             point: [0.3, 0.2],
             turning: [0.01, -0.04],
-            ..Capture::default()
+            ..Capture::new(&Body::adult_man())
         };
         for time in [0.1, 0.3, 0.6] {
             let goal = [0.6, 0.1];

@@ -18,7 +18,7 @@ pub use catch::{Catch, Purpose};
 pub use plan::{Footfall, StepPlan};
 
 use crate::sim::body::topology::{L_FOOT, L_TOES, NV, R_FOOT, R_TOES};
-use crate::sim::body::{Body, Links, Posture, SegmentId};
+use crate::sim::body::{Body, Posture, SegmentId};
 use crate::sim::control::{Balance, PointTarget, RotationTarget, com_law};
 use crate::sim::dynamics::Terms;
 use crate::sim::math::ease::smoothstep;
@@ -384,12 +384,12 @@ impl Gait {
 
     /// Desired motion of the tick that starts at world time `time`.
     ///
-    /// * `links`: with what is carried; `terms`: those of the present state; `clip_time`: clip time at a world time; `pair(now, next)`: the motion as planned, at two world times.
+    /// * `terms`: those of the present state; `clip_time`: clip time at a world time; `pair(now, next)`: the motion as planned, at two world times.
     pub fn targets(
         &mut self,
         time: f64,
         dt: f64,
-        (links, terms): (&Links, &Terms),
+        terms: &Terms,
         clip_time: impl Fn(f64) -> f64,
         pair: impl Fn(f64, f64) -> TargetPair,
     ) -> TargetPair {
@@ -414,7 +414,7 @@ impl Gait {
         } else if self.plan.is_some() {
             let rate = self.schedule(terms, dt, || pair(now, now).now);
             self.lag += (1.0 - rate) * dt;
-            self.foresee(links, |ahead| pair(now + ahead, now + ahead).now);
+            self.foresee(|ahead| pair(now + ahead, now + ahead).now);
             out = pair(now, time + dt - self.lag);
             self.wait.slow(&mut out, &self.ease, dt);
             self.flight = self.coming(now).filter(|f| f.after < AHEAD);

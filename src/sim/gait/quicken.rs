@@ -8,7 +8,6 @@
 
 use super::plan::Footfall;
 use super::{FOOT, Gait, balance, level, stance_points};
-use crate::sim::body::Links;
 use crate::sim::dynamics::Terms;
 use crate::sim::math::Vec3;
 use crate::sim::motion::Target;
@@ -69,7 +68,7 @@ impl Gait {
     }
 
     /// Looks ahead to where the motion has its capture point at the next touch-down; `sample`: the motion so many seconds from now.
-    pub(super) fn foresee(&mut self, links: &Links, sample: impl Fn(f64) -> Target) {
+    pub(super) fn foresee(&mut self, sample: impl Fn(f64) -> Target) {
         let known = self.arrival.take();
         if !self.walks() || (self.quick.is_none() && self.capture.off() < HURRIES) {
             return;
@@ -83,7 +82,7 @@ impl Gait {
         }
         let place = self.placed(&f).place;
         let target = sample((f.on - self.phase) / self.speed);
-        let xi = self.capture.point_of(links, &target);
+        let xi = self.capture.point_of(&target);
         self.arrival = Some(Arrival {
             side,
             on: f.on,

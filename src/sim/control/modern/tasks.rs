@@ -1,8 +1,8 @@
 //! What the body is to do with its mass, its hands and its feet, and how much that counts.
 
 use super::{
-    Law, MEANT_FADE, Modern, POINTS, ROTATION_FEEDBACK, Seat, TaskRow, danger, law_feedback,
-    rotation_error, soft, weight,
+    Law, MEANT_FADE, Modern, POINTS, ROTATION_FEEDBACK, Seat, TaskRow, danger, gives_way,
+    law_feedback, rotation_error, soft, weight,
 };
 use crate::sim::body::SegmentId;
 use crate::sim::body::topology::{L_FOOT, L_THIGH, L_TOES, PELVIS, R_FOOT, R_THIGH, R_TOES};
@@ -90,7 +90,7 @@ impl Modern {
                     (e.segment.index(), e.point),
                     &e.position,
                     HAND_FEEDBACK,
-                    weight::HAND,
+                    weight::HAND * gives_way(input.carried_by(e.segment)),
                 );
             }
         }

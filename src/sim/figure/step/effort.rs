@@ -38,13 +38,10 @@ impl Figure {
             Drive::Live(live) => live.stream_time(t),
             _ => t,
         };
-        self.gait.targets(
-            time,
-            dt,
-            (&self.links, &self.terms),
-            clip_time,
-            |now, next| drive.pair(now, next),
-        )
+        self.gait
+            .targets(time, dt, &self.terms, clip_time, |now, next| {
+                drive.pair(now, next)
+            })
     }
 
     /// True if steps follow events: the modern controller, and a figure that is up. Full assist pins the pelvis to its path, so the motion
@@ -118,6 +115,7 @@ impl Figure {
             free += 1;
         }
         let input = ControlInput {
+            carried: self.carrying.in_hands(),
             terms: &self.terms,
             body: &self.setup.body,
             support: &self.support,
