@@ -235,12 +235,15 @@ mod tests {
     fn a_loaded_arm_does_less_of_what_is_quick_and_all_of_what_is_slow() {
         let empty = swings(0.0, 0.4, 1.0);
         assert!(empty > 0.2, "{empty}");
-        // The force to swing arm and load: what the empty arm takes.
         for load in [4.0, 12.0] {
+            // 1 − less · iωτ/(1 + iωτ): what is left of a swing whose quick part, a high-pass of the first order, becomes less.
+            let less = load / (load + HALF_SWING);
+            let x = std::f64::consts::TAU * QUICKLY;
+            let quick = [x * x, x].map(|part| part / (1.0 + x * x));
+            let meant = (1.0 - less * quick[0]).hypot(less * quick[1]);
             let share = swings(load, 0.4, 1.0) / empty;
-            let meant = HALF_SWING / (HALF_SWING + load);
             assert!(
-                share > meant && share < 1.25 * meant,
+                (share / meant - 1.0).abs() < 0.03,
                 "{share} with {load} kg, {meant} meant"
             );
             let slowly = swings(load, 0.4, 40.0) / empty;
