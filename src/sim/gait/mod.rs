@@ -7,7 +7,10 @@ mod alone;
 pub mod anchor;
 pub mod balance;
 pub mod catch;
+mod ending;
 mod events;
+mod flights;
+mod places;
 pub mod plan;
 mod quicken;
 mod swings;
@@ -15,21 +18,22 @@ mod unplanned;
 
 pub use balance::Capture;
 pub use catch::{Catch, Purpose};
+pub use flights::Flight;
 pub use plan::{Footfall, StepPlan};
 
-use crate::sim::body::topology::{L_FOOT, L_TOES, NV, R_FOOT, R_TOES};
+use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::body::{Body, Posture, SegmentId};
 use crate::sim::control::{Balance, PointTarget, RotationTarget, com_law};
 use crate::sim::dynamics::Terms;
-use crate::sim::math::ease::smoothstep;
-use crate::sim::math::{Quat, Vec3, trig};
+use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::builtin::at_ease;
 use crate::sim::motion::foot_lock::Sole;
-use crate::sim::motion::leg_ik::forward;
-use crate::sim::motion::{LiveMotion, PlanarTransform, Target, TargetPair};
+use crate::sim::motion::{LiveMotion, PlanarTransform, TargetPair};
 use crate::sim::support::Support;
 use alone::Wait;
 use anchor::Anchor;
+use flights::AHEAD;
+use places::{level, stance_points};
 use quicken::{Arrival, Quick};
 use swings::follow_mass;
 use unplanned::is_untidy;
@@ -38,10 +42,6 @@ const FOOT: [SegmentId; 2] = [L_FOOT, R_FOOT];
 const TOES: [SegmentId; 2] = [L_TOES, R_TOES];
 /// A sole lower than this touches, m.
 const TOUCH: f64 = 0.004;
-/// A flight is looked ahead to for so long, s.
-const AHEAD: f64 = 0.2;
-/// Time in which a motion that ended turns into standing, s.
-const EASE: f64 = 0.6;
 /// A body slower than this, and a capture point closer to its place than this, is settled: m/s and m.
 const SETTLED: (f64, f64) = (0.1, 0.03);
 /// Slowest clip-time rate that counts as playing at all.
@@ -88,15 +88,6 @@ pub struct Landing {
     pub off: Vec3,
 }
 
-/// A flight of the motion that is still to come.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Flight {
-    /// Time until no foot is to be on the floor, s.
-    pub after: f64,
-    /// World time at which the motion has its middle, if nothing delays it, s.
-    pub middle: f64,
-}
-
 /// By how much the centre of mass was above the motion's in the last tick.
 #[derive(Clone, Copy, Debug, Default)]
 struct Above {
@@ -121,45 +112,6 @@ pub struct Led<'a> {
     pub feet: &'a mut [(PointTarget, RotationTarget); 2],
     /// Steps may be made that no clip planned.
     pub unplanned: bool,
-}
-
-/// From posture `a` to posture `b`: the joints turn, the pelvis is already where `b` has it. `u` beyond 0…1 is clamped.
-fn eased(a: &Posture, b: &Posture, u: f64) -> Posture {
-    let s = smoothstep(u);
-    let mut rates = [0.0; NV];
-    let way = a.joint_difference(b);
-    for (r, w) in rates[6..].iter_mut().zip(way) {
-        *r = s * w;
-    }
-    let mut out = *a;
-    out.integrate(&rates, 1.0);
-    out.root_position = b.root_position;
-    out.root_rotation = b.root_rotation;
-    out
-}
-
-/// Touching points of the foot that stands while `side` swings, on the floor: the swinging one carries nothing any more, even while it still touches.
-fn stance_points(support: &Support, side: usize) -> impl Iterator<Item = [f64; 2]> + '_ {
-    let stance = [FOOT[1 - side], TOES[1 - side]];
-    let points = support.points().iter();
-    points
-        .filter(move |p| stance.contains(&p.segment))
-        .map(|p| [p.position.x, p.position.y])
-}
-
-/// The middle between two feet, and the mean of their headings, rad.
-fn middle(feet: &catch::Places) -> (Vec3, f64) {
-    let yaw = feet[0].1 + 0.5 * trig::wrapped(feet[1].1 - feet[0].1);
-    ((feet[0].0 + feet[1].0) * 0.5, yaw)
-}
-
-/// A point of the floor.
-fn level(p: [f64; 2]) -> Vec3 {
-    Vec3 {
-        x: p[0],
-        y: p[1],
-        z: 0.0,
-    }
 }
 
 /// The steps of one figure. Remembers phase and footholds; nothing allocates in a tick.
@@ -294,21 +246,6 @@ impl Gait {
         (self.arrival, self.quick) = (None, None);
     }
 
-    /// How it stands at ease.
-    pub fn ease(&self) -> &Posture {
-        &self.ease
-    }
-
-    /// The posture in which it comes to a stand after a clip that ended in motion.
-    pub fn comes_to(&self) -> Option<&Posture> {
-        self.ended.is_some().then_some(&self.ease)
-    }
-
-    /// True while it does so.
-    pub fn eases(&self, terms: &Terms) -> bool {
-        self.ended.is_some() && !self.is_settled(terms)
-    }
-
     /// World time by which the clip is behind its schedule, s.
     pub fn lag(&self) -> f64 {
         self.lag
@@ -342,19 +279,6 @@ impl Gait {
             && !(0..2).any(to_come)
             && (v.x * v.x + v.y * v.y).sqrt() < SETTLED.0
             && self.capture.off() < SETTLED.1
-    }
-
-    /// Where the feet stand: the middle between them and the mean of their headings, rad.
-    pub fn stance(&self, terms: &Terms) -> (Vec3, f64) {
-        middle(&self.places(terms))
-    }
-
-    /// The same of a posture.
-    pub fn stance_of(&self, body: &Body, posture: &Posture) -> (Vec3, f64) {
-        let poses = forward(body, posture);
-        middle(&std::array::from_fn(|k| {
-            self.place_of(k, poses[FOOT[k].index()])
-        }))
     }
 
     /// True while steps are made that a plan has: not while a stream stands, nor while the feet of a clip stay for a while, nor until a step
@@ -403,13 +327,8 @@ impl Gait {
         }
         let mut out;
         let mut planted;
-        if let Some((from, since)) = &mut self.ended {
-            *since += dt;
-            let still = |t: f64| Target::still(eased(from, &self.ease, t / EASE));
-            out = TargetPair {
-                now: still(*since - dt),
-                next: still(*since),
-            };
+        if let Some(standing) = self.ease_on(dt) {
+            out = standing;
             planted = [true; 2];
         } else if self.plan.is_some() {
             let rate = self.schedule(terms, dt, || pair(now, now).now);
@@ -441,69 +360,6 @@ impl Gait {
             out.next.planted = planted;
         }
         out
-    }
-
-    /// The clip is over while its figure may still walk: it turns into standing. The last step is finished, and more are made if it takes them.
-    fn end(&mut self, terms: &Terms, last: &Posture) {
-        let now = self.places(terms);
-        let poses = self.capture.feet(&self.ease);
-        let home: catch::Places = std::array::from_fn(|k| self.place_of(k, poses[k]));
-        // It stands where the foot is that the body moves over, and looks where the feet look.
-        let xi = self.capture.point();
-        let far = |k: usize| level([now[k].0.x - xi[0], now[k].0.y - xi[1]]).norm();
-        let side = match [self.feet[0].down, self.feet[1].down] {
-            [true, false] => 0,
-            [false, true] => 1,
-            _ => usize::from(far(1) < far(0)),
-        };
-        let (heading, planned) = (middle(&now).1, middle(&home).1);
-        self.anchor = Anchor::between((home[side].0, planned), (now[side].0, heading));
-        self.ended = Some((*last, 0.0));
-        for side in 0..2 {
-            if !self.feet[side].down {
-                let pose = terms.segment_position(FOOT[side].index());
-                self.step = Some(Catch::new(side, Purpose::CatchBeside, pose, now[side].1));
-            }
-        }
-    }
-
-    /// Point of the floor on which a foot with this pose stands, or would, and its heading.
-    fn place_of(&self, side: usize, pose: (Vec3, Quat)) -> (Vec3, f64) {
-        self.soles[side].footing(pose).place_and_yaw()
-    }
-
-    /// Where a foot is.
-    fn place(&self, terms: &Terms, side: usize) -> (Vec3, f64) {
-        let s = FOOT[side].index();
-        let rotation = Quat::from_mat3(&terms.segment_rotation(s));
-        self.place_of(side, (terms.segment_position(s), rotation))
-    }
-
-    /// Where the feet are.
-    fn places(&self, terms: &Terms) -> catch::Places {
-        [0, 1].map(|k| self.place(terms, k))
-    }
-
-    /// Where they are meant to be.
-    fn meant(&self, feet: &[(PointTarget, RotationTarget); 2]) -> catch::Places {
-        std::array::from_fn(|k| {
-            let (p, r) = &feet[k];
-            self.place_of(k, (p.now, r.now))
-        })
-    }
-
-    /// Height of the lowest point of a sole, m.
-    fn lowest(&self, terms: &Terms, side: usize) -> f64 {
-        let mut low = f64::INFINITY;
-        for (s, points) in [
-            (FOOT[side].index(), self.soles[side].foot_points()),
-            (TOES[side].index(), self.soles[side].toe_points()),
-        ] {
-            for p in points {
-                low = low.min(terms.point_world(s, *p).z);
-            }
-        }
-        low
     }
 
     /// Leads the swinging feet to footholds that catch the body, clear of the floor (step adaptation, WALKING §4), and decides on steps that
@@ -579,38 +435,9 @@ impl Gait {
         self.plan.as_ref().is_some_and(StepPlan::is_live)
     }
 
-    /// True if no foot is on the floor.
-    fn flies(&self) -> bool {
-        self.feet.iter().all(|foot| !foot.down)
-    }
-
-    /// The flight that the motion has next, if it begins soon.
-    pub fn coming_flight(&self) -> Option<Flight> {
-        self.flight
-    }
-
-    /// The next flight as planned, if a foot stands now; the motion is at world time `now`, s.
-    fn coming(&self, now: f64) -> Option<Flight> {
-        let (off, on) = self.plan.as_ref()?.next_flight(self.phase)?;
-        let until = |phase: f64| (phase - self.phase) / self.speed;
-        (!self.flies()).then(|| Flight {
-            after: until(off).max(0.0),
-            middle: now + until(0.5 * (off + on)),
-        })
-    }
-
     /// A direction of the motion as its origin is turned to where the feet are.
     pub fn turned(&self, v: Vec3) -> Vec3 {
         Quat::exp(Vec3::Z * self.anchor.yaw()).rotate(v)
-    }
-
-    /// A foothold of the clip where its origin puts it.
-    fn placed(&self, f: &Footfall) -> Footfall {
-        Footfall {
-            place: self.origin.point(f.place),
-            yaw: f.yaw + self.origin.yaw,
-            ..*f
-        }
     }
 
     fn planned(&self, side: usize) -> Option<Footfall> {
