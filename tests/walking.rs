@@ -6,7 +6,10 @@
 mod common;
 
 use common::{figure, man, mocap, recorded, recorded_with};
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64Mcg;
 use sinew::evaluate::experiments::walk::{self as experiments, Walk, Walker};
+use sinew::evaluate::noise::noisy;
 use sinew::sim::body::topology::{
     CHEST, DOF_START, L_FOOT, L_HAND, L_THIGH, L_TOES, R_FOOT, R_HAND, R_TOES, R_UPPER_ARM,
 };
@@ -117,11 +120,17 @@ fn who_dances_turns_by_steps_and_stays_on_his_feet() {
         let clip = recorded(&body, "dance");
         let w = experiments::walk(&Walker::new(&body), &Walk::once(&clip));
         let rms = w.report.joint_rms_deg;
-        assert!(w.stood() && rms < 1.2, "{height} m, {mass} kg: {rms} deg");
+        assert!(w.stood() && rms < 0.75, "{height} m, {mass} kg: {rms} deg");
     }
     let body = man();
     let clip = recorded(&body, "dance");
-    for (speed, friction) in [(0.9, 0.9), (1.1, 0.9), (1.0, 0.7), (1.0, 1.1)] {
+    // Faster it turns his trunk, which one ball of a foot cannot keep from twisting.
+    for (speed, friction, most) in [
+        (0.9, 0.9, 0.7),
+        (1.1, 0.9, 1.35),
+        (1.0, 0.7, 0.75),
+        (1.0, 1.1, 0.7),
+    ] {
         let walker = Walker {
             speed,
             friction,
@@ -131,7 +140,7 @@ fn who_dances_turns_by_steps_and_stays_on_his_feet() {
         let seconds = once.seconds / speed;
         let w = experiments::walk(&walker, &Walk { seconds, ..once });
         let rms = w.report.joint_rms_deg;
-        assert!(w.stood() && rms < 1.2, "{speed}, {friction}: {rms} deg");
+        assert!(w.stood() && rms < most, "{speed}, {friction}: {rms} deg");
     }
 }
 
@@ -289,7 +298,7 @@ fn a_walk_repeats_for_a_minute() {
 fn a_motion_without_a_cycle_comes_back_to_its_beginning() {
     let body = man();
     // `hit` begins with its feet 0.7 m apart: the last foot is stepped onto, not put there by a body that crouches over the other.
-    for (name, furthest) in [("wave", 0.04), ("hit", 0.08)] {
+    for (name, furthest) in [("wave", 0.04), ("hit", 0.06)] {
         let repeats =
             cycle(&body, &recorded(&body, name)).expect("it ends otherwise than it begins");
         let (first, end) = (
@@ -305,6 +314,29 @@ fn a_motion_without_a_cycle_comes_back_to_its_beginning() {
         assert!(
             rms < 2.0 && capture < furthest,
             "{name}: {rms} deg, {capture} m"
+        );
+    }
+}
+
+/// What hangs on the last millimetre of a recording is luck: copies with 1 mm and 0.2° of noise, repeated for half a minute.
+#[test]
+fn who_turns_on_the_balls_of_his_feet_does_so_again_and_again_whatever_the_noise() {
+    let body = man();
+    let bytes = mocap::read("hit.bvh");
+    let plain = Bvh::parse(&bytes).unwrap();
+    let options = RetargetOptions::default();
+    let unit = retarget(&plain, &body, &options).unwrap().report.unit_m;
+    for seed in 1..7 {
+        let mut rng = Pcg64Mcg::seed_from_u64(seed);
+        let random = || rng.random_range(-1.0..=1.0);
+        let copy = noisy(&bytes, &plain, 0.001 / unit, 0.2, random).unwrap();
+        let bvh = Bvh::parse(copy.as_bytes()).unwrap();
+        let clip = retarget(&bvh, &body, &options).unwrap().clip;
+        let repeats = cycle(&body, &clip).expect("it has a cycle");
+        let (rms, capture) = walk(&body, "hit", &Arc::new(repeats), true, 30.0);
+        assert!(
+            rms < 1.0 && capture < 0.08,
+            "copy {seed}: {rms} deg, {capture} m"
         );
     }
 }

@@ -5,7 +5,6 @@ pub mod bodies;
 pub mod compare;
 pub mod convert;
 pub mod lint;
-pub mod noise;
 pub mod output;
 pub mod page;
 pub mod paper;

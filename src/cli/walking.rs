@@ -1,16 +1,18 @@
 //! `sinew walking`: recorded motion on two feet, tracked, pushed, carried, by other people and from noisy recordings; a page about what is
 //! survived.
 
-use super::noise::noisy;
 use super::page::{Page, progress};
 use super::source::load;
 use crate::evaluate::experiments::walk::{Hands, Walk, Walked, Walker, walk};
+use crate::evaluate::noise::noisy;
 use crate::evaluate::survival::SurvivalMap;
 use crate::sim::body::{Body, Profile, Sex};
 use crate::sim::math::Vec3;
 use crate::sim::motion::builtin::builtin;
 use crate::sim::motion::{Bvh, Clip, RetargetOptions, cycle, retarget};
 use anyhow::{Context, Result};
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64Mcg;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -402,7 +404,9 @@ fn sensitivity(page: &mut Page, study: &Study) -> Result<()> {
         let unit = retarget(&bvh, &study.body, options)?.report.unit_m;
         let (mut stood, mut least, mut most) = (0, f64::INFINITY, 0.0f64);
         for seed in 0..COPIES {
-            let copy = noisy(&bytes, &bvh, metres / unit, degrees, u64::from(seed))
+            let mut rng = Pcg64Mcg::seed_from_u64(u64::from(seed));
+            let random = || rng.random_range(-1.0..=1.0);
+            let copy = noisy(&bytes, &bvh, metres / unit, degrees, random)
                 .with_context(|| format!("{spec} has no motion"))?;
             let clip = retarget(&Bvh::parse(copy.as_bytes())?, &study.body, options)?.clip;
             let walked = walk(&walker, &Walk::once(&Arc::new(clip)));

@@ -2,11 +2,12 @@
 //!
 //! [`metrics`] accumulates a run tick by tick into a [`RunReport`]; [`audit`] rebuilds the equations of motion from the body alone, without
 //! any number of the solver; [`strip`] draws the motion, [`plot`] its numbers; [`table`] writes it as CSV; [`survival`] what was
-//! survived; [`experiments`] are those of `sinew paper` and `sinew walking`. Nothing here reads a clock or a file.
+//! survived; [`noise`] asks whether that was luck; [`experiments`] are those of `sinew paper` and `sinew walking`. Nothing here reads a clock or a file.
 
 pub mod audit;
 pub mod experiments;
 pub mod metrics;
+pub mod noise;
 pub mod plot;
 pub mod pose;
 pub mod report;

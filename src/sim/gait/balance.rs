@@ -290,9 +290,16 @@ pub(super) fn within_reach(
     if away < least {
         local.y = least * outward - planned.y;
     }
+    // Nor does a step that the plan crosses with have to pass farther away than planned.
     let ahead = planned.x + local.x;
-    if away < BESIDE.min(planned.y * outward) && ahead.abs() < PASSING {
-        local.x = PASSING.copysign(ahead) - planned.x;
+    let crosses = planned.y * outward < BESIDE;
+    let (passing, way) = if crosses {
+        (PASSING.min(planned.x.abs()), planned.x)
+    } else {
+        (PASSING, ahead)
+    };
+    if away < BESIDE.min(planned.y * outward) && ahead * 1f64.copysign(way) < passing {
+        local.x = passing.copysign(way) - planned.x;
     }
     let world = Quat::exp(Vec3::Z * yaw).rotate(local);
     [world.x, world.y]
@@ -336,5 +343,29 @@ mod tests {
         assert!((ahead(1.0, 0.5) - REACH.0).abs() < 1e-15);
         assert!((ahead(-1.0, 0.5) + 0.5).abs() < 1e-15);
         assert!((ahead(-1.0, REACH.0) + REACH.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_step_that_the_plan_crosses_with_goes_where_it_catches_the_body() {
+        // Who turns on his right foot sets the left one down 36 cm to its right.
+        for ahead in [-0.2, -0.03, 0.03, 0.2] {
+            let home = Vec3 {
+                x: ahead,
+                y: -0.36,
+                z: 0.0,
+            };
+            for d in [[0.0, 0.0], [0.01, -0.01], [-0.01, -0.01], [0.0, 0.02]] {
+                let at = within_reach(d, home, Vec3::zero(), 0.0, 0, REACH.0);
+                let away = apart(at, d);
+                assert!(
+                    away <= d[0].hypot(d[1]) + 1e-12,
+                    "{d:?} from {ahead}: {at:?}"
+                );
+            }
+        }
+        // One that does not passes the other foot before or behind it.
+        let home = Vec3::Y * 0.15 + Vec3::X * 0.05;
+        let at = within_reach([0.0, -0.2], home, Vec3::zero(), 0.0, 0, REACH.0);
+        assert!((home.x + at[0] - PASSING).abs() < 1e-15, "{at:?}");
     }
 }

@@ -19,6 +19,8 @@ const LONGER: f64 = 0.4;
 /// Nobody is planned on less than this share of his sole before the ankle: whose calf is weaker than that is weak in knees and hips too, and falls by those
 /// when he is kept farther back. At speed he gets as much again as he lacked.
 const LEAST: f64 = 0.61;
+/// Who stands on the ball of his foot has nothing behind his toe joint to stand on: he is planned on this much before it, m, whatever his calf holds.
+const BALL: f64 = 0.015;
 /// A runner's foot that carries less than this share of his weight is as strong as one that carries so much.
 const LEAST_LOAD: f64 = 0.5;
 /// The support is moved against the lean of the body by no more than this, m.
@@ -93,6 +95,9 @@ impl OneFoot {
         if let Some(load) = load {
             front = self.front / load.max(LEAST_LOAD);
         }
+        if at.is_on_ball() {
+            front = front.max(sole.toe_joint.x + BALL);
+        }
         let rise = self.ankle / height.max(self.ankle);
         let lean = lean.map(|d| d * rise);
         let far = (lean[0] * lean[0] + lean[1] * lean[1]).sqrt();
@@ -150,6 +155,32 @@ mod tests {
             assert!(one.front > 0.5 * toes && one.front < 0.9 * toes, "{one:?}");
             let hurried = support(&one, &sole, [0.0, 0.0], 2.0);
             assert!(margin(&hurried, before(one.front)) > 0.01);
+        }
+    }
+
+    #[test]
+    fn nobody_stands_behind_the_ball_of_a_foot_whose_heel_is_up() {
+        for body in [Body::adult_man(), Body::adult_woman()] {
+            let (one, sole) = (OneFoot::new(&body), Sole::new(&body, 0));
+            let at = Anchor { pitch: -0.3, ..AT };
+            for (speed, load) in [(0.0, None), (2.0, None), (3.5, Some(2.5))] {
+                let over = Over {
+                    height: 1.0,
+                    speed,
+                    lean: [0.0, 0.0],
+                    load,
+                };
+                let mut reach = (f64::INFINITY, f64::NEG_INFINITY);
+                one.each_corner(&sole, &at, &over, |p| {
+                    let x = (p[0] - at.place.x) * 0.7f64.cos() + (p[1] - at.place.y) * 0.7f64.sin();
+                    reach = (reach.0.min(x), reach.1.max(x));
+                });
+                let ball = sole.toe_joint.x;
+                assert!(
+                    reach.0 >= ball - 0.01 && reach.1 >= ball + BALL - 1e-9,
+                    "{speed} m/s, {load:?}: {reach:?}, ball at {ball}"
+                );
+            }
         }
     }
 

@@ -64,6 +64,9 @@ const KNEE_STEP: f64 = 0.3;
 const KNEE_STEPS: usize = 8;
 /// A planted foot that its leg cannot hold to this accuracy is declared free, m.
 pub(super) const HELD: f64 = 5e-4;
+/// One that is farther off than this, m, does not carry either; that is looked at so many rounds before the last.
+const NEAR: f64 = 0.01;
+const RELIEVED: usize = 5;
 
 /// A recorded motion in body scale, floor at z = 0: what the preparation starts from.
 #[derive(Clone, Debug)]
@@ -205,9 +208,7 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
         }
         locked = lock(&relief);
     }
-    let mut planted: Vec<[bool; 2]> = (0..n)
-        .map(|i| [locked[0].planted[i], locked[1].planted[i]])
-        .collect();
+    let mut planted = planted_of(&locked);
     let mut penetration_before: f64 = 0.0;
     for s in 0..2 {
         for i in (0..n).filter(|i| draft.label[*i][s]) {
@@ -220,7 +221,8 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
     // Legs as recorded first; then rounds in which ankles are relieved and the trunk is shifted over the feet.
     let mut shift = vec![[0.0f64; 2]; n];
     let (mut postures, mut drop) = assemble(body, &upper, &locked, draft, &relief, &shift, None);
-    let mut carriers = carriers_of(body, &soles, &upper, &locked, &draft.label);
+    let mut carries = planted.clone();
+    let mut carriers = carriers_of(body, &soles, &upper, (&locked, &carries), &draft.label);
     let mut track = mass_track(body, &postures, rate);
     let before = zmp_outside(&track, &carriers);
     let elsewhere = may_rest(body, &upper, &planted, rate);
@@ -240,13 +242,13 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
                 rate,
             );
             locked = lock(&relief);
-            carriers = carriers_of(body, &soles, &upper, &locked, &draft.label);
+            carriers = carriers_of(body, &soles, &upper, (&locked, &carries), &draft.label);
         }
         if options.balance && round > 0 {
             let held = held_in_gait(
                 &carriers,
                 &soles,
-                &locked,
+                (&locked, &carries),
                 (&one_foot, &track),
                 flights.is_some(),
                 rate,
@@ -285,6 +287,11 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
             flights.as_ref(),
         );
         track = mass_track(body, &postures, rate);
+        if round + RELIEVED == rounds {
+            let left = within_reach(body, &postures, &planted, (&soles, &locked));
+            carries.copy_from_slice(&left);
+            carriers = carriers_of(body, &soles, &upper, (&locked, &carries), &draft.label);
+        }
     }
 
     let held = into_limits(
@@ -400,12 +407,40 @@ fn toe_hinge(side: usize) -> usize {
     }
 }
 
+/// Which feet are planted, per sample.
+pub(super) fn planted_of(locked: &[LockedFoot; 2]) -> Vec<[bool; 2]> {
+    let [left, right] = locked;
+    let both = left.planted.iter().zip(&right.planted);
+    both.map(|(l, r)| [*l, *r]).collect()
+}
+
+/// Which planted feet carry the body: not those that their legs, within their limits, hold far from their places while the other one stands. Declared free in the
+/// end they would leave a body alone on one foot that is balanced on two.
+fn within_reach(
+    body: &Body,
+    postures: &[Posture],
+    planted: &[[bool; 2]],
+    (soles, locked): (&[Sole; 2], &[LockedFoot; 2]),
+) -> Vec<[bool; 2]> {
+    let carries = |(i, planted): (usize, &[bool; 2])| {
+        let mut posture = postures[i];
+        clamp_to_limits(body, &mut posture, LIMIT_MARGIN * 0.5);
+        let poses = forward(body, &posture);
+        let near = |s: usize| soles[s].stray(poses[FOOT[s].index()], &locked[s].poses[i]) <= NEAR;
+        match *planted {
+            [true, true] if near(0) != near(1) => [near(0), near(1)],
+            as_locked => as_locked,
+        }
+    };
+    planted.iter().enumerate().map(carries).collect()
+}
+
 /// What carries the body in each sample.
 pub(super) fn carriers_of(
     body: &Body,
     soles: &[Sole; 2],
     upper: &[Posture],
-    locked: &[LockedFoot; 2],
+    (locked, carries): (&[LockedFoot; 2], &[[bool; 2]]),
     label: &[[bool; 2]],
 ) -> Vec<Carrier> {
     let standing = body.standing_root_height();
@@ -413,7 +448,8 @@ pub(super) fn carriers_of(
     (0..upper.len())
         .map(|i| {
             corners.clear();
-            for (sole, foot) in soles.iter().zip(locked).filter(|(_, f)| f.planted[i]) {
+            let feet = soles.iter().zip(locked).zip(carries[i]);
+            for ((sole, foot), _) in feet.filter(|(_, carries)| *carries) {
                 sole.footprint(&foot.anchors[i], &mut corners);
             }
             if upper[i].root_position.z < 0.45 * standing {
@@ -437,14 +473,16 @@ pub(super) fn held_by(
     (one_foot, track): (&OneFoot, &MassTrack),
     rate_hz: f64,
 ) -> Vec<Carrier> {
-    held_in_gait(carriers, soles, locked, (one_foot, track), false, rate_hz)
+    let carries = planted_of(locked);
+    let feet = (locked, carries.as_slice());
+    held_in_gait(carriers, soles, feet, (one_foot, track), false, rate_hz)
 }
 
 /// The same, of who `runs` or walks.
 fn held_in_gait(
     carriers: &[Carrier],
     soles: &[Sole; 2],
-    locked: &[LockedFoot; 2],
+    (locked, carries): (&[LockedFoot; 2], &[[bool; 2]]),
     (one_foot, track): (&OneFoot, &MassTrack),
     runs: bool,
     rate_hz: f64,
@@ -459,7 +497,7 @@ fn held_in_gait(
     });
     let mut corners = Vec::new();
     let held = |(i, carrier): (usize, &Carrier)| {
-        let side = match [0, 1].map(|s: usize| locked[s].planted[i]) {
+        let side = match carries[i] {
             [true, false] => 0,
             [false, true] => 1,
             _ => return carrier.clone(),

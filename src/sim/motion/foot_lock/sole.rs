@@ -7,6 +7,8 @@ use crate::sim::math::{Quat, Vec3, trig};
 /// Length of the toes' tip, m; toes are on it when they are turned up by more than this, rad.
 const TIP: f64 = 0.02;
 pub(in crate::sim::motion) const ON_TIP: f64 = 0.02;
+/// A foot pitched by less than this stands on its whole sole, rad.
+const PITCHED: f64 = 0.02;
 
 /// Pose of one foot: ankle position, `world_from_foot`, toe extension.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,6 +50,11 @@ impl Anchor {
     /// Point of the floor, m, and heading, rad.
     pub fn place_and_yaw(&self) -> (Vec3, f64) {
         (self.place, self.yaw)
+    }
+
+    /// True where the heel is raised: nothing behind the ball of the foot carries.
+    pub(in crate::sim::motion) fn is_on_ball(&self) -> bool {
+        self.pitch <= -PITCHED
     }
 
     /// Direction in which the foot points, x and y.
@@ -209,11 +216,11 @@ impl Sole {
         };
         for p in &self.foot {
             let front = p.x > 0.5 * ball;
-            if (pitch > -0.02 || front) && (pitch < 0.02 || !front) {
+            if (!at.is_on_ball() || front) && (pitch < PITCHED || !front) {
                 push(*p);
             }
         }
-        if pitch < 0.02 {
+        if pitch < PITCHED {
             // On their tip the toes still carry with a strip of it.
             let front = self.toe_tip().x;
             let back = if tip < ON_TIP {

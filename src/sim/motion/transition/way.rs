@@ -23,7 +23,7 @@ use crate::sim::motion::join::Sample;
 use crate::sim::motion::leg_ik::{forward, knee_axis, solve_leg_in_plane};
 use crate::sim::motion::one_foot::OneFoot;
 use crate::sim::motion::prepare::{
-    CARRIED, DROP_TIME, INSET, carriers_of, held_by, leg_geometry, may_rest,
+    CARRIED, DROP_TIME, INSET, carriers_of, held_by, leg_geometry, may_rest, planted_of,
 };
 
 /// Force and moment that a way may ask for from nothing, shares of what a body weighs. Of 35 ways of 17 pairs of recordings that asked for less nobody fell; of
@@ -314,7 +314,7 @@ impl Draft<'_> {
             self.body,
             self.soles,
             &self.postures,
-            &self.feet,
+            (&self.feet, &planted_of(&self.feet)),
             &self.label,
         );
         let elsewhere = may_rest(self.body, &self.postures, &self.label, RATE);

@@ -2,12 +2,16 @@
 
 use crate::sim::motion::Bvh;
 use crate::sim::motion::bvh::BvhChannel;
-use rand::{Rng, SeedableRng};
-use rand_pcg::Pcg64Mcg;
 
 /// `bytes`, a BVH file that parses as `bvh`, with every number of its motion off by up to `distance` (file units) or `angle` (degrees), evenly
-/// distributed and repeatable by `seed`. `None` if the file has no line that begins its motion.
-pub fn noisy(bytes: &[u8], bvh: &Bvh, distance: f64, angle: f64, seed: u64) -> Option<String> {
+/// distributed if `random`, which gives numbers from -1 to 1, is. `None` if the file has no line that begins its motion.
+pub fn noisy(
+    bytes: &[u8],
+    bvh: &Bvh,
+    distance: f64,
+    angle: f64,
+    mut random: impl FnMut() -> f64,
+) -> Option<String> {
     let text = String::from_utf8_lossy(bytes);
     let head = text.to_ascii_lowercase().find("frame time")?;
     let start = head + text[head..].find('\n')? + 1;
@@ -23,16 +27,12 @@ pub fn noisy(bytes: &[u8], bvh: &Bvh, distance: f64, angle: f64, seed: u64) -> O
     if kinds.is_empty() {
         return None;
     }
-    let mut rng = Pcg64Mcg::seed_from_u64(seed);
     let mut out = text[..start].to_owned();
     let numbers = text[start..].split_ascii_whitespace();
     for (i, word) in numbers.enumerate() {
         let kind = kinds[i % kinds.len()];
         let value: f64 = word.parse().ok()?;
-        out.push_str(&format!(
-            "{:.6}",
-            value + kind * rng.random_range(-1.0..=1.0)
-        ));
+        out.push_str(&format!("{:.6}", value + kind * random()));
         let ends = (i + 1) % kinds.len() == 0;
         out.push(if ends { '\n' } else { ' ' });
     }
@@ -42,15 +42,21 @@ pub fn noisy(bytes: &[u8], bvh: &Bvh, distance: f64, angle: f64, seed: u64) -> O
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rand::{Rng, SeedableRng};
+    use rand_pcg::Pcg64Mcg;
 
     const FILE: &[u8] = b"HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\nEnd Site\n{\nOFFSET 0 1 0\n}\n}\nMOTION\nFrames: 2\nFrame Time: 0.1\n1 2 3 40 50 60\n1 2 3 41 51 61\n";
 
     #[test]
     fn noise_is_small_repeatable_and_keeps_the_form() {
         let bvh = Bvh::parse(FILE).unwrap();
-        let a = noisy(FILE, &bvh, 0.1, 1.0, 7).unwrap();
-        assert_eq!(a, noisy(FILE, &bvh, 0.1, 1.0, 7).unwrap());
-        assert_ne!(a, noisy(FILE, &bvh, 0.1, 1.0, 8).unwrap());
+        let copy = |seed| {
+            let mut rng = Pcg64Mcg::seed_from_u64(seed);
+            noisy(FILE, &bvh, 0.1, 1.0, || rng.random_range(-1.0..=1.0)).unwrap()
+        };
+        let a = copy(7);
+        assert_eq!(a, copy(7));
+        assert_ne!(a, copy(8));
         let lines: Vec<&str> = a.lines().rev().take(2).collect();
         for (line, want) in lines
             .iter()
