@@ -314,6 +314,59 @@ fn a_driver_that_goes_silent_leaves_its_figure_standing() {
     assert!(all >= 18, "{all} of 24");
 }
 
+/// The recording breaks off in motion; a driver that goes on sending its last posture asks for what no body can do.
+#[test]
+fn a_recording_whose_last_posture_is_held_ends_in_a_stand() {
+    let body = man();
+    let all = &[0.3, 0.5, 1.0][..];
+    let cases = [
+        ("walk", all),
+        ("turn", all),
+        ("walk-around", all),
+        ("salsa-a", all),
+        ("hit", all),
+        // With less it is off by 0.3 to 0.6 m before it ends.
+        ("carry", &all[2..]),
+    ];
+    for (name, windows) in cases {
+        let raw = bare(&body, name);
+        let last = raw.duration();
+        for &window in windows {
+            let posture = |t: f64| Some(raw.sample(t.min(last)).posture);
+            let f = follow(&body, posture, last + 4.0, window);
+            println!(
+                "{name}, {window} s: fell {:?}, {:.2} m/s, feet {:.2} m apart, capture point within {:.0} mm",
+                f.fell,
+                f.speed,
+                f.apart,
+                1e3 * f.capture
+            );
+            assert_eq!(f.fell, None, "{name}, {window} s");
+            assert!(f.speed < 0.1 && f.apart < 0.5, "{name}, {window} s");
+        }
+    }
+}
+
+#[test]
+fn a_stream_that_stands_still_is_not_broken_off() {
+    let body = man();
+    let raw = bare(&body, "walk");
+    let mut motion = LiveMotion::new(Arc::clone(&body), 0.5);
+    let at = |i: usize| raw.sample(1.0 + i as f64 / RATE).posture;
+    (0..30).for_each(|i| motion.push(&at(i), None));
+    (0..5).for_each(|_| motion.push(&at(29), None));
+    assert!(!motion.breaks_off(), "a hiccup");
+    assert_eq!(motion.moved(), 35);
+    motion.push(&at(29), None);
+    assert!(motion.breaks_off());
+    assert_eq!((motion.fed(), motion.moved()), (36, 30));
+    motion.push(&at(30), None);
+    assert!(!motion.breaks_off(), "it goes on");
+    let mut stands = LiveMotion::new(Arc::clone(&body), 0.5);
+    (0..120).for_each(|_| stands.push(&at(0), None));
+    assert!(!stands.breaks_off());
+}
+
 #[test]
 fn a_clip_that_is_stopped_ends_in_a_stand() {
     let body = man();

@@ -6,6 +6,7 @@
 //! world time, so that pausing or slowing a world does not starve its drivers.
 
 use crate::sim::body::{NV, Posture};
+use crate::sim::motion::live::is_same;
 use crate::sim::motion::{Target, TargetPair};
 use crate::wire::types::{Delay, DriveSettings, Supply};
 use std::collections::VecDeque;
@@ -469,10 +470,12 @@ impl JitterBuffer {
         Some(TargetPair { now, next })
     }
 
-    /// True if there is motion that was not handed to a window yet.
+    /// True if there is motion that was not handed to a window yet: a driver that repeats what it sent before does not move.
     pub fn has_news(&self) -> bool {
-        let newest = self.frames.back().map(|f| self.seconds(f));
-        newest.zip(self.head).is_some_and(|(f, head)| f > head)
+        let (Some(newest), Some(head)) = (self.frames.back(), self.head) else {
+            return false;
+        };
+        self.seconds(newest) > head && !is_same(&self.at(head).0.posture, &newest.posture)
     }
 
     /// Hands the samples of a grid of `rate` per second to a window that lies `window` seconds behind them, as far as they are due in the tick from

@@ -231,6 +231,7 @@ impl Figure {
         let applied = self.disturbances.applied();
         self.terms
             .compute(&self.links, &self.state, applied, world.gravity);
+        self.leave_broken_stream(world.time());
         self.begin_to_leave(world);
         self.begin_queued(world.time());
         self.get_up(world.time());

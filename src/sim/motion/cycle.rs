@@ -3,7 +3,7 @@
 use super::clip::Clip;
 use super::foot_lock::Sole;
 use super::leg_ik::forward;
-use super::prepare::{Draft, PrepareOptions, prepare};
+use super::prepare::{Draft, HELD, PrepareOptions, prepare};
 use crate::sim::body::topology::{DOF_COUNT, L_FOOT, R_FOOT};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::Vec3;
@@ -126,6 +126,7 @@ pub fn cycle(body: &Body, clip: &Clip) -> Option<Clip> {
 const HOW: PrepareOptions = PrepareOptions {
     lock_feet: true,
     balance: true,
+    held: HELD,
 };
 
 /// A sole this low, m, and this slow, m/s, is on the floor.

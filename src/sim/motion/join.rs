@@ -39,6 +39,9 @@ pub(super) const FINE: f64 = 2.0 * RATE;
 pub(super) const HOW: PrepareOptions = PrepareOptions {
     lock_feet: true,
     balance: true,
+    // A foot that an ankle at its limit moves by millimetres goes on standing: taken off the floor it would step in place, and nobody
+    // who is being stopped has time for that.
+    held: 0.01,
 };
 
 /// A sample: posture, and which feet are planted.

@@ -62,9 +62,9 @@ const KNEE_SLACK: f64 = 1e-3;
 const LEAST_RISE: f64 = 0.05;
 const KNEE_STEP: f64 = 0.3;
 const KNEE_STEPS: usize = 8;
-/// A planted foot that its leg cannot hold to this accuracy is declared free, m.
+/// Accuracy to which the feet of a recording hold their places, m.
 pub(super) const HELD: f64 = 5e-4;
-/// One that is farther off than this, m, does not carry either; that is looked at so many rounds before the last.
+/// A planted foot that is farther off its place than this, m, does not carry while the other one does; that is looked at so many rounds before the last.
 const NEAR: f64 = 0.01;
 const RELIEVED: usize = 5;
 
@@ -92,6 +92,8 @@ pub struct PrepareOptions {
     pub lock_feet: bool,
     /// Shift the trunk so that the zero-moment point stays in the support polygon.
     pub balance: bool,
+    /// A planted foot that its leg cannot hold to this accuracy is declared free, m.
+    pub held: f64,
 }
 
 /// How far the zero-moment point is outside the support polygon of planted feet, over the samples that feet carry.
@@ -298,7 +300,7 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
         body,
         &mut postures,
         &mut planted,
-        (&soles, &locked),
+        (&soles, &locked, options.held),
         &mut clamped,
     );
     track = mass_track(body, &postures, rate);
@@ -343,7 +345,7 @@ fn into_limits(
     body: &Body,
     postures: &mut [Posture],
     planted: &mut [[bool; 2]],
-    (soles, locked): (&[Sole; 2], &[LockedFoot; 2]),
+    (soles, locked, accuracy): (&[Sole; 2], &[LockedFoot; 2], f64),
     clamped: &mut [(f64, f64); DOF_COUNT],
 ) -> Held {
     let n = postures.len();
@@ -364,7 +366,7 @@ fn into_limits(
             let (at, q) = poses[FOOT[s].index()];
             let low = at.z + soles[s].lowest(q, posture.hinge[toe_hinge(s)]);
             let stray = soles[s].stray((at, q), &locked[s].poses[i]);
-            if stray > HELD || low < -HELD {
+            if stray > accuracy || low < -accuracy {
                 planted[s] = false;
                 held.freed += 1;
                 continue;

@@ -23,7 +23,7 @@ use super::clip::Clip;
 use super::contacts::{label_feet, phases};
 use super::filter::renormalised;
 use super::foot_lock::Sole;
-use super::prepare::{Draft, PrepareOptions, Prepared, prepare};
+use super::prepare::{Draft, HELD, PrepareOptions, Prepared, prepare};
 use super::running;
 use super::skeleton_map::map_skeleton;
 use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES, L_FOOT, L_SHANK};
@@ -230,6 +230,7 @@ pub fn retarget(
         let bare = PrepareOptions {
             lock_feet: false,
             balance: false,
+            held: HELD,
         };
         let recorded = prepare(body, &draft, bare).postures;
         running::label_runs(body, &recorded, &mut draft.label, rate);
@@ -238,6 +239,7 @@ pub fn retarget(
     let how = PrepareOptions {
         lock_feet: options.lock_feet && options.floor,
         balance: options.balance,
+        held: HELD,
     };
     let prepared = prepare(body, &draft, how);
     let (postures, planted, lead_in, lead_out) = if options.ends && how.lock_feet {

@@ -1,6 +1,7 @@
 //! The motion is a sine of the right elbow, so that every answer has a closed form.
 
 use super::*;
+use crate::sim::motion::LiveMotion;
 
 const RATE: f64 = 60.0;
 const TICK: f64 = 1.0 / 60.0;
@@ -177,4 +178,35 @@ fn old_and_surplus_frames_are_counted() {
                 .is_none_or(|p| p.next.posture.is_finite())
         );
     }
+}
+
+/// Half a second ahead at 0.5 m/s, then the last posture again and again.
+#[test]
+fn a_posture_that_is_repeated_breaks_the_stream_off_and_is_no_news() {
+    let walking = |i: i64, at: i64| {
+        let mut f = frame(i, false);
+        f.posture = frame(at, false).posture;
+        f.posture.root_position.x = 0.5 * at as f64 / RATE;
+        f
+    };
+    let mut b = buffer(Delay::Fixed(0.05));
+    let body = std::sync::Arc::new(crate::sim::body::Body::adult_man());
+    let mut motion = LiveMotion::new(body, 0.3);
+    let (mut news, mut broken) = (Vec::new(), Vec::new());
+    for i in 0..60 {
+        let t = i as f64 * TICK;
+        b.push(walking(i, i.min(30)), t);
+        b.feed(t, (RATE, 0.3), |due| match due {
+            Due::Sample(posture, planted) => motion.push(posture, planted),
+            Due::Silence => panic!("it sends"),
+        });
+        news.push(b.has_news());
+        broken.push(motion.breaks_off());
+    }
+    assert!(news[10..30].iter().all(|n| *n), "it moves");
+    assert!(!news[40..].iter().any(|n| *n), "it does not");
+    assert!(!broken[..36].iter().any(|b| *b), "not before 0.1 s");
+    assert!(broken[45..].iter().all(|b| *b), "soon after");
+    b.push(walking(60, 31), 1.0);
+    assert!(b.has_news(), "it moves again");
 }

@@ -3,7 +3,7 @@
 
 use super::{Figure, TickContext};
 use crate::sim::body::{Body, Posture};
-use crate::sim::figure::drive::{ClipPlayback, Drive, Queued};
+use crate::sim::figure::drive::{ClipPlayback, Drive, LivePlayback, Queued};
 use crate::sim::figure::planning::Plan;
 use crate::sim::gait::StepPlan;
 use crate::sim::motion::clip::{Clip, PlanarTransform};
@@ -220,6 +220,16 @@ impl Figure {
         }
     }
 
+    /// A stream that breaks off in the middle of a step, its last posture held, is left by the steps to a stand. Allocates.
+    pub(super) fn leave_broken_stream(&mut self, time: f64) {
+        let broken = |live: &LivePlayback| live.motion.breaks_off();
+        let streams =
+            self.leaving.is_none() && matches!(&self.drive, Drive::Live(live) if broken(live));
+        if streams && self.steps() && self.gait.is_walking() {
+            self.leave_for_a_stand(time);
+        }
+    }
+
     /// Leaves the motion in the last tick that begins before the way out differs from it. Always in that one, however long that took to work out.
     pub(super) fn begin_to_leave(&mut self, world: &TickContext) {
         let due = |l: &Leaving| world.time() + world.dt > l.due + 1e-9;
@@ -329,7 +339,7 @@ impl Figure {
             }
             Drive::Live(live) => {
                 // What still plays is prepared now, so that the way to the stand begins with it.
-                let (t, came) = (live.stream_time(from), live.motion.fed());
+                let (t, came) = (live.stream_time(from), live.motion.moved());
                 live.motion.advance(t + still);
                 let (first, so_far) = live.motion.known(t - RUN_UP, came);
                 (from + first - t, so_far)

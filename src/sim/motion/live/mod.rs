@@ -11,6 +11,7 @@
 mod balance;
 mod dynamics;
 mod foot;
+mod held;
 mod polygon;
 mod posing;
 
@@ -27,6 +28,8 @@ use crate::sim::math::{Quat, Vec3};
 use balance::Balance;
 use foot::Foot;
 pub use foot::Stance;
+use held::Newest;
+pub use held::is_same;
 use posing::Lowering;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -149,6 +152,7 @@ pub struct LiveMotion {
     /// Samples between the output and the one whose feet are posed.
     ahead: i64,
     pending: VecDeque<Raw>,
+    newest: Newest,
     /// Number of samples taken into the ring.
     count: i64,
     ring: Vec<Sample>,
@@ -188,6 +192,7 @@ impl LiveMotion {
             window,
             ahead: POSED + (window - SHORTEST_WINDOW).min(FORESEEN),
             pending: VecDeque::with_capacity(MOST_PENDING),
+            newest: Newest::default(),
             count: 0,
             ring: vec![blank; length],
             knots: vec![knot; PAST as usize],
@@ -220,6 +225,21 @@ impl LiveMotion {
         self.count + self.pending.len() as i64
     }
 
+    /// The same without those at the end that repeat one, if it breaks off with them.
+    pub fn moved(&self) -> i64 {
+        let repeated = if self.breaks_off() {
+            self.newest.repeated()
+        } else {
+            0
+        };
+        self.fed() - repeated
+    }
+
+    /// True if its samples have repeated one in the middle of a movement for so long that it is over: no body stops like that.
+    pub fn breaks_off(&self) -> bool {
+        self.newest.breaks_off()
+    }
+
     /// The next sample, 1/[`RATE`] s after the last one.
     ///
     /// * `planted`: feet on the floor (left, right), if the sender knows.
@@ -227,6 +247,7 @@ impl LiveMotion {
     /// A sample that is not finite is taken for a repetition of the last one.
     pub fn push(&mut self, posture: &Posture, planted: Option<[bool; 2]>) {
         if posture.is_finite() {
+            self.newest.take(posture);
             self.wait(Raw {
                 posture: *posture,
                 planted,

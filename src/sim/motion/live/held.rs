@@ -1,0 +1,89 @@
+//! A stream whose newest samples repeat one: a driver that has stopped moving and goes on sending.
+
+use super::RATE;
+use crate::sim::body::Posture;
+
+/// A coordinate that changes by less than this from sample to sample does not change, rad or m. Nobody is ever as quiet as that; only software is.
+pub const SAME: f64 = 1e-6;
+/// Samples of a stream that repeat one for so long break it off, s: as long as a velocity is continued in a silence.
+const REPEATS: f64 = 0.1;
+/// A pelvis that was faster than this over the floor, m/s, was in motion.
+const MOVES: f64 = 0.1;
+/// Samples over which its velocity is averaged, about.
+const AVERAGED: f64 = 4.0;
+
+/// True if nothing moved between two postures.
+pub fn is_same(a: &Posture, b: &Posture) -> bool {
+    a.difference(b).iter().all(|d| d.abs() < SAME)
+}
+
+/// The newest sample, how it came to be there, and for how long.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Newest {
+    posture: Option<Posture>,
+    /// Samples that have repeated it.
+    repeated: i64,
+    /// Velocity of the pelvis over the floor before that, m/s.
+    velocity: [f64; 2],
+}
+
+impl Newest {
+    pub(super) fn take(&mut self, posture: &Posture) {
+        let Some(last) = self.posture.replace(*posture) else {
+            return;
+        };
+        if is_same(&last, posture) {
+            self.repeated += 1;
+            return;
+        }
+        // Who moves again after a while begins anew.
+        if self.breaks_off() {
+            self.velocity = [0.0; 2];
+        }
+        self.repeated = 0;
+        let (a, b) = (last.root_position, posture.root_position);
+        let way = [b.x - a.x, b.y - a.y];
+        for (v, way) in self.velocity.iter_mut().zip(way) {
+            *v += (way * RATE - *v) / AVERAGED;
+        }
+    }
+
+    /// Samples at the end that repeat the one before them.
+    pub(super) fn repeated(&self) -> i64 {
+        self.repeated
+    }
+
+    pub(super) fn breaks_off(&self) -> bool {
+        let [x, y] = self.velocity;
+        self.repeated >= (REPEATS * RATE) as i64 && x * x + y * y > MOVES * MOVES
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Ahead at a speed, m/s, for half a second, then the same for so many samples.
+    fn stream(speed: f64, repeats: usize) -> Newest {
+        let at = |i: usize| {
+            let mut p = Posture::default();
+            p.root_position.x = speed * i.min(30) as f64 / RATE;
+            p
+        };
+        let mut newest = Newest::default();
+        (0..=30 + repeats).for_each(|i| newest.take(&at(i)));
+        newest
+    }
+
+    #[test]
+    fn a_stream_breaks_off_where_it_repeats_a_sample_in_motion() {
+        assert!(stream(1.0, 6).breaks_off());
+        assert_eq!(stream(1.0, 6).repeated(), 6);
+        assert!(!stream(1.0, 0).breaks_off(), "it moves");
+        assert!(!stream(1.0, 4).breaks_off(), "a hiccup");
+        assert!(!stream(0.05, 60).breaks_off(), "it stood");
+        let mut again = stream(1.0, 6);
+        again.take(&Posture::default());
+        assert!(!again.breaks_off(), "it goes on");
+    }
+}
