@@ -5,6 +5,7 @@
 
 mod alone;
 pub mod anchor;
+mod around;
 pub mod balance;
 pub mod catch;
 mod ending;
@@ -62,6 +63,8 @@ struct Foot {
     release: Vec3,
     /// Displacement of its next foothold, m.
     shift: [f64; 2],
+    /// How far it was inside what the other leg needs when it lifted off, once it is led past it, m.
+    tight: Option<f64>,
 }
 
 impl Foot {
@@ -72,6 +75,7 @@ impl Foot {
             late: 0.0,
             lifted: phase,
             shift: [0.0; 2],
+            tight: None,
             ..*self
         };
     }

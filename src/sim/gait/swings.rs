@@ -1,5 +1,6 @@
 //! Where swinging feet are led: to footholds that catch the body, clear of the floor, in the air about the centre of mass (WALKING §4).
 
+use super::around::Stance;
 use super::plan::Footfall;
 use super::{FOOT, Gait, Led, balance, level};
 use crate::sim::control::{PointTarget, RotationTarget};
@@ -59,6 +60,9 @@ impl Gait {
         if let Some(f) = current.or(next) {
             self.adapt(terms, side, &f, dt);
         }
+        let heading = current
+            .or(next)
+            .map(|f| self.anchor.yaw() + self.placed(&f).yaw);
         let foot = self.feet[side];
         let since = (self.phase - foot.lifted).max(0.0) / self.speed;
         let on = match (current, next) {
@@ -79,6 +83,7 @@ impl Gait {
             .min(CLEARANCE_RATE * remaining);
         offset.z += (wanted - self.lowest(terms, side)).clamp(0.0, CLEARANCE);
         let target = &mut target.0;
+        let clip = target.now;
         if let Some(quick) = self.quick.filter(|_| remaining > 0.0) {
             // In a hurry a foot lags by a tenth of a second if it is not told how fast it is led aside.
             let ahead = |t: f64| share(since + t * quick.rate);
@@ -95,6 +100,37 @@ impl Gait {
         }
         target.now += offset;
         target.next += offset;
+        if let Some(yaw) = heading.filter(|_| self.feet[1 - side].down) {
+            self.lead_around(terms, (side, yaw), (since, dt), clip, target);
+        }
+    }
+
+    /// Leads a swinging foot that is to cross, or has crossed, around the leg that stands; `clip`: where the clip has it.
+    fn lead_around(
+        &mut self,
+        terms: &Terms,
+        (side, yaw): (usize, f64),
+        (since, dt): (f64, f64),
+        clip: Vec3,
+        target: &mut PointTarget,
+    ) {
+        let foot = &mut self.feet[side];
+        let ankle = |side: usize| terms.segment_position(FOOT[side].index());
+        let stance = Stance::new(ankle(1 - side), yaw, side);
+        let Some(stance) = stance.crossed(level(foot.shift), foot.release, clip) else {
+            return;
+        };
+        let short = stance.short(ankle(side), Vec3::zero());
+        let tight = *foot.tight.get_or_insert(short.max(0.0));
+        let (v0, v1) = (target.now_velocity, target.next_velocity);
+        let now = stance.aside(target.now, v0, since, tight);
+        let next = stance.aside(target.next, v1, since + dt, tight);
+        let after = (target.next + v1 * dt, v1 * 2.0 - v0);
+        let after = stance.aside(after.0, after.1, since + 2.0 * dt, tight);
+        target.now += now;
+        target.next += next;
+        target.now_velocity += (next - now) * (1.0 / dt);
+        target.next_velocity += (after - next) * (1.0 / dt);
     }
 
     /// A foot that landed before its time stands where the plan still has it in the air.
