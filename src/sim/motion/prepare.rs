@@ -1,5 +1,6 @@
 //! From a recorded motion in body scale to a reference that a body can follow: feet locked, legs reaching, balance kept.
 
+mod pelvis;
 mod relief;
 
 use super::balance::{
@@ -614,6 +615,7 @@ fn assemble(
     let mut out = upper.to_vec();
     let mut drop = vec![f64::INFINITY; n];
     for i in 0..n {
+        pelvis::turn(body, &mut out[i], relief.yaw[i]);
         out[i].root_position.x += shift[i][0];
         out[i].root_position.y += shift[i][1];
         for ((hip, length), foot) in legs.iter().zip(locked) {

@@ -1,14 +1,14 @@
 //! What bends for the sake of planted legs: ankles and hips that would have to go beyond their limits.
 
-use super::FOOT;
+use super::{FOOT, pelvis};
 use crate::sim::body::angles::anatomical_angles;
 use crate::sim::body::topology::{DOF_START, L_THIGH, R_THIGH};
 use crate::sim::body::{Body, Posture};
 use crate::sim::motion::filter::{low_pass, smooth_minimum};
 use crate::sim::motion::foot_lock::{ON_TIP, Stance};
 
-/// Ankles of planted feet are kept this far from their limits, rad.
-const MARGIN: f64 = 0.03;
+/// Ankles and hips of planted feet are kept this far from their limits, rad.
+pub(super) const MARGIN: f64 = 0.03;
 /// What is bent for an ankle's sake is so this long before and after, s: of who walks and of who runs, whose whole stance takes 0.2 s.
 const AROUND: (f64, f64) = (0.1, 0.025);
 /// A leg is turned at most this far for its ankle's sake, rad.
@@ -24,6 +24,8 @@ pub(super) struct Relief {
     pub toe_out: [Vec<f64>; 2],
     /// Toes turned up about their tip, rad.
     pub tip: [Vec<f64>; 2],
+    /// Pelvis turned anticlockwise about the vertical, rad.
+    pub yaw: Vec<f64>,
 }
 
 impl Relief {
@@ -33,11 +35,12 @@ impl Relief {
             turn_in: [vec![0.0; n], vec![0.0; n]],
             toe_out: [vec![0.0; n], vec![0.0; n]],
             tip: [vec![0.0; n], vec![0.0; n]],
+            yaw: vec![0.0; n],
         }
     }
 
     /// Adds what the ankles of planted feet lack: too much dorsiflexion raises the heel, too much rotation turns the leg along.
-    /// Hips that give way in turn set the foot down with another heading.
+    /// Hips that give way in turn set the foot down with another heading, and turn the pelvis where that is not enough.
     pub fn add(
         &mut self,
         body: &Body,
@@ -97,5 +100,6 @@ impl Relief {
             }
             low_pass(&mut self.turn_in[s], 3.0, rate_hz);
         }
+        pelvis::add(body, postures, planted, stances, &mut self.yaw, rate_hz);
     }
 }
