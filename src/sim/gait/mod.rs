@@ -266,7 +266,7 @@ impl Gait {
         let [x, y] = self.capture.error;
         let swings = self.feet.iter().filter(|foot| !foot.down);
         let led = swings.map(|foot| (x - foot.shift[0]).hypot(y - foot.shift[1]));
-        self.walks().then(|| led.fold(self.capture.off(), f64::min))
+        (self.walks() || self.leans_to_jump()).then(|| led.fold(self.capture.off(), f64::min))
     }
 
     /// True if it stands: no step is under way, none is to come, its feet are where they should be, and the body is slow enough and near enough to where it
