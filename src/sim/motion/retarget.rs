@@ -188,6 +188,7 @@ pub fn retarget(
         }
         let others = ankle.iter_mut().chain(feet.iter_mut().flatten());
         slowed.shorten(&mut pelvis, others);
+        slowed.calm(&mut pelvis, rate);
         for v in feet.iter_mut().flatten().flatten() {
             *v = *v * (1.0 / scale);
         }
