@@ -77,6 +77,8 @@ fn flat(v: Vec3) -> [f64; 2] {
 enum Goal<'a> {
     /// Standing, at ease if it does not stand.
     Stand,
+    /// At rest: as it stands if it does, and else standing at ease.
+    Still,
     /// Standing like this, if it does not stand like that.
     Like(&'a Posture),
     /// At rest in this posture, however near to it and slow it is.
@@ -91,8 +93,8 @@ fn tail(body: &Body, draft: &Draft, goal: Goal<'_>, spare: f64) -> Option<Draft>
     }
     let soles = [Sole::new(body, 0), Sole::new(body, 1)];
     let from = Start::of(body, draft, &soles);
-    let stand = match goal {
-        Goal::Stand => Stand::of(body, &at_ease(body)),
+    let mut stand = match goal {
+        Goal::Stand | Goal::Still => Stand::of(body, &at_ease(body)),
         Goal::Like(posture) | Goal::Rest(posture) => Stand::of(body, posture),
     };
     // Who sits or lies is not led to a stand; who squats stands on his feet.
@@ -100,8 +102,13 @@ fn tail(body: &Body, draft: &Draft, goal: Goal<'_>, spare: f64) -> Option<Draft>
     if !stands && from.posture.root_position.z < UPRIGHT * body.standing_root_height() {
         return None;
     }
+    if stands && matches!(goal, Goal::Still) {
+        // It needs no step, only time.
+        stand = Stand::of(body, &from.posture);
+    }
     let is_there = match goal {
         Goal::Stand => true,
+        Goal::Still => !from.moves(),
         Goal::Like(posture) => alike(&from.posture, posture),
         Goal::Rest(_) => false,
     };
@@ -290,7 +297,7 @@ impl Draft {
     /// many samples came before and after.
     pub fn add_ends(&mut self, body: &Body) -> (usize, usize) {
         self.put_down();
-        let after = tail(body, self, Goal::Stand, SPARE);
+        let after = tail(body, self, Goal::Still, SPARE);
         self.reverse();
         self.put_down();
         let before = tail(body, self, Goal::Stand, SPARE);

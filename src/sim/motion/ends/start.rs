@@ -13,6 +13,8 @@ use crate::sim::motion::prepare::Draft;
 
 /// Slower than this, m/s, and with the capture point this far inside the soles, m, it stands.
 const STANDS: (f64, f64) = (0.35, 0.02);
+/// A pelvis faster than this over the floor has to be stopped, m/s; who controls balance stops slower ones as well himself.
+const MOVES: f64 = 0.08;
 /// Time over which the velocity at the end is measured, s.
 const MEASURED: f64 = 0.08;
 /// Shortest flight that is believed, s.
@@ -26,6 +28,8 @@ pub(super) struct Start {
     pub(super) rates: [f64; NV],
     pub(super) com: Vec3,
     pub(super) velocity: Vec3,
+    /// Of the pelvis, m/s.
+    pub(super) pelvis_velocity: Vec3,
     pub(super) ankle: [Vec3; 2],
     pub(super) ankle_velocity: [Vec3; 2],
     pub(super) foot: [Quat; 2],
@@ -95,6 +99,7 @@ impl Start {
             rates,
             com: com(last),
             velocity: moved(&com),
+            pelvis_velocity: moved(&|i| draft.postures[i].root_position),
             ankle: [0, 1].map(|s| draft.ankle[s][last]),
             ankle_velocity: [0, 1].map(|s: usize| moved(&|i| draft.ankle[s][i])),
             foot: [0, 1].map(|s| draft.foot[s][last]),
@@ -105,6 +110,12 @@ impl Start {
             since,
             heading,
         }
+    }
+
+    /// True if it is not at rest: what ends here would end in motion.
+    pub(super) fn moves(&self) -> bool {
+        let v = self.pelvis_velocity;
+        v.x.hypot(v.y) > MOVES
     }
 
     /// True if a body could stop here without a step.
