@@ -12,18 +12,18 @@ use crate::sim::motion::{Target, TargetPair};
 /// Time in which a motion that ended turns into standing, s.
 const EASE: f64 = 0.6;
 
-/// From posture `a` to posture `b`: the joints turn, the pelvis is already where `b` has it. `u` beyond 0…1 is clamped.
+/// From posture `a` to posture `b`. `u` beyond 0…1 is clamped.
 fn eased(a: &Posture, b: &Posture, u: f64) -> Posture {
     let s = smoothstep(u);
+    let spin = (b.root_rotation * a.root_rotation.conjugate()).log() * s;
     let mut rates = [0.0; NV];
-    let way = a.joint_difference(b);
-    for (r, w) in rates[6..].iter_mut().zip(way) {
+    rates[..3].copy_from_slice(&spin.to_array());
+    for (r, w) in rates[6..].iter_mut().zip(a.joint_difference(b)) {
         *r = s * w;
     }
     let mut out = *a;
     out.integrate(&rates, 1.0);
-    out.root_position = b.root_position;
-    out.root_rotation = b.root_rotation;
+    out.root_position = a.root_position + (b.root_position - a.root_position) * s;
     out
 }
 
@@ -57,8 +57,13 @@ impl Gait {
             _ => usize::from(far(1) < far(0)),
         };
         let (heading, planned) = (middle(&now).1, middle(&home).1);
+        let lay = self.anchor.transform();
         self.anchor = Anchor::between((home[side].0, planned), (now[side].0, heading));
-        self.ended = Some((*last, 0.0));
+        // The same posture in the same place, as the new anchor maps it there.
+        let mut from = *last;
+        let lies = self.anchor.transform().power(-1.0).after(lay);
+        lies.apply_posture(&mut from);
+        self.ended = Some((from, 0.0));
         for side in 0..2 {
             if !self.feet[side].down {
                 let pose = terms.segment_position(FOOT[side].index());

@@ -9,6 +9,8 @@ use crate::sim::motion::foot_lock::{Sole, yaw_pitch};
 
 /// Height of the ankle's arc, m. Clearance proper is the preparation's business.
 const ARC: f64 = 0.05;
+/// A foot is over its place so long before it comes down on it, s: one that is late would slide there.
+const OVER: f64 = 0.025;
 /// The heel of a foot that is left behind by more than this, m, rises by so much per m, up to the last, rad, within this time, s.
 const ROLL_FROM: f64 = 0.15;
 const ROLL_GAIN: f64 = 1.0;
@@ -46,11 +48,13 @@ fn left_behind(place: Vec3, other: Vec3, heading: f64) -> f64 {
 }
 
 /// Ankle and rotation of a foot `t` seconds into the end, and whether it is down.
+///
+/// * `lands`: see [`OVER`]; not where time runs backwards, and what looks like a landing is a foot that leaves.
 pub(super) fn pose(
     from: &Start,
     steps: &[Step],
     sole: &Sole,
-    (side, yaw): (usize, f64),
+    (side, yaw, lands): (usize, f64, bool),
     t: f64,
 ) -> (Vec3, Quat, bool) {
     let other = |t: f64| {
@@ -119,7 +123,10 @@ pub(super) fn pose(
     let (goal, flat) = stance(k + 1).pose(sole, step.on);
     let long = step.on - step.off;
     let u = (t - step.off) / long;
-    let mut p = min_jerk_3(start, velocity, goal, long, t - step.off);
+    let down = min_jerk_3(start, velocity, goal, long, t - step.off);
+    let before = if lands { OVER } else { 0.0 };
+    let over = min_jerk_3(start, velocity, goal, long - before, t - step.off);
+    let mut p = Vec3 { z: down.z, ..over };
     // What is left of a swing rises no more.
     let arc = if in_air {
         ARC * ((long - SWING.0) / SWING.0).clamp(0.0, 1.0)

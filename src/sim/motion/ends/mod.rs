@@ -77,6 +77,8 @@ fn flat(v: Vec3) -> [f64; 2] {
 enum Goal<'a> {
     /// Standing, at ease if it does not stand.
     Stand,
+    /// The same, of a motion that runs backwards: it will come from there.
+    Origin,
     /// At rest: as it stands if it does, and else standing at ease.
     Still,
     /// Standing like this, if it does not stand like that.
@@ -94,7 +96,7 @@ fn tail(body: &Body, draft: &Draft, goal: Goal<'_>, spare: f64) -> Option<Draft>
     let soles = [Sole::new(body, 0), Sole::new(body, 1)];
     let from = Start::of(body, draft, &soles);
     let mut stand = match goal {
-        Goal::Stand | Goal::Still => Stand::of(body, &at_ease(body)),
+        Goal::Stand | Goal::Origin | Goal::Still => Stand::of(body, &at_ease(body)),
         Goal::Like(posture) | Goal::Rest(posture) => Stand::of(body, posture),
     };
     // Who sits or lies is not led to a stand; who squats stands on his feet.
@@ -107,7 +109,7 @@ fn tail(body: &Body, draft: &Draft, goal: Goal<'_>, spare: f64) -> Option<Draft>
         stand = Stand::of(body, &from.posture);
     }
     let is_there = match goal {
-        Goal::Stand => true,
+        Goal::Stand | Goal::Origin => true,
         Goal::Still => !from.moves(),
         Goal::Like(posture) => alike(&from.posture, posture),
         Goal::Rest(_) => false,
@@ -118,18 +120,20 @@ fn tail(body: &Body, draft: &Draft, goal: Goal<'_>, spare: f64) -> Option<Draft>
     let how = (leg_length(body), draft.rate_hz, spare);
     let found = footsteps(&from, &stand, &soles, how)?;
     let axis = [0, 1].map(|s: usize| draft.knee_axis[s].last().copied().unwrap_or(Vec3::Y));
-    Some(walk(&from, &stand, &soles, &found, (axis, draft.rate_hz)))
+    let lands = !matches!(goal, Goal::Origin);
+    let how = (axis, draft.rate_hz, lands);
+    Some(walk(&from, &stand, &soles, &found, how))
 }
 
 /// The motion along footsteps: the pelvis with the pendulum's mass, feet from hold to hold, everything else to ease.
 ///
-/// * `axis`: knee axes that it starts with; `rate`: samples per second.
+/// * `axis`: knee axes that it starts with; `rate`: samples per second; `lands`: what comes down in it does so in the world, as time runs there.
 fn walk(
     from: &Start,
     stand: &Stand,
     soles: &[Sole; 2],
     found: &Footsteps,
-    (axis, rate): ([Vec3; 2], f64),
+    (axis, rate, lands): ([Vec3; 2], f64, bool),
 ) -> Draft {
     let upright =
         Quat::exp(Vec3::Z * (found.heading - stand.heading)) * stand.posture.root_rotation;
@@ -168,7 +172,8 @@ fn walk(
         let mut label = [true; 2];
         for side in 0..2 {
             let yaw = found.heading + stand.yaw[side];
-            let (ankle, foot, down) = feet::pose(from, &found.steps, &soles[side], (side, yaw), t);
+            let (ankle, foot, down) =
+                feet::pose(from, &found.steps, &soles[side], (side, yaw, lands), t);
             out.ankle[side].push(ankle);
             out.foot[side].push(foot);
             label[side] = down;
@@ -300,7 +305,7 @@ impl Draft {
         let after = tail(body, self, Goal::Still, SPARE);
         self.reverse();
         self.put_down();
-        let before = tail(body, self, Goal::Stand, SPARE);
+        let before = tail(body, self, Goal::Origin, SPARE);
         let before = self.go_on(before);
         self.reverse();
         (before, self.go_on(after))
