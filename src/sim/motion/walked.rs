@@ -44,6 +44,8 @@ const LONGEST: f64 = 0.8;
 const TOGETHER: f64 = 0.035;
 /// Height of a swinging ankle over the line between its places, m.
 const ARC: f64 = 0.08;
+/// A foot that the recording has in the air where it is to land comes to rest over its place in so long, s.
+const RESTS: f64 = 0.1;
 
 /// Fastest that a body moves over the floor if it runs anywhere, m/s, from a path of its middle.
 pub(super) fn fastest(way: &[Vec3], rate_hz: f64) -> Option<f64> {
@@ -279,8 +281,12 @@ impl Slowed {
                     match (*i > 0, *j < n) {
                         (true, true) => swing(&mut ankle[s], &mut foot[s], *i, *j),
                         // In these the recording begins or ends: it keeps its way there and is bent to the place at the other end.
-                        (false, true) => bend(&mut ankle[s], &mut foot[s], &recorded, (0, *j)),
-                        (true, false) => bend(&mut ankle[s], &mut foot[s], &recorded, (n, *i - 1)),
+                        (false, true) => {
+                            bend(&mut ankle[s], &mut foot[s], &recorded, (0, *j), rate_hz)
+                        }
+                        (true, false) => {
+                            bend(&mut ankle[s], &mut foot[s], &recorded, (n, *i - 1), rate_hz)
+                        }
                         (false, false) => {}
                     }
                 }
@@ -329,12 +335,14 @@ fn swing(ankle: &mut [Vec3], foot: &mut [Quat], i: usize, j: usize) {
     }
 }
 
-/// Bends the recorded way of a foot, as it is at the sample (or end) `free`, to the place where it stands in sample `stands`.
+/// Bends the recorded way of a foot, as it is at the sample (or end) `free`, to the place where it stands in sample `stands`. One that lands does so where
+/// the recording still has it in the air, and comes to rest along the floor within the last [`RESTS`].
 fn bend(
     ankle: &mut [Vec3],
     foot: &mut [Quat],
     recorded: &(Vec<Vec3>, Vec<Quat>),
     (free, stands): (usize, usize),
+    rate_hz: f64,
 ) {
     let off = ankle[stands] - recorded.0[stands];
     let turn = (foot[stands] * recorded.1[stands].conjugate()).log();
@@ -344,6 +352,11 @@ fn bend(
         let s = smootherstep(u);
         ankle[k] = recorded.0[k] + off * s;
         foot[k] = (Quat::exp(turn * s) * recorded.1[k]).normalized();
+        if free < stands {
+            let left = (stands - k) as f64 / (RESTS * rate_hz);
+            let way = ankle[stands] - ankle[k];
+            ankle[k] += Vec3 { z: 0.0, ..way } * smootherstep(1.0 - left);
+        }
     }
 }
 
@@ -514,6 +527,34 @@ mod tests {
         for ((a, b), _) in walks.filter(|(_, k)| **k > 2.6 * RATE) {
             assert!((*a - *b).norm() < 1e-4, "{} m of {}", b.z, a.z);
         }
+    }
+
+    #[test]
+    fn a_foot_that_lands_before_its_recording_does_is_at_rest_there() {
+        // It swings on at 3 m/s where it is to stand, 5 cm beside the way.
+        let n = 60;
+        let recorded: Vec<Vec3> = (0..=n).map(|i| Vec3::X * (0.025 * f64::from(i))).collect();
+        let turns = vec![Quat::exp(Vec3::zero()); recorded.len()];
+        let n = n as usize;
+        let mut ankle = recorded.clone();
+        ankle[n] += Vec3::Y * 0.05;
+        let (place, mut foot) = (ankle[n], turns.clone());
+        bend(
+            &mut ankle,
+            &mut foot,
+            &(recorded.clone(), turns),
+            (0, n),
+            RATE,
+        );
+        assert_eq!(ankle[0], recorded[0]);
+        assert!(
+            (ankle[20] - recorded[20]).norm() < 0.02,
+            "the swing is as it was"
+        );
+        let steps = ankle.windows(2).map(|w| (w[1] - w[0]).norm());
+        assert!(steps.fold(0.0, f64::max) < 0.06, "it does not jump");
+        let fast = (place - ankle[n - 1]).norm() * RATE;
+        assert!(fast < 0.1, "{fast} m/s");
     }
 
     #[test]

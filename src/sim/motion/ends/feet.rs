@@ -10,7 +10,7 @@ use crate::sim::motion::foot_lock::{Sole, yaw_pitch};
 /// Height of the ankle's arc, m. Clearance proper is the preparation's business.
 const ARC: f64 = 0.05;
 /// A foot is over its place so long before it comes down on it, s: one that is late would slide there.
-const OVER: f64 = 0.025;
+const OVER: f64 = 0.03;
 /// The heel of a foot that is left behind by more than this, m, rises by so much per m, up to the last, rad, within this time, s.
 const ROLL_FROM: f64 = 0.15;
 const ROLL_GAIN: f64 = 1.0;
