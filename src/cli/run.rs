@@ -124,6 +124,9 @@ pub struct RunArgs {
     /// Leave runs as they were recorded. Otherwise they are walked, slower and with shorter steps: measured strength does not run.
     #[arg(long)]
     pub keep_runs: bool,
+    /// Times as fast as recorded, 0.5 to 2: steps and balance of recordings are prepared for that pace; built-in motions keep theirs.
+    #[arg(long, value_name = "F", default_value_t = 1.0)]
+    pub tempo: f64,
     /// Writes the measures as JSON (a list for several clips).
     #[arg(long, value_name = "FILE.json")]
     pub report: Option<PathBuf>,
@@ -210,6 +213,7 @@ pub fn run(args: &RunArgs) -> Result<()> {
     World::new(scenario.params).context("no such world")?;
     let options = RetargetOptions {
         walk_runs: !args.keep_runs,
+        tempo: args.tempo,
         ..RetargetOptions::default()
     };
     for then in &args.then {

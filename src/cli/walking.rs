@@ -1,6 +1,8 @@
 //! `sinew walking`: recorded motion on two feet, tracked, pushed, carried, by other people and from noisy recordings; a page about what is
 //! survived.
 
+mod survey;
+
 use super::page::{Page, progress};
 use super::source::load;
 use crate::evaluate::experiments::walk::{Hands, Walk, Walked, Walker, walk};
@@ -86,7 +88,7 @@ pub fn run(args: &WalkingArgs) -> Result<()> {
     let study = Study { body, clips, walk };
     let mut page = Page::new(&args.out)?;
     introduction(&mut page, &study);
-    let bar = progress("walking", 5);
+    let bar = progress("walking", 6);
     bar.set_message("clips");
     clips_once(&mut page, &study);
     bar.inc(1);
@@ -101,6 +103,9 @@ pub fn run(args: &WalkingArgs) -> Result<()> {
         variations(&mut page, &study, name, clip)?;
         bar.inc(1);
     }
+    bar.set_message("all clips, varied");
+    survey::survey(&mut page, &study)?;
+    bar.inc(1);
     bar.set_message("noise");
     sensitivity(&mut page, &study)?;
     bar.finish_and_clear();
@@ -293,11 +298,15 @@ fn pushes_walking(page: &mut Page, study: &Study, name: &str, clip: &Arc<Clip>) 
     show(page, "walking", &map)
 }
 
-/// The repeated walk of another body: the recording fitted to it.
-fn fitted(study: &Study, name: &str, body: &Body) -> Result<Option<Arc<Clip>>> {
+/// The repeated walk of another body, at another pace: the recording fitted to it.
+fn fitted(study: &Study, name: &str, body: &Body, tempo: f64) -> Result<Option<Arc<Clip>>> {
     let of = study.clips.iter().find(|m| m.name == name);
     let of = of.context("the walk is one of the clips")?;
-    let clip = load(&of.spec, body, &of.options)?.clip;
+    let options = RetargetOptions {
+        tempo,
+        ..of.options.clone()
+    };
+    let clip = load(&of.spec, body, &options)?.clip;
     Ok(cycle(body, &clip).map(Arc::new))
 }
 
@@ -326,7 +335,7 @@ fn variations(page: &mut Page, study: &Study, name: &str, clip: &Arc<Clip>) -> R
     ];
     for (text, profile, strength) in people {
         let body = Arc::new(Body::humanoid(profile)?);
-        if let Some(own) = fitted(study, name, &body)? {
+        if let Some(own) = fitted(study, name, &body, 1.0)? {
             let walker = Walker {
                 strength,
                 ..Walker::new(&body)
@@ -370,15 +379,14 @@ fn variations(page: &mut Page, study: &Study, name: &str, clip: &Arc<Clip>) -> R
             clip,
         );
     }
-    for speed in [0.8, 0.9, 1.1, 1.2] {
-        add(
-            &format!("speed {speed}"),
-            &Walker {
-                speed,
-                ..man.clone()
-            },
-            clip,
-        );
+    for tempo in [0.8, 0.9, 1.1, 1.2] {
+        if let Some(paced) = fitted(study, name, &study.body, tempo)? {
+            add(
+                &format!("prepared for {tempo} times its pace"),
+                &man,
+                &paced,
+            );
+        }
     }
     page.table(&HEAD, &rows);
     Ok(())

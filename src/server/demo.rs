@@ -2,6 +2,7 @@
 
 use super::BoxError;
 use super::api::App;
+use super::library::Manner;
 use super::tick::command::Origin;
 use crate::wire::convert;
 use crate::wire::pb;
@@ -47,7 +48,7 @@ pub async fn create(app: &Arc<App>) -> Result<Vec<&'static str>, BoxError> {
         let built = app.bodies.get("figure.profile", &settings.body)?;
         let clip = app
             .clips
-            .prepared(MOTION, &settings.body.id, &built, true)?;
+            .prepared(MOTION, &settings.body.id, &built, Manner::recorded(true))?;
         let playback = Playback {
             speed: 1.0,
             looped: true,

@@ -72,12 +72,13 @@ pub fn prepare(
     name: &str,
     source: &MotionSource,
     body: &Body,
+    tempo: f64,
 ) -> Result<(Clip, Option<ReadingReport>), Fault> {
     match source {
         MotionSource::Bvh(bytes, reading) => {
             let bvh = Bvh::parse(bytes)
                 .map_err(|e| Fault::invalid(format!("{field}.data"), e.to_string()))?;
-            let (clip, report) = retarget(name, &bvh, reading, body)
+            let (clip, report) = retarget(name, &bvh, reading, body, tempo)
                 .map_err(|e| Fault::invalid(format!("{field}.data"), e))?;
             Ok((clip, Some(report)))
         }
@@ -107,6 +108,7 @@ pub fn retarget(
     bvh: &Bvh,
     reading: &BvhReading,
     body: &Body,
+    tempo: f64,
 ) -> Result<(Clip, ReadingReport), String> {
     let defaults = RetargetOptions::default();
     let options = RetargetOptions {
@@ -119,6 +121,7 @@ pub fn retarget(
         cutoff_hz: reading.cutoff_hz.unwrap_or(defaults.cutoff_hz),
         // What is uploaded is simulated, and measured strength does not run.
         walk_runs: reading.walk_runs.unwrap_or(true),
+        tempo,
         ..defaults
     };
     let out = crate::sim::motion::retarget(bvh, body, &options).map_err(|e| e.to_string())?;

@@ -4,6 +4,7 @@ use super::config::Config;
 use super::engine::{self, BUILTIN_NAMES, Clip};
 use crate::sim::body::{Body, Posture};
 use crate::sim::motion::cycle;
+use crate::sim::motion::retarget::TEMPI;
 use crate::wire::convert::body::{NAMED, by_id};
 use crate::wire::status::Fault;
 use crate::wire::types::{BodyRef, ClipInfo, MotionSource};
@@ -72,13 +73,41 @@ impl Bodies {
     }
 }
 
+/// What a clip is prepared for besides its body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Manner {
+    repeats: bool,
+    /// Times as fast as recorded, in steps of 1/[`TEMPO_STEPS`]: what is left is a change of speed that balance does not feel.
+    tempo: u32,
+}
+
+/// Tempi between one and twice as fast.
+const TEMPO_STEPS: f64 = 50.0;
+
+impl Manner {
+    /// At its own pace, and for repetition if it `repeats`.
+    pub fn recorded(repeats: bool) -> Self {
+        Self::paced(repeats, 1.0)
+    }
+
+    /// The nearest tempo to `speed` that a recording is prepared for.
+    fn paced(repeats: bool, speed: f64) -> Self {
+        let tempo = (speed.clamp(TEMPI.0, TEMPI.1) * TEMPO_STEPS).round() as u32;
+        Self { repeats, tempo }
+    }
+
+    fn tempo(self) -> f64 {
+        f64::from(self.tempo) / TEMPO_STEPS
+    }
+}
+
 /// A stored motion.
 struct Stored {
     info: ClipInfo,
     source: Option<MotionSource>,
     bytes: u64,
     /// Prepared for bodies by the last parts of their names.
-    prepared: Mutex<HashMap<(String, bool), Arc<Clip>>>,
+    prepared: Mutex<HashMap<(String, Manner), Arc<Clip>>>,
 }
 
 /// Clips by the last parts of their names.
@@ -91,7 +120,7 @@ pub struct Clips {
 
 /// Bytes of a prepared frame: posture, velocity and acceleration.
 const FRAME_BYTES: u64 = (size_of::<Posture>() + 2 * 45 * 8 + 8) as u64;
-/// Bodies that one clip is kept prepared for.
+/// Bodies and manners that one clip is kept prepared for.
 const MAX_PREPARED: usize = 16;
 
 impl Clips {
@@ -117,7 +146,8 @@ impl Clips {
                 report: None,
                 created: None,
             };
-            let prepared = HashMap::from([((reference.id.clone(), false), Arc::new(clip))]);
+            let key = (reference.id.clone(), Manner::recorded(false));
+            let prepared = HashMap::from([(key, Arc::new(clip))]);
             held.insert(
                 name.to_owned(),
                 Arc::new(Stored {
@@ -192,7 +222,7 @@ impl Clips {
     ) -> Result<ClipInfo, Fault> {
         let field = source_field(&source);
         let title = id.as_deref().unwrap_or("clip").to_owned();
-        let (clip, report) = engine::prepare(field, &title, &source, body)?;
+        let (clip, report) = engine::prepare(field, &title, &source, body, 1.0)?;
         let bytes = source_bytes(&source) + clip.len() as u64 * FRAME_BYTES;
         let mut held = locked(&self.held);
         let id = id.unwrap_or_else(|| {
@@ -221,7 +251,7 @@ impl Clips {
             source: Some(source),
             bytes,
             prepared: Mutex::new(HashMap::from([(
-                (reference.id.clone(), false),
+                (reference.id.clone(), Manner::recorded(false)),
                 Arc::new(clip),
             )])),
         };
@@ -274,7 +304,20 @@ impl Clips {
         }
     }
 
-    /// A clip prepared for a body, and for repetition if it `repeats`. Slow the first time: not on an async thread.
+    /// What a clip that is to be played at `speed` is prepared for, and the speed at which it is played then: a recording is prepared for the pace
+    /// it gets, because what balances at one pace falls at another; what is made of postures or built in is played faster or slower as it is.
+    ///
+    /// # Errors
+    /// There is none of that name.
+    pub fn manner(&self, id: &str, repeats: bool, speed: f64) -> Result<(Manner, f64), Fault> {
+        let manner = match self.stored(id)?.source {
+            Some(MotionSource::Bvh(..)) => Manner::paced(repeats, speed),
+            Some(MotionSource::Postures { .. }) | None => Manner::recorded(repeats),
+        };
+        Ok((manner, speed / manner.tempo()))
+    }
+
+    /// A clip prepared for a body and the manner of playing it. Slow the first time: not on an async thread.
     ///
     /// # Errors
     /// There is none of that name, or it cannot be prepared for this body.
@@ -283,38 +326,48 @@ impl Clips {
         id: &str,
         body_id: &str,
         body: &Body,
-        repeats: bool,
+        manner: Manner,
     ) -> Result<Arc<Clip>, Fault> {
         let stored = self.stored(id)?;
-        let key = (body_id.to_owned(), repeats);
+        let key = (body_id.to_owned(), manner);
         if let Some(clip) = locked(&stored.prepared).get(&key) {
             return Ok(clip.clone());
         }
-        if repeats {
-            let once = self.prepared(id, body_id, body, false)?;
+        if manner.repeats {
+            let once = Manner {
+                repeats: false,
+                ..manner
+            };
+            let once = self.prepared(id, body_id, body, once)?;
             let clip = cycle(body, &once).map_or(once, Arc::new);
             return Ok(stored.keep(key, clip));
         }
         let clip = match &stored.source {
             None => engine::builtin(body, id)
                 .ok_or_else(|| Fault::not_found("clip", format!("clips/{id}")))?,
-            Some(source) => engine::prepare(source_field(source), id, source, body)?.0,
+            Some(source) => {
+                engine::prepare(source_field(source), id, source, body, manner.tempo())?.0
+            }
         };
         Ok(stored.keep(key, Arc::new(clip)))
     }
 
-    /// A clip that is already prepared for a body.
-    pub fn ready(&self, id: &str, body_id: &str, repeats: bool) -> Option<Arc<Clip>> {
+    /// A clip that is already prepared for a body and the manner of playing it.
+    pub fn ready(&self, id: &str, body_id: &str, manner: Manner) -> Option<Arc<Clip>> {
         let stored = self.stored(id).ok()?;
         locked(&stored.prepared)
-            .get(&(body_id.to_owned(), repeats))
+            .get(&(body_id.to_owned(), manner))
             .cloned()
     }
 }
 
 impl Stored {
-    fn keep(&self, key: (String, bool), clip: Arc<Clip>) -> Arc<Clip> {
+    fn keep(&self, key: (String, Manner), clip: Arc<Clip>) -> Arc<Clip> {
         let mut prepared = locked(&self.prepared);
+        if prepared.len() >= MAX_PREPARED {
+            // Figures keep theirs; one that nobody plays is prepared again when it is asked for.
+            prepared.retain(|_, c| Arc::strong_count(c) > 1);
+        }
         if prepared.len() < MAX_PREPARED {
             prepared.insert(key, clip.clone());
         }
@@ -333,5 +386,59 @@ fn source_bytes(source: &MotionSource) -> u64 {
     match source {
         MotionSource::Bvh(bytes, _) => bytes.len() as u64,
         MotionSource::Postures { postures, .. } => (postures.len() * size_of::<Posture>()) as u64,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::motion::write_bvh;
+    use crate::wire::types::BvhReading;
+
+    #[test]
+    fn a_recording_is_prepared_for_its_pace_and_nothing_else_is() {
+        let config = Config::default();
+        let bodies = Bodies::new(&config);
+        let clips = Clips::new(&config, &bodies).unwrap();
+        let man = by_id("adult-man").unwrap();
+        let body = bodies.get("body", &man).unwrap();
+        let wave = engine::builtin(&body, "wave").unwrap();
+        let postures: Vec<_> = (0..wave.len()).map(|i| *wave.posture(i)).collect();
+        let file = write_bvh(&body, &postures, wave.rate_hz()).into_bytes();
+        let source = MotionSource::Bvh(file.into(), BvhReading::default());
+        let made = clips
+            .create(Some("w".into()), String::new(), &man, &body, source)
+            .unwrap();
+
+        for (speed, tempo, rest) in [
+            (1.0, 1.0, 1.0),
+            (1.2, 1.2, 1.0),
+            (3.0, 2.0, 1.5),
+            (0.1, 0.5, 0.2),
+            (1.013, 1.02, 1.013 / 1.02),
+        ] {
+            let (manner, left) = clips.manner("w", false, speed).unwrap();
+            assert!((left - rest).abs() < 1e-12, "{speed}: {left}");
+            assert!(clips.ready("w", &man.id, manner).is_some() == (tempo == 1.0));
+            let clip = clips.prepared("w", &man.id, &body, manner).unwrap();
+            assert!((clip.rate_hz() / (made.rate_hz * tempo) - 1.0).abs() < 1e-12);
+            assert!(clips.ready("w", &man.id, manner).is_some());
+
+            let (manner, left) = clips.manner("walk", true, speed).unwrap();
+            assert_eq!(manner, Manner::recorded(true));
+            assert_eq!(left, speed);
+        }
+        // However many paces are asked for, the memory is bounded, and what a figure plays stays.
+        let (played, _) = clips.manner("w", false, 1.2).unwrap();
+        let held = clips.prepared("w", &man.id, &body, played).unwrap();
+        for k in 0..2 * MAX_PREPARED {
+            let (manner, _) = clips.manner("w", false, 0.6 + 0.02 * k as f64).unwrap();
+            clips.prepared("w", &man.id, &body, manner).unwrap();
+            let stored = clips.stored("w").unwrap();
+            assert!(locked(&stored.prepared).len() <= MAX_PREPARED);
+        }
+        let again = clips.ready("w", &man.id, played).unwrap();
+        assert!(Arc::ptr_eq(&held, &again));
+        assert!(clips.manner("none", false, 1.0).is_err());
     }
 }

@@ -110,6 +110,14 @@ fn errors_name_what_is_missing() {
         },
     );
     assert!(e.to_string().contains("cutoff_hz"), "{e}");
+    for tempo in [f64::NAN, 0.4, 2.1] {
+        let options = RetargetOptions {
+            tempo,
+            ..Default::default()
+        };
+        let e = go(&source, &options);
+        assert!(e.to_string().contains("tempo"), "{e}");
+    }
     let mut one = source.clone();
     one.rows.truncate(1);
     assert!(matches!(go(&one, &auto), RetargetError::TooShort(1)));

@@ -2,6 +2,7 @@
 
 use crate::mocap;
 use crate::support::{FALLEN, TestServer};
+use sinew::wire::frame::values;
 use sinew::wire::pb;
 
 #[tokio::test(flavor = "multi_thread")]
@@ -86,6 +87,86 @@ async fn a_recording_is_uploaded_played_and_deleted() {
         .await
         .unwrap_err();
     assert_eq!(gone.code(), tonic::Code::NotFound);
+    server.stop().await;
+}
+
+/// A recording is prepared for the speed it is played at, up to twice its own; played faster it is played so.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_recording_is_played_faster_and_slower() {
+    let server = TestServer::start().await;
+    let source = |data: Vec<u8>| {
+        pb::create_clip_request::Source::Bvh(pb::BvhSource {
+            data: data.into(),
+            options: None,
+        })
+    };
+    let clip = server
+        .client
+        .motions()
+        .create_clip(pb::CreateClipRequest {
+            clip_id: "around".into(),
+            source: Some(source(mocap::read("walk-around.bvh"))),
+            ..Default::default()
+        })
+        .await
+        .unwrap()
+        .into_inner()
+        .clip
+        .unwrap();
+    for (speed, stands) in [(0.8, true), (1.2, true), (3.0, false)] {
+        let id = format!("at-{}", (10.0 * speed) as u32);
+        let world = server.paused_world(&id).await;
+        let figure = server
+            .client
+            .figures()
+            .create_figure(pb::CreateFigureRequest {
+                parent: world.clone(),
+                figure_id: "f".into(),
+                figure: Some(pb::Figure {
+                    body: "bodies/adult-man".into(),
+                    controller: pb::Controller::Modern.into(),
+                    ..Default::default()
+                }),
+            })
+            .await
+            .unwrap()
+            .into_inner()
+            .figure
+            .unwrap()
+            .name;
+        let played = server
+            .client
+            .motions()
+            .play_clip(pb::PlayClipRequest {
+                figure: figure.clone(),
+                clip: clip.name.clone(),
+                speed,
+                ..Default::default()
+            })
+            .await
+            .unwrap();
+        let start = played.into_inner().start_time_s;
+        // Where the recording is at its end, and half of it before that.
+        let place = |f: &pb::WorldFrame| {
+            let d = f.figures[0].desired.as_ref().unwrap();
+            values(d.root_pose.as_ref().unwrap())
+        };
+        let mut at = Vec::new();
+        let mut ticks = 0;
+        for share in [0.5, 1.0] {
+            let until = ((start + share * clip.duration_s / speed) * 60.0).round() as i32;
+            server.step(&world, until - ticks).await;
+            ticks = until;
+            let frame = server.frame(&world, &["status", "desired"]).await;
+            let status = frame.figures[0].status.as_ref().unwrap();
+            let error = status.joint_rms_rad.to_degrees();
+            let fell = status.flags & FALLEN != 0;
+            assert!(!stands || (!fell && error < 4.0), "at {speed}: {error}°");
+            at.push(place(&frame));
+        }
+        let way = (at[1][0] - at[0][0]).hypot(at[1][1] - at[0][1]);
+        assert!(!stands || way > 0.3, "at {speed} it moves {way} m");
+    }
     server.stop().await;
 }
 

@@ -14,6 +14,9 @@ pub struct RecordingArgs {
     /// Walk what the recording runs: slower, with shorter steps.
     #[arg(long)]
     pub walk_runs: bool,
+    /// Times as fast as recorded, 0.5 to 2: steps and balance are prepared for that pace.
+    #[arg(long, value_name = "F", default_value_t = 1.0)]
+    pub tempo: f64,
 }
 
 impl RecordingArgs {
@@ -23,6 +26,7 @@ impl RecordingArgs {
             unit_m: self.unit,
             rate_hz: self.file_rate,
             walk_runs: self.walk_runs,
+            tempo: self.tempo,
             ..RetargetOptions::default()
         }
     }

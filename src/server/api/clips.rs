@@ -85,22 +85,24 @@ impl MotionService for Api {
     ) -> Result<Response<pb::PlayClipResponse>, Status> {
         let result = async {
             let r = request.get_ref();
-            let playback = motion::playback(r)?;
+            let mut playback = motion::playback(r)?;
             let clip_id = clip_name("clip", &r.clip)?.to_owned();
             let (handle, figure) = self.figure("figure", &r.figure)?;
             let figure = figure.to_owned();
-            self.clips.info(&clip_id)?;
+            let (manner, rest) = self
+                .clips
+                .manner(&clip_id, playback.looped, playback.speed)?;
+            playback.speed = rest;
             let name = figure.clone();
             let (body_id, body) = handle
                 .call(origin(&request), move |s| s.body_of(&name))
                 .await?;
-            let clip = match self.clips.ready(&clip_id, &body_id, playback.looped) {
+            let clip = match self.clips.ready(&clip_id, &body_id, manner) {
                 Some(clip) => clip,
                 None => {
                     let (app, id) = (self.0.clone(), clip_id.clone());
-                    let repeats = playback.looped;
                     self.workers
-                        .run(move |_| app.clips.prepared(&id, &body_id, &body, repeats))
+                        .run(move |_| app.clips.prepared(&id, &body_id, &body, manner))
                         .await?
                 }
             };

@@ -2,6 +2,7 @@
 
 use super::{Api, answer};
 use crate::server::engine;
+use crate::server::library::Manner;
 use crate::server::simulate::{self, Limits};
 use crate::sim::motion::cycle;
 use crate::wire::convert::simulation::{self, Source};
@@ -35,11 +36,12 @@ impl SimulationService for Api {
                     let body = app.bodies.get("figure.profile", &settings.figure.body)?;
                     let (clip, report) = match source {
                         Source::Clip(id) => {
-                            let looped = settings.looped;
-                            (app.clips.prepared(&id, &body_id, &body, looped)?, None)
+                            let manner = Manner::recorded(settings.looped);
+                            (app.clips.prepared(&id, &body_id, &body, manner)?, None)
                         }
                         Source::File(file) => {
-                            let (clip, report) = engine::prepare("bvh", "upload", &file, &body)?;
+                            let (clip, report) =
+                                engine::prepare("bvh", "upload", &file, &body, 1.0)?;
                             let clip = Arc::new(clip);
                             let repeats = settings.looped.then(|| cycle(&body, &clip)).flatten();
                             (repeats.map_or(clip, Arc::new), report)

@@ -222,6 +222,30 @@ impl Bvh {
         self.channel_count
     }
 
+    /// The same motion as a mirror shows it, x against −x of the file. Names stay: what is called left is on the right then.
+    pub fn mirrored(&self) -> Self {
+        let mut out = self.clone();
+        for joint in &mut out.joints {
+            joint.offset[0] = -joint.offset[0];
+            if let Some(end) = &mut joint.end_site {
+                end[0] = -end[0];
+            }
+        }
+        let changes: Vec<bool> = { out.joints.iter() }
+            .flat_map(|j| &j.channels)
+            .map(|c| {
+                use BvhChannel::{Xposition, Yrotation, Zrotation};
+                matches!(c, Xposition | Yrotation | Zrotation)
+            })
+            .collect();
+        for (i, value) in out.values.iter_mut().enumerate() {
+            if changes[i % changes.len()] {
+                *value = -*value;
+            }
+        }
+        out
+    }
+
     /// Pose of every joint in one frame, in file order: positions in file units, both in file axes.
     ///
     /// Panics if `frame` is not below [`Bvh::frame_count`]: that is a bug in the caller.

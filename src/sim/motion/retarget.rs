@@ -38,6 +38,8 @@ use size::{guess_up, measure, unit};
 
 /// Most frames of a clip: bounds time and memory (8 min at 120 Hz).
 pub const MAX_FRAMES: usize = 60_000;
+/// Least and largest [`RetargetOptions::tempo`].
+pub const TEMPI: (f64, f64) = (0.5, 2.0);
 /// Rates that are believed, Hz.
 const RATES: (f64, f64) = (10.0, 1000.0);
 
@@ -60,7 +62,7 @@ pub struct RetargetOptions {
     pub up: Option<UpAxis>,
     /// True frame rate of the file, Hz, where its frame time is wrong.
     pub rate_hz: Option<f64>,
-    /// Rate of the clip, Hz; absent: the file's own rate if that is 60…240, else 120.
+    /// Rate of the clip at tempo 1, Hz; absent: the file's own rate if that is 60…240, else 120.
     pub output_rate_hz: Option<f64>,
     /// Body size over recorded size, for paths and heights; absent: ratio of leg lengths. Two people of one recording need one value.
     pub scale: Option<f64>,
@@ -74,6 +76,8 @@ pub struct RetargetOptions {
     pub walk_runs: bool,
     /// Cut-off of the zero-phase low-pass, Hz.
     pub cutoff_hz: f64,
+    /// Times as fast as it was recorded, [`TEMPI`]: feet and postures are those of the recording, steps and balance are prepared for this pace.
+    pub tempo: f64,
     /// Let the motion begin and end standing, with steps before its first and after its last frame where it takes them.
     pub ends: bool,
     /// Keep the file's place and heading (x forward = the file's z where y is up). Otherwise the clip starts at the origin facing +x.
@@ -94,6 +98,7 @@ impl Default for RetargetOptions {
             balance: true,
             ends: true,
             walk_runs: false,
+            tempo: 1.0,
             cutoff_hz: 6.0,
             keep_origin: false,
         }
@@ -236,6 +241,8 @@ pub fn retarget(
         let recorded = prepare(body, &draft, bare).postures;
         running::label_runs(body, &recorded, &mut draft.label, rate);
     }
+    let rate = rate * options.tempo;
+    draft.rate_hz = rate;
     let phases = phases(&draft.label, rate);
     let how = PrepareOptions {
         lock_feet: options.lock_feet && options.floor,
@@ -405,5 +412,6 @@ fn check_options(o: &RetargetOptions) -> Result<(), RetargetError> {
     check("rate_hz", o.rate_hz, RATES.0, RATES.1)?;
     check("output_rate_hz", o.output_rate_hz, 30.0, 240.0)?;
     check("scale", o.scale, 0.05, 20.0)?;
+    check("tempo", Some(o.tempo), TEMPI.0, TEMPI.1)?;
     check("cutoff_hz", Some(o.cutoff_hz), 0.5, 60.0)
 }

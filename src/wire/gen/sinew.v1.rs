@@ -2593,7 +2593,8 @@ pub struct PlayClipRequest {
     /// Clip: resource name `clips/{clip}`.
     #[prost(string, tag = "2")]
     pub clip: ::prost::alloc::string::String,
-    /// Playback speed, 0.1…4. 0 or absent: 1.
+    /// Playback speed, 0.1…4. 0 or absent: 1. A recording (BVH) is prepared for it, from 0.5 to 2 in steps of 1/50: steps and balance are those of that
+    /// pace. The first time for a body and a speed takes as long as an upload does.
     #[prost(double, tag = "3")]
     pub speed: f64,
     /// Repeats, carrying the displacement of the root over. A walk repeats its best cycle; a motion whose end is not like its beginning is

@@ -47,6 +47,24 @@ fn rotations_apply_in_channel_order() {
 }
 
 #[test]
+fn a_mirrored_file_is_seen_in_a_mirror() {
+    let text = PLAIN
+        .replace("OFFSET 0 -2 0", "OFFSET 0.5 -2 0.3")
+        .replace("1 2 3 90 0 0 90 0 0", "1 2 3 20 -35 50 15 70 -10");
+    let bvh = Bvh::parse(text.as_bytes()).unwrap();
+    let mirrored = bvh.mirrored();
+    let (there, here) = (bvh.world(1), mirrored.world(1));
+    for (a, b) in there.iter().zip(&here) {
+        let [x, y, z] = a.position.to_array();
+        close(b.position, [-x, y, z]);
+    }
+    let ends = [(&bvh, &there), (&mirrored, &here)].map(|(b, at)| b.end_site_world(1, at));
+    let [x, y, z] = ends[0].unwrap().to_array();
+    close(ends[1].unwrap(), [-x, y, z]);
+    assert_eq!(mirrored.mirrored(), bvh);
+}
+
+#[test]
 fn dialects_read_alike() {
     let plain = Bvh::parse(PLAIN.as_bytes()).unwrap();
     let variants = [

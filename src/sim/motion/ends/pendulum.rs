@@ -42,6 +42,8 @@ const PRICE_OF_HOP: f64 = 1e-3;
 const WORTH_OF_SPARE: f64 = 0.1;
 /// Gain of the zero-moment point on the way to a place, how close counts as there, m, and when patience ends, s.
 const LEAN: (f64, f64, f64) = (2.0, 0.015, 0.9);
+/// A foot this far from under the mass, leg lengths, is about to be out of the leg's reach: the hip does not extend further.
+const STRETCHED: f64 = 0.5;
 /// A foot that belongs farther than the first from the other one, m, is not put there by a body that stays over that one, deep in its knee; from the
 /// second on the capture point is half-way when it lands.
 const STRIDES: (f64, f64) = (0.35, 0.6);
@@ -311,12 +313,25 @@ impl Stop<'_> {
         }
     }
 
-    /// Brings the capture point to `goal` with both feet on the floor.
-    fn lean(&mut self, goal: Vec3) {
+    /// Brings the capture point to `goal` with both feet on the floor. Foot `next`, if any, steps after that, and sooner if the leg gets no further
+    /// and the other foot has the capture point.
+    fn lean(&mut self, goal: Vec3, next: Option<usize>) {
         let support = Support::of(&self.feet, [true; 2]);
+        let other = next.map(|side| {
+            let mut down = [true; 2];
+            down[side] = false;
+            (self.feet.support(down), self.feet.place[side])
+        });
         for _ in 0..(LEAN.2 / self.dt) as usize {
             let off = self.capture - goal;
             if off.norm() < LEAN.1 {
+                break;
+            }
+            let leaves = other.as_ref().is_some_and(|(sole, foot)| {
+                (*foot - self.mass()).norm() > STRETCHED * self.leg
+                    && margin(sole, flat(self.capture)) > INNER
+            });
+            if leaves {
                 break;
             }
             let p = support.pressure.nearest(flat(self.capture + off * LEAN.0));
@@ -537,7 +552,7 @@ impl Stop<'_> {
             }
             let side = if self.is_home(side) { 1 - side } else { side };
             let over = self.feet.middle(1 - side);
-            self.lean(over);
+            self.lean(over, Some(side));
             let place = self.beside(side);
             let way = place - self.feet.place[1 - side];
             let strides = 0.5 * rise(way.norm(), STRIDES);
@@ -547,7 +562,7 @@ impl Stop<'_> {
         }
         let middle = (self.feet.place[0] + self.feet.place[1]) * 0.5;
         let stands = middle + turned(self.heading(), self.stand.mass);
-        self.lean(ground(stands));
+        self.lean(ground(stands), None);
         self.both(REST);
     }
 

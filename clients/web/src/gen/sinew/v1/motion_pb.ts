@@ -447,7 +447,8 @@ export type PlayClipRequest = Message<"sinew.v1.PlayClipRequest"> & {
   clip: string;
 
   /**
-   * Playback speed, 0.1…4. 0 or absent: 1.
+   * Playback speed, 0.1…4. 0 or absent: 1. A recording (BVH) is prepared for it, from 0.5 to 2 in steps of 1/50: steps and balance are those of that
+   * pace. The first time for a body and a speed takes as long as an upload does.
    *
    * @generated from field: double speed = 3;
    */

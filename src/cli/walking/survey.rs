@@ -1,0 +1,128 @@
+//! Every clip with everything that may be otherwise, one thing at a time.
+
+use super::{Motion, Study, hundredths};
+use crate::cli::page::Page;
+use crate::evaluate::experiments::walk::{Hands, Walk, Walker, walk};
+use crate::sim::body::{Body, Profile, Sex};
+use crate::sim::motion::{Bvh, RetargetOptions, retarget};
+use anyhow::{Context, Result};
+use std::sync::Arc;
+
+/// What is otherwise than in the plain case.
+struct Case {
+    name: &'static str,
+    walker: Walker,
+    tempo: f64,
+    mirrored: bool,
+}
+
+/// All cases, the plain one first.
+fn cases(man: &Arc<Body>) -> Result<Vec<Case>> {
+    let plain = |name, body: &Arc<Body>| Case {
+        name,
+        walker: Walker::new(body),
+        tempo: 1.0,
+        mirrored: false,
+    };
+    let mut out = vec![plain("as recorded", man)];
+    out.push(Case {
+        mirrored: true,
+        ..plain("mirrored", man)
+    });
+    for (name, tempo) in [
+        ("× 0.8", 0.8),
+        ("× 0.9", 0.9),
+        ("× 1.1", 1.1),
+        ("× 1.2", 1.2),
+    ] {
+        out.push(Case {
+            tempo,
+            ..plain(name, man)
+        });
+    }
+    let size = |height, mass| Profile {
+        height,
+        mass,
+        ..Profile::ordinary(Sex::Male, 30.0)
+    };
+    for (name, profile) in [
+        ("woman", Profile::ordinary(Sex::Female, 30.0)),
+        ("1.55 m", size(1.55, 58.0)),
+        ("1.95 m", size(1.95, 95.0)),
+        ("man of 70", Profile::ordinary(Sex::Male, 70.0)),
+    ] {
+        out.push(plain(name, &Arc::new(Body::humanoid(profile)?)));
+    }
+    let with = |name, change: fn(&mut Walker)| {
+        let mut case = plain(name, man);
+        change(&mut case.walker);
+        case
+    };
+    out.extend([
+        with("strength 0.8", |w| w.strength = 0.8),
+        with("15 kg, right hand", |w| w.load = Some((15.0, Hands::Right))),
+        with("15 kg, both hands", |w| w.load = Some((15.0, Hands::Both))),
+        with("friction 0.4", |w| w.friction = 0.4),
+        with("120 ticks/s", |w| w.rate_hz = 120.0),
+    ]);
+    Ok(out)
+}
+
+/// Joint error of a motion in one case, or when it falls; true if it stands.
+fn cell(motion: &Motion, bvh: &Bvh, case: &Case) -> Result<(String, bool)> {
+    let options = RetargetOptions {
+        tempo: case.tempo,
+        ..motion.options.clone()
+    };
+    let of = if case.mirrored { &bvh.mirrored() } else { bvh };
+    let clip = retarget(of, &case.walker.body, &options)
+        .with_context(|| format!("{}, {}", motion.name, case.name))?
+        .clip;
+    let w = walk(&case.walker, &Walk::once(&Arc::new(clip)));
+    let text = w.fell_s.map_or_else(
+        || hundredths(w.report.joint_rms_deg),
+        |t| format!("**fell at {t:.1} s**"),
+    );
+    Ok((text, w.stood()))
+}
+
+/// The table of all recordings and all cases.
+///
+/// # Errors
+/// Clips that cannot be read or fitted.
+pub(super) fn survey(page: &mut Page, study: &Study) -> Result<()> {
+    let cases = cases(&study.body)?;
+    let mut rows = Vec::new();
+    let mut stood = vec![0; cases.len()];
+    for motion in &study.clips {
+        if motion.spec.starts_with("builtin:") || !motion.options.walk_runs {
+            continue;
+        }
+        let bytes =
+            std::fs::read(&motion.spec).with_context(|| format!("cannot read {}", motion.spec))?;
+        let bvh = Bvh::parse(&bytes)?;
+        let mut row = vec![motion.name.clone()];
+        for (case, count) in cases.iter().zip(&mut stood) {
+            let (text, stands) = cell(motion, &bvh, case)?;
+            row.push(text);
+            *count += usize::from(stands);
+        }
+        rows.push(row);
+    }
+    if rows.is_empty() {
+        return Ok(());
+    }
+    page.say("## Every clip, varied");
+    page.say(
+        "From standing to standing, one thing otherwise at a time: joints in ° rms, or when it falls. Clips at another pace are prepared for it, as \
+         `PlayClip` does; the man of 70 has the strength of his age, and loads are carried from the beginning on.",
+    );
+    let all = rows.len();
+    let counts = stood.iter().map(|n| format!("{n} of {all}"));
+    rows.push(std::iter::once("stood".to_owned()).chain(counts).collect());
+    let head: Vec<&str> = std::iter::once("")
+        .chain(cases.iter().map(|c| c.name))
+        .collect();
+    page.table(&head, &rows);
+    Ok(())
+}
