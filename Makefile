@@ -9,7 +9,7 @@ SINEW_MOCAP_DIR ?= $(abspath $(ROOT)/../shared/mocap)
 export SINEW_MOCAP_DIR PYTHON
 
 .DEFAULT_GOAL := help
-.PHONY: help run test ci setup lint physics rust release oracle python viewer load soak fmt
+.PHONY: help run test ci setup lint physics rust release oracle python viewer load soak generate fmt
 
 help: ## what there is
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(ROOT)/Makefile
@@ -55,6 +55,12 @@ viewer: setup ## the viewer in a real browser, the TypeScript client, and that t
 python: setup ## the Python package: types, tests, examples, wheel; vectors of tests/conformance
 	cd $(ROOT) && $(CARGO) build --locked --bins --example client
 	cd $(ROOT)/clients/python && $(ROOT)/.venv/bin/python -m pytest
+
+generate: setup ## what is made from proto/, in all three languages, and the plain Python client; tests compare what is checked in
+	cd $(ROOT) && SINEW_REWRITE=1 $(CARGO) test --locked --no-default-features --test proto_bootstrap
+	$(ROOT)/.venv/bin/python $(ROOT)/clients/python/tools/generate.py
+	$(ROOT)/.venv/bin/python $(ROOT)/clients/python/tools/unasync.py
+	cd $(ROOT)/clients/web && npm run --silent generate
 
 fmt: ## format everything
 	cd $(ROOT) && $(CARGO) fmt

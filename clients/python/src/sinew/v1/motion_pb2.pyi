@@ -519,7 +519,9 @@ class PlayClipRequest(_message.Message):
     clip: _builtins.str
     """Clip: resource name `clips/{clip}`."""
     speed: _builtins.float
-    """Playback speed, 0.1…4. 0 or absent: 1."""
+    """Playback speed, 0.1…4. 0 or absent: 1. A recording (BVH) is prepared for it, from 0.5 to 2 in steps of 1/50: steps and balance are those of that
+    pace. The first time for a body and a speed takes as long as an upload does.
+    """
     loop: _builtins.bool
     """Repeats, carrying the displacement of the root over. A walk repeats its best cycle; a motion whose end is not like its beginning is
     led back to it by steps. Default: false.
