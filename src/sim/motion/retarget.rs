@@ -365,7 +365,8 @@ fn with_ends(
         draft.label.clone(),
     );
     let (before, after) = whole.add_ends(body);
-    if (before, after) == (0, 0) {
+    // Where no way is needed at either end a foot may still have been put down.
+    if (before, after) == (0, 0) && whole.label == draft.label {
         return (
             prepared.postures.clone(),
             prepared.planted.clone(),
