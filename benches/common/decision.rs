@@ -91,6 +91,7 @@ impl Decision {
             feet: &tasks.feet,
             balance: None,
             carried: [0.0; 2],
+            lands_as_planned: false,
             take_off: None,
             lower: &self.lower,
             upper: &self.upper,

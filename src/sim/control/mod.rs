@@ -90,6 +90,8 @@ pub struct ControlInput<'a> {
     pub carried: [f64; 2],
     /// What balance asks of the centre of mass; without it the tracking law's own demand holds.
     pub balance: Option<Balance>,
+    /// True if feet come down where a plan has had them all along, not where a stream has them by now.
+    pub lands_as_planned: bool,
     /// The flight that the motion has next, if it begins soon.
     pub take_off: Option<TakeOff>,
     /// Least available torques, N·m (negative).

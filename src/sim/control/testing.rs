@@ -104,6 +104,7 @@ impl Scene {
             goals: &self.goals,
             feet: &self.feet,
             balance: None,
+            lands_as_planned: false,
             take_off: None,
             lower: &self.lower,
             upper: &self.upper,

@@ -434,6 +434,12 @@ impl Gait {
         Some(Balance { acceleration })
     }
 
+    /// True if feet come down where a plan has had them all along: that of a stream is made while it is followed, and a step that nobody planned
+    /// has none.
+    pub fn lands_as_planned(&self) -> bool {
+        self.step.is_none() && self.plan.as_ref().is_some_and(|p| !p.is_live())
+    }
+
     /// True while it follows a stream.
     fn is_live(&self) -> bool {
         self.plan.as_ref().is_some_and(StepPlan::is_live)

@@ -16,6 +16,12 @@ const HOLD_TIME: f64 = 0.05;
 const STRIKES: (f64, f64) = (0.1, 0.3);
 /// Hardest stop of a planted point that is planned, m/s².
 const STOP: f64 = 150.0;
+/// The same along the floor of a foot that lands turning: friction stops it before its hip does, and its points slide until then, s.
+const TURN_HOLD_TIME: f64 = 0.03;
+/// That counts for feet that turn about the vertical faster than the first, rad/s, and for points that slide faster than the first, m/s; fully from
+/// the second on.
+const TURNS: (f64, f64) = (0.4, 0.6);
+const SLIDES: (f64, f64) = (0.05, 0.07);
 /// Fastest correction of a planted point's height, m/s.
 const HOLD_SPEED: f64 = 0.3;
 /// A planted point counts fully below the first height and not at all above the second, m.
@@ -120,12 +126,19 @@ impl Modern {
                 // What strikes the floor within the tick is at rest at its end, whatever is planned.
                 let strikes = 1.0 - fall(-v.z - z.max(0.0) / input.dt, STRIKES);
                 let pace = blend(1.0 / HOLD_TIME, 1.0 / input.dt, strikes);
-                let to_rest = Vec3 {
-                    x: -v.x,
-                    y: -v.y,
-                    z: rise - v.z,
+                let along = if steps && foot && input.lands_as_planned {
+                    let turning = 1.0 - fall(t.kin.omega[s].z.abs(), TURNS);
+                    let sliding = 1.0 - fall(v.x.hypot(v.y), SLIDES);
+                    blend(pace, pace.max(1.0 / TURN_HOLD_TIME), turning * sliding)
+                } else {
+                    pace
                 };
-                let a = soft(to_rest * pace, STOP) - t.point_bias(s, *p);
+                let to_rest = Vec3 {
+                    x: -v.x * along,
+                    y: -v.y * along,
+                    z: (rise - v.z) * pace,
+                };
+                let a = soft(to_rest, STOP) - t.point_bias(s, *p);
                 let ease = if steps { 1.0 } else { ease(s, foot) };
                 let inverse_r = ease * fade.max(OTHER_SEGMENT) / weight::FORCE;
                 let c = self.last_force[s * POINTS + vertex] * (-FORCE_MEMORY / inverse_r);
@@ -140,8 +153,8 @@ impl Modern {
                     turn: None,
                 });
                 let w = weight::HOLD * fade * held;
-                let along = if slides { 0.0 } else { w };
-                self.hold.push((hold(along, w, Vec3::Z), a));
+                let held_along = if slides { 0.0 } else { w };
+                self.hold.push((hold(held_along, w, Vec3::Z), a));
             }
         }
     }

@@ -125,6 +125,7 @@ impl Figure {
             goals: self.constraints.goals(),
             feet: &tasks.feet,
             balance,
+            lands_as_planned: self.gait.lands_as_planned(),
             take_off,
             lower,
             upper,
