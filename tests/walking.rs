@@ -275,9 +275,11 @@ fn feet_stay_where_they_land_and_come_down_softly() {
         ("walk-around", 0.002, 2.3),
         ("salsa-a", 0.002, 1.8),
         // It turns by 166 deg over one foot, further than hip and ankle rotate.
-        ("salsa-b", 0.003, 2.0),
+        ("salsa-b", 0.002, 2.0),
+        ("dance", 0.002, 2.0),
         ("carry", 0.002, 2.3),
-        ("hit", 0.003, 1.8),
+        ("hit", 0.0021, 1.8),
+        ("jump", 0.002, 2.4),
         ("wave", 0.002, 1.8),
         // Walked; the first step of a run lands where its recording is still in the air.
         ("quick-stop", 0.002, 1.8),
