@@ -7,11 +7,12 @@
 mod common;
 
 use common::{figure, man, recorded, recorded_with};
-use sinew::sim::body::topology::CHEST;
+use sinew::sim::body::topology::{CHEST, L_FOOT, R_FOOT};
 use sinew::sim::body::{Body, Posture};
 use sinew::sim::figure::{ControllerKind, Flags, Perturbation};
 use sinew::sim::math::Vec3;
 use sinew::sim::motion::consistency::consistency;
+use sinew::sim::motion::leg_ik::forward;
 use sinew::sim::motion::live::{LiveMotion, RATE};
 use sinew::sim::motion::{Clip, RetargetOptions, cycle};
 use sinew::sim::world::{ClipPlayback, Drive, LivePlayback, World, WorldParams};
@@ -98,9 +99,8 @@ fn watch(world: &mut World, seconds: f64, mut each: impl FnMut(&mut World, f64))
     let f = world.figure(key).unwrap();
     let v = &f.state().velocity;
     out.speed = v[3].hypot(v[4]);
-    let poses = sinew::sim::motion::leg_ik::forward(f.body(), &f.state().posture);
+    let poses = forward(f.body(), &f.state().posture);
     let foot = |s: sinew::sim::body::SegmentId| poses[s.index()].0;
-    use sinew::sim::body::topology::{L_FOOT, R_FOOT};
     out.apart = (foot(L_FOOT) - foot(R_FOOT)).norm();
     out
 }
@@ -230,6 +230,40 @@ fn windows_compared_with_the_whole_recording() {
                 assert!(f.joints < 3.5, "{name}, {window} s: {} deg", f.joints);
             }
         }
+    }
+}
+
+/// A recording with a foot pitched up by some degrees while it carries everything (`dance`, for 2 s) would have its figure balance on a heel.
+#[test]
+fn nobody_is_left_on_his_heel() {
+    let body = man();
+    let feet = [L_FOOT, R_FOOT];
+    for (name, window) in [
+        ("walk", 0.3),
+        ("turn", 0.3),
+        ("salsa-b", 0.5),
+        ("dance", 1.0),
+    ] {
+        let raw = bare(&body, name);
+        let (out, planted) = prepared(&body, |t| raw.sample(t).posture, raw.duration(), window);
+        let (mut stood, mut stands, mut lands) = ([0; 2], 0.0f64, 0.0f64);
+        for (posture, planted) in out.iter().zip(&planted) {
+            let poses = forward(&body, posture);
+            for side in 0..2 {
+                stood[side] = if planted[side] { stood[side] + 1 } else { 0 };
+                let toe_up = poses[feet[side].index()].1.rotate(Vec3::X).z.asin();
+                if f64::from(stood[side]) > 0.25 * RATE {
+                    stands = stands.max(toe_up);
+                } else if stood[side] > 0 {
+                    lands = lands.max(toe_up);
+                }
+            }
+        }
+        let [lands, stands] = [lands, stands].map(f64::to_degrees);
+        println!(
+            "{name}, {window} s: lands with its toes up by {lands:.1} deg, stands with {stands:.1}"
+        );
+        assert!(lands > 5.0 && stands < 1.0, "{name}: {lands}, {stands} deg");
     }
 }
 

@@ -1,6 +1,7 @@
 //! One foot of a stream: when it stands, where, and how it gets from one place to the next.
 
 use super::{H, STEADY};
+use crate::sim::math::ease::fall;
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::chart::quintic;
 use crate::sim::motion::foot_lock::{Anchor, FootPose, Sole};
@@ -25,6 +26,9 @@ const DRAGS: i64 = 4;
 /// stood for longer than the first, s, and for certain after the second.
 const FLAT: (f64, f64) = (0.07, 0.16);
 const STAYS: (f64, f64) = (0.7, 1.5);
+/// Who lands on his heel begins to come down to his sole after the first, and has after the second, s: a heel alone keeps nobody's balance. Recordings
+/// with a foot pitched up by some degrees throughout would have it so.
+const HEEL: (f64, f64) = (0.1, 0.2);
 /// Largest pitch of a standing foot, rad.
 const STEEPEST: (f64, f64) = (-1.05, 0.6);
 /// Sine of the roll beyond which a foot does not stand on its sole. A foot that comes down is flatter than steepest by this much; one that leaves the
@@ -129,14 +133,21 @@ pub fn steepness(rotation: Quat, pitch: f64) -> f64 {
     roll.max(pitch / STEEPEST.0).max(pitch / STEEPEST.1)
 }
 
-/// Pitch of a standing foot: flat within a band, with a smooth beginning. `age`: for how long it has stood, samples.
+/// Pitch of a standing foot: flat within a band, with a smooth beginning, and toe-up for a moment only. `age`: for how long it has stood, samples.
 fn stance_pitch(raw: f64, age: i64, rolled: bool) -> f64 {
-    let u = ((age as f64 * H - STAYS.0) / (STAYS.1 - STAYS.0)).clamp(0.0, 1.0);
+    let stood = age as f64 * H;
+    let u = ((stood - STAYS.0) / (STAYS.1 - STAYS.0)).clamp(0.0, 1.0);
     let flat = FLAT.0 + u * (FLAT.1 - FLAT.0);
     let beyond = (raw.abs() - flat).max(0.0);
     let p = (beyond * beyond / (beyond + FLAT.0)).copysign(raw);
     let p = p.clamp(STEEPEST.0, STEEPEST.1);
-    if rolled { p.min(0.0) } else { p }
+    if p < 0.0 {
+        p
+    } else if rolled {
+        0.0
+    } else {
+        p * fall(stood, HEEL)
+    }
 }
 
 /// Pitch of a standing foot that its leg reaches: it rises on its toes by as little as that takes.
