@@ -225,9 +225,11 @@ fn windows_compared_with_the_whole_recording() {
                 || (["turn", "carry", "salsa-b"].contains(&name) && window == 1.0)
                 || (name == "carry" && window == 0.5);
             let stands = name == "idle" || (name == "wave" && window > 0.4);
-            if walks || stands {
+            let turns = name == "dance" && window == 1.0;
+            if walks || stands || turns {
                 assert_eq!(f.fell, None, "{name}, {window} s");
-                assert!(f.joints < 3.5, "{name}, {window} s: {} deg", f.joints);
+                let most = if turns { 6.0 } else { 3.5 };
+                assert!(f.joints < most, "{name}, {window} s: {} deg", f.joints);
             }
         }
     }
