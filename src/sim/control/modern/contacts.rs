@@ -128,7 +128,7 @@ impl Modern {
                 let pace = blend(1.0 / HOLD_TIME, 1.0 / input.dt, strikes);
                 let along = if steps && foot && input.lands_as_planned {
                     let turning = 1.0 - fall(t.kin.omega[s].z.abs(), TURNS);
-                    let sliding = 1.0 - fall(v.x.hypot(v.y), SLIDES);
+                    let sliding = 1.0 - fall((v.x * v.x + v.y * v.y).sqrt(), SLIDES);
                     blend(pace, pace.max(1.0 / TURN_HOLD_TIME), turning * sliding)
                 } else {
                     pace
