@@ -12,16 +12,15 @@ use crate::sim::support::Rest;
 
 /// Time constant that brings a planted point to rest, s.
 const HOLD_TIME: f64 = 0.05;
+/// The same along the floor for a foot that still turns: friction stops its points before its hip does, and they slide until then, s.
+const TURN_HOLD_TIME: f64 = 0.03;
+/// A foot turns that does so about the vertical faster than the first, rad/s, and its points slide faster than the first, m/s; fully from the second on.
+const TURNS: (f64, f64) = (0.4, 0.6);
+const SLIDES: (f64, f64) = (0.05, 0.07);
 /// A point that comes down faster than the first beyond what its height leaves room for begins to strike, from the second on it does, m/s.
 const STRIKES: (f64, f64) = (0.1, 0.3);
 /// Hardest stop of a planted point that is planned, m/s².
 const STOP: f64 = 150.0;
-/// The same along the floor of a foot that lands turning: friction stops it before its hip does, and its points slide until then, s.
-const TURN_HOLD_TIME: f64 = 0.03;
-/// That counts for feet that turn about the vertical faster than the first, rad/s, and for points that slide faster than the first, m/s; fully from
-/// the second on.
-const TURNS: (f64, f64) = (0.4, 0.6);
-const SLIDES: (f64, f64) = (0.05, 0.07);
 /// Fastest correction of a planted point's height, m/s.
 const HOLD_SPEED: f64 = 0.3;
 /// A planted point counts fully below the first height and not at all above the second, m.
@@ -122,23 +121,9 @@ impl Modern {
                     continue;
                 }
                 let v = t.kin.velocity[s] + t.kin.omega[s].cross(r);
-                let rise = (-0.2 * z / input.dt).clamp(-HOLD_SPEED, HOLD_SPEED);
-                // What strikes the floor within the tick is at rest at its end, whatever is planned.
-                let strikes = 1.0 - fall(-v.z - z.max(0.0) / input.dt, STRIKES);
-                let pace = blend(1.0 / HOLD_TIME, 1.0 / input.dt, strikes);
-                let along = if steps && foot && input.lands_as_planned {
-                    let turning = 1.0 - fall(t.kin.omega[s].z.abs(), TURNS);
-                    let sliding = 1.0 - fall((v.x * v.x + v.y * v.y).sqrt(), SLIDES);
-                    blend(pace, pace.max(1.0 / TURN_HOLD_TIME), turning * sliding)
-                } else {
-                    pace
-                };
-                let to_rest = Vec3 {
-                    x: -v.x * along,
-                    y: -v.y * along,
-                    z: (rise - v.z) * pace,
-                };
-                let a = soft(to_rest, STOP) - t.point_bias(s, *p);
+                let turns = steps && foot && input.lands_as_planned;
+                let spin = if turns { t.kin.omega[s].z } else { 0.0 };
+                let a = stop((z, v), spin, input.dt) - t.point_bias(s, *p);
                 let ease = if steps { 1.0 } else { ease(s, foot) };
                 let inverse_r = ease * fade.max(OTHER_SEGMENT) / weight::FORCE;
                 let c = self.last_force[s * POINTS + vertex] * (-FORCE_MEMORY / inverse_r);
@@ -153,11 +138,32 @@ impl Modern {
                     turn: None,
                 });
                 let w = weight::HOLD * fade * held;
-                let held_along = if slides { 0.0 } else { w };
-                self.hold.push((hold(held_along, w, Vec3::Z), a));
+                let along = if slides { 0.0 } else { w };
+                self.hold.push((hold(along, w, Vec3::Z), a));
             }
         }
     }
+}
+
+/// Acceleration that brings a planted point to rest on the floor, m/s².
+///
+/// * `(z, v)`: its height, m, and velocity, m/s.
+/// * `spin`: angular velocity of its foot about the vertical, rad/s, where a foot that lands turning is held sooner; else 0.
+/// * `dt`: length of the tick, s.
+fn stop((z, v): (f64, Vec3), spin: f64, dt: f64) -> Vec3 {
+    let rise = (-0.2 * z / dt).clamp(-HOLD_SPEED, HOLD_SPEED);
+    // What strikes the floor within the tick is at rest at its end, whatever is planned.
+    let strikes = 1.0 - fall(-v.z - z.max(0.0) / dt, STRIKES);
+    let pace = blend(1.0 / HOLD_TIME, 1.0 / dt, strikes);
+    let turning = 1.0 - fall(spin.abs(), TURNS);
+    let sliding = 1.0 - fall((v.x * v.x + v.y * v.y).sqrt(), SLIDES);
+    let along = blend(pace, pace.max(1.0 / TURN_HOLD_TIME), turning * sliding);
+    let to_rest = Vec3 {
+        x: -v.x * along,
+        y: -v.y * along,
+        z: (rise - v.z) * pace,
+    };
+    soft(to_rest, STOP)
 }
 
 /// How easily a segment bears weight on the floor.
