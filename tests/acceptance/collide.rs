@@ -3,33 +3,16 @@
 //! Method: a ball thrown at a figure, two figures pushed into each other, one falling onto another, two that dance; books of momentum and of
 //! the work of contacts by the tick, overlaps, and the hashes of bystanders.
 
-use crate::common::{authored, figure, man, play, recorded_with, still};
+use crate::common::collisions::{Meter, obstacle};
+use crate::common::{authored, figure, man, still};
 use crate::vec3;
-use sinew::evaluate::audit;
-use sinew::evaluate::pose::segment_poses;
 use sinew::sim::body::Body;
-use sinew::sim::body::topology::{CHEST, L_FOOT, R_FOOT};
-use sinew::sim::collide::{MAX_OBSTACLES, Mobility, ObstacleSetup, Other, Shape};
-use sinew::sim::figure::{ControllerKind, FigureEvent, Flags, Perturbation, StepperKind};
+use sinew::sim::body::topology::CHEST;
+use sinew::sim::collide::{MAX_OBSTACLES, Mobility, ObstacleSetup, Shape};
+use sinew::sim::figure::{ControllerKind, Flags, Perturbation, StepperKind};
 use sinew::sim::math::{Quat, Vec3};
-use sinew::sim::motion::Clip;
-use sinew::sim::motion::retarget::RetargetOptions;
 use sinew::sim::world::{FigureKey, FigureSetup, World, WorldError, WorldParams};
 use std::sync::Arc;
-
-/// An obstacle at rest.
-fn obstacle(shape: Shape, mobility: Mobility, position: Vec3) -> ObstacleSetup {
-    ObstacleSetup {
-        name: "obstacle".to_owned(),
-        shape,
-        mobility,
-        friction: 0.6,
-        position,
-        rotation: Quat::identity(),
-        velocity: Vec3::zero(),
-        angular_velocity: Vec3::zero(),
-    }
-}
 
 /// A ball of 5 kg.
 fn ball(position: Vec3, velocity: Vec3) -> ObstacleSetup {
@@ -52,115 +35,6 @@ fn stander(body: &Arc<Body>, kind: ControllerKind, x: f64, y: f64, yaw: f64) -> 
     p.root_position = turn.rotate(p.root_position) + vec3(x, y, 0.0);
     p.root_rotation = turn * p.root_rotation;
     setup
-}
-
-/// What a run of a world with collisions showed.
-#[derive(Debug, Default)]
-struct Meter {
-    ticks: u64,
-    touched: u64,
-    switches: u64,
-    /// Largest sum of all forces between bodies over the largest of them.
-    unbalanced: f64,
-    /// Largest overlap, and the largest later than 0.2 s after the first touch, m.
-    depth: f64,
-    late_depth: f64,
-    /// Work of contacts, J, and the largest of one tick that they drove a motion with instead of stopping it.
-    work: f64,
-    gain: f64,
-    unfinished: u64,
-    islands: u64,
-    iterations: u64,
-    residual: f64,
-    speed: f64,
-    first: Option<u64>,
-}
-
-/// Largest work that the return from overlaps of a fraction of a millimetre may add in a tick, J.
-const RETURN_WORK: f64 = 0.02;
-
-impl Meter {
-    /// What every scene must keep, and what it came to, on one line.
-    fn judge(&self, what: &str, rate: f64) {
-        let text = format!(
-            "{what}: touched {} ticks, {:.1} switches/s, unbalanced {:.1e}, equations {:.1e}, overlap {:.2} mm, after 0.2 s {:.2} mm, work of \
-             contacts {:.1} J, driven at most {:.4} J, {} of {} islands cut short, {:.1} iterations each, top joint speed {:.0} rad/s",
-            self.touched,
-            self.switches as f64 * rate / self.ticks as f64,
-            self.unbalanced,
-            self.residual,
-            1e3 * self.depth,
-            1e3 * self.late_depth,
-            self.work,
-            self.gain,
-            self.unfinished,
-            self.islands,
-            self.iterations as f64 / self.islands.max(1) as f64,
-            self.speed
-        );
-        println!("{text}");
-        assert!(self.touched > 0, "{text}");
-        assert!(self.unbalanced < 1e-9 && self.residual < 1e-9, "{text}");
-        assert!(self.late_depth < 0.01, "{text}");
-        assert!(self.gain < RETURN_WORK && self.work <= 0.0, "{text}");
-    }
-
-    fn observe(&mut self, world: &World) {
-        self.ticks += 1;
-        let c = world.collisions();
-        let (mut sum, mut most, mut touching) = (Vec3::zero(), 0.0f64, false);
-        for (_, f) in world.figures() {
-            let r = f.report().unwrap();
-            assert!(r.over_limit <= 1e-9, "torques stay within strength");
-            assert!(!r.flags.has(Flags::QUARANTINED));
-            for t in &r.touches {
-                touching = true;
-                most = most.max(t.force.norm());
-                let free = match t.other {
-                    Other::Figure(..) => true,
-                    Other::Obstacle(k) => world.obstacle(k).unwrap().mass().is_some(),
-                };
-                if free {
-                    sum += t.force;
-                }
-            }
-            for e in f.events() {
-                let switch = matches!(e, FigureEvent::Touched { .. } | FigureEvent::Parted { .. });
-                self.switches += u64::from(switch);
-            }
-            self.speed = f.state().velocity[6..]
-                .iter()
-                .fold(self.speed, |m, v| m.max(v.abs()));
-            let a = audit::audit(f.links(), &r.audit, world.params().gravity);
-            self.residual = self.residual.max(a.relative);
-        }
-        // The floor's push is among the forces of a ball that lies on it, and cannot be told from the others.
-        let mut on_floor = false;
-        for (_, o) in world.obstacles() {
-            if o.mass().is_some() {
-                sum += o.force();
-                let s = o.setup();
-                on_floor |=
-                    matches!(s.shape, Shape::Sphere { radius } if s.position.z < radius + 1e-3);
-            }
-        }
-        if most > 0.0 && !on_floor {
-            self.unbalanced = self.unbalanced.max(sum.norm() / most);
-        }
-        if touching {
-            self.touched += 1;
-            self.first.get_or_insert(self.ticks);
-        }
-        self.depth = self.depth.max(c.depth);
-        if self.first.is_some_and(|f| self.ticks > f + 12) {
-            self.late_depth = self.late_depth.max(c.depth);
-        }
-        self.work += c.work;
-        self.gain = self.gain.max(c.driven);
-        self.unfinished += c.unfinished;
-        self.islands += c.islands;
-        self.iterations += c.iterations;
-    }
 }
 
 /// A ball of 5 kg at 5 m/s from three sides, for every controller. Books of the ball: its momentum changes by what it is pushed and by gravity.
@@ -268,36 +142,6 @@ fn a_figure_falls_onto_another() {
         let fell: Vec<bool> = world.figures().map(|(_, f)| f.is_fallen()).collect();
         m.judge(&format!("{kind:?}, fell {fell:?}"), 60.0);
     }
-}
-
-/// A recording where and as it was taken, so that partners stay partners.
-fn dancing(body: &Body, name: &str) -> Arc<Clip> {
-    let options = RetargetOptions {
-        keep_origin: true,
-        ..RetargetOptions::default()
-    };
-    recorded_with(body, name, &options)
-}
-
-#[test]
-fn a_couple_dances_salsa() {
-    let body = man();
-    let mut world = World::new(WorldParams::default()).unwrap();
-    for name in ["salsa-a", "salsa-b"] {
-        let clip = dancing(&body, name);
-        let first = clip.sample(0.0);
-        let state = first.state();
-        let setup = figure(&body, ControllerKind::Modern, state);
-        let key = world.add_figure(setup).unwrap();
-        world.figure_mut(key).unwrap().set_drive(play(&clip));
-    }
-    let mut m = Meter::default();
-    for _ in 0..600 {
-        world.step();
-        m.observe(&world);
-    }
-    let fell: Vec<bool> = world.figures().map(|(_, f)| f.is_fallen()).collect();
-    m.judge(&format!("salsa, fell {fell:?}"), 60.0);
 }
 
 /// Someone within arm's length of a collision, and someone out of reach, have the bits that they have alone. The number of threads changes
@@ -459,93 +303,4 @@ fn a_kinematic_figure_is_handed_over_when_a_ball_comes() {
     }
     assert!(handed.is_some_and(|t| t > 5), "handed over at {handed:?}");
     m.judge("kinematic", 60.0);
-}
-
-/// Sits down on a stool, moves about on it, gets up, turns and walks away: wherever the stool is, within what the motion can mean. While it sits,
-/// its feet stay where they are.
-#[test]
-fn a_figure_sits_down_and_gets_up() {
-    let body = man();
-    let clip = recorded_with(&body, "sit-stand", &RetargetOptions::default());
-    // Side, height and place of the stool, m, and joint error that is allowed, degrees. The first is where the motion sits: under the pelvis, and as high
-    // as a rigid pelvis can be there. On one that is too high or low the legs cannot be as recorded, and a small one ends under the thighs.
-    for (side, height, x, most) in [
-        (0.44, 0.35, 0.41, 1.0),
-        (0.38, 0.355, 0.41, 1.0),
-        (0.34, 0.345, 0.43, 1.25),
-        (0.34, 0.35, 0.41, 1.25),
-        (0.34, 0.36, 0.389, 1.5),
-        (0.34, 0.38, 0.389, 1.9),
-        (0.40, 0.38, 0.429, 1.9),
-        (0.34, 0.38, 0.349, 1.9),
-    ] {
-        let text = format!("stool {side} wide and {height} m high at {x}");
-        let first = clip.sample(0.0);
-        let state = first.state();
-        let mut world = World::new(WorldParams::default()).unwrap();
-        let setup = figure(&body, ControllerKind::Modern, state);
-        let key = world.add_figure(setup).unwrap();
-        world.figure_mut(key).unwrap().set_drive(play(&clip));
-        let half = vec3(0.5 * side, 0.5 * side, 0.5 * height);
-        let stool = ObstacleSetup {
-            rotation: Quat::exp(Vec3::Z * -51f64.to_radians()),
-            ..obstacle(
-                Shape::Box { half },
-                Mobility::Fixed,
-                vec3(x, 0.54, 0.5 * height),
-            )
-        };
-        world.add_obstacle(stool).unwrap();
-        let mut m = Meter::default();
-        let mut seated = 0;
-        let mut error = [(0.0, 0.0); 2];
-        let mut feet = [Vec3::zero(); 2];
-        let mut crept = 0.0f64;
-        for tick in 0..(60.0 * clip.duration()) as u64 {
-            world.step();
-            m.observe(&world);
-            let f = world.figure(key).unwrap();
-            assert!(!f.is_fallen(), "{text}: fell at {:.2} s", world.time());
-            let r = f.report().unwrap();
-            let carried: f64 = r.touches.iter().map(|t| t.force.z).sum();
-            seated += u64::from(carried > 0.1 * 75.0 * crate::GRAVITY);
-            let square = r.joint_error.iter().map(|e| e * e).sum::<f64>() / 39.0;
-            // It has settled on the stool, and has not begun to get up.
-            let still = (210..390).contains(&tick);
-            for (sum, count) in &mut error[..if still { 2 } else { 1 }] {
-                *sum += square;
-                *count += 1.0;
-            }
-            let poses = segment_poses(&f.links().offset, &f.state().posture);
-            for (side, foot) in [L_FOOT, R_FOOT].into_iter().enumerate() {
-                let at = poses[foot.index()].position;
-                if tick == 210 {
-                    feet[side] = at;
-                }
-                if still {
-                    crept = crept.max((at - feet[side]).norm());
-                }
-            }
-        }
-        let up = world.figure(key).unwrap().report().unwrap().com.z;
-        let [whole, sitting] = error.map(|(sum, count): (f64, f64)| (sum / count).sqrt());
-        println!(
-            "{text}: seated for {:.2} s, {:.2}° rms, {:.2}° while it sits, feet creep {:.1} mm",
-            seated as f64 / 60.0,
-            whole.to_degrees(),
-            sitting.to_degrees(),
-            1e3 * crept
-        );
-        assert!(
-            whole.to_degrees() < most && sitting.to_degrees() < most + 0.4,
-            "{text}"
-        );
-        assert!(crept < 0.01, "{text}: feet crept {crept} m");
-        assert!(
-            seated > 3 * 60,
-            "{text}: the seat carried for {seated} ticks"
-        );
-        assert!(up > 0.8, "{text}: not up at the end, {up:.2} m");
-        m.judge(&text, 60.0);
-    }
 }

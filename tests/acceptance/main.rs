@@ -2,7 +2,6 @@
 //!
 //! * `stand`: ten seconds of standing still.
 //! * `push`: what a standing figure survives, and where it falls when it does not.
-//! * `rise`: who has fallen gets up when his motion does.
 //! * `fall`: a stiff figure is a physical pendulum.
 //! * `flight`: the parabola and the momenta of a thrown figure; a limp one gains no energy.
 //! * `slide`: Coulomb's law for points that slide.
@@ -26,7 +25,6 @@ mod collide;
 mod constrain;
 mod containment;
 mod fall;
-
 mod flight;
 mod hand;
 mod jump;
@@ -34,7 +32,6 @@ mod lift;
 mod load;
 mod people;
 mod push;
-mod rise;
 mod slide;
 mod stand;
 mod symmetry;

@@ -1,4 +1,4 @@
-//! The recordings that tests read: in the folder `SINEW_MOCAP_DIR`, or beside the repository.
+//! The recordings that `tests/recordings` reads: in the folders that `SINEW_MOCAP_DIR` lists, separated as in `PATH`.
 
 use std::path::PathBuf;
 
@@ -24,12 +24,17 @@ pub const CLIPS: [&str; 18] = [
     "wave",
 ];
 
-/// Bytes of a file of the data set; panics if it is missing.
+/// Bytes of a file of the data set. Panics with what to do if the file is not there.
 pub fn read(file: &str) -> Vec<u8> {
-    let folder = std::env::var_os("SINEW_MOCAP_DIR").map_or_else(
-        || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/mocap"),
-        PathBuf::from,
-    );
-    let path = folder.join(file);
-    std::fs::read(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+    let folders = std::env::var_os("SINEW_MOCAP_DIR").unwrap_or_default();
+    let folders: Vec<PathBuf> = std::env::split_paths(&folders).collect();
+    folders
+        .iter()
+        .find_map(|folder| std::fs::read(folder.join(file)).ok())
+        .unwrap_or_else(|| {
+            panic!(
+                "{file} is in none of the folders of SINEW_MOCAP_DIR ({folders:?}): this test needs recordings that are not part of the \
+                 repository; docs/corpus.md says which and where they come from"
+            )
+        })
 }

@@ -10,6 +10,7 @@ root=$(CDPATH='' cd -- "$(dirname -- "$0")/../.." && pwd)
 here=$root/tests/load
 scale=${LOAD_SCALE:-1}
 ghz=$root/.tools/ghz
+PATH=$PATH:$root/.venv/bin
 
 profile=debug
 flag=
@@ -23,9 +24,9 @@ if ! [ -x "$ghz" ]; then
         ghz=$(command -v ghz)
     elif command -v go >/dev/null 2>&1; then
         echo "load: installing ghz into .tools"
-        GOBIN=$root/.tools go install github.com/bojand/ghz/cmd/ghz@latest
+        GOBIN=$root/.tools go install github.com/bojand/ghz/cmd/ghz@v0.93.0
     else
-        echo "load: no ghz and no go to install it with; install Go 1.23 or newer" >&2
+        echo "load: no ghz and no go to install it with; tests/setup.sh brings Go" >&2
         exit 1
     fi
 fi

@@ -1,7 +1,7 @@
 //! Recordings with faults: poses before the motion, glitches, few frames, wrong frame times, and what cannot be used.
 
-use crate::source::Source;
-use crate::{same, take, text};
+use super::source::Source;
+use super::{same, take, text};
 use sinew::sim::body::Body;
 use sinew::sim::motion::{RetargetError, RetargetOptions};
 

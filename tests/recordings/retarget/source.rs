@@ -1,6 +1,6 @@
 //! A recording that can be rewritten.
 
-use crate::text;
+use super::text;
 
 /// A BVH file taken apart: header lines and rows of numbers.
 #[derive(Clone)]

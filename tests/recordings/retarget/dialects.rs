@@ -1,7 +1,7 @@
 //! The same recording in other words: names, units, axes, joints that are not needed.
 
-use crate::source::Source;
-use crate::{same, take};
+use super::source::Source;
+use super::{same, take};
 use sinew::sim::body::Body;
 use sinew::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use sinew::sim::motion::leg_ik::forward;

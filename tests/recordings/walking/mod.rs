@@ -6,15 +6,12 @@
 //! * `pushes`: steps that nobody planned.
 //! * `loads`: what hands carry.
 //! * `pieces`: backwards, and broken off.
-#![allow(clippy::unwrap_used)]
 
-#[path = "../common/mod.rs"]
-mod common;
 mod loads;
 mod pieces;
 mod pushes;
 
-use common::{figure, man, mocap, recorded, recorded_with};
+use crate::common::{figure, man, mocap, recorded, recorded_with};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use sinew::evaluate::experiments::walk::{self as experiments, Walk, Walker};

@@ -1,13 +1,7 @@
 //! Goal: the BVH reader places every joint of all 18 real clips where an independent reader put it.
 //! Method: `expected.json` beside the clips holds joint positions of four frames each, rounded to five decimals.
 
-#![allow(clippy::unwrap_used)]
-
-#[allow(dead_code)] // the list of clips
-#[path = "common/mocap.rs"]
-mod mocap;
-
-use mocap::read;
+use crate::common::mocap::read;
 use sinew::sim::motion::bvh::Bvh;
 
 /// Half a unit of the fifth decimal, with room for the rounding of both readers.

@@ -1,6 +1,6 @@
 //! The zero-moment point keeps to the feet, and what the floor gives explains the motion.
 
-use crate::{STANDING, take, text};
+use super::{STANDING, take, text};
 use sinew::sim::body::{Body, Posture};
 use sinew::sim::motion::RetargetOptions;
 use sinew::sim::motion::consistency::consistency;

@@ -1,8 +1,8 @@
 //! Goal: who is pushed while he walks, stands on one foot or has come to a stand steps, keeps his legs apart as he does, and goes on.
 //! Method: pushes of 0.1 s at the chest at several phases and in all directions.
 
+use super::{RATE, playing};
 use crate::common::{man, recorded};
-use crate::{RATE, playing};
 use sinew::evaluate::experiments::walk::{self as experiments, Walk, Walker};
 use sinew::sim::body::topology::{
     CHEST, L_FOOT, L_SHANK, L_THIGH, L_TOES, R_FOOT, R_SHANK, R_THIGH, R_TOES,

@@ -1,8 +1,8 @@
 //! Goal: what a recording happens to be cut to, or played as, is walked too.
 //! Method: recordings backwards, and pieces that break off while they turn.
 
+use super::walk;
 use crate::common::{man, mocap};
-use crate::walk;
 use sinew::sim::motion::{Bvh, RetargetOptions, retarget};
 use std::sync::Arc;
 

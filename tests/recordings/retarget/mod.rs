@@ -3,17 +3,13 @@
 //! result (`feet`, `balance`); and one clip rewritten (`source`) into other dialects and with faults, which must give the same motion
 //! (`dialects`, `faults`).
 
-#![allow(clippy::unwrap_used)]
-
 mod balance;
 mod dialects;
 mod faults;
 mod feet;
-#[path = "../common/mocap.rs"]
-mod mocap;
 mod source;
 
-use mocap::CLIPS;
+use crate::common::mocap::{self, CLIPS};
 use sinew::sim::body::Body;
 use sinew::sim::body::angles::anatomical_angles;
 use sinew::sim::body::topology::{DOF_NAMES, L_FOOT, L_THIGH, R_FOOT, R_THIGH};

@@ -2,11 +2,8 @@
 //! pace.
 //! Method: clips from the motion capture folder, mirrored, and at 0.8 to 1.2 times their speed, 60 Hz with two substeps, the modern controller; the
 //! same clips played faster and slower as they were prepared, for comparison.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{man, mocap, recorded_with};
+use crate::common::{man, mocap, recorded_with};
 use sinew::evaluate::experiments::walk::{Walk, Walker, walk};
 use sinew::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use sinew::sim::body::{Body, Posture};

@@ -2,12 +2,9 @@
 //! strength, no force holds them up that nothing explains, and no number is ever not finite.
 //! Method: recordings and built-in motions through whole worlds; every tick is audited by [`sinew::evaluate`], which rebuilds the equations
 //! of motion from the body alone.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::mocap::CLIPS;
-use common::{Scene, authored, man, recorded};
+use crate::common::mocap::CLIPS;
+use crate::common::{Scene, authored, man, recorded};
 use sinew::evaluate::RunReport;
 use sinew::sim::body::Body;
 use sinew::sim::figure::ControllerKind;

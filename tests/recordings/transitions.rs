@@ -2,11 +2,8 @@
 //! counts.
 //! Method: clips from the motion capture folder, asked for at moments spread over the first one, in torque simulation, 60 Hz with two substeps, the
 //! modern controller.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{authored, figure, man, recorded, recorded_with};
+use crate::common::{authored, figure, man, recorded, recorded_with};
 use sinew::evaluate::experiments::walk::Stance;
 use sinew::sim::body::Body;
 use sinew::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};

@@ -2,11 +2,8 @@
 //! silent, or whose clip is stopped, finish their step and stand.
 //! Method: recordings as a capture system would send them (fitted to the body, nothing else), sample by sample, into a figure in torque
 //! simulation; compared with the same recording prepared as a whole.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{figure, man, recorded, recorded_with};
+use crate::common::{figure, man, recorded, recorded_with};
 use sinew::sim::body::topology::{CHEST, L_FOOT, R_FOOT};
 use sinew::sim::body::{Body, Posture};
 use sinew::sim::figure::{ControllerKind, Flags, Perturbation};

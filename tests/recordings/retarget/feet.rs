@@ -1,7 +1,7 @@
 //! Feet that stand neither slide nor sink, and stand when they did in the recording.
 
-use crate::mocap::CLIPS;
-use crate::{STANDING, stats, take, text};
+use super::{STANDING, stats, take, text};
+use crate::common::mocap::CLIPS;
 use sinew::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use sinew::sim::body::{Body, Posture};
 use sinew::sim::math::Vec3;

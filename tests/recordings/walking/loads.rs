@@ -1,8 +1,8 @@
 //! Goal: loads of up to 15 kg in one hand or in both are carried while walking, and what an arm cannot hold the trunk does not pay for.
 //! Method: loads on the hands from the beginning on.
 
+use super::{playing, run};
 use crate::common::{man, recorded};
-use crate::{playing, run};
 use sinew::sim::body::topology::{DOF_START, L_HAND, L_THIGH, R_HAND, R_UPPER_ARM};
 use sinew::sim::body::{Body, SegmentId};
 use sinew::sim::figure::Perturbation;
