@@ -162,7 +162,7 @@ async fn a_walk_comes_through_jitter_and_loss() {
             s.far,
             s.speed
         );
-        // What comes after the stream is the subject of `tests/live.rs`, at every phase of the gait.
+        // What comes after the stream is the subject of `tests/recordings/live.rs`, at every phase of the gait.
         assert!(
             s.fell.is_none_or(|t| t > seconds),
             "window {window} ms: fell at {:?} s",
