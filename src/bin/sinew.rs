@@ -1,12 +1,12 @@
 //! The `sinew` command: parses arguments and calls the library.
 
-use clap::{Parser, Subcommand};
-use sinew::cli;
+use clap::{CommandFactory, Parser, Subcommand};
+use sinew::cli::{self, exit};
 use std::process::ExitCode;
 
-/// Physically simulated human figures that track desired motions within human strength.
+/// Physically simulated human figures that track reference motions within human strength.
 #[derive(Parser)]
-#[command(name = "sinew", version, about)]
+#[command(name = "sinew", version, about, after_help = exit::EXIT_CODES)]
 struct Arguments {
     #[command(subcommand)]
     command: Option<Command>,
@@ -14,24 +14,27 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Serve worlds over gRPC (the default): a demo world, and whatever clients create
+    /// Serve worlds over gRPC (the default): a demo world, and the worlds that clients create
     Serve(cli::serve::Args),
-    /// Stream a BVH file to a server as the live driver of a figure
+    /// Stream a BVH file to a server as live motion for a figure
     Push(cli::push::Args),
     /// Print the frames of a world
     Watch(cli::watch::Args),
-    /// Run motions through the physics, offline, and report how well the figure followed
+    /// Simulate motions offline and report how closely the figure tracks them
+    #[command(after_help = exit::EXIT_CODES)]
     Run(Box<cli::run::RunArgs>),
-    /// Say how recordings fit the body: what was found, guessed and changed
+    /// Report how recordings fit the body: what was found, estimated and changed
     Lint(cli::lint::LintArgs),
     /// Fit a recording to the body and write the prepared motion
     Convert(cli::convert::ConvertArgs),
-    /// Run the paper's experiments again and write a page about them
+    /// Repeat the experiments of the paper and write a page with the results
     Paper(cli::paper::PaperArgs),
-    /// Run walks with pushes, loads, other people and noise, and write a page about what is survived
+    /// Simulate walks with pushes, loads, other bodies and noise, and write a page with the results
     Walking(cli::walking::WalkingArgs),
-    /// List segments, degrees of freedom, limits and strength of a body
+    /// List the bodies, or the segments, degrees of freedom, limits and strength of one
     Bodies(cli::bodies::BodiesArgs),
+    /// Write a completion script for a shell, for example `source <(sinew completions bash)`
+    Completions(cli::completions::CompletionsArgs),
 }
 
 fn main() -> ExitCode {
@@ -41,22 +44,19 @@ fn main() -> ExitCode {
         given => given,
     };
     let done = match arguments.command {
-        Some(Command::Serve(args)) => cli::serve::run(&args),
-        Some(Command::Push(args)) => cli::push::run(&args),
-        Some(Command::Watch(args)) => cli::watch::run(&args),
+        Some(Command::Serve(args)) => cli::serve::run(&args).map(Into::into),
+        Some(Command::Push(args)) => cli::push::run(&args).map(Into::into),
+        Some(Command::Watch(args)) => cli::watch::run(&args).map(Into::into),
         Some(Command::Run(args)) => cli::run::run(&args),
-        Some(Command::Lint(args)) => cli::lint::run(&args),
-        Some(Command::Convert(args)) => cli::convert::run(&args),
-        Some(Command::Paper(args)) => cli::paper::run(&args),
-        Some(Command::Walking(args)) => cli::walking::run(&args),
-        Some(Command::Bodies(args)) => cli::bodies::run(&args),
+        Some(Command::Lint(args)) => cli::lint::run(&args).map(Into::into),
+        Some(Command::Convert(args)) => cli::convert::run(&args).map(Into::into),
+        Some(Command::Paper(args)) => cli::paper::run(&args).map(Into::into),
+        Some(Command::Walking(args)) => cli::walking::run(&args).map(Into::into),
+        Some(Command::Bodies(args)) => cli::bodies::run(&args).map(Into::into),
+        Some(Command::Completions(args)) => {
+            cli::completions::run(&args, Arguments::command()).map(Into::into)
+        }
         None => unreachable!("`serve` was put in its place"),
     };
-    match done {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error:#}");
-            ExitCode::FAILURE
-        }
-    }
+    exit::code(done).into()
 }

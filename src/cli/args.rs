@@ -1,4 +1,4 @@
-//! Arguments that several commands share, and the small languages of `--load`, `--push`, `--constrain`, `--obstacle` and `--then`.
+//! Arguments that several commands share, and the formats of `--load`, `--push`, `--constrain`, `--obstacle` and `--then`.
 
 mod body;
 mod constraint;
@@ -10,7 +10,7 @@ mod recording;
 mod spec;
 mod then;
 
-pub use body::{BodyArgs, BodyKind, person_name, sex_name};
+pub use body::{BodyArgs, BodyNameParser, describe, short_name};
 pub use constraint::ConstraintSpec;
 pub use control::{
     ControllerArg, MetricArg, PaperOptions, PresetArg, PriorityArg, ShareArg, StepperArg,
@@ -18,6 +18,6 @@ pub use control::{
 pub use load::LoadSpec;
 pub use obstacle::ObstacleSpec;
 pub use push::PushSpec;
-pub use recording::RecordingArgs;
+pub use recording::{FileArgs, RecordingArgs, UpArg};
 pub use spec::SpecError;
 pub use then::ThenSpec;

@@ -1,25 +1,28 @@
-//! `sinew bodies`: degrees of freedom, limits and strength of a body.
+//! `sinew bodies`: the named bodies, or degrees of freedom, limits and strength of one.
 
-use super::args::{BodyArgs, person_name, sex_name};
+use super::args::{BodyArgs, describe};
+use super::exit::Usage;
+use super::terminal::print;
+use crate::sim::body::names::{NAMED_BODIES, sex_name};
 use crate::sim::body::topology::{DOF_NAMES, SEGMENT_NAMES};
-use crate::sim::body::{Body, DOF_COUNT};
+use crate::sim::body::{Body, DOF_COUNT, Profile};
 use crate::sim::strength::{MuscleScale, Provenance, Strength};
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result};
 use serde_json::json;
 
-/// Lists the segments and degrees of freedom of a body.
+/// Lists the named bodies; with any option that chooses a body, its segments and degrees of freedom.
 #[derive(Clone, Debug, clap::Args)]
 pub struct BodiesArgs {
-    /// Who the body stands for.
+    /// Which body is shown.
     #[command(flatten)]
     pub body: BodyArgs,
-    /// Percentile of strength among people of that sex, age and size, 5 to 95.
-    #[arg(long, value_name = "P", default_value_t = 50.0)]
-    pub percentile: f64,
-    /// Shows where every mass, limit and number of the strength comes from.
+    /// Percentile of strength in the population of that sex, age and size, 5 to 95.
+    #[arg(long, value_name = "P")]
+    pub percentile: Option<f64>,
+    /// Shows the source of every mass, limit and strength value.
     #[arg(long)]
     pub sources: bool,
-    /// Prints JSON.
+    /// Prints JSON on standard output.
     #[arg(long)]
     pub json: bool,
 }
@@ -29,20 +32,63 @@ pub struct BodiesArgs {
 /// # Errors
 /// When the tables do not cover the profile.
 pub fn run(args: &BodiesArgs) -> Result<()> {
-    let body = args.body.build()?;
-    ensure!(
-        (5.0..=95.0).contains(&args.percentile),
-        "--percentile {}: outside 5…95",
-        args.percentile
-    );
-    let strength = Strength::at_percentile(&body, args.percentile);
-    if args.json {
-        let text = serde_json::to_string_pretty(&as_json(&body, &strength));
-        println!("{}", text.context("the body cannot be written as JSON")?);
-    } else {
-        print!("{}", as_text(&body, &strength, args.sources));
+    if args.body.is_default() && args.percentile.is_none() && !args.sources {
+        return if args.json {
+            print_json(&list_json())
+        } else {
+            print(&list())
+        };
     }
-    Ok(())
+    let body = args.body.build()?;
+    let percentile = args.percentile.unwrap_or(50.0);
+    if !(5.0..=95.0).contains(&percentile) {
+        return Err(Usage(format!("--percentile {percentile}: outside 5…95")).into());
+    }
+    let strength = Strength::at_percentile(&body, percentile);
+    if args.json {
+        print_json(&as_json(&body, &strength))
+    } else {
+        print(&as_text(&body, &strength, args.sources))
+    }
+}
+
+fn print_json(value: &serde_json::Value) -> Result<()> {
+    let text = serde_json::to_string_pretty(value).context("the body cannot be written as JSON")?;
+    print(&(text + "\n"))
+}
+
+fn named() -> impl Iterator<Item = (&'static str, Profile)> {
+    let profile = |(name, sex, age): &(&'static str, _, _)| (*name, Profile::ordinary(*sex, *age));
+    NAMED_BODIES.iter().map(profile)
+}
+
+fn list() -> String {
+    let mut out = format!(
+        "{:<12} {:>6} {:>9} {:>9} {:>7}\n",
+        "name", "sex", "age years", "stature m", "mass kg"
+    );
+    for (name, p) in named() {
+        out += &format!(
+            "{name:<12} {:>6} {:>9} {:>9.2} {:>7}\n",
+            sex_name(p.sex),
+            p.age,
+            p.height,
+            p.mass
+        );
+    }
+    out + "\nAny other body is named by its profile, SEX-AGEy-HEIGHTmm-MASSg, for example female-25y-1680mm-61500g.\n\
+           `sinew bodies --body NAME` shows segments, joint limits and strength.\n"
+}
+
+fn profile_json(name: &str, p: &Profile) -> serde_json::Value {
+    json!({
+        "name": name, "sex": sex_name(p.sex), "age_years": p.age, "height_m": p.height, "mass_kg": p.mass,
+    })
+}
+
+fn list_json() -> serde_json::Value {
+    let all: Vec<_> = named().map(|(name, p)| profile_json(name, &p)).collect();
+    json!({ "bodies": all })
 }
 
 /// Available torque of every DOF at rest in the zero pose, N·m.
@@ -61,13 +107,7 @@ fn at_rest(strength: &Strength) -> ([f64; DOF_COUNT], [f64; DOF_COUNT]) {
 
 fn as_text(body: &Body, strength: &Strength, sources: bool) -> String {
     let p = body.profile;
-    let mut out = format!(
-        "{}, {} years, {:.2} m, {:.1} kg\n\n",
-        person_name(&p),
-        p.age,
-        p.height,
-        p.mass
-    );
+    let mut out = format!("{}: {}\n\n", p.name(), describe(&p));
     out += "segment         mass kg\n";
     for (i, (name, s)) in SEGMENT_NAMES.iter().zip(&body.segments).enumerate() {
         out += &format!("{name:<15} {:>7.3}\n", s.mass);
@@ -80,7 +120,7 @@ fn as_text(body: &Body, strength: &Strength, sources: bool) -> String {
             }
         }
     }
-    out += "\nDOF                    limits deg         torque at rest, arms hanging, N·m\n";
+    out += "\nDOF                    limits deg         available torque at rest, arms down, N·m\n";
     let (lower, upper) = at_rest(strength);
     for d in 0..DOF_COUNT {
         out += &format!(
@@ -148,8 +188,8 @@ fn as_json(body: &Body, strength: &Strength) -> serde_json::Value {
             json!({ "name": name, "mass_kg": s.mass, "com_m": s.com.to_array(), "sources": sources })
         })
         .collect();
-    json!({
-        "sex": sex_name(p.sex), "age_years": p.age, "height_m": p.height, "mass_kg": p.mass,
-        "segments": segments, "dofs": dofs,
-    })
+    let mut out = profile_json(&p.name(), &p);
+    out["segments"] = segments.into();
+    out["dofs"] = dofs.into();
+    out
 }

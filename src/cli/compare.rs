@@ -9,7 +9,7 @@ use crate::sim::world::World;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Everyone who is compared, in the order of the columns, and whether protective steps are allowed when pushed.
+/// The pairs that are compared, in the order of the columns.
 fn pairs() -> [Pair; 4] {
     [
         Pair::paper_kinematic(),
@@ -22,12 +22,12 @@ fn pairs() -> [Pair; 4] {
 /// One cell of the big tables.
 fn cell(o: &Outcome) -> String {
     match o.fell_s {
-        Some(t) => format!("falls, {t:.1} s"),
+        Some(t) => format!("falls at {t:.1} s"),
         None => format!("{:.2}°, {:.0} mm", o.joints_deg(), o.com_mm()),
     }
 }
 
-/// Sums over what one pair did.
+/// Sums over the outcomes of one pair.
 #[derive(Clone, Default)]
 struct Sum {
     all: Outcome,
@@ -80,7 +80,7 @@ fn load_name(mass: f64, both: bool) -> String {
     }
 }
 
-/// One line per pair: how often it stood, how well, at what cost.
+/// One line per pair: how often it stayed up, with which errors, at which computing time.
 fn summary(page: &mut Page, pairs: &[Pair], sums: &[Sum], reference: &str) {
     let cost = pairs
         .iter()
@@ -105,18 +105,18 @@ fn summary(page: &mut Page, pairs: &[Pair], sums: &[Sum], reference: &str) {
         .collect();
     page.table(
         &[
-            "who",
-            "stands",
-            "joints, rms °",
-            "centre of mass, rms mm",
-            "torque change per tick / range, joints at their limit",
-            "time of a tick, relative",
+            "controller, stepper",
+            "without a fall",
+            "joint error, rms °",
+            "centre of mass error, rms mm",
+            "torque change per tick / range, joints at their torque limit",
+            "relative computing time",
         ],
         &rows,
     );
 }
 
-/// In how many scenes the modern pair stands where another falls, and the other way round.
+/// In how many scenes the modern pair stands where another falls, and vice versa.
 #[derive(Default)]
 struct Against {
     wins: [u32; 4],
@@ -154,8 +154,8 @@ pub fn section(page: &mut Page, body: &Arc<Body>, motions: &[Motion], pushed: &[
     let mut against = Against::default();
     page.say("### Motions and loads");
     page.say(
-        "Each motion once and a second afterwards, with a load that is in the right hand, or half in each, from the first tick; the motion does not know \
-         of it. Joints and centre of mass: rms over the run.",
+        "Each motion is played once, and one second more in its last posture. The load is in the right hand, or half in each hand, from the first \
+         tick; the motion is not adapted to it. Cells: joint error (rms) and centre of mass error (rms) over the run.",
     );
     let mut sums = vec![Sum::default(); pairs.len()];
     let mut rows = Vec::new();
@@ -177,7 +177,7 @@ pub fn section(page: &mut Page, body: &Arc<Body>, motions: &[Motion], pushed: &[
     page.table(&head(&["motion", "load"], &pairs), &rows);
     summary(page, &pairs, &sums, Pair::modern().name);
     page.say(
-        "Errors count until a fall, so that who falls early looks better in the means than it is; the torque changes of falls are in them, too.",
+        "Errors are counted up to a fall, so an early fall lowers the mean error. The torque changes include those of falls.",
     );
 
     pushes(page, body, motions, pushed, &pairs, &mut against);
@@ -197,7 +197,8 @@ fn pushes(
     }
     page.say("### Motions and pushes");
     page.say(
-        "A push of 0.1 s at the chest, one second into the motion, feet in place. The last column may step: it is the default as it comes.",
+        "A push of 0.1 s at the chest, one second into the motion. Protective steps are off, except in the last column, which is the default \
+         configuration.",
     );
     let fixed = pairs.clone().map(|mut p| {
         p.params.protective_steps = false;
@@ -239,7 +240,7 @@ fn pushes(
 }
 
 fn conclusion(page: &mut Page, pairs: &[Pair], against: &Against) {
-    page.say("### What it says");
+    page.say("### Summary");
     let wins: Vec<String> = pairs
         .iter()
         .zip(&against.wins)
@@ -252,17 +253,17 @@ fn conclusion(page: &mut Page, pairs: &[Pair], against: &Against) {
         .map(|(p, n)| format!("*{}* {n}", p.name))
         .collect();
     let losses = if against.losses.is_empty() {
-        "There is none the other way round.".to_owned()
+        "There is no scene in which *modern, torque* falls and another stands.".to_owned()
     } else {
         format!(
-            "The other way round, *modern, torque* falls where another stands: {}.",
+            "*Modern, torque* falls where another stands in: {}.",
             against.losses.join("; ")
         )
     };
     page.say(&format!(
-        "Scenes of {} in which *modern, torque* stands and the other falls: {}. {losses} Whose joints follow closest among those who stand: {}. \
-         *Motors alone* hold the posture and let balance be: enough where the motion is balanced and nothing disturbs it much, and then no torque goes \
-         into anything else; the centre of mass drifts. *Modern* gives up posture for balance when pushed. Decision: \
+        "Number of scenes, of {}, in which *modern, torque* stands and the other falls: {}. {losses} Smallest joint error among the pairs that \
+         stand, number of scenes: {}. *Motors alone* hold the posture without balance control: this is enough where the motion is balanced \
+         and the disturbance small, but the centre of mass drifts. *Modern* gives up posture for balance when pushed. Decision: \
          [ADR 0004](../adr/0004-modern-mode-by-default.md).",
         against.scenes,
         wins.join(", "),

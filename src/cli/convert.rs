@@ -1,8 +1,10 @@
-//! `sinew convert`: a recording as the motion that the figure is asked to follow.
+//! `sinew convert`: writes the prepared motion, the reference that the figure tracks.
 
 use super::args::{BodyArgs, RecordingArgs};
+use super::number::hertz;
 use super::output::{extension, write};
-use super::source::{Source, load};
+use super::source::{Source, load, warn};
+use super::terminal::print_line;
 use crate::evaluate::table::{header, row};
 use crate::sim::body::Body;
 use crate::sim::body::angles::anatomical_angles;
@@ -19,16 +21,16 @@ pub struct ConvertArgs {
     /// Motion: a BVH file or builtin:NAME.
     #[arg(value_name = "CLIP")]
     pub clip: String,
-    /// Where to: BVH of the figure's own skeleton, CSV, or JSON with the retargeting report.
+    /// Output file: BVH on the skeleton of the figure, CSV, or JSON with the retargeting report.
     #[arg(value_name = "FILE.bvh|.csv|.json")]
     pub to: PathBuf,
-    /// Who the motion is fitted to.
+    /// Body that the motion is fitted to.
     #[command(flatten)]
     pub body: BodyArgs,
     /// How the file is read.
     #[command(flatten)]
     pub recording: RecordingArgs,
-    /// Leaves sliding feet as they were recorded.
+    /// Leaves foot skate as recorded.
     #[arg(long)]
     pub no_foot_lock: bool,
 }
@@ -51,14 +53,14 @@ pub fn run(args: &ConvertArgs) -> Result<()> {
         _ => as_json(&source)?,
     };
     write(&args.to, text)?;
-    println!(
-        "{}: {} samples at {} Hz to {}",
+    warn(&source);
+    print_line(&format!(
+        "{}: {} samples at {}, written to {}",
         source.name,
         source.clip.len(),
-        source.clip.rate_hz(),
+        hertz(source.clip.rate_hz()),
         args.to.display()
-    );
-    Ok(())
+    ))
 }
 
 fn as_bvh(source: &Source, body: &Body) -> String {

@@ -1,7 +1,9 @@
-//! `sinew lint`: what retargeting finds in a recording, guesses and changes.
+//! `sinew lint`: what retargeting finds in a recording, estimates and changes.
 
 use super::args::{BodyArgs, RecordingArgs};
+use super::number::{hertz, metres, rounded};
 use super::source::{Source, load};
+use super::terminal::{print, print_line};
 use crate::sim::body::Body;
 use crate::sim::motion::consistency::{Consistency, Spread, consistency};
 use crate::sim::motion::retarget::{RetargetOptions, RetargetReport, UpAxis};
@@ -9,19 +11,19 @@ use anyhow::{Context, Result};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// Reads recordings and says how they fit the body.
+/// Reads recordings and reports how they fit the body.
 #[derive(Clone, Debug, clap::Args)]
 pub struct LintArgs {
     /// Motions: BVH files or builtin:NAME.
     #[arg(required = true, value_name = "CLIP")]
     pub clips: Vec<String>,
-    /// Who the motion is fitted to.
+    /// Body that the motion is fitted to.
     #[command(flatten)]
     pub body: BodyArgs,
     /// How the file is read.
     #[command(flatten)]
     pub recording: RecordingArgs,
-    /// Prints JSON.
+    /// Prints JSON on standard output, and nothing else there.
     #[arg(long)]
     pub json: bool,
 }
@@ -51,21 +53,22 @@ pub fn run(args: &LintArgs) -> Result<()> {
                 "retarget": source.retarget.as_ref().map_or(Value::Null, to_json),
             }));
         } else {
-            println!(
-                "{}: {:.2} s, {} samples at {} Hz",
+            let mut text = format!(
+                "{}: {:.2} s, {} samples at {}\n",
                 source.name,
                 clip.duration(),
                 clip.len(),
-                clip.rate_hz()
+                hertz(clip.rate_hz())
             );
-            match &source.retarget {
-                Some(report) => print!("{}", describe(report)),
-                None => println!("  built in: made for the body, nothing to fit"),
-            }
+            text += &match &source.retarget {
+                Some(report) => describe(report),
+                None => "  built in: generated for the body, nothing to retarget\n".into(),
+            };
             if let Some(before) = &before {
-                print!("{}", describe_consistency("as recorded", before));
+                text += &describe_consistency("as recorded", before);
             }
-            print!("{}", describe_consistency("as prepared", &after));
+            text += &describe_consistency("as prepared", &after);
+            print(&text)?;
         }
     }
     if args.json {
@@ -73,7 +76,7 @@ pub fn run(args: &LintArgs) -> Result<()> {
             [one] => serde_json::to_string_pretty(one),
             several => serde_json::to_string_pretty(several),
         };
-        println!("{}", text.context("the report cannot be written as JSON")?);
+        print_line(&text.context("the report cannot be written as JSON")?)?;
     }
     Ok(())
 }
@@ -128,30 +131,47 @@ fn consistency_json(c: &Consistency) -> Value {
     })
 }
 
-/// Measures of consistency in words.
+/// Measures of consistency in words, four lines.
 fn describe_consistency(name: &str, c: &Consistency) -> String {
-    let carried = if c.carried > 0.0 {
-        format!(", {:.0} % not on feet and not judged", 100.0 * c.carried)
+    let other_support = if c.carried > 0.0 {
+        format!(
+            ", {:.0} % supported by other body parts than the feet (not judged)",
+            100.0 * c.carried
+        )
     } else {
         String::new()
     };
-    format!(
-        "  {name:<14} zero-moment point outside {:.0} % of the time, {:.0} mm rms, {:.0} mm at most; the ground lacks {:.3} of the weight rms ({:.2} at most) and {:.3} weight x m ({:.2})\n  {:<14} {:.0} % in flight{carried}; {} stances that slip {:.1} mm on the average, {:.1} mm at most; soles {:.1} mm under the floor, {:.1} mm over it\n",
-        100.0 * c.outside,
-        1e3 * c.distance.rms,
-        1e3 * c.distance.max,
-        c.force.rms,
-        c.force.max,
-        c.moment.rms,
-        c.moment.max,
-        "",
-        100.0 * c.flight,
-        c.stances,
-        1e3 * c.slip.0,
-        1e3 * c.slip.1,
-        1e3 * c.floor.0,
-        1e3 * c.floor.1,
-    )
+    let lines = [
+        format!(
+            "zero-moment point outside the support polygon {:.0} % of the time, distance {:.0} mm rms, {:.0} mm max",
+            100.0 * c.outside,
+            1e3 * c.distance.rms,
+            1e3 * c.distance.max
+        ),
+        format!(
+            "residual wrench that the ground cannot provide: force {:.3} body weights rms, {:.2} max; moment {:.3} body weights × m \
+             rms, {:.2} max",
+            c.force.rms, c.force.max, c.moment.rms, c.moment.max
+        ),
+        format!(
+            "flight {:.0} %{other_support}; {} stances, foot skate {:.1} mm mean, {:.1} mm max",
+            100.0 * c.flight,
+            c.stances,
+            1e3 * c.slip.0,
+            1e3 * c.slip.1
+        ),
+        format!(
+            "soles up to {:.1} mm below the floor and {:.1} mm above it",
+            1e3 * c.floor.0,
+            1e3 * c.floor.1
+        ),
+    ];
+    let mut out = String::new();
+    for (i, line) in lines.iter().enumerate() {
+        // Writing to a string cannot fail.
+        let _ = writeln!(out, "  {:<14} {line}", if i == 0 { name } else { "" });
+    }
+    out
 }
 
 /// The report as JSON; lengths in mm where they are errors, in m otherwise; angles in degrees.
@@ -228,26 +248,26 @@ fn reading(r: &RetargetReport) -> Vec<Line> {
         "by name"
     };
     let swapped = if r.sides_swapped {
-        ", left and right exchanged"
+        ", left and right swapped"
     } else {
         ""
     };
     let mut lines = vec![(
         "skeleton",
         format!(
-            "{bones} bones on {} segments, mapped {how}{swapped}",
+            "{bones} bones mapped {how} to {} segments{swapped}",
             r.mapped.len()
         ),
     )];
     if !r.missing.is_empty() {
         lines.push(("missing", r.missing.join(", ")));
     }
-    let given = if r.unit_given { "given" } else { "guessed" };
+    let given = if r.unit_given { "given" } else { "estimated" };
     lines.push((
         "size",
         format!(
-            "1 unit = {} m ({given}), {} up, stature {:.2} m, scaled by {:.3}",
-            r.unit_m,
+            "1 file unit = {} ({given}), {} axis up, stature {:.2} m, scaled by {:.3}",
+            metres(r.unit_m),
             up_name(r.up),
             r.stature,
             r.scale
@@ -256,16 +276,18 @@ fn reading(r: &RetargetReport) -> Vec<Line> {
     lines.push((
         "rate",
         format!(
-            "{:.2} Hz to {:.2} Hz, {} frames skipped",
-            r.source_rate_hz, r.rate_hz, r.skipped_frames
+            "recorded at {}, resampled to {}, {} frames skipped",
+            hertz(r.source_rate_hz),
+            hertz(r.rate_hz),
+            r.skipped_frames
         ),
     ));
     lines.push((
         "floor",
         format!(
-            "{:.1} mm high, slope {:.4}",
+            "height {:.1} mm, slope {}",
             1e3 * r.floor_offset,
-            r.floor_slope
+            rounded(r.floor_slope, 2)
         ),
     ));
     let phases: Vec<String> = r
@@ -273,7 +295,7 @@ fn reading(r: &RetargetReport) -> Vec<Line> {
         .iter()
         .map(|p| format!("{} {:.2}-{:.2}", p.letter(), p.start, p.end))
         .collect();
-    lines.push(("feet", phases.join("; ")));
+    lines.push(("support, s", phases.join("; ")));
     lines
 }
 
@@ -287,14 +309,14 @@ fn preparation(r: &RetargetReport) -> Vec<Line> {
         )
     };
     let (z0, z1) = &r.zmp_outside;
-    let pair = |v: [f64; 2]| format!("{:.1} and {:.1} deg", v[0].to_degrees(), v[1].to_degrees());
+    let pair = |v: [f64; 2]| format!("{:.1}° and {:.1}°", v[0].to_degrees(), v[1].to_degrees());
     vec![
-        ("foot slide", before_after(r.foot_slide)),
-        ("under floor", before_after(r.penetration)),
+        ("foot skate", before_after(r.foot_slide)),
+        ("penetration", before_after(r.penetration)),
         (
             "balance",
             format!(
-                "zero-moment point outside in {:.0} % of the clip (95 %: {:.0} mm) as recorded, {:.0} % (95 %: {:.0} mm) prepared",
+                "zero-moment point outside the support polygon: {:.0} % of the clip recorded (95th percentile {:.0} mm), {:.0} % prepared ({:.0} mm)",
                 100.0 * z0.fraction,
                 1e3 * z0.p95,
                 100.0 * z1.fraction,
@@ -304,7 +326,7 @@ fn preparation(r: &RetargetReport) -> Vec<Line> {
         (
             "changed",
             format!(
-                "smoothing {:.1} mm rms, pelvis shifted by at most {:.0} mm and lowered by at most {:.0} mm",
+                "smoothing {:.1} mm rms, pelvis shifted by up to {:.0} mm and lowered by up to {:.0} mm",
                 1e3 * r.smoothing_rms,
                 1e3 * r.shift_max,
                 1e3 * r.pelvis_drop_max
@@ -328,7 +350,7 @@ fn oddities(r: &RetargetReport) -> Vec<Line> {
         lines.push((
             "clamped",
             format!(
-                "{} by at most {:.1} deg in {:.1} % of the clip",
+                "{} by up to {:.1}° over {:.1} % of the clip",
                 c.dof,
                 c.max.to_degrees(),
                 100.0 * c.fraction
@@ -338,14 +360,17 @@ fn oddities(r: &RetargetReport) -> Vec<Line> {
     for b in &r.bridged {
         lines.push((
             "bridged",
-            format!("{}: {} frames from frame {}", b.bone, b.count, b.first),
+            format!(
+                "{}: {} frames interpolated from frame {}",
+                b.bone, b.count, b.first
+            ),
         ));
     }
     if r.carried > 0.0 {
         lines.push((
-            "carried",
+            "other support",
             format!(
-                "{:.0} % of the clip rests on something else than the feet",
+                "{:.0} % of the clip is supported by other body parts than the feet",
                 100.0 * r.carried
             ),
         ));

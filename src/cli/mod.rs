@@ -1,10 +1,15 @@
 //! The commands of the `sinew` binary, one module each.
 
+#![warn(clippy::print_stdout, clippy::print_stderr)] // `terminal` writes: it survives a closed pipe
+
 pub mod args;
 pub mod bodies;
 pub mod compare;
+pub mod completions;
 pub mod convert;
+pub mod exit;
 pub mod lint;
+pub mod number;
 pub mod output;
 pub mod page;
 pub mod paper;
@@ -12,6 +17,7 @@ pub mod push;
 pub mod run;
 pub mod serve;
 pub mod source;
+pub mod terminal;
 pub mod walking;
 pub mod watch;
 
@@ -24,7 +30,7 @@ pub fn world_resource(name: &str) -> String {
     }
 }
 
-/// A status of the server as a sentence: its message, and the field where it names one.
+/// A status of the server as an error: its message and its code.
 pub fn explain(status: &tonic::Status) -> anyhow::Error {
     anyhow::anyhow!("{} ({:?})", status.message(), status.code())
 }

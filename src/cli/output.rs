@@ -1,6 +1,7 @@
 //! Files that commands write: formats by extension, names for several clips, errors that name the file.
 
-use anyhow::{Context, Result, bail};
+use super::exit::Usage;
+use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
 
 /// Lower-case extension of `path`.
@@ -20,10 +21,11 @@ pub fn extension(flag: &str, path: &Path, accepted: &[&'static str]) -> Result<&
                 .map(|a| format!(".{a}"))
                 .collect::<Vec<_>>()
                 .join(", ");
-            bail!(
+            let text = format!(
                 "{flag} {}: the name must end in one of {list}",
                 path.display()
-            )
+            );
+            Err(Usage(text).into())
         }
     }
 }

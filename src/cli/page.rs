@@ -1,6 +1,7 @@
 //! A page of results in Markdown, with its tables, plots and strips.
 
 use super::output::write;
+use super::terminal::print_line;
 use crate::evaluate::experiments::Record;
 use crate::evaluate::plot::Plot;
 use crate::evaluate::strip::{StripOptions, View, draw, raster};
@@ -36,14 +37,14 @@ impl Page {
     /// A folder that cannot be made.
     pub fn new(folder: &Path) -> Result<Self> {
         std::fs::create_dir_all(folder)
-            .with_context(|| format!("cannot make {}", folder.display()))?;
+            .with_context(|| format!("cannot create {}", folder.display()))?;
         Ok(Self {
             folder: folder.to_owned(),
             text: String::new(),
         })
     }
 
-    /// Writes the page as `README.md` and says where, with how many files of what size are there.
+    /// Writes the page as `README.md`; prints its path, and number and size of the files in the folder.
     ///
     /// # Errors
     /// A file that cannot be written, a folder that cannot be read.
@@ -51,15 +52,15 @@ impl Page {
         self.finish_as("README.md")
     }
 
-    /// Writes the page under `name` and says where, with how many files of what size are there.
+    /// Writes the page under `name`; prints its path, and number and size of the files in the folder.
     ///
     /// # Errors
     /// A file that cannot be written, a folder that cannot be read.
     pub fn finish_as(self, name: &str) -> Result<()> {
         let path = self.folder.join(name);
         write(&path, self.text.trim_end().to_owned() + "\n")?;
-        println!("{} ({})", path.display(), size(&self.folder)?);
-        Ok(())
+        let size = size(&self.folder)?;
+        print_line(&format!("wrote {} ({size} in the folder)", path.display()))
     }
 
     /// One line.

@@ -1,6 +1,6 @@
-//! `sinew paper`: runs every experiment of the paper again and writes a page with tables, plots and motion strips.
+//! `sinew paper`: repeats every experiment of the paper and writes a page with tables, plots and motion strips.
 
-use super::args::person_name;
+use super::args::short_name;
 use super::compare;
 use super::page::{Page, progress};
 use super::source::load;
@@ -27,7 +27,7 @@ use std::time::Instant;
 
 /// Panels of a strip.
 const PANELS: usize = 7;
-/// Loads of the lift, kg: the paper's text says 1, 3 and 4, the caption of its figure 1, 3 and 5.
+/// Loads of the lift, kg: 1, 3 and 4 in the text of the paper, 1, 3 and 5 in the caption of its figure.
 const LOADS: [f64; 4] = [1.0, 3.0, 4.0, 5.0];
 /// Experiments, for the progress bar.
 const STEPS: u64 = 10;
@@ -35,14 +35,14 @@ const STEPS: u64 = 10;
 const COMPARED: [&str; 5] = ["idle", "wave", "lift", "crate", "squat"];
 const PUSHED: [&str; 2] = ["idle", "wave"];
 
-/// Runs the paper's experiments again and writes a page about them.
+/// Repeats the experiments of the paper and writes a page with the results.
 #[derive(Clone, Debug, clap::Args)]
 pub struct PaperArgs {
     /// Folder for the page (README.md), its plots and strips; files of the same names are replaced.
     #[arg(long, value_name = "FOLDER", default_value = "docs/paper")]
     pub out: PathBuf,
-    /// Standing recordings (BVH) on which to compare the controllers: writes that page (recorded.md) and nothing else. A recording called
-    /// sit-stand gets the stool that it sits on.
+    /// Standing recordings (BVH) on which the controllers are compared: writes only that page (recorded.md). A recording called sit-stand
+    /// is given a stool to sit on.
     #[arg(long, value_name = "FILES", num_args = 1..)]
     pub recordings: Vec<String>,
 }
@@ -67,7 +67,7 @@ pub fn run(args: &PaperArgs) -> Result<()> {
         ("hand support", hands),
         ("collision", bumps),
         ("step size", step_size),
-        ("as printed", as_printed),
+        ("equations as published", as_printed),
         ("comparison", comparison),
         ("time", time),
     ];
@@ -80,7 +80,7 @@ pub fn run(args: &PaperArgs) -> Result<()> {
     page.finish()
 }
 
-/// The comparison on recordings: a page of its own, because not everybody has them.
+/// The comparison on recordings: a separate page, because the recordings are not part of the repository.
 fn recorded(args: &PaperArgs, mut page: Page) -> Result<()> {
     let body = Arc::new(Body::adult_man());
     let mut motions = Vec::new();
@@ -96,8 +96,10 @@ fn recorded(args: &PaperArgs, mut page: Page) -> Result<()> {
         .collect();
     page.say("# Controllers compared on recordings");
     page.say(&format!(
-        "The comparison of [the page](README.md#the-controllers-compared) on recorded motion, by `sinew paper --recordings` with {}, fitted to the \
-         same man, nothing adjusted. `sit-stand` has a stool of 0.34 × 0.34 × 0.35 m where it sits and ends when it begins to walk away. Recordings end in mid-motion: the abrupt stop and the second after it, in the last posture, are in the errors.",
+        "The comparison of [the main page](README.md#the-controllers-compared) on recorded motion, written by `sinew paper --recordings` with {}. \
+         The recordings are fitted to the same body without adjustments per clip. `sit-stand` is given a stool of 0.34 × 0.34 × 0.35 m and \
+         ends when the person starts to walk away. Recordings end in mid-motion: the errors include the abrupt stop and one second in the \
+         last posture.",
         names.join(", ")
     ));
     compare::section(&mut page, &body, &motions, &pushed);
@@ -107,8 +109,9 @@ fn recorded(args: &PaperArgs, mut page: Page) -> Result<()> {
 fn comparison(page: &mut Page, body: &Arc<Body>) -> Result<()> {
     page.say("## The controllers compared");
     page.say(
-        "All pairs of controller and stepper that apply, on the built-in motions that keep both feet in place; the same on recorded motion: \
-         [recorded.md](recorded.md). *Modern, kinematic* is left out: prescribed accelerations make nothing of its contact forces.",
+        "Every applicable pair of controller and stepper on the built-in motions that keep both feet in place. The same comparison on recorded \
+         motion is in [recorded.md](recorded.md). *Modern, kinematic* is not included: the kinematic stepper ignores the contact forces that \
+         the modern controller computes.",
     );
     let motions: Vec<Motion> = COMPARED
         .iter()
@@ -122,27 +125,27 @@ fn comparison(page: &mut Page, body: &Arc<Body>) -> Result<()> {
 }
 
 fn introduction(page: &mut Page) {
-    page.say("# The paper, run again");
+    page.say("# The experiments of the paper, repeated");
     page.say(concat!(
-        "*Motion Tracking with Dynamic Simulation* (Oshita & Makinouchi, 2000) with every experiment run by this build. ",
-        "`sinew paper` wrote this page; nothing on it is edited by hand. What each equation became: ",
-        "[equations.md](../equations.md). The body is a man of 30 years, 1.75 m, 75 kg, unless said otherwise."
+        "The experiments of *Motion Tracking with Dynamic Simulation* (Oshita & Makinouchi, 2000), repeated with this build. ",
+        "`sinew paper` wrote this page; nothing on it is edited by hand. [equations.md](../equations.md) lists where each equation is ",
+        "implemented. The body is `adult-man` (30 years, 1.75 m, 75 kg) unless stated otherwise."
     ));
     page.say(concat!(
-        "- **paper, kinematic**: the paper's controller and its own way of moving the body: accelerations are applied, the support holds, ",
-        "tips about the minimum-moment point, or flies. When joints saturate on a tilting support, torques take over.\n",
-        "- **paper, torque**: the same controller driving full rigid-body dynamics with contact.\n",
-        "- **modern, torque**: one convex problem per tick; the default of Sinew.\n",
-        "- **motors alone**: strength-limited motors that hold the posture and nothing else.\n",
-        "- **paper2000**: the equations as printed, 30 ticks a second, no safeguard of ours."
+        "- **paper, kinematic**: the paper's controller with the paper's stepper: accelerations are integrated directly, and the support ",
+        "foot stays, tips about the minimum-moment point, or is in flight. When joints saturate on a tipping support, torques take over.\n",
+        "- **paper, torque**: the same controller with full rigid-body dynamics and contact.\n",
+        "- **modern, torque**: one convex optimisation per tick; the default of Sinew.\n",
+        "- **motors alone**: strength-limited joint motors that hold the posture, without balance control.\n",
+        "- **paper2000**: the equations as published, 30 ticks per second, without the safeguards of Sinew."
     ));
     page.say(concat!(
-        "In the strips a ring marks a joint at the limit of its strength (red) or near it (amber), the pale figure is the desired ",
-        "motion, arrows are contact forces, the dot on the floor the zero-moment point."
+        "In the motion strips a ring marks a joint at its torque limit (red) or near it (amber). The pale figure is the target motion, ",
+        "arrows are contact forces, and the cross on the floor is the zero-moment point."
     ));
 }
 
-/// Number with unit-free rounding, or a dash.
+/// A number with this many decimals, or a dash.
 fn or_dash(v: Option<f64>, digits: usize) -> String {
     v.map_or_else(|| "–".into(), |v| format!("{v:.digits$}"))
 }
@@ -200,11 +203,11 @@ fn balance_plot(title: &str, samples: &[Sample]) -> Plot {
 /// Heads of the columns of [`lift_row`].
 const LIFT_COLUMNS: [&str; 9] = [
     "load",
-    "who moves it",
+    "controller, stepper",
     "result",
     "joint error, rms °",
-    "arm at its limit, s",
-    "hip, knee, ankle, back off, °",
+    "arm at torque limit, s",
+    "error of hip, knee, ankle, back, °",
     "ZMP margin, cm",
     "torque change per tick / range",
     "fastest joint, rad/s",
@@ -227,12 +230,12 @@ fn lift_row(pair: &Pair, l: &Lift) -> Vec<String> {
 fn lifts(page: &mut Page, body: &Arc<Body>) -> Result<()> {
     let clip = builtin(body, "lift").expect("there is a lift");
     let arm = weak_arm(body, &clip, 3.0);
-    page.say("## Lifting with an arm that is too weak");
+    page.say("## Lifting with a weak arm");
     page.say(&format!(
-        "Semi-squat, the right hand grasps an object and raises it to shoulder height. The right arm has {:.0} % of measured strength: \
-         98 % of what holding 3 kg takes in the worst posture of the motion. The paper's text lifts 1, 3 and 4 kg, the caption of its \
-         figure 1, 3 and 5 kg; here are all four. Its account: 1 kg is lifted as desired; at 3 kg the shoulder is at its limit and back and legs \
-         help; the heaviest bends the back and the figure falls.",
+        "From a semi-squat, the right hand grasps an object and raises it to shoulder height. The right arm has {:.0} % of measured strength: \
+         98 % of the strength needed to hold 3 kg in the most demanding posture of the motion. The text of the paper lifts 1, 3 and 4 kg, the \
+         caption of its figure 1, 3 and 5 kg; all four are shown. Result in the paper: 1 kg is lifted as desired; at 3 kg the shoulder \
+         reaches its torque limit, and back and legs assist; the heaviest load bends the back, and the figure falls.",
         100.0 * arm
     ));
     let pairs = [
@@ -312,10 +315,10 @@ fn crowd() -> Vec<Arc<Body>> {
 }
 
 fn people(page: &mut Page, _: &Arc<Body>) -> Result<()> {
-    page.say("## The same loads, measured strength");
+    page.say("## The same loads with measured strength");
     page.say(
-        "What people can hold still in one hand, from measured strength alone (no simulation), and what they make of the lift with the default \
-         controller: largest share of the strength of the right shoulder, and the result.",
+        "Largest load that can be held still in one hand, computed from measured strength without simulation, and the lift with the default \
+         controller: largest fraction of the available right shoulder torque, and the result.",
     );
     let masses = [1.0, 3.0, 5.0, 8.0];
     let mut rows = Vec::new();
@@ -326,7 +329,7 @@ fn people(page: &mut Page, _: &Arc<Body>) -> Result<()> {
         let mut row = vec![
             format!(
                 "{}, {} y, {:.2} m, {:.0} kg",
-                person_name(p),
+                short_name(p),
                 p.age,
                 p.height,
                 p.mass
@@ -344,10 +347,10 @@ fn people(page: &mut Page, _: &Arc<Body>) -> Result<()> {
     }
     page.table(
         &[
-            "who",
-            "straight arm level, empty: shoulder",
-            "straight arm holds",
-            "elbow at 90° holds",
+            "body",
+            "shoulder torque used, straight arm level, no load",
+            "largest load, straight arm level",
+            "largest load, elbow at 90°",
             "lifts 1 kg",
             "3 kg",
             "5 kg",
@@ -376,8 +379,8 @@ fn fall_row(direction: &str, pair: &Pair, strength: f64, f: &Fall) -> Vec<String
 fn falls(page: &mut Page, body: &Arc<Body>) -> Result<()> {
     page.say("## Falling in four directions");
     page.say(&format!(
-        "The figure stands at ease, is turned stiffly until its centre of mass is 3° beyond an edge of its feet, and let go. A stiff figure is a \
-         physical pendulum about that edge. Times are until the centre of mass is {LOW} m high."
+        "The figure stands, is tilted as a rigid body until its centre of mass is 3° beyond an edge of the support polygon, and is released. A \
+         stiff figure is a physical pendulum about that edge. Times are from release until the centre of mass is at a height of {LOW} m."
     ));
     let cases = [
         (Pair::paper_kinematic(), 20.0),
@@ -428,20 +431,20 @@ fn falls(page: &mut Page, body: &Arc<Body>) -> Result<()> {
     page.table(
         &[
             "direction",
-            "who moves it",
+            "controller, stepper",
             "strength",
             "pendulum, s",
             "figure, s",
-            "off, %",
-            "energy, %",
-            "off course, °",
-            "joints off, °",
+            "difference, %",
+            "energy change, %",
+            "deviation from the direction, °",
+            "joint error, °",
         ],
         &rows,
     );
     page.say(
-        "One tick is 0.017 s. At human strength toes and ankles cannot hold a body that leans over its toes or heels, so the figure bends and is no \
-         pendulum; energy may then grow by the work of its muscles.",
+        "One tick is 0.017 s. At human strength, toes and ankles cannot hold a body that leans over its toes or heels: the figure bends and is \
+         no longer a pendulum, and its muscles may add energy.",
     );
     toes(page, body);
     Ok(())
@@ -453,11 +456,11 @@ fn toes(page: &mut Page, body: &Arc<Body>) {
     let start = leaning(body, at_ease(body), forward);
     let tips = pendulum(body, &start).last().map_or(0.0, |p| p[0]);
     let balls = pendulum_about_the_balls(body, &start);
-    page.say(&format!("### Why {name} is early"));
+    page.say(&format!("### Why the {name} fall is early"));
     page.say(&format!(
-        "The edge in front is that of the tips of the toes. To fall about it, the toes must carry the whole body; where they give, the body tips about \
-         the balls of the feet, which lie behind, and starts farther beyond its balance. Rigid, that takes {balls:.3} s instead of {tips:.3} s. \
-         The same fall with stronger toes, everything else at human strength:"
+        "The front edge of the support polygon is at the tips of the toes. A fall about this edge requires that the toes carry the whole body. \
+         If they yield, the body tips about the balls of the feet, which are further back, and so starts further beyond balance. For a rigid \
+         body this takes {balls:.3} s instead of {tips:.3} s. The same fall with stronger toes, everything else at human strength:"
     ));
     let mut rows = Vec::new();
     for factor in [0.5, 1.0, 2.0, 4.0, 8.0] {
@@ -475,11 +478,11 @@ fn toes(page: &mut Page, body: &Arc<Body>) {
         &[
             "strength of the toes",
             "paper, torque: s",
-            "off, %",
-            "joints off, °",
+            "difference, %",
+            "joint error, °",
             "motors alone: s",
-            "off, %",
-            "joints off, °",
+            "difference, %",
+            "joint error, °",
         ],
         &rows,
     );
@@ -488,8 +491,8 @@ fn toes(page: &mut Page, body: &Arc<Body>) {
 fn pushes(page: &mut Page, body: &Arc<Body>) -> Result<()> {
     page.say("## Pushes");
     page.say(
-        "A push of 0.1 s at the chest of a standing figure whose feet stay in place. The bound is what the linear inverted pendulum can stop, \
-         m ω d. Recovered is the largest push, in steps of 5 % of the bound, below which none fells the figure.",
+        "A push of 0.1 s at the chest of a standing figure that takes no steps. The bound m ω d is the largest impulse that a linear inverted \
+         pendulum can absorb. The table gives the largest impulse, in steps of 5 % of the bound, up to which the figure does not fall.",
     );
     let pairs = [
         Pair::paper_kinematic(),
@@ -541,7 +544,7 @@ fn pushes(page: &mut Page, body: &Arc<Body>) -> Result<()> {
 
 fn step_size(page: &mut Page, body: &Arc<Body>) -> Result<()> {
     page.say("## Step size");
-    page.say("The same at 30, 60 and 120 ticks a second.");
+    page.say("The lift and a fall at 30, 60 and 120 ticks per second.");
     let clip = builtin(body, "lift").expect("there is a lift");
     let arm = weak_arm(body, &clip, 3.0);
     let mut rows = Vec::new();
@@ -567,33 +570,39 @@ fn step_size(page: &mut Page, body: &Arc<Body>) -> Result<()> {
                 1.0
             };
             let f = fall(body, &pair, DIRECTIONS[2].1, strength, 0);
-            row.push(format!("{} of {:.3}", or_dash(f.time_s, 3), f.pendulum_s));
+            row.push(format!(
+                "{} (pendulum {:.3})",
+                or_dash(f.time_s, 3),
+                f.pendulum_s
+            ));
             rows.push(row);
         }
     }
     page.table(
         &[
-            "who moves it",
+            "controller, stepper",
             "ticks/s",
-            "1 kg: rms error",
-            "3 kg: rms error",
-            "falling left, s (kinematic: ×20 strength)",
+            "1 kg: joint error rms",
+            "3 kg: joint error rms",
+            "fall to the left, s (kinematic: ×20 strength)",
         ],
         &rows,
     );
-    page.say("A modern figure holds its soles flat as long as it can, so it is not meant to fall like a pendulum.");
+    page.say(
+        "The modern controller keeps the soles flat as long as it can, so the figure is not expected to fall like a pendulum.",
+    );
     Ok(())
 }
 
 fn hands(page: &mut Page, body: &Arc<Body>) -> Result<()> {
-    page.say("## A hand on a table, on a wall");
+    page.say("## Hand support on a table and a wall");
     page.say(&format!(
-        "The figure leans 9° forward from the ankles, further than its feet can hold, with its right hand on a table, on a desk that slopes by 20°, or \
-         against a wall (friction {FRICTION}); it takes no step. Forces are means over the last of four seconds; the share of the friction cone is the \
-         largest of any tick. *Weak*: 3 % of the strength in that arm."
+        "The figure leans 9° forward from the ankles, further than its feet alone can balance, with the right hand on a table, on a desk with a \
+         slope of 20°, or against a wall (coefficient of friction {FRICTION}). It takes no steps. Forces are means over the last of four \
+         seconds; friction used is the largest of any tick, relative to the friction cone. *Weak*: 3 % of the strength in that arm."
     ));
     let props = [
-        (Prop::None, "nothing"),
+        (Prop::None, "none"),
         (Prop::Table, "table"),
         (Prop::Desk, "desk"),
         (Prop::Wall, "wall"),
@@ -642,11 +651,11 @@ fn hands(page: &mut Page, body: &Arc<Body>) -> Result<()> {
     }
     page.table(
         &[
-            "on",
-            "who",
+            "surface",
+            "controller, stepper",
             "result",
-            "hand, N into the face",
-            "floor + the rest, N upward",
+            "normal force of the hand, N",
+            "floor + other vertical force, N",
             "friction used",
         ],
         &rows,
@@ -655,10 +664,10 @@ fn hands(page: &mut Page, body: &Arc<Body>) -> Result<()> {
 }
 
 fn bumps(page: &mut Page, body: &Arc<Body>) -> Result<()> {
-    page.say("## Two figures run into each other");
+    page.say("## Collision of two figures");
     page.say(
-        "Face to face, 0.75 m apart; the left one is pushed in the back for 0.2 s. The forces on both are equal and opposite to rounding; they part \
-         when the torques no longer press. The largest force is that before either has fallen.",
+        "Two figures face each other at a distance of 0.75 m; the left one is pushed in the back for 0.2 s. The contact forces on both are equal \
+         and opposite up to rounding. The largest force is taken before either figure has fallen.",
     );
     let mut rows = Vec::new();
     let mut strips = Vec::new();
@@ -673,7 +682,7 @@ fn bumps(page: &mut Page, body: &Arc<Body>) -> Result<()> {
             format!("{impulse:.0}"),
             b.record.result(),
             b.other_fell_s
-                .map_or_else(|| "stands".into(), |t| format!("falls, {t:.1} s")),
+                .map_or_else(|| "stands".into(), |t| format!("falls at {t:.1} s")),
             format!("{:.0} at {:.2} s", b.most.0, b.most.1),
             format!("{:.1e}", b.unequal),
             format!("{:.1}", 1e3 * b.overlap),
@@ -686,13 +695,13 @@ fn bumps(page: &mut Page, body: &Arc<Body>) -> Result<()> {
     }
     page.table(
         &[
-            "who",
+            "controller, stepper",
             "push, N·s",
-            "the one that is pushed",
-            "the other",
+            "pushed figure",
+            "other figure",
             "largest force, N",
-            "difference of the two, relative",
-            "overlap, mm",
+            "relative difference of the two forces",
+            "penetration, mm",
         ],
         &rows,
     );
@@ -700,18 +709,18 @@ fn bumps(page: &mut Page, body: &Arc<Body>) -> Result<()> {
 }
 
 fn as_printed(page: &mut Page, body: &Arc<Body>) -> Result<()> {
-    page.say("## The equations as printed");
+    page.say("## The equations as published");
     page.say(
-        "Preset `paper2000`: dead-beat demand (4), W = I, (12) and ratios (2) as printed, no tilt in the torques, no armature, no safeguard. Exact \
-         while strength suffices; once a joint saturates, the least change of acceleration does not relieve a static load, demand grows step by \
-         step, and everything saturates.",
+        "Preset `paper2000`: dead-beat demand of equation (4), W = I, equations (12) and (2) as published, no support tilt in the torques, no \
+         armature, no safeguards. Tracking is exact while strength suffices. Once a joint saturates, the smallest change of acceleration does \
+         not relieve a static load: the demand grows from step to step until all joints saturate.",
     );
     let clip = builtin(body, "lift").expect("there is a lift");
     let arm = weak_arm(body, &clip, 3.0);
     let pair = Pair::paper2000();
     let mut rows = Vec::new();
     let mut plot = Plot {
-        title: "joint error while lifting, as printed".into(),
+        title: "joint error while lifting, equations as published".into(),
         x: "time, s".into(),
         y: "rms over DOFs, °".into(),
         range: Some([0.0, 60.0]),
@@ -725,7 +734,7 @@ fn as_printed(page: &mut Page, body: &Arc<Body>) -> Result<()> {
             column(&l.record.samples, |s| s.error.to_degrees()),
         );
         if mass == 1.0 || mass == 3.0 {
-            let title = format!("{mass} kg, as printed");
+            let title = format!("{mass} kg, equations as published");
             page.strip(
                 &format!("printed-{mass}kg"),
                 body,
@@ -740,10 +749,11 @@ fn as_printed(page: &mut Page, body: &Arc<Body>) -> Result<()> {
 }
 
 fn time(page: &mut Page, body: &Arc<Body>) -> Result<()> {
-    page.say("## Time per step, then and now");
+    page.say("## Computing time per step");
     page.say(
-        "Then, as the paper reports: 10 frames a second for one figure on two Pentium III of 600 MHz, steps of 1/30 s. Now: one whole tick of the \
-         3 kg lift on one core of the machine that wrote this page; motion sampling, dynamics, control, simulation and report.",
+        "The paper reports 10 frames per second for one figure on two Pentium III processors at 600 MHz, with steps of 1/30 s. This build: one \
+         complete tick of the 3 kg lift on one core of the machine that wrote this page, including motion sampling, dynamics, control, \
+         simulation and report.",
     );
     let clip = builtin(body, "lift").expect("there is a lift");
     let arm = weak_arm(body, &clip, 3.0);
@@ -769,6 +779,13 @@ fn time(page: &mut Page, body: &Arc<Body>) -> Result<()> {
         write!(factor, "{:.0}", 1e5 / median).expect("a string takes any text");
         rows.push(vec![pair.name.to_owned(), format!("{median:.0}"), factor]);
     }
-    page.table(&["who", "median, µs", "times faster"], &rows);
+    page.table(
+        &[
+            "controller, stepper",
+            "median time per tick, µs",
+            "speed-up",
+        ],
+        &rows,
+    );
     Ok(())
 }

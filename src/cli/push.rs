@@ -1,9 +1,14 @@
-//! `sinew push`: streams a motion capture file to a server as the live driver of a figure.
+//! `sinew push`: streams a motion capture file to a server as live motion for a figure.
 
+use super::args::{BodyNameParser, FileArgs, UpArg};
+use super::exit::Usage;
+use super::number::hertz;
+use super::terminal::{note, print_line};
 use super::{explain, world_resource};
 use crate::client::{Client, Driver};
 use crate::server::engine;
-use crate::sim::body::Body;
+use crate::sim::body::names::DEFAULT_BODY;
+use crate::sim::body::{Body, Profile};
 use crate::sim::math::Quat;
 use crate::sim::motion::{Bvh, Clip, PlanarTransform, RetargetOptions, cycle};
 use crate::wire::convert::{self, motion::figure_motion};
@@ -22,48 +27,48 @@ pub struct Args {
     address: String,
     /// BVH file
     clip: PathBuf,
-    /// World; created if there is none
+    /// World; created with default settings if it does not exist
     #[arg(long, default_value = "demo")]
     world: String,
-    /// Figure; created where the motion begins if there is none
+    /// Figure; created at the start of the motion if it does not exist
     #[arg(long, default_value = "push")]
     figure: String,
-    /// Body of a figure that is created
-    #[arg(long, default_value = "bodies/adult-man")]
-    body: String,
+    /// Body of the figure if it is created: one of these, or a profile such as female-25y-1680mm-61500g
+    #[arg(long, value_name = "NAME", default_value = DEFAULT_BODY, value_parser = BodyNameParser)]
+    body: Profile,
     /// Repeat until interrupted
     #[arg(long = "loop")]
     looped: bool,
-    /// Fixed delay between arrival and use, ms [default: as the network needs]
+    /// Fixed playout delay between arrival and use, ms [default: adapted to the jitter of the network]
     #[arg(long, value_name = "MS")]
     playout_delay_ms: Option<f64>,
-    /// Window in which the server prepares the motion, ms: 300 to 1000, or 0 for frames as they come
+    /// Window in which the server prepares the motion, ms: 300 to 1000; 0: frames are used unprepared
     #[arg(long, value_name = "MS", default_value_t = 1000.0)]
     window_ms: f64,
-    /// Send the recording as a capture system would: fitted to the body, nothing else; the window does the rest
+    /// Send the recording as a capture system would: only fitted to the body, prepared by the window of the server
     #[arg(long)]
     raw: bool,
-    /// Stop after this time, s [default: at the end of the motion]
+    /// Stop after this time, s [default: duration of the motion]
     #[arg(long, value_name = "S")]
     duration: Option<f64>,
-    /// Hold each frame up by a random time of at most this, ms, in order as a network does
+    /// Delay each frame by a random time of up to this, ms, keeping the order
     #[arg(long, value_name = "MS", default_value_t = 0.0)]
     jitter_ms: f64,
-    /// Lose this share of the frames, 0 to 0.9
+    /// Drop this fraction of the frames at random, 0 to 0.9
     #[arg(long, value_name = "SHARE", default_value_t = 0.0)]
     loss: f64,
     /// Seed of jitter and loss
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Length of one file unit, m [default: guessed from the stature]
-    #[arg(long, value_name = "M")]
-    unit: Option<f64>,
-    /// Leave runs as they were recorded. Otherwise they are walked, slower and with shorter steps: measured strength does not run
+    /// Unit and axes of the file
+    #[command(flatten)]
+    file: FileArgs,
+    /// Keep recorded runs. Otherwise runs are turned into walks, slower and with shorter steps, which measured strength can do
     #[arg(long, conflicts_with = "raw")]
     keep_runs: bool,
 }
 
-/// A network that holds frames up and loses them, the same way for the same seed.
+/// A network that delays and drops frames, the same way for the same seed.
 #[derive(Clone, Debug)]
 pub struct Network {
     state: u64,
@@ -73,7 +78,7 @@ pub struct Network {
 }
 
 impl Network {
-    /// Holds frames up by at most `jitter` seconds and loses the share `loss` of them.
+    /// Delays frames by up to `jitter` seconds and drops the fraction `loss` of them.
     pub fn new(jitter: f64, loss: f64, seed: u64) -> Self {
         Self {
             state: seed,
@@ -106,7 +111,7 @@ impl Network {
 /// Streams the file at its own rate.
 ///
 /// # Errors
-/// The file is bad, no server answers, or someone else drives the figure.
+/// The file is bad, no server answers, or another driver has the figure.
 pub fn run(args: &Args) -> anyhow::Result<()> {
     let runtime = tokio::runtime::Builder::new_current_thread()
         .enable_all()
@@ -114,16 +119,27 @@ pub fn run(args: &Args) -> anyhow::Result<()> {
     runtime.block_on(push(args))
 }
 
+/// Checks what clap cannot.
+fn check(args: &Args) -> anyhow::Result<()> {
+    for (name, value, high) in [
+        ("--loss", args.loss, 0.9),
+        ("--jitter-ms", args.jitter_ms, 2000.0),
+    ] {
+        if !(0.0..=high).contains(&value) {
+            return Err(Usage(format!("{name} {value}: outside 0…{high}")).into());
+        }
+    }
+    match args.duration {
+        Some(d) if !(d > 0.0 && d.is_finite()) => {
+            Err(Usage(format!("--duration {d} s: must be positive")).into())
+        }
+        _ => Ok(()),
+    }
+}
+
 async fn push(args: &Args) -> anyhow::Result<()> {
     let path = args.clip.display();
-    anyhow::ensure!(
-        (0.0..=0.9).contains(&args.loss) && (0.0..=2000.0).contains(&args.jitter_ms),
-        "--loss must be in 0…0.9 and --jitter-ms in 0…2000"
-    );
-    anyhow::ensure!(
-        args.duration.is_none_or(|d| d > 0.0 && d.is_finite()),
-        "--duration must be positive"
-    );
+    check(args)?;
     let bytes = std::fs::read(&args.clip).with_context(|| format!("{path}"))?;
     let bvh = Bvh::parse(&bytes).with_context(|| format!("{path}"))?;
     let client = Client::connect(&args.address).await?;
@@ -141,7 +157,8 @@ async fn push(args: &Args) -> anyhow::Result<()> {
         Err(e) if e.code() == Code::NotFound => None,
         Err(e) => return Err(explain(&e)),
     };
-    let body_name = existing.as_ref().map_or(&args.body, |f| &f.body);
+    let created_body = format!("bodies/{}", args.body.name());
+    let body_name = existing.as_ref().map_or(&created_body, |f| &f.body);
     let reference = convert::body::by_name("body", body_name)?;
     let body = engine::build_body(reference.profile)?;
     let clip = prepared(args, &bvh, &body)?;
@@ -180,12 +197,12 @@ async fn push(args: &Args) -> anyhow::Result<()> {
         })
         .await
         .map_err(|e| explain(&e))?;
-    println!(
-        "pushing {path} ({} frames at {:.0} Hz, {:.1} s) to {name}",
+    print_line(&format!(
+        "streaming {path} ({} frames at {}, {:.1} s) to {name}",
         clip.len(),
-        clip.rate_hz(),
+        hertz(clip.rate_hz()),
         clip.duration()
-    );
+    ))?;
     stream(args, &clip, &engine::placing(start, place), driver).await
 }
 
@@ -193,19 +210,19 @@ async fn push(args: &Args) -> anyhow::Result<()> {
 fn prepared(args: &Args, bvh: &Bvh, body: &Body) -> anyhow::Result<Clip> {
     let path = args.clip.display();
     let (clip, warnings) = if args.raw {
-        let options = RetargetOptions {
-            unit_m: args.unit,
+        let options = args.file.apply(RetargetOptions {
             lock_feet: false,
             balance: false,
             ends: false,
             ..Default::default()
-        };
+        });
         let fitted = crate::sim::motion::retarget(bvh, body, &options)
             .map_err(|e| anyhow::anyhow!("{path}: {e}"))?;
         (fitted.clip, fitted.report.warnings)
     } else {
         let reading = BvhReading {
-            unit_m: args.unit,
+            unit_m: args.file.unit,
+            z_up: args.file.up.map(|up| up == UpArg::Z),
             walk_runs: Some(!args.keep_runs),
             ..Default::default()
         };
@@ -214,13 +231,13 @@ fn prepared(args: &Args, bvh: &Bvh, body: &Body) -> anyhow::Result<Clip> {
         (clip, report.warnings)
     };
     for warning in &warnings {
-        eprintln!("{path}: {warning}");
+        note(&format!("warning: {path}: {warning}"));
     }
     let repeats = (args.looped && !args.raw).then(|| cycle(body, &clip));
     Ok(repeats.flatten().unwrap_or(clip))
 }
 
-/// Sends the clip at its own pace and says each second how it arrives.
+/// Sends the clip at its own pace and prints each second how it arrives.
 async fn stream(
     args: &Args,
     clip: &Clip,
@@ -282,19 +299,19 @@ async fn stream(
         if told.elapsed() > Duration::from_secs(1) {
             told = Instant::now();
             if let Some(f) = &last {
-                println!("{t:6.1} s  {}", describe(f));
+                print_line(&format!("{t:6.1} s  {}", describe(f)))?;
             }
         }
     }
     if let Some(f) = driver.finish().await.map_err(|e| explain(&e))? {
-        println!("done    {}", describe(&f));
+        print_line(&format!("done      {}", describe(&f)))?;
     }
     if delay.count > 0 {
-        println!(
-            "from capture to the figure {:.0} ms on the average, {:.0} ms at most",
+        print_line(&format!(
+            "latency from capture to the figure: {:.0} ms mean, {:.0} ms max",
             1e3 * delay.sum / delay.count as f64,
             1e3 * delay.most
-        );
+        ))?;
     }
     Ok(())
 }
@@ -343,7 +360,7 @@ async fn current_place(client: &Client, world: &str, figure: &str) -> anyhow::Re
         .and_then(|f| f.root_pose)
         .map(|n| values(&n))
         .filter(|p| p.len() == 7)
-        .context("the server sent no pose")?;
+        .context("the server sent no root pose")?;
     Ok(Place {
         x: pose[0],
         y: pose[1],
@@ -357,7 +374,7 @@ fn describe(f: &pb::DriveFeedback) -> String {
     };
     let used = g.present_count + g.interpolated_count;
     format!(
-        "delay {:.0} ms (window {:.0}), jitter {:.0} ms, {used} ticks with motion, {} extrapolated, {} held, {} frames late",
+        "playout delay {:.0} ms (window {:.0} ms), jitter {:.0} ms; ticks: {used} with motion, {} extrapolated, {} held; {} late frames",
         g.playout_delay_ms,
         g.preparation_window_ms,
         g.jitter_ms,

@@ -1,4 +1,4 @@
-//! `sinew run`: a motion through the physics, offline, as fast as it goes; measured, drawn and written.
+//! `sinew run`: simulates motions offline, as fast as the machine allows; measures, draws and writes the result.
 
 mod csv;
 mod document;
@@ -6,11 +6,13 @@ mod strip;
 mod summary;
 
 use super::args::{
-    BodyArgs, ConstraintSpec, ControllerArg, LoadSpec, ObstacleSpec, PaperOptions, PresetArg,
-    PushSpec, StepperArg, ThenSpec,
+    BodyArgs, ConstraintSpec, ControllerArg, FileArgs, LoadSpec, ObstacleSpec, PaperOptions,
+    PresetArg, PushSpec, StepperArg, ThenSpec,
 };
+use super::exit::{Outcome, Usage, usage};
 use super::output::{extension, for_clip, write};
-use super::source::{Source, load};
+use super::source::{Source, load, warn};
+use super::terminal::print;
 use crate::evaluate::strip::{Frame, Thing, evenly_spaced};
 use crate::evaluate::{Metrics, RunReport, Tick};
 use crate::sim::body::Body;
@@ -22,7 +24,7 @@ use crate::sim::strength::fatigue::MAX_TIME_SCALE;
 use crate::sim::world::{
     ClipPlayback, Drive, Figure, FigureEvent, FigureKey, FigureSetup, World, WorldParams,
 };
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result};
 use csv::Csv;
 use document::document;
 use indicatif::MultiProgress;
@@ -31,118 +33,127 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
 use strip::{goal_mark, held_loads, write_strip};
-use summary::{progress_bar, summary_header, summary_line};
+use summary::{Table, progress_bar};
 
 pub use strip::ViewArg;
 
-/// Longest run that can be asked for, s.
+/// Longest accepted duration of a run, s.
 const MAX_DURATION: f64 = 86_400.0;
 
-/// Runs motions through the physics and reports how well the figure followed.
+/// Simulates motions and reports how closely the figure tracks them.
 #[derive(Clone, Debug, clap::Args)]
 pub struct RunArgs {
-    /// Motions: BVH files or builtin:NAME (idle, lift, crate, squat, wave, step, walk). Each gets a world of its own.
+    /// Motions: BVH files or builtin:NAME (idle, lift, crate, squat, wave, step, walk). Each is simulated in a world of its own.
     #[arg(required = true, value_name = "CLIP")]
     pub clips: Vec<String>,
-    /// Who the figure stands for.
+    /// Body of the figure.
     #[command(flatten)]
     pub body: BodyArgs,
+    /// Unit and axes of the files.
+    #[command(flatten)]
+    pub file: FileArgs,
     /// Factor on the strength of every joint, 0.01 to 100.
     #[arg(long, value_name = "F", default_value_t = 1.0)]
     pub strength: f64,
-    /// Percentile of strength among people of that sex, age and size, 5 to 95.
+    /// Percentile of strength in the population of that sex, age and size, 5 to 95.
     #[arg(long, value_name = "P", default_value_t = 50.0)]
     pub percentile: f64,
-    /// Share of its strength that the figure is willing to use, 0 to 1.
+    /// Fraction of its strength that the figure may use, 0 to 1.
     #[arg(long, value_name = "E", default_value_t = 1.0)]
     pub effort: f64,
-    /// Seconds of muscle fatigue per simulated second, 0 to 1000; 0: muscles never tire.
+    /// Time scale of muscle fatigue: seconds of fatigue per simulated second, 0 to 1000; 0: no fatigue.
     #[arg(long, value_name = "X", default_value_t = 0.0)]
     pub fatigue: f64,
-    /// Help towards the desired pose of the pelvis, 0 to 1; reported, not physical.
+    /// Assist: external wrench towards the target pose of the pelvis, 0 (off) to 1; not physical, reported as assist_*.
     #[arg(long, value_name = "A", default_value_t = 0.0)]
     pub assist: f64,
-    /// Load held by one or two segments, for example 3@r_hand, 8@l_hand+r_hand or 3@r_hand@1..2.5 (repeatable).
+    /// Load held by one or two segments; for example 3@r_hand, 8@l_hand+r_hand or 3@r_hand@1..2.5 (repeatable).
     #[arg(long, value_name = "KG@SEGMENT[+SEGMENT][@T0..T1]")]
     pub load: Vec<LoadSpec>,
-    /// Force at one hand beyond which a load slips, N; loads never slip unless given.
+    /// Grip strength of one hand, N: a load that needs more slips; unlimited unless given.
     #[arg(long, value_name = "N", default_value_t = f64::INFINITY)]
     pub grip: f64,
-    /// Push on a segment, for example 20@chest@1.5:1,0,0 (N·s, start in s, world direction; repeatable).
+    /// Push on a segment: impulse in N·s, start in s, direction in world axes; for example 20@chest@1.5:1,0,0 (repeatable).
     #[arg(long, value_name = "NS@SEGMENT@T:x,y,z", allow_hyphen_values = true)]
     pub push: Vec<PushSpec>,
-    /// Where a segment or the centre of mass (com) is wanted (repeatable): r_hand@0.4,-0.25,1.1, with times r_hand@0.4,-0.25,1.1@1..3, turned
-    /// r_hand@0.4,-0.25,1.1:0,-0.7,0,0.714, single axes com@_,0.08,_.
+    /// Target position, m, of a segment or of the centre of mass (com); repeatable. r_hand@0.4,-0.25,1.1; from 1 s to 3 s
+    /// r_hand@0.4,-0.25,1.1@1..3; with a rotation r_hand@0.4,-0.25,1.1:0,-0.7,0,0.714; y axis only com@_,0.08,_.
     #[arg(
         long,
         value_name = "PART@x,y,z[@T0..T1][:qx,qy,qz,qw]",
         allow_hyphen_values = true
     )]
     pub constrain: Vec<ConstraintSpec>,
-    /// A thing that the figure can touch (repeatable): a seat box:0.4,0.5,0.45@-0.3,0,0.225, a thrown ball sphere:0.11@2,0,1.2:5kg:-5,0,1,
-    /// a wall plane:-1,0,0@0.6,0,0.
+    /// Obstacle in contact with the figure (repeatable): a seat box:0.4,0.5,0.45@-0.3,0,0.225, a thrown ball
+    /// sphere:0.11@2,0,1.2:5kg:-5,0,1, a wall plane:-1,0,0@0.6,0,0.
     #[arg(
         long,
         value_name = "SHAPE:SIZE@x,y,z[:KGkg][:vx,vy,vz]",
         allow_hyphen_values = true
     )]
     pub obstacle: Vec<ObstacleSpec>,
-    /// How long a push lasts, s.
+    /// Duration of a push, s.
     #[arg(long, value_name = "S", default_value_t = 0.2)]
     pub push_duration: f64,
-    /// Who computes torques.
+    /// Controller that computes the torques.
     #[arg(long, value_enum, default_value_t)]
     pub controller: ControllerArg,
-    /// Who moves the body.
+    /// Stepper that moves the body.
     #[arg(long, value_enum, default_value_t)]
     pub stepper: StepperArg,
-    /// Step when the capture point has left the feet (modern controller).
+    /// Take a protective step when the capture point leaves the support polygon (modern controller).
     #[arg(long, value_name = "BOOL", default_value_t = true, num_args = 0..=1, require_equals = true, default_missing_value = "true", action = clap::ArgAction::Set)]
     pub protective_steps: bool,
-    /// Choices of the paper's controller.
+    /// Options of the paper's controller.
     #[command(flatten)]
     pub paper: PaperOptions,
-    /// Ticks per second; 60 unless the preset says otherwise.
+    /// Ticks per second; 60 unless the preset sets another rate.
     #[arg(long, value_name = "HZ")]
     pub rate: Option<f64>,
     /// Physics steps per tick.
     #[arg(long, value_name = "N", default_value_t = WorldParams::default().substeps)]
     pub substeps: u32,
-    /// Length of the run, s; the length of the motion unless given.
+    /// Duration of the run, s; that of the motion unless given.
     #[arg(long, value_name = "S")]
     pub duration: Option<f64>,
-    /// Repeat the motion until --duration is over.
+    /// Repeat the motion until the end of --duration.
     #[arg(long = "loop", requires = "duration")]
     pub looped: bool,
-    /// Asks for another clip at T seconds (repeatable): turn.bvh@5. A figure that walks goes over to it from step to step where the two are alike, else by
-    /// a stand; one that stands begins at once.
+    /// Play another clip from T seconds on (repeatable): turn.bvh@5. A walking figure changes over at a step where both clips are
+    /// alike, or else stops first; a standing figure begins at once.
     #[arg(long, value_name = "CLIP@T", requires = "duration")]
     pub then: Vec<ThenSpec>,
-    /// Begin and end standing, with the steps that it takes before the first frame and after the last one.
+    /// Begin and end standing: add the steps that lead into the first frame and out of the last one.
     #[arg(long, conflicts_with = "looped")]
     pub standing: bool,
-    /// Leave runs as they were recorded. Otherwise they are walked, slower and with shorter steps: measured strength does not run.
+    /// Keep recorded runs. Otherwise runs are turned into walks, slower and with shorter steps, which measured strength can do.
     #[arg(long)]
     pub keep_runs: bool,
-    /// Times as fast as recorded, 0.5 to 2: steps and balance of recordings are prepared for that pace; built-in motions keep theirs.
+    /// Playback speed relative to the recording, 0.5 to 2; steps and balance are prepared for it. Built-in motions keep their speed.
     #[arg(long, value_name = "F", default_value_t = 1.0)]
     pub tempo: f64,
-    /// Writes the measures as JSON (a list for several clips).
+    /// Prints the report as JSON on standard output (a list for several clips), and nothing else there.
+    #[arg(long)]
+    pub json: bool,
+    /// Ends with exit code 3 if a figure fell or its state diverged.
+    #[arg(long)]
+    pub fail_on_fall: bool,
+    /// Writes the report as JSON (a list for several clips).
     #[arg(long, value_name = "FILE.json")]
     pub report: Option<PathBuf>,
-    /// Writes the motion that came out: BVH, or CSV with angles, torques and limits.
+    /// Writes the simulated motion: BVH, or CSV with angles, torques and torque limits.
     #[arg(long, value_name = "FILE.bvh|.csv")]
     pub out: Option<PathBuf>,
     /// Draws evenly spaced frames side by side.
     #[arg(long, value_name = "FILE.svg|.png")]
     pub strip: Option<PathBuf>,
-    /// Frames of the strip.
+    /// Number of frames in the strip.
     #[arg(long, value_name = "N", default_value_t = 8)]
     pub strip_frames: usize,
-    /// From where the strip is drawn.
+    /// Camera view of the strip.
     #[arg(long, value_enum, default_value_t)]
     pub view: ViewArg,
-    /// Clips that are run at the same time.
+    /// Number of clips simulated at the same time.
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub threads: usize,
 }
@@ -174,7 +185,7 @@ impl RunArgs {
         if self.standing { -clip.lead_in() } else { 0.0 }
     }
 
-    /// The body; the preset takes the rotors out of its joints.
+    /// The body; the preset removes the armature of its joints.
     fn build_body(&self) -> Result<Body> {
         let mut body = self.body.build()?;
         if self.paper.preset.is_some() {
@@ -184,20 +195,20 @@ impl RunArgs {
     }
 }
 
-/// What is run, apart from the motion.
+/// Everything that is simulated, apart from the motion.
 struct Scenario<'a> {
     args: &'a RunArgs,
     body: Arc<Body>,
     params: WorldParams,
-    /// Clips that follow, and when they are asked for, s.
+    /// Clips of `--then`, and when they begin, s.
     then: Vec<(f64, Arc<Clip>)>,
 }
 
-/// Runs the command. A figure that falls is a result, not an error: the report says so.
+/// Runs the command. A figure that falls is a result, not an error: the report says so, and the outcome with `--fail-on-fall`.
 ///
 /// # Errors
 /// Bad arguments, unreadable clips, files that cannot be written.
-pub fn run(args: &RunArgs) -> Result<()> {
+pub fn run(args: &RunArgs) -> Result<Outcome> {
     check(args)?;
     let mut scenario = Scenario {
         body: Arc::new(args.build_body()?),
@@ -210,14 +221,15 @@ pub fn run(args: &RunArgs) -> Result<()> {
         args,
     };
     // Bad parameters are worth knowing before clips are read.
-    World::new(scenario.params).context("no such world")?;
-    let options = RetargetOptions {
+    World::new(scenario.params).map_err(usage)?;
+    let options = args.file.apply(RetargetOptions {
         walk_runs: !args.keep_runs,
         tempo: args.tempo,
         ..RetargetOptions::default()
-    };
+    });
     for then in &args.then {
         let source = load(&then.clip, &scenario.body, &options)?;
+        warn(&source);
         scenario.then.push((then.at_s, Arc::new(source.clip)));
     }
     let sources = args
@@ -225,61 +237,64 @@ pub fn run(args: &RunArgs) -> Result<()> {
         .iter()
         .map(|spec| load(spec, &scenario.body, &options))
         .collect::<Result<Vec<_>>>()?;
+    sources.iter().for_each(warn);
     let documents = run_all(&scenario, &sources)?;
+    let text = match documents.as_slice() {
+        [one] => serde_json::to_string_pretty(one),
+        several => serde_json::to_string_pretty(several),
+    };
+    let text = text.context("the report cannot be written as JSON")? + "\n";
     if let Some(path) = &args.report {
-        let text = match documents.as_slice() {
-            [one] => serde_json::to_string_pretty(one),
-            several => serde_json::to_string_pretty(several),
-        };
-        write(
-            path,
-            text.context("the report cannot be written as JSON")? + "\n",
-        )?;
+        write(path, &text)?;
     }
-    Ok(())
+    let fell = documents
+        .iter()
+        .any(|d| !d["fell_at_s"].is_null() || !d["quarantined_at_s"].is_null());
+    let outcome = if args.fail_on_fall && fell {
+        Outcome::Fell
+    } else {
+        Outcome::Done
+    };
+    if args.json {
+        match print(&text) {
+            // What the exit code says does not depend on the reader.
+            Err(e) if e.is::<super::terminal::OutputClosed>() => {}
+            other => other?,
+        }
+    }
+    Ok(outcome)
 }
 
 /// Checks what clap cannot.
 fn check(args: &RunArgs) -> Result<()> {
-    args.paper.params()?;
-    ensure!(
-        (0.01..=100.0).contains(&args.strength),
-        "--strength {}: outside 0.01…100",
-        args.strength
-    );
+    args.paper.params().map_err(usage)?;
     for (name, value, [low, high]) in [
+        ("--strength", args.strength, [0.01, 100.0]),
         ("--percentile", args.percentile, [5.0, 95.0]),
         ("--effort", args.effort, [0.0, 1.0]),
         ("--fatigue", args.fatigue, [0.0, MAX_TIME_SCALE]),
         ("--grip", args.grip, [0.0, f64::INFINITY]),
         ("--assist", args.assist, [0.0, 1.0]),
+        ("--push-duration", args.push_duration, [1e-3, 10.0]),
     ] {
-        ensure!(
-            (low..=high).contains(&value),
-            "{name} {value}: outside {low}…{high}"
-        );
+        if !(low..=high).contains(&value) {
+            return Err(Usage(format!("{name} {value}: outside {low}…{high}")).into());
+        }
     }
-    ensure!(
-        (1e-3..=10.0).contains(&args.push_duration),
-        "--push-duration {} s: outside 0.001…10",
-        args.push_duration
-    );
-    if let Some(duration) = args.duration {
-        ensure!(
-            duration > 0.0 && duration <= MAX_DURATION,
-            "--duration {duration} s: outside 0…{MAX_DURATION}"
-        );
+    if let Some(duration) = args.duration
+        && !(duration > 0.0 && duration <= MAX_DURATION)
+    {
+        let text = format!("--duration {duration} s: outside 0…{MAX_DURATION}");
+        return Err(Usage(text).into());
     }
-    ensure!(
-        (1..=64).contains(&args.strip_frames),
-        "--strip-frames {}: outside 1…64",
-        args.strip_frames
-    );
-    ensure!(
-        (1..=256).contains(&args.threads),
-        "--threads {}: outside 1…256",
-        args.threads
-    );
+    for (name, value, high) in [
+        ("--strip-frames", args.strip_frames, 64),
+        ("--threads", args.threads, 256),
+    ] {
+        if !(1..=high).contains(&value) {
+            return Err(Usage(format!("{name} {value}: outside 1…{high}")).into());
+        }
+    }
     if let Some(path) = &args.out {
         extension("--out", path, &["bvh", "csv"])?;
     }
@@ -289,20 +304,26 @@ fn check(args: &RunArgs) -> Result<()> {
     Ok(())
 }
 
-/// Runs every clip, several at a time if asked for, and prints a line as each one ends; the results are in the order of the clips.
+/// Runs every clip, several at a time if `--threads` says so, and prints a line as each one ends; the results are in the order of the
+/// clips.
 fn run_all(scenario: &Scenario<'_>, sources: &[Source]) -> Result<Vec<serde_json::Value>> {
     let bars = MultiProgress::new();
+    let table = Table::new(&bars, scenario.args);
     let next = AtomicUsize::new(0);
     let results: Mutex<Vec<Option<Result<serde_json::Value>>>> =
         Mutex::new(sources.iter().map(|_| None).collect());
-    println!("{}", summary_header());
+    table.heading()?;
     std::thread::scope(|scope| {
         for _ in 0..scenario.args.threads.min(sources.len()) {
             scope.spawn(|| {
                 loop {
                     let i = next.fetch_add(1, Ordering::Relaxed);
                     let Some(source) = sources.get(i) else { break };
-                    let result = run_one(scenario, source, sources.len() > 1, &bars);
+                    let result = run_one(scenario, source, sources.len() > 1, &table);
+                    if result.is_err() {
+                        // The command has failed: no further clip is begun.
+                        next.store(sources.len(), Ordering::Relaxed);
+                    }
                     let mut results = results
                         .lock()
                         .expect("no thread panics while it holds the results");
@@ -311,19 +332,18 @@ fn run_all(scenario: &Scenario<'_>, sources: &[Source]) -> Result<Vec<serde_json
             });
         }
     });
-    results
-        .into_inner()
-        .expect("all threads have ended")
-        .into_iter()
-        .map(|r| r.expect("every clip was taken by a thread"))
-        .collect()
+    // Clips that were not begun have no result; then another one has an error.
+    let results = results.into_inner().expect("all threads have ended");
+    let documents = results.into_iter().flatten().collect::<Result<Vec<_>>>()?;
+    table.legend()?;
+    Ok(documents)
 }
 
 fn run_one(
     scenario: &Scenario<'_>,
     source: &Source,
     several: bool,
-    bars: &MultiProgress,
+    table: &Table<'_>,
 ) -> Result<serde_json::Value> {
     let args = scenario.args;
     let clip = &source.clip;
@@ -344,7 +364,7 @@ fn run_one(
             postures = Some((path, Vec::new()));
         }
     }
-    let bar = bars.add(progress_bar(&source.name, ticks));
+    let bar = table.add(progress_bar(&source.name, ticks));
     let shown = if args.strip.is_some() {
         evenly_spaced(ticks, args.strip_frames)
     } else {
@@ -363,7 +383,7 @@ fn run_one(
         Ok(())
     })?;
     bar.finish_and_clear();
-    bars.suspend(|| println!("{}", summary_line(&source.name, &report)));
+    table.line(&source.name, &report)?;
     if let Some(csv) = csv {
         csv.finish()?;
     }
@@ -380,7 +400,7 @@ fn run_one(
 
 /// Steps a world with one figure that follows `clip` for `ticks` ticks; `each` is called after every tick with the time (s).
 ///
-/// Returns the measures and what there was to see at the ticks in `shown`.
+/// Returns the measures, and the frames of the ticks in `shown`.
 fn simulate(
     scenario: &Scenario<'_>,
     clip: &Clip,
@@ -403,7 +423,7 @@ fn simulate(
         let began = Instant::now();
         world.step();
         let us = began.elapsed().as_secs_f64() * 1e6;
-        let figure = world.figure(key).expect("nobody removes the figure");
+        let figure = world.figure(key).expect("the figure is never removed");
         let tick = Tick::of(figure, scenario.params.gravity);
         metrics.observe(tick, us);
         for event in figure.events() {
@@ -423,10 +443,10 @@ fn simulate(
     Ok((metrics.finish(world.state_hash()), frames))
 }
 
-/// Tells the figure to play the clips that are due in the tick to come.
+/// Starts the clips of `--then` that are due in the coming tick.
 fn ask_for_clips(scenario: &Scenario<'_>, world: &mut World, key: FigureKey) {
     let (time, dt) = (world.time(), world.dt());
-    let figure = world.figure_mut(key).expect("nobody removes the figure");
+    let figure = world.figure_mut(key).expect("the figure is never removed");
     for (at, clip) in &scenario.then {
         if (time - 0.5 * dt..time + 0.5 * dt).contains(at) {
             let play = ClipPlayback::new(Arc::clone(clip), time + clip.lead_in());
@@ -435,7 +455,7 @@ fn ask_for_clips(scenario: &Scenario<'_>, world: &mut World, key: FigureKey) {
     }
 }
 
-/// A world with one figure that begins the clip, what happens to it, and the things around it.
+/// A world with one figure at the beginning of the clip, its perturbations, and the obstacles.
 fn scene(
     scenario: &Scenario<'_>,
     clip: &Clip,
@@ -443,7 +463,7 @@ fn scene(
 ) -> Result<(World, FigureKey)> {
     let args = scenario.args;
     let body = &scenario.body;
-    let mut world = World::new(scenario.params).context("no such world")?;
+    let mut world = World::new(scenario.params).context("the world cannot be created")?;
     let first = args.first(clip);
     let key = world
         .add_figure(FigureSetup {
@@ -469,7 +489,7 @@ fn scene(
                 clip.sample(first).state(),
             )
         })
-        .context("no such figure")?;
+        .context("the figure cannot be created")?;
     for load in &args.load {
         world
             .perturb(key, load.perturbation(body, args.grip))

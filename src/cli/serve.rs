@@ -1,5 +1,7 @@
-//! `sinew serve`: serves worlds until it is told to stop.
+//! `sinew serve`: serves worlds until Ctrl-C or SIGTERM.
 
+use super::exit::{Usage, usage};
+use super::terminal::{OutputClosed, note, print, stderr_shows_colour};
 use crate::server::api::App;
 use crate::server::config::Config;
 use crate::server::{self, telemetry};
@@ -7,29 +9,30 @@ use anyhow::Context as _;
 use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::sync::Arc;
+use tracing_subscriber::EnvFilter;
 
 /// Arguments of `sinew serve`.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub struct Args {
-    /// TOML file with settings; see deploy/config/sinew.toml for all of them
+    /// TOML file with settings; deploy/config/sinew.toml lists all of them
     #[arg(long, env = "SINEW_CONFIG", value_name = "FILE")]
     config: Option<PathBuf>,
-    /// Address and port to serve on [default: 127.0.0.1:7463]
+    /// Address and port to listen on [default: 127.0.0.1:7463]
     #[arg(long, value_name = "ADDR:PORT")]
     listen: Option<SocketAddr>,
-    /// Allow an address that other machines can reach, without any authentication
+    /// Allow an address that other machines can reach; there is no authentication
     #[arg(long)]
     insecure_bind_any: bool,
-    /// What to log, for example `info` or `sinew=debug`
+    /// Log filter, for example `info` or `sinew=debug`; logs go to standard error
     #[arg(long, value_name = "FILTER")]
     log: Option<String>,
-    /// Any setting by name; may be given several times
+    /// Any setting by name (repeatable)
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = pair)]
     set: Vec<(String, String)>,
     /// Do not create the demo world
     #[arg(long)]
     no_demo: bool,
-    /// Do not serve the viewer; the status page is at `/` then
+    /// Do not serve the viewer; the status page is then at `/`
     #[arg(long)]
     no_viewer: bool,
 }
@@ -64,49 +67,70 @@ impl Args {
     }
 }
 
-/// Serves until Ctrl-C or SIGTERM.
+/// Serves until Ctrl-C or SIGTERM. The first line on standard output holds the address, and connections are accepted by then; logs follow on
+/// standard error.
 ///
 /// # Errors
 /// Settings that are not usable, or a port that is taken.
 pub fn run(args: &Args) -> anyhow::Result<()> {
-    let config = args.settings()?;
-    telemetry::init_logs(&config).map_err(anyhow::Error::msg)?;
-    for (name, _, value) in config.table() {
-        tracing::info!("setting {name} = {value}");
-    }
+    let config = args.settings().map_err(usage)?;
+    let filter = telemetry::log_filter(&config).map_err(Usage)?;
     let runtime = tokio::runtime::Builder::new_multi_thread()
         .enable_all()
         .build()?;
-    runtime.block_on(async {
-        let listener = tokio::net::TcpListener::bind(config.listen)
+    runtime.block_on(serve(args, Arc::new(config), filter))
+}
+
+async fn serve(args: &Args, config: Arc<Config>, filter: EnvFilter) -> anyhow::Result<()> {
+    let listener = tokio::net::TcpListener::bind(config.listen)
+        .await
+        .with_context(|| {
+            format!(
+                "cannot listen on {}: is another server running? --listen selects another port",
+                config.listen
+            )
+        })?;
+    let address = listener.local_addr()?;
+    let (stop, stopping) = tokio::sync::watch::channel(false);
+    let app = Arc::new(App::new(config.clone(), stopping)?);
+    let mut figures = Vec::new();
+    if !args.no_demo {
+        figures = server::demo::create(&app)
             .await
-            .with_context(|| {
-                format!(
-                    "cannot serve on {}: is another server running? --listen takes another port",
-                    config.listen
-                )
-            })?;
-        let address = listener.local_addr()?;
-        let (stop, stopping) = tokio::sync::watch::channel(false);
-        let app = Arc::new(App::new(Arc::new(config), stopping)?);
-        if !args.no_demo {
-            let people = server::demo::create(&app)
-                .await
-                .map_err(|e| anyhow::anyhow!(e))?;
-            tracing::info!("the world `demo` has {}", people.join(", "));
-        }
-        println!("Sinew serves at http://{address} (gRPC, gRPC-Web, status page; Ctrl-C ends it)");
-        if app.config.viewer {
-            println!("Open it in a browser to see and disturb its figures: http://{address}/");
-        }
-        if !args.no_demo {
-            println!("In the world `demo` people lift the same crate. In the terminal:");
-            println!("  sinew watch {address} demo");
-        }
-        server::serve(app, listener, interrupted(), stop)
-            .await
-            .map_err(|e| anyhow::anyhow!(e))
-    })
+            .map_err(|e| anyhow::anyhow!(e))?;
+    }
+    let serving = tokio::spawn(server::serve(app, listener, interrupted(), stop));
+    // One write: a reader that wants the first line only takes the rest with it. A server without readers serves all the same.
+    match print(&greeting(address, config.viewer, &figures)) {
+        Err(error) if !error.is::<OutputClosed>() => note(&format!("warning: {error:#}")),
+        _ => {}
+    }
+    telemetry::init_logs(filter, config.log_json, stderr_shows_colour());
+    for (name, _, value) in config.table() {
+        tracing::info!("setting {name} = {value}");
+    }
+    if !figures.is_empty() {
+        tracing::info!("world `demo` created with figures {}", figures.join(", "));
+    }
+    serving.await?.map_err(|e| anyhow::anyhow!(e))
+}
+
+/// What is printed when the server is ready.
+fn greeting(address: SocketAddr, viewer: bool, figures: &[&str]) -> String {
+    let pages = if viewer { "viewer, " } else { "" };
+    let mut out = format!(
+        "Sinew serves at http://{address} ({pages}gRPC, gRPC-Web, /status, /metrics); Ctrl-C stops it\n"
+    );
+    if viewer {
+        out += &format!("Viewer, in a browser: http://{address}/\n");
+    }
+    if !figures.is_empty() {
+        out += &format!(
+            "World `demo`: figures {} lift a crate. In a terminal: sinew watch {address} demo\n",
+            figures.join(", ")
+        );
+    }
+    out
 }
 
 async fn interrupted() {

@@ -1,4 +1,4 @@
-//! Where a motion comes from: a BVH file or one of the built-in motions.
+//! Sources of motion: a BVH file or one of the built-in motions.
 
 use crate::sim::body::Body;
 use crate::sim::motion::builtin::{BUILTIN_NAMES, builtin};
@@ -11,12 +11,19 @@ use std::path::Path;
 pub struct Source {
     /// File stem or built-in name.
     pub name: String,
-    /// What it was asked for by.
+    /// As it was given.
     pub spec: String,
     /// The motion.
     pub clip: Clip,
     /// How the recording was fitted; `None` for built-in motions, which are made for the body.
     pub retarget: Option<RetargetReport>,
+}
+
+/// Writes the warnings of the retargeting to standard error.
+pub fn warn(source: &Source) {
+    for warning in source.retarget.iter().flat_map(|r| &r.warnings) {
+        super::terminal::note(&format!("warning: {}: {warning}", source.name));
+    }
 }
 
 /// Prefix of built-in motions.
@@ -30,7 +37,7 @@ pub fn load(spec: &str, body: &Body, options: &RetargetOptions) -> Result<Source
     if let Some(name) = spec.strip_prefix(BUILTIN) {
         let Some(clip) = builtin(body, name) else {
             bail!(
-                "no built-in motion is called {name:?}; there are {}",
+                "there is no built-in motion {name:?}; the built-in motions are {}",
                 BUILTIN_NAMES.join(", ")
             );
         };

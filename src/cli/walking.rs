@@ -1,5 +1,4 @@
-//! `sinew walking`: recorded motion on two feet, tracked, pushed, carried, by other people and from noisy recordings; a page about what is
-//! survived.
+//! `sinew walking`: simulates walks with pushes, loads, other bodies and noisy recordings, and writes a page with the results.
 
 mod survey;
 
@@ -33,19 +32,19 @@ const DIRECTIONS: [&str; 8] = [
 ];
 /// Pushes are spread over this many phases of the cycle, or moments of standing.
 const PHASES: u32 = 8;
-/// What is watched after a push, s.
+/// Simulated time after a push, s.
 const AFTER: f64 = 4.0;
-/// A repeated walk is watched for so long, s: once, and in each variation.
+/// Simulated time of a repeated walk, s: plain, and in each variation.
 const LONG: f64 = 60.0;
 const SHORT: f64 = 20.0;
 /// Noisy copies of each recording: how many, by how much (m, degrees).
 const COPIES: u32 = 20;
 const NOISE: (f64, f64) = (0.001, 0.2);
 
-/// Runs walks with pushes, loads, other people and noise, and writes a page about what is survived.
+/// Simulates walks with pushes, loads, other bodies and noise, and writes a page with the results.
 #[derive(Clone, Debug, clap::Args)]
 pub struct WalkingArgs {
-    /// BVH files or `builtin:NAME`; the first that repeats is the walk that is pushed and varied
+    /// BVH files or `builtin:NAME`; the first one that can be repeated is the walk that is pushed and varied
     #[arg(value_name = "CLIP", default_value = "builtin:walk")]
     pub clips: Vec<String>,
     /// Folder for the page (README.md) and its plots; files of the same names are replaced
@@ -53,7 +52,7 @@ pub struct WalkingArgs {
     pub out: PathBuf,
 }
 
-/// A motion and how it was asked for.
+/// A motion, and the arguments that it was loaded with.
 struct Motion {
     name: String,
     spec: String,
@@ -61,10 +60,10 @@ struct Motion {
     clip: Arc<Clip>,
 }
 
-/// What all experiments need.
+/// The input of all experiments.
 struct Study {
     body: Arc<Body>,
-    /// Recordings that run are there twice: as recorded, and walked.
+    /// Recorded runs are listed twice: turned into a walk, and as recorded.
     clips: Vec<Motion>,
     /// Name, and the clip made to repeat.
     walk: Option<(String, Arc<Clip>)>,
@@ -103,7 +102,7 @@ pub fn run(args: &WalkingArgs) -> Result<()> {
         variations(&mut page, &study, name, clip)?;
         bar.inc(1);
     }
-    bar.set_message("all clips, varied");
+    bar.set_message("variations of all clips");
     survey::survey(&mut page, &study)?;
     bar.inc(1);
     bar.set_message("noise");
@@ -112,7 +111,7 @@ pub fn run(args: &WalkingArgs) -> Result<()> {
     page.finish()
 }
 
-/// The motion of a recording; if it runs, walked and as recorded.
+/// The motion of a recording; if it is a run, turned into a walk and as recorded.
 fn motions(spec: &str, body: &Body) -> Result<Vec<Motion>> {
     let read = |kind: &str, walk_runs| -> Result<(Motion, bool)> {
         let options = RetargetOptions {
@@ -138,12 +137,12 @@ fn motions(spec: &str, body: &Body) -> Result<Vec<Motion>> {
 }
 
 fn introduction(page: &mut Page, study: &Study) {
-    page.say("# Walking, measured");
+    page.say("# Walking: measurements");
     let plain = study.clips.iter().filter(|m| m.options.walk_runs);
     let names: Vec<&str> = plain.map(|m| m.name.as_str()).collect();
     page.say(&format!(
-        "Recorded motion in torque simulation: a man of 30 years, 1.75 m, 75 kg at his own strength, without assist, 60 ticks of two substeps \
-         per second, unless said otherwise. `sinew walking {}` wrote this page; nothing on it is edited by hand.",
+        "Recorded motion in torque simulation with the body `adult-man` (30 years, 1.75 m, 75 kg) at measured strength, without assist, at 60 \
+         ticks per second with two substeps each, unless stated otherwise. `sinew walking {}` wrote this page; nothing on it is edited by hand.",
         names.join(" ")
     ));
 }
@@ -157,14 +156,14 @@ fn row(name: &str, seconds: f64, w: &Walked) -> Vec<String> {
     let [rms, most] = w.capture;
     let result = w
         .fell_s
-        .map_or("stood".to_owned(), |t| format!("**fell at {t:.1} s**"));
+        .map_or("no fall".to_owned(), |t| format!("**fell at {t:.1} s**"));
     vec![
         name.to_owned(),
         format!("{seconds:.1}"),
         result,
-        hundredths(r.joint_rms_deg),
-        format!("{:.0}", r.mpjpe_root_mm),
-        format!("{:.0}", r.mpjpe_global_mm),
+        hundredths(r.tracking_joint_rms_deg),
+        format!("{:.0}", r.tracking_mpjpe_root_mm),
+        format!("{:.0}", r.tracking_mpjpe_global_mm),
         format!("{:.0} / {:.0}", 1e3 * rms, 1e3 * most),
         format!("{:.1}", 1e3 * w.slip),
         format!("{:.1} / {:.1}", w.peak[0], w.peak[1]),
@@ -174,25 +173,27 @@ fn row(name: &str, seconds: f64, w: &Walked) -> Vec<String> {
 }
 
 const HEAD: [&str; 11] = [
-    "",
-    "s",
+    "clip",
+    "duration, s",
     "result",
-    "joints, ° rms",
-    "root-relative, mm",
-    "global, mm",
-    "capture point rms / most, mm",
-    "slip in a stance, mm",
-    "floor / one foot, weights",
+    "joint tracking error, ° rms",
+    "tracking error relative to the pelvis, mm",
+    "tracking error, mm",
+    "capture point error rms / max, mm",
+    "foot skate per stance, mm",
+    "peak ground force, both feet / one foot, body weights",
     "steps",
-    "touch-down off, ms",
+    "largest touch-down error, ms",
 ];
 
 fn clips_once(page: &mut Page, study: &Study) {
     page.say("## Clips");
     page.say(
-        "From standing into the clip, through it and back to standing by planned steps; errors until a fall. *Slip* is the way of a foot's contact \
-         points over the floor in one stance, weighted by what they carry; *floor* is the largest push of a tick, in all and on one foot; *touch-down off* the largest deviation from the planned time. Runs \
-         are walked, slower and with shorter steps, unless they are kept (`--keep-runs`).",
+        "Each clip starts and ends standing, with planned steps into and out of it. Errors are counted up to a fall. *Tracking errors* are \
+         distances from the target, which is moved along with the feet after each step; errors against the fixed recording are those of \
+         `sinew survey`. *Foot skate* is the distance that the contact points of a foot travel over the floor in one stance, weighted by their \
+         load; *touch-down error* is the deviation from the planned time. Runs are turned into walks, slower and with shorter steps, unless \
+         they are kept (`--keep-runs`).",
     );
     let walker = Walker::new(&study.body);
     let mut rows: Vec<Vec<String>> = study
@@ -242,7 +243,7 @@ fn map(
     };
     SurvivalMap {
         title,
-        axes: ["pushed".into(), "impulse, N·s".into()],
+        axes: ["direction".into(), "impulse, N·s".into()],
         rows: DIRECTIONS.map(str::to_owned).to_vec(),
         columns: IMPULSES.map(|i| format!("{i}")).to_vec(),
         cells: (0..DIRECTIONS.len())
@@ -258,7 +259,7 @@ fn show(page: &mut Page, name: &str, map: &SurvivalMap) -> Result<()> {
     let [survived, tried] = map.total();
     page.svg(
         name,
-        &format!("{}: {survived} of {tried} survived", map.title),
+        &format!("{}: no fall in {survived} of {tried}", map.title),
         map.svg(),
     )
 }
@@ -266,12 +267,13 @@ fn show(page: &mut Page, name: &str, map: &SurvivalMap) -> Result<()> {
 fn pushes_standing(page: &mut Page, study: &Study) -> Result<()> {
     page.say("## Pushes while standing");
     page.say(&format!(
-        "At the chest, for 0.1 s, at {PHASES} moments of quiet standing a quarter of a second apart; on its feet {AFTER} s later counts as survived. \
-         It may step. The linear pendulum can stop 35, 22 and 37 N·s forward, backward and sideways with its feet in place."
+        "Pushes at the chest for 0.1 s, at {PHASES} times during quiet standing, 0.25 s apart. Cells count pushes after which the figure is still \
+         standing {AFTER} s later. Protective steps are allowed. Without steps, a linear inverted pendulum can absorb 35, 22 and 37 N·s \
+         forward, backward and sideways."
     ));
     let idle = builtin(&study.body, "idle").context("there is a built-in idle")?;
     let moments: Vec<f64> = (0..PHASES).map(|k| 0.5 + 0.25 * f64::from(k)).collect();
-    let title = "Survived while standing".to_owned();
+    let title = "Pushes while standing".to_owned();
     let map = map(
         &Walker::new(&study.body),
         &Arc::new(idle),
@@ -285,7 +287,7 @@ fn pushes_standing(page: &mut Page, study: &Study) -> Result<()> {
 fn pushes_walking(page: &mut Page, study: &Study, name: &str, clip: &Arc<Clip>) -> Result<()> {
     page.say("## Pushes while walking");
     page.say(&format!(
-        "The same while `{name}` is repeated, at {PHASES} phases of its third cycle; directions as seen by who walks."
+        "The same pushes while `{name}` is repeated, at {PHASES} phases of its third cycle; directions are relative to the direction of walking."
     ));
     let advance = clip.advance();
     let moments: Vec<f64> = (0..PHASES)
@@ -293,7 +295,7 @@ fn pushes_walking(page: &mut Page, study: &Study, name: &str, clip: &Arc<Clip>) 
         .collect();
     // The cycle may turn: the heading is that of its third repetition.
     let heading = advance.y.atan2(advance.x) + 2.0 * advance.yaw;
-    let title = "Survived while walking".to_owned();
+    let title = "Pushes while walking".to_owned();
     let map = map(&Walker::new(&study.body), clip, heading, &moments, title);
     show(page, "walking", &map)
 }
@@ -311,9 +313,9 @@ fn fitted(study: &Study, name: &str, body: &Body, tempo: f64) -> Result<Option<A
 }
 
 fn variations(page: &mut Page, study: &Study, name: &str, clip: &Arc<Clip>) -> Result<()> {
-    page.say("## Other people, loads, floors, rates");
+    page.say("## Other bodies, loads, floors and rates");
     page.say(&format!(
-        "`{name}` repeated for {SHORT} s. Loads are carried from the beginning on."
+        "`{name}`, repeated for {SHORT} s. Loads are held from the start."
     ));
     let man = Walker::new(&study.body);
     let mut rows = Vec::new();
@@ -328,7 +330,11 @@ fn variations(page: &mut Page, study: &Study, name: &str, clip: &Arc<Clip>) -> R
     };
     let people = [
         ("woman of 30", Profile::ordinary(Sex::Female, 30.0), 1.0),
-        ("man of 70 at 70 %", Profile::ordinary(Sex::Male, 70.0), 0.7),
+        (
+            "man of 70 at 70 % strength",
+            Profile::ordinary(Sex::Male, 70.0),
+            0.7,
+        ),
         ("man of 1.55 m, 58 kg", size(1.55, 58.0), 1.0),
         ("man of 1.95 m, 95 kg", size(1.95, 95.0), 1.0),
         ("child of 8", Profile::ordinary(Sex::Male, 8.0), 1.0),
@@ -346,7 +352,7 @@ fn variations(page: &mut Page, study: &Study, name: &str, clip: &Arc<Clip>) -> R
     for mass in [2.5, 5.0, 10.0, 15.0] {
         for (hands, text) in [
             (Hands::Right, "in the right hand"),
-            (Hands::Both, "in two hands"),
+            (Hands::Both, "in both hands"),
         ] {
             let load = Some((mass, hands));
             add(
@@ -361,7 +367,7 @@ fn variations(page: &mut Page, study: &Study, name: &str, clip: &Arc<Clip>) -> R
     }
     for friction in [0.4, 0.5, 0.6, 0.8, 1.0] {
         add(
-            &format!("friction {friction}"),
+            &format!("coefficient of friction {friction}"),
             &Walker {
                 friction,
                 ..man.clone()
@@ -381,11 +387,7 @@ fn variations(page: &mut Page, study: &Study, name: &str, clip: &Arc<Clip>) -> R
     }
     for tempo in [0.8, 0.9, 1.1, 1.2] {
         if let Some(paced) = fitted(study, name, &study.body, tempo)? {
-            add(
-                &format!("prepared for {tempo} times its pace"),
-                &man,
-                &paced,
-            );
+            add(&format!("at {tempo} times its speed"), &man, &paced);
         }
     }
     page.table(&HEAD, &rows);
@@ -396,8 +398,8 @@ fn sensitivity(page: &mut Page, study: &Study) -> Result<()> {
     let (metres, degrees) = NOISE;
     page.say("## Noise");
     page.say(&format!(
-        "{COPIES} copies of each recording with every number of it off by up to {} mm or {degrees}°, prepared and walked like the recording itself: \
-         what is survived by luck is not survived.",
+        "{COPIES} copies of each recording in which every value is changed at random by up to {} mm or {degrees}°, prepared and simulated like \
+         the recording itself. A clip that is tracked only by chance falls in some copies.",
         1e3 * metres
     ));
     let walker = Walker::new(&study.body);
@@ -419,7 +421,7 @@ fn sensitivity(page: &mut Page, study: &Study) -> Result<()> {
             let clip = retarget(&Bvh::parse(copy.as_bytes())?, &study.body, options)?.clip;
             let walked = walk(&walker, &Walk::once(&Arc::new(clip)));
             stood += u32::from(walked.stood());
-            let rms = walked.report.joint_rms_deg;
+            let rms = walked.report.tracking_joint_rms_deg;
             (least, most) = (least.min(rms), most.max(rms));
         }
         rows.push(vec![
@@ -428,6 +430,6 @@ fn sensitivity(page: &mut Page, study: &Study) -> Result<()> {
             format!("{least:.2} – {most:.2}"),
         ]);
     }
-    page.table(&["", "stood", "joints, ° rms"], &rows);
+    page.table(&["clip", "no fall", "joint tracking error, ° rms"], &rows);
     Ok(())
 }

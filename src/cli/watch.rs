@@ -1,11 +1,11 @@
 //! `sinew watch`: prints the frames of a world.
 
+use super::terminal::print_line;
 use super::{explain, world_resource};
 use crate::client::Client;
 use crate::wire::frame::values;
 use crate::wire::pb;
 use crate::wire::watched::WatchWorldResponse;
-use std::io::Write as _;
 
 /// Arguments of `sinew watch`.
 #[derive(Clone, Debug, clap::Args)]
@@ -17,19 +17,19 @@ pub struct Args {
     /// Print one JSON object per frame
     #[arg(long)]
     json: bool,
-    /// Fields of a figure's frame, or `*`
+    /// Fields of a figure frame, for example root_pose,torque; `*`: all
     #[arg(long, value_delimiter = ',', value_name = "FIELD,…")]
     fields: Vec<String>,
-    /// Only these figures
+    /// Figures to show (repeatable) [default: all]
     #[arg(long = "figure", value_name = "NAME")]
     figures: Vec<String>,
-    /// Numbers at the simulator's own precision
+    /// Ask for double precision
     #[arg(long)]
     double: bool,
-    /// One frame for every so many ticks
+    /// Print one frame every N ticks
     #[arg(long, default_value_t = 1, value_name = "N")]
     every: i32,
-    /// End after so many frames
+    /// End after N frames
     #[arg(long, value_name = "N")]
     count: Option<u64>,
 }
@@ -89,10 +89,7 @@ async fn watch(args: &Args) -> anyhow::Result<()> {
                 } else {
                     line(&frame, &names)
                 };
-                // A reader that has seen enough (`head`) is no error.
-                if writeln!(std::io::stdout(), "{text}").is_err() {
-                    return Ok(());
-                }
+                print_line(&text)?;
                 seen += 1;
                 if args.count.is_some_and(|n| seen >= n) {
                     return Ok(());
@@ -116,14 +113,18 @@ fn line(frame: &pb::WorldFrame, names: &Names) -> String {
     for f in &frame.figures {
         let _ = write!(out, "  {}", name(names, f));
         if let Some(p) = f.root_pose.as_ref().map(values).filter(|p| p.len() == 7) {
-            let _ = write!(out, " at {:.2} {:.2} {:.2} m", p[0], p[1], p[2]);
+            let _ = write!(out, ": root at {:.2}, {:.2}, {:.2} m", p[0], p[1], p[2]);
         }
         if let Some(t) = f.torque.as_ref().map(values) {
             let most = t.iter().fold(0.0f64, |m, t| m.max(t.abs()));
-            let _ = write!(out, ", torque ≤ {most:.0} N·m");
+            let _ = write!(out, ", largest torque {most:.0} N·m");
         }
         if let Some(s) = &f.status {
-            let _ = write!(out, ", error {:.2}°", s.joint_rms_rad.to_degrees());
+            let _ = write!(
+                out,
+                ", tracking error {:.2}° rms",
+                s.joint_rms_rad.to_degrees()
+            );
             for (bit, flag) in crate::sim::figure::Flags::NAMES.iter().enumerate() {
                 if s.flags >> bit & 1 == 1 {
                     let _ = write!(out, " {flag}");

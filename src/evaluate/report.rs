@@ -1,4 +1,11 @@
-//! What a run comes to: the content of `report.json`.
+//! The measures of a run: the content of `report.json`.
+//!
+//! # What tracking errors refer to
+//!
+//! Measures named `tracking_…` are distances from the *target*, the posture that the controller is asked for. The target is not fixed in
+//! the world: after a step, the reference motion is moved to where the foot landed ([`crate::sim::gait::anchor`]), and planned steps that
+//! a disturbance changed are part of it. A figure that drifts away from the recording with every step therefore still has small tracking
+//! errors. Errors against the recording itself, fixed in the world, are those of `sinew survey`.
 
 use crate::sim::body::DOF_COUNT;
 use crate::sim::body::topology::DOF_NAMES;
@@ -27,8 +34,8 @@ pub struct RunEvent {
 
 /// The measures of one run. Field names carry their units and are those of `report.json`.
 ///
-/// *Tracking* measures (joint errors, distances, slip, margin) stop with the tick in which the figure falls: afterwards there is nothing
-/// left to track. *Physical* measures (limits, residuals, penetration) cover every tick.
+/// Tracking errors, slip and margin end with the tick in which the figure falls: afterwards there is nothing left to track. Limits,
+/// residuals and penetration cover every tick.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "net", derive(serde::Serialize))]
 pub struct RunReport {
@@ -38,14 +45,14 @@ pub struct RunReport {
     pub ticks: u64,
     /// When the figure fell, s; `None` if it stood to the end.
     pub fell_at_s: Option<f64>,
-    /// Root mean square of desired ⊖ actual over all DOFs and ticks, degrees.
-    pub joint_rms_deg: f64,
-    /// Largest error of any DOF in any tick, degrees.
-    pub joint_max_deg: f64,
-    /// Mean distance of segment origins from their desired place, both seen from the pelvis origin, mm.
-    pub mpjpe_root_mm: f64,
-    /// Mean distance of segment origins from their desired place in the world, mm.
-    pub mpjpe_global_mm: f64,
+    /// Root mean square of target ⊖ actual joint angle over all DOFs and ticks, degrees.
+    pub tracking_joint_rms_deg: f64,
+    /// Largest such error of any DOF in any tick, degrees.
+    pub tracking_joint_max_deg: f64,
+    /// Mean distance of segment origins from those of the target, both relative to the pelvis origin, mm.
+    pub tracking_mpjpe_root_mm: f64,
+    /// Mean distance of segment origins from those of the target in the world, mm. The target is moved along with the feet.
+    pub tracking_mpjpe_global_mm: f64,
     /// Largest used share of the available muscle torque (1 = at the limit).
     pub max_utilisation: f64,
     /// Largest violation of a torque limit, relative to that limit; 0 when none.
@@ -55,9 +62,9 @@ pub struct RunReport {
     pub saturated_s: [f64; DOF_COUNT],
     /// Largest relative residual of the equations of motion (see [`super::audit`]).
     pub dynamics_residual_max: f64,
-    /// Largest force on the pelvis that no contact or perturbation explains, N.
+    /// Largest force on the pelvis that no contact or perturbation accounts for, N.
     pub root_wrench_unexplained_max_n: f64,
-    /// Largest moment on the pelvis that no contact or perturbation explains, N·m.
+    /// Largest moment on the pelvis that no contact or perturbation accounts for, N·m.
     pub root_wrench_unexplained_max_nm: f64,
     /// Largest mean force of the assist on the pelvis in a tick, N; 0 when it is off.
     pub assist_max_n: f64,
@@ -65,15 +72,16 @@ pub struct RunReport {
     pub assist_max_nm: f64,
     /// Mean over all ticks of the assist's force, N.
     pub assist_mean_n: f64,
-    /// Largest distance of the pelvis from its desired place, mm.
-    pub root_error_max_mm: f64,
-    /// Least strength that fatigue left any muscle, share of the rested; 1 when it is off.
+    /// Largest distance of the pelvis origin from that of the target, mm. The target is moved along with the feet.
+    pub tracking_root_max_mm: f64,
+    /// Least strength that fatigue left any muscle, share of the rested strength; 1 when fatigue is off.
     pub remaining_strength_min: f64,
     /// Mean horizontal speed of foot contact points that carry more than 5 N, mm/s; 0 when no foot ever does.
     pub foot_slip_mm_per_s: f64,
     /// Deepest contact point below a surface, mm.
     pub penetration_max_mm: f64,
-    /// Least distance of the zero-moment point inside the support polygon (negative: outside), m; `None` if there never was one.
+    /// Least balance margin: distance of the zero-moment point from the edge of the support polygon, positive inside, m; `None` if the
+    /// figure never stood.
     pub margin_min_m: Option<f64>,
     /// Hash of the world's state after the last tick, 16 hexadecimal digits.
     pub state_hash: String,
@@ -83,14 +91,14 @@ pub struct RunReport {
     pub us_per_tick_p99: f64,
     /// Ticks whose state or report held a number that is not finite; 0 in a sound run.
     pub non_finite_ticks: u64,
-    /// When the figure was frozen because its state ran away, s; `None` in a sound run.
+    /// When the figure was frozen because its state diverged, s; `None` in a sound run.
     pub quarantined_at_s: Option<f64>,
     /// Largest used share of the available muscle torque of each DOF.
     #[cfg_attr(feature = "net", serde(serialize_with = "by_dof"))]
     pub utilisation_max: [f64; DOF_COUNT],
-    /// Root mean square error of each DOF, degrees.
+    /// Root mean square of target ⊖ actual of each DOF, degrees.
     #[cfg_attr(feature = "net", serde(serialize_with = "by_dof"))]
-    pub joint_rms_by_dof_deg: [f64; DOF_COUNT],
+    pub tracking_joint_rms_by_dof_deg: [f64; DOF_COUNT],
     /// What happened, in order; at most [`MAX_EVENTS`].
     pub events: Vec<RunEvent>,
     /// Events beyond those kept.

@@ -3,6 +3,7 @@
 use super::config::Config;
 use metrics_exporter_prometheus::{PrometheusBuilder, PrometheusHandle};
 use std::sync::OnceLock;
+use tracing_subscriber::EnvFilter;
 
 /// Metrics of this process; the recorder is installed by the first call.
 pub fn metrics() -> Option<PrometheusHandle> {
@@ -38,21 +39,27 @@ fn describe() {
     describe_counter!("sinew_faults_total", "Requests refused, by reason.");
 }
 
-/// Sends logs to standard error as the configuration says. Only the first call in a process has an effect.
+/// The filter of the setting `log`.
 ///
 /// # Errors
 /// The filter is not understood.
-pub fn init_logs(config: &Config) -> Result<(), String> {
-    let filter = tracing_subscriber::EnvFilter::try_new(&config.log)
-        .map_err(|e| format!("log: {e} in {:?}", config.log))?;
+pub fn log_filter(config: &Config) -> Result<EnvFilter, String> {
+    EnvFilter::try_new(&config.log).map_err(|e| format!("log: {e} in {:?}", config.log))
+}
+
+/// Sends logs to standard error. Only the first call in a process has an effect.
+///
+/// `colour`: with ANSI escape codes, for a terminal. A standard error that cannot be written to loses messages; it stops nothing.
+pub fn init_logs(filter: EnvFilter, json: bool, colour: bool) {
     let logs = tracing_subscriber::fmt()
         .with_env_filter(filter)
+        .with_ansi(colour)
+        .log_internal_errors(false) // they would go to standard error, and panic when it is closed
         .with_writer(std::io::stderr);
     // Already installed: the caller of this library logs in its own way.
-    let _ = if config.log_json {
+    let _ = if json {
         logs.json().try_init()
     } else {
         logs.try_init()
     };
-    Ok(())
 }

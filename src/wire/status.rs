@@ -22,7 +22,7 @@ pub enum Fault {
         problem: String,
     },
     /// There is no such resource.
-    #[error("{kind} {name:?} does not exist")]
+    #[error("{kind} {name:?} does not exist{valid}", valid = valid_names(kind))]
     NotFound {
         /// Kind of resource: `world`, `figure`, `clip`, `body`, `segment`, `dof`, `bone`.
         kind: &'static str,
@@ -90,6 +90,17 @@ pub enum Fault {
 
 /// Characters of `worlds/{world}/obstacles/{obstacle}` with the longest ids there are.
 const LONGEST_NAME: usize = 144;
+
+/// What exists instead, for kinds of resource that are the same on every server.
+fn valid_names(kind: &str) -> String {
+    match kind {
+        "body" => format!(
+            "; the bodies are {}",
+            crate::sim::body::names::body_name_forms()
+        ),
+        _ => String::new(),
+    }
+}
 
 impl Fault {
     /// Bad input in `field`.

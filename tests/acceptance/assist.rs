@@ -25,19 +25,19 @@ fn full_assist_walks_with_the_pelvis_on_its_path() {
         let r = scene.measure(authored(&man(), "walk").duration());
         println!(
             "{kind:?}: rms {:.2}°, root within {:.3} mm, {:.0} N mean, {:.0} N and {:.0} N·m at most, residual {:.1e}",
-            r.joint_rms_deg,
-            r.root_error_max_mm,
+            r.tracking_joint_rms_deg,
+            r.tracking_root_max_mm,
             r.assist_mean_n,
             r.assist_max_n,
             r.assist_max_nm,
             r.dynamics_residual_max
         );
-        assert!(r.fell_at_s.is_none() && r.joint_rms_deg < joints);
+        assert!(r.fell_at_s.is_none() && r.tracking_joint_rms_deg < joints);
         assert!(
-            r.root_error_max_mm < 2.0,
+            r.tracking_root_max_mm < 2.0,
             "{} {}",
-            r.root_error_max_mm,
-            r.joint_rms_deg
+            r.tracking_root_max_mm,
+            r.tracking_joint_rms_deg
         );
         assert!(r.dynamics_residual_max < 1e-9 && r.over_limit_max < 1e-9);
         assert!(r.root_wrench_unexplained_max_n < 1e-6 * 75.0 * 9.81);

@@ -90,7 +90,7 @@ fn a_run_is_followed_to_its_last_sample() {
             ..Walk::once(&clip)
         };
         let w = walk(&who, &kept);
-        let rms = w.report.joint_rms_deg;
+        let rms = w.report.tracking_joint_rms_deg;
         println!(
             "strength {strength}: {rms:.1} deg, capture point {:.2} m, {} landings",
             w.capture[1], w.steps

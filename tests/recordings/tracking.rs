@@ -30,8 +30,8 @@ fn line(name: &str, r: &RunReport) -> String {
     format!(
         "{name:>14}: fell {:?}, rms {:.3}°, max {:.2}°, over {:.1e}, residual {:.1e}, root {:.1e} N {:.1e} N·m, depth {:.2} mm, slip {:.2} mm/s, use {:.2}",
         r.fell_at_s,
-        r.joint_rms_deg,
-        r.joint_max_deg,
+        r.tracking_joint_rms_deg,
+        r.tracking_joint_max_deg,
         r.over_limit_max,
         r.dynamics_residual_max,
         r.root_wrench_unexplained_max_n,
@@ -92,7 +92,7 @@ fn follows(controller: ControllerKind, motions: &[(&str, Arc<Clip>)], body: &Arc
         if r.fell_at_s.is_some() {
             found.push("fell".to_owned());
         }
-        if r.joint_rms_deg >= JOINT_RMS {
+        if r.tracking_joint_rms_deg >= JOINT_RMS {
             found.push("strays".to_owned());
         }
         if r.penetration_max_mm >= PENETRATION {

@@ -47,7 +47,7 @@ fn recordings_are_followed_at_the_pace_they_are_prepared_for() {
                 &Walker::new(&body),
                 &Walk::once(&recorded_with(&body, name, &at(tempo))),
             );
-            let rms = w.report.joint_rms_deg;
+            let rms = w.report.tracking_joint_rms_deg;
             assert!(w.stood() && rms < most, "{name} at {tempo}: {rms} deg");
             prepared += rms / names.len() as f64;
 
@@ -58,7 +58,7 @@ fn recordings_are_followed_at_the_pace_they_are_prepared_for() {
                 ..Walker::new(&body)
             };
             let w = walk(&walker, &Walk { seconds, ..once });
-            played += w.report.joint_rms_deg / names.len() as f64;
+            played += w.report.tracking_joint_rms_deg / names.len() as f64;
         }
         println!("{tempo}: joints {prepared:.2} deg rms in the mean, {played:.2} as prepared at 1");
         assert!(
@@ -126,7 +126,7 @@ fn a_foot_that_is_left_behind_steps_before_its_leg_is_stretched() {
             .flat_map(|t| soles(&body, &clip.sample(t).posture))
             .fold(f64::INFINITY, f64::min);
         let w = walk(&Walker::new(&body), &Walk::once(&clip));
-        let rms = w.report.joint_rms_deg;
+        let rms = w.report.tracking_joint_rms_deg;
         println!("{tempo}: lowest point {:.1} mm, {rms:.2} deg", 1e3 * lowest);
         assert!(lowest > -0.004, "{tempo}: {lowest} m");
         assert!(w.stood() && rms < 1.2, "{tempo}: {rms} deg");
@@ -150,7 +150,7 @@ fn mirrored_recordings_are_followed_as_well() {
             let clip = retarget(&bvh, &body, &at(1.0)).unwrap().clip;
             walk(&Walker::new(&body), &Walk::once(&Arc::new(clip)))
         });
-        let rms = [&plain, &mirrored].map(|w| w.report.joint_rms_deg);
+        let rms = [&plain, &mirrored].map(|w| w.report.tracking_joint_rms_deg);
         println!("{name}: {:.2} deg, mirrored {:.2} deg", rms[0], rms[1]);
         assert!(plain.stood() && mirrored.stood(), "{name}");
         assert!((rms[1] - rms[0]).abs() < 0.1, "{name}: {rms:?}");

@@ -116,13 +116,6 @@ export function settingsOf(c: Cast): MessageInitShape<typeof FigureSchema> {
   };
 }
 
-/** `adult-man` or `female-25y-1680mm-61500g` as arguments of the command line. */
-function bodyArguments(body: string): string {
-  const [, sex, age, height, mass] = /^(male|female)-([\d.]+)y-(\d+)mm-(\d+)g$/.exec(body) ?? [];
-  if (!sex) return `--body ${body.replace(/^adult-/, "")}`;
-  return `--body ${sex === "male" ? "man" : "woman"} --age ${age} --height ${Number(height) / 1000} --mass ${Number(mass) / 1000}`;
-}
-
 /** Every choice of the paper's controller. The command line's own preset would choose stepper and rate as well. */
 function paperArguments(o: Figure["paper"]): string {
   if (!o) return "";
@@ -145,7 +138,7 @@ function motionArgument(clip: string, clips: Clip[]): string {
 /** The command line that runs one figure of the scene. */
 export function asCommand(p: Person, clips: Clip[]): string {
   const c = cast(p);
-  const parts = [`sinew run ${motionArgument(c.clip, clips)} ${bodyArguments(c.body)} --controller ${c.controller}`];
+  const parts = [`sinew run ${motionArgument(c.clip, clips)} --body ${c.body} --controller ${c.controller}`];
   if (c.stepper) parts.push(`--stepper ${c.stepper}`);
   if (c.preset) parts.push(paperArguments(p.figure.paper));
   if (c.strength !== 1) parts.push(`--strength ${c.strength}`);

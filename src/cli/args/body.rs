@@ -1,82 +1,152 @@
-//! Who the figure stands for.
+//! Which body the figure has.
 
-use crate::sim::body::{Body, Profile, Sex};
-use anyhow::{Context, Result};
-use clap::ValueEnum;
+use crate::cli::exit::{Usage, usage};
+use crate::sim::body::names::{DEFAULT_BODY, NAMED_BODIES, body_name_forms, sex_name};
+use crate::sim::body::{Body, Profile};
+use anyhow::Result;
+use clap::builder::{PossibleValue, TypedValueParser};
+use clap::error::ErrorKind;
+use std::ffi::OsStr;
 
-/// Which body tables are used.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum, serde::Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum BodyKind {
-    /// Adult man; 30 years, 1.75 m, 75 kg unless said otherwise.
-    #[default]
-    Man,
-    /// Adult woman, of average size unless said otherwise.
-    Woman,
-    /// Child; 8 years, of ordinary size for the age unless said otherwise. Up to 10 years boys and girls are alike.
-    Child,
-    /// Older man; 75 years, of ordinary size unless said otherwise.
-    OlderMan,
-    /// Older woman; 75 years, of ordinary size unless said otherwise.
-    OlderWoman,
-}
-
-/// Who the figure stands for.
+/// Which body the figure has.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub struct BodyArgs {
-    /// Body and strength tables.
-    #[arg(long, value_enum, default_value_t)]
-    pub body: BodyKind,
-    /// Age, years, 6 to 90.
+    /// Name of the body, as in the API: one of these, or a profile such as female-25y-1680mm-61500g [default: adult-man].
+    #[arg(long, value_name = "NAME", value_parser = BodyNameParser)]
+    pub body: Option<Profile>,
+    /// Age, years, 6 to 90; the age of the named body unless given.
     #[arg(long, value_name = "YEARS")]
     pub age: Option<f64>,
-    /// Stature, m; ordinary for sex and age unless given.
+    /// Stature, m; average for sex and age unless given.
     #[arg(long, value_name = "M")]
     pub height: Option<f64>,
-    /// Body mass, kg; ordinary for sex and age unless given.
+    /// Body mass, kg; average for sex and age unless given.
     #[arg(long, value_name = "KG")]
     pub mass: Option<f64>,
 }
 
 impl BodyArgs {
+    /// True if none of the options is given.
+    pub fn is_default(&self) -> bool {
+        self.body.is_none() && !self.changes_profile()
+    }
+
+    fn changes_profile(&self) -> bool {
+        self.age.or(self.height).or(self.mass).is_some()
+    }
+
+    /// The profile of the body: that of the name, changed by age, height and mass.
+    ///
+    /// # Errors
+    /// A name by value together with one of the values.
+    pub fn profile(&self) -> Result<Profile> {
+        let base = self
+            .body
+            .or_else(|| Profile::from_name(DEFAULT_BODY))
+            .expect("the default body has a profile");
+        if !self.changes_profile() {
+            return Ok(base);
+        }
+        if base.name() == base.value_name() {
+            let text = format!(
+                "--body {} gives age, height and mass already: leave out --age, --height and --mass",
+                base.name()
+            );
+            return Err(Usage(text).into());
+        }
+        let average = Profile::ordinary(base.sex, self.age.unwrap_or(base.age));
+        Ok(Profile {
+            height: self.height.unwrap_or(average.height),
+            mass: self.mass.unwrap_or(average.mass),
+            ..average
+        }
+        .rounded())
+    }
+
     /// Builds the body.
     ///
     /// # Errors
     /// When the tables do not cover the profile; names the value and its range.
     pub fn build(&self) -> Result<Body> {
-        let (sex, age) = match self.body {
-            BodyKind::Man => (Sex::Male, 30.0),
-            BodyKind::Woman => (Sex::Female, 30.0),
-            BodyKind::Child => (Sex::Male, 8.0),
-            BodyKind::OlderMan => (Sex::Male, 75.0),
-            BodyKind::OlderWoman => (Sex::Female, 75.0),
-        };
-        let ordinary = Profile::ordinary(sex, self.age.unwrap_or(age));
-        let profile = Profile {
-            height: self.height.unwrap_or(ordinary.height),
-            mass: self.mass.unwrap_or(ordinary.mass),
-            ..ordinary
-        };
-        Body::humanoid(profile).context("no such body")
+        let profile = self.profile()?;
+        Body::humanoid(profile)
+            .map_err(|e| usage(anyhow::Error::from(e).context("the body tables do not cover this")))
     }
 }
 
-/// `man` or `woman`.
-pub fn sex_name(sex: Sex) -> &'static str {
-    match sex {
-        Sex::Male => "man",
-        Sex::Female => "woman",
+/// Reads a body name; the names with a profile of their own are offered to help texts and shells.
+#[derive(Clone, Copy, Debug)]
+pub struct BodyNameParser;
+
+impl TypedValueParser for BodyNameParser {
+    type Value = Profile;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        _: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> Result<Profile, clap::Error> {
+        let name = value.to_string_lossy();
+        Profile::from_name(&name).ok_or_else(|| {
+            let text = format!(
+                "there is no body {name:?}; the bodies are {}\n",
+                body_name_forms()
+            );
+            clap::Error::raw(ErrorKind::InvalidValue, text).with_cmd(command)
+        })
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Some(Box::new(NAMED_BODIES.iter().map(|(name, sex, age)| {
+            PossibleValue::new(name).help(describe(&Profile::ordinary(*sex, *age)))
+        })))
     }
 }
 
-/// What people call someone of this sex and age, for headings.
-pub fn person_name(p: &Profile) -> &'static str {
-    match (p.sex, p.age) {
-        (_, a) if a <= 10.0 => "child",
-        (Sex::Male, a) if a < 18.0 => "boy",
-        (Sex::Female, a) if a < 18.0 => "girl",
-        (Sex::Male, a) if a >= 65.0 => "older man",
-        (Sex::Female, a) if a >= 65.0 => "older woman",
-        (sex, _) => sex_name(sex),
+/// Age, stature and mass of a profile.
+pub fn describe(p: &Profile) -> String {
+    format!("{} years, {:.2} m, {} kg", p.age, p.height, p.mass)
+}
+
+/// The name of one of the named bodies, else `male` or `female`: for headings that give age, stature and mass as well.
+pub fn short_name(p: &Profile) -> String {
+    let named = p.name();
+    if named == p.value_name() {
+        sex_name(p.sex).to_owned()
+    } else {
+        named
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::body::Sex;
+
+    #[test]
+    fn options_change_the_named_profile() {
+        let args = BodyArgs {
+            body: Profile::from_name("adult-woman"),
+            height: Some(1.600_4),
+            ..BodyArgs::default()
+        };
+        let p = args.profile().expect("a profile");
+        assert_eq!((p.sex, p.age, p.height), (Sex::Female, 30.0, 1.6));
+        assert_eq!(p.name(), "female-30y-1600mm-62000g");
+        let plain = BodyArgs::default();
+        assert!(plain.is_default());
+        assert_eq!(plain.profile().expect("a profile").name(), "adult-man");
+    }
+
+    #[test]
+    fn a_profile_by_value_takes_no_further_values() {
+        let args = BodyArgs {
+            body: Profile::from_name("female-25y-1680mm-61500g"),
+            age: Some(30.0),
+            ..BodyArgs::default()
+        };
+        let error = args.profile().expect_err("two ages").to_string();
+        assert!(error.contains("--age"), "{error}");
     }
 }

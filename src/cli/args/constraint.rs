@@ -1,4 +1,4 @@
-//! `--constrain`: where parts of the figure are wanted.
+//! `--constrain`: target positions of segments and of the centre of mass.
 
 use super::spec::{SpecError, interval, number, segment};
 use crate::sim::body::topology::{L_HAND, R_HAND};
@@ -8,16 +8,17 @@ use crate::sim::figure::{Constrained, Constraint};
 use crate::sim::math::{Quat, Vec3};
 use std::str::FromStr;
 
-/// `PART@x,y,z[@T0..T1][:qx,qy,qz,qw]`: where a segment or the centre of mass (`com`) is wanted, and how it is turned; `_` leaves an axis free.
+/// `PART@x,y,z[@T0..T1][:qx,qy,qz,qw]`: target position and rotation of a segment, or target position of the centre of mass (`com`); `_`
+/// leaves an axis free.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConstraintSpec {
     /// Segment; `None`: the centre of mass.
     pub part: Option<SegmentId>,
-    /// Wanted coordinates, m.
+    /// Target coordinates, m.
     pub position: [Option<f64>; 3],
-    /// Wanted rotation.
+    /// Target rotation.
     pub rotation: Option<Quat>,
-    /// Begins at, s.
+    /// Starts at, s.
     pub from_s: f64,
     /// Ends at, s; infinite = never.
     pub to_s: f64,

@@ -1,19 +1,19 @@
-//! Who computes torques and moves the body, and the choices of the paper's controller.
+//! Controller and stepper, and the options of the paper's controller.
 
 use crate::sim::figure::{ControlParams, ControllerKind, Metric, Priority, Share, StepperKind};
 use anyhow::{Result, ensure};
 use clap::ValueEnum;
 
-/// Who computes torques.
+/// Controller that computes the torques.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ControllerArg {
     /// The paper's controller.
     Paper,
-    /// Whole-body optimisation within strength and friction.
+    /// Whole-body optimisation within strength and friction limits.
     #[default]
     Modern,
-    /// Strength-limited motors at the joints alone.
+    /// Strength-limited joint motors (PD control), without balance control.
     Motors,
 }
 
@@ -27,14 +27,14 @@ impl From<ControllerArg> for ControllerKind {
     }
 }
 
-/// Who moves the body.
+/// Stepper that moves the body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum StepperArg {
     /// Torques drive rigid-body dynamics with ground contact.
     #[default]
     Torque,
-    /// The controller's accelerations are applied as they are (for the paper's controller).
+    /// The accelerations of the controller are integrated directly (for the paper's controller).
     Kinematic,
 }
 
@@ -50,7 +50,7 @@ impl From<StepperArg> for StepperKind {
 /// Starting point of the paper's controller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum PresetArg {
-    /// As printed in 2000: --controller paper --stepper kinematic --rate 30, no safeguards, no armature.
+    /// As published in 2000: --controller paper --stepper kinematic --rate 30, no safeguards, no armature.
     Paper2000,
 }
 
@@ -58,13 +58,13 @@ pub enum PresetArg {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 #[allow(missing_docs)]
 pub enum MetricArg {
-    /// W = I: all joints help.
+    /// W = I: all joints share the change.
     #[value(name = "I")]
     Identity,
-    /// W = H: only saturated joints accelerate otherwise.
+    /// W = H: only the accelerations of saturated joints change.
     #[value(name = "H")]
     Inertia,
-    /// W = H²: only saturated torques change.
+    /// W = H²: only the torques of saturated joints change.
     #[value(name = "H2")]
     Torque,
 }
@@ -72,9 +72,9 @@ pub enum MetricArg {
 /// Order of equation (12).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum PriorityArg {
-    /// As printed.
+    /// As published.
     Paper,
-    /// Hands get what the centre of mass leaves.
+    /// Hands are controlled in the null space of the centre of mass.
     Nested,
 }
 
@@ -83,39 +83,40 @@ pub enum PriorityArg {
 pub enum ShareArg {
     /// By the ratios of equation (2).
     Paper,
-    /// Least weighted forces with the right sum and moment.
+    /// Smallest weighted forces with the required sum and moment.
     Balanced,
 }
 
-/// Choices of the paper's controller; the others ignore them. What is not given is as the preset has it, or as usual without one.
+/// Options of the paper's controller; other controllers ignore them. Options that are not given have the value of the preset, or their
+/// default without one.
 #[derive(Clone, Debug, Default, clap::Args)]
 #[command(next_help_heading = "Paper's controller")]
 pub struct PaperOptions {
-    /// Starting point of the choices below.
+    /// Preset for the options below.
     #[arg(long, value_enum, conflicts_with_all = ["controller", "stepper"])]
     pub preset: Option<PresetArg>,
-    /// Blend of position and velocity demand in (4) per 1/30 s, 0 to 1; counts with --horizon 0.
+    /// Weight of the position demand against the velocity demand in equation (4) per 1/30 s, 0 to 1; used with --horizon 0.
     #[arg(long, value_name = "A")]
     pub alpha: Option<f64>,
-    /// Time constant of the demand, 0.01 to 2 s; 0: met within one step, as printed.
+    /// Time constant of the demand, 0.01 to 2 s; 0: met within one step, as published.
     #[arg(long, value_name = "S")]
     pub horizon: Option<f64>,
-    /// Norm of the least change (10).
+    /// Norm of the smallest change, equation (10).
     #[arg(long, value_enum, ignore_case = true)]
     pub metric: Option<MetricArg>,
-    /// Order of centre of mass and hands (12).
+    /// Priority of centre of mass and hands, equation (12).
     #[arg(long, value_enum)]
     pub priority: Option<PriorityArg>,
     /// Sharing of the ground reaction between supports.
     #[arg(long, value_enum)]
     pub share: Option<ShareArg>,
-    /// Joints that (16) saturates go to their limit.
+    /// Joints that equation (16) saturates use their full limit.
     #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true")]
     pub to_limit: Option<bool>,
-    /// Torques of a tipping figure know that its support turns.
+    /// Account for the rotating support in the torques of a tipping figure.
     #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true")]
     pub tilt: Option<bool>,
-    /// Keep the demand for the centre of mass within what the feet can give.
+    /// Limit the demand for the centre of mass to what the feet can provide.
     #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true")]
     pub zmp_feasible: Option<bool>,
     /// Control both hands.
@@ -124,13 +125,13 @@ pub struct PaperOptions {
     /// Control the centre of mass.
     #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true")]
     pub track_com: Option<bool>,
-    /// Kinematic stepper: torques move the figure while prescribed accelerations cannot go on.
+    /// Kinematic stepper: hand over to torques while the prescribed accelerations are not feasible.
     #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true")]
     pub hand_over: Option<bool>,
 }
 
 impl PaperOptions {
-    /// The choices as the controller takes them.
+    /// The options as parameters of the controller.
     ///
     /// # Errors
     /// A number outside its range; names it.
@@ -148,7 +149,7 @@ impl PaperOptions {
             Some(t) => {
                 ensure!(
                     (0.01..=2.0).contains(&t),
-                    "--horizon {t} s: neither 0 nor within 0.01…2"
+                    "--horizon {t} s: must be 0 or within 0.01…2"
                 );
                 out.horizon = Some(t);
             }

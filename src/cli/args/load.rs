@@ -1,4 +1,4 @@
-//! `--load`: what the figure carries.
+//! `--load`: loads that the figure holds.
 
 use super::spec::{SpecError, interval, number, segment};
 use crate::sim::body::{Body, SegmentId};
@@ -102,7 +102,7 @@ mod tests {
             ("x@r_hand", "mass (kg): \"x\" is not a number"),
             ("nan@r_hand", "mass (kg): NaN is outside 0…500"),
             ("-1@r_hand", "mass (kg): -1 is outside 0…500"),
-            ("3@tail", "no segment is called \"tail\""),
+            ("3@tail", "there is no segment \"tail\""),
             ("3@r_hand@2..1", "the interval 2..1 s is empty"),
         ] {
             let error = text.parse::<LoadSpec>().expect_err(text).to_string();

@@ -1,19 +1,19 @@
-//! `--obstacle`: things that the figure touches.
+//! `--obstacle`: objects that figures collide with.
 
 use super::spec::{SpecError, number, numbers};
 use crate::sim::collide::{Mobility, ObstacleSetup, Shape};
 use crate::sim::math::{Quat, Vec3};
 use std::str::FromStr;
 
-/// `SHAPE:SIZE@x,y,z[,yaw][:KGkg][:vx,vy,vz]`: a thing that figures touch. With a mass it moves freely, with a velocity alone it is led,
-/// else it is fixed.
+/// `SHAPE:SIZE@x,y,z[,yaw][:KGkg][:vx,vy,vz]`: an object that figures collide with. With a mass it moves freely; with a
+/// velocity and no mass it moves at that velocity; else it is fixed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ObstacleSpec(pub ObstacleSetup);
 
 impl ObstacleSpec {
     const FORM: &'static str = "SHAPE:SIZE@x,y,z[,yaw°][:KGkg][:vx,vy,vz] with SHAPE:SIZE one of box:LX,LY,LZ (edges, m), sphere:R, \
                                 capsule:R,L (upright; L between the centres of its ends), plane:nx,ny,nz (normal)";
-    /// Friction of wood or cloth on skin and cloth.
+    /// Coefficient of friction of wood or cloth on skin and cloth.
     const FRICTION: f64 = 0.6;
 }
 

@@ -1,4 +1,4 @@
-//! `--push`: blows.
+//! `--push`: pushes.
 
 use super::spec::{MAX_TIME, SpecError, number, segment};
 use crate::sim::body::{Body, SegmentId};
@@ -6,14 +6,14 @@ use crate::sim::figure::Perturbation;
 use crate::sim::math::Vec3;
 use std::str::FromStr;
 
-/// `NS@SEGMENT@T:x,y,z`: a push of so many newton-seconds on a segment beginning at T seconds, along the world direction x, y, z.
+/// `NS@SEGMENT@T:x,y,z`: a push of NS newton-seconds on a segment, starting at T seconds, along the world direction x, y, z.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PushSpec {
     /// Pushed segment.
     pub segment: SegmentId,
     /// Impulse, N·s.
     pub impulse_ns: f64,
-    /// Begins at, s.
+    /// Starts at, s.
     pub at_s: f64,
     /// Unit vector, world axes.
     pub direction: Vec3,

@@ -1,4 +1,4 @@
-//! What the small languages of `--load`, `--push`, `--constrain`, `--obstacle` and `--then` have in common.
+//! Common parts of the formats of `--load`, `--push`, `--constrain`, `--obstacle` and `--then`.
 
 use crate::sim::body::SegmentId;
 use crate::sim::body::topology::SEGMENT_NAMES;
@@ -6,7 +6,7 @@ use crate::sim::body::topology::SEGMENT_NAMES;
 /// Why a `--load`, `--push`, `--constrain`, `--obstacle` or `--then` cannot be read.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SpecError {
-    /// Wrong shape.
+    /// Wrong form.
     #[error("{got:?} is not of the form {form}")]
     Form {
         /// What was given.
@@ -35,9 +35,9 @@ pub enum SpecError {
         upper: f64,
     },
     /// Unknown segment.
-    #[error("no segment is called {0:?}; there are {names}", names = SEGMENT_NAMES.join(", "))]
+    #[error("there is no segment {0:?}; the segments are {names}", names = SEGMENT_NAMES.join(", "))]
     Segment(String),
-    /// An interval that ends before it begins.
+    /// An interval that ends before it starts.
     #[error("the interval {from}..{to} s is empty")]
     Interval {
         /// Begin, s.
@@ -46,7 +46,7 @@ pub enum SpecError {
         to: f64,
     },
     /// A push or a plane without direction.
-    #[error("there is no direction in 0,0,0")]
+    #[error("0,0,0 has no direction")]
     Direction,
 }
 
@@ -86,7 +86,7 @@ pub(super) fn interval(times: &str, form: impl Fn() -> SpecError) -> Result<(f64
     let (mut from_s, mut to_s) = (0.0, f64::INFINITY);
     let (a, b) = times.split_once("..").ok_or_else(form)?;
     if !a.trim().is_empty() {
-        from_s = number("begin (s)", a, 0.0, MAX_TIME)?;
+        from_s = number("start (s)", a, 0.0, MAX_TIME)?;
     }
     if !b.trim().is_empty() {
         to_s = number("end (s)", b, 0.0, MAX_TIME)?;

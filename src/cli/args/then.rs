@@ -1,14 +1,14 @@
-//! `--then`: clips that follow.
+//! `--then`: clips that are played after the first one.
 
 use super::spec::{MAX_TIME, SpecError, number};
 use std::str::FromStr;
 
-/// `CLIP@T`: a clip that is asked for at T seconds.
+/// `CLIP@T`: a clip that is played from T seconds on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ThenSpec {
     /// BVH file or builtin:NAME.
     pub clip: String,
-    /// When it is asked for, s.
+    /// Start, s.
     pub at_s: f64,
 }
 

@@ -1,11 +1,12 @@
 //! What `--report` writes.
 
 use super::Scenario;
-use crate::cli::args::{ControllerArg, StepperArg, sex_name};
+use crate::cli::args::{ControllerArg, StepperArg};
 use crate::cli::lint;
 use crate::cli::source::Source;
 use crate::evaluate::RunReport;
 use crate::sim::body::SegmentId;
+use crate::sim::body::names::sex_name;
 use serde::Serialize;
 
 /// `report.json`: the scenario, how the motion was fitted, and the measures.
@@ -43,6 +44,8 @@ struct ThenEntry<'a> {
 
 #[derive(Serialize)]
 struct BodyEntry {
+    /// As `--body` and the API take it.
+    name: String,
     sex: &'static str,
     age_years: f64,
     height_m: f64,
@@ -82,6 +85,7 @@ pub(super) fn document<'a>(
         clip: &source.name,
         duration_s,
         body: BodyEntry {
+            name: profile.name(),
             sex: sex_name(profile.sex),
             age_years: profile.age,
             height_m: profile.height,

@@ -1,7 +1,7 @@
-//! What `--strip` draws.
+//! The motion strip of `--strip`.
 
 use super::Scenario;
-use crate::cli::args::{LoadSpec, person_name};
+use crate::cli::args::{LoadSpec, short_name};
 use crate::cli::output::{extension, write};
 use crate::evaluate::strip::{Frame, StripOptions, Thing, View, draw, raster, svg};
 use crate::sim::collide::{Mobility, ObstacleSetup, Shape};
@@ -10,7 +10,7 @@ use crate::sim::math::{Quat, Vec3};
 use anyhow::{Context, Result};
 use std::path::Path;
 
-/// From where a strip is drawn.
+/// Camera view of a strip.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum ViewArg {
     /// From the right side.
@@ -32,7 +32,7 @@ impl From<ViewArg> for View {
     }
 }
 
-/// A small ball where all three coordinates of a part are wanted at `time` (s).
+/// A small ball at the target position of a constraint on all three axes that holds at `time` (s).
 pub(super) fn goal_mark(c: &Constraint, time: f64) -> Option<Thing> {
     let holds = c.from <= time && time < c.to && c.axes == [1.0; 3];
     let setup = ObstacleSetup {
@@ -76,7 +76,7 @@ pub(super) fn write_strip(
     let profile = scenario.body.profile;
     let mut title = format!(
         "{name}: {}, {:.2} m, {:.0} kg, strength {}",
-        person_name(&profile),
+        short_name(&profile),
         profile.height,
         profile.mass,
         args.strength
@@ -85,7 +85,7 @@ pub(super) fn write_strip(
         title += &format!(", {} kg in {}", l.mass_kg, l.segment.name());
     }
     for p in &args.push {
-        title += &format!(", push {} Ns at {} s", p.impulse_ns, p.at_s);
+        title += &format!(", push {} N s at {} s", p.impulse_ns, p.at_s);
     }
     let options = StripOptions {
         view: args.view.into(),

@@ -1,7 +1,12 @@
-//! What is said on the terminal while clips run and when they are done.
+//! What is printed while clips run and when they are done.
 
+use super::RunArgs;
+use crate::cli::number::rounded;
+use crate::cli::terminal::{OutputClosed, print_line};
 use crate::evaluate::RunReport;
-use indicatif::{ProgressBar, ProgressStyle};
+use anyhow::Result;
+use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Progress of one clip.
 pub(super) fn progress_bar(name: &str, ticks: u64) -> ProgressBar {
@@ -15,47 +20,102 @@ pub(super) fn progress_bar(name: &str, ticks: u64) -> ProgressBar {
         .with_prefix(name.to_owned())
 }
 
-/// Heads of the columns of [`summary_line`].
-pub(super) fn summary_header() -> String {
-    format!(
-        "{:<14} {:>7} {:>8} {:>8} {:>8} {:>9} {:>7} {:>9} {:>8} {:>8}  result",
-        "clip",
-        "time s",
-        "rms deg",
-        "max deg",
-        "root mm",
-        "global mm",
-        "use max",
-        "margin m",
-        "slip mm",
-        "us/tick"
-    )
+/// The table that `sinew run` prints on standard output, with progress bars on standard error beside it.
+pub(super) struct Table<'a> {
+    bars: &'a MultiProgress,
+    /// Nothing is printed: `--json`, or the reader has ended.
+    silent: AtomicBool,
+    /// Files or the exit code are wanted as well, so that a reader that ends does not end the run.
+    more_than_print: bool,
 }
 
+impl<'a> Table<'a> {
+    pub(super) fn new(bars: &'a MultiProgress, args: &RunArgs) -> Self {
+        Self {
+            bars,
+            silent: args.json.into(),
+            more_than_print: args.fail_on_fall
+                || args.report.is_some()
+                || args.out.is_some()
+                || args.strip.is_some(),
+        }
+    }
+
+    /// Adds a progress bar.
+    pub(super) fn add(&self, bar: ProgressBar) -> ProgressBar {
+        self.bars.add(bar)
+    }
+
+    /// The heading.
+    pub(super) fn heading(&self) -> Result<()> {
+        self.print(&HEADING.join("\n"))
+    }
+
+    /// The line of one clip.
+    pub(super) fn line(&self, name: &str, report: &RunReport) -> Result<()> {
+        self.print(&line(name, report))
+    }
+
+    /// What the columns mean.
+    pub(super) fn legend(&self) -> Result<()> {
+        self.print(LEGEND)
+    }
+
+    fn print(&self, text: &str) -> Result<()> {
+        if self.silent.load(Ordering::Relaxed) {
+            return Ok(());
+        }
+        let done = self.bars.suspend(|| print_line(text));
+        match done {
+            Err(e) if self.more_than_print && e.is::<OutputClosed>() => {
+                self.silent.store(true, Ordering::Relaxed);
+                Ok(())
+            }
+            other => other,
+        }
+    }
+}
+
+/// Heads of the columns of [`line`].
+const HEADING: [&str; 2] = [
+    "                        joint error  tracking error  strength  balance  foot  computing",
+    "clip            time s   rms°   max°  local  global    used %  margin  skate    µs/tick  result",
+];
+
+/// What the columns of [`line`] mean.
+const LEGEND: &str = "
+joint error     target minus actual joint angle over all degrees of freedom: root mean square and maximum, degrees
+tracking error  mean distance of the segment origins from those of the target, mm: local = relative to the pelvis, global = in the world.
+                The target is moved along with the feet after each step. `sinew survey` measures errors against the fixed recording.
+strength used   largest muscle torque relative to the available torque, %; 100 = at the limit
+balance margin  least distance of the zero-moment point from the edge of the support polygon, cm; negative = outside
+foot skate      mean horizontal speed of the loaded contact points of the feet, mm/s
+computing       median time to compute one tick, µs";
+
 /// The measures of one clip in a line.
-pub(super) fn summary_line(name: &str, r: &RunReport) -> String {
+fn line(name: &str, r: &RunReport) -> String {
     let mut result = match r.fell_at_s {
         Some(t) => format!("fell at {t:.2} s"),
-        None => "stood".to_owned(),
+        None => "no fall".to_owned(),
     };
     if let Some(t) = r.quarantined_at_s {
-        result += &format!(", frozen at {t:.2} s");
+        result += &format!(", state diverged at {t:.2} s");
+    }
+    if let Some((dof, s)) = r.longest_saturated() {
+        result += &format!(", {dof} at its torque limit for {s:.2} s");
     }
     let margin = r
         .margin_min_m
-        .map_or_else(|| "none".to_owned(), |m| format!("{m:.3}"));
-    let longest = r.longest_saturated().map_or_else(String::new, |(d, s)| {
-        format!(", {d} at its limit for {s:.2} s")
-    });
+        .map_or_else(|| "–".to_owned(), |m| format!("{:.1}", 100.0 * m));
     format!(
-        "{name:<14} {:>7.2} {:>8.3} {:>8.2} {:>8.1} {:>9.1} {:>7.2} {margin:>9} {:>8.1} {:>8.0}  {result}{longest}",
+        "{name:<14} {:>7.2} {:>6.2} {:>6.1} {:>6} {:>7} {:>9.0} {margin:>7} {:>6} {:>10.0}  {result}",
         r.ticks as f64 / r.rate_hz,
-        r.joint_rms_deg,
-        r.joint_max_deg,
-        r.mpjpe_root_mm,
-        r.mpjpe_global_mm,
-        r.max_utilisation,
-        r.foot_slip_mm_per_s,
+        r.tracking_joint_rms_deg,
+        r.tracking_joint_max_deg,
+        rounded(r.tracking_mpjpe_root_mm, 3),
+        rounded(r.tracking_mpjpe_global_mm, 3),
+        100.0 * r.max_utilisation,
+        rounded(r.foot_slip_mm_per_s, 3),
         r.us_per_tick_p50,
     )
 }

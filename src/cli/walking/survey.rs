@@ -1,4 +1,4 @@
-//! Every clip with everything that may be otherwise, one thing at a time.
+//! Every clip in variations that change one condition at a time.
 
 use super::{Motion, Study, hundredths};
 use crate::cli::page::Page;
@@ -8,7 +8,7 @@ use crate::sim::motion::{Bvh, RetargetOptions, retarget};
 use anyhow::{Context, Result};
 use std::sync::Arc;
 
-/// What is otherwise than in the plain case.
+/// One variation.
 struct Case {
     name: &'static str,
     walker: Walker,
@@ -16,7 +16,7 @@ struct Case {
     mirrored: bool,
 }
 
-/// All cases, the plain one first.
+/// All variations, the unchanged one first.
 fn cases(man: &Arc<Body>) -> Result<Vec<Case>> {
     let plain = |name, body: &Arc<Body>| Case {
         name,
@@ -68,7 +68,7 @@ fn cases(man: &Arc<Body>) -> Result<Vec<Case>> {
     Ok(out)
 }
 
-/// Joint error of a motion in one case, or when it falls; true if it stands.
+/// Joint tracking error of a motion in one variation, or when it falls; true if it does not fall.
 fn cell(motion: &Motion, bvh: &Bvh, case: &Case) -> Result<(String, bool)> {
     let options = RetargetOptions {
         tempo: case.tempo,
@@ -80,13 +80,13 @@ fn cell(motion: &Motion, bvh: &Bvh, case: &Case) -> Result<(String, bool)> {
         .clip;
     let w = walk(&case.walker, &Walk::once(&Arc::new(clip)));
     let text = w.fell_s.map_or_else(
-        || hundredths(w.report.joint_rms_deg),
+        || hundredths(w.report.tracking_joint_rms_deg),
         |t| format!("**fell at {t:.1} s**"),
     );
     Ok((text, w.stood()))
 }
 
-/// The table of all recordings and all cases.
+/// The table of all recordings and all variations.
 ///
 /// # Errors
 /// Clips that cannot be read or fitted.
@@ -112,15 +112,19 @@ pub(super) fn survey(page: &mut Page, study: &Study) -> Result<()> {
     if rows.is_empty() {
         return Ok(());
     }
-    page.say("## Every clip, varied");
+    page.say("## Variations of every clip");
     page.say(
-        "From standing to standing, one thing otherwise at a time: joints in ° rms, or when it falls. Clips at another pace are prepared for it, as \
-         `PlayClip` does; the man of 70 has the strength of his age, and loads are carried from the beginning on.",
+        "From standing to standing, with one condition changed at a time. Cells: joint tracking error, ° rms, or time of the fall. Clips at another \
+         speed are prepared for it, as `PlayClip` does; the man of 70 has the strength of his age; loads are held from the start.",
     );
     let all = rows.len();
     let counts = stood.iter().map(|n| format!("{n} of {all}"));
-    rows.push(std::iter::once("stood".to_owned()).chain(counts).collect());
-    let head: Vec<&str> = std::iter::once("")
+    rows.push(
+        std::iter::once("no fall".to_owned())
+            .chain(counts)
+            .collect(),
+    );
+    let head: Vec<&str> = std::iter::once("clip")
         .chain(cases.iter().map(|c| c.name))
         .collect();
     page.table(&head, &rows);

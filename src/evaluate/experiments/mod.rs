@@ -274,8 +274,8 @@ impl Record {
     /// What became of the figure, in a word or two.
     pub fn result(&self) -> String {
         match (self.frozen_s, self.fell_s) {
-            (Some(f), t) if t.is_none_or(|t| f <= t) => format!("runs away, frozen at {f:.1} s"),
-            (_, Some(t)) => format!("falls, {t:.1} s"),
+            (Some(f), t) if t.is_none_or(|t| f <= t) => format!("state diverges at {f:.1} s"),
+            (_, Some(t)) => format!("falls at {t:.1} s"),
             _ => "stands".into(),
         }
     }

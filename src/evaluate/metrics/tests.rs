@@ -101,10 +101,10 @@ fn perfect_rest_measures_zero() {
     assert_eq!((r.ticks, r.fell_at_s, r.margin_min_m), (120, None, None));
     assert_eq!(
         [
-            r.joint_rms_deg,
-            r.joint_max_deg,
-            r.mpjpe_root_mm,
-            r.mpjpe_global_mm
+            r.tracking_joint_rms_deg,
+            r.tracking_joint_max_deg,
+            r.tracking_mpjpe_root_mm,
+            r.tracking_mpjpe_global_mm
         ],
         [0.0; 4]
     );
@@ -139,13 +139,16 @@ fn tracking_measures_stop_with_the_fall() {
     m.observe(stand.tick(), 1.0);
     let r = m.finish(0);
     assert_eq!(r.fell_at_s, Some(1.0));
-    assert!((r.joint_rms_deg - 1.0).abs() < 1e-12 && (r.joint_max_deg - 1.0).abs() < 1e-12);
     assert!(
-        (r.mpjpe_global_mm - 100.0).abs() < 1e-9,
+        (r.tracking_joint_rms_deg - 1.0).abs() < 1e-12
+            && (r.tracking_joint_max_deg - 1.0).abs() < 1e-12
+    );
+    assert!(
+        (r.tracking_mpjpe_global_mm - 100.0).abs() < 1e-9,
         "the whole figure is 100 mm off"
     );
     assert!(
-        r.mpjpe_root_mm < 1e-9,
+        r.tracking_mpjpe_root_mm < 1e-9,
         "seen from the pelvis nothing is off"
     );
     assert_eq!(r.margin_min_m, Some(0.02));
@@ -233,7 +236,7 @@ fn non_finite_and_frozen_ticks_are_counted_and_measure_nothing() {
         (r.non_finite_ticks, r.quarantined_at_s),
         (1, Some(2.0 / 60.0))
     );
-    assert_eq!(r.joint_rms_deg, 0.0);
+    assert_eq!(r.tracking_joint_rms_deg, 0.0);
 }
 
 #[test]

@@ -4,6 +4,7 @@ use super::super::pb;
 use super::super::status::Fault;
 use super::super::types::BodyRef;
 use super::{shortened, vector_out};
+use crate::sim::body::names::DEFAULT_BODY;
 use crate::sim::body::provenance::Provenance;
 use crate::sim::body::topology::{
     BONE_NAMES, DOF_AXIS, DOF_LEN, DOF_NAMES, DOF_SEGMENT, DOF_START, JOINT, JOINT_NAMES, Joint,
@@ -12,62 +13,13 @@ use crate::sim::body::topology::{
 use crate::sim::body::{Body, DOF_COUNT, Profile, SEGMENT_COUNT, Sex};
 use crate::sim::math::Vec3;
 
-/// Bodies that have names of their own, with sex and age; their size is the ordinary one.
-pub const NAMED: [(&str, Sex, f64); 5] = [
-    ("adult-man", Sex::Male, 30.0),
-    ("adult-woman", Sex::Female, 30.0),
-    ("child", Sex::Male, 8.0),
-    ("older-man", Sex::Male, 75.0),
-    ("older-woman", Sex::Female, 75.0),
-];
-
-/// The name that says a profile: `{sex}-{age}y-{height}mm-{mass}g`.
-pub fn profile_id(p: &Profile) -> String {
-    let sex = match p.sex {
-        Sex::Male => "male",
-        Sex::Female => "female",
-    };
-    format!(
-        "{sex}-{}y-{}mm-{}g",
-        p.age,
-        (p.height * 1e3).round(),
-        (p.mass * 1e3).round()
-    )
-}
-
-fn profile_of_id(id: &str) -> Option<Profile> {
-    let mut parts = id.split('-');
-    let sex = match parts.next()? {
-        "male" => Sex::Male,
-        "female" => Sex::Female,
-        _ => return None,
-    };
-    let mut number = |unit: &str| -> Option<f64> {
-        let digits = parts.next()?.strip_suffix(unit)?;
-        let plain = digits.len() <= 8 && digits.bytes().all(|b| b.is_ascii_digit() || b == b'.');
-        plain.then(|| digits.parse().ok()).flatten()
-    };
-    let (age, height, mass) = (number("y")?, number("mm")?, number("g")?);
-    let profile = Profile {
-        sex,
-        age,
-        height: height / 1e3,
-        mass: mass / 1e3,
-    };
-    // One body, one name.
-    (parts.next().is_none() && profile_id(&profile) == id).then_some(profile)
-}
+pub use crate::sim::body::names::NAMED_BODIES as NAMED;
 
 /// The body with this last part of a name.
 pub fn by_id(id: &str) -> Option<BodyRef> {
-    let profile = NAMED
-        .iter()
-        .find(|(name, ..)| *name == id)
-        .map(|(_, sex, age)| Profile::ordinary(*sex, *age))
-        .or_else(|| profile_of_id(id))?;
     Some(BodyRef {
         id: id.to_owned(),
-        profile,
+        profile: Profile::from_name(id)?,
     })
 }
 
@@ -90,7 +42,7 @@ pub fn reference(
             "must be absent when the body is given by name",
         )),
         (false, None) => by_name(field, name),
-        (true, None) => by_name(field, "bodies/adult-man"),
+        (true, None) => by_name(field, &format!("bodies/{DEFAULT_BODY}")),
         (true, Some(p)) => {
             let sex = match pb::Sex::try_from(p.sex) {
                 Ok(pb::Sex::Male) => Sex::Male,
@@ -114,11 +66,12 @@ pub fn reference(
             let profile = Profile {
                 sex,
                 age,
-                height: (height * 1e3).round() / 1e3,
-                mass: (mass * 1e3).round() / 1e3,
-            };
+                height,
+                mass,
+            }
+            .rounded();
             Ok(BodyRef {
-                id: profile_id(&profile),
+                id: profile.value_name(),
                 profile,
             })
         }
@@ -265,7 +218,7 @@ mod tests {
                 mass: 61.5
             }
         );
-        assert_eq!(profile_id(&body.profile), body.id);
+        assert_eq!(body.profile.value_name(), body.id);
         for bad in [
             "male",
             "male-30y",

@@ -122,7 +122,7 @@ fn who_dances_turns_by_steps_and_stays_on_his_feet() {
         let body = Arc::new(Body::humanoid(size(height, mass)).unwrap());
         let clip = recorded(&body, "dance");
         let w = experiments::walk(&Walker::new(&body), &Walk::once(&clip));
-        let rms = w.report.joint_rms_deg;
+        let rms = w.report.tracking_joint_rms_deg;
         assert!(w.stood() && rms < 0.75, "{height} m, {mass} kg: {rms} deg");
     }
     let body = man();
@@ -142,7 +142,7 @@ fn who_dances_turns_by_steps_and_stays_on_his_feet() {
         let once = Walk::once(&clip);
         let seconds = once.seconds / speed;
         let w = experiments::walk(&walker, &Walk { seconds, ..once });
-        let rms = w.report.joint_rms_deg;
+        let rms = w.report.tracking_joint_rms_deg;
         assert!(w.stood() && rms < most, "{speed}, {friction}: {rms} deg");
     }
 }
@@ -322,11 +322,11 @@ fn the_old_and_the_weak_walk_it_too() {
         let w = experiments::walk(&walker, &Walk::over_and_over(&Arc::new(walk_cycle), 20.0));
         let text = format!(
             "{age} years, {strength}: {:.2} deg, {:.3} m",
-            w.report.joint_rms_deg, w.capture[1]
+            w.report.tracking_joint_rms_deg, w.capture[1]
         );
         println!("{text}");
         assert!(
-            w.stood() && w.report.joint_rms_deg < rms && w.capture[1] < furthest,
+            w.stood() && w.report.tracking_joint_rms_deg < rms && w.capture[1] < furthest,
             "{text}"
         );
     }

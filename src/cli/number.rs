@@ -1,0 +1,71 @@
+//! Numbers as people read them: `120 Hz`, not `119.99999 Hz`; `0.0564 m`, not `0.056444444 m`. JSON and CSV keep every digit.
+
+/// Significant digits of measured quantities: lengths, times, masses.
+const MEASURED: usize = 3;
+/// Significant digits of rates: 59.94 and 29.97 Hz differ from 60 and 30 Hz.
+const RATE: usize = 4;
+
+/// `value` with `digits` significant digits, no zeros at the end of a fraction, and never rounded before the decimal point.
+pub fn rounded(value: f64, digits: usize) -> String {
+    if value == 0.0 {
+        return "0".into();
+    }
+    if !value.is_finite() {
+        return value.to_string();
+    }
+    let before = value.abs().log10().floor() as i32 + 1;
+    let decimals = (digits as i32 - before).max(0) as usize;
+    let text = format!("{value:.decimals$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+/// A rate with its unit.
+pub fn hertz(value: f64) -> String {
+    format!("{} Hz", rounded(value, RATE))
+}
+
+/// A length with its unit.
+pub fn metres(value: f64) -> String {
+    format!("{} m", rounded(value, MEASURED))
+}
+
+/// A mass with its unit.
+pub fn kilograms(value: f64) -> String {
+    format!("{} kg", rounded(value, MEASURED))
+}
+
+/// A time with its unit, in hundredths of a second.
+pub fn seconds(value: f64) -> String {
+    format!("{value:.2} s")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short_and_near() {
+        for (value, digits, text) in [
+            (119.99999, 4, "120"),
+            (59.94, 4, "59.94"),
+            (29.970_03, 4, "29.97"),
+            (0.056_444_444, 3, "0.0564"),
+            (9.9996, 3, "10"),
+            (-0.25, 3, "-0.25"),
+            (12_345.6, 3, "12346"),
+            (1e-9, 3, "0.000000001"),
+            (0.0, 3, "0"),
+        ] {
+            assert_eq!(rounded(value, digits), text);
+        }
+        assert_eq!(rounded(f64::NAN, 3), "NaN");
+        assert_eq!(hertz(119.999_99), "120 Hz");
+        assert_eq!(metres(0.056_444_444), "0.0564 m");
+        assert_eq!(kilograms(75.0), "75 kg");
+        assert_eq!(seconds(2.349_9), "2.35 s");
+    }
+}
