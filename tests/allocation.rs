@@ -5,13 +5,13 @@
 mod common;
 
 use allocation_counter::measure;
-use common::{Scene, authored, bent, figure, man, play, recorded, still};
+use common::{Scene, authored, bent, figure, man, play, still, synthesised};
 use sinew::sim::body::SegmentId;
 use sinew::sim::body::topology::{CHEST, L_HAND, R_HAND};
 use sinew::sim::figure::{Constrained, Constraint, ControllerKind, Flags, Perturbation};
 use sinew::sim::math::{Quat, Vec3};
 use sinew::sim::motion::live::{LiveMotion, RATE};
-use sinew::sim::world::{Drive, LivePlayback, World};
+use sinew::sim::world::{ClipPlayback, Drive, LivePlayback, World};
 use std::sync::Arc;
 
 const KINDS: [ControllerKind; 3] = [
@@ -198,12 +198,17 @@ fn falling_and_lying_allocate_nothing() {
 
 #[test]
 fn getting_up_allocates_nothing() {
+    // It lies prone while its motion lies on the back, and gets up when the motion does.
     let body = man();
-    let clip = recorded(&body, "get-up");
-    let setup = figure(&body, ControllerKind::Modern, clip.sample(0.0).state());
-    let mut scene = Scene::of(setup);
-    scene.figure_mut().set_drive(play(&clip));
-    assert_none("get-up", &mut scene, 26.0);
+    let clip = synthesised(&body, "lie-down.vrm");
+    let mut prone = *clip.posture(0);
+    prone.root_rotation = Quat::exp(Vec3::Y * std::f64::consts::FRAC_PI_2);
+    prone.root_position.z = 0.13;
+    let mut scene = Scene::of(figure(&body, ControllerKind::Modern, still(prone)));
+    scene
+        .figure_mut()
+        .set_drive(Drive::Clip(ClipPlayback::new(clip, -4.5)));
+    assert_none("get-up", &mut scene, 30.0);
     let f = scene.figure();
     assert!(!f.is_fallen() && f.report().is_some_and(|r| r.com.z > 0.9));
 }

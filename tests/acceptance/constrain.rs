@@ -1,7 +1,7 @@
 //! Goal: a part that a client constrains goes where it is told, and stays there, while the figure goes on with its motion; what cannot be reached is
 //! approached without harm. Method: the state after a while against the constraint.
 
-use crate::common::{Scene, authored, bent, figure, man, play, recorded, still};
+use crate::common::{Scene, authored, bent, figure, man, play, still, synthesised};
 use crate::symmetry::{flip, flip_rotation, mirrored_state, opposite};
 use crate::vec3;
 use sinew::sim::body::topology::{DOF_START, HEAD, L_FOOT, L_HAND, PELVIS, R_HAND};
@@ -149,7 +149,7 @@ fn a_hand_is_held_and_turned() {
 #[test]
 fn a_hand_is_held_while_walking() {
     let body = man();
-    let walk = Arc::new(cycle(&body, &recorded(&body, "walk")).unwrap());
+    let walk = Arc::new(cycle(&body, &synthesised(&body, "walk-normal.vrm")).unwrap());
     for held in [Held::Nothing, Held::Body, Held::World] {
         let mut scene = Scene::of(figure(
             &body,

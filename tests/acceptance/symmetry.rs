@@ -4,7 +4,7 @@
 //! The paper's controller needs one main support. When both feet carry exactly the same it takes the left one, in the mirror too; the load is
 //! therefore in the hand from the start.
 
-use crate::common::{Scene, authored, figure, man, play, recorded};
+use crate::common::{Scene, authored, figure, man, play, synthesised};
 use crate::vec3;
 use sinew::sim::body::topology::{CHEST, DOF_LEN, DOF_START, JOINT, Joint, R_HAND, SEGMENT_NAMES};
 use sinew::sim::body::{DOF_COUNT, Posture, SEGMENT_COUNT, SegmentId, State};
@@ -240,7 +240,7 @@ fn cases() -> Vec<Case> {
     let lift = authored(&body, "lift");
     let idle = authored(&body, "idle");
     let walk = authored(&body, "walk");
-    let wave = recorded(&body, "wave");
+    let wave = synthesised(&body, "wave.vrm");
     let case =
         |name: &'static str, controller, stepper, clip: &Arc<Clip>, seconds, load, push| Case {
             name,

@@ -2,6 +2,7 @@
 #![allow(dead_code, clippy::unwrap_used)] // every test file uses its own part
 
 pub mod collisions;
+pub mod corpus;
 pub mod mocap;
 
 use sinew::evaluate::pose::segment_poses;
@@ -19,6 +20,13 @@ use std::sync::Arc;
 /// The reference body: a man of 30 years, 1.75 m, 75 kg.
 pub fn man() -> Arc<Body> {
     Arc::new(Body::adult_man())
+}
+
+/// The synthesised recording `name` (`walk-normal.vrm`) fitted to `body`.
+pub fn synthesised(body: &Body, name: &str) -> Arc<Clip> {
+    let bvh = Bvh::parse(&corpus::read(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let fitted = retarget(&bvh, body, &RetargetOptions::default());
+    Arc::new(fitted.unwrap_or_else(|e| panic!("{name}: {e}")).clip)
 }
 
 /// The recording `name` fitted to `body`; panics if the data set is missing.

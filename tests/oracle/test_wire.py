@@ -18,7 +18,7 @@ import pytest
 from conftest import ROOT, build, target
 from engines import NV, SEGMENTS, Mujoco, Pinocchio
 
-MOCAP = Path(os.environ.get("SINEW_MOCAP_DIR", ROOT.parent / "shared" / "mocap"))
+CORPUS = ROOT / "tests" / "corpus"
 WATCHED_S = 3.0
 LEAST_RATE = 55.0
 RESIDUAL = 1e-9
@@ -60,9 +60,8 @@ def server():
 
 @pytest.fixture(scope="module")
 def pushed(server):
-    """`wave.bvh` streamed as a live driver; yields the address once the world is there."""
-    clip = MOCAP / "wave.bvh"
-    assert clip.is_file(), f"no motion capture at {clip}: set SINEW_MOCAP_DIR"
+    """A wave streamed as a live driver; yields the address once the world is there."""
+    clip = CORPUS / "wave.vrm.bvh"
     process = subprocess.Popen([target() / "sinew", "push", server, clip, "--loop"], stdout=subprocess.DEVNULL)
     try:
         yield server

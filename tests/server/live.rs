@@ -1,6 +1,6 @@
 //! Streams that walk: a window prepares them, whatever the network does. World time is stepped, so that all of it is the same every time.
 
-use crate::mocap;
+use crate::corpus;
 use crate::support::{FALLEN, FROZEN, TestServer, header, refusal};
 use sinew::cli::push::Network;
 use sinew::sim::body::{Body, Posture};
@@ -11,7 +11,7 @@ use std::time::Duration;
 use tonic::Code;
 
 fn walk(body: &Body) -> Clip {
-    let bvh = Bvh::parse(&mocap::read("walk.bvh")).unwrap();
+    let bvh = Bvh::parse(&corpus::read("walk-normal.vrm")).unwrap();
     let clip = retarget(&bvh, body, &RetargetOptions::default())
         .unwrap()
         .clip;

@@ -4,11 +4,12 @@
 
 mod clips;
 mod constraints;
+#[allow(dead_code)] // the list of clips
+#[allow(dead_code)] // not every function
+#[path = "../common/corpus.rs"]
+mod corpus;
 mod drives;
 mod live;
-#[allow(dead_code)] // the list of clips
-#[path = "../common/mocap.rs"]
-mod mocap;
 mod obstacles;
 mod support;
 mod watching;

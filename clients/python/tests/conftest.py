@@ -33,8 +33,6 @@ def server() -> Iterator[sinew.Client]:
 
 
 @pytest.fixture(scope="session")
-def mocap() -> Path:
-    """The motion capture of the tests."""
-    folder = Path(os.environ.get("SINEW_MOCAP_DIR", ROOT.parent / "shared" / "mocap"))
-    assert folder.is_dir(), f"no motion capture at {folder}: set SINEW_MOCAP_DIR"
-    return folder
+def corpus() -> Path:
+    """The synthesised motion capture of the repository."""
+    return ROOT / "tests" / "corpus"

@@ -217,8 +217,8 @@ def test_arrays_and_clips_are_streamed_live(server: sinew.Client) -> None:
         pass
 
 
-def test_mocap_becomes_a_clip_and_arrays(server: sinew.Client, mocap: Path) -> None:
-    clip = server.upload_bvh(mocap / "wave.bvh", body="adult-woman")
+def test_mocap_becomes_a_clip_and_arrays(server: sinew.Client, corpus: Path) -> None:
+    clip = server.upload_bvh(corpus / "wave.vrm.bvh", body="adult-woman")
     assert clip.report is not None and len(clip.report.mapped) > 10 and not clip.message.builtin
     motion = clip.motion(body="adult-woman")
     assert abs(motion.duration_s - clip.duration_s) < 0.1 and np.ptp(motion.angles, axis=0).max() > 0.5

@@ -19,12 +19,12 @@ NAMES = sorted(p.stem for p in EXAMPLES.glob("*.py"))
 
 
 @pytest.fixture
-def small(monkeypatch: pytest.MonkeyPatch, mocap: Path, server: sinew.Client) -> None:
+def small(monkeypatch: pytest.MonkeyPatch, corpus: Path, server: sinew.Client) -> None:
     """Examples at a size for tests, on the server that is there."""
     settings = {
         "SINEW_EXAMPLE_S": "2.5",
         "SINEW_EXAMPLE_DIRECTIONS": "4",
-        "SINEW_BVH": str(mocap / "wave.bvh"),
+        "SINEW_BVH": str(corpus / "wave.vrm.bvh"),
         "SINEW_SERVER": server.address,
         "MPLBACKEND": "Agg",
     }
