@@ -318,11 +318,19 @@ fn measures_against_the_moved_target_are_called_tracking_errors() {
 
 #[test]
 fn shells_get_completions() {
-    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+    // Those of PowerShell and Elvish complete options, not their values.
+    for (shell, values) in [
+        ("bash", true),
+        ("zsh", true),
+        ("fish", true),
+        ("powershell", false),
+        ("elvish", false),
+    ] {
         let script = succeed(&["completions", shell]);
-        for word in ["fail-on-fall", "adult-woman", "completions"] {
+        for word in ["fail-on-fall", "completions"] {
             assert!(script.contains(word), "{shell}: {word}");
         }
+        assert!(!values || script.contains("adult-woman"), "{shell}");
     }
 }
 
@@ -473,10 +481,7 @@ fn numbers_are_printed_for_people() {
     let csv = dir.path("out.csv");
     let words = succeed(&["convert", &bvh, &csv, "--unit", "0.056444444"]);
     assert!(words.contains(" Hz, written to"), "{words}");
-    assert!(
-        !words.contains('\u{2026}') && !words.contains("99999"),
-        "{words}"
-    );
+    assert!(!words.contains("99999"), "{words}");
 }
 
 #[test]
