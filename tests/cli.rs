@@ -485,6 +485,29 @@ fn numbers_are_printed_for_people() {
 }
 
 #[test]
+fn warnings_of_the_retargeting_are_shown_beside_the_result() {
+    let dir = Scratch::new("warnings");
+    let good = dir.path("idle.bvh");
+    succeed(&["convert", "builtin:idle", &good]);
+    // Left named right: the reader notices by feet and knees, exchanges the names, and warns.
+    let text = std::fs::read_to_string(&good).expect("our own BVH");
+    let text = text.replace("left", "other");
+    let text = text.replace("right", "left").replace("other", "right");
+    let swapped = dir.file("swapped.bvh", &text);
+    let converted = dir.path("swapped.csv");
+    for args in [
+        &["run", &swapped, "--duration", "0.1", "--json"][..],
+        &["convert", &swapped, &converted],
+    ] {
+        let out = sinew(args);
+        let errors = stderr(&out);
+        assert!(out.status.success(), "{errors}");
+        assert!(errors.contains("warning: swapped: "), "{errors}");
+        assert!(!stdout(&out).contains("warning: "), "standard error only");
+    }
+}
+
+#[test]
 fn one_body_has_one_name_everywhere() {
     let list: Value = serde_json::from_str(&succeed(&["bodies", "--json"])).expect("JSON");
     let names: Vec<&str> = list["bodies"]
