@@ -72,7 +72,8 @@ impl<'a> Table<'a> {
         self.print(LEGEND)
     }
 
-    fn print(&self, text: &str) -> Result<()> {
+    /// Any further text between the lines.
+    pub(super) fn print(&self, text: &str) -> Result<()> {
         if self.silent.load(Ordering::Relaxed) {
             return Ok(());
         }
