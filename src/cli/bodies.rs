@@ -16,7 +16,7 @@ pub struct BodiesArgs {
     /// Which body is shown.
     #[command(flatten)]
     pub body: BodyArgs,
-    /// Percentile of strength in the population of that sex, age and size, 5 to 95.
+    /// Percentile of strength in the population of that sex, age and size, 5 to 95 [default: 50].
     #[arg(long, value_name = "P")]
     pub percentile: Option<f64>,
     /// Shows the source of every mass, limit and strength value.

@@ -1,7 +1,7 @@
 //! `sinew lint`: what retargeting finds in a recording, estimates and changes.
 
 use super::args::{BodyArgs, RecordingArgs};
-use super::number::{hertz, metres, rounded};
+use super::number::{fixed, hertz, metres, rounded, seconds};
 use super::source::{Source, load};
 use super::terminal::{print, print_line};
 use crate::sim::body::Body;
@@ -54,9 +54,9 @@ pub fn run(args: &LintArgs) -> Result<()> {
             }));
         } else {
             let mut text = format!(
-                "{}: {:.2} s, {} samples at {}\n",
+                "{}: {}, {} samples at {}\n",
                 source.name,
-                clip.duration(),
+                seconds(clip.duration()),
                 clip.len(),
                 hertz(clip.rate_hz())
             );
@@ -285,8 +285,8 @@ fn reading(r: &RetargetReport) -> Vec<Line> {
     lines.push((
         "floor",
         format!(
-            "height {:.1} mm, slope {}",
-            1e3 * r.floor_offset,
+            "height {} mm, slope {}",
+            fixed(1e3 * r.floor_offset, 1),
             rounded(r.floor_slope, 2)
         ),
     ));
@@ -295,7 +295,8 @@ fn reading(r: &RetargetReport) -> Vec<Line> {
         .iter()
         .map(|p| format!("{} {:.2}-{:.2}", p.letter(), p.start, p.end))
         .collect();
-    lines.push(("support, s", phases.join("; ")));
+    let legend = "L left foot, R right foot, D both feet, - flight";
+    lines.push(("support, s", format!("{} ({legend})", phases.join("; "))));
     lines
 }
 

@@ -5,21 +5,31 @@ const MEASURED: usize = 3;
 /// Significant digits of rates: 59.94 and 29.97 Hz differ from 60 and 30 Hz.
 const RATE: usize = 4;
 
-/// `value` with `digits` significant digits, no zeros at the end of a fraction, and never rounded before the decimal point.
+/// Most decimals of a rounded number: what is smaller counts as 0.
+const MOST_DECIMALS: i32 = 9;
+
+/// `value` with `digits` significant digits and at most nine decimals, without zeros at the end of a fraction, and never rounded before the
+/// decimal point.
 pub fn rounded(value: f64, digits: usize) -> String {
-    if value == 0.0 {
-        return "0".into();
-    }
     if !value.is_finite() {
         return value.to_string();
     }
-    let before = value.abs().log10().floor() as i32 + 1;
-    let decimals = (digits as i32 - before).max(0) as usize;
-    let text = format!("{value:.decimals$}");
+    let before = value.abs().max(1e-12).log10().floor() as i32 + 1;
+    let decimals = (digits as i32 - before).clamp(0, MOST_DECIMALS) as usize;
+    let text = fixed(value, decimals);
     if text.contains('.') {
         text.trim_end_matches('0').trim_end_matches('.').to_owned()
     } else {
         text
+    }
+}
+
+/// `value` with this many decimals; 0 has no sign.
+pub fn fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(rest) if rest.bytes().all(|b| matches!(b, b'0' | b'.')) => rest.to_owned(),
+        _ => text,
     }
 }
 
@@ -58,10 +68,13 @@ mod tests {
             (-0.25, 3, "-0.25"),
             (12_345.6, 3, "12346"),
             (1e-9, 3, "0.000000001"),
+            (-4.5e-17, 2, "0"),
             (0.0, 3, "0"),
         ] {
             assert_eq!(rounded(value, digits), text);
         }
+        assert_eq!(fixed(-0.04, 1), "0.0");
+        assert_eq!(fixed(-0.06, 1), "-0.1");
         assert_eq!(rounded(f64::NAN, 3), "NaN");
         assert_eq!(hertz(119.999_99), "120 Hz");
         assert_eq!(metres(0.056_444_444), "0.0564 m");

@@ -140,8 +140,8 @@ fn check(args: &Args) -> anyhow::Result<()> {
 async fn push(args: &Args) -> anyhow::Result<()> {
     let path = args.clip.display();
     check(args)?;
-    let bytes = std::fs::read(&args.clip).with_context(|| format!("{path}"))?;
-    let bvh = Bvh::parse(&bytes).with_context(|| format!("{path}"))?;
+    let bytes = std::fs::read(&args.clip).with_context(|| format!("cannot read {path}"))?;
+    let bvh = Bvh::parse(&bytes).with_context(|| format!("{path} is not a BVH file"))?;
     let client = Client::connect(&args.address).await?;
     let world = world_resource(&args.world);
     client.world(&world).await.map_err(|e| explain(&e))?;

@@ -308,7 +308,11 @@ fn check(args: &RunArgs) -> Result<()> {
 /// clips.
 fn run_all(scenario: &Scenario<'_>, sources: &[Source]) -> Result<Vec<serde_json::Value>> {
     let bars = MultiProgress::new();
-    let table = Table::new(&bars, scenario.args);
+    let table = Table::new(
+        &bars,
+        scenario.args,
+        sources.iter().map(|s| s.name.as_str()),
+    );
     let next = AtomicUsize::new(0);
     let results: Mutex<Vec<Option<Result<serde_json::Value>>>> =
         Mutex::new(sources.iter().map(|_| None).collect());

@@ -1,6 +1,7 @@
 //! Which body the figure has.
 
 use crate::cli::exit::{Usage, usage};
+use crate::cli::number::kilograms;
 use crate::sim::body::names::{DEFAULT_BODY, NAMED_BODIES, body_name_forms, sex_name};
 use crate::sim::body::{Body, Profile};
 use anyhow::Result;
@@ -106,7 +107,7 @@ impl TypedValueParser for BodyNameParser {
 
 /// Age, stature and mass of a profile.
 pub fn describe(p: &Profile) -> String {
-    format!("{} years, {:.2} m, {} kg", p.age, p.height, p.mass)
+    format!("{} years, {:.2} m, {}", p.age, p.height, kilograms(p.mass))
 }
 
 /// The name of one of the named bodies, else `male` or `female`: for headings that give age, stature and mass as well.

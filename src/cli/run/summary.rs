@@ -1,7 +1,7 @@
 //! What is printed while clips run and when they are done.
 
 use super::RunArgs;
-use crate::cli::number::rounded;
+use crate::cli::number::{fixed, seconds};
 use crate::cli::terminal::{OutputClosed, print_line};
 use crate::evaluate::RunReport;
 use anyhow::Result;
@@ -23,6 +23,8 @@ pub(super) fn progress_bar(name: &str, ticks: u64) -> ProgressBar {
 /// The table that `sinew run` prints on standard output, with progress bars on standard error beside it.
 pub(super) struct Table<'a> {
     bars: &'a MultiProgress,
+    /// Width of the column of clip names, characters.
+    width: usize,
     /// Nothing is printed: `--json`, or the reader has ended.
     silent: AtomicBool,
     /// Files or the exit code are wanted as well, so that a reader that ends does not end the run.
@@ -30,9 +32,16 @@ pub(super) struct Table<'a> {
 }
 
 impl<'a> Table<'a> {
-    pub(super) fn new(bars: &'a MultiProgress, args: &RunArgs) -> Self {
+    /// A table of clips with these names.
+    pub(super) fn new<'n>(
+        bars: &'a MultiProgress,
+        args: &RunArgs,
+        names: impl Iterator<Item = &'n str>,
+    ) -> Self {
+        let longest = names.map(|n| n.chars().count()).max().unwrap_or(0);
         Self {
             bars,
+            width: longest.max(HEADING[1].0.len()),
             silent: args.json.into(),
             more_than_print: args.fail_on_fall
                 || args.report.is_some()
@@ -48,12 +57,14 @@ impl<'a> Table<'a> {
 
     /// The heading.
     pub(super) fn heading(&self) -> Result<()> {
-        self.print(&HEADING.join("\n"))
+        let [above, below] =
+            HEADING.map(|(name, columns)| format!("{name:<0$} {columns}", self.width));
+        self.print(&format!("{above}\n{below}"))
     }
 
     /// The line of one clip.
     pub(super) fn line(&self, name: &str, report: &RunReport) -> Result<()> {
-        self.print(&line(name, report))
+        self.print(&format!("{name:<0$} {1}", self.width, line(report)))
     }
 
     /// What the columns mean.
@@ -61,7 +72,8 @@ impl<'a> Table<'a> {
         self.print(LEGEND)
     }
 
-    fn print(&self, text: &str) -> Result<()> {
+    /// Any further text between the lines.
+    pub(super) fn print(&self, text: &str) -> Result<()> {
         if self.silent.load(Ordering::Relaxed) {
             return Ok(());
         }
@@ -77,9 +89,15 @@ impl<'a> Table<'a> {
 }
 
 /// Heads of the columns of [`line`].
-const HEADING: [&str; 2] = [
-    "                        joint error  tracking error  strength  balance  foot  computing",
-    "clip            time s   rms°   max°  local  global    used %  margin  skate    µs/tick  result",
+const HEADING: [(&str, &str); 2] = [
+    (
+        "",
+        "          joint error  tracking error  strength  balance   foot  computing",
+    ),
+    (
+        "clip",
+        " time s   rms°   max°  local  global    used %  margin  skate    µs/tick  result",
+    ),
 ];
 
 /// What the columns of [`line`] mean.
@@ -92,30 +110,30 @@ balance margin  least distance of the zero-moment point from the edge of the sup
 foot skate      mean horizontal speed of the loaded contact points of the feet, mm/s
 computing       median time to compute one tick, µs";
 
-/// The measures of one clip in a line.
-fn line(name: &str, r: &RunReport) -> String {
+/// The measures of one clip, without its name.
+fn line(r: &RunReport) -> String {
     let mut result = match r.fell_at_s {
-        Some(t) => format!("fell at {t:.2} s"),
+        Some(t) => format!("fell at {}", seconds(t)),
         None => "no fall".to_owned(),
     };
     if let Some(t) = r.quarantined_at_s {
-        result += &format!(", state diverged at {t:.2} s");
+        result += &format!(", state diverged at {}", seconds(t));
     }
     if let Some((dof, s)) = r.longest_saturated() {
-        result += &format!(", {dof} at its torque limit for {s:.2} s");
+        result += &format!(", {dof} at its torque limit for {}", seconds(s));
     }
     let margin = r
         .margin_min_m
-        .map_or_else(|| "–".to_owned(), |m| format!("{:.1}", 100.0 * m));
+        .map_or_else(|| "–".to_owned(), |m| fixed(100.0 * m, 1));
     format!(
-        "{name:<14} {:>7.2} {:>6.2} {:>6.1} {:>6} {:>7} {:>9.0} {margin:>7} {:>6} {:>10.0}  {result}",
+        "{:>7.2} {:>6.2} {:>6.1} {:>6.1} {:>7.1} {:>9.0} {margin:>7} {:>6.1} {:>10.0}  {result}",
         r.ticks as f64 / r.rate_hz,
         r.tracking_joint_rms_deg,
         r.tracking_joint_max_deg,
-        rounded(r.tracking_mpjpe_root_mm, 3),
-        rounded(r.tracking_mpjpe_global_mm, 3),
+        r.tracking_mpjpe_root_mm,
+        r.tracking_mpjpe_global_mm,
         100.0 * r.max_utilisation,
-        rounded(r.foot_slip_mm_per_s, 3),
+        r.foot_slip_mm_per_s,
         r.us_per_tick_p50,
     )
 }
