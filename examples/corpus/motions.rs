@@ -929,8 +929,9 @@ fn lie_down() -> Script {
         (9.4, 0.0),
     ]);
     let lie = Track::still(&[(2.9, 0.0), (4.3, 1.0), (5.3, 1.0), (6.8, 0.0)]);
-    let behind = -0.42;
+    let behind = -0.56;
     let seated = Track::still(&[(2.0, 0.0), (2.9, 1.0), (7.0, 1.0), (7.9, 0.0)]);
+    let sit = seated.clone();
     let place = Track::still(&[(0.0, behind), (1.0, behind)]);
     let hands = Track::still(&[(1.5, 0.0), (2.4, 1.0), (2.9, 1.0), (3.9, 0.0)]);
     Script {
@@ -960,7 +961,8 @@ fn lie_down() -> Script {
                 let mut u = at_ease();
                 let (w, l, h) = (squat.at(t), lie.at(t), hands.at(t));
                 // From leaning forward over flat on the back.
-                u.pelvis[0] = mix(4.0 + 8.0 * w, -84.0, l) * DEG;
+                let slumped = mix(4.0 + 8.0 * w, -22.0, sit.at(t));
+                u.pelvis[0] = mix(slumped, -84.0, l) * DEG;
                 u.waist[0] = mix(-1.0 + 34.0 * w, -2.0 + 30.0 * l * (1.0 - l) * 4.0, l) * DEG;
                 u.thorax[0] = mix(2.0 + 22.0 * w, -2.0 + 22.0 * l * (1.0 - l) * 4.0, l) * DEG;
                 u.neck[0] = mix(-4.0 - 22.0 * w, 2.0 + 26.0 * l * (1.0 - l) * 4.0, l) * DEG;
