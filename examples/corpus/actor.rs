@@ -494,13 +494,13 @@ impl Actor {
             .min(pose.place[l + 3].z - self.ball_height)
     }
 
-    /// Height of the lowest point of a foot by its pose alone.
-    pub fn lowest_of(&self, foot: &FootPose) -> f64 {
+    /// Heights of heel, toe joint and toe tip over the floor, by the pose of the foot alone.
+    pub fn points_of(&self, foot: &FootPose) -> [f64; 3] {
         let turn = foot_turn(foot.yaw, foot.pitch);
         let heel = foot.ankle + turn.rotate(v3(-self.heel, 0.0, -self.ankle));
         let joint = foot.ankle + turn.rotate(v3(self.ball, 0.0, self.ball_height - self.ankle));
         let tip = joint + (turn * about(1, -foot.toe)).rotate(v3(self.toe, 0.0, -self.ball_height));
-        heel.z.min(tip.z).min(joint.z - self.ball_height)
+        [heel.z, joint.z - self.ball_height, tip.z]
     }
 
     /// Centre of mass by the table.

@@ -1,7 +1,7 @@
 //! Motions made of steps: walks, turns on the spot, side and back steps, jogging.
 
 use crate::actor::{Actor, Upper, sign};
-use crate::plan::{FootPlan, Height, MID_FOOT, Script, Stance};
+use crate::plan::{FootPlan, Height, MID_FOOT, Script, Stance, Style};
 use crate::tracks::{DEG, Key, Track, bump, mix, rest};
 use sinew::sim::math::trig;
 
@@ -199,7 +199,7 @@ fn pelvis_height(actor: &Actor, steps: &[Step], manner: &Manner) -> Track {
 }
 
 /// Angles of trunk and arms that go with the steps.
-fn swinging(steps: Vec<Step>, manner: Manner, length: f64) -> Box<dyn Fn(f64) -> Upper> {
+fn swinging(steps: Vec<Step>, manner: Manner, length: f64) -> Style {
     let stride = stride_track(&steps);
     let begin = steps[0].off - 0.3;
     let end = steps[steps.len() - 1].on;

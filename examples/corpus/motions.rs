@@ -2,7 +2,7 @@
 
 use crate::actor::{Actor, Upper, pelvis_turn, sign};
 use crate::gait::{Manner, ORDINARY, Step, Walk, at_ease, deg, stepping};
-use crate::plan::{FootPlan, GRAVITY, Height, Script, Touch, Via, flat, standing_feet};
+use crate::plan::{FootPlan, GRAVITY, Height, Script, Style, Touch, Via, flat, standing_feet};
 use crate::tracks::{DEG, Key, Track, bump, mix, ramp, rest, v3};
 
 /// Height of the hips in quiet standing, share of the leg.
@@ -31,7 +31,7 @@ fn in_place(
     length: f64,
     half: f64,
     height: Track,
-    style: Box<dyn Fn(f64) -> Upper>,
+    style: Style,
 ) -> Script {
     Script {
         name: name.to_owned(),
@@ -642,7 +642,7 @@ fn jumping(
             x += if side == 1 { ahead } else { 0.0 };
             let at = if side == 1 { x } else { x + ahead };
             let mut next = flat(landed, 0.0, at, sign(side) * 0.10, sign(side) * 7.0 * DEG);
-            next.strike = (-24.0 * DEG, 0.08);
+            next.strike = (-24.0 * DEG, 0.13);
             next.roll.0 = 0.085;
             plan.stances.push(next);
         }
@@ -694,8 +694,8 @@ fn jumping(
             let s = swing.at(t);
             for side in 0..2 {
                 u.shoulder[side][0] = s * DEG;
-                u.elbow[side][0] += (0.22 * s.max(0.0) + 14.0 * w) * DEG;
-                u.shoulder[side][1] += 0.08 * s.abs() * DEG;
+                u.elbow[side][0] += (0.16 * (s - 2.0) + 22.0 * w) * DEG;
+                u.shoulder[side][1] += 0.0012 * s * s * DEG;
             }
             u
         }),
@@ -831,7 +831,7 @@ fn kick() -> Script {
     let a = Actor::medium();
     let high = hips(&a, STAND);
     let mut feet = standing_feet(5.0, 0.095, 8.0 * DEG);
-    let (off, on) = (1.5, 3.3);
+    let (off, on) = (1.5, 3.4);
     let y = -0.095;
     let right = &mut feet[1];
     right.stances[0].until = off;
@@ -884,13 +884,13 @@ fn kick() -> Script {
             Box::new(move |t| {
                 let mut u = at_ease();
                 let (s, w) = (arms.at(t), on_one.at(t));
-                u.pelvis[0] -= 9.0 * DEG * s.max(0.0) - 8.0 * DEG * (-s).max(0.0);
+                u.pelvis[0] -= 8.5 * DEG * s;
                 u.pelvis[2] = 9.0 * DEG * s;
                 u.waist[2] = -9.0 * DEG * s;
                 u.thorax[2] = -8.0 * DEG * s;
                 u.neck[2] = 7.0 * DEG * s;
                 u.neck[0] += 14.0 * DEG * w;
-                u.thorax[0] += 10.0 * DEG * s.max(0.0);
+                u.thorax[0] += 5.0 * DEG * (s + w);
                 for side in 0..2 {
                     // The arms swing against the leg.
                     u.shoulder[side][0] += sign(side) * 36.0 * DEG * s;
@@ -929,8 +929,9 @@ fn lie_down() -> Script {
         (9.4, 0.0),
     ]);
     let lie = Track::still(&[(2.9, 0.0), (4.3, 1.0), (5.3, 1.0), (6.8, 0.0)]);
-    let behind = -0.42;
+    let behind = -0.56;
     let seated = Track::still(&[(2.0, 0.0), (2.9, 1.0), (7.0, 1.0), (7.9, 0.0)]);
+    let sit = seated.clone();
     let place = Track::still(&[(0.0, behind), (1.0, behind)]);
     let hands = Track::still(&[(1.5, 0.0), (2.4, 1.0), (2.9, 1.0), (3.9, 0.0)]);
     Script {
@@ -960,7 +961,8 @@ fn lie_down() -> Script {
                 let mut u = at_ease();
                 let (w, l, h) = (squat.at(t), lie.at(t), hands.at(t));
                 // From leaning forward over flat on the back.
-                u.pelvis[0] = mix(4.0 + 8.0 * w, -84.0, l) * DEG;
+                let slumped = mix(4.0 + 8.0 * w, -22.0, sit.at(t));
+                u.pelvis[0] = mix(slumped, -84.0, l) * DEG;
                 u.waist[0] = mix(-1.0 + 34.0 * w, -2.0 + 30.0 * l * (1.0 - l) * 4.0, l) * DEG;
                 u.thorax[0] = mix(2.0 + 22.0 * w, -2.0 + 22.0 * l * (1.0 - l) * 4.0, l) * DEG;
                 u.neck[0] = mix(-4.0 - 22.0 * w, 2.0 + 26.0 * l * (1.0 - l) * 4.0, l) * DEG;

@@ -59,6 +59,15 @@ pub struct FootPlan {
     pub via: Vec<Via>,
 }
 
+/// The least of three heights, rounded off within 2 cm where two are nearly equal (so that speeds stay continuous).
+fn smoothly_lowest(heights: [f64; 3]) -> f64 {
+    const ROUND: f64 = 0.02;
+    heights.into_iter().reduce(|a, b| {
+        let h = (ROUND - (a - b).abs()).max(0.0) / ROUND;
+        a.min(b) - 0.25 * ROUND * h * h
+    }).unwrap_or(0.0)
+}
+
 impl FootPlan {
     fn in_stance(&self, actor: &Actor, s: &Stance, t: f64) -> FootPose {
         let mut pitch = 0.0;
@@ -172,12 +181,12 @@ impl FootPlan {
             ankle: v3(x, y, z + lift),
             yaw: mix(a.yaw, b.yaw, ease(u)),
             pitch,
-            toe: mix(p1.toe, q0.toe, ease(2.0 * u)),
+            toe: mix(p1.toe, q0.toe, ease(1.4 * u)),
         };
         // Clear of the floor: raised smoothly where heel or toes would come lower than a small margin.
-        let below = CLEARANCE * bump(u, 0.0, 1.0) - actor.lowest_of(&foot);
-        let raise = 0.5 * (below + (below * below + 0.015 * 0.015).sqrt());
-        foot.ankle.z += raise * ease((t - a.until) / 0.03) * ease((b.from - t) / 0.03);
+        let below = CLEARANCE * bump(u, 0.0, 1.0) - smoothly_lowest(actor.points_of(&foot));
+        let raise = 0.5 * (below + (below * below + 0.010 * 0.010).sqrt());
+        foot.ankle.z += raise * ease((t - a.until) / 0.065) * ease((b.from - t) / 0.065);
         foot
     }
 
@@ -228,7 +237,7 @@ pub struct Touch {
 }
 
 /// Angles of trunk, head and arms at a time.
-pub type Style = Box<dyn Fn(f64) -> Upper>;
+pub type Style = Box<dyn Fn(f64) -> Upper + Send + Sync>;
 
 /// A motion as authored.
 pub struct Script {
@@ -523,7 +532,7 @@ impl Script {
                 moment[1][i] = -rate(0) * load;
             }
             for m in &mut moment {
-                *m = smooth(m, 4);
+                *m = smooth(m, 2);
             }
         }
         c[2] = z;
