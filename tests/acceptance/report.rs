@@ -39,7 +39,7 @@ fn reports_its_own_state(kind: ControllerKind, kg: f64) {
         Perturbation::Force {
             segment: CHEST,
             point: Vec3::zero(),
-            force: vec3(150.0, 60.0, 0.0),
+            force: vec3(300.0, 100.0, 0.0),
             from: 0.1,
             to: 0.2,
         },
@@ -80,7 +80,11 @@ fn reports_its_own_state(kind: ControllerKind, kg: f64) {
 
 #[test]
 fn centre_of_mass_and_its_velocity_are_of_the_state_at_the_end_of_the_tick() {
-    for kind in [ControllerKind::Modern, ControllerKind::Paper, ControllerKind::Motors] {
+    for kind in [
+        ControllerKind::Modern,
+        ControllerKind::Paper,
+        ControllerKind::Motors,
+    ] {
         for kg in [0.0, 4.0] {
             reports_its_own_state(kind, kg);
         }

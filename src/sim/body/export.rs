@@ -9,8 +9,8 @@
 use super::links::Links;
 use super::model::Body;
 use super::topology::{
-    DOF_AXIS, DOF_COUNT, DOF_LEN, DOF_NAMES, DOF_START, JOINT, JOINT_NAMES, Joint, PARENT, SEGMENT_COUNT,
-    SEGMENT_NAMES,
+    DOF_AXIS, DOF_COUNT, DOF_LEN, DOF_NAMES, DOF_START, JOINT, JOINT_NAMES, Joint, PARENT,
+    SEGMENT_COUNT, SEGMENT_NAMES,
 };
 use crate::sim::math::{Sym3, Vec3};
 use std::fmt::Write;
@@ -455,7 +455,10 @@ mod tests {
         let mut links = Links::new(&b);
         let hand = SegmentId::from_name("r_hand").expect("a segment");
         links.add_load(hand, vec3(0.1, 0.2, -0.3), 5.0);
-        let (plain, loaded) = (mjcf(&b, &actuation()), mjcf_with(&b, &links, EXPORT_GRAVITY, &actuation()));
+        let (plain, loaded) = (
+            mjcf(&b, &actuation()),
+            mjcf_with(&b, &links, EXPORT_GRAVITY, &actuation()),
+        );
         let changed: Vec<(&str, &str)> = plain
             .lines()
             .zip(loaded.lines())

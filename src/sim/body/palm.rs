@@ -71,7 +71,10 @@ mod tests {
                 let out = side * at.y;
                 let most = s.mesh.vertices.iter().map(|v| side * v.y);
                 let most = most.fold(0.0f64, f64::max);
-                assert!((0.6 * most..=most + 1e-12).contains(&out), "{out} of {most}");
+                assert!(
+                    (0.6 * most..=most + 1e-12).contains(&out),
+                    "{out} of {most}"
+                );
                 assert!(at.x.abs() < 0.012, "{}", at.x);
             }
         }

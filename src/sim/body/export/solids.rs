@@ -138,7 +138,11 @@ mod tests {
                 let volume: f64 = all
                     .iter()
                     .map(|b| {
-                        let share = if b.cylinder { 0.25 * std::f64::consts::PI } else { 1.0 };
+                        let share = if b.cylinder {
+                            0.25 * std::f64::consts::PI
+                        } else {
+                            1.0
+                        };
                         b.size.x * b.size.y * b.size.z * share
                     })
                     .sum();
