@@ -8,6 +8,7 @@ pub mod humanoid;
 pub mod links;
 pub mod model;
 pub mod names;
+pub mod palm;
 pub mod provenance;
 mod shape;
 pub mod state;
