@@ -243,6 +243,12 @@ fn the_exit_code_tells_error_usage_and_fall_apart() {
     ] {
         assert_eq!(code(wrong), USAGE, "sinew {wrong:?}");
     }
+    let text = succeed(&["run", "--help"]);
+    let (options, paper) = text
+        .split_once("Paper's controller:")
+        .expect("a heading of its own");
+    assert!(options.contains("--fail-on-fall") && options.contains("--duration"));
+    assert!(paper.contains("--metric") && !paper.contains("--duration"));
     for help in [&["--help"][..], &["run", "--help"]] {
         let text = succeed(help);
         for line in ["0  success", "1  error", "2  usage", "3  fall"] {

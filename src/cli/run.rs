@@ -104,9 +104,6 @@ pub struct RunArgs {
     /// Take a protective step when the capture point leaves the support polygon (modern controller).
     #[arg(long, value_name = "BOOL", default_value_t = true, num_args = 0..=1, require_equals = true, default_missing_value = "true", action = clap::ArgAction::Set)]
     pub protective_steps: bool,
-    /// Options of the paper's controller.
-    #[command(flatten)]
-    pub paper: PaperOptions,
     /// Ticks per second; 60 unless the preset sets another rate.
     #[arg(long, value_name = "HZ")]
     pub rate: Option<f64>,
@@ -156,6 +153,10 @@ pub struct RunArgs {
     /// Number of clips simulated at the same time.
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub threads: usize,
+    // Last: its heading is that of all options after it.
+    /// Options of the paper's controller.
+    #[command(flatten)]
+    pub paper: PaperOptions,
 }
 
 impl RunArgs {

@@ -13,7 +13,7 @@ pub enum ControllerArg {
     /// Whole-body optimisation within strength and friction limits.
     #[default]
     Modern,
-    /// Strength-limited joint motors (PD control), without balance control.
+    /// Strength-limited joint motors that hold the target posture, without balance control.
     Motors,
 }
 
