@@ -143,7 +143,9 @@ fn flights_are_labelled_and_only_flights() {
                 .any(|(from, until)| p.start < until + 0.06 && p.end > from - 0.06);
             assert!(flies, "{}: labelled as a flight: {p:?}", f.what());
         }
-        for (from, until) in flights.iter().filter(|(from, _)| *from > 0.05) {
+        // Speeds of the first and last tenths of a second are those of a cut recording.
+        let end = f.motion.duration() - 0.15;
+        for (from, until) in flights.iter().filter(|(a, b)| *a > 0.05 && *b < end) {
             let middle = 0.5 * (from + until);
             assert_eq!(
                 planted(phases, middle),
