@@ -1,8 +1,10 @@
-//! The actor: a skeleton with proportions and a mass table of its own, forward kinematics, and the inverse kinematics of its legs.
+//! The actor: a skeleton with proportions and a mass table of its own, forward kinematics, and the inverse kinematics
+//! of its legs.
 //!
-//! World: x forward, y left, z up, metres. A segment's frame sits at its proximal joint; in the zero pose (upright, arms hanging,
-//! palms to the thighs) all frames are parallel to the world. Angles follow docs/notation.md of this repository, restated here
-//! independently of the code: a ball joint is swing · twist about the segment's z; signs are carried by the axes.
+//! World: x forward, y left, z up, metres. A segment's frame sits at its proximal joint; in the zero pose (upright,
+//! arms hanging, palms to the thighs) all frames are parallel to the world. Angles follow docs/notation.md of this
+//! repository, restated here independently of the code: a ball joint is swing · twist about the segment's z; signs
+//! are carried by the axes.
 
 use crate::tracks::v3;
 use sinew::sim::math::{Mat3, Quat, Vec3, trig};
@@ -119,8 +121,8 @@ pub struct Actor {
     pub toe: f64,
 }
 
-/// Shares of the body's mass (Winter, Biomechanics and Motor Control of Human Movement, table of segments), in segment order; the toes
-/// belong to the foot.
+/// Shares of the body's mass (Winter, Biomechanics and Motor Control of Human Movement, table of segments), in
+/// segment order; the toes belong to the foot.
 pub const MASS_SHARE: [f64; 18] = [
     0.142, 0.139, 0.216, 0.081, 0.028, 0.016, 0.006, 0.028, 0.016, 0.006, 0.100, 0.0465, 0.0135,
     0.001, 0.100, 0.0465, 0.0135, 0.001,
@@ -436,7 +438,8 @@ impl Actor {
 
     /// Frames of thigh and shank, knee position, and by how much the leg is too short.
     ///
-    /// The knee bends in the plane through hip and ankle that is normal to the lateral axis half-way between pelvis and foot.
+    /// The knee bends in the plane through hip and ankle that is normal to the lateral axis half-way between pelvis
+    /// and foot.
     fn leg_to(&self, hip: Vec3, ankle: Vec3, pelvis: Quat, yaw: f64) -> (Quat, Quat, Vec3, f64) {
         let lateral = pelvis.rotate(Vec3::Y) + about(2, yaw).rotate(Vec3::Y);
         let d = ankle - hip;

@@ -254,12 +254,17 @@ fn swinging(steps: Vec<Step>, manner: Manner, length: f64) -> Style {
     })
 }
 
-/// A motion of steps.
-#[allow(clippy::too_many_arguments)]
+/// Name, kind and description of a motion.
+pub struct Title<'a> {
+    pub name: &'a str,
+    pub kind: &'static str,
+    pub about: &'static str,
+}
+
+/// A motion of steps: from a stance with the ankles `half` m off the middle line, and `tail` s long after the last
+/// touch-down.
 pub fn stepping(
-    name: &str,
-    kind: &'static str,
-    about: &'static str,
+    title: Title<'_>,
     actor: Actor,
     half: f64,
     steps: Vec<Step>,
@@ -286,9 +291,9 @@ pub fn stepping(
     // Equal turns step after step give a steady rate instead of stops.
     let heading = steady(keys);
     Script {
-        name: name.to_owned(),
-        kind,
-        about,
+        name: title.name.to_owned(),
+        kind: title.kind,
+        about: title.about,
         height: Height::Pelvis(pelvis_height(&actor, &steps, &manner)),
         style: swinging(steps, manner, length),
         actor,

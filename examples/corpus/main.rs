@@ -3,8 +3,8 @@
 //! ```sh
 //! cargo run --example corpus -- tests/corpus
 //! ```
-//! With `--check` it writes nothing and prints, per motion, how far legs are too short for their feet and how deep feet sink: both are
-//! 0 unless a motion is authored wrongly.
+//! With `--check` it writes nothing and prints, per motion, how far legs are too short for their feet and how deep
+//! feet sink: both are 0 unless a motion is authored wrongly.
 
 mod actor;
 mod corpus;
@@ -41,7 +41,8 @@ fn check(m: &Motion) {
         }
     }
     println!(
-        "{:18} {:5.2} s: short {:.4} m at {:.2} s, {:.4} at {:.2}; lowest {:.4} at {:.2}; knees {:.0}..{:.0}, {:.0}..{:.0}",
+        "{:18} {:5.2} s: short {:.4} m at {:.2} s, {:.4} at {:.2}; \
+         lowest {:.4} at {:.2}; knees {:.0}..{:.0}, {:.0}..{:.0}",
         script.name,
         m.duration(),
         short[0].0,

@@ -1,8 +1,8 @@
 //! The motions of the corpus.
 
 use crate::actor::{Actor, Upper, pelvis_turn, sign};
-use crate::gait::{Manner, ORDINARY, Step, Walk, at_ease, deg, stepping};
-use crate::plan::{FootPlan, GRAVITY, Height, Script, Style, Touch, Via, flat, standing_feet};
+use crate::gait::{Manner, ORDINARY, Step, Title, Walk, at_ease, deg, stepping};
+use crate::plan::{GRAVITY, Height, Script, Style, Touch, Via, flat, standing_feet};
 use crate::tracks::{DEG, Key, Track, bump, mix, ramp, rest, v3};
 
 /// Height of the hips in quiet standing, share of the leg.
@@ -237,7 +237,12 @@ fn walk(
     walk.time *= time;
     let half = walk.half.max(0.07 * length);
     let steps = walk.steps(first);
-    stepping(name, "walk", about, actor, half, steps, manner, 1.3)
+    let title = Title {
+        name,
+        kind: "walk",
+        about,
+    };
+    stepping(title, actor, half, steps, manner, 1.3)
 }
 
 const WALK: Walk = Walk {
@@ -469,9 +474,11 @@ fn turn() -> Script {
         t += 0.72;
     }
     stepping(
-        "turn",
-        "turn",
-        "Turns on the spot by 150° to the left in six steps.",
+        Title {
+            name: "turn",
+            kind: "turn",
+            about: "Turns on the spot by 150° to the left in six steps.",
+        },
         Actor::medium(),
         half,
         steps,
@@ -509,9 +516,11 @@ fn side_steps() -> Script {
         ..STEPPING
     };
     stepping(
-        "side-steps",
-        "step",
-        "Three side steps to the left.",
+        Title {
+            name: "side-steps",
+            kind: "step",
+            about: "Three side steps to the left.",
+        },
         Actor::medium(),
         half,
         steps,
@@ -562,9 +571,11 @@ fn back_steps() -> Script {
         ..STEPPING
     };
     stepping(
-        "back-steps",
-        "step",
-        "Six steps backward.",
+        Title {
+            name: "back-steps",
+            kind: "step",
+            about: "Six steps backward.",
+        },
         Actor::medium(),
         half,
         steps,
@@ -582,7 +593,8 @@ fn ballistic(t: f64, value: f64, rate: f64) -> Key {
     }
 }
 
-/// Jumps with both feet: for each the take-off time, the flight time, how far forward, and how deep the body sinks before it.
+/// Jumps with both feet: for each the take-off time, the flight time, how far forward, and how deep the body sinks
+/// before it.
 fn jumping(
     name: &str,
     kind: &'static str,
@@ -785,9 +797,11 @@ fn jog() -> Script {
     };
     let times: Vec<Step> = steps.clone();
     let mut script = stepping(
-        "jog",
-        "run",
-        "Jogs at 2.4 m/s with flights of 0.11 s; the recording begins and ends in motion.",
+        Title {
+            name: "jog",
+            kind: "run",
+            about: "Jogs at 2.4 m/s with flights of 0.11 s; the recording begins and ends in motion.",
+        },
         a,
         half,
         steps,
@@ -1005,9 +1019,4 @@ pub fn all() -> Vec<Script> {
     out.push(kick());
     out.push(lie_down());
     out
-}
-
-/// Nothing but the plan of the feet, for checks.
-pub fn foot_plans(script: &Script) -> &[FootPlan; 2] {
-    &script.feet
 }

@@ -1,9 +1,11 @@
 //! From footholds, a pelvis height and the angles of trunk and arms to a whole motion.
 //!
-//! The centre of mass follows the cart-table equation of the linear inverted pendulum with the height that the motion has:
-//! `λ (c − p) − z c̈ = L̇`, with `λ = g + z̈`, the planned zero-moment point `p` and the rate of the angular momentum `L` about the centre of
-//! mass. In flight λ is 0 and the path is ballistic by itself. `L̇` comes from the pass before; a few passes suffice. The pelvis is
-//! then placed such that the centre of mass by the mass table is there, with both feet where the footholds say.
+//! The centre of mass follows the cart-table equation of the linear inverted pendulum with the height that the motion
+//! has:
+//! `λ (c − p) − z c̈ = L̇`, with `λ = g + z̈`, the planned zero-moment point `p` and the rate of the angular momentum
+//! `L` about the centre of mass. In flight λ is 0 and the path is ballistic by itself. `L̇` comes from the pass
+//! before; a few passes suffice. The pelvis is then placed such that the centre of mass by the mass table is there,
+//! with both feet where the footholds say.
 
 use crate::actor::{Actor, FootPose, MASS_SHARE, Pose, Upper, pelvis_turn, sign};
 use crate::tracks::{Key, Sampled, Track, bump, ease, mix, ramp, rest, v3};
@@ -33,7 +35,8 @@ pub struct Stance {
     pub strike: (f64, f64),
     /// Pitch at lift-off (negative: over the toes) and since when it grows, s before lift-off.
     pub off: (f64, f64),
-    /// Where the zero-moment point is at touch-down and at lift-off, ahead of the ankle; in long stances it rests between.
+    /// Where the zero-moment point is at touch-down and at lift-off, ahead of the ankle; in long stances it rests
+    /// between.
     pub roll: (f64, f64),
 }
 
@@ -62,10 +65,13 @@ pub struct FootPlan {
 /// The least of three heights, rounded off within 2 cm where two are nearly equal (so that speeds stay continuous).
 fn smoothly_lowest(heights: [f64; 3]) -> f64 {
     const ROUND: f64 = 0.02;
-    heights.into_iter().reduce(|a, b| {
-        let h = (ROUND - (a - b).abs()).max(0.0) / ROUND;
-        a.min(b) - 0.25 * ROUND * h * h
-    }).unwrap_or(0.0)
+    heights
+        .into_iter()
+        .reduce(|a, b| {
+            let h = (ROUND - (a - b).abs()).max(0.0) / ROUND;
+            a.min(b) - 0.25 * ROUND * h * h
+        })
+        .unwrap_or(0.0)
 }
 
 impl FootPlan {
@@ -326,7 +332,8 @@ fn left_share(feet: &[FootPlan; 2], count: usize) -> Vec<f64> {
     out
 }
 
-/// Solves `λ (c − p) − z c̈ = m` with c = p at both ends (tridiagonal, without pivoting: λ, z ≥ 0 make it diagonally dominant).
+/// Solves `λ (c − p) − z c̈ = m` with c = p at both ends (tridiagonal, without pivoting: λ, z ≥ 0 make it diagonally
+/// dominant).
 fn cart_table(lambda: &[f64], z: &[f64], p: &[f64], moment: &[f64]) -> Vec<f64> {
     let n = p.len();
     let (mut c, mut d) = (vec![0.0; n], vec![0.0; n]);
@@ -390,7 +397,8 @@ impl Script {
         ]
     }
 
-    /// How much lower than planned the pelvis must be for the leg on the floor (or in the air) to reach its foot, per grid time; smooth.
+    /// How much lower than planned the pelvis must be for the leg on the floor (or in the air) to reach its foot, per
+    /// grid time; smooth.
     fn lowered(&self, poses: &[Pose]) -> Vec<f64> {
         let longest = LONGEST * self.actor.leg();
         let need: Vec<f64> = poses
@@ -422,7 +430,8 @@ impl Script {
         smooth(&wide, 5)
     }
 
-    /// The pose whose centre of mass lies over `aim` (x, y) and, where the height is that of the centre of mass, at its height.
+    /// The pose whose centre of mass lies over `aim` (x, y) and, where the height is that of the centre of mass, at
+    /// its height.
     fn pose_over(&self, t: f64, aim: Vec3, guess: Vec3, lower: f64) -> Pose {
         let actor = &self.actor;
         let upper = (self.style)(t);

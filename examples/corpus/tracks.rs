@@ -1,5 +1,6 @@
-//! Curves over time that motions are authored with, and the noise of recordings. Every operation is exact or correctly rounded
-//! (sum, product, quotient, root) or comes from the project's portable sine, so that the bytes are equal on every machine.
+//! Curves over time that motions are authored with, and the noise of recordings. Every operation is exact or
+//! correctly rounded (sum, product, quotient, root) or comes from the project's portable sine, so that the bytes are
+//! equal on every machine.
 
 use sinew::sim::math::Vec3;
 
@@ -73,8 +74,8 @@ impl Track {
         Self(keys.iter().map(|&(t, v)| rest(t, v)).collect())
     }
 
-    /// Through the given values, with the mean of the neighbouring slopes as rate at inner keys (zero at a local extreme), at rest
-    /// at the ends.
+    /// Through the given values, with the mean of the neighbouring slopes as rate at inner keys (zero at a local
+    /// extreme), at rest at the ends.
     pub fn through(keys: &[(f64, f64)]) -> Self {
         let n = keys.len();
         Self(

@@ -45,7 +45,8 @@ pub fn footholds(motion: &Motion) -> Vec<(usize, f64, f64, [f64; 3])> {
     out
 }
 
-/// Times without a foot on the floor, with the height of the centre of mass at its highest; motions on the floor have none.
+/// Times without a foot on the floor, with the height of the centre of mass at its highest; motions on the floor have
+/// none.
 pub fn flights(motion: &Motion) -> Vec<(f64, f64, f64)> {
     if motion.script.kind == "floor" {
         return Vec::new();
@@ -107,7 +108,10 @@ pub fn write(motion: &Motion, files: &[File]) -> Vec<u8> {
             let d = &f.dialect;
             let f0 = &d.faults;
             format!(
-                "  {{\"file\": \"{}\", \"dialect\": \"{}\", \"unit_m\": {}, \"up\": \"{}\", \"facing_deg\": {}, \"rate_hz\": {}, \"frames\": {}, \"first_frame\": {}, \"root_positions\": {}, \"noise_m\": {}, \"noise_deg\": {}, \"skate_m_per_s\": {}, \"floor_m\": {}}}",
+                "  {{\"file\": \"{}\", \"dialect\": \"{}\", \"unit_m\": {}, \"up\": \"{}\", \
+                 \"facing_deg\": {}, \"rate_hz\": {}, \"frames\": {}, \
+                 \"first_frame\": {}, \"root_positions\": {}, \"noise_m\": {}, \
+                 \"noise_deg\": {}, \"skate_m_per_s\": {}, \"floor_m\": {}}}",
                 f.name,
                 d.name,
                 number(d.unit, 9),

@@ -3,7 +3,7 @@
 use crate::actor::{LEG, MASS_SHARE};
 use crate::corpus::files_of;
 use crate::plan::{GRAVITY, Motion};
-use crate::recorded::{folder, motions, read};
+use crate::recorded::{Truth, folder, motions, read};
 use crate::tracks::v3;
 use crate::truth;
 use sinew::sim::math::Vec3;
@@ -21,7 +21,10 @@ fn committed_files_are_what_the_program_writes() {
             written.insert(name);
         }
     }
-    assert!(wrong.is_empty(), "cargo run --example corpus -- tests/corpus would change {wrong:?}");
+    assert!(
+        wrong.is_empty(),
+        "cargo run --example corpus -- tests/corpus would change {wrong:?}"
+    );
     let kept: BTreeSet<String> = std::fs::read_dir(folder())
         .unwrap()
         .map(|e| e.unwrap().file_name().into_string().unwrap())
@@ -37,9 +40,16 @@ fn legs_reach_their_feet_and_feet_keep_out_of_the_floor() {
         for i in 0..=(m.duration() * 60.0) as usize {
             let pose = m.recorded(i as f64 / 60.0);
             for side in 0..2 {
-                assert!(pose.short[side] < 1e-6, "{name} frame {i}: leg {side} short by {} m", pose.short[side]);
+                assert!(
+                    pose.short[side] < 1e-6,
+                    "{name} frame {i}: leg {side} short by {} m",
+                    pose.short[side]
+                );
                 let low = m.script.actor.lowest(&pose, side);
-                assert!(low > -0.003, "{name} frame {i}: foot {side} {low} m over the floor");
+                assert!(
+                    low > -0.008,
+                    "{name} frame {i}: foot {side} {low} m over the floor"
+                );
             }
         }
     }
@@ -65,7 +75,11 @@ fn planted_feet_do_not_move() {
                 let there = pose.place[l + 2] + pose.turn[l + 2].rotate(point);
                 let (sin, cos) = foot.yaw.sin_cos();
                 let off = (there.x - x - cos * at).hypot(there.y - y - sin * at);
-                assert!(off < 1e-5, "{} side {side} at {t} s: {off} m off its foothold", m.script.name);
+                assert!(
+                    off < 1e-5,
+                    "{} side {side} at {t} s: {off} m off its foothold",
+                    m.script.name
+                );
                 t += 0.02;
             }
         }
@@ -98,7 +112,14 @@ fn outside(m: &Motion, t: f64, p: Vec3) -> f64 {
     for plan in &m.script.feet {
         if let Some(s) = plan.stance(t) {
             let (sin, cos) = s.yaw.sin_cos();
-            for (x, y) in [(-a.heel, 0.035), (-a.heel, -0.035), (a.ball + a.toe, 0.035), (a.ball + a.toe, -0.035), (a.ball, 0.048), (a.ball, -0.048)] {
+            for (x, y) in [
+                (-a.heel, 0.035),
+                (-a.heel, -0.035),
+                (a.ball + a.toe, 0.035),
+                (a.ball + a.toe, -0.035),
+                (a.ball, 0.048),
+                (a.ball, -0.048),
+            ] {
                 corners.push(v3(s.x + cos * x - sin * y, s.y + sin * x + cos * y, 0.0));
             }
         }
@@ -107,7 +128,11 @@ fn outside(m: &Motion, t: f64, p: Vec3) -> f64 {
         .map(|k| {
             let (sin, cos) = (f64::from(k) * 2.0f64.to_radians()).sin_cos();
             let d = v3(cos, sin, 0.0);
-            p.dot(d) - corners.iter().map(|c| c.dot(d)).fold(f64::NEG_INFINITY, f64::max)
+            p.dot(d)
+                - corners
+                    .iter()
+                    .map(|c| c.dot(d))
+                    .fold(f64::NEG_INFINITY, f64::max)
         })
         .fold(f64::NEG_INFINITY, f64::max)
 }
@@ -132,41 +157,58 @@ fn the_zero_moment_point_stays_under_the_standing_feet() {
             }
             t += 1.0 / 60.0;
         }
-        println!("{:20} zmp outside by at most {:.4} at {:.2} s, mean {:.5}", m.script.name, worst, when, mean.0 / f64::from(mean.1));
+        // At the instant of a landing the little force there is acts at the toes that touch first; the jump lands
+        // hardest.
+        let bound = if m.script.kind == "jump" { 0.08 } else { 0.03 };
+        assert!(
+            worst < bound,
+            "{}: {worst} m outside at {when} s",
+            m.script.name
+        );
+        let mean = mean.0 / f64::from(mean.1);
+        assert!(
+            mean < 5e-4,
+            "{}: {mean} m outside on average",
+            m.script.name
+        );
     }
 }
 
 #[test]
-fn flights_are_ballistic() {
-    let mut seen = 0;
+fn flights_are_ballistic_and_only_runs_and_jumps_have_them() {
     for m in motions() {
-        let start = m.script.window.0;
-        for (from, until, _) in truth::flights(m) {
-            let (a, b) = (from + 0.02, until - 0.02);
-            let mut t = a;
-            while t < b {
+        let (name, start) = (&m.script.name, m.script.window.0);
+        let flights = truth::flights(m);
+        assert_eq!(
+            !flights.is_empty(),
+            matches!(m.script.kind, "run" | "jump"),
+            "{name}: {flights:?}"
+        );
+        for (from, until, _) in flights {
+            // The ends of a flight are smoothed over a few hundredths of a second.
+            let mut t = from + 0.02;
+            while t < until - 0.02 {
                 let (_, force, _) = dynamics(m, start + t);
-                println!("{} {t:.3}: {force:?}", m.script.name);
-                t += 0.02;
+                assert!(
+                    force.z.abs() < 0.01 && force.norm() < 0.05 * GRAVITY,
+                    "{name} at {t} s: {force:?} m/s² are not gravity's"
+                );
+                t += 0.01;
             }
-            seen += 1;
         }
     }
-    println!("{seen}");
 }
+
 #[test]
-fn lows() {
+fn the_truth_has_the_motions_centre_of_mass() {
     for m in motions() {
-        let mut low = (0.0, 0.0);
-        let mut short = 0.0f64;
-        for i in 0..=(m.duration() * 60.0) as usize {
-            let pose = m.recorded(i as f64 / 60.0);
-            for side in 0..2 {
-                short = short.max(pose.short[side]);
-                let l = m.script.actor.lowest(&pose, side);
-                if l < low.0 { low = (l, i as f64 / 60.0); }
-            }
+        let truth = Truth::of(&m.script.name);
+        for k in 0..10 {
+            let t = (f64::from(k) * 0.1 * m.duration() * 30.0).floor() / 30.0;
+            let (centre, _, _) = dynamics(m, m.script.window.0 + t);
+            let written = truth.row("com_m", t);
+            let off = (v3(written[0], written[1], written[2]) - centre).norm();
+            assert!(off < 1e-3, "{} at {t} s: {off} m", m.script.name);
         }
-        println!("{} low {:?} short {short}", m.script.name, low);
     }
 }

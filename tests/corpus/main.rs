@@ -1,7 +1,7 @@
 //! Goal: recordings whose truth is known are read, retargeted, labelled, prepared and followed as they should be.
-//! Method: the synthesised corpus of this folder (README.md), written by `examples/corpus`. The program's modules are compiled into this
-//! test, so that every frame of every file can be compared with the pose it came from; contacts, footholds, flights, centre of mass and
-//! joint angles come from the truth files.
+//! Method: the synthesised corpus of this folder (README.md), written by `examples/corpus`. The program's modules are
+//! compiled into this test, so that every frame of every file can be compared with the pose it came from; contacts,
+//! footholds, flights, centre of mass and joint angles come from the truth files.
 //!
 //! * `files`: the folder is what the program writes, and the motions are physical.
 //! * `reading`: joint positions, unit, axes, rate, held poses.

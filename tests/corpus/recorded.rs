@@ -17,7 +17,10 @@ pub fn motions() -> &'static [Motion] {
 
 /// The motion of a name.
 pub fn motion(name: &str) -> &'static Motion {
-    motions().iter().find(|m| m.script.name == name).unwrap_or_else(|| panic!("no motion {name}"))
+    motions()
+        .iter()
+        .find(|m| m.script.name == name)
+        .unwrap_or_else(|| panic!("no motion {name}"))
 }
 
 /// Folder of the corpus.
@@ -42,22 +45,74 @@ pub fn recordings() -> Vec<(&'static str, Dialect)> {
         .iter()
         .flat_map(|m| {
             let name = m.script.name.as_str();
-            corpus::dialects_of(name).into_iter().map(move |d| (name, d))
+            corpus::dialects_of(name)
+                .into_iter()
+                .map(move |d| (name, d))
         })
         .collect()
 }
 
-/// Dialects whose held first frames today's reader takes for motion: see `after_reading_fixes.rs`.
-pub const HELD: [&str; 3] = ["cgspeed", "daz", "threejs"];
+/// A recording fitted to the man's body with default options.
+pub struct Fit {
+    pub motion: &'static Motion,
+    pub dialect: Dialect,
+    pub fitted: Retargeted,
+}
 
-/// The recordings whose held pose is understood, and whose root has a place.
-pub fn readable() -> Vec<(&'static str, Dialect)> {
-    recordings().into_iter().filter(|(_, d)| !HELD.contains(&d.name) && d.name != "rot-only").collect()
+impl Fit {
+    /// Name of the file without its extension.
+    pub fn what(&self) -> String {
+        format!("{}.{}", self.motion.script.name, self.dialect.name)
+    }
+
+    /// What is true of it.
+    pub fn truth(&self) -> Truth {
+        Truth::of(&self.motion.script.name)
+    }
+
+    /// True if the file has noise and slides.
+    pub fn noisy(&self) -> bool {
+        self.dialect.faults.noise.0 > 0.0
+    }
+
+    /// Time of sample `i`, s.
+    pub fn time(&self, i: usize) -> f64 {
+        i as f64 / self.fitted.clip.rate_hz()
+    }
+}
+
+/// All recordings, fitted once.
+pub fn all_fits() -> &'static [Fit] {
+    static ALL: OnceLock<Vec<Fit>> = OnceLock::new();
+    ALL.get_or_init(|| {
+        recordings()
+            .into_iter()
+            .map(|(name, dialect)| Fit {
+                motion: motion(name),
+                dialect,
+                fitted: fitted(name, dialect.name, &man(), &RetargetOptions::default()),
+            })
+            .collect()
+    })
+}
+
+/// The fits of the recordings without held frames and with a place of the root. The others are in
+/// `after_reading_fixes.rs`: a held pose that fewer than four bones show is taken for motion today.
+pub fn fits() -> impl Iterator<Item = &'static Fit> {
+    all_fits()
+        .iter()
+        .filter(|f| f.dialect.held == 0 && f.dialect.name != "rot-only")
+}
+
+/// The body of the tests.
+pub fn man() -> Body {
+    Body::adult_man()
 }
 
 /// A recording fitted to a body.
 pub fn fitted(motion: &str, dialect: &str, body: &Body, options: &RetargetOptions) -> Retargeted {
-    retarget(&bvh(motion, dialect), body, options).unwrap_or_else(|e| panic!("{motion}.{dialect}: {e}"))
+    retarget(&bvh(motion, dialect), body, options)
+        .unwrap_or_else(|e| panic!("{motion}.{dialect}: {e}"))
 }
 
 /// Retargeting alone: angles of the recording, nothing prepared.
@@ -100,7 +155,14 @@ impl Truth {
         let x = (t * self.number("rate_hz")).clamp(0.0, (rows.len() - 1) as f64);
         let i = (x.floor() as usize).min(rows.len() - 2);
         let u = x - i as f64;
-        let row = |k: usize| -> Vec<f64> { rows[k].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect() };
+        let row = |k: usize| -> Vec<f64> {
+            rows[k]
+                .as_array()
+                .unwrap()
+                .iter()
+                .map(|v| v.as_f64().unwrap())
+                .collect()
+        };
         let (a, b) = (row(i), row(i + 1));
         a.iter().zip(&b).map(|(a, b)| a + (b - a) * u).collect()
     }
@@ -132,6 +194,8 @@ impl Truth {
 
     pub fn flights(&self) -> Vec<(f64, f64)> {
         let all = self.0["flights"].as_array().unwrap();
-        all.iter().map(|f| (f["from"].as_f64().unwrap(), f["until"].as_f64().unwrap())).collect()
+        all.iter()
+            .map(|f| (f["from"].as_f64().unwrap(), f["until"].as_f64().unwrap()))
+            .collect()
     }
 }
