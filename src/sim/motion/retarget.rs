@@ -137,13 +137,12 @@ pub fn retarget(
     let (unit_m, stature) = unit(options.unit_m, measured.stature)?;
     let root = RootPath::of(&take, &map, up, measured.leg);
     if let Some(warning) = root.warning() {
-        follow_feet(
-            &mut places,
-            (&take, &map),
-            (root, up, measured.leg),
-            source_rate,
-        );
-        warnings.push(warning.into());
+        let how = (root, up, measured.leg);
+        if follow_feet(&mut places, (&take, &map), how, source_rate)
+            || !Recording::has_positions(bvh, &map)
+        {
+            warnings.push(warning.into());
+        }
     }
     let recorded = (places, turns, take.rest(bvh));
     let (mut scene, seen) = Scene::new(&take, &map, recorded, (up, unit_m), source_rate, options);

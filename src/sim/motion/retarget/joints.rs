@@ -14,9 +14,9 @@ const WRIST_BIAS: (f64, f64) = (0.15, 0.6);
 
 /// Pronation, either way, that a forearm keeps to but for one sample in twenty at each end of its range, rad.
 const PRONATION: f64 = 1.5;
-/// A range of pronation that is out of that by more than this has a zero that means nothing, rad; its middle then goes here, rad: hands that hang
-/// or work are a little pronated.
-const ZERO_OFF: f64 = 0.5;
+/// A range of pronation that is out of that by more than this, or whose median is further from 0 than the second, has a zero that means nothing,
+/// rad; its middle then goes here, rad: hands that hang or work are a little pronated.
+const ZERO_OFF: (f64, f64) = (0.5, 1.3);
 const PRONATION_MIDDLE: f64 = 0.26;
 /// A hand that is bent further than this has no twist of its own: cosine of the angle.
 const TWIST_DEFINED: f64 = 0.2;
@@ -35,16 +35,14 @@ pub(super) struct ArmFit {
 fn pronation_shift(angles: &[f64]) -> f64 {
     let (low, high) = (percentile(angles, 0.05), percentile(angles, 0.95));
     let (under, over) = ((-PRONATION - low).max(0.0), (high - PRONATION).max(0.0));
-    if under == 0.0 && over == 0.0 {
-        0.0
-    } else if under > 0.0 && over > 0.0 {
+    if under > 0.0 && over > 0.0 {
         0.5 * (low + high)
-    } else if under.max(over) > ZERO_OFF {
+    } else if under.max(over) > ZERO_OFF.0 || percentile(angles, 0.5).abs() > ZERO_OFF.1 {
         0.5 * (low + high) - PRONATION_MIDDLE
     } else {
         // As little as fits, unless the range is as wide as a forearm's.
         let most = (2.0 * PRONATION - (high - low)).max(0.0);
-        (over - under).clamp(-most, most)
+        (over - under).clamp(-most, most) // 0 within the range
     }
 }
 

@@ -167,6 +167,18 @@ impl Recording {
         })
     }
 
+    /// True if the pelvis, or a joint above it, has a position channel.
+    pub(super) fn has_positions(bvh: &Bvh, map: &SkeletonMap) -> bool {
+        let mut at = Some(map.pelvis);
+        while let Some(j) = at {
+            if bvh.joints[j].channels.iter().any(|c| c.is_position()) {
+                return true;
+            }
+            at = bvh.joints[j].parent;
+        }
+        false
+    }
+
     /// Point of the end of `joint`, if it is kept as a tip.
     pub(super) fn tip(&self, joint: usize) -> Option<usize> {
         let point = self.joint_count + joint;

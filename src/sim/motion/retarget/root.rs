@@ -27,6 +27,9 @@ const CUTOFF: f64 = 6.0;
 /// A root that moves less than this, in lengths of the leg, does not move.
 const MOVES: f64 = 1e-6;
 
+/// A figure that would stray by less than this, in lengths of the leg, stands still.
+const LEAST_WAY: f64 = 0.02;
+
 /// What a file says of the place of the root.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum RootPath {
@@ -99,7 +102,7 @@ fn touching(take: &Recording, map: &SkeletonMap, leg: f64) -> Vec<(usize, f64)> 
     out
 }
 
-/// Moves every point so that the lowest ones stand on a level floor.
+/// Moves every point so that the lowest ones stand on a level floor. A figure that hardly moves by that stays where it is; false then.
 ///
 /// * `places`: world positions, `[bone][frame]`, file units and axes; `leg`: length of a leg, file units; `rate_hz`: frames per second.
 ///
@@ -109,16 +112,32 @@ pub(super) fn follow_feet(
     (take, map): (&Recording, &SkeletonMap),
     (path, up, leg): (RootPath, UpAxis, f64),
     rate_hz: f64,
-) {
+) -> bool {
+    let way = path_by_feet(places, (take, map), (path, up, leg), rate_hz);
+    let first = way.first().copied().unwrap_or_default();
+    let far = way.iter().map(|w| (*w - first).norm());
+    if far.fold(0.0, f64::max) < LEAST_WAY * leg {
+        return false;
+    }
+    for place in places {
+        place.iter_mut().zip(&way).for_each(|(p, w)| *p += *w);
+    }
+    true
+}
+
+/// How far the root has to be moved in each frame.
+fn path_by_feet(
+    places: &[Vec<Vec3>],
+    (take, map): (&Recording, &SkeletonMap),
+    (path, up, leg): (RootPath, UpAxis, f64),
+    rate_hz: f64,
+) -> Vec<Vec3> {
     let n = take.len();
     let vertical = match up {
         UpAxis::Y => Vec3::Y,
         UpAxis::Z => Vec3::Z,
     };
     let points = touching(take, map, leg);
-    if n == 0 || points.is_empty() {
-        return;
-    }
     let height = |(k, clear): (usize, f64), i: usize| places[k][i].dot(vertical) - clear;
     let lowest: Vec<f64> = (0..n)
         .map(|i| {
@@ -151,9 +170,7 @@ pub(super) fn follow_feet(
             *w = *w - vertical * z;
         }
     }
-    for place in places {
-        place.iter_mut().zip(&way).for_each(|(p, w)| *p += *w);
-    }
+    way
 }
 
 /// The way along the floor that the points on it have in common from frame `i − 1` to frame `i`: a mean in which what slides less than the others
