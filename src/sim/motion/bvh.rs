@@ -125,6 +125,8 @@ pub enum BvhError {
         what: &'static str,
         joint: String,
     },
+    #[error("line {line}: joint {joint:?} has no OFFSET")]
+    NoOffset { line: usize, joint: String },
     #[error("line {line}: {what} is not a number (of at most 1e12): {found}")]
     Number {
         line: usize,

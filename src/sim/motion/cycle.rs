@@ -126,6 +126,7 @@ pub fn cycle(body: &Body, clip: &Clip) -> Option<Clip> {
 const HOW: PrepareOptions = PrepareOptions {
     lock_feet: true,
     balance: true,
+    runs: true,
     held: HELD,
 };
 

@@ -39,6 +39,7 @@ pub(super) const FINE: f64 = 2.0 * RATE;
 pub(super) const HOW: PrepareOptions = PrepareOptions {
     lock_feet: true,
     balance: true,
+    runs: true,
     // A foot that an ankle at its limit moves by millimetres goes on standing: taken off the floor it would step in place, and nobody
     // who is being stopped has time for that.
     held: 0.01,

@@ -22,6 +22,7 @@ pub mod one_foot;
 pub mod polygon;
 pub mod prepare;
 pub mod retarget;
+mod run_gait;
 mod running;
 pub mod skeleton_map;
 pub mod target;

@@ -5,6 +5,7 @@ mod carriers;
 mod limits;
 mod pelvis;
 mod relief;
+mod unfold;
 
 use super::balance::{Carrier, mass_track, pelvis_shift, pelvis_shift_in_run};
 use super::foot_lock::{LockedFoot, Sole, lock_foot, stances};
@@ -21,6 +22,7 @@ pub(super) use carriers::{carriers_of, held_by, may_rest, planted_of};
 use carriers::{held_in_gait, within_reach, zmp_outside};
 use limits::{LIMIT_MARGIN, clamp_upper, into_limits};
 use relief::Relief;
+use unfold::{Unfolded, unfold};
 
 /// Rounds of shifting the trunk and solving the legs again.
 const ROUNDS: usize = 8;
@@ -63,6 +65,8 @@ pub struct PrepareOptions {
     pub lock_feet: bool,
     /// Shift the trunk so that the zero-moment point stays in the support polygon.
     pub balance: bool,
+    /// Prepare what flies fast as a run: a row of flights.
+    pub runs: bool,
     /// A planted foot that its leg cannot hold to this accuracy is declared free, m.
     pub held: f64,
 }
@@ -86,6 +90,10 @@ pub struct Prepared {
     pub shift_max: f64,
     /// Largest lowering of the pelvis so that planted legs reach, m.
     pub drop_max: f64,
+    /// Largest angle by which the pelvis is tilted back so that hips stay within their limits, rad.
+    pub tilt_max: f64,
+    /// Largest raise of the pelvis so that folded legs stay within their limits, m.
+    pub raise_max: f64,
     /// Fraction of the samples in which something other than the feet carries the body.
     pub carried: f64,
     /// Fraction of foot samples that were declared free because the leg's limits do not let it hold the foot in place.
@@ -138,7 +146,7 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
     let mut relief = Relief::new(n);
     let mut locked = lock(&relief);
     let fits = options.lock_feet && options.balance;
-    let mut flights = fits
+    let mut flights = (fits && options.runs)
         .then(|| Flights::of(&upper, &draft.label, rate))
         .flatten();
     if flights.is_some() {
@@ -242,6 +250,11 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
         }
     }
 
+    let folded = if options.lock_feet {
+        unfold(body, &mut postures, &planted, (&soles, &locked), rate)
+    } else {
+        Unfolded::default()
+    };
     let held = into_limits(
         body,
         &mut postures,
@@ -270,6 +283,8 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
         zmp: (before, after),
         shift_max: shift.iter().map(|s| s[0].hypot(s[1])).fold(0.0, f64::max),
         drop_max: -drop.iter().copied().fold(0.0, f64::min),
+        tilt_max: folded.tilt_max,
+        raise_max: folded.raise_max,
         carried: far as f64 / n.max(1) as f64,
         freed: held.freed as f64 / (2 * n).max(1) as f64,
     }

@@ -3,13 +3,14 @@
 //! World positions and rotations of the file are smoothed, brought to metres with z up, levelled and scaled by leg length. Each
 //! segment's frame comes from its end points and the plane of its hinge; near a straight limb, from the bone's own rotation with the
 //! hinge axis that the bent frames of the clip show in it. Trunk, head, hands and feet follow their bones relative to a calibration
-//! pose: the file's rest pose if it looks like a standing person, else the most upright frame; so the zero pose of the file means
-//! nothing by itself. Relative rotations are split into the joints' own degrees of freedom. Feet and balance: [`super::prepare`].
+//! pose: the file's rest pose if it looks like a standing person, else the mean over the most upright samples; so the zero pose of the file
+//! means nothing by itself. Relative rotations are split into the joints' own degrees of freedom. Feet and balance: [`super::prepare`].
 
 mod feet;
 mod joints;
 mod recording;
 mod report;
+mod root;
 mod scene;
 mod segments;
 mod size;
@@ -33,6 +34,7 @@ use feet::{Ground, fit_floor};
 use joints::Joints;
 use recording::Recording;
 use report::{mapped_bones, missing_segments};
+use root::{RootPath, follow_feet};
 use scene::Scene;
 use size::{guess_up, measure, unit};
 
@@ -127,15 +129,26 @@ pub fn retarget(
         return Err(RetargetError::TooShort(take.len()));
     }
     let bridged = take.bridge(bvh, source_rate, skipped_frames);
-    let (places, turns) = take.forward();
+    let (mut places, turns) = take.forward();
 
     // Metres, z up; even samples, smooth.
     let up = options.up.unwrap_or_else(|| guess_up(&places, &take, &map));
     let measured = measure(bvh, &places, &take, &map)?;
     let (unit_m, stature) = unit(options.unit_m, measured.stature)?;
+    let root = RootPath::of(&take, &map, up, measured.leg);
+    if let Some(warning) = root.warning() {
+        let how = (root, up, measured.leg);
+        if follow_feet(&mut places, (&take, &map), how, source_rate)
+            || !Recording::has_positions(bvh, &map)
+        {
+            warnings.push(warning.into());
+        }
+    }
     let recorded = (places, turns, take.rest(bvh));
     let (mut scene, seen) = Scene::new(&take, &map, recorded, (up, unit_m), source_rate, options);
     let keeps_run = seen.keeps_run();
+    let fastest_run = seen.fastest_run();
+    warnings.extend(seen.notes(source_rate));
     let (mut feet, rate) = (seen.feet, scene.rate);
     let sides_swapped = scene.settle_sides(&mut map);
     if sides_swapped {
@@ -150,7 +163,14 @@ pub fn retarget(
     let calibration = scene.calibrate(&map);
     let mut ankle = [0, 1].map(|s| scene.place(map.sides[s].foot).to_vec());
     let feet_flat = [0, 1].map(|s| scene.flat_samples(&map, s, measured.leg * unit_m));
-    let mut foot = [0, 1].map(|s| scene.foot_frames(&map, s, &feet_flat[s], &calibration));
+    let mut foot = [0, 1].map(|s| {
+        scene.foot_frames(
+            &map,
+            s,
+            &feet_flat[s],
+            (&calibration, measured.leg * unit_m),
+        )
+    });
     let ground = if options.floor {
         fit_floor(&ankle, &feet_flat)
     } else {
@@ -218,7 +238,7 @@ pub fn retarget(
         hand: frames.hand.map(turned),
         has_hand: [0, 1].map(|s| map.sides[s].hand.is_some()),
     };
-    let (mut postures, elbow_off_axis, wrist_bias) = joints.postures(&pelvis);
+    let (mut postures, arms) = joints.postures(&pelvis);
     for p in &mut postures {
         p.root_rotation = renormalised(p.root_rotation);
     }
@@ -236,6 +256,7 @@ pub fn retarget(
         let bare = PrepareOptions {
             lock_feet: false,
             balance: false,
+            runs: keeps_run,
             held: HELD,
         };
         let recorded = prepare(body, &draft, bare).postures;
@@ -247,6 +268,7 @@ pub fn retarget(
     let how = PrepareOptions {
         lock_feet: options.lock_feet && options.floor,
         balance: options.balance,
+        runs: keeps_run,
         held: HELD,
     };
     let prepared = prepare(body, &draft, how);
@@ -281,19 +303,22 @@ pub fn retarget(
             })
             .collect(),
         knee_off_axis: frames.knee_off_axis,
-        elbow_off_axis,
-        wrist_bias,
+        elbow_off_axis: arms.off_axis,
+        wrist_bias: arms.wrist_bias,
+        pronation_shift: arms.pronation_shift,
         freed: prepared.freed,
         foot_slide: prepared.slide,
         penetration: prepared.penetration,
         phases,
         bridged,
         smoothing_rms: seen.smoothing_rms,
-        runs: seen.runs,
+        runs: fastest_run,
         walked: seen.slowed.is_some(),
         zmp_outside: prepared.zmp,
         shift_max: prepared.shift_max,
         pelvis_drop_max: prepared.drop_max,
+        pelvis_tilt_max: prepared.tilt_max,
+        pelvis_raise_max: prepared.raise_max,
         carried: prepared.carried,
         warnings,
     };

@@ -53,6 +53,20 @@ pub enum MapError {
     /// More joints than any human skeleton has.
     #[error("{0} joints; at most {MAX_JOINTS} are read")]
     TooManyJoints(usize),
+    /// Several joints have the name that a segment is to be read from.
+    #[error(
+        "the bone of {segment} is ambiguous: {} joints are named {name:?}, below {}; rename all but one",
+        parents.len(),
+        parents.join(", ")
+    )]
+    Ambiguous {
+        /// Segment name.
+        segment: &'static str,
+        /// Name that the joints share.
+        name: String,
+        /// Quoted names of the joints above them, in file order; `nothing` above a root.
+        parents: Vec<String>,
+    },
     /// A bone without which no posture can be formed.
     #[error(
         "no bone found for {segments:?} among {bones} joints, neither by name nor by structure"
@@ -290,19 +304,74 @@ impl<'a> Tree<'a> {
 /// O(joints · depth) time. A map is returned only if every limb chain runs downwards in the tree.
 ///
 /// # Errors
-/// [`MapError::Missing`] names the segments without a bone.
+/// [`MapError::Missing`] names the segments without a bone, [`MapError::Ambiguous`] a name that several joints share where names decide.
 pub fn map_skeleton(joints: &[BvhJoint]) -> Result<SkeletonMap, MapError> {
     if joints.len() > MAX_JOINTS {
         return Err(MapError::TooManyJoints(joints.len()));
     }
     let tree = Tree::new(joints);
     match by_names(&tree) {
-        Ok(map) => Ok(map),
+        Ok(map) => match ambiguous(joints, &map) {
+            Some(error) => Err(error),
+            None => Ok(map),
+        },
         Err(missing) => by_structure(&tree).ok_or(MapError::Missing {
             segments: missing,
             bones: joints.len(),
         }),
     }
+}
+
+/// The first segment that names lead to several joints for. Bones that the tree decides on may be called anything.
+fn ambiguous(joints: &[BvhJoint], map: &SkeletonMap) -> Option<MapError> {
+    let [l, r] = &map.sides;
+    let limb = |s: &SideMap, names: [&'static str; 7]| {
+        let bones = [
+            Some(s.upper_arm),
+            Some(s.forearm),
+            s.hand,
+            Some(s.thigh),
+            Some(s.shank),
+            Some(s.foot),
+            s.toes,
+        ];
+        names.into_iter().zip(bones)
+    };
+    let left = [
+        "l_upper_arm",
+        "l_forearm",
+        "l_hand",
+        "l_thigh",
+        "l_shank",
+        "l_foot",
+        "l_toes",
+    ];
+    let right = [
+        "r_upper_arm",
+        "r_forearm",
+        "r_hand",
+        "r_thigh",
+        "r_shank",
+        "r_foot",
+        "r_toes",
+    ];
+    let mut bones = limb(l, left).chain(limb(r, right));
+    bones.find_map(|(segment, bone)| {
+        let name = &joints[bone?].name;
+        let same: Vec<&BvhJoint> = joints.iter().filter(|j| j.name == *name).collect();
+        (same.len() > 1).then(|| MapError::Ambiguous {
+            segment,
+            name: name.clone(),
+            parents: same
+                .iter()
+                .take(4)
+                .map(|j| {
+                    j.parent
+                        .map_or("nothing".into(), |p| format!("{:?}", joints[p].name))
+                })
+                .collect(),
+        })
+    })
 }
 
 fn by_names(tree: &Tree<'_>) -> Result<SkeletonMap, Vec<&'static str>> {

@@ -13,9 +13,9 @@ use crate::sim::math::ease::smootherstep;
 use crate::sim::math::{Quat, Vec3};
 
 /// People run above this speed, m/s (and walk up to it: half of the speed at which a leg of 0.9 m would leave the floor, squared).
-const RUNS: f64 = 2.2;
+pub(super) const RUNS: f64 = 2.2;
 /// What is faster than this before or after a run belongs to it; and how fast a run is walked, m/s.
-const WALKS: f64 = 1.05;
+pub(super) const WALKS: f64 = 1.05;
 /// Duration of a walked step, s; the longest of a run.
 const STEP: f64 = 0.5;
 const RUNS_STEP: f64 = 0.4;
@@ -47,13 +47,8 @@ const ARC: f64 = 0.08;
 /// A foot that the recording has in the air where it is to land comes to rest over its place in so long, s.
 const RESTS: f64 = 0.1;
 
-/// Fastest that a body moves over the floor if it runs anywhere, m/s, from a path of its middle.
-pub(super) fn fastest(way: &[Vec3], rate_hz: f64) -> Option<f64> {
-    let most = paces(way, rate_hz).into_iter().fold(0.0, f64::max);
-    (most > RUNS).then_some(most)
-}
-
-fn paces(way: &[Vec3], rate_hz: f64) -> Vec<f64> {
+/// Speed over the floor of the slow part of a way, the highest around each sample, m/s.
+pub(super) fn paces(way: &[Vec3], rate_hz: f64) -> Vec<f64> {
     let mut way: Vec<Vec3> = way.iter().map(|p| Vec3 { z: 0.0, ..*p }).collect();
     low_pass_points(&mut way, CUTOFF, rate_hz);
     let speed = speeds(&way, rate_hz);
@@ -129,25 +124,27 @@ pub(super) struct Slowed {
 }
 
 impl Slowed {
-    /// `None` if nobody runs.
+    /// `None` if there is no run.
     ///
-    /// * `way`: of the middle of the body, `feet`: of the left and the right foot, m; `rate_hz`: of the recording; `to_hz`: of the motion.
-    pub(super) fn new(way: &[Vec3], feet: [&[Vec3]; 2], rate_hz: f64, to_hz: f64) -> Option<Self> {
+    /// * `way`: of the middle of the body, `feet`: of the left and the right foot, m; `runs`: first sample of each run and one past its last;
+    ///   `rate_hz`: of the recording; `to_hz`: of the motion.
+    pub(super) fn new(
+        way: &[Vec3],
+        feet: [&[Vec3]; 2],
+        runs: &[(usize, usize)],
+        (rate_hz, to_hz): (f64, f64),
+    ) -> Option<Self> {
         let n = way.len();
-        let speed = paces(way, rate_hz);
-        if speed.iter().all(|v| *v <= RUNS) {
+        if runs.is_empty() {
             return None;
         }
+        let speed = paces(way, rate_hz);
         let mut slow = way.to_vec();
         low_pass_points(&mut slow, CUTOFF, rate_hz);
         let step = steps(&slow, feet, rate_hz);
         let leans = leans(way, &slow, feet, rate_hz);
         let (mut pace, mut share) = (vec![1.0; n], vec![1.0; n]);
-        let moves: Vec<bool> = speed.iter().map(|v| *v > WALKS).collect();
-        for (i, j, _) in runs(&moves).into_iter().filter(|r| r.2) {
-            if speed[i..j].iter().all(|v| *v <= RUNS) {
-                continue;
-            }
+        for &(i, j) in runs {
             for k in i..j {
                 let rhythm = (step[k] / STEP).min(1.0);
                 share[k] = (WALKS / (speed[k] * rhythm))
@@ -181,6 +178,11 @@ impl Slowed {
             at += pace * rate_hz / to_hz;
         }
         Some(out)
+    }
+
+    /// How many times as long the motion is as its recording, which has so many samples at the rate of the motion.
+    pub(super) fn stretch(&self, samples: f64) -> f64 {
+        self.times.len() as f64 / samples.max(1.0)
     }
 
     /// Samples of the motion.
@@ -442,9 +444,19 @@ mod tests {
         })
     }
 
+    /// Everything that is faster than a walk and as fast as a run somewhere.
+    fn fast(way: &[Vec3]) -> Vec<(usize, usize)> {
+        let speed = paces(way, RATE);
+        let moves: Vec<bool> = speed.iter().map(|v| *v > WALKS).collect();
+        let fast = runs(&moves)
+            .into_iter()
+            .filter(|(i, j, fast)| *fast && speed[*i..*j].iter().any(|v| *v > RUNS));
+        fast.map(|(i, j, _)| (i, j)).collect()
+    }
+
     fn slowed(way: &[Vec3]) -> Option<Slowed> {
         let [left, right] = feet(way);
-        Slowed::new(way, [&left, &right], RATE, RATE)
+        Slowed::new(way, [&left, &right], &fast(way), (RATE, RATE))
     }
 
     #[test]
@@ -478,7 +490,7 @@ mod tests {
         for speed in [0.0, 1.2, 2.0] {
             let way = way(|_| speed);
             assert!(slowed(&way).is_none());
-            assert_eq!(fastest(&way, RATE), None);
+            assert!(paces(&way, RATE).iter().all(|v| *v <= RUNS));
         }
     }
 
@@ -487,7 +499,8 @@ mod tests {
         // 4 m/s, brakes within a second, walks on.
         let speed = |t: f64| 4.0 - 3.2 * ((t - 1.0) / 1.0).clamp(0.0, 1.0);
         let recorded = way(speed);
-        assert!((fastest(&recorded, RATE).unwrap() - 4.0).abs() < 0.05);
+        let fastest = paces(&recorded, RATE).into_iter().fold(0.0, f64::max);
+        assert!((fastest - 4.0).abs() < 0.05);
         let slowed = slowed(&recorded).unwrap();
         let mut pelvis = slowed.points(&recorded);
         assert_eq!(pelvis.len(), slowed.count());

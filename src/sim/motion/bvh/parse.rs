@@ -1,6 +1,7 @@
 //! Text of a BVH file to joints and numbers. Whatever is wrong is named by line, frame and column.
 
 use super::{BvhChannel, BvhError, BvhJoint, MAX_JOINTS};
+use std::collections::BTreeMap;
 
 /// Most warnings that are kept.
 const MAX_WARNINGS: usize = 32;
@@ -193,6 +194,8 @@ impl Warnings {
 /// What has been said so far about a joint whose brace is open.
 pub(super) struct OpenJoint {
     index: usize,
+    /// Line on which it is named.
+    line: usize,
     has_offset: bool,
     has_channels: bool,
 }
@@ -205,7 +208,7 @@ pub(super) fn parse_hierarchy(
     reader.expect("ROOT")?;
     let mut joints: Vec<BvhJoint> = Vec::new();
     let mut open: Vec<OpenJoint> = Vec::new(); // in place of recursion: depth is the sender's choice
-    open_joint(reader, &mut joints, &mut open, warnings)?;
+    let mut lines = vec![open_joint(reader, &mut joints, &mut open, warnings)?];
     while let Some(top) = open.last_mut() {
         let index = top.index;
         let word = reader.word("OFFSET, CHANNELS, JOINT, End Site or }")?;
@@ -242,7 +245,7 @@ pub(super) fn parse_hierarchy(
             }
             joints[index].channels = channels;
         } else if word.eq_ignore_ascii_case(b"JOINT") {
-            open_joint(reader, &mut joints, &mut open, warnings)?;
+            lines.push(open_joint(reader, &mut joints, &mut open, warnings)?);
         } else if word.eq_ignore_ascii_case(b"ROOT") {
             return Err(BvhError::SecondRoot {
                 line: reader.line,
@@ -264,24 +267,50 @@ pub(super) fn parse_hierarchy(
             }
         } else if word == b"}" {
             if !top.has_offset {
-                let (line, name) = (reader.line, &joints[index].name);
-                warnings.add(|| format!("line {line}: joint {name:?} has no OFFSET, taken as 0"));
+                return Err(BvhError::NoOffset {
+                    line: top.line,
+                    joint: joints[index].name.clone(),
+                });
             }
             open.pop();
         } else {
             return Err(reader.unexpected("OFFSET, CHANNELS, JOINT, End Site or }", word));
         }
     }
+    note_duplicate_names(&joints, &lines, warnings);
     Ok(joints)
 }
 
-/// Reads the name and the opening brace of a ROOT or JOINT and puts it on the stack.
+/// One warning per name that several joints have. Whether it matters is known when bones are mapped.
+fn note_duplicate_names(joints: &[BvhJoint], lines: &[usize], warnings: &mut Warnings) {
+    let mut by_name: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+    for (joint, line) in joints.iter().zip(lines) {
+        by_name.entry(&joint.name).or_default().push(*line);
+    }
+    for (name, lines) in by_name.into_iter().filter(|(_, lines)| lines.len() > 1) {
+        let first: Vec<String> = lines.iter().take(4).map(usize::to_string).collect();
+        let more = if lines.len() > first.len() {
+            ", …"
+        } else {
+            ""
+        };
+        warnings.add(|| {
+            format!(
+                "{} joints are named {name:?} (lines {}{more})",
+                lines.len(),
+                first.join(", ")
+            )
+        });
+    }
+}
+
+/// Reads the name and the opening brace of a ROOT or JOINT and puts it on the stack. Returns the line of the name.
 fn open_joint(
     reader: &mut Reader<'_>,
     joints: &mut Vec<BvhJoint>,
     open: &mut Vec<OpenJoint>,
     warnings: &mut Warnings,
-) -> Result<(), BvhError> {
+) -> Result<usize, BvhError> {
     let index = joints.len();
     if index == MAX_JOINTS {
         return Err(BvhError::TooManyJoints { line: reader.line });
@@ -302,10 +331,11 @@ fn open_joint(
     });
     open.push(OpenJoint {
         index,
+        line,
         has_offset: false,
         has_channels: false,
     });
-    Ok(())
+    Ok(line)
 }
 
 /// Reads the rest of an End Site; an empty block counts as zero length.

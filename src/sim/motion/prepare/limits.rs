@@ -10,7 +10,7 @@ use crate::sim::body::{Body, Posture};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::filter::{low_pass, low_pass_rotations};
 use crate::sim::motion::foot_lock::{LockedFoot, Sole};
-use crate::sim::motion::leg_ik::{forward, knee_axis};
+use crate::sim::motion::leg_ik::{forward, knee_axis, solve_leg};
 
 const TOES: [SegmentId; 2] = [L_TOES, R_TOES];
 /// Angles are kept this far from their limits, rad.
@@ -25,6 +25,11 @@ const LEAST_RISE: f64 = 0.05;
 const KNEE_STEP: f64 = 0.3;
 
 const KNEE_STEPS: usize = 8;
+
+/// A free foot may be this deep in the floor, m; how often its leg is solved for less.
+pub(super) const DEEP: f64 = 0.01;
+
+const RAISES: usize = 4;
 
 /// What is left of a lock when the legs are within their limits.
 #[derive(Default)]
@@ -55,6 +60,9 @@ pub(super) fn into_limits(
         for s in (0..2).filter(|s| !planted[*s] && behind(*s)) {
             lift_by_knee(body, posture, s, wanted[FOOT[s].index()]);
         }
+        for s in (0..2).filter(|s| !planted[*s]) {
+            raise_foot(body, posture, s, &soles[s]);
+        }
         let poses = forward(body, posture);
         for s in 0..2 {
             if !planted[s] {
@@ -66,6 +74,7 @@ pub(super) fn into_limits(
             if stray > accuracy || low < -accuracy {
                 planted[s] = false;
                 held.freed += 1;
+                raise_foot(body, posture, s, &soles[s]);
                 continue;
             }
             held.slide = held.slide.max(stray);
@@ -99,7 +108,22 @@ fn lift_by_knee(body: &Body, posture: &mut Posture, side: usize, wanted: (Vec3, 
     clamp_to_limits(body, posture, LIMIT_MARGIN * 0.5);
 }
 
-fn toe_hinge(side: usize) -> usize {
+/// A foot that limits have put deeper into the floor than [`DEEP`] is brought up to that by the whole leg.
+fn raise_foot(body: &Body, posture: &mut Posture, side: usize, sole: &Sole) {
+    for _ in 0..RAISES {
+        let (ankle, rotation) = forward(body, posture)[FOOT[side].index()];
+        let toe = posture.hinge[toe_hinge(side)];
+        let deep = -(ankle.z + sole.lowest(rotation, toe)) - DEEP;
+        if deep <= 0.0 {
+            break;
+        }
+        let to = (ankle + Vec3::Z * deep, rotation);
+        solve_leg(body, posture, side == 0, to, toe);
+        clamp_to_limits(body, posture, LIMIT_MARGIN * 0.5);
+    }
+}
+
+pub(super) fn toe_hinge(side: usize) -> usize {
     match JOINT[TOES[side].index()] {
         Joint::Hinge1(h) => h,
         _ => unreachable!("the toes are on a hinge"),

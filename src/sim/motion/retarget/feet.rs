@@ -30,27 +30,24 @@ impl Scene<'_> {
             .collect()
     }
 
-    /// `world_from_foot` per sample: x from ankle to toes made level while the foot stands flat, z up then.
+    /// `world_from_foot` per sample: x from ankle to toes made level while the foot stands flat, z up then. `leg`: its length, m.
     pub(super) fn foot_frames(
         &self,
         map: &SkeletonMap,
         s: usize,
         flat: &[usize],
-        calibration: &Calibration,
+        (calibration, leg): (&Calibration, f64),
     ) -> Vec<Quat> {
         let side = &map.sides[s];
         let turns = self.turn(side.foot);
         let toe = self.take.toe(side);
         let from_rest = || {
-            let ahead = toe.map_or(Vec3::X, |t| {
-                self.calibrated_direction(side.foot, t, calibration)
-            });
-            let yaw = if ahead.x.hypot(ahead.y) > 0.2 {
-                ahead.y.atan2(ahead.x)
-            } else {
-                0.0
-            };
-            self.follow(side.foot, calibration, Quat::exp(Vec3::Z * yaw))
+            let is_tip = side.toes.is_none();
+            self.follow(side.foot, calibration, |pose, figure| {
+                toe.map_or(Quat::identity(), |t| {
+                    self.foot_in_pose((side.foot, t, is_tip), (pose, figure), leg)
+                })
+            })
         };
         let Some(toe) = toe.filter(|_| flat.len() >= 5) else {
             return from_rest();

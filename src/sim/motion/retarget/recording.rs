@@ -3,20 +3,52 @@
 use super::report::{Bridged, RetargetError};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::bvh::Bvh;
-use crate::sim::motion::filter::{align_signs, renormalised};
+use crate::sim::motion::filter::{align_signs, percentile, renormalised};
 use crate::sim::motion::skeleton_map::{SideMap, SkeletonMap};
 
-/// A first frame from which bones jump further than this is a pose, not motion, rad.
-const POSE_JUMP: f64 = 0.6;
+/// A pose that is no part of the motion is held for at most so long at the start, s.
+const LONGEST_POSE: f64 = 30.0;
+/// Some files start with two such poses.
+const MOST_POSES: usize = 2;
+/// Least root of the sum of squares of all bones' turns (rad) and of the root's way (in units of the figure's size) that is a jump between two frames,
+/// and the most that a held pose may have strayed from its first frame.
+const LEAST_JUMP: f64 = 0.15;
+const DRIFT: f64 = 0.3;
+/// A jump is so many times as large as any change within the time after it, s and least number of frames.
+const JUMPS: f64 = 3.0;
+const AFTER: f64 = 0.1;
+const LEAST_AFTER: usize = 3;
+/// Longest blend from the rest pose into the motion, s; at its end a change is so many times as large as the next one.
+const RUSH: f64 = 0.06;
+const FADES: f64 = 2.0;
+/// And so many times as large as 95 of 100 changes of the clip.
+const USUAL: f64 = 2.5;
+/// Where the pose is held for several frames the fourth largest turn of a bone is more than this, or that of the root, rad.
+const POSE_JUMP: f64 = 0.12;
+/// A bone within this of the file's rest pose is at rest, rad.
+const RESTS: f64 = 0.09;
 /// A bone that turns further than this in one frame and back within [`GLITCH_FRAMES`] is bridged, rad.
 const GLITCH_STEP: f64 = 0.45;
 /// The same as a speed, rad/s: at low frame rates honest motion turns far in one frame.
 const GLITCH_RATE: f64 = 45.0;
+/// A root that moves further than this in one frame and back is bridged, in units of the figure's size, and per second.
+const ROOT_STEP: f64 = 0.1;
+const ROOT_RATE: f64 = 12.0;
 /// Longest glitch that is bridged, frames.
 const GLITCH_FRAMES: usize = 4;
 
 fn angle_of(q: Quat) -> f64 {
     q.log().norm()
+}
+
+/// By how much a pose differs from another one.
+struct Change {
+    /// Root of the sum of squares of all turns, rad, and of the root's way in units of the figure's size.
+    all: f64,
+    /// Fourth largest turn of a bone, rad.
+    bones: f64,
+    /// Turn of the root, rad, or its way in units of the figure's size.
+    root: f64,
 }
 
 /// The bones that matter, with every ancestor, as local motions.
@@ -135,6 +167,18 @@ impl Recording {
         })
     }
 
+    /// True if the pelvis, or a joint above it, has a position channel.
+    pub(super) fn has_positions(bvh: &Bvh, map: &SkeletonMap) -> bool {
+        let mut at = Some(map.pelvis);
+        while let Some(j) = at {
+            if bvh.joints[j].channels.iter().any(|c| c.is_position()) {
+                return true;
+            }
+            at = bvh.joints[j].parent;
+        }
+        false
+    }
+
     /// Point of the end of `joint`, if it is kept as a tip.
     pub(super) fn tip(&self, joint: usize) -> Option<usize> {
         let point = self.joint_count + joint;
@@ -159,55 +203,133 @@ impl Recording {
         self.index[joint].expect("every mapped bone is kept")
     }
 
-    /// Largest turns of a single bone from one frame to the next: (second largest angle, rad; root distance).
-    fn jump(&self, frame: usize) -> f64 {
+    /// How far all bones turn, and the root moves, from frame `a` to frame `b`.
+    fn change(&self, a: usize, b: usize, size: f64) -> Change {
         let mut angles: Vec<f64> = self
             .turn
             .iter()
-            .map(|t| angle_of(t[frame].conjugate() * t[frame + 1]))
+            .map(|t| angle_of(t[a].conjugate() * t[b]))
             .collect();
+        let moved = (self.step[0][b] - self.step[0][a]).norm() / size;
+        let square = angles.iter().map(|a| a * a).sum::<f64>() + moved * moved;
         angles.sort_by(f64::total_cmp);
-        // Several bones must jump at once; one alone is a glitch.
-        angles.iter().rev().nth(3).copied().unwrap_or(0.0)
+        Change {
+            all: square.sqrt(),
+            bones: angles.iter().rev().nth(3).copied().unwrap_or(0.0),
+            root: moved.max(angle_of(self.turn[0][a].conjugate() * self.turn[0][b])),
+        }
     }
 
-    /// Drops a pose (usually a T) held before the motion starts. Returns the number of frames dropped.
-    pub(super) fn skip_pose(&mut self, rate_hz: f64, warnings: &mut Vec<String>) -> usize {
-        let n = self.len();
-        // The pose may be held for a while; it is over at the first jump, if nothing moved before.
-        let mut held = 0;
-        let mut cut = 0;
-        while held + 1 < n && held < (30.0 * rate_hz) as usize {
-            let j = self.jump(held);
-            if j > POSE_JUMP.max(12.0 / rate_hz) {
-                cut = held + 1;
-                break;
+    /// Longest way down the tree from the root, file units: what the root's way is measured against.
+    fn size(&self) -> f64 {
+        let mut reach = vec![0.0f64; self.joints.len()];
+        for k in 0..self.joints.len() {
+            if let Some(p) = self.parent[k] {
+                reach[k] = reach[p] + self.step[k][0].norm();
             }
-            if j > 0.02 {
-                break;
-            }
-            held += 1;
         }
-        if cut > 0 && n - cut >= 2 {
+        reach.into_iter().fold(0.0, f64::max).max(1e-9)
+    }
+
+    /// True if every bone below the root is turned as in the rest pose of the file.
+    fn rests(&self, frame: usize) -> bool {
+        let below = self
+            .turn
+            .iter()
+            .zip(&self.parent)
+            .filter(|(_, p)| p.is_some());
+        below.into_iter().all(|(t, _)| angle_of(t[frame]) < RESTS)
+    }
+
+    /// Drops a pose that is no part of the motion from the start: one that does not change, or hardly, before it jumps into the motion. Returns
+    /// the number of frames dropped.
+    ///
+    /// A jump is a change between two frames that is several times as large as any in the time after it, and as nearly all of the clip's: motion
+    /// gathers speed over several frames. Where the pose is held for more than a frame, one bone that flips is no jump: four bones must, or the
+    /// root, or the pose must be the rest pose of the file.
+    pub(super) fn skip_pose(&mut self, rate_hz: f64, warnings: &mut Vec<String>) -> usize {
+        let size = self.size();
+        let mut skipped = 0;
+        for _ in 0..MOST_POSES {
+            let Some(cut) = self.held_pose(rate_hz, size) else {
+                break;
+            };
             for t in &mut self.turn {
                 t.drain(..cut);
             }
             for s in &mut self.step {
                 s.drain(..cut);
             }
-            warnings.push(format!(
-                "the first {cut} frame(s) hold a pose and jump into the motion: left out"
-            ));
-            return cut;
+            skipped += cut;
         }
-        0
+        if skipped > 0 {
+            warnings.push(format!(
+                "the first {skipped} frame(s) hold a pose and jump into the motion: left out"
+            ));
+        }
+        skipped
     }
 
-    /// Replaces short excursions of single bones by interpolation.
+    /// First frame after a jump to frame `cut`, and the largest change on the way there. Some writers blend the rest pose into the motion over several
+    /// frames: a rush that is fast from its first frame, which no motion is.
+    fn rush(&self, cut: usize, jump: f64, rate_hz: f64, size: f64) -> (usize, f64) {
+        if !self.rests(cut - 1) {
+            return (cut, jump);
+        }
+        let last = (cut + (RUSH * rate_hz) as usize).min(self.len().saturating_sub(LEAST_AFTER));
+        let change = |i: usize| self.change(i, i + 1, size).all;
+        let (mut end, mut largest) = (cut, jump);
+        while end < last {
+            let next = change(end);
+            let fades = next > FADES * change(end + 1);
+            if next * JUMPS < largest && !fades {
+                break;
+            }
+            largest = largest.max(next);
+            end += 1;
+        }
+        if jump < 0.5 * largest {
+            return (cut, jump);
+        }
+        (end, largest)
+    }
+
+    /// Frames of a pose held at the start that is no part of the motion.
+    fn held_pose(&self, rate_hz: f64, size: f64) -> Option<usize> {
+        let n = self.len();
+        let longest = ((LONGEST_POSE * rate_hz) as usize).min(n.saturating_sub(LEAST_AFTER));
+        let after = ((AFTER * rate_hz) as usize).max(LEAST_AFTER);
+        for cut in 1..=longest {
+            let jump = self.change(cut - 1, cut, size);
+            if jump.all < LEAST_JUMP {
+                // Still the same pose?
+                if self.change(0, cut, size).all > DRIFT {
+                    return None;
+                }
+                continue;
+            }
+            let (end, largest) = self.rush(cut, jump.all, rate_hz, size);
+            let around = (end..(end + after).min(n - 1)).map(|i| self.change(i, i + 1, size).all);
+            if largest < JUMPS * around.fold(0.0, f64::max) {
+                return None;
+            }
+            let stride = (n / 2000).max(1);
+            let usual: Vec<f64> = (end..n - 1)
+                .step_by(stride)
+                .map(|i| self.change(i, i + 1, size).all)
+                .collect();
+            let several = jump.bones > POSE_JUMP || jump.root > POSE_JUMP;
+            let pose = cut == 1 || several || self.rests(cut - 1);
+            return (pose && largest > USUAL * percentile(&usual, 0.95)).then_some(end);
+        }
+        None
+    }
+
+    /// Replaces short excursions of single bones, and of the root's place, by interpolation.
     pub(super) fn bridge(&mut self, bvh: &Bvh, rate_hz: f64, skipped: usize) -> Vec<Bridged> {
         let limit = GLITCH_STEP.max(GLITCH_RATE / rate_hz);
         let n = self.len();
-        let mut out = Vec::new();
+        let mut out = self.bridge_root(bvh, rate_hz, skipped);
         for k in 0..self.joints.len() {
             let turn = &mut self.turn[k];
             let mut i = 1;
@@ -233,6 +355,34 @@ impl Recording {
                 i += 1;
             }
             align_signs(turn);
+        }
+        out
+    }
+
+    /// Replaces short excursions of the root's place, such as frames in which all channels are 0.
+    fn bridge_root(&mut self, bvh: &Bvh, rate_hz: f64, skipped: usize) -> Vec<Bridged> {
+        let limit = self.size() * ROOT_STEP.max(ROOT_RATE / rate_hz);
+        let (n, place) = (self.len(), &mut self.step[0]);
+        let mut out = Vec::new();
+        let mut i = 1;
+        while i + 1 < n {
+            let before = place[i - 1];
+            let step = (place[i] - before).norm();
+            let back = (i + 1..(i + 1 + GLITCH_FRAMES).min(n))
+                .find(|j| (place[*j] - before).norm() < 0.4 * step);
+            if let Some(j) = back.filter(|_| step > limit) {
+                let way = place[j] - before;
+                for (m, p) in place.iter_mut().enumerate().take(j).skip(i) {
+                    *p = before + way * ((m + 1 - i) as f64 / (j + 1 - i) as f64);
+                }
+                out.push(Bridged {
+                    bone: bvh.joints[self.joints[0]].name.clone(),
+                    first: i + skipped,
+                    count: j - i,
+                });
+                i = j;
+            }
+            i += 1;
         }
         out
     }

@@ -37,6 +37,24 @@ pub struct ClampedDof {
     pub fraction: f64,
 }
 
+impl ClampedDof {
+    /// Joint and motion as people name them: `right ankle: flexion` for `r_ankle_flexion`.
+    fn in_words(&self) -> String {
+        let (side, rest) = match self.dof.split_at(2) {
+            ("l_", rest) => ("left ", rest),
+            ("r_", rest) => ("right ", rest),
+            _ => ("", self.dof),
+        };
+        let (joint, motion) = rest.split_once('_').unwrap_or((rest, "angle"));
+        format!("{side}{joint}: {}", motion.replace('_', " "))
+    }
+}
+
+/// A clamp is worth a warning that is larger than this, rad, and lasts longer than this fraction of the clip.
+const NOTABLE_CLAMP: (f64, f64) = (0.0873, 0.05);
+/// And so is a larger one that lasts less.
+const LARGE_CLAMP: (f64, f64) = (0.17, 0.02);
+
 /// A stretch of frames that was replaced by interpolation.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Bridged {
@@ -100,6 +118,8 @@ pub struct RetargetReport {
     pub elbow_off_axis: [f64; 2],
     /// Constant angle taken out of the left and right wrist, rad: the recording's hands do not continue its forearms.
     pub wrist_bias: [f64; 2],
+    /// Constant angle taken out of the pronation of the left and right forearm, rad: as recorded its range is no forearm's.
+    pub pronation_shift: [f64; 2],
     /// Fraction of foot samples in stance that were declared free because the leg's limits do not let it hold the foot in place.
     pub freed: f64,
     /// Largest distance of a planted foot from its place, m: as recorded, and prepared.
@@ -118,6 +138,10 @@ pub struct RetargetReport {
     pub shift_max: f64,
     /// Largest lowering of the pelvis so that planted legs reach, m.
     pub pelvis_drop_max: f64,
+    /// Largest angle by which the pelvis is tilted back where hips do not flex as far as recorded, rad.
+    pub pelvis_tilt_max: f64,
+    /// Largest raise of the pelvis where legs do not fold as far as recorded, m.
+    pub pelvis_raise_max: f64,
     /// Fraction of the clip in which something other than the feet carries the body (chair, hands, back).
     pub carried: f64,
     /// Speed over the floor of the fastest run, m/s, if the recording runs anywhere, and whether it is walked.
@@ -223,30 +247,44 @@ impl RetargetReport {
             ));
         }
         if !from_rest {
-            w.push("the file's zero pose is no standing person: the most upright frame was taken for calibration".into());
+            w.push("the file's zero pose is no standing person: the mean of its most upright frames was taken for calibration".into());
         }
         if !self.bridged.is_empty() {
             let frames: usize = self.bridged.iter().map(|b| b.count).sum();
             w.push(format!("{frames} frames with jumps were bridged"));
         }
-        for c in self
-            .clamped
-            .iter()
-            .filter(|c| c.max > 0.17 && c.fraction > 0.02)
-        {
+        let notable = |c: &&ClampedDof| {
+            [NOTABLE_CLAMP, LARGE_CLAMP]
+                .iter()
+                .any(|least| c.max > least.0 && c.fraction > least.1)
+        };
+        for c in self.clamped.iter().filter(notable) {
             w.push(format!(
-                "{} was up to {:.0}° outside the body's limits in {:.0} % of the clip",
-                c.dof,
+                "{} cut by up to {:.0}° in {:.0} % of the clip",
+                c.in_words(),
                 c.max.to_degrees(),
                 100.0 * c.fraction
             ));
         }
-        if let Some(fastest) = self.runs {
-            w.push(if self.walked {
-                format!("a run of {fastest:.1} m/s is walked: slower, with shorter steps")
-            } else {
-                format!("a run of {fastest:.1} m/s takes more strength than people's joints are measured to have")
-            });
+        for (side, shift) in ["left", "right"].into_iter().zip(self.pronation_shift) {
+            if shift.abs() > NOTABLE_CLAMP.0 {
+                w.push(format!(
+                    "{side} forearm: its rotation was taken {:.0}° off, as recorded it is no forearm's",
+                    shift.abs().to_degrees()
+                ));
+            }
+        }
+        if self.pelvis_tilt_max > NOTABLE_CLAMP.0 {
+            w.push(format!(
+                "the pelvis is tilted back by up to {:.0}° where hips do not flex as far as recorded",
+                self.pelvis_tilt_max.to_degrees()
+            ));
+        }
+        if self.pelvis_raise_max > 0.01 {
+            w.push(format!(
+                "the pelvis is raised by up to {:.0} cm where legs do not fold as far as recorded",
+                100.0 * self.pelvis_raise_max
+            ));
         }
         if self.freed > 0.01 {
             w.push(format!(

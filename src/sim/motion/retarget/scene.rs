@@ -6,9 +6,10 @@ use crate::sim::math::{Mat3, Quat, Vec3};
 use crate::sim::motion::filter::{
     low_pass_points, low_pass_rotations, resample_points, resample_rotations,
 };
+use crate::sim::motion::run_gait::{FastStretch, Figure, Gait, fast_stretches};
 use crate::sim::motion::running;
 use crate::sim::motion::skeleton_map::SkeletonMap;
-use crate::sim::motion::walked::{self, Slowed};
+use crate::sim::motion::walked::Slowed;
 
 /// Per sample: smoothed world positions and rotations, metres, z up.
 pub(super) struct Scene<'a> {
@@ -27,15 +28,52 @@ pub(super) struct Seen {
     pub feet: [Vec<Vec<Vec3>>; 2],
     /// Mean distance, rms, over which smoothing moved the points, m.
     pub smoothing_rms: f64,
-    /// Speed of the fastest run, m/s, if there is one, and how it is slowed down if it is to be walked.
-    pub runs: Option<f64>,
+    /// Stretches that are faster than people walk, in samples of the recording, and how its runs are slowed down if they are to be walked.
+    pub fast: Vec<FastStretch>,
     pub slowed: Option<Slowed>,
+    /// How many times as long as recorded the motion is for that.
+    pub slower: f64,
 }
 
 impl Seen {
-    /// True if somebody runs and is to run.
+    /// True if it runs and is to run.
     pub(super) fn keeps_run(&self) -> bool {
-        self.runs.is_some() && self.slowed.is_none()
+        self.runs().next().is_some() && self.slowed.is_none()
+    }
+
+    fn runs(&self) -> impl Iterator<Item = &FastStretch> {
+        self.fast.iter().filter(|s| s.gait == Gait::Run)
+    }
+
+    /// Speed of the fastest run, m/s, if there is one.
+    pub(super) fn fastest_run(&self) -> Option<f64> {
+        self.runs().map(|s| s.speed).reduce(f64::max)
+    }
+
+    /// What a user should know of each fast stretch. `rate_hz`: of the recording.
+    pub(super) fn notes(&self, rate_hz: f64) -> Vec<String> {
+        let note = |s: &FastStretch| {
+            if s.gait != Gait::Run {
+                return s.why_not_a_run(rate_hz);
+            }
+            let what = format!(
+                "from {:.2} s to {:.2} s a run of {:.1} m/s ({} changes of the leading foot, {} flights)",
+                s.samples.0 as f64 / rate_hz,
+                s.samples.1 as f64 / rate_hz,
+                s.speed,
+                s.steps,
+                s.flights
+            );
+            if self.slowed.is_some() {
+                let slower = self.slower;
+                format!(
+                    "{what} is walked: slower, with shorter steps; the clip is {slower:.1} times as long as recorded"
+                )
+            } else {
+                format!("{what} takes more strength than people's joints are measured to have")
+            }
+        };
+        self.fast.iter().map(note).collect()
     }
 }
 
@@ -73,14 +111,35 @@ impl<'a> Scene<'a> {
             .min(MAX_FRAMES * 4);
         let way = middle(&places);
         let feet = [0, 1].map(|s: usize| places[take.at(map.sides[s].foot)].as_slice());
+        let between = |pair: [usize; 2]| {
+            let [a, b] = pair.map(|j| &places[take.at(j)]);
+            let middle = a.iter().zip(b).map(|(a, b)| (*a + *b) * 0.5);
+            middle.collect::<Vec<_>>()
+        };
+        let [l, r] = &map.sides;
+        let trunk = [
+            between([l.thigh, r.thigh]),
+            between([l.upper_arm, r.upper_arm]),
+        ];
+        let figure = Figure {
+            middle: &way,
+            feet,
+            trunk: [&trunk[0], &trunk[1]],
+        };
+        let fast = fast_stretches(&figure, source_rate);
+        let runs: Vec<(usize, usize)> = fast
+            .iter()
+            .filter(|s| s.gait == Gait::Run)
+            .map(|s| s.samples)
+            .collect();
         let slowed = options
             .walk_runs
-            .then(|| Slowed::new(&way, feet, source_rate, rate))
+            .then(|| Slowed::new(&way, feet, &runs, (source_rate, rate)))
             .flatten();
+        let slower = slowed.as_ref().map_or(1.0, |s| s.stretch(count as f64));
         let count = slowed.as_ref().map_or(count, Slowed::count);
         let mut smoothing = (0.0, 0usize);
-        let runs = walked::fastest(&way, source_rate);
-        let cutoff_hz = if runs.is_some() && slowed.is_none() {
+        let cutoff_hz = if !runs.is_empty() && slowed.is_none() {
             options.cutoff_hz.max(running::CUTOFF)
         } else {
             options.cutoff_hz
@@ -129,8 +188,9 @@ impl<'a> Scene<'a> {
             Seen {
                 feet,
                 smoothing_rms,
-                runs,
+                fast,
                 slowed,
+                slower,
             },
         )
     }

@@ -13,12 +13,45 @@ const PLANE_LEAST: f64 = 0.30;
 
 /// How bones carry segments.
 pub(super) struct Calibration {
-    /// True if the file's zero pose served, false if a frame of the motion did.
+    /// True if the file's zero pose served, false if samples of the motion did.
     pub from_rest: bool,
-    /// Figure frame (x forward, y left, z up) of the calibration pose.
-    pub figure: Quat,
-    /// Sample of the calibration pose; unused with `from_rest`.
-    pub sample: usize,
+    /// The calibration poses: the sample, `None` for the zero pose, and the figure frame then (x forward, y left, z up).
+    pub poses: Vec<(Option<usize>, Quat)>,
+}
+
+/// Samples that are nearly as upright as the most upright one serve for calibration: least difference of their score, and at most so many.
+const UPRIGHT: f64 = 0.06;
+const MOST_POSES: usize = 400;
+/// Height of the ankle over the toe joint, and over the tip of the toes, on a flat foot, in lengths of the leg.
+const ANKLE_OVER_TOE: [f64; 2] = [0.065, 0.075];
+
+/// Mean of rotations that are about alike; those far from the others count for less. The identity for none.
+pub(super) fn mean_rotation(rotations: &[Quat]) -> Quat {
+    let mut mean = match rotations {
+        [] => return Quat::identity(),
+        [only] => return *only,
+        [first, ..] => *first,
+    };
+    for round in 0..8 {
+        let turns: Vec<Vec3> = rotations
+            .iter()
+            .map(|q| (mean.conjugate() * *q).log())
+            .collect();
+        let usual = percentile(&turns.iter().map(|t| t.norm()).collect::<Vec<_>>(), 0.5).max(1e-3);
+        let (mut sum, mut weights) = (Vec3::zero(), 0.0);
+        for t in &turns {
+            // The first rounds only find the middle.
+            let w = if round < 2 {
+                1.0
+            } else {
+                1.0 / (1.0 + (t.norm() / usual).powi(2))
+            };
+            sum += *t * w;
+            weights += w;
+        }
+        mean = (mean * Quat::exp(sum * (1.0 / weights))).normalized();
+    }
+    mean
 }
 
 /// Segment frames per sample.
@@ -95,64 +128,116 @@ impl Scene<'_> {
                 .find(|a| a.dot(up) > 0.95);
             return Calibration {
                 from_rest: true,
-                figure: frame_of(axis.unwrap_or(up), left),
-                sample: 0,
+                poses: vec![(None, frame_of(axis.unwrap_or(up), left))],
             };
         }
-        let upright = |i: usize| {
-            let at = |j: usize| self.place(j)[i];
-            let (_, up, _, _, legs) = pose(&at);
-            up.z + 0.5 * legs
-        };
-        let sample = (0..self.count)
-            .max_by(|a, b| upright(*a).total_cmp(&upright(*b)).then(b.cmp(a)))
-            .unwrap_or(0);
-        let at = |j: usize| self.place(j)[sample];
-        let (_, up, left, _, _) = pose(&at);
+        let upright: Vec<f64> = (0..self.count)
+            .map(|i| {
+                let at = |j: usize| self.place(j)[i];
+                let (_, up, _, _, legs) = pose(&at);
+                up.z + 0.5 * legs
+            })
+            .collect();
+        let most = upright.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let samples: Vec<usize> = (0..self.count)
+            .filter(|i| upright[*i] >= most - UPRIGHT)
+            .collect();
+        let stride = samples.len().div_ceil(MOST_POSES).max(1);
+        let poses = samples
+            .into_iter()
+            .step_by(stride)
+            .map(|i| {
+                let at = |j: usize| self.place(j)[i];
+                let (_, up, left, _, _) = pose(&at);
+                (
+                    Some(i),
+                    frame_of(if up.z > 0.85 { Vec3::Z } else { up }, left),
+                )
+            })
+            .collect();
         Calibration {
             from_rest: false,
-            figure: frame_of(if up.z > 0.85 { Vec3::Z } else { up }, left),
-            sample,
+            poses,
         }
     }
 
-    /// Segment frame per sample from a bone's rotation and the segment's frame in the calibration pose (`figure · relative`).
+    /// Rotation of a bone in a calibration pose.
+    fn turn_in(&self, joint: usize, pose: Option<usize>) -> Quat {
+        pose.map_or(self.basis, |i| self.turn(joint)[i])
+    }
+
+    /// A rotation or direction that belongs to each calibration pose, as rotation in the bone `joint`, averaged over the poses.
+    ///
+    /// `figure_from_segment`: of a pose, in the axes of its figure.
+    fn bone_from_segment(
+        &self,
+        joint: usize,
+        calibration: &Calibration,
+        figure_from_segment: impl Fn(Option<usize>, Quat) -> Quat,
+    ) -> Quat {
+        let of = |&(pose, figure): &(Option<usize>, Quat)| {
+            let bone = self.turn_in(joint, pose);
+            bone.conjugate() * figure * figure_from_segment(pose, figure)
+        };
+        mean_rotation(&calibration.poses.iter().map(of).collect::<Vec<_>>())
+    }
+
+    /// Segment frame per sample from a bone's rotation and the segment's frame in a calibration pose, in the axes of the figure.
     pub(super) fn follow(
         &self,
         joint: usize,
         calibration: &Calibration,
-        relative: Quat,
+        figure_from_segment: impl Fn(Option<usize>, Quat) -> Quat,
     ) -> Vec<Quat> {
-        let turns = self.turn(joint);
-        let at_calibration = if calibration.from_rest {
-            self.basis
-        } else {
-            turns[calibration.sample]
-        };
-        let bone_from_segment = at_calibration.conjugate() * calibration.figure * relative;
+        let bone_from_segment = self.bone_from_segment(joint, calibration, figure_from_segment);
+        let turns = self.turn(joint).iter();
         turns
-            .iter()
             .map(|q| (*q * bone_from_segment).normalized())
             .collect()
     }
 
-    /// Direction of a bone in the calibration pose, figure axes.
+    /// The same of a segment whose frame is that of the figure then.
+    fn follow_upright(&self, joint: usize, calibration: &Calibration) -> Vec<Quat> {
+        self.follow(joint, calibration, |_, _| Quat::identity())
+    }
+
+    /// Direction of a bone in a calibration pose, figure axes.
     pub(super) fn calibrated_direction(
         &self,
-        from: usize,
-        to: usize,
-        calibration: &Calibration,
+        (from, to): (usize, usize),
+        (pose, figure): (Option<usize>, Quat),
     ) -> Vec3 {
-        let d = if calibration.from_rest {
-            self.rest[self.take.at(to)] - self.rest[self.take.at(from)]
-        } else {
-            self.place(to)[calibration.sample] - self.place(from)[calibration.sample]
+        let d = match pose {
+            None => self.rest[self.take.at(to)] - self.rest[self.take.at(from)],
+            Some(i) => self.place(to)[i] - self.place(from)[i],
         };
-        calibration
-            .figure
-            .conjugate()
-            .rotate(d)
-            .normalized_or(-Vec3::Z)
+        figure.conjugate().rotate(d).normalized_or(-Vec3::Z)
+    }
+
+    /// Foot in a calibration pose, figure axes: x along the line from ankle to `toe`, level where that line falls as steeply as on a flat foot of a
+    /// `leg` of this length, m. The zero pose of the file has flat feet.
+    pub(super) fn foot_in_pose(
+        &self,
+        (foot, toe, is_tip): (usize, usize, bool),
+        (pose, figure): (Option<usize>, Quat),
+        leg: f64,
+    ) -> Quat {
+        let ahead = self.calibrated_direction((foot, toe), (pose, figure));
+        let level = ahead.x.hypot(ahead.y);
+        let yaw = if level > 0.2 {
+            ahead.y.atan2(ahead.x)
+        } else {
+            0.0
+        };
+        let heading = Quat::exp(Vec3::Z * yaw);
+        let Some(i) = pose else {
+            return heading;
+        };
+        let length = (self.place(toe)[i] - self.place(foot)[i]).norm();
+        let falls = (ANKLE_OVER_TOE[usize::from(is_tip)] * leg / length.max(1e-9))
+            .min(0.8)
+            .asin();
+        heading * Quat::exp(Vec3::Y * (-ahead.z.atan2(level) - falls))
     }
 
     pub(super) fn pelvis(
@@ -164,7 +249,7 @@ impl Scene<'_> {
         let centre = (0..self.count)
             .map(|i| (self.place(l.thigh)[i] + self.place(r.thigh)[i]) * 0.5)
             .collect();
-        let mut turn = self.follow(map.pelvis, calibration, Quat::identity());
+        let mut turn = self.follow_upright(map.pelvis, calibration);
         // The line of the hips is better known than the bone's calibration: take the mean difference out.
         let mut sum = Vec3::zero();
         for i in 0..self.count {
@@ -211,16 +296,17 @@ impl Scene<'_> {
         let local = if seen {
             mean.normalized_or(Vec3::Y)
         } else {
-            let direction = self.calibrated_direction(upper, middle, calibration);
-            let axis = calibration
-                .figure
-                .rotate(shortest(-Vec3::Z, direction).rotate(Vec3::Y));
-            let q = if calibration.from_rest {
-                self.basis
-            } else {
-                turn[calibration.sample]
+            let of = |&at: &(Option<usize>, Quat)| {
+                let direction = self.calibrated_direction((upper, middle), at);
+                let axis = at.1.rotate(shortest(-Vec3::Z, direction).rotate(Vec3::Y));
+                self.turn_in(upper, at.0).conjugate().rotate(axis)
             };
-            q.conjugate().rotate(axis)
+            let sum = calibration
+                .poses
+                .iter()
+                .map(of)
+                .fold(Vec3::zero(), |s, v| s + v);
+            sum.normalized_or(Vec3::Y)
         };
         let mut axis = Vec::with_capacity(self.count);
         let mut off = Vec::new();
@@ -243,10 +329,10 @@ impl Scene<'_> {
 
     pub(super) fn frames(&self, map: &SkeletonMap, calibration: &Calibration) -> Frames {
         let chest_bone = map.trunk.last().copied().unwrap_or(map.pelvis);
-        let chest = self.follow(chest_bone, calibration, Quat::identity());
+        let chest = self.follow_upright(chest_bone, calibration);
         let pelvis = self.pelvis(map, calibration).1;
         let abdomen = if map.trunk.len() >= 2 {
-            self.follow(map.trunk[map.abdomen], calibration, Quat::identity())
+            self.follow_upright(map.trunk[map.abdomen], calibration)
         } else {
             // One bone bends the trunk: both of our joints share it.
             pelvis
@@ -255,9 +341,7 @@ impl Scene<'_> {
                 .map(|(p, c)| p.slerp(*c, 0.5))
                 .collect()
         };
-        let head = map
-            .head
-            .map(|h| self.follow(h, calibration, Quat::identity()));
+        let head = map.head.map(|h| self.follow_upright(h, calibration));
         let mut knee_off_axis = [0.0; 2];
         let knee_axis = [0, 1].map(|s| {
             let m = &map.sides[s];
@@ -286,8 +370,10 @@ impl Scene<'_> {
                 .map(|i| frame_of(shoulder[i] - elbow[i], axis[i]))
                 .collect();
             let bone = m.hand.unwrap_or(m.forearm);
-            let direction = self.calibrated_direction(m.forearm, wrist, calibration);
-            hand[s] = self.follow(bone, calibration, shortest(-Vec3::Z, direction));
+            hand[s] = self.follow(bone, calibration, |pose, figure| {
+                let direction = self.calibrated_direction((m.forearm, wrist), (pose, figure));
+                shortest(-Vec3::Z, direction)
+            });
         }
         Frames {
             abdomen,

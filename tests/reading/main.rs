@@ -1,0 +1,17 @@
+//! Goal: recordings are read for what they are, and what is odd about them is said.
+//! Method: BVH files written from postures that are known, damaged or written in an odd way, read back.
+#![allow(clippy::unwrap_used)]
+
+mod calibration;
+mod file;
+mod hostile;
+mod poses;
+mod preparation;
+mod roots;
+
+use sinew::sim::body::topology::DOF_NAMES;
+
+/// Index of a degree of freedom.
+fn dof(name: &str) -> usize {
+    DOF_NAMES.iter().position(|n| *n == name).unwrap()
+}
