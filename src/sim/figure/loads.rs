@@ -82,6 +82,18 @@ impl Disturbances {
         self.scheduled.iter().map(|s| &s.what)
     }
 
+    /// Mass properties of `body` with the loads that it carries and that were not taken off since. No allocation.
+    pub fn loaded(&self, body: &Body) -> Links {
+        let mut links = Links::new(body);
+        let kept = |s: &&Scheduled| s.carried && s.what.ends() > f64::NEG_INFINITY;
+        for load in self.scheduled.iter().filter(kept) {
+            for (segment, point, mass) in load.what.load().iter().flat_map(HeldLoad::shares) {
+                links.add_load(segment, point, mass);
+            }
+        }
+        links
+    }
+
     /// Forces of the current tick.
     pub fn applied(&self) -> &[AppliedForce] {
         &self.applied

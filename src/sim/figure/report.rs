@@ -180,11 +180,11 @@ pub struct TickReport {
     pub zmp: Option<Vec3>,
     /// Signed distance of the ZMP inside the support polygon, m; `None` in flight.
     pub margin: Option<f64>,
-    /// Centre of mass (loads included), world, m.
+    /// Centre of mass (loads included) of the state at the end of the tick, world, m.
     pub com: Vec3,
-    /// Velocity of the centre of mass, m/s.
+    /// Velocity of that centre of mass, world axes, m/s.
     pub com_velocity: Vec3,
-    /// Desired centre of mass, world, m.
+    /// Desired centre of mass at the end of the tick, world, m.
     pub com_desired: Vec3,
     /// What is missing of each constraint that a client gave, at the start of the tick: distance along the axes that count (m), angle (rad).
     pub constraint_error: Vec<[f64; 2]>,

@@ -1,7 +1,7 @@
 //! Where the desired motion puts the centre of mass, the hands and the feet, with the present loads.
 
 use crate::sim::body::topology::{L_FOOT, L_HAND, R_FOOT, R_HAND};
-use crate::sim::body::{Body, Links, NV, SegmentId};
+use crate::sim::body::{Body, Links, NV, SegmentId, State};
 use crate::sim::control::{Effector, PointTarget, RotationTarget};
 use crate::sim::dynamics::{Kinematics, center_of_mass, momentum};
 use crate::sim::math::{Quat, Vec3};
@@ -103,6 +103,14 @@ impl TaskWorkspace {
         self.aside.set_posture(links, &target.posture);
         self.aside.set_velocity(&target.velocity);
         momentum(links, &self.aside).angular
+    }
+
+    /// Centre of mass of a state (world, m) and its velocity (world axes, m/s), loads included. No allocation.
+    pub fn center_of_mass(&mut self, links: &Links, state: &State) -> (Vec3, Vec3) {
+        self.aside.set_state(links, state);
+        let (com, mass) = center_of_mass(links, &self.aside);
+        let linear = momentum(links, &self.aside).linear;
+        (state.posture.root_position + com, linear * (1.0 / mass))
     }
 
     /// Spatial targets of a tick. `links` carry the present loads. No allocation.

@@ -55,9 +55,8 @@ impl Figure {
             z: 0.0,
         });
         r.margin = r.zmp.and_then(|z| self.support.margin(z));
-        r.com = self.terms.com;
-        r.com_velocity = self.terms.com_velocity;
-        r.com_desired = tasks.com.now;
+        (r.com, r.com_velocity) = self.tasks.center_of_mass(&self.links, &self.state);
+        r.com_desired = tasks.com.next;
         r.constraint_error.clear();
         let missing = self.constraints.errors(&self.terms);
         r.constraint_error.extend_from_slice(missing);

@@ -381,15 +381,15 @@ class Balance(_message.Message):
     """Index of the main supporting segment; -1 if there is none."""
     @_builtins.property
     def com(self) -> _types_pb2.Numbers:
-        """Centre of mass, loads included, world, m: 3 numbers."""
+        """Centre of mass at the end of the tick, loads included, world, m: 3 numbers."""
 
     @_builtins.property
     def com_velocity(self) -> _types_pb2.Numbers:
-        """Its velocity, m/s: 3 numbers."""
+        """Its velocity at the end of the tick, world axes, m/s: 3 numbers."""
 
     @_builtins.property
     def com_desired(self) -> _types_pb2.Numbers:
-        """Where the desired motion puts it, world, m: 3 numbers."""
+        """Where the desired motion puts it at the end of the tick, world, m: 3 numbers."""
 
     @_builtins.property
     def zmp(self) -> _types_pb2.Numbers:

@@ -405,21 +405,21 @@ export const ContactsSchema: GenMessage<Contacts> = /*@__PURE__*/
  */
 export type Balance = Message<"sinew.v1.Balance"> & {
   /**
-   * Centre of mass, loads included, world, m: 3 numbers.
+   * Centre of mass at the end of the tick, loads included, world, m: 3 numbers.
    *
    * @generated from field: sinew.v1.Numbers com = 1;
    */
   com?: Numbers | undefined;
 
   /**
-   * Its velocity, m/s: 3 numbers.
+   * Its velocity at the end of the tick, world axes, m/s: 3 numbers.
    *
    * @generated from field: sinew.v1.Numbers com_velocity = 2;
    */
   comVelocity?: Numbers | undefined;
 
   /**
-   * Where the desired motion puts it, world, m: 3 numbers.
+   * Where the desired motion puts it at the end of the tick, world, m: 3 numbers.
    *
    * @generated from field: sinew.v1.Numbers com_desired = 3;
    */
