@@ -3,6 +3,7 @@
 //! Everything else of the server goes through the types and functions that are named here, so that the seam between clock and physics
 //! is one file.
 
+use crate::sim::body::palm::load_point;
 use crate::sim::body::provenance::Provenance;
 use crate::sim::body::topology::{self, BONE_NAMES, SEGMENT_NAMES};
 use crate::sim::body::{Body, DOF_COUNT, Posture, SEGMENT_COUNT, SegmentId, State};
@@ -509,7 +510,6 @@ pub fn first_state(clip: &Clip, at: Place) -> State {
 
 /// The physics' perturbation for a disturbance that begins at world time `from`.
 pub fn perturbation(body: &Body, what: &Disturbance, from: f64) -> Perturbation {
-    let com = |s: SegmentId| body.segment(s).com;
     match *what {
         Disturbance::Load {
             segment,
@@ -520,14 +520,7 @@ pub fn perturbation(body: &Body, what: &Disturbance, from: f64) -> Perturbation 
             grip,
             duration,
         } => {
-            use topology::{L_FOOT, L_HAND, L_TOES, R_FOOT, R_HAND, R_TOES};
-            let place = |s: SegmentId| {
-                if [L_HAND, R_HAND, L_FOOT, R_FOOT, L_TOES, R_TOES].contains(&s) {
-                    body.segment(s).tip
-                } else {
-                    com(s)
-                }
-            };
+            let place = |s: SegmentId| load_point(body, s);
             Perturbation::Held(HeldLoad {
                 segment,
                 point: point.unwrap_or_else(|| place(segment)),
@@ -546,7 +539,7 @@ pub fn perturbation(body: &Body, what: &Disturbance, from: f64) -> Perturbation 
             duration,
         } => Perturbation::Force {
             segment,
-            point: point.unwrap_or(com(segment)),
+            point: point.unwrap_or(body.segment(segment).com),
             force,
             from,
             to: from + duration,

@@ -2,6 +2,7 @@
 //!
 //! * `stand`: ten seconds of standing still.
 //! * `push`: what a standing figure survives, and where it falls when it does not.
+//! * `report`: what a tick says of the centre of mass.
 //! * `rise`: who has fallen gets up when his motion does.
 //! * `fall`: a stiff figure is a physical pendulum.
 //! * `flight`: the parabola and the momenta of a thrown figure; a limp one gains no energy.
@@ -34,6 +35,7 @@ mod lift;
 mod load;
 mod people;
 mod push;
+mod report;
 mod rise;
 mod slide;
 mod stand;

@@ -1,6 +1,7 @@
 //! `--load`: what the figure carries.
 
 use super::spec::{SpecError, interval, number, segment};
+use crate::sim::body::palm::load_point;
 use crate::sim::body::{Body, SegmentId};
 use crate::sim::figure::{HeldLoad, Perturbation};
 use crate::sim::math::Vec3;
@@ -25,9 +26,11 @@ impl LoadSpec {
     const FORM: &'static str =
         "KG@SEGMENT[+SEGMENT][@T0..T1], for example 3@r_hand, 8@l_hand+r_hand or 3@r_hand@1.0..2.5";
 
-    /// The load at the segment's centre of mass; `grip`: force at one hand beyond which it slips, N.
+    /// The load in the palm of a hand, or at another segment's centre of mass ([`load_point`]).
+    ///
+    /// * `grip`: force at one hand beyond which it slips, N.
     pub fn perturbation(&self, body: &Body, grip: f64) -> Perturbation {
-        let at = |s: SegmentId| body.segment(s).com;
+        let at = |s: SegmentId| load_point(body, s);
         Perturbation::Held(HeldLoad {
             segment: self.segment,
             point: at(self.segment),

@@ -7,6 +7,7 @@ pub mod geometry;
 pub mod humanoid;
 pub mod links;
 pub mod model;
+pub mod palm;
 pub mod provenance;
 mod shape;
 pub mod state;

@@ -2309,13 +2309,13 @@ pub struct Contacts {
 /// How the figure stands.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Balance {
-    /// Centre of mass, loads included, world, m: 3 numbers.
+    /// Centre of mass at the end of the tick, loads included, world, m: 3 numbers.
     #[prost(message, optional, tag = "1")]
     pub com: ::core::option::Option<Numbers>,
-    /// Its velocity, m/s: 3 numbers.
+    /// Its velocity at the end of the tick, world axes, m/s: 3 numbers.
     #[prost(message, optional, tag = "2")]
     pub com_velocity: ::core::option::Option<Numbers>,
-    /// Where the desired motion puts it, world, m: 3 numbers.
+    /// Where the desired motion puts it at the end of the tick, world, m: 3 numbers.
     #[prost(message, optional, tag = "3")]
     pub com_desired: ::core::option::Option<Numbers>,
     /// Zero-moment point on the ground, world, m: 3 numbers; empty in flight.
@@ -3831,7 +3831,7 @@ pub struct Load {
     /// Segment name, for example `r_hand`. Required.
     #[prost(string, tag = "1")]
     pub segment: ::prost::alloc::string::String,
-    /// Where, segment frame, m, each component within ±2. Absent: the segment's tip for hands and feet, else its centre of mass.
+    /// Where, segment frame, m, each component within ±2. Absent: the palm of a hand, else the segment's centre of mass.
     #[prost(message, optional, tag = "2")]
     pub point_m: ::core::option::Option<Vector3>,
     /// Mass, kg, 0…500.
