@@ -12,12 +12,13 @@ use bodies::{
 };
 use sinew::sim::body::export::{EXPORT_GRAVITY, mjcf_with, urdf_with};
 use sinew::sim::body::topology::{DOF_AXIS, DOF_NAMES, DOF_SEGMENT, JOINT, JOINT_NAMES, Joint};
-use sinew::sim::body::{Body, NV, SEGMENT_COUNT, State};
+use sinew::sim::body::{Body, DOF_COUNT, NV, SEGMENT_COUNT, State};
 use sinew::sim::dynamics::{
     AbaWorkspace, Kinematics, RneaWorkspace, Terms, aba, factor, kinetic_energy, momentum, rnea,
     solve,
 };
 use sinew::sim::math::Vec3;
+use sinew::sim::strength::Strength;
 use std::error::Error;
 use std::path::Path;
 
@@ -53,6 +54,21 @@ fn positions(state: &State) -> Vec<f64> {
         }
     }
     out
+}
+
+/// Largest isometric torque over the range of angles of each DOF, its negative and its positive direction, N·m: a fine
+/// scan of the muscles.
+fn strongest(body: &Body) -> Vec<[f64; 2]> {
+    const STEPS: u32 = 20_000;
+    let strength = Strength::for_body(body);
+    let scan = |d: usize, side: usize| {
+        let (lower, width) = (body.lower[d], body.upper[d] - body.lower[d]);
+        (0..=STEPS)
+            .map(|i| lower + width * f64::from(i) / f64::from(STEPS))
+            .map(|angle| strength.muscles(d)[side].torque(angle, 0.0))
+            .fold(0.0, f64::max)
+    };
+    (0..DOF_COUNT).map(|d| [-scan(d, 1), scan(d, 0)]).collect()
 }
 
 struct Model {
@@ -110,8 +126,10 @@ fn write_model(
 ) -> Result<(), Box<dyn Error>> {
     let links = loaded(&model.body, &model.loads);
     let file = |extension: &str| dir.join(format!("{}.{extension}", model.name));
-    std::fs::write(file("mjcf"), mjcf_with(&model.body, &links, EXPORT_GRAVITY))?;
-    std::fs::write(file("urdf"), urdf_with(&model.body, &links))?;
+    let actuation = Strength::for_body(&model.body).actuation();
+    let mjcf = mjcf_with(&model.body, &links, EXPORT_GRAVITY, &actuation);
+    std::fs::write(file("mjcf"), mjcf)?;
+    std::fs::write(file("urdf"), urdf_with(&model.body, &links, &actuation))?;
     let mut rng = generator(seed);
     let mut bytes = Vec::new();
     let mut terms = Terms::default();
@@ -253,6 +271,8 @@ fn main() -> Result<(), Box<dyn Error>> {
                 "name": m.name,
                 "mass": links.total_mass(),
                 "armature": links.armature.to_vec(),
+                "strongest": strongest(&m.body),
+                "range": (0..DOF_COUNT).map(|d| [m.body.lower[d], m.body.upper[d]]).collect::<Vec<_>>(),
                 "segments": (0..SEGMENT_COUNT).map(segment).collect::<Vec<_>>(),
                 "loads": m.loads.iter().map(|(s, p, mass)| serde_json::json!([s.index(), p.to_array(), mass])).collect::<Vec<_>>(),
             })

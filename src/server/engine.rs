@@ -49,14 +49,14 @@ pub fn build_body(profile: crate::sim::body::Profile) -> Result<Body, Fault> {
     })
 }
 
-/// A body as MuJoCo XML.
+/// A body as MuJoCo XML, its actuators as strong as the average person that the body stands for.
 pub fn mjcf(body: &Body) -> String {
-    crate::sim::body::export::mjcf(body)
+    crate::sim::body::export::mjcf(body, &Strength::for_body(body).actuation())
 }
 
-/// A body as URDF.
+/// A body as URDF, its joints as strong as the average person that the body stands for.
 pub fn urdf(body: &Body) -> String {
-    crate::sim::body::export::urdf(body)
+    crate::sim::body::export::urdf(body, &Strength::for_body(body).actuation())
 }
 
 /// A motion that comes with the program.

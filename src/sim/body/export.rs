@@ -1,26 +1,40 @@
 //! A body as a model file that other physics engines load: MJCF (MuJoCo; also read by Pinocchio) and URDF.
 //!
-//! The MJCF is exact: the same tree, ball joints, hinges in series, inertias, armature and gravity, so that another engine gives the
-//! same inertia matrix and the same torques to rounding. URDF has no ball joint; there each one becomes three hinges in the order of
-//! its DOFs, which moves the same way but has other coordinates and is singular where the middle angle is ±90°.
-//! Every number is printed with as many digits (up to 17) as it takes to read back the same bits.
+//! The MJCF is exact: the same tree, ball joints, hinges in series, inertias, armature and gravity, so that another
+//! engine gives the same inertia matrix and the same torques to rounding. URDF has no ball joint; there each one
+//! becomes three hinges in the order of its DOFs, which moves the same way but has other coordinates and is singular
+//! where the middle angle is ±90°. Both carry the strength of the muscles as constant torque bounds ([`Actuation`]):
+//! actuators in MJCF, effort and velocity in URDF. Every number is printed with as many digits (up to 17) as it takes
+//! to read back the same bits.
 
 use super::links::Links;
 use super::model::Body;
 use super::topology::{
-    DOF_AXIS, DOF_LEN, DOF_NAMES, DOF_START, JOINT, JOINT_NAMES, Joint, PARENT, SEGMENT_COUNT,
-    SEGMENT_NAMES,
+    DOF_AXIS, DOF_COUNT, DOF_LEN, DOF_NAMES, DOF_START, JOINT, JOINT_NAMES, Joint, PARENT,
+    SEGMENT_COUNT, SEGMENT_NAMES,
 };
 use crate::sim::math::{Sym3, Vec3};
 use std::fmt::Write;
 
+mod solids;
+
 /// Standard gravity of exported models, m/s², pointing down z; what a world uses unless it is told otherwise.
 pub const EXPORT_GRAVITY: f64 = 9.81;
 
-/// What the muscles of a URDF joint may do is not known to the body; these bounds only fill attributes the format demands.
-const URDF_EFFORT: f64 = 1000.0;
-/// Joint speed bound of a URDF joint, rad/s; see [`URDF_EFFORT`].
-const URDF_VELOCITY: f64 = 100.0;
+/// The muscles of each DOF as plain actuators: torque bounds that know neither angle nor speed, and a largest speed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Actuation {
+    /// Least torque of each DOF, N·m, < 0.
+    pub lower: [f64; DOF_COUNT],
+    /// Largest torque of each DOF, N·m, > 0.
+    pub upper: [f64; DOF_COUNT],
+    /// Largest speed of each DOF, rad/s, > 0.
+    pub speed: [f64; DOF_COUNT],
+}
+
+/// Least mass (kg) and inertia (kg·m²) that MuJoCo gives the massless links of a URDF, which it does not accept
+/// otherwise.
+const URDF_LEAST_MASS: f64 = 1e-12;
 
 /// Mass properties of one segment as files want them: about the centre of mass, in segment axes.
 struct Inertial {
@@ -73,8 +87,8 @@ fn children(i: usize) -> impl Iterator<Item = usize> {
 }
 
 /// The unloaded body as MJCF, gravity [`EXPORT_GRAVITY`]; see [`mjcf_with`].
-pub fn mjcf(body: &Body) -> String {
-    mjcf_with(body, &Links::new(body), EXPORT_GRAVITY)
+pub fn mjcf(body: &Body, actuation: &Actuation) -> String {
+    mjcf_with(body, &Links::new(body), EXPORT_GRAVITY, actuation)
 }
 
 /// `body` with the mass properties of `links` (loads welded on) as a MuJoCo XML model. Gravity in m/s², along −z.
@@ -84,17 +98,26 @@ pub fn mjcf(body: &Body) -> String {
 ///   along the signed axes of [`DOF_AXIS`].
 /// * Full inertia of each segment about its centre of mass; armature per joint. MuJoCo gives a ball joint one armature for its three
 ///   axes: the first DOF's is written, so the model is exact when the three are equal, as they are in every body Sinew builds.
-/// * Segment shapes are visual meshes, contact points are sites: nothing collides, and no limit acts. Hinge ranges are given for
-///   reference only (`limited="false"`).
+/// * Segment shapes are visual meshes, contact points are sites: nothing collides.
+/// * One motor per DOF, named after it: control in N·m along the DOF's signed axis, bounds of control and force from
+///   `actuation`. There is no damping: passive tissue and ligaments are not part of the file.
+/// * Hinges have their range, which acts when the model's flag `limit` is enabled; it is disabled, so that the dynamics
+///   are the unconstrained ones. MuJoCo knows no range for the anatomical angles of a ball joint: those are custom
+///   numbers `<DOF>_range`.
 /// * A key frame `stand` holds the zero pose with the soles on z = 0.
-pub fn mjcf_with(body: &Body, links: &Links, gravity: f64) -> String {
+pub fn mjcf_with(body: &Body, links: &Links, gravity: f64, actuation: &Actuation) -> String {
     let plain = Links::new(body);
     let mut o = String::with_capacity(1 << 15);
     o.push_str("<mujoco model=\"sinew_human\">\n");
     o.push_str(
         "  <compiler angle=\"radian\" autolimits=\"false\" inertiafromgeom=\"false\" balanceinertia=\"false\" fusestatic=\"false\"/>\n",
     );
-    let _ = writeln!(o, "  <option gravity=\"{}\"/>", list(&[0.0, 0.0, -gravity]));
+    let _ = writeln!(
+        o,
+        "  <option gravity=\"{}\">\n    <flag limit=\"disable\"/>\n  </option>",
+        list(&[0.0, 0.0, -gravity])
+    );
+    mjcf_ball_ranges(&mut o, body);
     let shaped = |i: usize| !body.segments[i].mesh.triangles.is_empty();
     if (0..SEGMENT_COUNT).any(shaped) {
         o.push_str("  <asset>\n");
@@ -119,6 +142,7 @@ pub fn mjcf_with(body: &Body, links: &Links, gravity: f64) -> String {
     o.push_str("  <worldbody>\n");
     mjcf_segment(&mut o, body, &plain, links, 0, 2);
     o.push_str("  </worldbody>\n");
+    mjcf_motors(&mut o, actuation);
     // Free joint position and w, x, y, z; then in joint order a quaternion per ball and an angle per hinge.
     let mut stand = vec![0.0, 0.0, body.standing_root_height(), 1.0, 0.0, 0.0, 0.0];
     for s in 1..SEGMENT_COUNT {
@@ -136,6 +160,43 @@ pub fn mjcf_with(body: &Body, links: &Links, gravity: f64) -> String {
     );
     o.push_str("</mujoco>\n");
     o
+}
+
+/// Ranges of the anatomical angles of ball joints, which joints of the format cannot hold.
+fn mjcf_ball_ranges(o: &mut String, body: &Body) {
+    o.push_str("  <custom>\n");
+    for i in (1..SEGMENT_COUNT).filter(|i| matches!(JOINT[*i], Joint::Ball(_))) {
+        for k in DOF_START[i]..DOF_START[i] + DOF_LEN[i] {
+            let _ = writeln!(
+                o,
+                "    <numeric name=\"{}_range\" data=\"{}\"/>",
+                DOF_NAMES[k],
+                list(&[body.lower[k], body.upper[k]])
+            );
+        }
+    }
+    o.push_str("  </custom>\n");
+}
+
+/// One motor per DOF. On a ball joint the gear is the DOF's axis in child axes, so that control is torque along it.
+fn mjcf_motors(o: &mut String, actuation: &Actuation) {
+    o.push_str("  <actuator>\n");
+    for i in 1..SEGMENT_COUNT {
+        for k in DOF_START[i]..DOF_START[i] + DOF_LEN[i] {
+            let (joint, gear) = match JOINT[i] {
+                Joint::Ball(_) => (JOINT_NAMES[i], list(&DOF_AXIS[k].vector())),
+                _ => (DOF_NAMES[k], list(&[1.0])),
+            };
+            let range = list(&[actuation.lower[k], actuation.upper[k]]);
+            let _ = writeln!(
+                o,
+                "    <motor name=\"{}\" joint=\"{joint}\" gear=\"{gear}\" ctrllimited=\"true\" ctrlrange=\"{range}\" \
+                 forcelimited=\"true\" forcerange=\"{range}\"/>",
+                DOF_NAMES[k]
+            );
+        }
+    }
+    o.push_str("  </actuator>\n");
 }
 
 fn mjcf_segment(o: &mut String, body: &Body, plain: &Links, links: &Links, i: usize, depth: usize) {
@@ -164,7 +225,8 @@ fn mjcf_segment(o: &mut String, body: &Body, plain: &Links, links: &Links, i: us
             for k in d..d + DOF_LEN[i] {
                 let _ = writeln!(
                     o,
-                    "{pad}  <joint name=\"{}\" type=\"hinge\" axis=\"{}\" armature=\"{}\" limited=\"false\" range=\"{}\"/>",
+                    "{pad}  <joint name=\"{}\" type=\"hinge\" axis=\"{}\" armature=\"{}\" \
+                     limited=\"true\" range=\"{}\"/>",
                     DOF_NAMES[k],
                     list(&DOF_AXIS[k].vector()),
                     list(&[links.armature[k]]),
@@ -203,22 +265,31 @@ fn mjcf_segment(o: &mut String, body: &Body, plain: &Links, links: &Links, i: us
 }
 
 /// The unloaded body as URDF; see [`urdf_with`].
-pub fn urdf(body: &Body) -> String {
-    urdf_with(body, &Links::new(body))
+pub fn urdf(body: &Body, actuation: &Actuation) -> String {
+    urdf_with(body, &Links::new(body), actuation)
 }
 
 /// `body` with the mass properties of `links` (loads welded on) as URDF.
 ///
-/// The pelvis is the root link, to be given a floating base by the loader. Each joint with k DOFs is k `revolute` joints named after
-/// the DOFs, in their order, about their signed axes, with massless links (named `<DOF>_link`) between; the last carries the segment.
-/// A ball joint's three hinge angles turn the child by `R = exp(a₁θ₁) exp(a₂θ₂) exp(a₃θ₃)`. Limits are the anatomical ones, for reference: for hinge
-/// chains they bound slightly other angles. Armature and gravity have no place in the format.
-pub fn urdf_with(body: &Body, links: &Links) -> String {
+/// The pelvis is the root link, to be given a floating base by the loader. Each joint with k DOFs is k `revolute`
+/// joints named after the DOFs, in their order, about their signed axes, with massless links (named `<DOF>_link`)
+/// between; the last carries the segment. A ball joint's three hinge angles turn the child by `R = exp(a₁θ₁) exp(a₂θ₂)
+/// exp(a₃θ₃)`. Limits are the anatomical ones: for hinge chains they bound slightly other angles. `effort` is the
+/// larger bound of `actuation` of the two directions, for the format has one for both, and `velocity` its speed.
+/// Armature and gravity have no place in the format.
+///
+/// Visuals are boxes and cylinders, for meshes would be files of their own: four slices per segment, together of the
+/// volume of its surface. An element `mujoco`, which other loaders skip, tells MuJoCo to keep visuals and the pelvis as
+/// a body, and to accept massless links.
+pub fn urdf_with(body: &Body, links: &Links, actuation: &Actuation) -> String {
     let plain = Links::new(body);
     let mut o = String::with_capacity(1 << 15);
     o.push_str("<?xml version=\"1.0\"?>\n<robot name=\"sinew_human\">\n");
-    o.push_str(
-        "  <!-- effort and velocity are placeholders that the format demands: strength is not part of a body -->\n",
+    let least = list(&[URDF_LEAST_MASS]);
+    let _ = writeln!(
+        o,
+        "  <mujoco>\n    <compiler fusestatic=\"false\" discardvisual=\"false\" inertiafromgeom=\"false\" \
+         boundmass=\"{least}\" boundinertia=\"{least}\"/>\n  </mujoco>"
     );
     for i in 0..SEGMENT_COUNT {
         let p = inertial(body, &plain, links, i);
@@ -232,7 +303,7 @@ pub fn urdf_with(body: &Body, links: &Links) -> String {
         );
         let _ = writeln!(
             o,
-            "      <inertia ixx=\"{}\" ixy=\"{}\" ixz=\"{}\" iyy=\"{}\" iyz=\"{}\" izz=\"{}\"/>\n    </inertial>\n  </link>",
+            "      <inertia ixx=\"{}\" ixy=\"{}\" ixz=\"{}\" iyy=\"{}\" iyz=\"{}\" izz=\"{}\"/>\n    </inertial>",
             list(&[j.xx]),
             list(&[j.xy]),
             list(&[j.xz]),
@@ -240,6 +311,8 @@ pub fn urdf_with(body: &Body, links: &Links) -> String {
             list(&[j.yz]),
             list(&[j.zz])
         );
+        urdf_visuals(&mut o, body, i);
+        o.push_str("  </link>\n");
     }
     for i in 1..SEGMENT_COUNT {
         let (first, count) = (DOF_START[i], DOF_LEN[i]);
@@ -270,8 +343,8 @@ pub fn urdf_with(body: &Body, links: &Links) -> String {
                 "    <limit lower=\"{}\" upper=\"{}\" effort=\"{}\" velocity=\"{}\"/>\n  </joint>",
                 list(&[body.lower[k]]),
                 list(&[body.upper[k]]),
-                list(&[URDF_EFFORT]),
-                list(&[URDF_VELOCITY])
+                list(&[actuation.upper[k].max(-actuation.lower[k])]),
+                list(&[actuation.speed[k]])
             );
             parent = child;
         }
@@ -280,10 +353,30 @@ pub fn urdf_with(body: &Body, links: &Links) -> String {
     o
 }
 
+/// The shape of segment `i` as boxes and cylinders.
+fn urdf_visuals(o: &mut String, body: &Body, i: usize) {
+    for s in solids::solids(&body.segments[i].mesh) {
+        let shape = if s.cylinder {
+            format!(
+                "<cylinder radius=\"{}\" length=\"{}\"/>",
+                list(&[0.5 * s.size.x]),
+                list(&[s.size.z])
+            )
+        } else {
+            format!("<box size=\"{}\"/>", vector(s.size))
+        };
+        let _ = writeln!(
+            o,
+            "    <visual>\n      <origin xyz=\"{}\" rpy=\"0 0 0\"/>\n      <geometry>{shape}</geometry>\n    </visual>",
+            vector(s.middle)
+        );
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::body::{DOF_COUNT, Profile, Segment, SegmentId, Sex};
+    use crate::sim::body::{Profile, Segment, SegmentId, Sex};
     use crate::sim::math::vec3::vec3;
 
     fn body() -> Body {
@@ -318,6 +411,14 @@ mod tests {
         }
     }
 
+    fn actuation() -> Actuation {
+        Actuation {
+            lower: std::array::from_fn(|d| -10.0 - d as f64 / 3.0),
+            upper: std::array::from_fn(|d| 20.0 - d as f64 / 7.0),
+            speed: std::array::from_fn(|d| 5.0 + d as f64),
+        }
+    }
+
     /// Values of an attribute of the element that follows `anchor`.
     fn attribute(text: &str, anchor: &str, attribute: &str) -> Vec<f64> {
         let rest = &text[text.find(anchor).expect("anchor present")..];
@@ -338,7 +439,7 @@ mod tests {
                 format!("<body name=\"{}\"", SEGMENT_NAMES[i]),
                 &b.segments[i],
             );
-            let x = mjcf(&b);
+            let x = mjcf(&b, &actuation());
             assert_eq!(attribute(&x, &anchor, "mass"), [s.mass]);
             let j = s.inertia;
             assert_eq!(
@@ -360,7 +461,10 @@ mod tests {
         let mut links = Links::new(&b);
         let hand = SegmentId::from_name("r_hand").expect("a segment");
         links.add_load(hand, vec3(0.1, 0.2, -0.3), 5.0);
-        let (plain, loaded) = (mjcf(&b), mjcf_with(&b, &links, EXPORT_GRAVITY));
+        let (plain, loaded) = (
+            mjcf(&b, &actuation()),
+            mjcf_with(&b, &links, EXPORT_GRAVITY, &actuation()),
+        );
         let changed: Vec<(&str, &str)> = plain
             .lines()
             .zip(loaded.lines())
@@ -392,7 +496,7 @@ mod tests {
 
     #[test]
     fn urdf_has_one_joint_per_dof_and_a_tree_of_links() {
-        let x = urdf(&body());
+        let x = urdf(&body(), &actuation());
         assert_eq!(x.matches("<joint name=").count(), DOF_COUNT);
         assert_eq!(
             x.matches("<link name=").count(),
@@ -403,5 +507,39 @@ mod tests {
             assert_eq!(x.matches(&format!("<joint name=\"{name}\"")).count(), 1);
         }
         assert_eq!(attribute(&x, "name=\"l_elbow_flexion\"", "lower"), [-1.0]);
+    }
+
+    #[test]
+    fn every_dof_has_a_motor_with_its_own_bounds_and_a_range() {
+        let (x, a) = (mjcf(&body(), &actuation()), actuation());
+        assert_eq!(x.matches("<motor ").count(), DOF_COUNT);
+        for d in 0..DOF_COUNT {
+            let motor = format!("<motor name=\"{}\"", DOF_NAMES[d]);
+            for range in ["ctrlrange", "forcerange"] {
+                let bounds = attribute(&x, &motor, range);
+                assert_eq!(bounds, [a.lower[d], a.upper[d]], "{}", DOF_NAMES[d]);
+            }
+            let range = format!("<numeric name=\"{}_range\"", DOF_NAMES[d]);
+            let joint = format!("<joint name=\"{}\"", DOF_NAMES[d]);
+            let (anchor, key) = if x.contains(&range) {
+                (range, "data")
+            } else {
+                (joint, "range")
+            };
+            assert_eq!(attribute(&x, &anchor, key), [-1.0, 2.0 / 3.0]);
+        }
+    }
+
+    #[test]
+    fn urdf_bounds_are_those_of_the_stronger_direction() {
+        let (x, a) = (urdf(&body(), &actuation()), actuation());
+        for d in 0..DOF_COUNT {
+            let joint = format!("<joint name=\"{}\"", DOF_NAMES[d]);
+            let most = a.upper[d].max(-a.lower[d]);
+            assert_eq!(attribute(&x, &joint, "effort"), [most]);
+            assert_eq!(attribute(&x, &joint, "velocity"), [a.speed[d]]);
+        }
+        let shown = urdf(&Body::adult_man(), &a);
+        assert_eq!(shown.matches("<visual>").count(), 4 * SEGMENT_COUNT);
     }
 }

@@ -56,6 +56,13 @@ impl AngleFactor {
         };
         f.max(ANGLE_FLOOR)
     }
+
+    /// Largest factor between two angles (rad, `lower` ≤ `upper`), [`ANGLE_FLOOR`]…1: both shapes fall on either side
+    /// of their peak.
+    pub fn largest(&self, lower: f64, upper: f64) -> f64 {
+        let (Self::Cosine { peak, .. } | Self::Bell { peak, .. }) = *self;
+        self.at(peak.max(lower).min(upper))
+    }
 }
 
 /// Torque over isometric torque against the speed of shortening. C¹ except where it meets its floor.
@@ -139,6 +146,16 @@ impl VelocityFactor {
         };
         f.max(VELOCITY_FLOOR)
     }
+
+    /// Speed of shortening (rad/s, > 0) at which the factor meets its floor, [`VELOCITY_FLOOR`].
+    pub fn fastest(&self) -> f64 {
+        match self.shortening {
+            Shortening::Hill { slowness, bend } => {
+                (1.0 - VELOCITY_FLOOR) / (slowness * (1.0 + VELOCITY_FLOOR * bend))
+            }
+            Shortening::Measured { until, tail, .. } => until + (0.5 / VELOCITY_FLOOR - 1.0) / tail,
+        }
+    }
 }
 
 /// One direction of one DOF: isometric peak and the two factors.
@@ -157,6 +174,11 @@ impl Muscle {
     #[inline]
     pub fn torque(&self, angle: f64, speed: f64) -> f64 {
         self.peak * self.angle.at(angle) * self.velocity.at(speed)
+    }
+
+    /// Largest isometric torque between two angles (rad, `lower` ≤ `upper`), N·m, > 0.
+    pub fn strongest(&self, lower: f64, upper: f64) -> f64 {
+        self.peak * self.angle.largest(lower, upper)
     }
 }
 
@@ -204,6 +226,35 @@ mod tests {
         let hill = VelocityFactor::hill(11.8, 0.41, 1.2);
         assert!((hill.at(5.9) - 0.41).abs() < 1e-12);
         assert_eq!(hill.at(12.0), VELOCITY_FLOOR);
+    }
+
+    #[test]
+    fn fastest_is_where_the_velocity_factor_meets_its_floor() {
+        for c in curves() {
+            let w = c.fastest();
+            assert!((c.at(w) - VELOCITY_FLOOR).abs() < 1e-12, "{}", c.at(w));
+            assert!(c.at(0.999 * w) > VELOCITY_FLOOR && c.at(1.5 * w) == VELOCITY_FLOOR);
+        }
+    }
+
+    #[test]
+    fn largest_angle_factor_is_that_of_a_fine_scan() {
+        let cosine = AngleFactor::Cosine {
+            width: 1.391,
+            peak: 0.408,
+        };
+        let bell = AngleFactor::Bell {
+            peak: 0.9,
+            narrowness: 1.0 / 1.2,
+        };
+        for f in [cosine, bell] {
+            for (lower, upper) in [(-1.0, 2.0), (1.2, 2.4), (-3.0, -0.5)] {
+                let scan = (0..=10_000).map(|i| f.at(lower + (upper - lower) * f64::from(i) / 1e4));
+                let most = scan.fold(0.0, f64::max);
+                let largest = f.largest(lower, upper);
+                assert!(largest >= most && largest - most < 1e-7, "{largest} {most}");
+            }
+        }
     }
 
     #[test]

@@ -11,6 +11,7 @@ pub mod tables;
 mod tests;
 
 use crate::sim::body::age::{male_share, mix};
+use crate::sim::body::export::Actuation;
 use crate::sim::body::{Body, DOF_COUNT, Sex};
 use crate::sim::math::ease::rise;
 use crate::sim::math::exp::{exp, ln};
@@ -313,6 +314,22 @@ impl Strength {
     /// Where the numbers of DOF `dof` (0…38) come from.
     pub fn provenance(&self, dof: usize) -> &[Provenance] {
         &self.provenance[dof]
+    }
+
+    /// What the muscles amount to as plain actuators with constant bounds, for formats that know no other: per DOF the
+    /// largest isometric torque over its range of angles in both directions, and the faster direction's speed at which
+    /// [`curve::VELOCITY_FLOOR`] of it is left.
+    ///
+    /// Lengthening muscles give up to [`curve::ECCENTRIC_MOST`] times as much, shortening ones less; ligaments are not
+    /// included.
+    pub fn actuation(&self) -> Actuation {
+        let side = |d: usize, k: usize| self.muscle[d][k].strongest(self.lower[d], self.upper[d]);
+        let fastest = |d: usize, k: usize| self.muscle[d][k].velocity.fastest();
+        Actuation {
+            lower: std::array::from_fn(|d| -side(d, 1)),
+            upper: std::array::from_fn(|d| side(d, 0)),
+            speed: std::array::from_fn(|d| fastest(d, 0).max(fastest(d, 1))),
+        }
     }
 
     /// Muscles of DOF `dof` (0…38) for its positive and its negative direction.

@@ -655,3 +655,32 @@ fn sides_are_equal() {
         assert_eq!(s.muscles(d), s.muscles(d + 8));
     }
 }
+
+/// The constant bounds of exported actuators are what the muscles give at their best angle, at rest.
+#[test]
+fn actuation_is_the_largest_isometric_torque_over_the_range_of_angles() {
+    for body in [
+        Body::adult_man(),
+        ordinary(Sex::Female, 8.0),
+        ordinary(Sex::Male, 75.0),
+    ] {
+        let s = Strength::for_body(&body);
+        let a = s.actuation();
+        for d in 0..DOF_COUNT {
+            let angles =
+                |i: i32| body.lower[d] + (body.upper[d] - body.lower[d]) * f64::from(i) / 5000.0;
+            for (side, bound) in [(0, a.upper[d]), (1, -a.lower[d])] {
+                let muscle = &s.muscles(d)[side];
+                let most = (0..=5000).map(|i| muscle.torque(angles(i), 0.0));
+                let most = most.fold(0.0, f64::max);
+                assert!(
+                    bound >= most && bound < most * (1.0 + 1e-6),
+                    "{d}: {bound} {most}"
+                );
+            }
+            let left = s.muscles(d).map(|m| m.velocity.at(a.speed[d]));
+            let off = (left[0].max(left[1]) - VELOCITY_FLOOR).abs();
+            assert!(off < 1e-12, "{d}: {left:?}");
+        }
+    }
+}
