@@ -142,7 +142,8 @@ pub fn strength(field: &str, s: Option<&pb::StrengthScale>) -> Result<StrengthSc
             Fault::invalid(
                 at("dof"),
                 format!(
-                    "must be a DOF name as GetBody lists it, got {:?}",
+                    "must be one of {}, got {:?}",
+                    DOF_NAMES.join(", "),
                     shortened(&d.dof)
                 ),
             )

@@ -11,7 +11,7 @@ use super::{
     WORLD_EXTENT, client_id, or_default, place, rotation, shortened, timestamp, vector, within,
 };
 use crate::sim::body::angles::set_anatomical_angles;
-use crate::sim::body::topology::PARENT;
+use crate::sim::body::topology::{BONE_NAMES, PARENT};
 use crate::sim::body::{DOF_COUNT, NV, Posture, SEGMENT_COUNT};
 use crate::sim::math::Quat;
 
@@ -305,7 +305,8 @@ fn bone_rotations(field: &str, m: &pb::FigureMotion, posture: &mut Posture) -> R
             Fault::invalid(
                 at("bone"),
                 format!(
-                    "must be a bone name as GetBody lists it, got {:?}",
+                    "must be one of {}, got {:?}",
+                    BONE_NAMES.join(", "),
                     shortened(&b.bone)
                 ),
             )

@@ -5,6 +5,7 @@ use super::super::status::Fault;
 use super::super::types::{Disturbance, FigureDisturbance};
 use super::{or_default, shortened, vector, within};
 use crate::sim::body::SegmentId;
+use crate::sim::body::topology::SEGMENT_NAMES;
 use crate::sim::math::Vec3;
 
 /// Most disturbances in one request.
@@ -17,7 +18,8 @@ pub(super) fn segment(field: &str, name: &str) -> Result<SegmentId, Fault> {
         Fault::invalid(
             field,
             format!(
-                "must be a segment name as GetBody lists it, got {:?}",
+                "must be one of {}, got {:?}",
+                SEGMENT_NAMES.join(", "),
                 shortened(name)
             ),
         )
@@ -197,10 +199,13 @@ mod tests {
             (load(1.0, "tail"), "perturbations[1].load.segment"),
             (pb::Perturbation::default(), "perturbations[1].kind"),
         ] {
-            let Err(Fault::Invalid { field, .. }) = batch(&[load(1.0, "r_hand"), p]) else {
+            let Err(Fault::Invalid { field, problem }) = batch(&[load(1.0, "r_hand"), p]) else {
                 panic!("accepted");
             };
             assert_eq!(field, path);
+            // An unknown segment is answered with all that there are.
+            let listed = SEGMENT_NAMES.iter().all(|n| problem.contains(n));
+            assert_eq!(listed, path.ends_with("segment"), "{problem}");
         }
     }
 }
