@@ -14,7 +14,7 @@ quaternions x, y, z, w.
 """
 
 from sinew import aio
-from sinew._client import Client, Clip, Drive, Events, Figure, Frames, ServerInfo, World
+from sinew._client import Client, Clip, Drive, Events, Figure, Frames, Obstacle, ServerInfo, World
 from sinew.body import Body, Mesh
 from sinew.errors import (
     AbortedError,
@@ -28,12 +28,31 @@ from sinew.errors import (
     SinewError,
     UnavailableError,
     UnimplementedError,
+    WorldPausedError,
 )
-from sinew.frames import Contact, Event, FigureState, Frame
+from sinew.frames import Contact, Event, FigureState, Frame, ObstacleState, Touch
 from sinew.local import serve
 from sinew.motion import Motion, Pose
 from sinew.recording import RECORDED, Recording, Recordings, Saturation
-from sinew.values import Constraint, Controller, Disturbance, Encoding, Force, Load, Paper, Profile, Push, Stepper, Strength
+from sinew.values import (
+    Box,
+    Capsule,
+    Constraint,
+    Controller,
+    Disturbance,
+    Encoding,
+    Force,
+    Load,
+    Mobility,
+    Paper,
+    Plane,
+    Profile,
+    Push,
+    Shape,
+    Sphere,
+    Stepper,
+    Strength,
+)
 
 __version__ = "0.1.0"
 
@@ -42,6 +61,8 @@ __all__ = [
     "AbortedError",
     "AlreadyExistsError",
     "Body",
+    "Box",
+    "Capsule",
     "Client",
     "Clip",
     "Constraint",
@@ -63,9 +84,13 @@ __all__ = [
     "LimitError",
     "Load",
     "Mesh",
+    "Mobility",
     "Motion",
     "NotFoundError",
+    "Obstacle",
+    "ObstacleState",
     "Paper",
+    "Plane",
     "Pose",
     "PreconditionError",
     "Profile",
@@ -74,12 +99,16 @@ __all__ = [
     "Recordings",
     "Saturation",
     "ServerInfo",
+    "Shape",
     "SinewError",
+    "Sphere",
     "Stepper",
     "Strength",
+    "Touch",
     "UnavailableError",
     "UnimplementedError",
     "World",
+    "WorldPausedError",
     "aio",
     "serve",
 ]

@@ -15,10 +15,10 @@ from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Self
 
 from sinew import _requests as requests
-from sinew._async_support import Duplex, Stream, call, call_all, open_channel, pause
+from sinew._async_support import Duplex, Method, Request, Response, Stream, call, call_all, open_channel, pause
 from sinew._progress import Progress
 from sinew.body import Body
-from sinew.errors import NotFoundError
+from sinew.errors import NotFoundError, PreconditionError, SinewError, not_found, paused, with_names
 from sinew.frames import Event, FigureState, Frame
 from sinew.frames import frame as to_frame
 from sinew.motion import Motion, Pose, bvh_source, is_file
@@ -50,17 +50,20 @@ from sinew.values import (
     Encoding,
     Force,
     Load,
+    Mobility,
     Paper,
     Profile,
     Push,
+    Shape,
     Stepper,
     Strength,
     Vector,
     last,
     resource,
+    shape_of,
 )
 
-__all__ = ["Client", "Clip", "Drive", "Events", "Figure", "Frames", "ServerInfo", "World"]
+__all__ = ["Client", "Clip", "Drive", "Events", "Figure", "Frames", "Obstacle", "ServerInfo", "World"]
 
 PathLike: TypeAlias = "str | os.PathLike[str]"
 
@@ -70,6 +73,8 @@ _CHUNK = 16
 _RELEASE_TRIES = 200
 # A simulation may take its time.
 _LONG_S = 600.0
+# A watch that is silent for this long looks whether its world is paused.
+_QUIET_S = 0.25
 
 
 @dataclass(frozen=True)
@@ -77,20 +82,24 @@ class ServerInfo:
     """What a server is and can do."""
 
     version: str
+    """Version of the server, which is that of the package that belongs to it."""
     flags: tuple[str, ...]
     """Names of the status flags, by bit."""
     view_fields: tuple[str, ...]
     """Fields that a view can ask for."""
     builtin_clips: tuple[str, ...]
+    """Names of the motions that come with the server."""
     capabilities: tuple[str, ...]
+    """What this server can do, by name."""
     limits: Mapping[str, int]
+    """Limits of the configuration by name: counts, unless the name says a unit."""
 
 
 class Client:
     """A connection to one server. Use it in a `with` block, or `close` it.
 
     `address` is host and port, or the URL that the server prints. Calls raise `sinew.SinewError`; unary calls give up after
-    `timeout_s`.
+    `timeout_s` (s). A `NotFoundError` lists the names that there are.
     """
 
     def __init__(self, address: str = f"127.0.0.1:{requests.PORT}", *, timeout_s: float = 60.0) -> None:
@@ -122,7 +131,7 @@ class Client:
 
     async def info(self) -> ServerInfo:
         """Version, capabilities and limits."""
-        r = await call(self.server_stub.GetServerInfo, server_pb2.GetServerInfoRequest(), self.timeout_s)
+        r = await self._ask(self.server_stub.GetServerInfo, server_pb2.GetServerInfoRequest())
         return ServerInfo(
             version=r.version,
             flags=tuple(r.flag_names),
@@ -132,6 +141,39 @@ class Client:
             limits={x.name: x.value for x in r.limits},
         )
 
+    async def _ask(
+        self, method: Method[Request, Response], request: Request, timeout_s: float | None = None
+    ) -> Response:
+        """One call. The error of a name that is not there lists those that are."""
+        try:
+            return await call(method, request, self.timeout_s if timeout_s is None else timeout_s)
+        except NotFoundError as e:
+            raise await self._with_names(e) from None
+
+    async def _with_names(self, error: NotFoundError) -> NotFoundError:
+        try:
+            names = await self._names(error)
+        except SinewError:
+            return error
+        return error if names is None else with_names(error, names)
+
+    async def _names(self, error: NotFoundError) -> list[str] | None:
+        """What there is of the kind that was not found; `None` if the client cannot know."""
+        if error.kind == "body":
+            return await self.bodies()
+        if error.kind == "clip":
+            return [c.name for c in await self.clips()]
+        if error.kind == "world":
+            return [w.name for w in await self.worlds()]
+        parts = error.resource.split("/")
+        if len(parts) == 4 and parts[0] == "worlds":
+            world = World(self, "/".join(parts[:2]), 60.0)
+            if error.kind == "figure":
+                return [f.name for f in await world.figures()]
+            if error.kind == "obstacle":
+                return [o.name for o in await world.obstacles()]
+        return None
+
     # Bodies.
 
     async def bodies(self) -> list[str]:
@@ -140,28 +182,33 @@ class Client:
         token = ""
         while True:
             request = body_pb2.ListBodiesRequest(page_size=1000, page_token=token)
-            r = await call(self.bodies_stub.ListBodies, request, self.timeout_s)
+            r = await self._ask(self.bodies_stub.ListBodies, request)
             out.extend(last(b.name) for b in r.bodies)
             token = r.next_page_token
             if not token:
                 return out
 
     async def body(self, name: str) -> Body:
-        """One body with its surfaces. Bodies never change; each is fetched once."""
+        """One body with its surfaces (m, segment frames). Bodies never change; each is fetched once."""
         full = resource("bodies", name)
         if full not in self._bodies:
             request = body_pb2.GetBodyRequest(name=full, include_geometry=True)
-            r = await call(self.bodies_stub.GetBody, request, self.timeout_s)
+            r = await self._ask(self.bodies_stub.GetBody, request)
             self._bodies[full] = Body(r.body)
         return self._bodies[full]
 
     async def export_body(self, name: str, form: str = "mjcf") -> str:
-        """One body as text for another simulator: `mjcf` (exact) or `urdf` (ball joints as three hinges)."""
+        """One body as text for another simulator, in SI units, z up: `mjcf` (exact) or `urdf` (ball joints as three
+        hinges).
+
+        Torque bounds (N·m) are the largest isometric torques of the average person over the range of each joint: MJCF
+        has a motor for each degree of freedom, named after it, URDF `effort` and `velocity` (rad/s).
+        """
         chosen = {"mjcf": body_pb2.EXPORT_FORMAT_MJCF, "urdf": body_pb2.EXPORT_FORMAT_URDF}
         if form not in chosen:
-            raise ValueError(f"{form!r} is none of mjcf, urdf")
+            raise ValueError(f"form {form!r} is none of mjcf, urdf")
         request = body_pb2.ExportBodyRequest(name=resource("bodies", name), format=chosen[form])
-        return (await call(self.bodies_stub.ExportBody, request, self.timeout_s)).text
+        return (await self._ask(self.bodies_stub.ExportBody, request)).text
 
     # Clips.
 
@@ -171,7 +218,7 @@ class Client:
         token = ""
         while True:
             request = motion_pb2.ListClipsRequest(page_size=1000, page_token=token)
-            r = await call(self.motions_stub.ListClips, request, self.timeout_s)
+            r = await self._ask(self.motions_stub.ListClips, request)
             out.extend(Clip(self, c) for c in r.clips)
             token = r.next_page_token
             if not token:
@@ -180,7 +227,7 @@ class Client:
     async def clip(self, name: str) -> Clip:
         """One clip."""
         request = motion_pb2.GetClipRequest(name=resource("clips", name))
-        return Clip(self, (await call(self.motions_stub.GetClip, request, self.timeout_s)).clip)
+        return Clip(self, (await self._ask(self.motions_stub.GetClip, request)).clip)
 
     async def upload_bvh(
         self,
@@ -198,8 +245,10 @@ class Client:
     ) -> Clip:
         """Stores a BVH file (path or bytes) as a clip; `Clip.report` says how it was understood.
 
-        Unit and up axis are guessed unless given; `rate_hz` replaces the file's frame time.
-        Runs are slowed down to walks, which a body of measured strength can follow; `walk_runs=False` keeps them.
+        Unit (`unit_m`: metres per unit of the file) and up axis (`x`, `y` or `z`) are guessed unless given; `rate_hz`
+        replaces the file's frame time. `fit_floor` puts the lowest sole on z = 0, `lock_feet` holds standing feet,
+        `cutoff_hz` is that of the smoothing filter, Hz. Runs are slowed down to walks, which a body of measured
+        strength can follow; `walk_runs=False` keeps them.
         """
         bvh = bvh_source(
             source,
@@ -215,17 +264,17 @@ class Client:
         request = motion_pb2.CreateClipRequest(
             clip_id=name, display_name=display, body=resource("bodies", body), bvh=bvh
         )
-        return Clip(self, (await call(self.motions_stub.CreateClip, request, self.timeout_s)).clip)
+        return Clip(self, (await self._ask(self.motions_stub.CreateClip, request)).clip)
 
     async def upload_motion(self, motion: Motion, *, name: str = "", body: str = "adult-man") -> Clip:
-        """Stores arrays as a clip."""
+        """Stores arrays (rad, m, world frame; see `Motion`) as a clip."""
         frames = [motion.pose(i).message() for i in range(len(motion))]
         request = motion_pb2.CreateClipRequest(
             clip_id=name,
             body=resource("bodies", body),
             frames=motion_pb2.FrameSource(rate_hz=motion.rate_hz, frames=frames),
         )
-        return Clip(self, (await call(self.motions_stub.CreateClip, request, self.timeout_s)).clip)
+        return Clip(self, (await self._ask(self.motions_stub.CreateClip, request)).clip)
 
     # Worlds.
 
@@ -243,8 +292,13 @@ class Client:
         display_name: str = "",
         replace: bool = False,
     ) -> World:
-        """Creates a world. Here it is paused unless told otherwise: `record` and `step` then move it as fast as it computes, and
-        equal inputs give equal bits. `paused=False` starts its clock. `replace` deletes a world that has the name already.
+        """Creates a world. Here it is paused unless told otherwise: `record` and `step` then move it as fast as it
+        computes, and equal inputs give equal bits. `paused=False` starts its clock. `replace` deletes a world that has
+        the name already.
+
+        `rate_hz`: ticks per second of world time, 10 to 1000; `substeps` of the dynamics in each, 1 to 16. `gravity`
+        m/s², downward, 0 to 30. `friction`: coefficient of the ground, 0.05 to 2. `speed`: world seconds per wall
+        second, 0.01 to 10. `overrun`: what the clock does when a tick takes too long: `skip`, `catch_up` or `dilate`.
         """
         if replace and name:
             try:
@@ -261,13 +315,13 @@ class Client:
             overrun_policy=requests.overrun(overrun),
         )
         request = world_pb2.CreateWorldRequest(world_id=name, world=settings, paused=paused)
-        w = (await call(self.worlds_stub.CreateWorld, request, self.timeout_s)).world
+        w = (await self._ask(self.worlds_stub.CreateWorld, request)).world
         return World(self, w.name, w.rate_hz)
 
     async def world(self, name: str) -> World:
         """A world that is there."""
         request = world_pb2.GetWorldRequest(name=resource("worlds", name))
-        w = (await call(self.worlds_stub.GetWorld, request, self.timeout_s)).world
+        w = (await self._ask(self.worlds_stub.GetWorld, request)).world
         return World(self, w.name, w.rate_hz)
 
     async def worlds(self) -> list[World]:
@@ -276,7 +330,7 @@ class Client:
         token = ""
         while True:
             request = world_pb2.ListWorldsRequest(page_size=1000, page_token=token)
-            r = await call(self.worlds_stub.ListWorlds, request, self.timeout_s)
+            r = await self._ask(self.worlds_stub.ListWorlds, request)
             out.extend(World(self, w.name, w.rate_hz) for w in r.worlds)
             token = r.next_page_token
             if not token:
@@ -306,10 +360,13 @@ class Client:
         encoding: Encoding = "double",
         rate_divisor: int = 1,
     ) -> Recording:
-        """One clip (name, `Clip`), or one BVH file (path ending in `.bvh`, or bytes), tracked by one figure, faster than real time.
+        """One clip (name, `Clip`), or one BVH file (path ending in `.bvh`, or bytes), tracked by one figure, faster
+        than real time.
 
-        `disturbances` begin at their `start_s`. `duration_s` 0: the length of the clip. With `fields=()` the recording has
-        no frames, only `summary` and `events`.
+        `disturbances` begin at their `start_s` (s of the clip). `duration_s` (s) 0: the length of the clip. `strength`
+        1 is that of the average person; `fatigue_time_scale` 0: no fatigue, 1: as measured; `assist` 0 to 1: share of
+        the help from outside at the pelvis. `rate_hz` and `substeps` as in `create_world`; `rate_divisor` n keeps one
+        frame for every n ticks. With `fields=()` the recording has no frames, only `summary` and `events`.
         """
         figure = requests.figure(
             body=body,
@@ -338,7 +395,7 @@ class Client:
             request.clip = resource("clips", named)
         if fields:
             request.view.CopyFrom(requests.view(fields, numbers=encoding, rate_divisor=rate_divisor))
-        r = await call(self.simulations_stub.SimulateClip, request, max(self.timeout_s, _LONG_S))
+        r = await self._ask(self.simulations_stub.SimulateClip, request, max(self.timeout_s, _LONG_S))
         described = await self._body_of(body)
         recordings = collect(r.frames, {0: (last(named), described)}, rate_hz)
         if recordings:
@@ -393,7 +450,7 @@ class Clip:
 
     @property
     def rate_hz(self) -> float:
-        """Frames per second."""
+        """Frames per second, Hz."""
         return self.message.rate_hz
 
     @property
@@ -407,7 +464,9 @@ class Clip:
         return self.message.report if self.message.HasField("report") else None
 
     async def motion(self, *, body: str | Profile = "adult-man", rate_hz: float = 60.0) -> Motion:
-        """The motion as arrays, as it is asked of a figure with this body: retargeted, smoothed, feet planted."""
+        """The motion as arrays (rad, m, world frame) at `rate_hz`, as it is asked of a figure with this body:
+        retargeted, smoothed, feet planted.
+        """
         # What a figure is asked to do does not depend on whether it can.
         recording = await self._client.simulate(
             self, body=body, controller="motors", rate_hz=rate_hz, fields=("desired",)
@@ -416,11 +475,8 @@ class Clip:
 
     async def delete(self) -> None:
         """Forgets it. Figures that play it go on."""
-        await call(
-            self._client.motions_stub.DeleteClip,
-            motion_pb2.DeleteClipRequest(name=self.message.name),
-            self._client.timeout_s,
-        )
+        request = motion_pb2.DeleteClipRequest(name=self.message.name)
+        await self._client._ask(self._client.motions_stub.DeleteClip, request)
 
 
 class World:
@@ -453,32 +509,33 @@ class World:
     async def get(self) -> world_pb2.World:
         """State, tick, settings, as they are now."""
         request = world_pb2.GetWorldRequest(name=self.resource)
-        return (await call(self.client.worlds_stub.GetWorld, request, self.client.timeout_s)).world
+        return (await self.client._ask(self.client.worlds_stub.GetWorld, request)).world
 
     async def delete(self) -> None:
         """Ends the world."""
         request = world_pb2.DeleteWorldRequest(name=self.resource)
-        await call(self.client.worlds_stub.DeleteWorld, request, self.client.timeout_s)
+        await self.client._ask(self.client.worlds_stub.DeleteWorld, request)
 
     async def pause(self) -> None:
         """Stops the clock."""
         request = world_pb2.PauseWorldRequest(name=self.resource)
-        await call(self.client.worlds_stub.PauseWorld, request, self.client.timeout_s)
+        await self.client._ask(self.client.worlds_stub.PauseWorld, request)
 
     async def resume(self) -> None:
         """Starts the clock."""
         request = world_pb2.ResumeWorldRequest(name=self.resource)
-        await call(self.client.worlds_stub.ResumeWorld, request, self.client.timeout_s)
+        await self.client._ask(self.client.worlds_stub.ResumeWorld, request)
 
     async def set_speed(self, speed: float) -> None:
-        """World seconds per wall second, 0.01 to 10."""
+        """Sets how fast world time passes: `speed` is world seconds per wall second, 0.01 to 10."""
         request = world_pb2.SetWorldSpeedRequest(name=self.resource, speed=speed)
-        await call(self.client.worlds_stub.SetWorldSpeed, request, self.client.timeout_s)
+        await self.client._ask(self.client.worlds_stub.SetWorldSpeed, request)
 
     async def step(self, tick_count: int = 1) -> int:
         """Advances a paused world by ticks, as fast as they compute; returns the tick it is at."""
         request = world_pb2.StepWorldRequest(name=self.resource, tick_count=tick_count)
-        return (await call(self.client.worlds_stub.StepWorld, request, max(self.client.timeout_s, _LONG_S))).tick
+        timeout_s = max(self.client.timeout_s, _LONG_S)
+        return (await self.client._ask(self.client.worlds_stub.StepWorld, request, timeout_s)).tick
 
     # Figures.
 
@@ -499,7 +556,13 @@ class World:
         protective_steps: bool = True,
         display_name: str = "",
     ) -> Figure:
-        """Adds a figure, standing still at `position` (m) and heading `yaw` (rad, 0 looks along x)."""
+        """Adds a figure, standing still at `position` (world x, y, m) and heading `yaw` (rad, 0 looks along x,
+        counter-clockwise from above).
+
+        `strength`: factor on the measured strength, or a `Strength`. `fatigue_time_scale`: 0 no fatigue, 1 as measured,
+        larger is faster. `assist`: help from outside at the pelvis, 0 to 1. `constraints`: where parts of it are wanted
+        (m, world). `protective_steps`: it may step to keep its balance.
+        """
         settings = requests.figure(
             body=body,
             strength=strength,
@@ -515,13 +578,13 @@ class World:
             display_name=display_name,
         )
         request = figure_pb2.CreateFigureRequest(parent=self.resource, figure_id=name, figure=settings)
-        f = (await call(self.client.figures_stub.CreateFigure, request, self.client.timeout_s)).figure
+        f = (await self.client._ask(self.client.figures_stub.CreateFigure, request)).figure
         return Figure(self, f)
 
     async def figure(self, name: str) -> Figure:
         """A figure that is there."""
         request = figure_pb2.GetFigureRequest(name=f"{self.resource}/figures/{last(name)}")
-        return Figure(self, (await call(self.client.figures_stub.GetFigure, request, self.client.timeout_s)).figure)
+        return Figure(self, (await self.client._ask(self.client.figures_stub.GetFigure, request)).figure)
 
     async def figures(self) -> list[Figure]:
         """All figures, in the order of their creation."""
@@ -529,14 +592,14 @@ class World:
         token = ""
         while True:
             request = figure_pb2.ListFiguresRequest(parent=self.resource, page_size=1000, page_token=token)
-            r = await call(self.client.figures_stub.ListFigures, request, self.client.timeout_s)
+            r = await self.client._ask(self.client.figures_stub.ListFigures, request)
             out.extend(Figure(self, f) for f in r.figures)
             token = r.next_page_token
             if not token:
                 return out
 
     async def apply(self, disturbances: Mapping[str, Disturbance | Sequence[Disturbance]]) -> int:
-        """Disturbs figures by name: all of it or, if anything is wrong, nothing. `start_s` counts from now.
+        """Disturbs figures by name: all of it or, if anything is wrong, nothing. `start_s` (s) of each counts from now.
 
         Returns the tick at whose start the request was taken.
         """
@@ -551,18 +614,72 @@ class World:
                     tick = now + round(what.start_s * self.rate_hz)
                 batch.append(requests.perturbation(what, name, tick))
         request = perturbation_pb2.ApplyPerturbationsRequest(world=self.resource, perturbations=batch)
-        return (await call(self.client.perturbations_stub.ApplyPerturbations, request, self.client.timeout_s)).tick
+        return (await self.client._ask(self.client.perturbations_stub.ApplyPerturbations, request)).tick
+
+    # Obstacles.
+
+    async def add_obstacle(
+        self,
+        shape: Shape,
+        name: str = "",
+        *,
+        position: Vector = (0.0, 0.0, 0.0),
+        rotation: Sequence[float] | None = None,
+        mobility: Mobility = "fixed",
+        mass_kg: float = 0.0,
+        friction: float | None = None,
+        velocity: Vector = (0.0, 0.0, 0.0),
+        angular_velocity: Vector = (0.0, 0.0, 0.0),
+    ) -> Obstacle:
+        """Puts a thing into the world that figures can touch: `Sphere`, `Capsule`, `Box` or `Plane`. A world holds at
+        most 256.
+
+        `position`: its centre in the world, m. `rotation`: quaternion x, y, z, w of its frame in the world; `None`: not
+        turned. `mobility`: `fixed`; `led`, which moves with its velocity whatever it meets; or `free`, a rigid body of
+        `mass_kg` (kg, 0.01 to 10000) under gravity. `velocity` (of its centre, m/s) and `angular_velocity` (rad/s),
+        world axes, each component within ±100, are of no effect on fixed ones. `friction`: coefficient, 0.05 to 2; of
+        two obstacles the smaller one counts; `None`: 0.6.
+        """
+        wanted = requests.obstacle(
+            shape,
+            position=position,
+            rotation=rotation,
+            mobility_name=mobility,
+            mass_kg=mass_kg,
+            friction=friction,
+            velocity=velocity,
+            angular_velocity=angular_velocity,
+        )
+        request = world_pb2.AddObstacleRequest(parent=self.resource, obstacle_id=name, obstacle=wanted)
+        return Obstacle(self, (await self.client._ask(self.client.worlds_stub.AddObstacle, request)).obstacle)
+
+    async def obstacles(self) -> list[Obstacle]:
+        """All obstacles as they are now, in the order they were added."""
+        request = world_pb2.ListObstaclesRequest(parent=self.resource)
+        r = await self.client._ask(self.client.worlds_stub.ListObstacles, request)
+        return [Obstacle(self, o) for o in r.obstacles]
+
+    async def obstacle(self, name: str) -> Obstacle:
+        """An obstacle that is there, as it is now."""
+        there = await self.obstacles()
+        for o in there:
+            if o.name == last(name):
+                return o
+        full = f"{self.resource}/obstacles/{last(name)}"
+        raise not_found("obstacle", full, [o.name for o in there])
 
     # Frames.
 
     async def frame(
         self, *, tick: int | None = None, fields: Sequence[str] = RECORDED, encoding: Encoding = "double"
     ) -> Frame:
-        """One frame: the latest, or one that is still held."""
+        """One frame: the latest, or that of a `tick` which is still held. `fields`: names of frame fields
+        (`sinew.RECORDED`, `"*"`: all).
+        """
         request = state_pb2.GetWorldFrameRequest(
             world=self.resource, tick=tick, view=requests.view(fields, numbers=encoding)
         )
-        r = await call(self.client.states_stub.GetWorldFrame, request, self.client.timeout_s)
+        r = await self.client._ask(self.client.states_stub.GetWorldFrame, request)
         await self.client._learn(r.roster)
         return to_frame(r.frame, r.roster, self.client._bodies)
 
@@ -574,17 +691,26 @@ class World:
         encoding: Encoding = "float",
         rate_divisor: int = 1,
         resume_tick: int | None = None,
+        wait: bool = False,
     ) -> Frames:
-        """Frames as they come; iterate over it. A slow reader gets the latest, never a backlog.
+        """Frames as they come; iterate over it. The first is that of the latest tick. A slow reader gets the latest,
+        never a backlog.
 
-        `rate_divisor` n sends one frame for every n ticks; `resume_tick` continues after a tick while the next ones are held.
+        `figures` (names; all if empty) and `fields` choose what they hold. `rate_divisor` n sends one frame for every n
+        ticks; `resume_tick` continues after a tick while the next ones are held.
+
+        A paused world sends no more frames until it is resumed or stepped. Waiting for the next one then raises
+        `WorldPausedError` after about half a second, also when the world is paused later on; the iteration can go on
+        after `resume` or `step`. With `wait=True` it waits.
         """
         view = requests.view(fields, figures=figures, numbers=encoding, rate_divisor=rate_divisor)
         request = state_pb2.WatchWorldRequest(world=self.resource, view=view, resume_tick=resume_tick)
-        return Frames(self.client, Stream(self.client.states_stub.WatchWorld, request))
+        return Frames(self, Stream(self.client.states_stub.WatchWorld, request), wait=wait)
 
     def events(self, *, figures: Iterable[str] = (), types: Iterable[str] = ()) -> Events:
-        """Events as they come; iterate over it. `types` are names as in `Event.type`; all if empty."""
+        """Events as they come; iterate over it. `types` are names as in `Event.type`; all if empty. It waits while the
+        world is paused.
+        """
         request = state_pb2.WatchEventsRequest(
             world=self.resource, figures=list(figures), types=requests.event_types(types)
         )
@@ -601,8 +727,9 @@ class World:
     ) -> Recordings:
         """What happens in the next `duration_s` seconds of world time, by figure.
 
-        A paused world is stepped through them without a gap; a running one is watched as it goes. `progress` shows a bar;
-        `None`: if someone looks.
+        A paused world is stepped through them without a gap; a running one is watched as it goes, and
+        `WorldPausedError` is raised if it is paused meanwhile. `progress` shows a bar; `None`: in a terminal or
+        notebook.
         """
         ticks = max(round(duration_s * self.rate_hz), 1)
         view = requests.view(fields, figures=figures, numbers=encoding)
@@ -627,15 +754,14 @@ class World:
             else:
                 request = state_pb2.WatchWorldRequest(world=self.resource, view=view)
                 async with Stream(self.client.states_stub.WatchWorld, request) as stream:
-                    async for message in stream:
+                    while not frames or frames[-1].tick - frames[0].tick < ticks - 1:
+                        message = await _next(self, stream)
                         if message.HasField("roster"):
                             roster.MergeFrom(message.roster)
                             continue
                         if frames:
                             bar.add((message.frame.tick - frames[-1].tick) / self.rate_hz)
                         frames.append(message.frame)
-                        if message.frame.tick - frames[0].tick >= ticks - 1:
-                            break
         await self.client._learn(roster)
         names = {e.figure_index: (e.figure, self.client._bodies[e.body]) for e in roster.figures}
         return collect(frames, names, self.rate_hz)
@@ -652,8 +778,10 @@ class World:
     ) -> Drive:
         """Drives figures (by name) live: `with world.drive("a", "b") as drive: drive.send_all({"a": Pose(...), ...})`.
 
-        `playout_delay_ms` `None` adapts to the jitter of the connection. `hold` stays in the last posture at once when motion is
-        late, instead of continuing its velocity for a moment. `reset` begins in the first posture that comes.
+        `rate_hz`: postures per second that you send. `playout_delay_ms` (ms) `None` adapts to the jitter of the
+        connection. `hold` stays in the last posture at once when motion is late, instead of continuing its velocity for
+        a moment. `grace_ms` (ms): how long a drive that has broken off keeps its figures. `reset` begins in the first
+        posture that comes.
         """
         header = motion_pb2.DriveHeader(
             world=self.resource,
@@ -666,6 +794,112 @@ class World:
             reset=reset,
         )
         return Drive(self.client, header)
+
+
+class Obstacle:
+    """A thing in a world that figures can touch. Its properties are those of when this object was made, or last `get`
+    or `update`.
+    """
+
+    def __init__(self, world: World, message: world_pb2.Obstacle) -> None:
+        self.world = world
+        self.message = message
+        """As the server described it."""
+
+    def __repr__(self) -> str:
+        return f"Obstacle({self.name!r}, {self.shape!r}, {self.mobility!r})"
+
+    @property
+    def name(self) -> str:
+        """Last part of its resource name."""
+        return last(self.message.name)
+
+    @property
+    def shape(self) -> Shape:
+        """`Sphere`, `Capsule`, `Box` or `Plane`; lengths in m, in its own frame."""
+        return shape_of(self.message)
+
+    @property
+    def mobility(self) -> Mobility:
+        """`fixed`, `led` or `free`."""
+        return requests.MOBILITIES.get(self.message.mobility, "fixed")
+
+    @property
+    def mass_kg(self) -> float:
+        """Mass of a free one, kg; 0 for others."""
+        return self.message.mass_kg
+
+    @property
+    def friction(self) -> float:
+        """Coefficient of friction."""
+        return self.message.friction
+
+    @property
+    def position(self) -> NDArray[np.float64]:
+        """Its centre in the world, m, (3,)."""
+        p = self.message.pose.position_m
+        return np.array([p.x, p.y, p.z])
+
+    @property
+    def rotation(self) -> NDArray[np.float64]:
+        """Quaternion x, y, z, w of its frame in the world, (4,)."""
+        q = self.message.pose.rotation
+        return np.array([q.x, q.y, q.z, q.w])
+
+    @property
+    def velocity(self) -> NDArray[np.float64]:
+        """Velocity of its centre, world axes, m/s, (3,)."""
+        v = self.message.velocity_mps
+        return np.array([v.x, v.y, v.z])
+
+    @property
+    def angular_velocity(self) -> NDArray[np.float64]:
+        """World axes, rad/s, (3,)."""
+        w = self.message.angular_velocity_radps
+        return np.array([w.x, w.y, w.z])
+
+    async def get(self) -> Self:
+        """This object, with what the obstacle is like now."""
+        self.message = (await self.world.obstacle(self.name)).message
+        return self
+
+    async def update(
+        self,
+        *,
+        shape: Shape | None = None,
+        position: Vector | None = None,
+        rotation: Sequence[float] | None = None,
+        mobility: Mobility | None = None,
+        mass_kg: float | None = None,
+        friction: float | None = None,
+        velocity: Vector | None = None,
+        angular_velocity: Vector | None = None,
+    ) -> None:
+        """Changes what is given, units and frames as in `World.add_obstacle`; the rest stays as it is now.
+
+        To lead one along a path, give its `velocity` (m/s) before each step: it then pushes what it meets. A new
+        `position` (m) is a jump.
+        """
+        now = await self.get()
+        wanted = requests.obstacle(
+            now.shape if shape is None else shape,
+            position=now.position.tolist() if position is None else position,
+            rotation=now.rotation.tolist() if rotation is None else rotation,
+            mobility_name=now.mobility if mobility is None else mobility,
+            mass_kg=now.mass_kg if mass_kg is None else mass_kg,
+            friction=now.friction if friction is None else friction,
+            velocity=now.velocity.tolist() if velocity is None else velocity,
+            angular_velocity=now.angular_velocity.tolist() if angular_velocity is None else angular_velocity,
+        )
+        wanted.name = self.message.name
+        request = world_pb2.UpdateObstacleRequest(obstacle=wanted)
+        client = self.world.client
+        self.message = (await client._ask(client.worlds_stub.UpdateObstacle, request)).obstacle
+
+    async def remove(self) -> None:
+        """Takes it out of its world."""
+        request = world_pb2.RemoveObstacleRequest(name=self.message.name)
+        await self.world.client._ask(self.world.client.worlds_stub.RemoveObstacle, request)
 
 
 class Figure:
@@ -696,19 +930,21 @@ class Figure:
     async def get(self) -> figure_pb2.Figure:
         """Settings, clip, the clip that waits, and driver, as they are now."""
         request = figure_pb2.GetFigureRequest(name=self.message.name)
-        return (await call(self._client.figures_stub.GetFigure, request, self._client.timeout_s)).figure
+        return (await self._client._ask(self._client.figures_stub.GetFigure, request)).figure
 
     async def delete(self) -> None:
         """Removes it."""
         request = figure_pb2.DeleteFigureRequest(name=self.message.name)
-        await call(self._client.figures_stub.DeleteFigure, request, self._client.timeout_s)
+        await self._client._ask(self._client.figures_stub.DeleteFigure, request)
 
     async def reset(self, *, position: tuple[float, float] | None = None, yaw: float | None = None) -> None:
-        """Puts it back: standing still, without loads; where it was created unless told otherwise."""
+        """Puts it back: standing still, without loads; where it was created unless `position` (world x, y, m) and `yaw`
+        (rad) are given.
+        """
         request = figure_pb2.ResetFigureRequest(
             name=self.message.name, placement=requests.placement(position, yaw)
         )
-        await call(self._client.figures_stub.ResetFigure, request, self._client.timeout_s)
+        await self._client._ask(self._client.figures_stub.ResetFigure, request)
 
     async def update(
         self,
@@ -722,7 +958,7 @@ class Figure:
         protective_steps: bool | None = None,
         display_name: str | None = None,
     ) -> None:
-        """Changes what is given. `constraints` replaces all of them."""
+        """Changes what is given, as in `World.add_figure`. `constraints` replaces all of them."""
         given = {
             "strength": strength,
             "controller": controller,
@@ -746,7 +982,7 @@ class Figure:
         settings.name = self.message.name
         request = figure_pb2.UpdateFigureRequest(figure=settings)
         request.update_mask.paths.extend(k for k, v in given.items() if v is not None)
-        self.message = (await call(self._client.figures_stub.UpdateFigure, request, self._client.timeout_s)).figure
+        self.message = (await self._client._ask(self._client.figures_stub.UpdateFigure, request)).figure
 
     async def constrain(self, *constraints: Constraint) -> None:
         """Replaces all constraints by these, none takes them off.
@@ -768,12 +1004,14 @@ class Figure:
         position: tuple[float, float] | None = None,
         yaw: float | None = None,
     ) -> float:
-        """Plays a clip from the next tick on, or from world time `start_s`; returns when its first frame plays, s.
+        """Plays a clip from the next tick on, or from world time `start_s` (s); returns the world time at which its
+        first frame plays, s.
 
-        A figure that walks goes over to it from step to step where the two motions are alike; else it finishes its step and stands first.
-        The time is what is expected then, and until then `next_clip` of `get()` names the clip. `reset` puts the figure into the first
-        posture at once; otherwise it moves there by itself. It begins where the figure is, unless `position` and `yaw` are given. A recording is
-        prepared for its `speed` (0.5 to 2), which takes a moment the first time.
+        A figure that walks goes over to it from step to step where the two motions are alike; else it finishes its step
+        and stands first. The time is what is expected then, and until then `next_clip` of `get()` names the clip.
+        `reset` puts the figure into the first posture at once; otherwise it moves there by itself. It begins where the
+        figure is, unless `position` (world x, y, m) and `yaw` (rad) are given. A recording is prepared for its `speed`
+        (0.5 to 2), which takes a moment the first time.
         """
         named = clip.name if isinstance(clip, Clip) else clip
         request = motion_pb2.PlayClipRequest(
@@ -785,16 +1023,16 @@ class Figure:
             reset=reset,
             placement=requests.placement(position, yaw),
         )
-        return (await call(self._client.motions_stub.PlayClip, request, self._client.timeout_s)).start_time_s
+        return (await self._client._ask(self._client.motions_stub.PlayClip, request)).start_time_s
 
     async def stop(self) -> None:
         """Ends its clip, and takes back one that waits: it finishes its step and stands, or holds the posture that is asked of it now."""
         request = motion_pb2.StopClipRequest(figure=self.message.name)
-        await call(self._client.motions_stub.StopClip, request, self._client.timeout_s)
+        await self._client._ask(self._client.motions_stub.StopClip, request)
 
     async def ask(self, pose: Pose | ArrayLike) -> None:
-        """Asks for one posture now: a `Pose`, or 39 joint angles in rad. For control loops over a paused world:
-        `figure.ask(...)`, `world.step()`, look, again. For streams in real time use `drive`.
+        """Asks for one posture now: a `Pose`, or 39 joint angles (rad, in the order of `body.dofs`). For control loops
+        over a paused world: `figure.ask(...)`, `world.step()`, look, again. For streams in real time use `drive`.
         """
         wanted = pose if isinstance(pose, Pose) else Pose(angles=pose)
         now = (await self.world.get()).tick
@@ -819,7 +1057,7 @@ class Figure:
                 ]
             ),
         )
-        await call(self._client.motions_stub.PushMotion, request, self._client.timeout_s)
+        await self._client._ask(self._client.motions_stub.PushMotion, request)
         self._asked = sequence
 
     def drive(
@@ -832,7 +1070,9 @@ class Figure:
         grace_ms: float | None = None,
         reset: bool = False,
     ) -> Drive:
-        """Drives it live: `with figure.drive() as drive: drive.send(angles)`; settings as in `World.drive`."""
+        """Drives it live: `with figure.drive() as drive: drive.send(angles)` (39 angles, rad); settings as in
+        `World.drive`.
+        """
         return self.world.drive(
             self.name,
             rate_hz=rate_hz,
@@ -883,7 +1123,11 @@ class Figure:
     # Disturbances.
 
     async def apply(self, *disturbances: Disturbance) -> int:
-        """Loads, pushes and forces; `start_s` of each counts from now. All of it or, if anything is wrong, nothing."""
+        """Loads (kg), pushes (N·s) and forces (N), world axes; `start_s` (s) of each counts from now. All of it or, if
+        anything is wrong, nothing.
+
+        Returns the tick at whose start the request was taken.
+        """
         return await self.world.apply({self.name: disturbances})
 
     async def carry(
@@ -896,7 +1140,12 @@ class Figure:
         duration_s: float = 0.0,
         grip_n: float = 0.0,
     ) -> int:
-        """Gives it a load in one hand, or in two; until `clear` unless `duration_s` says otherwise."""
+        """Gives it a load of `mass_kg` (kg) in the palm of one hand, or of two, half each; until `clear` unless
+        `duration_s` (s) says otherwise.
+
+        `start_s` (s) counts from now. Beyond `grip_n` (N) at one hand it slips; 0: never. A `Load` takes more: where in
+        the segment, and how fast it moves. Returns the tick at whose start the request was taken.
+        """
         return await self.apply(
             Load(
                 mass_kg=mass_kg,
@@ -911,7 +1160,11 @@ class Figure:
     async def push(
         self, impulse_ns: Vector, segment: str = "chest", *, start_s: float = 0.0, duration_s: float = 0.1
     ) -> int:
-        """Pushes it: an impulse in N·s, world axes, over `duration_s`."""
+        """Pushes it: an impulse in N·s, world axes, at the segment's centre of mass, over `duration_s` (s), `start_s`
+        (s) from now on.
+
+        Returns the tick at whose start the request was taken.
+        """
         return await self.apply(
             Push(impulse_ns=impulse_ns, segment=segment, start_s=start_s, duration_s=duration_s)
         )
@@ -919,21 +1172,25 @@ class Figure:
     async def pull(
         self, force_n: Vector, segment: str = "pelvis", *, start_s: float = 0.0, duration_s: float = 0.0
     ) -> int:
-        """A constant force in N, world axes; until `clear` unless `duration_s` says otherwise."""
+        """A constant force in N, world axes, at the segment's centre of mass; until `clear` unless `duration_s` (s)
+        says otherwise.
+
+        `start_s` (s) counts from now. Returns the tick at whose start the request was taken.
+        """
         return await self.apply(Force(force_n=force_n, segment=segment, start_s=start_s, duration_s=duration_s))
 
     async def clear(self) -> None:
         """Takes all loads and forces off it."""
         request = perturbation_pb2.ClearPerturbationsRequest(figure=self.message.name)
-        await call(self._client.perturbations_stub.ClearPerturbations, request, self._client.timeout_s)
+        await self._client._ask(self._client.perturbations_stub.ClearPerturbations, request)
 
     # What it does.
 
     async def state(self, *, fields: Sequence[str] = RECORDED, encoding: Encoding = "double") -> FigureState:
-        """It after the latest tick."""
+        """It after the latest tick; units and frames are those of `FigureState`."""
         view = requests.view(fields, figures=[self.name], numbers=encoding)
         request = state_pb2.GetWorldFrameRequest(world=self.world.resource, view=view)
-        r = await call(self._client.states_stub.GetWorldFrame, request, self._client.timeout_s)
+        r = await self._client._ask(self._client.states_stub.GetWorldFrame, request)
         await self._client._learn(r.roster)
         return to_frame(r.frame, r.roster, self._client._bodies)[self.name]
 
@@ -952,14 +1209,46 @@ class Figure:
         return all_of_it[self.name]
 
 
+async def _next(
+    world: World, stream: Stream[state_pb2.WatchWorldRequest, state_pb2.WatchWorldResponse], *, wait: bool = False
+) -> state_pb2.WatchWorldResponse:
+    """The next message of a watch. Unless it is to `wait`, raises when none comes because the world stands still."""
+    stood: int | None = None
+    while True:
+        message = await stream.within(_QUIET_S)
+        if message is not None:
+            return message
+        if wait:
+            continue
+        now = await world.get()
+        if now.state == world_pb2.WORLD_STATE_FAILED:
+            raise PreconditionError(
+                f"world {last(now.name)!r} has failed at tick {now.tick} and sends no more frames: {now.failure}",
+                reason="WORLD_FAILED",
+            )
+        if now.state != world_pb2.WORLD_STATE_PAUSED:
+            stood = None
+        elif stood == now.tick:
+            # A second look: what was on its way after a step has come by now.
+            raise paused(last(now.name), now.tick)
+        else:
+            stood = now.tick
+
+
 class Frames:
     """Frames of a world as they come. Leaving its `with` block, or `close`, ends the stream."""
 
     def __init__(
-        self, client: Client, stream: Stream[state_pb2.WatchWorldRequest, state_pb2.WatchWorldResponse]
+        self,
+        world: World,
+        stream: Stream[state_pb2.WatchWorldRequest, state_pb2.WatchWorldResponse],
+        *,
+        wait: bool = False,
     ) -> None:
-        self._client = client
+        self._world = world
+        self._client = world.client
         self._stream = stream
+        self._wait = wait
         self._roster = state_pb2.Roster()
 
     def __aiter__(self) -> Self:
@@ -967,7 +1256,7 @@ class Frames:
 
     async def __anext__(self) -> Frame:
         while True:
-            message = await self._stream.__anext__()
+            message = await _next(self._world, self._stream, wait=self._wait)
             if message.HasField("frame"):
                 return to_frame(message.frame, self._roster, self._client._bodies)
             await self._client._learn(message.roster)
@@ -1035,7 +1324,10 @@ class Drive:
     async def __aenter__(self) -> Self:
         self._duplex = Duplex(self._client.motions_stub.DriveFigures)
         await self._duplex.send(motion_pb2.DriveFiguresRequest(header=self._header))
-        await self._duplex.first(self._client.timeout_s)
+        try:
+            await self._duplex.first(self._client.timeout_s)
+        except NotFoundError as e:
+            raise await self._client._with_names(e) from None
         self._began = time.monotonic()
         return self
 
@@ -1043,12 +1335,14 @@ class Drive:
         await self.close()
 
     async def send(self, pose: Pose | ArrayLike, *, time_s: float | None = None) -> None:
-        """One instant of the only figure: a `Pose`, or 39 joint angles in rad. `time_s` is when it was captured; now if `None`."""
+        """One instant of the only figure: a `Pose`, or 39 joint angles (rad). `time_s` is when it was captured (s, any
+        origin); now if `None`.
+        """
         wanted = pose if isinstance(pose, Pose) else Pose(angles=pose)
         await self.send_all({self._header.figures[0]: wanted}, time_s=time_s)
 
     async def send_all(self, poses: Mapping[str, Pose], *, time_s: float | None = None) -> None:
-        """One instant of several figures, by name."""
+        """One instant of several figures, by name. `time_s` is when it was captured (s, any origin); now if `None`."""
         if self._duplex is None:
             raise RuntimeError("open the drive with `with`")
         t = time.monotonic() - self._began if time_s is None else time_s
@@ -1080,7 +1374,7 @@ class Drive:
             request = figure_pb2.GetFigureRequest(name=f"{self._header.world}/figures/{name}")
             for _ in range(_RELEASE_TRIES):
                 try:
-                    held = await call(self._client.figures_stub.GetFigure, request, self._client.timeout_s)
+                    held = await self._client._ask(self._client.figures_stub.GetFigure, request)
                 except NotFoundError:
                     break
                 if held.figure.driver_id != driver:

@@ -17,6 +17,10 @@ Request = TypeVar("Request")
 Response = TypeVar("Response")
 
 Channel = grpc.aio.Channel
+# The type of a unary call of a stub.
+Method = grpc.aio.UnaryUnaryMultiCallable
+
+_LONG_S = 3600.0
 
 
 def open_channel(address: str, options: list[tuple[str, int]]) -> Channel:
@@ -24,7 +28,7 @@ def open_channel(address: str, options: list[tuple[str, int]]) -> Channel:
     return grpc.aio.insecure_channel(address, options=options)
 
 
-async def call(method: grpc.aio.UnaryUnaryMultiCallable[Request, Response], request: Request, timeout_s: float) -> Response:
+async def call(method: Method[Request, Response], request: Request, timeout_s: float) -> Response:
     """One call; refusals become exceptions of `sinew.errors`."""
     try:
         return await method(request, timeout=timeout_s)
@@ -53,18 +57,35 @@ class Stream(Generic[Request, Response]):
         request: Request,
     ) -> None:
         self._call = method(request)
+        # A read that `within` gave up waiting for: cancelling it would end the call.
+        self._reading: asyncio.Task[Response] | None = None
 
     def __aiter__(self) -> Self:
         return self
 
     async def __anext__(self) -> Response:
+        while (message := await self.within(_LONG_S)) is None:
+            pass
+        return message
+
+    async def within(self, seconds: float) -> Response | None:
+        """The next message, or `None` if none comes within `seconds`; it is not lost."""
+        if self._reading is None:
+            self._reading = asyncio.ensure_future(self._read())
+        done, _ = await asyncio.wait({self._reading}, timeout=seconds)
+        if not done:
+            return None
+        reading, self._reading = self._reading, None
         try:
-            message = await self._call.read()
+            message = reading.result()
         except grpc.aio.AioRpcError as e:
             raise from_rpc(e) from None
         if message is grpc.aio.EOF:
             raise StopAsyncIteration
-        return message  # type: ignore[return-value]
+        return message
+
+    async def _read(self) -> Response:
+        return await self._call.read()  # type: ignore[return-value]
 
     async def __aenter__(self) -> Self:
         return self
@@ -75,6 +96,11 @@ class Stream(Generic[Request, Response]):
     async def close(self) -> None:
         """Ends the stream."""
         self._call.cancel()
+        if self._reading is not None:
+            reading, self._reading = self._reading, None
+            await asyncio.wait({reading})
+            if not reading.cancelled():
+                reading.exception()  # of no interest, but asyncio complains about one that was not looked at
 
 
 class Duplex(Generic[Request, Response]):

@@ -6,6 +6,8 @@ import sys
 from types import TracebackType
 from typing import Any
 
+from sinew._optional import needed
+
 
 def _watched() -> bool:
     return sys.stderr.isatty() or "ipykernel" in sys.modules
@@ -18,8 +20,13 @@ class Progress:
         self._bar: Any = None
         if show or (show is None and _watched()):
             # The plain bar also in notebooks: the other one wants widgets, which many do not have.
-            from tqdm import tqdm
-
+            try:
+                with needed("tqdm", "progress", "a progress bar"):
+                    from tqdm import tqdm
+            except ImportError:
+                if show:
+                    raise
+                return  # it was not asked for
             form = "{desc}: {percentage:3.0f}% |{bar}| {n:.1f}/{total:.1f} {unit} [{elapsed}<{remaining}]"
             self._bar = tqdm(total=total, desc=what, unit=unit, bar_format=form, leave=False)
 

@@ -3,12 +3,27 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from google.protobuf.field_mask_pb2 import FieldMask
 
-from sinew.v1 import figure_pb2, perturbation_pb2, simulation_pb2, state_pb2, types_pb2, world_pb2
-from sinew.values import Constraint, Controller, Disturbance, Encoding, Paper, Profile, Stepper, Strength, resource
+from sinew.v1 import figure_pb2, frame_pb2, perturbation_pb2, simulation_pb2, state_pb2, types_pb2, world_pb2
+from sinew.values import (
+    Constraint,
+    Controller,
+    Disturbance,
+    Encoding,
+    Mobility,
+    Paper,
+    Profile,
+    Shape,
+    Stepper,
+    Strength,
+    Vector,
+    choice,
+    resource,
+    vector,
+)
 
 PORT = 7463
 OPTIONS = [
@@ -28,34 +43,46 @@ def address(given: str) -> str:
 
 def controller(name: Controller) -> figure_pb2.Controller.ValueType:
     """A controller by name."""
-    return figure_pb2.Controller.Value(_choice(figure_pb2.Controller.keys(), "CONTROLLER_", name))
+    return figure_pb2.Controller.Value(choice(figure_pb2.Controller.keys(), "CONTROLLER_", name, "controller"))
 
 
 def stepper(name: Stepper) -> figure_pb2.Stepper.ValueType:
     """A stepper by name."""
-    return figure_pb2.Stepper.Value(_choice(figure_pb2.Stepper.keys(), "STEPPER_", name))
+    return figure_pb2.Stepper.Value(choice(figure_pb2.Stepper.keys(), "STEPPER_", name, "stepper"))
 
 
 def encoding(name: Encoding) -> types_pb2.Encoding.ValueType:
     """An encoding by name."""
-    return types_pb2.Encoding.Value(_choice(types_pb2.Encoding.keys(), "ENCODING_", name))
+    return types_pb2.Encoding.Value(choice(types_pb2.Encoding.keys(), "ENCODING_", name, "encoding"))
 
 
 def overrun(name: str) -> world_pb2.OverrunPolicy.ValueType:
     """An overrun policy by name."""
-    return world_pb2.OverrunPolicy.Value(_choice(world_pb2.OverrunPolicy.keys(), "OVERRUN_POLICY_", name))
+    known = world_pb2.OverrunPolicy.keys()
+    return world_pb2.OverrunPolicy.Value(choice(known, "OVERRUN_POLICY_", name, "overrun"))
+
+
+def mobility(name: Mobility) -> world_pb2.ObstacleMobility.ValueType:
+    """A mobility of an obstacle by name."""
+    known = world_pb2.ObstacleMobility.keys()
+    return world_pb2.ObstacleMobility.Value(choice(known, "OBSTACLE_MOBILITY_", name, "mobility"))
+
+
+MOBILITIES: Mapping[int, Mobility] = {
+    world_pb2.OBSTACLE_MOBILITY_FIXED: "fixed",
+    world_pb2.OBSTACLE_MOBILITY_LED: "led",
+    world_pb2.OBSTACLE_MOBILITY_FREE: "free",
+}
 
 
 def event_types(names: Iterable[str]) -> list[state_pb2.EventType.ValueType]:
     """Event types by name."""
-    return [state_pb2.EventType.Value(_choice(state_pb2.EventType.keys(), "EVENT_TYPE_", n)) for n in names]
+    known = state_pb2.EventType.keys()
+    return [state_pb2.EventType.Value(choice(known, "EVENT_TYPE_", n, "event type")) for n in names]
 
 
-def _choice(keys: Iterable[str], prefix: str, name: str) -> str:
-    known = [k.removeprefix(prefix).lower() for k in keys if not k.endswith("UNSPECIFIED")]
-    if name not in known:
-        raise ValueError(f"{name!r} is none of {', '.join(known)}")
-    return prefix + name.upper()
+# Fields of a figure's frame that a view can choose: those that follow the three that every frame has.
+VIEW_FIELDS = tuple(f.name for f in frame_pb2.FigureFrame.DESCRIPTOR.fields)[3:]
 
 
 def view(
@@ -66,6 +93,12 @@ def view(
     rate_divisor: int = 1,
 ) -> state_pb2.View:
     """What of a world is sent."""
+    if isinstance(fields, str):
+        raise TypeError(f"fields is a list of names, got the text {fields!r}: write fields=[{fields!r}]")
+    # A newer server may know more; an older one refuses what it does not know, with its own list.
+    for name in fields:
+        if name != "*" and name not in VIEW_FIELDS:
+            raise ValueError(f"frame field {name!r} is none of {', '.join(VIEW_FIELDS)}, *")
     return state_pb2.View(
         figures=list(figures),
         fields=FieldMask(paths=list(fields)),
@@ -140,3 +173,37 @@ def perturbation(what: Disturbance, name: str, tick: int | None) -> perturbation
 def timed(disturbances: Iterable[Disturbance]) -> list[simulation_pb2.TimedPerturbation]:
     """Disturbances in time of a clip."""
     return [simulation_pb2.TimedPerturbation(start_s=d.start_s, perturbation=d.message()) for d in disturbances]
+
+
+def obstacle(
+    shape: Shape,
+    *,
+    position: Vector,
+    rotation: Sequence[float] | None,
+    mobility_name: Mobility,
+    mass_kg: float,
+    friction: float | None,
+    velocity: Vector,
+    angular_velocity: Vector,
+) -> world_pb2.Obstacle:
+    """An obstacle, without its name."""
+    out = world_pb2.Obstacle(
+        mobility=mobility(mobility_name),
+        mass_kg=mass_kg,
+        friction=friction,
+        velocity_mps=vector(velocity),
+        angular_velocity_radps=vector(angular_velocity),
+    )
+    shape.put(out)
+    out.pose.position_m.CopyFrom(vector(position))
+    if rotation is not None:
+        out.pose.rotation.CopyFrom(quaternion(rotation))
+    return out
+
+
+def quaternion(q: Sequence[float]) -> types_pb2.Quaternion:
+    """Four numbers as a message."""
+    if len(q) != 4:
+        raise ValueError(f"a rotation has 4 numbers x, y, z, w, got {len(q)}")
+    x, y, z, w = (float(c) for c in q)
+    return types_pb2.Quaternion(x=x, y=y, z=z, w=w)

@@ -18,6 +18,10 @@ Request = TypeVar("Request")
 Response = TypeVar("Response")
 
 Channel = grpc.Channel
+# The type of a unary call of a stub.
+Method = grpc.UnaryUnaryMultiCallable
+
+_LONG_S = 3600.0
 
 
 def open_channel(address: str, options: list[tuple[str, int]]) -> Channel:
@@ -25,7 +29,7 @@ def open_channel(address: str, options: list[tuple[str, int]]) -> Channel:
     return grpc.insecure_channel(address, options=options)
 
 
-def call(method: grpc.UnaryUnaryMultiCallable[Request, Response], request: Request, timeout_s: float) -> Response:
+def call(method: Method[Request, Response], request: Request, timeout_s: float) -> Response:
     """One call; refusals become exceptions of `sinew.errors`."""
     try:
         return method(request, timeout=timeout_s)
@@ -60,15 +64,38 @@ class Stream(Generic[Request, Response]):
         request: Request,
     ) -> None:
         self._call = method(request)
+        # Holds one message: whoever reads slowly gets the latest, as the server sees that nothing is taken.
+        self._came: queue.Queue[Response | BaseException] = queue.Queue(maxsize=1)
+        self._closed = threading.Event()
+        self._reader: threading.Thread | None = None
+        self._end: BaseException | None = None
 
     def __iter__(self) -> Self:
         return self
 
     def __next__(self) -> Response:
+        while (message := self.within(_LONG_S)) is None:
+            pass
+        return message
+
+    def within(self, seconds: float) -> Response | None:
+        """The next message, or `None` if none comes within `seconds`; it is not lost."""
+        if self._end is not None or self._closed.is_set():
+            raise StopIteration
+        if self._reader is None:
+            arguments = (self._call, self._came, self._closed)
+            self._reader = threading.Thread(target=_pump, args=arguments, name="sinew-stream", daemon=True)
+            self._reader.start()
         try:
-            return next(self._call)
-        except grpc.RpcError as e:
-            raise from_rpc(e) from None
+            message = self._came.get(timeout=seconds)
+        except queue.Empty:
+            return None
+        if isinstance(message, BaseException):
+            self._end = message
+            if isinstance(message, grpc.RpcError):
+                raise from_rpc(message) from None
+            raise message
+        return message
 
     def __enter__(self) -> Self:
         return self
@@ -78,10 +105,41 @@ class Stream(Generic[Request, Response]):
 
     def close(self) -> None:
         """Ends the stream."""
+        self._closed.set()
         self._call.cancel()
+        if self._reader is not None and self._reader is not threading.current_thread():
+            self._reader.join()
+            self._reader = None
 
     def __del__(self) -> None:
-        self.close()
+        # Without waiting for the reader, which does not hold this object.
+        self._closed.set()
+        self._call.cancel()
+
+
+def _pump(
+    call: Iterator[Response], came: queue.Queue[Response | BaseException], closed: threading.Event
+) -> None:
+    """Hands on the messages of a call, then what ended it, until the stream is closed."""
+    while not closed.is_set():
+        message: Response | BaseException
+        try:
+            message = next(call)
+        except Exception as e:  # how the call ended, for whoever reads
+            message = e
+        while not closed.is_set():
+            try:
+                came.put(message, timeout=0.1)
+                break
+            except queue.Full:
+                continue
+        if isinstance(message, BaseException):
+            return
+    # Whoever waits for a message in another thread learns that none will come.
+    try:
+        came.put_nowait(StopIteration())
+    except queue.Full:
+        pass
 
 
 class Duplex(Generic[Request, Response]):

@@ -6,6 +6,6 @@
         async with world.frames() as frames: ...
 """
 
-from sinew._async_client import Client, Clip, Drive, Events, Figure, Frames, ServerInfo, World
+from sinew._async_client import Client, Clip, Drive, Events, Figure, Frames, Obstacle, ServerInfo, World
 
-__all__ = ["Client", "Clip", "Drive", "Events", "Figure", "Frames", "ServerInfo", "World"]
+__all__ = ["Client", "Clip", "Drive", "Events", "Figure", "Frames", "Obstacle", "ServerInfo", "World"]

@@ -107,7 +107,11 @@ class Body:
         )
 
     def poses(self, root_pose: Floats, joint_rotations: Floats) -> Floats:
-        """World poses of the segments, (18, 7): position, quaternion; from a pelvis pose (7) and 17 joint rotations (17, 4)."""
+        """World poses of the segments, (18, 7): position (m), quaternion x, y, z, w.
+
+        `root_pose` (7,): position (m) and quaternion of the pelvis in the world. `joint_rotations` (17, 4): quaternions
+        of segments 1 to 17 in their parents.
+        """
         rotations = np.asarray(joint_rotations, dtype=np.float64).reshape(-1, 4)
         out = np.empty((len(self.parents), 7))
         out[0] = root_pose

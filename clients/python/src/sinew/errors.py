@@ -5,7 +5,7 @@ Every refusal of the server becomes a `SinewError`; a refused request has change
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import grpc
@@ -24,6 +24,7 @@ __all__ = [
     "SinewError",
     "UnavailableError",
     "UnimplementedError",
+    "WorldPausedError",
 ]
 
 
@@ -63,9 +64,15 @@ class InvalidArgumentError(SinewError, ValueError):
 
 
 class NotFoundError(SinewError, LookupError):
-    """There is no such resource: `resource` is its name."""
+    """There is no such resource: `resource` is its name, `kind` what it would be (`world`, `figure`, `obstacle`,
+    `clip`, `body`).
+
+    `valid` holds the names that there are of that kind, where they could be found out; the message lists them too.
+    """
 
     resource: str = ""
+    kind: str = ""
+    valid: tuple[str, ...] = ()
 
 
 class AlreadyExistsError(SinewError):
@@ -76,6 +83,14 @@ class AlreadyExistsError(SinewError):
 
 class PreconditionError(SinewError):
     """The request does not fit the state of the resource; `reason` says why, for example `WORLD_NOT_PAUSED`."""
+
+
+class WorldPausedError(PreconditionError):
+    """The clock of the world stands still, so that no frame comes: `world` is its name, `tick` the tick it stands at.
+    """
+
+    world: str = ""
+    tick: int = 0
 
 
 class LimitError(SinewError):
@@ -153,8 +168,53 @@ def from_rpc(error: grpc.RpcError) -> SinewError:
             out.problem = bad.field_violations[0].description
         elif detail.Unpack(resource) and isinstance(out, (NotFoundError, AlreadyExistsError)):
             out.resource = resource.resource_name
+            if isinstance(out, NotFoundError):
+                out.kind = resource.resource_type.rsplit("/", 1)[-1]
         elif detail.Unpack(quota) and isinstance(out, LimitError) and quota.violations:
             out.limit = quota.violations[0].subject
         elif detail.Unpack(retry) and isinstance(out, LimitError):
             out.retry_after_s = retry.retry_delay.ToNanoseconds() / 1e9
+    return out
+
+
+# Most names that a message lists.
+_LISTED = 60
+
+
+def named(names: Sequence[str]) -> str:
+    """Names as a message lists them."""
+    if not names:
+        return "there are none"
+    more = f" and {len(names) - _LISTED} more" if len(names) > _LISTED else ""
+    return "there are " + ", ".join(names[:_LISTED]) + more
+
+
+def with_names(error: NotFoundError, names: Sequence[str]) -> NotFoundError:
+    """The same error with the names that there are."""
+    out = type(error)(f"{error}; {named(names)}", code=error.code, reason=error.reason, facts=error.facts)
+    out.resource, out.kind, out.valid = error.resource, error.kind, tuple(names)
+    return out
+
+
+def not_found(kind: str, resource: str, names: Sequence[str]) -> NotFoundError:
+    """What the server says of a name that is not there, found out by the client, with the names that there are."""
+    out = NotFoundError(
+        f"{kind} {resource!r} does not exist; {named(names)}",
+        code=grpc.StatusCode.NOT_FOUND,
+        reason="RESOURCE_NOT_FOUND",
+    )
+    out.resource, out.kind, out.valid = resource, kind, tuple(names)
+    return out
+
+
+def paused(world: str, tick: int) -> WorldPausedError:
+    """That a world sends no frames because it is paused at a tick."""
+    out = WorldPausedError(
+        f"world {world!r} is paused at tick {tick} and sends no frames: call world.resume(), "
+        "or world.step() before the next frame, or watch it with frames(wait=True), which waits until the world moves",
+        code=grpc.StatusCode.FAILED_PRECONDITION,
+        reason="WORLD_PAUSED",
+        facts={"tick": str(tick)},
+    )
+    out.world, out.tick = world, tick
     return out

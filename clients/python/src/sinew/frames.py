@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sinew.body import Body
+from sinew.errors import named
 from sinew.v1 import frame_pb2, state_pb2, types_pb2
 
-__all__ = ["Contact", "Event", "FigureState", "Frame", "numbers"]
+__all__ = ["Contact", "Event", "FigureState", "Frame", "ObstacleState", "Touch", "numbers"]
 
 Floats = NDArray[np.float64]
 
@@ -32,7 +33,9 @@ def bits(word: int, count: int) -> NDArray[np.bool_]:
 
 @dataclass(frozen=True)
 class Contact:
-    """One touching point: segment name, where (world, m), and the force on the figure (world, N)."""
+    """One point that touches the ground: segment name, where (world, m, (3,)), and the force on the figure (world axes,
+    N, (3,)).
+    """
 
     segment: str
     position: Floats
@@ -40,8 +43,52 @@ class Contact:
 
 
 @dataclass(frozen=True)
+class Touch:
+    """A part that touches another figure or an obstacle."""
+
+    segment: str
+    """Own segment, by name."""
+    other: str
+    """What it touches: `figures/{name}` or `obstacles/{name}`."""
+    position: Floats
+    """Where, world, m, (3,)."""
+    force: Floats
+    """Mean force on this figure over the tick, world axes, N, (3,)."""
+    depth_m: float
+    """Overlap, m."""
+
+
+@dataclass(frozen=True)
+class ObstacleState:
+    """One obstacle after one tick."""
+
+    name: str
+    """Last part of its name."""
+    position: Floats
+    """Its centre in the world, m, (3,)."""
+    rotation: Floats
+    """Quaternion x, y, z, w of its frame in the world, (4,)."""
+    velocity: Floats
+    """Velocity of its centre, world axes, m/s, (3,)."""
+    angular_velocity: Floats
+    """World axes, rad/s, (3,)."""
+    force: Floats
+    """Mean force of contacts on it over the tick, world axes, N, (3,); zero unless it moves freely."""
+
+    @classmethod
+    def of(cls, message: frame_pb2.ObstacleFrame) -> ObstacleState:
+        """From a message."""
+        pose, velocity = numbers(message.pose), numbers(message.velocity)
+        return cls(message.obstacle, pose[:3], pose[3:], velocity[3:], velocity[:3], numbers(message.force))
+
+
+@dataclass(frozen=True)
 class Event:
-    """Something that happened: `type` in lower case, for example `saturated`, `balance_lost`, `fell`, `load_slipped`."""
+    """Something that happened: `type` in lower case, for example `saturated`, `balance_lost`, `fell`, `load_slipped`.
+
+    `tick` and `time_s` (world time, s) say when; `figure`, `segment` and `dof` are names, empty where they do not
+    apply; `mass_kg` is that of a load, kg.
+    """
 
     type: str
     tick: int
@@ -87,32 +134,34 @@ class FigureState:
 
     @cached_property
     def root_pose(self) -> Floats:
-        """Pelvis in the world: position (m), quaternion x, y, z, w."""
+        """Pelvis in the world, (7,): position (m), quaternion x, y, z, w."""
         return self._part("root_pose")
 
     @cached_property
     def joint_angles(self) -> Floats:
-        """The 39 anatomical angles, rad."""
+        """The anatomical angles in the order of `body.dofs`, rad, (39,)."""
         return self._part("joint_angles")
 
     @cached_property
     def segment_transforms(self) -> Floats:
-        """World pose of each segment, (18, 7)."""
+        """World pose of each segment in the order of `body.segments`, (18, 7): position (m), quaternion x, y, z, w."""
         return self._part("segment_transforms").reshape(-1, 7)
 
     @cached_property
     def velocity(self) -> Floats:
-        """Pelvis angular velocity and velocity (world axes), then the 39 joint rates: 45 numbers."""
+        """Pelvis angular velocity (rad/s) and velocity of its origin (m/s), world axes, then the 39 joint rates
+        (rad/s): (45,).
+        """
         return self._part("velocity")
 
     @cached_property
     def torque(self) -> Floats:
-        """Muscle torque of the 39 degrees of freedom, N·m, mean of the tick."""
+        """Muscle torque in the order of `body.dofs`, N·m, mean of the tick, (39,)."""
         return self._part("torque")
 
     @cached_property
     def torque_limits(self) -> Floats:
-        """Least and largest torque that the muscles could give, N·m: (2, 39)."""
+        """Least (negative) and largest torque that the muscles could give at the start of the tick, N·m: (2, 39)."""
         return self._part("torque_limits").reshape(2, -1)
 
     @cached_property
@@ -136,13 +185,28 @@ class FigureState:
 
     @property
     def com(self) -> Floats:
-        """Centre of mass, loads included, world, m."""
+        """Centre of mass after the tick, loads included, world, m, (3,)."""
         self._need("balance")
         return numbers(self.message.balance.com)
 
     @property
+    def com_velocity(self) -> Floats:
+        """Velocity of that centre of mass, world axes, m/s, (3,)."""
+        self._need("balance")
+        return numbers(self.message.balance.com_velocity)
+
+    @property
+    def touches(self) -> list[Touch]:
+        """What it touches besides the ground: other figures and obstacles."""
+        self._need("touches")
+        t = self.message.touches
+        where, force = numbers(t.position).reshape(-1, 3), numbers(t.force).reshape(-1, 3)
+        parts = zip(t.segment, t.other, where, force, numbers(t.depth))
+        return [Touch(self.body.segments[s], o, p, f, float(d)) for s, o, p, f, d in parts]
+
+    @property
     def contacts(self) -> list[Contact]:
-        """Touching points with their forces."""
+        """Points that touch the ground with their forces."""
         self._need("contacts")
         c = self.message.contacts
         where, force = numbers(c.position).reshape(-1, 3), numbers(c.force).reshape(-1, 3)
@@ -151,16 +215,24 @@ class FigureState:
 
 @dataclass(frozen=True)
 class Frame(Mapping[str, FigureState]):
-    """A world after one tick: figures by name. `server_time_ns` is when the tick ended, by the server's clock."""
+    """A world after one tick: a mapping of figures by name.
+
+    `time_s` is world time, s; `state_hash` is equal for equal inputs; `server_time_ns` is when the tick ended, by the
+    server's clock, ns since 1970. `obstacles` holds all obstacles by name, in the order they were added.
+    """
 
     tick: int
     time_s: float
     state_hash: int
     server_time_ns: int
     figures: Mapping[str, FigureState]
+    obstacles: Mapping[str, ObstacleState]
 
     def __getitem__(self, name: str) -> FigureState:
-        return self.figures[name]
+        try:
+            return self.figures[name]
+        except KeyError:
+            raise KeyError(f"no figure {name!r} in the frame; {named(list(self.figures))}") from None
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.figures)
@@ -177,4 +249,5 @@ def frame(message: frame_pb2.WorldFrame, roster: state_pb2.Roster, bodies: Mappi
         entry = known.get(f.figure_index)
         if entry is not None:
             figures[entry.figure] = FigureState(f, entry.figure, bodies[entry.body])
-    return Frame(message.tick, message.time_s, message.state_hash, message.server_time_ns, figures)
+    obstacles = {o.obstacle: ObstacleState.of(o) for o in message.obstacles}
+    return Frame(message.tick, message.time_s, message.state_hash, message.server_time_ns, figures, obstacles)

@@ -23,12 +23,13 @@ _DOFS = 39
 
 @dataclass(frozen=True, kw_only=True)
 class Pose:
-    """What is asked of one figure at one instant: joint angles (39, rad), or bone rotations (quaternions by VRM bone name).
+    """What is asked of one figure at one instant: joint angles, or bone rotations.
 
-    `root` is the pelvis in the world: position (3, m), or position and quaternion (7); `None` leaves it where it is asked to
-    be now. `velocity` (45 numbers, laid out as in frames) is formed from neighbouring frames if absent; `planted` says which
-    feet (left, right) stand, and the server decides if it is absent. Bone rotations are relative to the parent, or to the
-    world.
+    `angles` (39,): anatomical angles in the order of `Body.dofs`, rad. `rotations`: quaternions x, y, z, w by VRM bone
+    name (`Body.bones`), of the bone in its parent, or in the world with `world_rotations`. `root` is the pelvis in the
+    world: position (3,), m, or position and quaternion (7,); `None` leaves it where it is asked to be now. `velocity`
+    (45,), rad/s and m/s as in `FigureState.velocity`, is formed from neighbouring frames if absent; `planted` says
+    which feet (left, right) stand, and the server decides if it is absent.
     """
 
     angles: ArrayLike | None = None
@@ -58,7 +59,9 @@ class Pose:
 
 @dataclass(frozen=True)
 class Motion:
-    """A motion as arrays: `angles` (n, 39) rad and `root` (n, 7), position and quaternion of the pelvis, at `rate_hz`."""
+    """A motion as arrays: `angles` (n, 39) in the order of `Body.dofs`, rad, and `root` (n, 7), position (m) and
+    quaternion x, y, z, w of the pelvis in the world, at `rate_hz` (Hz).
+    """
 
     angles: Floats
     root: Floats

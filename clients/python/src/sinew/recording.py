@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from sinew._optional import needed
 from sinew.body import Body
+from sinew.errors import named
 from sinew.frames import Contact, Event, bits, numbers
 from sinew.v1 import body_pb2, frame_pb2, simulation_pb2, types_pb2
 
@@ -43,7 +45,7 @@ _FORMAT = "sinew-recording-1"
 
 @dataclass(frozen=True)
 class Saturation:
-    """An interval in which one degree of freedom was at the limit of its strength."""
+    """An interval of world time (s) in which one degree of freedom (by name) was at the limit of its strength."""
 
     dof: str
     start_s: float
@@ -124,22 +126,23 @@ class Recording:
 
     @property
     def joint_angles(self) -> Floats:
-        """Anatomical angles, rad, (n, 39)."""
+        """Anatomical angles in the order of `body.dofs`, rad, (n, 39)."""
         return self._column("joint_angles")
 
     @property
     def segment_transforms(self) -> Floats:
-        """World pose of each segment, (n, 18, 7)."""
+        """World pose of each segment in the order of `body.segments`: position (m), quaternion x, y, z, w; (n, 18, 7).
+        """
         return self._column("segment_transforms").reshape(len(self), -1, 7)
 
     @property
     def velocity(self) -> Floats:
-        """Pelvis angular velocity and velocity (world axes), then joint rates, (n, 45)."""
+        """Pelvis angular velocity (rad/s), velocity of its origin (m/s), world axes, then joint rates (rad/s); (n, 45)."""
         return self._column("velocity")
 
     @property
     def acceleration(self) -> Floats:
-        """Mean time derivative of `velocity` over each tick, (n, 45)."""
+        """Mean time derivative of `velocity` over each tick, rad/s² and m/s², (n, 45)."""
         return self._column("acceleration")
 
     @property
@@ -187,8 +190,13 @@ class Recording:
 
     @property
     def com(self) -> Floats:
-        """Centre of mass, loads included, world, m, (n, 3)."""
+        """Centre of mass after each tick, loads included, world, m, (n, 3)."""
         return self._inner("balance", "com", 3)
+
+    @property
+    def com_velocity(self) -> Floats:
+        """Velocity of that centre of mass, world axes, m/s, (n, 3)."""
+        return self._inner("balance", "com_velocity", 3)
 
     @property
     def zmp(self) -> Floats:
@@ -203,7 +211,7 @@ class Recording:
 
     @property
     def desired_root_pose(self) -> Floats:
-        """Pelvis that was asked for, (n, 7)."""
+        """Pelvis that was asked for, world: position (m), quaternion x, y, z, w; (n, 7)."""
         return self._inner("desired", "root_pose", 7)
 
     @property
@@ -213,11 +221,12 @@ class Recording:
 
     @property
     def desired_joint_rotations(self) -> Floats:
-        """Joint rotations that were asked for, (n, 17, 4)."""
+        """Joint rotations that were asked for: quaternions x, y, z, w of segments 1 to 17 in their parents, (n, 17, 4).
+        """
         return self._inner("desired", "joint_rotations", 68).reshape(len(self), -1, 4)
 
     def contacts(self, row: int) -> list[Contact]:
-        """Touching points of one tick, by row."""
+        """Points that touch the ground in one tick, by row: world position (m) and force on the figure (N)."""
         self._need("contacts")
         c = self.messages[row].contacts
         where, force = numbers(c.position).reshape(-1, 3), numbers(c.force).reshape(-1, 3)
@@ -230,12 +239,12 @@ class Recording:
         return np.stack([numbers(m.contacts.force).reshape(-1, 3).sum(axis=0) for m in self.messages])
 
     def loads(self, row: int) -> list[tuple[int, Floats, float]]:
-        """Loads carried at the end of one tick: index of the segment, point in its frame (m), mass (kg)."""
+        """Loads carried at the end of one tick: index of the segment, point in its frame (m, (3,)), mass (kg)."""
         carried = self._status()[row].loads
         return [(c.segment, np.array([c.point_m.x, c.point_m.y, c.point_m.z]), c.mass_kg) for c in carried]
 
     def saturations(self, *, least_s: float = 0.0) -> list[Saturation]:
-        """Intervals at the limit of strength that last at least `least_s`, by time."""
+        """Intervals at the limit of strength that last at least `least_s` (s), by time."""
         at, dt = self.saturated, 1.0 / self.rate_hz
         out = []
         for d, name in enumerate(self.body.dofs):
@@ -262,8 +271,8 @@ class Recording:
 
         The range that the muscles could give is shaded; ticks at the limit are marked. Returns a matplotlib figure.
         """
-        from sinew.plot import plot_torques
-
+        with needed("matplotlib", "plot", "plotting"):
+            from sinew.plot import plot_torques
         return plot_torques({self.figure: self}, dofs, title=title)
 
     def strip(self, count: int = 7, *, view: str = "three-quarter", title: str | None = None) -> Drawing:
@@ -271,14 +280,14 @@ class Recording:
 
         `view` is `three-quarter`, `side` or `front`. Returns a matplotlib figure.
         """
-        from sinew.strip import strip
-
+        with needed("matplotlib", "plot", "a strip"):
+            from sinew.strip import strip
         return strip({self.figure: self}, count, view=view, title=title)
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table indexed by time: columns (quantity, part), for example `df["torque"]["r_elbow_flexion"]`. Needs pandas."""
-        import pandas as pd
-
+        with needed("pandas", "pandas", "a table"):
+            import pandas as pd
         parts: dict[tuple[str, str], Any] = {("tick", ""): self.tick}
 
         def add(quantity: str, names: Sequence[str], values: NDArray[Any]) -> None:
@@ -298,6 +307,7 @@ class Recording:
             add("joint_rates", dofs, self.velocity[:, 6:])
         if self.has("balance"):
             add("com", ("x", "y", "z"), self.com)
+            add("com_velocity", ("x", "y", "z"), self.com_velocity)
             add("zmp", ("x", "y", "z"), self.zmp)
             parts["margin_m", ""] = self.margin_m
         if self.has("contacts"):
@@ -345,7 +355,10 @@ class Recordings(Mapping[str, Recording]):
         self._recordings = dict(recordings)
 
     def __getitem__(self, name: str) -> Recording:
-        return self._recordings[name]
+        try:
+            return self._recordings[name]
+        except KeyError:
+            raise KeyError(f"no recording of {name!r}; {named(list(self._recordings))}") from None
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._recordings)
@@ -358,20 +371,20 @@ class Recordings(Mapping[str, Recording]):
 
     def plot_torques(self, dofs: Sequence[str] | None = None, *, title: str | None = None) -> Drawing:
         """As `Recording.plot_torques`: one column per figure, one row per degree of freedom."""
-        from sinew.plot import plot_torques
-
+        with needed("matplotlib", "plot", "plotting"):
+            from sinew.plot import plot_torques
         return plot_torques(self._recordings, dofs, title=title)
 
     def strip(self, count: int = 7, *, view: str = "three-quarter", title: str | None = None) -> Drawing:
         """As `Recording.strip`: one row per figure, at one scale."""
-        from sinew.strip import strip
-
+        with needed("matplotlib", "plot", "a strip"):
+            from sinew.strip import strip
         return strip(self._recordings, count, view=view, title=title)
 
     def to_pandas(self) -> pandas.DataFrame:
         """The tables of all figures side by side: columns (figure, quantity, part)."""
-        import pandas as pd
-
+        with needed("pandas", "pandas", "a table"):
+            import pandas as pd
         return pd.concat({name: r.to_pandas() for name, r in self.items()}, axis=1, names=["figure"])
 
 

@@ -2,39 +2,57 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Literal, TypeAlias, Union
 
-from sinew.v1 import body_pb2, figure_pb2, perturbation_pb2, types_pb2
+from sinew.v1 import body_pb2, figure_pb2, perturbation_pb2, types_pb2, world_pb2
 
 __all__ = [
+    "Box",
+    "Capsule",
     "Constraint",
     "Controller",
     "Disturbance",
     "Encoding",
     "Force",
     "Load",
+    "Mobility",
     "Paper",
+    "Plane",
     "Profile",
     "Push",
+    "Shape",
+    "Sphere",
     "Stepper",
     "Strength",
     "Vector",
 ]
 
 Vector: TypeAlias = Sequence[float]
-"""Three numbers x, y, z: forward, left, up."""
+"""Three numbers x, y, z: forward, left, up. In world axes unless it is said otherwise."""
 Controller: TypeAlias = Literal["modern", "paper", "motors"]
 """Who computes the torques."""
 Stepper: TypeAlias = Literal["torque", "kinematic"]
 """How a figure is moved: by its torques, or by its accelerations as they are demanded."""
 Encoding: TypeAlias = Literal["float", "double", "fixed16"]
-"""How numbers of frames travel."""
+"""How numbers of frames travel: 32 bits, 64 bits, or 16 bits with a scale per array."""
+Mobility: TypeAlias = Literal["fixed", "led", "free"]
+"""How an obstacle moves: not at all; with its velocity, whatever it meets; or as a rigid body under gravity."""
+
+
+def choice(keys: Iterable[str], prefix: str, name: str, what: str) -> str:
+    """The enum value `prefix` + `name`; `ValueError` with the names that there are."""
+    known = [k.removeprefix(prefix).lower() for k in keys if not k.endswith("UNSPECIFIED")]
+    if name not in known:
+        raise ValueError(f"{what} {name!r} is none of {', '.join(known)}")
+    return prefix + name.upper()
 
 
 def vector(v: Vector) -> types_pb2.Vector3:
     """Three numbers as a message."""
+    if len(v) != 3:
+        raise ValueError(f"a vector has 3 numbers x, y, z, got {len(v)}")
     x, y, z = (float(c) for c in v)
     return types_pb2.Vector3(x=x, y=y, z=z)
 
@@ -51,7 +69,9 @@ def last(name: str) -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class Profile:
-    """Who a body stands for. `height_m` and `mass_kg` 0: ordinary for sex and age (6 to 90 years)."""
+    """Who a body stands for: `age_years` 6 to 90, stature `height_m` (m) and body mass `mass_kg` (kg); 0: ordinary for
+    sex and age.
+    """
 
     sex: Literal["male", "female"]
     age_years: float = 30.0
@@ -60,13 +80,18 @@ class Profile:
 
     def message(self) -> body_pb2.BodyProfile:
         """As it is sent."""
-        sex = body_pb2.SEX_MALE if self.sex == "male" else body_pb2.SEX_FEMALE
+        sex = body_pb2.Sex.Value(choice(body_pb2.Sex.keys(), "SEX_", self.sex, "sex"))
         return body_pb2.BodyProfile(sex=sex, age_years=self.age_years, height_m=self.height_m, mass_kg=self.mass_kg)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Strength:
-    """Scale of measured human strength: a factor on all, factors by DOF name, percentile of people, willing share."""
+    """Scale of measured human strength.
+
+    `all`: factor on every torque limit, 0.01 to 100. `dofs`: further factors by DOF name (`Body.dofs`). `percentile`:
+    how strong among people of that sex, age and size, 5 to 95; 50 is the average. `effort`: share of the strength that
+    is used, 0 to 1.
+    """
 
     all: float = 1.0
     dofs: Mapping[str, float] = field(default_factory=dict)
@@ -83,10 +108,10 @@ class Strength:
 class Constraint:
     """Where a part of a figure is wanted while the rest of the body follows its motion.
 
-    `segment` `None`: the centre of mass. `position` (m, world); `axes`: how much each of its axes counts, 0 to 1. `rotation`: quaternion
-    x, y, z, w of the segment in the world, not for the centre of mass. At least one of the two. `point` in the segment's frame (m); `None`:
-    the middle of a hand, else the segment's centre of mass. `weight` 0 to 1. `ease_s`: time to come into force and to fade.
-    `duration_s` 0: until it is taken off.
+    `segment` `None`: the centre of mass. `position` (m, world); `axes`: how much each of its axes counts, 0 to 1.
+    `rotation`: quaternion x, y, z, w of the segment in the world, not for the centre of mass. At least one of the two.
+    `point` in the segment's frame (m); `None`: the middle of a hand, else the segment's centre of mass. `weight` 0 to
+    1. `ease_s`: time to come into force and to fade, s. `duration_s`: how long it holds, s; 0: until it is taken off.
     """
 
     segment: str | None = None
@@ -120,11 +145,12 @@ class Constraint:
 class Paper:
     """Choices of the paper's controller, `controller="paper"`; what is `None` is as the preset has it.
 
-    `alpha`: blend of position and velocity demand in equation (4) per 1/30 s, where `horizon_s` is 0. `horizon_s`: time constant
-    of the demand, s; 0: met within one step. `metric`: norm of equation (10). `priority`: how equation (12) orders centre of mass
-    and hands. `share`: how supports share the ground reaction. `to_limit`: joints that equation (16) saturates go to their
-    limit. `tilt`: torques of a tipping figure know that its support turns. `zmp_feasible`: the demand for the centre of mass stays
-    within what the feet can give. `hand_over`: with the kinematic stepper, torques take over where accelerations cannot go on.
+    `alpha`: blend (0 to 1) of position and velocity demand in equation (4) per 1/30 s, where `horizon_s` is 0.
+    `horizon_s`: time constant of the demand, s; 0: met within one step. `metric`: norm of equation (10). `priority`:
+    how equation (12) orders centre of mass and hands. `share`: how supports share the ground reaction. `to_limit`:
+    joints that equation (16) saturates go to their limit. `tilt`: torques of a tipping figure know that its support
+    turns. `zmp_feasible`: the demand for the centre of mass stays within what the feet can give. `hand_over`: with the
+    kinematic stepper, torques take over where accelerations cannot go on.
     """
 
     preset: Literal["safeguarded", "2000"] = "safeguarded"
@@ -143,7 +169,9 @@ class Paper:
     def message(self) -> figure_pb2.PaperOptions:
         """As it is sent."""
         out = figure_pb2.PaperOptions(
-            preset=figure_pb2.PaperPreset.Value(f"PAPER_PRESET_{self.preset.upper()}"),
+            preset=figure_pb2.PaperPreset.Value(
+                choice(figure_pb2.PaperPreset.keys(), "PAPER_PRESET_", self.preset, "preset")
+            ),
             alpha=self.alpha,
             horizon_s=self.horizon_s,
             to_limit=self.to_limit,
@@ -154,20 +182,25 @@ class Paper:
             hand_over=self.hand_over,
         )
         if self.metric is not None:
-            out.metric = figure_pb2.PaperMetric.Value(f"PAPER_METRIC_{self.metric.upper()}")
+            known = figure_pb2.PaperMetric.keys()
+            out.metric = figure_pb2.PaperMetric.Value(choice(known, "PAPER_METRIC_", self.metric, "metric"))
         if self.priority is not None:
-            out.priority = figure_pb2.PaperPriority.Value(f"PAPER_PRIORITY_{self.priority.upper()}")
+            known = figure_pb2.PaperPriority.keys()
+            out.priority = figure_pb2.PaperPriority.Value(choice(known, "PAPER_PRIORITY_", self.priority, "priority"))
         if self.share is not None:
-            out.share = figure_pb2.PaperShare.Value(f"PAPER_SHARE_{self.share.upper()}")
+            known = figure_pb2.PaperShare.keys()
+            out.share = figure_pb2.PaperShare.Value(choice(known, "PAPER_SHARE_", self.share, "share"))
         return out
 
 
 @dataclass(frozen=True, kw_only=True)
 class Load:
-    """A mass that a hand (or any segment) carries from `start_s` on; `duration_s` 0: until it is cleared.
+    """A mass (`mass_kg`, kg) that a hand (or any segment) carries from `start_s` (s) on; `duration_s` (s) 0: until it
+    is cleared.
 
-    With `second_segment` two hands share it. Taking it is perfectly inelastic: a load that moves (`velocity_mps`, world axes)
-    jerks. Beyond `grip_n` newtons at one hand it slips; 0: never.
+    `point_m`: where, in the segment's frame (m); `None`: the middle of the palm of a hand, else the segment's centre of
+    mass. With `second_segment` two hands share it, half each. Taking it is perfectly inelastic: a load that moves
+    (`velocity_mps`, world axes, m/s) jerks. Beyond `grip_n` newtons at one hand it slips; 0: never.
     """
 
     mass_kg: float
@@ -197,7 +230,11 @@ class Load:
 
 @dataclass(frozen=True, kw_only=True)
 class Push:
-    """An impulse (N·s, world axes) on a segment, given as a constant force over `duration_s`, from `start_s` on."""
+    """An impulse (N·s, world axes) on a segment, given as a constant force over `duration_s` (s), from `start_s` (s)
+    on.
+
+    `point_m`: where, in the segment's frame (m); `None`: its centre of mass.
+    """
 
     impulse_ns: Vector
     segment: str = "chest"
@@ -218,7 +255,10 @@ class Push:
 
 @dataclass(frozen=True, kw_only=True)
 class Force:
-    """A constant force (N, world axes) on a segment from `start_s` on; `duration_s` 0: until it is cleared."""
+    """A constant force (N, world axes) on a segment from `start_s` (s) on; `duration_s` (s) 0: until it is cleared.
+
+    `point_m`: where, in the segment's frame (m); `None`: its centre of mass.
+    """
 
     force_n: Vector
     segment: str = "pelvis"
@@ -239,3 +279,68 @@ class Force:
 
 Disturbance: TypeAlias = Union[Load, Push, Force]
 """What may disturb a figure."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sphere:
+    """A ball around the obstacle's origin: `radius_m` 0.005 to 100 m."""
+
+    radius_m: float
+
+    def put(self, into: world_pb2.Obstacle) -> None:
+        """Into a message."""
+        into.sphere.CopyFrom(world_pb2.SphereShape(radius_m=self.radius_m))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Capsule:
+    """A cylinder with round ends along z of the obstacle's frame, around its origin.
+
+    `radius_m` 0.005 to 100 m; `half_length_m`: half the length of the cylinder without its ends, 0 to 100 m.
+    """
+
+    radius_m: float
+    half_length_m: float
+
+    def put(self, into: world_pb2.Obstacle) -> None:
+        """Into a message."""
+        into.capsule.CopyFrom(world_pb2.CapsuleShape(radius_m=self.radius_m, half_length_m=self.half_length_m))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Box:
+    """A box around the obstacle's origin: `half_m` is half of its edges along x, y, z of the obstacle's frame, each
+    0.005 to 1000 m.
+    """
+
+    half_m: Vector
+
+    def put(self, into: world_pb2.Obstacle) -> None:
+        """Into a message."""
+        into.box.CopyFrom(world_pb2.BoxShape(half_m=vector(self.half_m)))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plane:
+    """Everything below z = 0 of the obstacle's frame: a slope or a wall without end. It cannot move freely."""
+
+    def put(self, into: world_pb2.Obstacle) -> None:
+        """Into a message."""
+        into.plane.CopyFrom(world_pb2.PlaneShape())
+
+
+Shape: TypeAlias = Union[Sphere, Capsule, Box, Plane]
+"""What an obstacle looks like; lengths in m, in the obstacle's own frame."""
+
+
+def shape_of(message: world_pb2.Obstacle) -> Shape:
+    """The shape in a message."""
+    kind = message.WhichOneof("shape")
+    if kind == "sphere":
+        return Sphere(radius_m=message.sphere.radius_m)
+    if kind == "capsule":
+        return Capsule(radius_m=message.capsule.radius_m, half_length_m=message.capsule.half_length_m)
+    if kind == "box":
+        h = message.box.half_m
+        return Box(half_m=(h.x, h.y, h.z))
+    return Plane()
