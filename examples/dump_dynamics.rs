@@ -56,7 +56,8 @@ fn positions(state: &State) -> Vec<f64> {
     out
 }
 
-/// Largest isometric torque over the range of angles of each DOF, its negative and its positive direction, N·m: a fine scan of the muscles.
+/// Largest isometric torque over the range of angles of each DOF, its negative and its positive direction, N·m: a fine
+/// scan of the muscles.
 fn strongest(body: &Body) -> Vec<[f64; 2]> {
     const STEPS: u32 = 20_000;
     let strength = Strength::for_body(body);

@@ -1,5 +1,6 @@
-//! Goal: what a tick reports of the centre of mass is of the state at its end, and loads in hands are where their pictures are.
-//! Method: masses and poses of the segments; the velocity by moving the posture a little along it and back.
+//! Goal: what a tick reports of the centre of mass is of the state at its end, and loads in hands are where their
+//! pictures are. Method: masses and poses of the segments; the velocity by moving the posture a little along it and
+//! back.
 
 use crate::common::{Scene, figure, man, still};
 use crate::vec3;

@@ -1,7 +1,9 @@
-"""The exported models as a user loads them: masses, joints, ranges, actuators, visuals, and the torques that the actuators give.
+"""The exported models as a user loads them: masses, joints, ranges, actuators, visuals, and the torques that the
+actuators give.
 
-MJCF and URDF of every body of `dump_dynamics` and of every named body of a server, in MuJoCo and Pinocchio. What the actuators may give is
-compared with a scan of the muscles over the range of angles, and with the peaks that the server gives the sources of.
+MJCF and URDF of every body of `dump_dynamics` and of every named body of a server, in MuJoCo and Pinocchio. What the
+actuators may give is compared with a scan of the muscles over the range of angles, and with the peaks that the server
+gives the sources of.
 """
 
 from __future__ import annotations
@@ -13,7 +15,21 @@ import numpy as np
 import pinocchio as pin
 import pytest
 from conftest import build, target
-from engines import DOF_NAMES, DOFS, JOINTS, NV, SLOTS, Mujoco, Posture, axes, hinge_angles, hinge_map, is_ball, relative, rotation
+from engines import (
+    DOF_NAMES,
+    DOFS,
+    JOINTS,
+    NV,
+    SLOTS,
+    Mujoco,
+    Posture,
+    axes,
+    hinge_angles,
+    hinge_map,
+    is_ball,
+    relative,
+    rotation,
+)
 from test_dynamics import HINGES, ROUNDING, SOLVED, Worst, clear
 
 import sinew
@@ -177,7 +193,8 @@ def test_mujoco_loads_the_urdf(dump):
             assert m.jnt_actfrclimited[joint.id] == 1
             assert np.abs(m.jnt_actfrcrange[joint.id] / (np.array([-1, 1]) * want[k]) - 1).max() < SCAN, (name, dof)
         shown = 0 if name.startswith("random") else 4 * 18
-        assert m.ngeom == shown and not m.geom_contype.any() and not m.geom_conaffinity.any(), "visuals, which touch nothing"
+        assert m.ngeom == shown
+        assert not m.geom_contype.any() and not m.geom_conaffinity.any(), "visuals, which touch nothing"
         assert (m.geom_size[:, :2] > 1e-3).all() and (m.geom_size < 0.5).all()
 
 
@@ -230,7 +247,8 @@ def test_every_named_body_loads_from_the_server(server, body, tmp_path):
     assert all(relative([mass], [m.body_mass.sum()]) < ROUNDING for m in models.values())
     assert pin.buildModelFromMJCF(str(paths["mjcf"])).nv == NV
     assert pin.buildModelFromUrdf(str(paths["urdf"]), pin.JointModelFreeFlyer()).nv == NV
-    # Peaks as their sources are given: positive direction first. Where the best angle is within the range, they are the bounds.
+    # Peaks as their sources are given, positive direction first. Where the best angle is within the range, they are
+    # the bounds.
     reached = 0
     for dof in described.dofs:
         own = [p for p in described.provenance if p.part == dof.name]

@@ -1,6 +1,7 @@
 """What a frame says of the centre of mass is of the state that the frame shows.
 
-Method: masses and poses of the segments, and their velocities from the 45 numbers of `velocity` by rigid-body kinematics written here.
+Method: masses and poses of the segments, and their velocities from the 45 numbers of `velocity` by rigid-body
+kinematics written here.
 """
 
 from __future__ import annotations
@@ -32,7 +33,8 @@ def segment_twists(body: sinew.Body, poses: Floats, velocity: Floats) -> tuple[F
         own = [k for k, d in enumerate(dofs) if d.joint == i]
         spin[i] = spin[parent]
         for place, k in enumerate(own):
-            # Ball joints turn about child axes. The first of two hinges turns about an axis of the parent, the last about one of the child.
+            # Ball joints turn about child axes. The first of two hinges turns about an axis of the parent, the
+            # last about one of the child.
             ball = body.message.joints[i].type == body_pb2.JOINT_TYPE_BALL
             frame = parent if not ball and place == 0 else i
             spin[i] = spin[i] + velocity[6 + k] * rotate(poses[frame, 3:], triple(dofs[k].axis))
@@ -41,7 +43,9 @@ def segment_twists(body: sinew.Body, poses: Floats, velocity: Floats) -> tuple[F
 
 
 def centre_of_mass(r: sinew.Recording, row: int) -> tuple[Floats, Floats]:
-    """Position and velocity of the centre of mass of a row, loads included: the sum over segments of mass times velocity, over the mass."""
+    """Position and velocity of the centre of mass of a row, loads included: the sum over segments of mass times
+    velocity, over the mass.
+    """
     poses = r.segment_transforms[row]
     spin, speed = segment_twists(r.body, poses, r.velocity[row])
     points = [(i, triple(s.com_m), s.mass_kg) for i, s in enumerate(r.body.message.segments)] + r.loads(row)
@@ -77,7 +81,7 @@ def test_the_centre_of_mass_is_that_of_the_state_of_the_frame(server: sinew.Clie
 
 def test_the_velocity_of_the_centre_of_mass_is_its_change(server: sinew.Client) -> None:
     r = moved(server, 0.0, rate_hz=240.0, substeps=1)
-    # A step moves the posture with the velocity that it ends with. Half a step of the bias acceleration is what differs.
+    # A step moves the posture with the velocity that it ends with; half a step of the bias acceleration is the rest.
     com = np.array([centre_of_mass(r, row)[0] for row in range(len(r))])
     change = np.diff(com, axis=0) * r.rate_hz
     off = np.abs(change - r.com_velocity[1:]).max()

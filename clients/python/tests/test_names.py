@@ -51,9 +51,18 @@ FIELDS: dict[str, tuple[Callable[[sinew.World], Any], tuple[str, ...]]] = {
     "segment of a load": (lambda w: w.figure("anna").carry(1.0, "right_hand"), SEGMENTS),
     "second hand": (lambda w: w.figure("anna").carry(1.0, "r_hand", "left"), SEGMENTS),
     "segment of a push": (lambda w: w.figure("anna").push((1, 0, 0), "belly"), SEGMENTS),
-    "segment of a constraint": (lambda w: w.figure("anna").constrain(sinew.Constraint(segment="tail", position=(0, 0, 1))), SEGMENTS),
-    "DOF of a strength": (lambda w: w.add_figure(strength=sinew.Strength(dofs={"knee": 0.5})), ("l_knee_flexion", "neck_rotation")),
-    "bone of a pose": (lambda w: w.figure("anna").ask(sinew.Pose(rotations={"paw": (0, 0, 0, 1)})), ("rightHand", "hips")),
+    "segment of a constraint": (
+        lambda w: w.figure("anna").constrain(sinew.Constraint(segment="tail", position=(0, 0, 1))),
+        SEGMENTS,
+    ),
+    "DOF of a strength": (
+        lambda w: w.add_figure(strength=sinew.Strength(dofs={"knee": 0.5})),
+        ("l_knee_flexion", "neck_rotation"),
+    ),
+    "bone of a pose": (
+        lambda w: w.figure("anna").ask(sinew.Pose(rotations={"paw": (0, 0, 0, 1)})),
+        ("rightHand", "hips"),
+    ),
 }
 
 
@@ -67,17 +76,17 @@ def test_names_within_requests(world: sinew.World, what: str) -> None:
 
 
 CHOICES: dict[str, tuple[Callable[[sinew.World], Any], tuple[str, ...]]] = {
-    "controller": (lambda w: w.add_figure(controller="best"), ("modern", "paper", "motors")),  # type: ignore[arg-type]
-    "stepper": (lambda w: w.add_figure(stepper="fast"), ("torque", "kinematic")),  # type: ignore[arg-type]
-    "sex": (lambda w: w.add_figure(body=sinew.Profile(sex="man")), ("male", "female")),  # type: ignore[arg-type]
-    "preset": (lambda w: w.add_figure(paper=sinew.Paper(preset="1999")), ("safeguarded", "2000")),  # type: ignore[arg-type]
-    "metric": (lambda w: w.add_figure(paper=sinew.Paper(metric="mass")), ("identity", "inertia", "torque")),  # type: ignore[arg-type]
-    "priority": (lambda w: w.add_figure(paper=sinew.Paper(priority="hand")), ("printed", "nested")),  # type: ignore[arg-type]
-    "share": (lambda w: w.add_figure(paper=sinew.Paper(share="half")), ("ratio", "balanced")),  # type: ignore[arg-type]
+    "controller": (lambda w: w.add_figure(controller="best"), ("modern", "paper", "motors")),
+    "stepper": (lambda w: w.add_figure(stepper="fast"), ("torque", "kinematic")),
+    "sex": (lambda w: w.add_figure(body=sinew.Profile(sex="man")), ("male", "female")),
+    "preset": (lambda w: w.add_figure(paper=sinew.Paper(preset="1999")), ("safeguarded", "2000")),
+    "metric": (lambda w: w.add_figure(paper=sinew.Paper(metric="mass")), ("identity", "inertia", "torque")),
+    "priority": (lambda w: w.add_figure(paper=sinew.Paper(priority="hand")), ("printed", "nested")),
+    "share": (lambda w: w.add_figure(paper=sinew.Paper(share="half")), ("ratio", "balanced")),
     "frame field": (lambda w: w.frame(fields=["angles"]), ("joint_angles", "root_pose", "contacts")),
     "frame field of a watch": (lambda w: w.frames(fields=["angles"]), ("joint_angles", "touches")),
     "frame field of a recording": (lambda w: w.record(0.1, fields=["angles"]), ("joint_angles", "balance")),
-    "encoding": (lambda w: w.frame(encoding="half"), ("float", "double", "fixed16")),  # type: ignore[arg-type]
+    "encoding": (lambda w: w.frame(encoding="half"), ("float", "double", "fixed16")),
     "event type": (lambda w: w.events(types=["tripped"]), ("fell", "load_taken")),
     "overrun": (lambda w: w.client.create_world(overrun="wait"), ("skip", "catch_up", "dilate")),
     "form of an export": (lambda w: w.client.export_body("child", "sdf"), ("mjcf", "urdf")),

@@ -36,9 +36,15 @@ def test_obstacles_come_back_as_they_were_added(server: sinew.Client, shape: sin
 
 def test_a_free_ball_falls_and_a_led_box_goes_its_way(server: sinew.Client) -> None:
     with server.create_world() as world:
-        ball = world.add_obstacle(sinew.Sphere(radius_m=0.1), "ball", position=(0, 0, 3.0), mobility="free", mass_kg=2.0)
+        small = sinew.Sphere(radius_m=0.1)
+        ball = world.add_obstacle(small, "ball", position=(0, 0, 3.0), mobility="free", mass_kg=2.0)
         box = world.add_obstacle(
-            sinew.Box(half_m=(0.1, 0.1, 0.1)), "box", position=(4, 0, 1.0), mobility="led", velocity=(0.6, 0, 0), angular_velocity=(0, 0, 0.5)
+            sinew.Box(half_m=(0.1, 0.1, 0.1)),
+            "box",
+            position=(4, 0, 1.0),
+            mobility="led",
+            velocity=(0.6, 0, 0),
+            angular_velocity=(0, 0, 0.5),
         )
         world.step(30)
         frame = world.frame()
@@ -69,7 +75,8 @@ def test_a_figure_is_pushed_by_what_is_led_into_it(server: sinew.Client) -> None
         for _ in range(12):
             world.step(5)
             touched += figure.state(fields=["touches"]).touches
-        assert {t.other for t in touched} == {"obstacles/wall"} and all(t.segment in figure.body().segments for t in touched)
+        assert {t.other for t in touched} == {"obstacles/wall"}
+        assert all(t.segment in figure.body().segments for t in touched)
         assert max(t.force[0] for t in touched) > 10.0
         assert figure.state().root_pose[0] > before + 0.05
 
@@ -109,7 +116,8 @@ def test_what_is_wrong_is_named(server: sinew.Client) -> None:
 def test_asyncio_has_obstacles(server: sinew.Client) -> None:
     async def everything() -> None:
         async with sinew.aio.Client(server.address) as client, await client.create_world() as world:
-            ball = await world.add_obstacle(sinew.Sphere(radius_m=0.2), "ball", position=(1, 0, 2), mobility="free", mass_kg=1.0)
+            shape = sinew.Sphere(radius_m=0.2)
+            ball = await world.add_obstacle(shape, "ball", position=(1, 0, 2), mobility="free", mass_kg=1.0)
             await world.step(6)
             assert (await ball.get()).position[2] < 2.0
             await ball.update(position=(1, 0, 5), velocity=(0, 0, 0))

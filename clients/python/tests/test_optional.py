@@ -49,9 +49,8 @@ CASES = [
 
 @pytest.mark.parametrize(("package", "extra", "call"), CASES)
 def test_the_error_names_package_and_extra(package: str, extra: str, call: str) -> None:
-    done = subprocess.run(
-        [sys.executable, "-c", CODE.format(package=package, call=call)], capture_output=True, text=True, check=False, timeout=120
-    )
+    code = CODE.format(package=package, call=call)
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, timeout=120)
     assert done.returncode == 0, done.stderr
     assert f"needs the package {package}" in done.stdout and f"sinew[{extra}]" in done.stdout, done.stdout
     # The extra is there and brings it.

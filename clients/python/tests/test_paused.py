@@ -21,7 +21,8 @@ def test_frames_of_a_paused_world_end_with_an_error_that_says_what_to_do(server:
         with world.frames() as frames:
             first = next(frames)
             assert first.tick == 0 and "anna" in first
-            with pytest.raises(sinew.WorldPausedError, match=r"'still' is paused at tick 0.*resume\(\).*step\(\).*wait=True") as paused:
+            says = r"'still' is paused at tick 0.*resume\(\).*step\(\).*wait=True"
+            with pytest.raises(sinew.WorldPausedError, match=says) as paused:
                 next(frames)
         assert time.monotonic() - began < PATIENCE_S
         assert (paused.value.world, paused.value.tick, paused.value.reason) == ("still", 0, "WORLD_PAUSED")
@@ -40,7 +41,9 @@ def test_the_iteration_goes_on_when_the_world_does(server: sinew.Client) -> None
             with pytest.raises(sinew.WorldPausedError):
                 next(frames)
             world.step(3)
-            assert next(frames).tick == 8
+            # Some or all of the three; a slow reader gets the latest.
+            while (tick := next(frames).tick) < 8:
+                assert tick > 5
             world.resume()
             assert next(frames).tick > 8
 

@@ -1,10 +1,11 @@
 //! A body as a model file that other physics engines load: MJCF (MuJoCo; also read by Pinocchio) and URDF.
 //!
-//! The MJCF is exact: the same tree, ball joints, hinges in series, inertias, armature and gravity, so that another engine gives the
-//! same inertia matrix and the same torques to rounding. URDF has no ball joint; there each one becomes three hinges in the order of
-//! its DOFs, which moves the same way but has other coordinates and is singular where the middle angle is ±90°.
-//! Both carry the strength of the muscles as constant torque bounds ([`Actuation`]): actuators in MJCF, effort and velocity in URDF.
-//! Every number is printed with as many digits (up to 17) as it takes to read back the same bits.
+//! The MJCF is exact: the same tree, ball joints, hinges in series, inertias, armature and gravity, so that another
+//! engine gives the same inertia matrix and the same torques to rounding. URDF has no ball joint; there each one
+//! becomes three hinges in the order of its DOFs, which moves the same way but has other coordinates and is singular
+//! where the middle angle is ±90°. Both carry the strength of the muscles as constant torque bounds ([`Actuation`]):
+//! actuators in MJCF, effort and velocity in URDF. Every number is printed with as many digits (up to 17) as it takes
+//! to read back the same bits.
 
 use super::links::Links;
 use super::model::Body;
@@ -31,7 +32,8 @@ pub struct Actuation {
     pub speed: [f64; DOF_COUNT],
 }
 
-/// Least mass (kg) and inertia (kg·m²) that MuJoCo gives the massless links of a URDF, which it does not accept otherwise.
+/// Least mass (kg) and inertia (kg·m²) that MuJoCo gives the massless links of a URDF, which it does not accept
+/// otherwise.
 const URDF_LEAST_MASS: f64 = 1e-12;
 
 /// Mass properties of one segment as files want them: about the centre of mass, in segment axes.
@@ -97,10 +99,11 @@ pub fn mjcf(body: &Body, actuation: &Actuation) -> String {
 /// * Full inertia of each segment about its centre of mass; armature per joint. MuJoCo gives a ball joint one armature for its three
 ///   axes: the first DOF's is written, so the model is exact when the three are equal, as they are in every body Sinew builds.
 /// * Segment shapes are visual meshes, contact points are sites: nothing collides.
-/// * One motor per DOF, named after it: control in N·m along the DOF's signed axis, bounds of control and force from `actuation`.
-///   There is no damping: passive tissue and ligaments are not part of the file.
-/// * Hinges have their range, which acts when the model's flag `limit` is enabled; it is disabled, so that the dynamics are the
-///   unconstrained ones. MuJoCo knows no range for the anatomical angles of a ball joint: those are custom numbers `<DOF>_range`.
+/// * One motor per DOF, named after it: control in N·m along the DOF's signed axis, bounds of control and force from
+///   `actuation`. There is no damping: passive tissue and ligaments are not part of the file.
+/// * Hinges have their range, which acts when the model's flag `limit` is enabled; it is disabled, so that the dynamics
+///   are the unconstrained ones. MuJoCo knows no range for the anatomical angles of a ball joint: those are custom
+///   numbers `<DOF>_range`.
 /// * A key frame `stand` holds the zero pose with the soles on z = 0.
 pub fn mjcf_with(body: &Body, links: &Links, gravity: f64, actuation: &Actuation) -> String {
     let plain = Links::new(body);
@@ -222,7 +225,8 @@ fn mjcf_segment(o: &mut String, body: &Body, plain: &Links, links: &Links, i: us
             for k in d..d + DOF_LEN[i] {
                 let _ = writeln!(
                     o,
-                    "{pad}  <joint name=\"{}\" type=\"hinge\" axis=\"{}\" armature=\"{}\" limited=\"true\" range=\"{}\"/>",
+                    "{pad}  <joint name=\"{}\" type=\"hinge\" axis=\"{}\" armature=\"{}\" \
+                     limited=\"true\" range=\"{}\"/>",
                     DOF_NAMES[k],
                     list(&DOF_AXIS[k].vector()),
                     list(&[links.armature[k]]),
@@ -267,14 +271,16 @@ pub fn urdf(body: &Body, actuation: &Actuation) -> String {
 
 /// `body` with the mass properties of `links` (loads welded on) as URDF.
 ///
-/// The pelvis is the root link, to be given a floating base by the loader. Each joint with k DOFs is k `revolute` joints named after
-/// the DOFs, in their order, about their signed axes, with massless links (named `<DOF>_link`) between; the last carries the segment.
-/// A ball joint's three hinge angles turn the child by `R = exp(a₁θ₁) exp(a₂θ₂) exp(a₃θ₃)`. Limits are the anatomical ones: for hinge chains they bound
-/// slightly other angles. `effort` is the larger bound of `actuation` of the two directions, for the format has one for both, and `velocity` its
-/// speed. Armature and gravity have no place in the format.
+/// The pelvis is the root link, to be given a floating base by the loader. Each joint with k DOFs is k `revolute`
+/// joints named after the DOFs, in their order, about their signed axes, with massless links (named `<DOF>_link`)
+/// between; the last carries the segment. A ball joint's three hinge angles turn the child by `R = exp(a₁θ₁) exp(a₂θ₂)
+/// exp(a₃θ₃)`. Limits are the anatomical ones: for hinge chains they bound slightly other angles. `effort` is the
+/// larger bound of `actuation` of the two directions, for the format has one for both, and `velocity` its speed.
+/// Armature and gravity have no place in the format.
 ///
-/// Visuals are boxes and cylinders, for meshes would be files of their own: four slices per segment, together of the volume of its surface.
-/// An element `mujoco`, which other loaders skip, tells MuJoCo to keep visuals and the pelvis as a body, and to accept massless links.
+/// Visuals are boxes and cylinders, for meshes would be files of their own: four slices per segment, together of the
+/// volume of its surface. An element `mujoco`, which other loaders skip, tells MuJoCo to keep visuals and the pelvis as
+/// a body, and to accept massless links.
 pub fn urdf_with(body: &Body, links: &Links, actuation: &Actuation) -> String {
     let plain = Links::new(body);
     let mut o = String::with_capacity(1 << 15);
@@ -282,8 +288,8 @@ pub fn urdf_with(body: &Body, links: &Links, actuation: &Actuation) -> String {
     let least = list(&[URDF_LEAST_MASS]);
     let _ = writeln!(
         o,
-        "  <mujoco>\n    <compiler fusestatic=\"false\" discardvisual=\"false\" inertiafromgeom=\"false\" boundmass=\"{least}\" \
-         boundinertia=\"{least}\"/>\n  </mujoco>"
+        "  <mujoco>\n    <compiler fusestatic=\"false\" discardvisual=\"false\" inertiafromgeom=\"false\" \
+         boundmass=\"{least}\" boundinertia=\"{least}\"/>\n  </mujoco>"
     );
     for i in 0..SEGMENT_COUNT {
         let p = inertial(body, &plain, links, i);

@@ -6,8 +6,8 @@ use crate::sim::math::Vec3;
 
 /// Point (segment frame, m) at which a segment carries a load that names no point of its own.
 ///
-/// * Hands: the middle of the palm. It lies on the palmar surface (left hand: facing −y, right hand: facing +y), at the level of the
-///   hand's centre of mass, which is between the wrist and the base of the fingers.
+/// * Hands: the middle of the palm. It lies on the palmar surface (left hand: facing −y, right hand: facing +y), at the
+///   level of the hand's centre of mass, which is between the wrist and the base of the fingers.
 /// * Other segments, and hands without a surface there: the centre of mass.
 ///
 /// Allocates nothing. For use when a load is given, not in every tick.
@@ -21,7 +21,8 @@ pub fn load_point(body: &Body, segment: SegmentId) -> Vec3 {
     outermost(&s.mesh, s.com, side).map_or(s.com, |y| Vec3 { y, ..s.com })
 }
 
-/// The y of the surface farthest out in direction `side` (±1) on the line through `at` along y; `None` if the line misses it.
+/// The y of the surface farthest out in direction `side` (±1) on the line through `at` along y; `None` if the line
+/// misses it.
 fn outermost(mesh: &Mesh, at: Vec3, side: f64) -> Option<f64> {
     let hit = |t: &[u32; 3]| {
         let [a, b, c] = t.map(|i| mesh.vertices[i as usize] - at);
@@ -42,7 +43,8 @@ mod tests {
     use crate::sim::body::topology::{CHEST, L_FOOT};
     use crate::sim::body::{Profile, Sex};
 
-    /// From the wrist to the knuckle of the middle finger over wrist to finger tip: 86.2 / 187.9 mm (de Leva 1996, men).
+    /// From the wrist to the knuckle of the middle finger over wrist to finger tip: 86.2 / 187.9 mm (de Leva 1996,
+    /// men).
     const KNUCKLES: f64 = 0.459;
 
     fn bodies() -> Vec<Body> {

@@ -57,7 +57,8 @@ impl AngleFactor {
         f.max(ANGLE_FLOOR)
     }
 
-    /// Largest factor between two angles (rad, `lower` ≤ `upper`), [`ANGLE_FLOOR`]…1: both shapes fall on either side of their peak.
+    /// Largest factor between two angles (rad, `lower` ≤ `upper`), [`ANGLE_FLOOR`]…1: both shapes fall on either side
+    /// of their peak.
     pub fn largest(&self, lower: f64, upper: f64) -> f64 {
         let (Self::Cosine { peak, .. } | Self::Bell { peak, .. }) = *self;
         self.at(peak.max(lower).min(upper))

@@ -316,10 +316,12 @@ impl Strength {
         &self.provenance[dof]
     }
 
-    /// What the muscles amount to as plain actuators with constant bounds, for formats that know no other: per DOF the largest isometric
-    /// torque over its range of angles in both directions, and the faster direction's speed at which [`curve::VELOCITY_FLOOR`] of it is left.
+    /// What the muscles amount to as plain actuators with constant bounds, for formats that know no other: per DOF the
+    /// largest isometric torque over its range of angles in both directions, and the faster direction's speed at which
+    /// [`curve::VELOCITY_FLOOR`] of it is left.
     ///
-    /// Lengthening muscles give up to [`curve::ECCENTRIC_MOST`] times as much, shortening ones less; ligaments are not included.
+    /// Lengthening muscles give up to [`curve::ECCENTRIC_MOST`] times as much, shortening ones less; ligaments are not
+    /// included.
     pub fn actuation(&self) -> Actuation {
         let side = |d: usize, k: usize| self.muscle[d][k].strongest(self.lower[d], self.upper[d]);
         let fastest = |d: usize, k: usize| self.muscle[d][k].velocity.fastest();

@@ -3831,7 +3831,7 @@ pub struct Load {
     /// Segment name, for example `r_hand`. Required.
     #[prost(string, tag = "1")]
     pub segment: ::prost::alloc::string::String,
-    /// Where, segment frame, m, each component within ±2. Absent: the middle of the palm for hands, else the segment's centre of mass.
+    /// Where, segment frame, m, each component within ±2. Absent: the palm of a hand, else the segment's centre of mass.
     #[prost(message, optional, tag = "2")]
     pub point_m: ::core::option::Option<Vector3>,
     /// Mass, kg, 0…500.

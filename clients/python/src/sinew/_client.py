@@ -141,7 +141,9 @@ class Client:
             limits={x.name: x.value for x in r.limits},
         )
 
-    def _ask(self, method: Method[Request, Response], request: Request, timeout_s: float | None = None) -> Response:
+    def _ask(
+        self, method: Method[Request, Response], request: Request, timeout_s: float | None = None
+    ) -> Response:
         """One call. The error of a name that is not there lists those that are."""
         try:
             return call(method, request, self.timeout_s if timeout_s is None else timeout_s)
@@ -196,10 +198,11 @@ class Client:
         return self._bodies[full]
 
     def export_body(self, name: str, form: str = "mjcf") -> str:
-        """One body as text for another simulator, in SI units, z up: `mjcf` (exact) or `urdf` (ball joints as three hinges).
+        """One body as text for another simulator, in SI units, z up: `mjcf` (exact) or `urdf` (ball joints as three
+        hinges).
 
-        Torque bounds (N·m) are the largest isometric torques of the average person over the range of each joint: MJCF has a motor for each
-        degree of freedom, named after it, URDF `effort` and `velocity` (rad/s).
+        Torque bounds (N·m) are the largest isometric torques of the average person over the range of each joint: MJCF
+        has a motor for each degree of freedom, named after it, URDF `effort` and `velocity` (rad/s).
         """
         chosen = {"mjcf": body_pb2.EXPORT_FORMAT_MJCF, "urdf": body_pb2.EXPORT_FORMAT_URDF}
         if form not in chosen:
@@ -242,9 +245,10 @@ class Client:
     ) -> Clip:
         """Stores a BVH file (path or bytes) as a clip; `Clip.report` says how it was understood.
 
-        Unit (`unit_m`: metres per unit of the file) and up axis (`x`, `y` or `z`) are guessed unless given; `rate_hz` replaces the file's
-        frame time. `fit_floor` puts the lowest sole on z = 0, `lock_feet` holds standing feet, `cutoff_hz` is that of the smoothing filter, Hz.
-        Runs are slowed down to walks, which a body of measured strength can follow; `walk_runs=False` keeps them.
+        Unit (`unit_m`: metres per unit of the file) and up axis (`x`, `y` or `z`) are guessed unless given; `rate_hz`
+        replaces the file's frame time. `fit_floor` puts the lowest sole on z = 0, `lock_feet` holds standing feet,
+        `cutoff_hz` is that of the smoothing filter, Hz. Runs are slowed down to walks, which a body of measured
+        strength can follow; `walk_runs=False` keeps them.
         """
         bvh = bvh_source(
             source,
@@ -288,12 +292,13 @@ class Client:
         display_name: str = "",
         replace: bool = False,
     ) -> World:
-        """Creates a world. Here it is paused unless told otherwise: `record` and `step` then move it as fast as it computes, and
-        equal inputs give equal bits. `paused=False` starts its clock. `replace` deletes a world that has the name already.
+        """Creates a world. Here it is paused unless told otherwise: `record` and `step` then move it as fast as it
+        computes, and equal inputs give equal bits. `paused=False` starts its clock. `replace` deletes a world that has
+        the name already.
 
-        `rate_hz`: ticks per second of world time, 10 to 1000; `substeps` of the dynamics in each, 1 to 16. `gravity` m/s², downward, 0 to 30.
-        `friction`: coefficient of the ground, 0.05 to 2. `speed`: world seconds per wall second, 0.01 to 10. `overrun`: what the clock does
-        when a tick takes too long: `skip`, `catch_up` or `dilate`.
+        `rate_hz`: ticks per second of world time, 10 to 1000; `substeps` of the dynamics in each, 1 to 16. `gravity`
+        m/s², downward, 0 to 30. `friction`: coefficient of the ground, 0.05 to 2. `speed`: world seconds per wall
+        second, 0.01 to 10. `overrun`: what the clock does when a tick takes too long: `skip`, `catch_up` or `dilate`.
         """
         if replace and name:
             try:
@@ -355,12 +360,13 @@ class Client:
         encoding: Encoding = "double",
         rate_divisor: int = 1,
     ) -> Recording:
-        """One clip (name, `Clip`), or one BVH file (path ending in `.bvh`, or bytes), tracked by one figure, faster than real time.
+        """One clip (name, `Clip`), or one BVH file (path ending in `.bvh`, or bytes), tracked by one figure, faster
+        than real time.
 
-        `disturbances` begin at their `start_s` (s of the clip). `duration_s` (s) 0: the length of the clip. `strength` 1 is that of the average
-        person; `fatigue_time_scale` 0: no fatigue, 1: as measured; `assist` 0 to 1: share of the help from outside at the pelvis. `rate_hz` and
-        `substeps` as in `create_world`; `rate_divisor` n keeps one frame for every n ticks. With `fields=()` the recording has no frames,
-        only `summary` and `events`.
+        `disturbances` begin at their `start_s` (s of the clip). `duration_s` (s) 0: the length of the clip. `strength`
+        1 is that of the average person; `fatigue_time_scale` 0: no fatigue, 1: as measured; `assist` 0 to 1: share of
+        the help from outside at the pelvis. `rate_hz` and `substeps` as in `create_world`; `rate_divisor` n keeps one
+        frame for every n ticks. With `fields=()` the recording has no frames, only `summary` and `events`.
         """
         figure = requests.figure(
             body=body,
@@ -458,7 +464,9 @@ class Clip:
         return self.message.report if self.message.HasField("report") else None
 
     def motion(self, *, body: str | Profile = "adult-man", rate_hz: float = 60.0) -> Motion:
-        """The motion as arrays (rad, m, world frame) at `rate_hz`, as it is asked of a figure with this body: retargeted, smoothed, feet planted."""
+        """The motion as arrays (rad, m, world frame) at `rate_hz`, as it is asked of a figure with this body:
+        retargeted, smoothed, feet planted.
+        """
         # What a figure is asked to do does not depend on whether it can.
         recording = self._client.simulate(
             self, body=body, controller="motors", rate_hz=rate_hz, fields=("desired",)
@@ -526,7 +534,8 @@ class World:
     def step(self, tick_count: int = 1) -> int:
         """Advances a paused world by ticks, as fast as they compute; returns the tick it is at."""
         request = world_pb2.StepWorldRequest(name=self.resource, tick_count=tick_count)
-        return (self.client._ask(self.client.worlds_stub.StepWorld, request, max(self.client.timeout_s, _LONG_S))).tick
+        timeout_s = max(self.client.timeout_s, _LONG_S)
+        return (self.client._ask(self.client.worlds_stub.StepWorld, request, timeout_s)).tick
 
     # Figures.
 
@@ -547,11 +556,12 @@ class World:
         protective_steps: bool = True,
         display_name: str = "",
     ) -> Figure:
-        """Adds a figure, standing still at `position` (world x, y, m) and heading `yaw` (rad, 0 looks along x, counter-clockwise from above).
+        """Adds a figure, standing still at `position` (world x, y, m) and heading `yaw` (rad, 0 looks along x,
+        counter-clockwise from above).
 
-        `strength`: factor on the measured strength, or a `Strength`. `fatigue_time_scale`: 0 no fatigue, 1 as measured, larger is faster.
-        `assist`: help from outside at the pelvis, 0 to 1. `constraints`: where parts of it are wanted (m, world). `protective_steps`: it may
-        step to keep its balance.
+        `strength`: factor on the measured strength, or a `Strength`. `fatigue_time_scale`: 0 no fatigue, 1 as measured,
+        larger is faster. `assist`: help from outside at the pelvis, 0 to 1. `constraints`: where parts of it are wanted
+        (m, world). `protective_steps`: it may step to keep its balance.
         """
         settings = requests.figure(
             body=body,
@@ -621,12 +631,14 @@ class World:
         velocity: Vector = (0.0, 0.0, 0.0),
         angular_velocity: Vector = (0.0, 0.0, 0.0),
     ) -> Obstacle:
-        """Puts a thing into the world that figures can touch: `Sphere`, `Capsule`, `Box` or `Plane`. A world holds at most 256.
+        """Puts a thing into the world that figures can touch: `Sphere`, `Capsule`, `Box` or `Plane`. A world holds at
+        most 256.
 
-        `position`: its centre in the world, m. `rotation`: quaternion x, y, z, w of its frame in the world; `None`: not turned. `mobility`:
-        `fixed`; `led`, which moves with its velocity whatever it meets; or `free`, a rigid body of `mass_kg` (kg, 0.01 to 10000) under
-        gravity. `velocity` (of its centre, m/s) and `angular_velocity` (rad/s), world axes, each component within ±100, are of no effect on
-        fixed ones. `friction`: coefficient, 0.05 to 2; of two obstacles the smaller one counts; `None`: 0.6.
+        `position`: its centre in the world, m. `rotation`: quaternion x, y, z, w of its frame in the world; `None`: not
+        turned. `mobility`: `fixed`; `led`, which moves with its velocity whatever it meets; or `free`, a rigid body of
+        `mass_kg` (kg, 0.01 to 10000) under gravity. `velocity` (of its centre, m/s) and `angular_velocity` (rad/s),
+        world axes, each component within ±100, are of no effect on fixed ones. `friction`: coefficient, 0.05 to 2; of
+        two obstacles the smaller one counts; `None`: 0.6.
         """
         wanted = requests.obstacle(
             shape,
@@ -661,7 +673,9 @@ class World:
     def frame(
         self, *, tick: int | None = None, fields: Sequence[str] = RECORDED, encoding: Encoding = "double"
     ) -> Frame:
-        """One frame: the latest, or that of a `tick` which is still held. `fields`: names of frame fields (`sinew.RECORDED`, `"*"`: all)."""
+        """One frame: the latest, or that of a `tick` which is still held. `fields`: names of frame fields
+        (`sinew.RECORDED`, `"*"`: all).
+        """
         request = state_pb2.GetWorldFrameRequest(
             world=self.resource, tick=tick, view=requests.view(fields, numbers=encoding)
         )
@@ -679,20 +693,24 @@ class World:
         resume_tick: int | None = None,
         wait: bool = False,
     ) -> Frames:
-        """Frames as they come; iterate over it. The first is that of the latest tick. A slow reader gets the latest, never a backlog.
+        """Frames as they come; iterate over it. The first is that of the latest tick. A slow reader gets the latest,
+        never a backlog.
 
-        `figures` (names; all if empty) and `fields` choose what they hold. `rate_divisor` n sends one frame for every n ticks; `resume_tick`
-        continues after a tick while the next ones are held.
+        `figures` (names; all if empty) and `fields` choose what they hold. `rate_divisor` n sends one frame for every n
+        ticks; `resume_tick` continues after a tick while the next ones are held.
 
-        A paused world sends no more frames until it is resumed or stepped. Waiting for the next one then raises `WorldPausedError` after about
-        half a second, also when the world is paused later on; the iteration can go on after `resume` or `step`. With `wait=True` it waits.
+        A paused world sends no more frames until it is resumed or stepped. Waiting for the next one then raises
+        `WorldPausedError` after about half a second, also when the world is paused later on; the iteration can go on
+        after `resume` or `step`. With `wait=True` it waits.
         """
         view = requests.view(fields, figures=figures, numbers=encoding, rate_divisor=rate_divisor)
         request = state_pb2.WatchWorldRequest(world=self.resource, view=view, resume_tick=resume_tick)
         return Frames(self, Stream(self.client.states_stub.WatchWorld, request), wait=wait)
 
     def events(self, *, figures: Iterable[str] = (), types: Iterable[str] = ()) -> Events:
-        """Events as they come; iterate over it. `types` are names as in `Event.type`; all if empty. It waits while the world is paused."""
+        """Events as they come; iterate over it. `types` are names as in `Event.type`; all if empty. It waits while the
+        world is paused.
+        """
         request = state_pb2.WatchEventsRequest(
             world=self.resource, figures=list(figures), types=requests.event_types(types)
         )
@@ -709,8 +727,9 @@ class World:
     ) -> Recordings:
         """What happens in the next `duration_s` seconds of world time, by figure.
 
-        A paused world is stepped through them without a gap; a running one is watched as it goes, and `WorldPausedError` is raised if it is
-        paused meanwhile. `progress` shows a bar; `None`: in a terminal or notebook.
+        A paused world is stepped through them without a gap; a running one is watched as it goes, and
+        `WorldPausedError` is raised if it is paused meanwhile. `progress` shows a bar; `None`: in a terminal or
+        notebook.
         """
         ticks = max(round(duration_s * self.rate_hz), 1)
         view = requests.view(fields, figures=figures, numbers=encoding)
@@ -759,9 +778,10 @@ class World:
     ) -> Drive:
         """Drives figures (by name) live: `with world.drive("a", "b") as drive: drive.send_all({"a": Pose(...), ...})`.
 
-        `rate_hz`: postures per second that you send. `playout_delay_ms` (ms) `None` adapts to the jitter of the connection. `hold` stays in the
-        last posture at once when motion is late, instead of continuing its velocity for a moment. `grace_ms` (ms): how long a drive that has
-        broken off keeps its figures. `reset` begins in the first posture that comes.
+        `rate_hz`: postures per second that you send. `playout_delay_ms` (ms) `None` adapts to the jitter of the
+        connection. `hold` stays in the last posture at once when motion is late, instead of continuing its velocity for
+        a moment. `grace_ms` (ms): how long a drive that has broken off keeps its figures. `reset` begins in the first
+        posture that comes.
         """
         header = motion_pb2.DriveHeader(
             world=self.resource,
@@ -777,7 +797,9 @@ class World:
 
 
 class Obstacle:
-    """A thing in a world that figures can touch. Its properties are those of when this object was made, or last `get` or `update`."""
+    """A thing in a world that figures can touch. Its properties are those of when this object was made, or last `get`
+    or `update`.
+    """
 
     def __init__(self, world: World, message: world_pb2.Obstacle) -> None:
         self.world = world
@@ -855,7 +877,8 @@ class Obstacle:
     ) -> None:
         """Changes what is given, units and frames as in `World.add_obstacle`; the rest stays as it is now.
 
-        To lead one along a path, give its `velocity` (m/s) before each step: it then pushes what it meets. A new `position` (m) is a jump.
+        To lead one along a path, give its `velocity` (m/s) before each step: it then pushes what it meets. A new
+        `position` (m) is a jump.
         """
         now = self.get()
         wanted = requests.obstacle(
@@ -915,7 +938,9 @@ class Figure:
         self._client._ask(self._client.figures_stub.DeleteFigure, request)
 
     def reset(self, *, position: tuple[float, float] | None = None, yaw: float | None = None) -> None:
-        """Puts it back: standing still, without loads; where it was created unless `position` (world x, y, m) and `yaw` (rad) are given."""
+        """Puts it back: standing still, without loads; where it was created unless `position` (world x, y, m) and `yaw`
+        (rad) are given.
+        """
         request = figure_pb2.ResetFigureRequest(
             name=self.message.name, placement=requests.placement(position, yaw)
         )
@@ -979,12 +1004,14 @@ class Figure:
         position: tuple[float, float] | None = None,
         yaw: float | None = None,
     ) -> float:
-        """Plays a clip from the next tick on, or from world time `start_s` (s); returns the world time at which its first frame plays, s.
+        """Plays a clip from the next tick on, or from world time `start_s` (s); returns the world time at which its
+        first frame plays, s.
 
-        A figure that walks goes over to it from step to step where the two motions are alike; else it finishes its step and stands first.
-        The time is what is expected then, and until then `next_clip` of `get()` names the clip. `reset` puts the figure into the first
-        posture at once; otherwise it moves there by itself. It begins where the figure is, unless `position` (world x, y, m) and `yaw` (rad) are given. A recording is
-        prepared for its `speed` (0.5 to 2), which takes a moment the first time.
+        A figure that walks goes over to it from step to step where the two motions are alike; else it finishes its step
+        and stands first. The time is what is expected then, and until then `next_clip` of `get()` names the clip.
+        `reset` puts the figure into the first posture at once; otherwise it moves there by itself. It begins where the
+        figure is, unless `position` (world x, y, m) and `yaw` (rad) are given. A recording is prepared for its `speed`
+        (0.5 to 2), which takes a moment the first time.
         """
         named = clip.name if isinstance(clip, Clip) else clip
         request = motion_pb2.PlayClipRequest(
@@ -1004,8 +1031,8 @@ class Figure:
         self._client._ask(self._client.motions_stub.StopClip, request)
 
     def ask(self, pose: Pose | ArrayLike) -> None:
-        """Asks for one posture now: a `Pose`, or 39 joint angles (rad, in the order of `body.dofs`). For control loops over a paused world:
-        `figure.ask(...)`, `world.step()`, look, again. For streams in real time use `drive`.
+        """Asks for one posture now: a `Pose`, or 39 joint angles (rad, in the order of `body.dofs`). For control loops
+        over a paused world: `figure.ask(...)`, `world.step()`, look, again. For streams in real time use `drive`.
         """
         wanted = pose if isinstance(pose, Pose) else Pose(angles=pose)
         now = (self.world.get()).tick
@@ -1043,7 +1070,9 @@ class Figure:
         grace_ms: float | None = None,
         reset: bool = False,
     ) -> Drive:
-        """Drives it live: `with figure.drive() as drive: drive.send(angles)` (39 angles, rad); settings as in `World.drive`."""
+        """Drives it live: `with figure.drive() as drive: drive.send(angles)` (39 angles, rad); settings as in
+        `World.drive`.
+        """
         return self.world.drive(
             self.name,
             rate_hz=rate_hz,
@@ -1094,7 +1123,8 @@ class Figure:
     # Disturbances.
 
     def apply(self, *disturbances: Disturbance) -> int:
-        """Loads (kg), pushes (N·s) and forces (N), world axes; `start_s` (s) of each counts from now. All of it or, if anything is wrong, nothing.
+        """Loads (kg), pushes (N·s) and forces (N), world axes; `start_s` (s) of each counts from now. All of it or, if
+        anything is wrong, nothing.
 
         Returns the tick at whose start the request was taken.
         """
@@ -1110,10 +1140,11 @@ class Figure:
         duration_s: float = 0.0,
         grip_n: float = 0.0,
     ) -> int:
-        """Gives it a load of `mass_kg` (kg) in the palm of one hand, or of two, half each; until `clear` unless `duration_s` (s) says otherwise.
+        """Gives it a load of `mass_kg` (kg) in the palm of one hand, or of two, half each; until `clear` unless
+        `duration_s` (s) says otherwise.
 
-        `start_s` (s) counts from now. Beyond `grip_n` (N) at one hand it slips; 0: never. A `Load` takes more: where in the segment, and how fast
-        it moves. Returns the tick at whose start the request was taken.
+        `start_s` (s) counts from now. Beyond `grip_n` (N) at one hand it slips; 0: never. A `Load` takes more: where in
+        the segment, and how fast it moves. Returns the tick at whose start the request was taken.
         """
         return self.apply(
             Load(
@@ -1129,7 +1160,8 @@ class Figure:
     def push(
         self, impulse_ns: Vector, segment: str = "chest", *, start_s: float = 0.0, duration_s: float = 0.1
     ) -> int:
-        """Pushes it: an impulse in N·s, world axes, at the segment's centre of mass, over `duration_s` (s), `start_s` (s) from now on.
+        """Pushes it: an impulse in N·s, world axes, at the segment's centre of mass, over `duration_s` (s), `start_s`
+        (s) from now on.
 
         Returns the tick at whose start the request was taken.
         """
@@ -1140,7 +1172,8 @@ class Figure:
     def pull(
         self, force_n: Vector, segment: str = "pelvis", *, start_s: float = 0.0, duration_s: float = 0.0
     ) -> int:
-        """A constant force in N, world axes, at the segment's centre of mass; until `clear` unless `duration_s` (s) says otherwise.
+        """A constant force in N, world axes, at the segment's centre of mass; until `clear` unless `duration_s` (s)
+        says otherwise.
 
         `start_s` (s) counts from now. Returns the tick at whose start the request was taken.
         """
@@ -1190,7 +1223,8 @@ def _next(
         now = world.get()
         if now.state == world_pb2.WORLD_STATE_FAILED:
             raise PreconditionError(
-                f"world {last(now.name)!r} has failed at tick {now.tick} and sends no more frames: {now.failure}", reason="WORLD_FAILED"
+                f"world {last(now.name)!r} has failed at tick {now.tick} and sends no more frames: {now.failure}",
+                reason="WORLD_FAILED",
             )
         if now.state != world_pb2.WORLD_STATE_PAUSED:
             stood = None
@@ -1301,7 +1335,9 @@ class Drive:
         self.close()
 
     def send(self, pose: Pose | ArrayLike, *, time_s: float | None = None) -> None:
-        """One instant of the only figure: a `Pose`, or 39 joint angles (rad). `time_s` is when it was captured (s, any origin); now if `None`."""
+        """One instant of the only figure: a `Pose`, or 39 joint angles (rad). `time_s` is when it was captured (s, any
+        origin); now if `None`.
+        """
         wanted = pose if isinstance(pose, Pose) else Pose(angles=pose)
         self.send_all({self._header.figures[0]: wanted}, time_s=time_s)
 

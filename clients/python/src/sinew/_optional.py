@@ -15,6 +15,7 @@ def needed(package: str, extra: str, purpose: str) -> Iterator[None]:
         if (e.name or "").split(".", 1)[0] != package:
             raise
         raise ImportError(
-            f"{purpose} needs the package {package}, which is not installed: pip install 'sinew[{extra}]' (or pip install {package})",
+            f"{purpose} needs the package {package}, which is not installed: "
+            f"pip install 'sinew[{extra}]' (or pip install {package})",
             name=package,
         ) from e

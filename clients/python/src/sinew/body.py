@@ -109,8 +109,8 @@ class Body:
     def poses(self, root_pose: Floats, joint_rotations: Floats) -> Floats:
         """World poses of the segments, (18, 7): position (m), quaternion x, y, z, w.
 
-        `root_pose` (7,): position (m) and quaternion of the pelvis in the world. `joint_rotations` (17, 4): quaternions of segments 1 to 17 in
-        their parents.
+        `root_pose` (7,): position (m) and quaternion of the pelvis in the world. `joint_rotations` (17, 4): quaternions
+        of segments 1 to 17 in their parents.
         """
         rotations = np.asarray(joint_rotations, dtype=np.float64).reshape(-1, 4)
         out = np.empty((len(self.parents), 7))

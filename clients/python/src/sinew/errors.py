@@ -64,7 +64,8 @@ class InvalidArgumentError(SinewError, ValueError):
 
 
 class NotFoundError(SinewError, LookupError):
-    """There is no such resource: `resource` is its name, `kind` what it would be (`world`, `figure`, `obstacle`, `clip`, `body`).
+    """There is no such resource: `resource` is its name, `kind` what it would be (`world`, `figure`, `obstacle`,
+    `clip`, `body`).
 
     `valid` holds the names that there are of that kind, where they could be found out; the message lists them too.
     """
@@ -85,7 +86,8 @@ class PreconditionError(SinewError):
 
 
 class WorldPausedError(PreconditionError):
-    """The clock of the world stands still, so that no frame comes: `world` is its name, `tick` the tick it stands at."""
+    """The clock of the world stands still, so that no frame comes: `world` is its name, `tick` the tick it stands at.
+    """
 
     world: str = ""
     tick: int = 0
@@ -197,7 +199,9 @@ def with_names(error: NotFoundError, names: Sequence[str]) -> NotFoundError:
 def not_found(kind: str, resource: str, names: Sequence[str]) -> NotFoundError:
     """What the server says of a name that is not there, found out by the client, with the names that there are."""
     out = NotFoundError(
-        f"{kind} {resource!r} does not exist; {named(names)}", code=grpc.StatusCode.NOT_FOUND, reason="RESOURCE_NOT_FOUND"
+        f"{kind} {resource!r} does not exist; {named(names)}",
+        code=grpc.StatusCode.NOT_FOUND,
+        reason="RESOURCE_NOT_FOUND",
     )
     out.resource, out.kind, out.valid = resource, kind, tuple(names)
     return out
@@ -206,8 +210,8 @@ def not_found(kind: str, resource: str, names: Sequence[str]) -> NotFoundError:
 def paused(world: str, tick: int) -> WorldPausedError:
     """That a world sends no frames because it is paused at a tick."""
     out = WorldPausedError(
-        f"world {world!r} is paused at tick {tick} and sends no frames: call world.resume(), or world.step() before the next frame, "
-        "or watch it with frames(wait=True), which waits until something else moves it",
+        f"world {world!r} is paused at tick {tick} and sends no frames: call world.resume(), "
+        "or world.step() before the next frame, or watch it with frames(wait=True), which waits until the world moves",
         code=grpc.StatusCode.FAILED_PRECONDITION,
         reason="WORLD_PAUSED",
         facts={"tick": str(tick)},

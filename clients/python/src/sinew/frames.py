@@ -33,7 +33,9 @@ def bits(word: int, count: int) -> NDArray[np.bool_]:
 
 @dataclass(frozen=True)
 class Contact:
-    """One point that touches the ground: segment name, where (world, m, (3,)), and the force on the figure (world axes, N, (3,))."""
+    """One point that touches the ground: segment name, where (world, m, (3,)), and the force on the figure (world axes,
+    N, (3,)).
+    """
 
     segment: str
     position: Floats
@@ -84,8 +86,8 @@ class ObstacleState:
 class Event:
     """Something that happened: `type` in lower case, for example `saturated`, `balance_lost`, `fell`, `load_slipped`.
 
-    `tick` and `time_s` (world time, s) say when; `figure`, `segment` and `dof` are names, empty where they do not apply; `mass_kg` is that of
-    a load, kg.
+    `tick` and `time_s` (world time, s) say when; `figure`, `segment` and `dof` are names, empty where they do not
+    apply; `mass_kg` is that of a load, kg.
     """
 
     type: str
@@ -147,7 +149,9 @@ class FigureState:
 
     @cached_property
     def velocity(self) -> Floats:
-        """Pelvis angular velocity (rad/s) and velocity of its origin (m/s), world axes, then the 39 joint rates (rad/s): (45,)."""
+        """Pelvis angular velocity (rad/s) and velocity of its origin (m/s), world axes, then the 39 joint rates
+        (rad/s): (45,).
+        """
         return self._part("velocity")
 
     @cached_property
@@ -213,8 +217,8 @@ class FigureState:
 class Frame(Mapping[str, FigureState]):
     """A world after one tick: a mapping of figures by name.
 
-    `time_s` is world time, s; `state_hash` is equal for equal inputs; `server_time_ns` is when the tick ended, by the server's clock, ns since
-    1970. `obstacles` holds all obstacles by name, in the order they were added.
+    `time_s` is world time, s; `state_hash` is equal for equal inputs; `server_time_ns` is when the tick ended, by the
+    server's clock, ns since 1970. `obstacles` holds all obstacles by name, in the order they were added.
     """
 
     tick: int

@@ -25,10 +25,11 @@ _DOFS = 39
 class Pose:
     """What is asked of one figure at one instant: joint angles, or bone rotations.
 
-    `angles` (39,): anatomical angles in the order of `Body.dofs`, rad. `rotations`: quaternions x, y, z, w by VRM bone name (`Body.bones`),
-    of the bone in its parent, or in the world with `world_rotations`. `root` is the pelvis in the world: position (3,), m, or position and
-    quaternion (7,); `None` leaves it where it is asked to be now. `velocity` (45,), rad/s and m/s as in `FigureState.velocity`, is formed from
-    neighbouring frames if absent; `planted` says which feet (left, right) stand, and the server decides if it is absent.
+    `angles` (39,): anatomical angles in the order of `Body.dofs`, rad. `rotations`: quaternions x, y, z, w by VRM bone
+    name (`Body.bones`), of the bone in its parent, or in the world with `world_rotations`. `root` is the pelvis in the
+    world: position (3,), m, or position and quaternion (7,); `None` leaves it where it is asked to be now. `velocity`
+    (45,), rad/s and m/s as in `FigureState.velocity`, is formed from neighbouring frames if absent; `planted` says
+    which feet (left, right) stand, and the server decides if it is absent.
     """
 
     angles: ArrayLike | None = None
@@ -58,8 +59,9 @@ class Pose:
 
 @dataclass(frozen=True)
 class Motion:
-    """A motion as arrays: `angles` (n, 39) in the order of `Body.dofs`, rad, and `root` (n, 7), position (m) and quaternion x, y, z, w of the
-    pelvis in the world, at `rate_hz` (Hz)."""
+    """A motion as arrays: `angles` (n, 39) in the order of `Body.dofs`, rad, and `root` (n, 7), position (m) and
+    quaternion x, y, z, w of the pelvis in the world, at `rate_hz` (Hz).
+    """
 
     angles: Floats
     root: Floats

@@ -131,12 +131,13 @@ class Recording:
 
     @property
     def segment_transforms(self) -> Floats:
-        """World pose of each segment in the order of `body.segments`: position (m), quaternion x, y, z, w; (n, 18, 7)."""
+        """World pose of each segment in the order of `body.segments`: position (m), quaternion x, y, z, w; (n, 18, 7).
+        """
         return self._column("segment_transforms").reshape(len(self), -1, 7)
 
     @property
     def velocity(self) -> Floats:
-        """Pelvis angular velocity (rad/s) and velocity of its origin (m/s), world axes, then joint rates (rad/s); (n, 45)."""
+        """Pelvis angular velocity (rad/s), velocity of its origin (m/s), world axes, then joint rates (rad/s); (n, 45)."""
         return self._column("velocity")
 
     @property
@@ -220,7 +221,8 @@ class Recording:
 
     @property
     def desired_joint_rotations(self) -> Floats:
-        """Joint rotations that were asked for: quaternions x, y, z, w of segments 1 to 17 in their parents, (n, 17, 4)."""
+        """Joint rotations that were asked for: quaternions x, y, z, w of segments 1 to 17 in their parents, (n, 17, 4).
+        """
         return self._inner("desired", "joint_rotations", 68).reshape(len(self), -1, 4)
 
     def contacts(self, row: int) -> list[Contact]:

@@ -69,7 +69,9 @@ def last(name: str) -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class Profile:
-    """Who a body stands for: `age_years` 6 to 90, stature `height_m` (m) and body mass `mass_kg` (kg); 0: ordinary for sex and age."""
+    """Who a body stands for: `age_years` 6 to 90, stature `height_m` (m) and body mass `mass_kg` (kg); 0: ordinary for
+    sex and age.
+    """
 
     sex: Literal["male", "female"]
     age_years: float = 30.0
@@ -86,8 +88,9 @@ class Profile:
 class Strength:
     """Scale of measured human strength.
 
-    `all`: factor on every torque limit, 0.01 to 100. `dofs`: further factors by DOF name (`Body.dofs`). `percentile`: how strong among people
-    of that sex, age and size, 5 to 95; 50 is the average. `effort`: share of the strength that is used, 0 to 1.
+    `all`: factor on every torque limit, 0.01 to 100. `dofs`: further factors by DOF name (`Body.dofs`). `percentile`:
+    how strong among people of that sex, age and size, 5 to 95; 50 is the average. `effort`: share of the strength that
+    is used, 0 to 1.
     """
 
     all: float = 1.0
@@ -105,10 +108,10 @@ class Strength:
 class Constraint:
     """Where a part of a figure is wanted while the rest of the body follows its motion.
 
-    `segment` `None`: the centre of mass. `position` (m, world); `axes`: how much each of its axes counts, 0 to 1. `rotation`: quaternion
-    x, y, z, w of the segment in the world, not for the centre of mass. At least one of the two. `point` in the segment's frame (m); `None`:
-    the middle of a hand, else the segment's centre of mass. `weight` 0 to 1. `ease_s`: time to come into force and to fade, s.
-    `duration_s`: how long it holds, s; 0: until it is taken off.
+    `segment` `None`: the centre of mass. `position` (m, world); `axes`: how much each of its axes counts, 0 to 1.
+    `rotation`: quaternion x, y, z, w of the segment in the world, not for the centre of mass. At least one of the two.
+    `point` in the segment's frame (m); `None`: the middle of a hand, else the segment's centre of mass. `weight` 0 to
+    1. `ease_s`: time to come into force and to fade, s. `duration_s`: how long it holds, s; 0: until it is taken off.
     """
 
     segment: str | None = None
@@ -142,11 +145,12 @@ class Constraint:
 class Paper:
     """Choices of the paper's controller, `controller="paper"`; what is `None` is as the preset has it.
 
-    `alpha`: blend (0 to 1) of position and velocity demand in equation (4) per 1/30 s, where `horizon_s` is 0. `horizon_s`: time constant
-    of the demand, s; 0: met within one step. `metric`: norm of equation (10). `priority`: how equation (12) orders centre of mass
-    and hands. `share`: how supports share the ground reaction. `to_limit`: joints that equation (16) saturates go to their
-    limit. `tilt`: torques of a tipping figure know that its support turns. `zmp_feasible`: the demand for the centre of mass stays
-    within what the feet can give. `hand_over`: with the kinematic stepper, torques take over where accelerations cannot go on.
+    `alpha`: blend (0 to 1) of position and velocity demand in equation (4) per 1/30 s, where `horizon_s` is 0.
+    `horizon_s`: time constant of the demand, s; 0: met within one step. `metric`: norm of equation (10). `priority`:
+    how equation (12) orders centre of mass and hands. `share`: how supports share the ground reaction. `to_limit`:
+    joints that equation (16) saturates go to their limit. `tilt`: torques of a tipping figure know that its support
+    turns. `zmp_feasible`: the demand for the centre of mass stays within what the feet can give. `hand_over`: with the
+    kinematic stepper, torques take over where accelerations cannot go on.
     """
 
     preset: Literal["safeguarded", "2000"] = "safeguarded"
@@ -178,21 +182,25 @@ class Paper:
             hand_over=self.hand_over,
         )
         if self.metric is not None:
-            out.metric = figure_pb2.PaperMetric.Value(choice(figure_pb2.PaperMetric.keys(), "PAPER_METRIC_", self.metric, "metric"))
+            known = figure_pb2.PaperMetric.keys()
+            out.metric = figure_pb2.PaperMetric.Value(choice(known, "PAPER_METRIC_", self.metric, "metric"))
         if self.priority is not None:
-            out.priority = figure_pb2.PaperPriority.Value(choice(figure_pb2.PaperPriority.keys(), "PAPER_PRIORITY_", self.priority, "priority"))
+            known = figure_pb2.PaperPriority.keys()
+            out.priority = figure_pb2.PaperPriority.Value(choice(known, "PAPER_PRIORITY_", self.priority, "priority"))
         if self.share is not None:
-            out.share = figure_pb2.PaperShare.Value(choice(figure_pb2.PaperShare.keys(), "PAPER_SHARE_", self.share, "share"))
+            known = figure_pb2.PaperShare.keys()
+            out.share = figure_pb2.PaperShare.Value(choice(known, "PAPER_SHARE_", self.share, "share"))
         return out
 
 
 @dataclass(frozen=True, kw_only=True)
 class Load:
-    """A mass (`mass_kg`, kg) that a hand (or any segment) carries from `start_s` (s) on; `duration_s` (s) 0: until it is cleared.
+    """A mass (`mass_kg`, kg) that a hand (or any segment) carries from `start_s` (s) on; `duration_s` (s) 0: until it
+    is cleared.
 
-    `point_m`: where, in the segment's frame (m); `None`: the middle of the palm of a hand, else the segment's centre of mass. With
-    `second_segment` two hands share it, half each. Taking it is perfectly inelastic: a load that moves (`velocity_mps`, world axes, m/s)
-    jerks. Beyond `grip_n` newtons at one hand it slips; 0: never.
+    `point_m`: where, in the segment's frame (m); `None`: the middle of the palm of a hand, else the segment's centre of
+    mass. With `second_segment` two hands share it, half each. Taking it is perfectly inelastic: a load that moves
+    (`velocity_mps`, world axes, m/s) jerks. Beyond `grip_n` newtons at one hand it slips; 0: never.
     """
 
     mass_kg: float
@@ -222,7 +230,8 @@ class Load:
 
 @dataclass(frozen=True, kw_only=True)
 class Push:
-    """An impulse (N·s, world axes) on a segment, given as a constant force over `duration_s` (s), from `start_s` (s) on.
+    """An impulse (N·s, world axes) on a segment, given as a constant force over `duration_s` (s), from `start_s` (s)
+    on.
 
     `point_m`: where, in the segment's frame (m); `None`: its centre of mass.
     """
@@ -300,7 +309,9 @@ class Capsule:
 
 @dataclass(frozen=True, kw_only=True)
 class Box:
-    """A box around the obstacle's origin: `half_m` is half of its edges along x, y, z of the obstacle's frame, each 0.005 to 1000 m."""
+    """A box around the obstacle's origin: `half_m` is half of its edges along x, y, z of the obstacle's frame, each
+    0.005 to 1000 m.
+    """
 
     half_m: Vector
 

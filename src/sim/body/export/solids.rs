@@ -20,8 +20,8 @@ pub(super) struct Solid {
     pub cylinder: bool,
 }
 
-/// Slices of `mesh` along its longest extent, each as wide as the surface there, together of the volume that the surface encloses.
-/// Empty for a mesh that encloses nothing.
+/// Slices of `mesh` along its longest extent, each as wide as the surface there, together of the volume that the
+/// surface encloses. Empty for a mesh that encloses nothing.
 pub(super) fn solids(mesh: &Mesh) -> Vec<Solid> {
     if mesh.triangles.is_empty() {
         return Vec::new();

@@ -158,7 +158,8 @@ impl Figure {
         self.balance.reset();
         self.fatigue = rested(&self.setup.options);
         self.report.remaining = [[1.0; 2]; DOF_COUNT];
-        // What the last tick said of the centre of mass was of another state. Loads that were taken off go with the next tick.
+        // What the last tick said of the centre of mass was of another state. Loads that were taken off go with the
+        // next tick.
         let links = self.disturbances.loaded(&self.setup.body);
         (self.report.com, self.report.com_velocity) = self.tasks.center_of_mass(&links, &state);
     }

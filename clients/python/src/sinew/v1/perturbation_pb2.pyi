@@ -47,7 +47,7 @@ class Load(_message.Message):
     """Force at one hand beyond which the load slips, N, up to 1000000. 0 or absent: never."""
     @_builtins.property
     def point_m(self) -> _types_pb2.Vector3:
-        """Where, segment frame, m, each component within ±2. Absent: the middle of the palm for hands, else the segment's centre of mass."""
+        """Where, segment frame, m, each component within ±2. Absent: the palm of a hand, else the segment's centre of mass."""
 
     @_builtins.property
     def velocity_mps(self) -> _types_pb2.Vector3:

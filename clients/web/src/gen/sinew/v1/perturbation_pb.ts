@@ -28,7 +28,7 @@ export type Load = Message<"sinew.v1.Load"> & {
   segment: string;
 
   /**
-   * Where, segment frame, m, each component within ±2. Absent: the middle of the palm for hands, else the segment's centre of mass.
+   * Where, segment frame, m, each component within ±2. Absent: the palm of a hand, else the segment's centre of mass.
    *
    * @generated from field: sinew.v1.Vector3 point_m = 2;
    */
