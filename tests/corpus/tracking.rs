@@ -20,14 +20,14 @@ fn follows(names: &[&str], joints_deg: f64, places_mm: f64) {
         let what = f.what();
         assert_eq!(r.fell_at_s, None, "{what} fell");
         assert!(
-            r.joint_rms_deg < joints_deg,
+            r.tracking_joint_rms_deg < joints_deg,
             "{what}: joints {}° rms",
-            r.joint_rms_deg
+            r.tracking_joint_rms_deg
         );
         assert!(
-            r.mpjpe_global_mm < places_mm,
+            r.tracking_mpjpe_global_mm < places_mm,
             "{what}: segments {} mm off in the world",
-            r.mpjpe_global_mm
+            r.tracking_mpjpe_global_mm
         );
         assert!(
             r.foot_slip_mm_per_s < 2.0 && r.penetration_max_mm < 3.0,
