@@ -4,6 +4,7 @@
 //! footholds, flights, centre of mass and joint angles come from the truth files.
 //!
 //! * `files`: the folder is what the program writes, and the motions are physical.
+//! * `faults`: what is wrong with a file is left out, solved again or said.
 //! * `reading`: joint positions, unit, axes, rate, held poses.
 //! * `angles`: joint angles and centre of mass of the fitted motion.
 //! * `labels`: when feet stand.
@@ -33,6 +34,7 @@ mod tracks;
 mod truth;
 
 mod angles;
+mod faults;
 mod files;
 mod labels;
 mod preparation;

@@ -1,5 +1,5 @@
-//! Claims that hold once the reader's faults of issue 29, section 3, are repaired. To enable them: `mod
-//! after_reading_fixes;` in `main.rs`.
+//! What is wrong with a file is left out, solved again or said: poses held before the motion, hips at their limit, a root
+//! without positions, joints cut by their limits.
 
 use crate::angles::upper_errors;
 use crate::labels::labelled;
