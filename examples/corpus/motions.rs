@@ -1,6 +1,6 @@
 //! The motions of the corpus.
 
-use crate::actor::{Actor, Upper, pelvis_turn, sign};
+use crate::actor::{Actor, pelvis_turn, sign};
 use crate::gait::{Manner, ORDINARY, Step, Title, Walk, at_ease, deg, stepping};
 use crate::plan::{GRAVITY, Height, Script, Style, Touch, Via, flat, standing_feet};
 use crate::tracks::{DEG, Key, Track, bump, mix, ramp, rest, v3};
