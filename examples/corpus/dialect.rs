@@ -953,7 +953,8 @@ pub fn write(motion: &Motion, d: &Dialect, seed: u64) -> Vec<u8> {
     text.into_bytes()
 }
 
-/// Names of the file's joints with the actor's point that each lies at, for the truth.
+/// Names of the file's joints with the actor's point that each lies at.
+#[allow(dead_code)] // tests/corpus compares every joint with it
 pub fn joint_points(d: &Dialect, actor: &Actor, pose: &Pose) -> Vec<(String, Vec3)> {
     skeleton(d)
         .into_iter()

@@ -9,7 +9,7 @@
 
 use crate::actor::{Actor, FootPose, MASS_SHARE, Pose, Upper, pelvis_turn, sign};
 use crate::tracks::{Key, Sampled, Track, bump, ease, mix, ramp, rest, v3};
-use sinew::sim::math::{Quat, Vec3, trig};
+use sinew::sim::math::{Vec3, trig};
 
 /// Gravity, m/s².
 pub const GRAVITY: f64 = 9.81;
@@ -617,11 +617,6 @@ impl Motion {
     pub fn recorded(&self, t: f64) -> Pose {
         self.pose(self.script.window.0 + t)
     }
-}
-
-/// Identity, for callers without a turn.
-pub fn level(yaw: f64) -> Quat {
-    Quat::exp(v3(0.0, 0.0, yaw))
 }
 
 /// A stance on a flat foot without heel strike or push-off.

@@ -1,11 +1,10 @@
 //! Joint angles and centre of mass of fitted motions against the truth.
 
 use crate::dialect::Zero;
-use crate::plan::level;
 use crate::recorded::{Fit, fits, man};
 use sinew::sim::body::angles::anatomical_angles;
 use sinew::sim::body::topology::{DOF_COUNT, DOF_NAMES};
-use sinew::sim::math::Vec3;
+use sinew::sim::math::{Quat, Vec3};
 use sinew::sim::motion::leg_ik::{center_of_mass, forward};
 
 /// Angles of trunk, head and arms.
@@ -59,9 +58,11 @@ fn trunk_head_and_arms_turn_as_recorded() {
         // Clean files: rounding, and the low-pass of 6 Hz that takes the tops off the fastest swings of the arms.
         // Noise leaves what lies below 6 Hz of it.
         let fast = matches!(f.motion.script.kind, "run" | "jump");
-        let (rms, most) = match (f.noisy(), fast) {
-            (true, _) => (0.5, 3.5),
-            (_, true) => (0.5, 2.5),
+        let (rms, most) = match (f.noisy(), fast, f.motion.script.kind) {
+            (true, ..) => (0.5, 3.5),
+            (_, true, _) => (0.5, 2.5),
+            // Sitting with the knees up takes the hips past the body's limit: the trunk may take the rest.
+            (.., "floor") => (1.5, 6.0),
             _ => (0.12, 0.5),
         };
         for k in UPPER {
@@ -88,7 +89,7 @@ fn without_a_zero_pose_trunk_head_and_arms_vary_as_recorded() {
                 .max(0.0)
                 .sqrt();
             assert!(
-                varies < 0.5,
+                varies < 1.0,
                 "{}: {} varies by {varies}° about its offset",
                 f.what(),
                 DOF_NAMES[k]
@@ -256,7 +257,10 @@ fn the_centre_of_mass_goes_where_it_went() {
         let scale = f.fitted.report.scale;
         let clip = &f.fitted.clip;
         // The clip begins facing x.
-        let back = level(f.dialect.facing.to_radians() - f.fitted.report.origin.yaw);
+        let back = Quat::from_axis_angle(
+            Vec3::Z,
+            f.dialect.facing.to_radians() - f.fitted.report.origin.yaw,
+        );
         let at = |i: usize| center_of_mass(&body, &forward(&body, clip.posture(i)));
         let row = |t: f64| {
             let r = truth.row("com_m", t);

@@ -67,7 +67,7 @@ fn noise_is_what_the_truth_says() {
         }
         // The knees seen from the root: noise of the root's and the hip's rotation over a thigh.
         let file = bvh(name, d.name);
-        let (mut sum, mut count) = (0.0, 0.0);
+        let (mut sum, mut count) = (0.0, 0.0f64);
         for frame in (0..file.frame_count).step_by(7) {
             let places = places(name, &d, &file, frame);
             let root = places[0].1 - places[0].2;
@@ -78,7 +78,7 @@ fn noise_is_what_the_truth_says() {
                 }
             }
         }
-        let rms = (sum / count as f64).sqrt();
+        let rms = (sum / count).sqrt();
         let expected = motion(name).script.actor.thigh * turn * 2.0f64.sqrt();
         assert!(
             rms > 0.7 * expected && rms < 1.6 * expected,
