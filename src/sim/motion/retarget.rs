@@ -256,7 +256,7 @@ pub fn retarget(
         let bare = PrepareOptions {
             lock_feet: false,
             balance: false,
-            runs: keeps_run,
+            runs: fastest_run.is_some(),
             held: HELD,
         };
         let recorded = prepare(body, &draft, bare).postures;
@@ -268,7 +268,7 @@ pub fn retarget(
     let how = PrepareOptions {
         lock_feet: options.lock_feet && options.floor,
         balance: options.balance,
-        runs: keeps_run,
+        runs: fastest_run.is_some(),
         held: HELD,
     };
     let prepared = prepare(body, &draft, how);

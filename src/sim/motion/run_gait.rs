@@ -20,9 +20,10 @@ const TURNS_CUTOFF: f64 = 8.0;
 const LEAST_LEAD: f64 = 0.12;
 /// A running step takes at most so long, s.
 const LONGEST_STEP: f64 = 0.5;
-/// Share of gravity with which a flying body accelerates downwards, and how long before and after the feet are farthest apart it is looked for, s.
+/// Share of gravity with which a flying body accelerates downwards, and within which share of a step before and after the feet are farthest apart: a
+/// walker's body falls as well, over the foot it stands on.
 const FALLS: f64 = 0.4;
-const AROUND: f64 = 0.12;
+const AROUND: f64 = 0.25;
 /// Fewest steps of a run, and share of them that have a flight.
 const FEWEST_STEPS: usize = 2;
 const FLYING_SHARE: f64 = 0.5;
@@ -113,7 +114,9 @@ pub(super) fn fast_stretches(figure: &Figure<'_>, rate_hz: f64) -> Vec<FastStret
 fn judge(figure: &Figure<'_>, (i, j): (usize, usize), speed: f64, rate_hz: f64) -> FastStretch {
     let turns = lead_turns(figure, (i, j), rate_hz);
     let falls = falling(figure.middle, rate_hz);
-    let half = (AROUND * rate_hz) as usize;
+    let steps = turns.windows(2).map(|w| w[1] - w[0]);
+    let step = steps.min().unwrap_or((LONGEST_STEP * rate_hz) as usize);
+    let half = (AROUND * step as f64) as usize;
     let flies = |k: &&usize| {
         let around = k.saturating_sub(half).max(i)..(*k + half + 1).min(j);
         falls[around].contains(&true)

@@ -231,7 +231,7 @@ fn depth_and_joint_count_are_bounded() {
     assert!(error(&deep).contains("more than 4096 joints"));
     let n = 4000;
     let text = format!(
-        "HIERARCHY ROOT a\n{{ CHANNELS 1 Zrotation {} {} }} MOTION Frames: 1 Frame Time: 1\n0\n",
+        "HIERARCHY ROOT a\n{{ OFFSET 0 0 0 CHANNELS 1 Zrotation {} {} }} MOTION Frames: 1 Frame Time: 1\n0\n",
         "JOINT b\n{ OFFSET 0 1 0 ".repeat(n),
         "}".repeat(n)
     );

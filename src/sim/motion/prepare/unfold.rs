@@ -45,12 +45,15 @@ fn ball(segment: SegmentId) -> usize {
     }
 }
 
-/// How deep each foot is in the floor when a posture is within its limits, m.
+/// How deep each foot is in the floor when a posture is within its limits, m; 0 for a leg that would have to reach further back, which the knee lifts.
 fn depths(body: &Body, posture: &Posture, soles: &[Sole; 2]) -> [f64; 2] {
     let mut within = *posture;
-    clamp_to_limits(body, &mut within, LIMIT_MARGIN * 0.5);
+    let off = clamp_to_limits(body, &mut within, LIMIT_MARGIN * 0.5);
     let poses = forward(body, &within);
     [0, 1].map(|s| {
+        if off[DOF_START[THIGH[s].index()]] < 0.0 {
+            return 0.0;
+        }
         let (ankle, rotation) = poses[FOOT[s].index()];
         -(ankle.z + soles[s].lowest(rotation, within.hinge[toe_hinge(s)]))
     })

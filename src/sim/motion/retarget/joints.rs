@@ -17,7 +17,7 @@ const PRONATION: f64 = 1.5;
 /// A range of pronation that is out of that by more than this, or whose median is further from 0 than the second, has a zero that means nothing,
 /// rad; its middle then goes here, rad: hands that hang or work are a little pronated.
 const ZERO_OFF: (f64, f64) = (0.5, 1.3);
-const PRONATION_MIDDLE: f64 = 0.26;
+pub(super) const PRONATION_MIDDLE: f64 = 0.4;
 /// A hand that is bent further than this has no twist of its own: cosine of the angle.
 const TWIST_DEFINED: f64 = 0.2;
 

@@ -1,5 +1,6 @@
 //! Where the segments point: their frames from end points, hinge planes, and bones relative to a calibration pose.
 
+use super::joints::PRONATION_MIDDLE;
 use super::scene::Scene;
 use crate::sim::math::ease::rise;
 use crate::sim::math::{Mat3, Quat, Vec3};
@@ -22,6 +23,8 @@ pub(super) struct Calibration {
 /// Samples that are nearly as upright as the most upright one serve for calibration: least difference of their score, and at most so many.
 const UPRIGHT: f64 = 0.06;
 const MOST_POSES: usize = 400;
+/// A forearm that points down by more than this hangs: cosine.
+const HANGS: f64 = 0.7;
 /// Height of the ankle over the toe joint, and over the tip of the toes, on a flat foot, in lengths of the leg.
 const ANKLE_OVER_TOE: [f64; 2] = [0.065, 0.075];
 
@@ -370,9 +373,17 @@ impl Scene<'_> {
                 .map(|i| frame_of(shoulder[i] - elbow[i], axis[i]))
                 .collect();
             let bone = m.hand.unwrap_or(m.forearm);
+            // A hand that hangs in a sample of the motion is pronated as hands that hang are.
+            let sign = if s == 0 { -1.0 } else { 1.0 };
+            let hangs = Quat::exp(Vec3::Z * (sign * PRONATION_MIDDLE));
             hand[s] = self.follow(bone, calibration, |pose, figure| {
                 let direction = self.calibrated_direction((m.forearm, wrist), (pose, figure));
-                shortest(-Vec3::Z, direction)
+                let straight = shortest(-Vec3::Z, direction);
+                if pose.is_some() && direction.z < -HANGS {
+                    straight * hangs
+                } else {
+                    straight
+                }
             });
         }
         Frames {
