@@ -10,6 +10,7 @@ mod live;
 #[path = "../common/mocap.rs"]
 mod mocap;
 mod obstacles;
+mod pages;
 mod support;
 mod watching;
 mod wire_faults;
