@@ -11,6 +11,7 @@ mod corpus;
 mod drives;
 mod live;
 mod obstacles;
+mod pages;
 mod support;
 mod watching;
 mod wire_faults;

@@ -1,4 +1,4 @@
-// What happens, in words: events as they come, and limits of strength with how long they last.
+// What happens, in words: events as they come, and torque limits with how long they last.
 import { type Event } from "./gen/sinew/v1/state_pb.js";
 import type { Person } from "./model.js";
 import { event as eventWords, joint as jointWords } from "./words.js";
@@ -66,8 +66,8 @@ export class Captions {
         told.set(pair, { sides: [...caption.sides, name], seconds: Math.max(caption.seconds, seconds) });
       }
       for (const [pair, { sides, seconds }] of told) {
-        const what = sides.length > 1 ? `both ${jointWords(pair)}s at their limit` : `${jointWords(sides[0])} at its limit`;
-        this.shown.set(`${p.name} ${pair}`, { text: `${p.name}: ${what} for ${seconds.toFixed(1)} s`, grave: false, until: now + STAYS_S });
+        const what = sides.length > 1 ? `both ${jointWords(pair)}s at their torque limit` : `${jointWords(sides[0])} at its torque limit`;
+        this.shown.set(`${p.name} ${pair}`, { text: `${p.name}: ${what} for\u00a0${seconds.toFixed(1)}\u00a0s`, grave: false, until: now + STAYS_S });
       }
     }
     for (const [key, c] of this.shown) if (c.until < now) this.shown.delete(key);

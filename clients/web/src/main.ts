@@ -2,6 +2,7 @@
 import "./viewer.css";
 import { Captions } from "./captions.js";
 import { message, Sinew } from "./client.js";
+import { Fallen } from "./fallen.js";
 import type { FigureFrame, WorldFrame } from "./gen/sinew/v1/frame_pb.js";
 import type { Person } from "./model.js";
 import { Obstacles } from "./obstacles.js";
@@ -9,7 +10,7 @@ import { el, Panel, type Anew } from "./panel.js";
 import { Scene, type Shown } from "./scene.js";
 import { Session, type Phase } from "./session.js";
 import { asCommand, asPython, cast, read, settingsOf, write, type Address } from "./share.js";
-import { short } from "./words.js";
+import { kilograms } from "./words.js";
 
 function get<T extends HTMLElement>(id: string, kind: new () => T): T {
   const found = document.getElementById(id);
@@ -23,6 +24,7 @@ const [slider, sliderValue] = [get("load-slider", HTMLInputElement), get("load-v
 const [state, dialog, labels] = [get("state", HTMLElement), get("dialog", HTMLDialogElement), get("labels", HTMLElement)];
 const worldChoice = get("world", HTMLSelectElement);
 const panelToggle = get("panel-toggle", HTMLButtonElement);
+const [resetButton, followButton] = [get("reset", HTMLButtonElement), get("follow", HTMLButtonElement)];
 
 let address: Address = read(location.hash);
 const shown: Shown = { ghost: true, forces: true, support: true, effort: true };
@@ -48,14 +50,19 @@ function inTurn(what: () => Promise<unknown>): void {
 
 /** The same for the chosen figure, which may be made anew before its turn comes. */
 function forChosen(what: (p: Person) => Promise<unknown>): void {
-  const name = chosen?.name;
-  if (name === undefined) return say("Choose a figure first.");
+  if (!chosen) return say("Choose a figure first.");
+  forFigure(chosen.name, what);
+}
+
+/** The same for a figure by its name. */
+function forFigure(name: string, what: (p: Person) => Promise<unknown>): void {
   inTurn(async () => {
     const p = session.person(name);
     if (p) await what(p);
   });
 }
 
+const fallen = new Fallen(get("fallen", HTMLElement), (name) => forFigure(name, (p) => session.standUp(p)));
 const obstacles = new Obstacles();
 const session = new Session(
   new Sinew(location.origin),
@@ -91,15 +98,19 @@ try {
               },
             ],
           })
-          .then(() => say(`${person.name} is pushed with ${size.toFixed(0)} N·s`)),
+          .then(() => say(`Pushed ${person.name}: ${size.toFixed(0)} N·s`)),
       );
+    },
+    following: (on) => {
+      followButton.setAttribute("aria-pressed", String(on));
+      remember();
     },
   });
   scene.add(obstacles.group);
 } catch {
-  // The panel, the words and the controls work without a picture.
-  canvas.hidden = true;
-  stage.append(el("section", { class: "plain" }, el("h2", {}, "No picture"), el("p", {}, "This browser gives no WebGL. The controls and the words beside work all the same.")));
+  // The panel, the readouts and the controls work without a picture.
+  canvas.hidden = get("view-tools", HTMLElement).hidden = true;
+  stage.append(el("section", { class: "plain" }, el("h2", {}, "No 3D view"), el("p", {}, "This browser does not provide WebGL. The controls and readouts in the panel still work.")));
 }
 
 const panel = new Panel(
@@ -147,7 +158,7 @@ function listsChanged(): void {
 function worldChanged(): void {
   const name = session.world?.name.slice("worlds/".length) ?? "";
   worldChoice.value = name;
-  pauseButton.textContent = session.paused ? "Go on" : "Pause";
+  pauseButton.textContent = session.paused ? "Resume" : "Pause";
   pauseButton.setAttribute("aria-pressed", String(session.paused));
   const s = String(session.world?.speed ?? 1);
   if ([...speed.options].some((o) => o.value === s)) speed.value = s;
@@ -164,9 +175,9 @@ function showPhase(phase: Phase): void {
   const words: Record<Phase["kind"], [string, string]> = {
     connecting: ["Connecting", "Waiting for the first frame."],
     live: ["", ""],
-    empty: session.world ? ["Nobody is here yet", "This world has no figures. Add one, or drop a BVH file on the page."] : ["No world yet", "The server runs and holds no world. Make one, or let a client make it: it will show up here."],
-    reconnecting: ["Connection lost", "The viewer goes on by itself as soon as the server is back."],
-    error: ["This does not work", phase.kind === "error" ? phase.text : ""],
+    empty: session.world ? ["No figures yet", "This world is empty. Add a figure, or drop a BVH file on the page."] : ["No world yet", "The server is running but has no world. Create one here or from a client; it will appear by itself."],
+    reconnecting: ["Connection lost", "The viewer reconnects by itself as soon as the server is back."],
+    error: ["Something went wrong", phase.kind === "error" ? phase.text : ""],
   };
   const [title, text] = words[phase.kind];
   for (const [id, words] of [["state-title", title], ["state-text", text]] as const) {
@@ -180,9 +191,9 @@ function showPhase(phase: Phase): void {
     actions.push(b);
   };
   if (phase.kind === "empty" && session.world) action("Add a figure", () => attempt(addFigure()));
-  if (phase.kind === "empty" && !session.world) action("Make a world", () => attempt(makeWorld()));
+  if (phase.kind === "empty" && !session.world) action("Create a world", () => attempt(makeWorld()));
   if (phase.kind === "error") {
-    if (address.figures.length && address.world) action("Make it from this link", () => attempt(makeWorld(address)));
+    if (address.figures.length && address.world) action("Create it from this link", () => attempt(makeWorld(address)));
     for (const w of session.worlds.slice(0, 4)) {
       const name = w.name.slice("worlds/".length);
       action(`Show “${name}”`, () => session.show(name));
@@ -193,7 +204,7 @@ function showPhase(phase: Phase): void {
   const place = get("state-actions", HTMLElement);
   const same = (list: Iterable<Element>): string => [...list].map((b) => b.textContent).join("\n");
   if (same(place.children) !== same(actions)) place.replaceChildren(...actions);
-  for (const b of [pauseButton, stepButton, speed]) b.disabled = phase.kind !== "live" && !(phase.kind === "empty" && session.world);
+  for (const b of [pauseButton, stepButton, speed, resetButton]) b.disabled = phase.kind !== "live" && !(phase.kind === "empty" && session.world);
   if (phase.kind === "live") reproduce();
 }
 
@@ -207,12 +218,15 @@ async function makeWorld(from?: Address): Promise<void> {
   session.show(world.name.slice("worlds/".length));
 }
 
-/** Brings the load of the address about, once. */
+/** Applies the view and the load of the address, once. */
 let reproduced = false;
 function reproduce(): void {
   if (reproduced || session.phase.kind !== "live" || !session.people.size) return;
   reproduced = true;
-  if (scene) scene.place = address.camera;
+  if (scene) {
+    scene.place = address.camera;
+    scene.follow = address.follow;
+  }
   if (address.load !== undefined && address.load !== slider.valueAsNumber) {
     slider.value = String(address.load);
     loadChanged();
@@ -235,7 +249,7 @@ async function carry(): Promise<void> {
     while (wantedLoad !== undefined) {
       const mass = wantedLoad;
       wantedLoad = undefined;
-      // Who lies there tries again: a load that was too much is no reason to miss the next one.
+      // A fallen figure stands up first, so that it can take the new load.
       const people = [...session.people.values()];
       for (const p of people) if (session.says(p, "FALLEN")) await session.standUp(p);
       await session.carry(people, mass);
@@ -247,8 +261,8 @@ async function carry(): Promise<void> {
 }
 
 function showLoad(mass: number): void {
-  sliderValue.textContent = `${short(mass)} kg`;
-  slider.setAttribute("aria-valuetext", `${mass} kilograms in both hands of everyone`);
+  sliderValue.textContent = kilograms(mass);
+  slider.setAttribute("aria-valuetext", `${mass} kilograms in both hands of every figure`);
 }
 
 /** Takes over a load that another viewer set. */
@@ -263,6 +277,22 @@ function readLoad(): void {
 
 slider.addEventListener("input", loadChanged);
 
+// ── Reset ───────────────────────────────────────────────────────────────────────────────────────────────────────────
+
+/** Every figure back at its start, all clips from their beginning, no loads, no pushes. */
+async function resetWorld(): Promise<void> {
+  wantedLoad = undefined;
+  await carrying;
+  const failed = await session.reset();
+  slider.value = "0";
+  showLoad(0);
+  await session.refresh();
+  remember();
+  if (failed.length) say(`Not reset: ${failed.join("; ")}`, true);
+  else say("World reset: all figures are back at their start, without loads");
+}
+resetButton.addEventListener("click", () => inTurn(resetWorld));
+
 // ── Motion ──────────────────────────────────────────────────────────────────────────────────────────────────────────
 
 async function play(p: Person, clip: string): Promise<void> {
@@ -270,11 +300,11 @@ async function play(p: Person, clip: string): Promise<void> {
   await session.api.motion.playClip({ figure: p.figure.name, clip: `clips/${clip}`, loop: true });
   await session.refresh();
   await takeAgain(p);
-  say(`${p.name} plays ${clip}`);
+  say(`${p.name} plays “${clip}”`);
   remember();
 }
 
-/** The same load as the motion that begins wants it: a crate, or free hands. */
+/** Gives the same load again in the way that the new motion holds it: as a crate, or half in each hand. */
 async function takeAgain(p: Person): Promise<void> {
   const load = p.loadKg();
   if (load > 0) await session.carry([p], load);
@@ -389,6 +419,7 @@ function here(full: boolean): string {
     load: slider.valueAsNumber || undefined,
     hide: Object.entries(shown).flatMap(([key, on]) => (on ? [] : [key])),
     camera: scene?.place,
+    follow: scene?.follow ?? false,
     figures: full ? [...session.people.values()].map(cast) : [],
   });
 }
@@ -419,7 +450,7 @@ function copy(what: "python" | "cli" | "link"): void {
           ? asCommand(chosen, session.motions)
           : ""
         : asPython(location.host, [...session.people.values()], chosen, session.motions);
-  const shownText = (): void => show("Copy this", el("pre", { class: "copied", tabindex: "0" }, text));
+  const shownText = (): void => show("Copy this text", el("pre", { class: "copied", tabindex: "0" }, text));
   if (!navigator.clipboard) return shownText();
   navigator.clipboard.writeText(text).then(() => say(`Copied: ${text.split("\n")[0].slice(0, 60)}`), shownText);
 }
@@ -446,23 +477,27 @@ function theme(dark: boolean): void {
   document.documentElement.dataset.theme = dark ? "dark" : "light";
   scene?.theme(dark);
 }
-function stored(): string | null {
+/** What the browser keeps for this page; nothing where it keeps nothing. */
+function kept(key: string): string | null {
   try {
-    return localStorage.getItem("sinew-theme");
+    return localStorage.getItem(key);
   } catch {
     return null;
   }
 }
-theme(stored() ? stored() === "dark" : prefersDark.matches);
-prefersDark.addEventListener("change", () => stored() ?? theme(prefersDark.matches));
-get("theme", HTMLButtonElement).addEventListener("click", () => {
-  const dark = document.documentElement.dataset.theme !== "dark";
-  theme(dark);
+function keep(key: string, value: string): void {
   try {
-    localStorage.setItem("sinew-theme", dark ? "dark" : "light");
+    localStorage.setItem(key, value);
   } catch {
     // Then it holds for this visit.
   }
+}
+theme(kept("sinew-theme") ? kept("sinew-theme") === "dark" : prefersDark.matches);
+prefersDark.addEventListener("change", () => kept("sinew-theme") ?? theme(prefersDark.matches));
+get("theme", HTMLButtonElement).addEventListener("click", () => {
+  const dark = document.documentElement.dataset.theme !== "dark";
+  theme(dark);
+  keep("sinew-theme", dark ? "dark" : "light");
 });
 
 function show(title: string, ...content: HTMLElement[]): void {
@@ -472,24 +507,44 @@ function show(title: string, ...content: HTMLElement[]): void {
 }
 
 const KEYS: [string, string][] = [
-  ["Space", "pause, go on"],
-  [".", "one tick"],
-  ["[  ]", "choose a figure"],
-  ["L  K", "more load, less load"],
+  ["Space", "pause or resume"],
+  [".", "advance one tick (pauses first)"],
+  ["S", "slow motion on or off"],
+  ["[  ]", "choose the previous or next figure"],
+  ["L  K", "more or less load"],
   ["P", "push the chosen figure as set in the panel"],
-  ["R", "let the chosen figure stand up"],
-  ["S", "slow motion"],
+  ["R", "stand the chosen figure up again"],
+  ["Shift R", "reset the world"],
+  ["T", "follow the chosen figure"],
+  ["F", "fit all figures in the view"],
   ["← → ↑ ↓", "turn the view (with the scene focused)"],
-  ["+  −", "nearer, farther"],
-  ["F", "see everyone"],
-  ["G  E  C  B", "desired motion, effort, contact forces, support"],
-  ["Esc", "give up a push being drawn"],
+  ["+  −", "zoom in or out"],
+  ["G  E  C  B", "show desired motion, joint effort, contact forces, support"],
+  ["Esc", "cancel a push while dragging"],
 ];
-get("help", HTMLButtonElement).addEventListener("click", keys);
-function keys(): void {
+get("help", HTMLButtonElement).addEventListener("click", help);
+function help(): void {
   const table = el("table", {}, ...KEYS.map(([key, text]) => el("tr", {}, el("td", {}, ...key.split("  ").flatMap((k) => [el("kbd", {}, k), " "])), el("td", {}, text))));
-  show("Keys", table, el("p", {}, "Drag on a figure to push it. Drag elsewhere to turn the view; two fingers or the wheel to come nearer. Drop a BVH file anywhere."));
+  const pointer = el("p", {}, "Drag a figure to push it. Drag beside the figures to turn the view, with the right button to pan, and use the wheel or two fingers to zoom. Drop a BVH file anywhere on the page to play it.");
+  show("Help", pointer, table);
 }
+
+// The hint is shown until it is dismissed, and then never again in this browser.
+const hint = get("hint", HTMLElement);
+hint.hidden = kept("sinew-hint") === "dismissed";
+get("hint-close", HTMLButtonElement).addEventListener("click", () => {
+  hint.hidden = true;
+  keep("sinew-hint", "dismissed");
+  canvas.focus({ preventScroll: true });
+});
+
+function follow(): void {
+  if (!scene) return;
+  if (!scene.follow && !chosen) return say("Choose a figure first.");
+  scene.follow = !scene.follow;
+}
+followButton.addEventListener("click", follow);
+get("fit", HTMLButtonElement).addEventListener("click", () => scene?.recentre());
 
 function toggle(key: keyof Shown): void {
   document.getElementById(`show-${key}`)?.click();
@@ -515,7 +570,7 @@ addEventListener("keydown", (e) => {
     e.preventDefault();
     what();
   };
-  if (e.key === " " && !at.matches("button, summary, a, input")) return done(() => pauseButton.click());
+  if (e.key === " " && !at.matches("button, summary, a, input:not([type=range])")) return done(() => pauseButton.click());
   if (inScene) {
     const turns: Record<string, [number, number, number]> = {
       ArrowLeft: [-0.12, 0, 1],
@@ -537,7 +592,8 @@ addEventListener("keydown", (e) => {
     l: () => nudge(1),
     k: () => nudge(-1),
     p: () => forChosen((p) => panel.push(p)),
-    r: () => forChosen((p) => session.standUp(p)),
+    r: () => (e.shiftKey ? resetButton.click() : forChosen((p) => session.standUp(p))),
+    t: follow,
     s: () => {
       speed.value = speed.value === "1" ? "0.25" : "1";
       attempt(session.setSpeed(Number(speed.value)));
@@ -550,7 +606,7 @@ addEventListener("keydown", (e) => {
     e: () => toggle("effort"),
     c: () => toggle("forces"),
     b: () => toggle("support"),
-    "?": keys,
+    "?": help,
   };
   const action = actions[e.key.length === 1 ? e.key.toLowerCase() : e.key];
   if (action) done(action);
@@ -586,7 +642,7 @@ function tag(key: string, text: string, kind: string, place: { x: number; y: num
   span.style.transform = `translate(${place.x.toFixed(1)}px, ${place.y.toFixed(1)}px) translate(-50%, -100%)`;
 }
 
-/** Names above heads: all in a small company, only the chosen one's in a crowd. */
+/** Names above heads: of all figures when there are few, else of the chosen one only. */
 const FEW = 6;
 function label(): void {
   const people = session.phase.kind === "live" || session.phase.kind === "reconnecting" ? [...session.people.values()] : [];
@@ -631,7 +687,8 @@ function picture(): void {
     panel.update(t, words);
     if (words) readLoad();
     captions.update(session.people.values(), lastFrame?.timeS ?? 0, t);
-    const time = lastFrame ? `${lastFrame.timeS.toFixed(1)} s` : "";
+    fallen.update(session.people.values(), (p) => session.says(p, "FALLEN"), chosen);
+    const time = `${(lastFrame?.timeS ?? 0).toFixed(1)} s`;
     const clock = get("clock", HTMLOutputElement);
     if (clock.textContent !== time) clock.textContent = time;
   }

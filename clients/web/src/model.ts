@@ -187,3 +187,24 @@ export function forward(body: Body, root: ArrayLike<number>, rotations: ArrayLik
     out[o + 6] = qw * rw - qx * rx - qy * ry - qz * rz;
   }
 }
+
+/** Displacement of a segment below which the desired motion is not drawn, and from which it is drawn in full, m. */
+const GHOST_FADE = { from: 0.015, full: 0.08 };
+
+/** How strongly to draw a segment of the desired motion that is this far from the simulated one (m): 0 where both agree, up to 1. */
+export function ghostOpacity(displacement: number): number {
+  const u = Math.min(1, Math.max(0, (displacement - GHOST_FADE.from) / (GHOST_FADE.full - GHOST_FADE.from)));
+  return u * u * (3 - 2 * u);
+}
+
+/**
+ * A bound on how far any point of a segment is from where it should be, m: `POSE` numbers of both sets from `at` on, and the largest
+ * distance of a point of the segment from its origin, m.
+ */
+export function displacement(a: ArrayLike<number>, b: ArrayLike<number>, at: number, reach: number): number {
+  const shift = Math.hypot(a[at] - b[at], a[at + 1] - b[at + 1], a[at + 2] - b[at + 2]);
+  let dot = 0;
+  for (let k = 3; k < POSE; k++) dot += a[at + k] * b[at + k];
+  // The chord of a rotation by the angle 2 acos |dot|.
+  return shift + 2 * reach * Math.sqrt(Math.max(0, 1 - dot * dot));
+}

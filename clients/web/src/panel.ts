@@ -1,13 +1,13 @@
-// The controls beside the scene: all that the pointer can do in the scene can be done here, too.
+// The controls beside the scene: everything that the pointer does in the scene can be done here, too.
 import type { MessageInitShape } from "@bufbuild/protobuf";
 import { Sex, type BodyProfileSchema } from "./gen/sinew/v1/body_pb.js";
 import { Controller, PaperPreset, Stepper, type FigureSchema } from "./gen/sinew/v1/figure_pb.js";
 import type { RetargetReport } from "./gen/sinew/v1/types_pb.js";
 import type { Person } from "./model.js";
-import { busiest, plot, PLOTS, plotText } from "./plots.js";
+import { busiest, inPlace, Plot, PLOTS } from "./plots.js";
 import type { Shown } from "./scene.js";
 import type { Session } from "./session.js";
-import { dof as dofWords, short } from "./words.js";
+import { clamp, dof as dofWords, found, kilograms, margin, state, warnings } from "./words.js";
 
 type Child = Node | string;
 
@@ -59,15 +59,25 @@ export interface Anew {
 
 const PRESETS: [PaperPreset, string][] = [
   [PaperPreset.PAPER_PRESET_SAFEGUARDED, "with safeguards"],
-  [PaperPreset.PAPER_PRESET_2000, "as printed in 2000"],
+  [PaperPreset.PAPER_PRESET_2000, "as published in 2000"],
 ];
 /** Seconds of fatigue per second. */
 const FATIGUE: [number, string][] = [
-  [0, "never"],
-  [1, "as people do"],
-  [10, "10 × as fast"],
-  [60, "60 × as fast"],
+  [0, "off"],
+  [1, "real time"],
+  [10, "10 times faster"],
+  [60, "60 times faster"],
 ];
+
+/** Rows of the summary: the state of the chosen figure. Each is one line high, whatever it says. */
+const FACTS = [
+  ["state", "State"],
+  ["margin", "Balance margin"],
+  ["load", "Load"],
+  ["error", "Tracking error"],
+  ["effort", "Highest effort"],
+] as const;
+type Fact = (typeof FACTS)[number][0];
 
 /** What the panel asks of the page. */
 export interface Wishes {
@@ -85,32 +95,34 @@ export interface Wishes {
 
 export class Panel {
   private readonly figures = el("div", { id: "figures", role: "group", "aria-label": "Figures" });
-  private readonly summary = el("p", { id: "summary" });
+  private readonly facts = Object.fromEntries(FACTS.map(([key]) => [key, el("dd", { "data-fact": key })])) as Record<Fact, HTMLElement>;
+  private readonly meter = el("i");
+  private readonly summary = el("div", { id: "summary" }, el("dl", {}, ...FACTS.flatMap(([key, name]) => [el("dt", {}, name), this.facts[key]])), el("span", { class: "meter", "aria-hidden": "true" }, this.meter));
   private readonly clip = el("select", { id: "clip" });
   private readonly body = el("select", { id: "body" });
   private readonly controller = el("select", { id: "controller" });
   private readonly preset = el("select", { id: "preset" });
-  private readonly presetRow = row("Preset", this.preset);
+  private readonly presetRow = row("Variant", this.preset);
   private readonly stepper = el("select", { id: "stepper" });
   private readonly fatigue = el("select", { id: "fatigue" });
   private readonly sex = el("select", { id: "sex" });
   private readonly age = el("input", { id: "age", type: "number", min: "6", max: "90", step: "1", value: "70" });
-  private readonly height = el("input", { id: "height", type: "number", min: "0.8", max: "2.1", step: "0.01", placeholder: "ordinary" });
-  private readonly mass = el("input", { id: "mass", type: "number", min: "12", max: "180", step: "0.5", placeholder: "ordinary" });
+  private readonly height = el("input", { id: "height", type: "number", min: "0.8", max: "2.1", step: "0.01", placeholder: "average" });
+  private readonly mass = el("input", { id: "mass", type: "number", min: "12", max: "180", step: "0.5", placeholder: "average" });
   private readonly strength = el("input", { id: "strength", type: "range", min: "0.2", max: "2", step: "0.05", value: "1" });
-  private readonly strengthOut = el("output", { for: "strength" });
+  private readonly strengthOut = el("output", { for: "strength" }, "100 %");
   private readonly assist = el("input", { id: "assist", type: "range", min: "0", max: "1", step: "0.05", value: "0" });
-  private readonly assistOut = el("output", { for: "assist" });
+  private readonly assistOut = el("output", { for: "assist" }, "0 %");
   private readonly impulse = el("input", { id: "impulse", type: "range", min: "5", max: "150", step: "5", value: "30" });
   private readonly impulseOut = el("output", { for: "impulse" }, "30 N·s");
   private readonly direction = el("select", { id: "direction" });
   private readonly target = el("select", { id: "target" });
   private readonly file = el("input", { type: "file", accept: ".bvh", class: "hidden", tabindex: "-1", "aria-label": "BVH file" });
   private readonly report = el("div", { id: "report", "aria-live": "polite" });
-  private readonly plots: { figure: HTMLElement; name: HTMLElement; value: HTMLElement; canvas: HTMLCanvasElement }[] = [];
+  private readonly plots = Array.from({ length: PLOTS }, () => new Plot());
   private readonly dofs = el("select", { id: "plotted" });
   /** Buttons that need a chosen figure. */
-  private readonly ofSomebody: HTMLButtonElement[];
+  private readonly ofChosen: HTMLButtonElement[];
   private busiest: number[] = [];
   private busiestAt = 0;
 
@@ -131,7 +143,7 @@ export class Panel {
     });
     const push = button("Push", { id: "push", class: "main" });
     push.addEventListener("click", () => this.wishes.forChosen((p) => this.push(p)));
-    const stand = button("Stand up", { id: "stand" });
+    const stand = button("Stand up", { id: "stand", title: "Puts the figure back on its feet and starts its clip again (R)" });
     stand.addEventListener("click", () => this.wishes.forChosen((p) => this.session.standUp(p)));
     const add = button("Add figure", { id: "add" });
     add.addEventListener("click", () => this.wishes.add());
@@ -140,11 +152,12 @@ export class Panel {
     this.clip.addEventListener("change", () => this.wishes.play(this.clip.value));
     this.body.addEventListener("change", () => this.wishes.rebuild({ body: this.body.value }));
     fill(this.sex, [{ value: String(Sex.FEMALE), text: "woman" }, { value: String(Sex.MALE), text: "man" }], String(Sex.FEMALE));
-    const make = button("Use this body", { id: "make-body" });
+    const make = button("Apply", { id: "make-body" });
     make.addEventListener("click", () => {
       const asked = (input: HTMLInputElement): number => (Number.isFinite(input.valueAsNumber) ? input.valueAsNumber : 0);
       this.wishes.rebuild({ profile: { sex: Number(this.sex.value), ageYears: asked(this.age), heightM: asked(this.height), massKg: asked(this.mass) } });
     });
+    this.presetRow.hidden = true;
     this.changes(this.preset, "paper", (value) => ({ paper: { preset: value } }));
     this.changes(this.fatigue, "fatigue_time_scale", (value) => ({ fatigueTimeScale: value }));
     this.stepper.addEventListener("change", () => this.wishes.rebuild({ stepper: Number(this.stepper.value) }));
@@ -157,23 +170,16 @@ export class Panel {
     this.assist.addEventListener("input", () => (this.assistOut.textContent = `${Math.round(Number(this.assist.value) * 100)} %`));
     this.changes(this.assist, "assist", (value) => ({ assist: value }));
     this.impulse.addEventListener("input", () => (this.impulseOut.textContent = `${this.impulse.value} N·s`));
-    this.ofSomebody = [push, stand, remove, make];
-    for (let i = 0; i < PLOTS; i++) {
-      const canvas = el("canvas", { role: "img", tabindex: "-1" });
-      const name = el("span");
-      const value = el("span");
-      const figure = el("figure", { class: "plot" }, el("figcaption", {}, name, value), canvas);
-      this.plots.push({ figure, name, value, canvas });
-    }
+    this.ofChosen = [push, stand, remove, make];
     const copies = (["python", "cli", "link"] as const).map((what) => {
-      const b = button({ python: "Copy as Python", cli: "Copy as CLI", link: "Copy link" }[what], { id: `copy-${what}` });
+      const b = button({ python: "Copy as Python", cli: "Copy command line", link: "Copy link" }[what], { id: `copy-${what}` });
       b.addEventListener("click", () => this.wishes.copy(what));
       return b;
     });
     const checks = (
       [
         ["ghost", "Desired motion"],
-        ["effort", "Effort"],
+        ["effort", "Joint effort"],
         ["forces", "Contact forces"],
         ["support", "Support and balance"],
       ] as const
@@ -188,26 +194,31 @@ export class Panel {
     });
     root.append(
       section("Figures", this.figures, this.summary, el("div", { class: "buttons" }, stand, add, remove)),
-      section("Motion", row("Plays", this.clip), el("div", { class: "buttons" }, open, this.file), this.report),
-      section("Torque within its limits", row("Shown", this.dofs), ...this.plots.map((p) => p.figure)),
-      section("Push", row("How hard", this.impulse, this.impulseOut), row("Direction", this.direction), row("Where", this.target), el("div", { class: "buttons" }, push)),
-      section("Body and control", row("Body", this.body), el("details", {}, el("summary", {}, "Another body"), row("Who", this.sex), row("Age, years", this.age), row("Height, m", this.height), row("Mass, kg", this.mass), el("div", { class: "buttons" }, make)), row("Strength", this.strength, this.strengthOut), row("Tires", this.fatigue), row("Controller", this.controller), this.presetRow, row("Stepper", this.stepper), row("Assist", this.assist, this.assistOut)),
+      section("Motion", row("Clip", this.clip), el("div", { class: "buttons" }, open, this.file), this.report),
       section(
-        "Show",
+        "Joint torques",
+        row("Joint", this.dofs),
+        el("ul", { class: "key", "aria-label": "Curves" }, ...[["torque", "torque"], ["range", "available range"], ["reached", "at its limit"]].map(([c, text]) => el("li", {}, el("i", { class: c }), text))),
+        ...this.plots.map((p) => p.figure),
+      ),
+      section("Push", row("Impulse", this.impulse, this.impulseOut), row("Direction", this.direction), row("Body part", this.target), el("div", { class: "buttons" }, push)),
+      section("Body and control", row("Body", this.body), el("details", {}, el("summary", {}, "Custom body"), row("Sex", this.sex), row("Age (years)", this.age), row("Height (m)", this.height), row("Mass (kg)", this.mass), el("div", { class: "buttons" }, make)), row("Strength", this.strength, this.strengthOut), row("Fatigue", this.fatigue), row("Controller", this.controller), this.presetRow, row("Stepper", this.stepper), row("Assist", this.assist, this.assistOut)),
+      section(
+        "Display",
         el("div", { class: "checks" }, ...checks),
         el(
           "ul",
-          { class: "key", "aria-label": "Marks" },
+          { class: "key", "aria-label": "Legend" },
           ...[
             ["com", "centre of mass"],
-            ["zmp", "zero-moment point"],
-            ["area", "support"],
+            ["zmp", "zero-moment point (ZMP)"],
+            ["area", "support polygon"],
             ["force", "contact force"],
-            ["limit", "at the limit of strength"],
+            ["limit", "at the torque limit"],
           ].map(([c, text]) => el("li", {}, el("i", { class: c }), text)),
         ),
       ),
-      section("Take it with you", el("div", { class: "buttons" }, ...copies)),
+      section("Export", el("div", { class: "buttons" }, ...copies)),
     );
   }
 
@@ -225,7 +236,7 @@ export class Panel {
         world: this.session.world.name,
         perturbations: [{ figure: p.name, kind: { case: "impulse", value: { segment: this.target.value, impulseNs: impulse, durationS: 0.1 } } }],
       })
-      .then(() => this.wishes.say(`${p.name} is pushed ${this.direction.selectedOptions[0]?.text ?? ""}, ${size} N·s`));
+      .then(() => this.wishes.say(`Pushed ${p.name} ${this.direction.selectedOptions[0]?.text ?? ""}: ${size} N·s`));
   }
 
   /** Lets a control change one setting of the chosen figure, to the number that it shows when it is set. */
@@ -258,7 +269,7 @@ export class Panel {
     if (focused) [...this.figures.children].find((b): b is HTMLElement => b instanceof HTMLElement && b.dataset.figure === focused)?.focus();
     const same = (v: string): { value: string; text: string } => ({ value: v, text: plain(v) });
     const clip = person?.clip.slice("clips/".length) ?? "";
-    fill(this.clip, [...(clip ? [] : [{ value: "", text: person?.figure.driverId ? "driven live" : "holds still" }]), ...this.session.clips.map(same)], clip);
+    fill(this.clip, [...(clip ? [] : [{ value: "", text: person?.figure.driverId ? "driven live" : "none (holds still)" }]), ...this.session.clips.map(same)], clip);
     fill(this.body, [...new Set([...this.session.bodies, ...(person ? [person.body.name.slice("bodies/".length)] : [])])].map(same), person?.body.name.slice("bodies/".length) ?? "");
     const can = (name: string): boolean => !this.session.capabilities.length || this.session.capabilities.includes(name);
     const controllers: [Controller, string, string][] = [
@@ -270,7 +281,7 @@ export class Panel {
     fill(this.preset, PRESETS.map(([v, text]) => ({ value: String(v), text })), String(person?.figure.paper?.preset || PaperPreset.PAPER_PRESET_SAFEGUARDED));
     this.presetRow.hidden = person?.figure.controller !== Controller.PAPER;
     const tires = person?.figure.fatigueTimeScale ?? 0;
-    fill(this.fatigue, [...FATIGUE, ...(FATIGUE.some(([v]) => v === tires) ? [] : [[tires, `${tires} × as fast`] as const])].map(([v, text]) => ({ value: String(v), text })), String(tires));
+    fill(this.fatigue, [...FATIGUE, ...(FATIGUE.some(([v]) => v === tires) ? [] : [[tires, `${tires} times faster`] as const])].map(([v, text]) => ({ value: String(v), text })), String(tires));
     const steppers: [Stepper, string, string][] = [
       [Stepper.TORQUE, "torque", "STEPPER_TORQUE"],
       [Stepper.KINEMATIC, "kinematic", "STEPPER_KINEMATIC"],
@@ -283,79 +294,68 @@ export class Panel {
     if (document.activeElement !== this.assist) this.assist.value = String(assist);
     this.assistOut.textContent = `${Math.round(assist * 100)} %`;
     const dofs = person?.body.dofs ?? [];
-    fill(this.dofs, [{ value: "", text: "hardest working" }, ...dofs.map((d) => ({ value: d.name, text: dofWords(d.name) }))], this.dofs.value);
-    for (const c of [this.clip, this.body, this.controller, this.preset, this.stepper, this.fatigue, this.sex, this.age, this.height, this.mass, ...this.ofSomebody, this.strength, this.assist, this.dofs]) c.disabled = !person;
+    fill(this.dofs, [{ value: "", text: "highest effort" }, ...dofs.map((d) => ({ value: d.name, text: dofWords(d.name) }))], this.dofs.value);
+    for (const c of [this.clip, this.body, this.controller, this.preset, this.stepper, this.fatigue, this.sex, this.age, this.height, this.mass, ...this.ofChosen, this.strength, this.assist, this.dofs]) c.disabled = !person;
     this.busiestAt = 0;
   }
 
-  /** The chosen figure in words. */
-  static words(p: Person, flagNames: string[]): string {
+  /** The state of a figure, row by row. */
+  private describe(p: Person): Record<Fact, string> {
+    const has = (flag: string): boolean => this.session.says(p, flag);
     const hardest = p.hardest();
-    const balance = p.frame?.balance;
-    const margin = balance?.marginM;
-    const flag = (name: string): boolean => ((p.flags >> flagNames.indexOf(name)) & 1) === 1 && flagNames.includes(name);
-    const stand = flag("FALLEN") ? "has fallen" : flag("BALANCE_LOST") ? "is losing balance" : flag("FLIGHT") ? "is in the air" : "stands";
-    const where = margin === undefined || flag("FALLEN") ? "" : margin >= 0 ? `, ${(margin * 100).toFixed(0)} cm inside its support` : `, ${(-margin * 100).toFixed(0)} cm outside its support`;
     const load = p.loadKg();
     const rms = ((p.frame?.status?.jointRmsRad ?? 0) * 180) / Math.PI;
-    return (
-      `${p.name} ${stand}${where}. ${load > 0 ? `Carries ${short(load)} kg. ` : ""}` +
-      `Hardest: ${dofWords(p.body.dofs[hardest]?.name ?? "")}, ${Math.round(100 * p.used[hardest])} % of its strength. ` +
-      `Off the desired motion by ${rms.toFixed(1)}°.` +
-      (flag("HANDED_OVER") ? " Moved by its torques for now." : "")
-    );
+    return {
+      state: state(has),
+      margin: has("FALLEN") || has("FLIGHT") ? "–" : margin(p.frame?.balance?.marginM),
+      load: load > 0 ? kilograms(load) : "none",
+      error: `${rms.toFixed(1)}° rms`,
+      effort: `${Math.round(100 * p.used[hardest])} % ${dofWords(p.body.dofs[hardest]?.name ?? "")}`,
+    };
   }
 
   /** Words and plots, a few times a second. */
   update(now: number, words: boolean): void {
     const p = this.person;
     if (words) {
-      if (!p) this.summary.textContent = this.session.people.size ? "Choose a figure." : "";
-      else {
-        const used = p.used[p.hardest()] ?? 0;
-        const bar = el("i", used > 0.995 ? { class: "hot" } : {});
-        bar.style.width = `${Math.round(used * 100)}%`;
-        this.summary.replaceChildren(Panel.words(p, this.session.flagNames), el("span", { class: "meter", "aria-hidden": "true" }, bar));
+      const facts = p && this.describe(p);
+      for (const [key] of FACTS) {
+        const text = facts?.[key] ?? "–";
+        if (this.facts[key].textContent !== text) this.facts[key].title = this.facts[key].textContent = text;
       }
+      const used = p?.used[p.hardest()] ?? 0;
+      this.meter.className = used > 0.995 ? "hot" : "";
+      this.meter.style.width = `${Math.round(used * 100)}%`;
     }
     if (p && now - this.busiestAt > 3) {
-      this.busiest = busiest(p);
+      this.busiest = inPlace(this.busiest, busiest(p));
       this.busiestAt = now;
     }
     const one = p && this.dofs.value ? p.body.dofs.findIndex((d) => d.name === this.dofs.value) : -1;
     const wanted = one >= 0 ? [one] : this.busiest;
     this.plots.forEach((view, i) => {
-      const dof = wanted[i];
-      view.figure.hidden = !p || dof === undefined || !p.history.length;
-      if (!p || dof === undefined) return;
-      plot(view.canvas, p, dof);
-      if (!words) return;
-      view.name.textContent = dofWords(p.body.dofs[dof].name);
-      const s = p.history.at(-1);
-      if (!s) return;
-      const limit = s.torque[dof] < 0 ? s.limits[dof] : s.limits[p.body.dofs.length + dof];
-      view.value.textContent = `${Math.round(s.torque[dof]) || 0} of ${Math.round(limit) || 0} N·m`;
-      view.canvas.setAttribute("aria-label", plotText(p, dof));
+      view.figure.hidden = one >= 0 && i > 0;
+      if (!view.figure.hidden) view.show(p, wanted[i], words);
     });
   }
 
   /** How a file was understood, or why it was not. */
   showReport(file: string, outcome: RetargetReport | undefined, error?: string): void {
     if (error !== undefined) {
-      this.report.replaceChildren(el("div", { class: "report bad", role: "alert" }, el("strong", {}, `${file} cannot be used`), el("p", {}, error)));
+      this.report.replaceChildren(el("div", { class: "report bad", role: "alert" }, el("strong", {}, `${file} could not be read`), el("p", {}, error)));
       return;
     }
     const r = outcome;
     if (!r) return;
-    const facts = [
-      `${r.mapped.length} bones found${r.byStructure ? " by the shape of the skeleton" : ""}${r.missingBones.length ? `, ${r.missingBones.length} without a counterpart` : ""}`,
-      `a person of ${r.statureM.toFixed(2)} m, up is ${r.upAxis}, ${r.sourceRateHz.toFixed(0)} frames per second`,
-      `feet slide ${(r.footSlideBeforeM * 100).toFixed(1)} cm as recorded, ${(r.footSlideAfterM * 100).toFixed(1)} cm as prepared`,
-    ];
-    if (r.clamped.length) facts.push(`${r.clamped.length} ${r.clamped.length === 1 ? "angle" : "angles"} went beyond the body's limits`);
-    const map = el("details", {}, el("summary", {}, "Bones"), el("ul", {}, ...r.mapped.map((m) => el("li", {}, `${m.bone}: ${m.joints.join(", ")}`))));
+    const facts = found(r);
+    const said = warnings(r);
+    const notes = said.length ? [el("strong", { class: "warnings" }, said.length === 1 ? "1 warning" : `${said.length} warnings`), el("ul", { class: "warnings" }, ...said.map((w) => el("li", {}, w)))] : [];
+    const clamps = [...r.clamped].sort((a, b) => b.maxExcessRad - a.maxExcessRad).map((c) => el("tr", {}, ...clamp(c).map((text) => el("td", {}, text))));
+    const head = el("tr", {}, ...["Angle", "Frames", "Excess"].map((text) => el("th", { scope: "col" }, text)));
+    const limited = clamps.length ? [el("details", {}, el("summary", {}, clamps.length === 1 ? "1 angle limited to the body’s range" : `${clamps.length} angles limited to the body’s range`), el("table", {}, head, ...clamps))] : [];
+    const map = el("details", {}, el("summary", {}, "Bone mapping"), el("ul", {}, ...r.mapped.map((m) => el("li", {}, `${m.bone}: ${m.joints.join(", ")}`))));
     this.report.replaceChildren(
-      el("div", { class: "report" }, el("strong", {}, `${file} plays`), el("ul", {}, ...facts.map((f) => el("li", {}, f)), ...r.warnings.map((w) => el("li", {}, w))), map),
+      el("div", { class: "report" }, el("strong", {}, `${file} is playing`), el("ul", {}, ...facts.map((f) => el("li", {}, f))), ...notes, ...limited, map),
     );
   }
 }

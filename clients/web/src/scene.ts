@@ -4,7 +4,7 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { numbers } from "./client.js";
 import type { Body } from "./gen/sinew/v1/body_pb.js";
 import type { FigureFrame } from "./gen/sinew/v1/frame_pb.js";
-import { forward, mixPoses, POSE, type Person } from "./model.js";
+import { displacement, forward, ghostOpacity, mixPoses, POSE, type Person } from "./model.js";
 import { Touchable, type Touch } from "./picking.js";
 
 /** What is shown besides the figures. */
@@ -95,6 +95,28 @@ outgoingLight += uChosen * rim * vec3(0.15, 0.5, 0.7);
       );
   };
   return { material, effort };
+}
+
+/** Opacity of the desired motion where it is far from the simulated one. */
+const GHOST_OPACITY = 0.34;
+
+/**
+ * The desired motion: each segment has its own opacity, and none is drawn where it is 0. The offset puts the surface behind the body's
+ * where both nearly coincide, so that depths that differ by rounding cannot flicker.
+ */
+function ghostMaterial(colour: number): { material: THREE.MeshBasicMaterial; fade: { value: Float32Array } } {
+  const fade = { value: new Float32Array(MOST_SEGMENTS) };
+  const material = new THREE.MeshBasicMaterial({ color: colour, transparent: true, opacity: GHOST_OPACITY, depthWrite: false, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4 });
+  material.onBeforeCompile = (shader) => {
+    shader.uniforms.uFade = fade;
+    shader.vertexShader = shader.vertexShader
+      .replace("#include <common>", `#include <common>\nattribute float segment;\nuniform float uFade[${MOST_SEGMENTS}];\nvarying float vFade;`)
+      .replace("#include <begin_vertex>", "#include <begin_vertex>\nvFade = uFade[int(segment + 0.5)];");
+    shader.fragmentShader = shader.fragmentShader
+      .replace("#include <common>", "#include <common>\nvarying float vFade;")
+      .replace("#include <color_fragment>", "#include <color_fragment>\nif (vFade <= 0.0) discard;\ndiffuseColor.a *= vFade;");
+  };
+  return { material, fade };
 }
 
 /** One closed surface for all segments, each vertex bound to its segment. */
@@ -198,6 +220,9 @@ class Actor {
   readonly group = new THREE.Group();
   readonly solid: Solid;
   private readonly ghost: Solid;
+  private readonly fade: { value: Float32Array };
+  /** Largest distance of a point of each segment from its origin, m. */
+  private readonly reach: number[];
   private readonly effort: Effort;
   private readonly crate: THREE.Group;
   private readonly weights: THREE.Mesh[] = [];
@@ -224,11 +249,15 @@ class Actor {
     this.solid = new Solid(geometry, material, count);
     this.solid.mesh.castShadow = true;
     this.solid.mesh.receiveShadow = true;
-    this.ghost = new Solid(
-      geometry,
-      new THREE.MeshBasicMaterial({ color: look.ghost, transparent: true, opacity: 0.2, depthWrite: false }),
-      count,
-    );
+    const ghost = ghostMaterial(look.ghost);
+    this.fade = ghost.fade;
+    this.ghost = new Solid(geometry, ghost.material, count);
+    this.reach = person.body.segments.map((s) => {
+      let most = 0;
+      const v = s.meshVerticesM;
+      for (let i = 0; i + 2 < v.length; i += 3) most = Math.max(most, Math.hypot(v[i], v[i + 1], v[i + 2]));
+      return most;
+    });
     this.ghost.mesh.renderOrder = 2;
     this.touchable = new Touchable(person.body);
     this.hands = [person.segment("l_hand"), person.segment("r_hand")];
@@ -290,11 +319,14 @@ class Actor {
     forward(this.person.body, numbers(a.rootPose), numbers(a.jointRotations), this.wanted[0]);
     forward(this.person.body, numbers(b.rootPose), rotations, this.wanted[1]);
     mixPoses(this.wanted[0], this.wanted[1], share, this.ghost.poses);
-    // Where both are the same there is nothing to show.
-    let off = 0;
-    for (let i = 0; i < this.ghost.poses.length; i += POSE)
-      for (let k = 0; k < 3; k++) off = Math.max(off, Math.abs(this.ghost.poses[i + k] - this.solid.poses[i + k]));
-    (this.ghost.mesh.material as THREE.Material).opacity = 0.1 + 0.22 * Math.min(1, off / 0.08);
+    // Where both agree there is nothing to show.
+    let shows = false;
+    this.reach.forEach((reach, i) => {
+      this.fade.value[i] = ghostOpacity(displacement(this.ghost.poses, this.solid.poses, i * POSE, reach));
+      shows ||= this.fade.value[i] > 0;
+    });
+    this.ghost.mesh.visible = shows;
+    if (!shows) return;
     this.ghost.place();
   }
 
@@ -467,6 +499,12 @@ const BAR = 84;
 const LEAST_DRAWN = 6;
 /** Pixels beside a figure that still count as on it: a finger is broader than a mouse. */
 const SLACK = { mouse: 8, touch: 22 };
+/** Time constant with which the view follows a figure, s. */
+const FOLLOW_S = 0.3;
+/** Height above the floor that the view looks at while it follows: the pelvis, but within these bounds, m. */
+const FOLLOW_HEIGHT = { least: 0.45, most: 1.4 };
+/** Movement of the point looked at by the pointer from which on the user has taken the view over, m per picture. */
+const PANNED = 0.002;
 
 export class Scene {
   private readonly renderer: THREE.WebGLRenderer;
@@ -485,12 +523,14 @@ export class Scene {
   private hovered: PointerEvent | undefined;
   private readonly ray = new THREE.Raycaster();
   private moved = false;
-  /** Pictures drawn with somebody in them. */
+  private followed = false;
+  private preparedAt = NaN;
+  /** Pictures drawn with a figure in them. */
   drawn = 0;
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
-    private readonly on: { choose: (person: Person | undefined) => void; pushing: (push: Push | undefined, x: number, y: number) => void; push: (push: Push) => void },
+    private readonly on: { choose: (person: Person | undefined) => void; pushing: (push: Push | undefined, x: number, y: number) => void; push: (push: Push) => void; following: (on: boolean) => void },
   ) {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
     this.renderer.shadowMap.enabled = true;
@@ -560,12 +600,12 @@ export class Scene {
     for (const a of this.actors.values()) a.repaint(this.look);
   }
 
-  /** Shows something besides the people. */
+  /** Shows something besides the figures. */
   add(thing: THREE.Object3D): void {
     this.scene.add(thing);
   }
 
-  /** Shows these people and no others. */
+  /** Shows these figures and no others. */
   populate(people: Iterable<Person>): void {
     const wanted = new Map([...people].map((p) => [p.index, p]));
     for (const [index, actor] of this.actors) {
@@ -583,7 +623,7 @@ export class Scene {
     if (!this.moved) this.frameAll();
   }
 
-  /** Puts the camera where everyone is seen. */
+  /** Puts the camera where every figure is seen. */
   frameAll(): void {
     const box = new THREE.Box3();
     for (const a of this.actors.values()) {
@@ -591,7 +631,7 @@ export class Scene {
       const x = a.solid.poses[0] || place?.xM || 0;
       const y = a.solid.poses[1] || place?.yM || 0;
       box.expandByPoint(scratchA.set(x - 0.3, y - 0.45, 0));
-      box.expandByPoint(scratchA.set(x + 0.75, y + 0.45, 1.8));
+      box.expandByPoint(scratchA.set(x + 0.75, y + 0.45, 2.1));
     }
     if (box.isEmpty()) return;
     const sphere = box.getBoundingSphere(new THREE.Sphere());
@@ -610,8 +650,35 @@ export class Scene {
   }
 
   recentre(): void {
+    this.follow = false;
     this.moved = false;
     this.frameAll();
+  }
+
+  /** Whether the view moves along with the chosen figure. Turning and zooming go on as usual; panning ends it. */
+  get follow(): boolean {
+    return this.followed;
+  }
+
+  set follow(on: boolean) {
+    if (on === this.followed) return;
+    this.followed = on;
+    if (on) this.moved = true;
+    // Two fingers that zoom always pan a little, too.
+    this.orbit.touches.TWO = on ? THREE.TOUCH.DOLLY_ROTATE : THREE.TOUCH.DOLLY_PAN;
+    this.on.following(on);
+  }
+
+  /** Moves the view along with a figure: the camera keeps its distance and direction. */
+  private track(person: Person | undefined, elapsed: number): void {
+    const actor = person && this.actors.get(person.index);
+    if (!this.followed || !actor?.group.visible) return;
+    const target = scratchA.fromArray(actor.solid.poses);
+    target.z = THREE.MathUtils.clamp(target.z, FOLLOW_HEIGHT.least, FOLLOW_HEIGHT.most);
+    const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
+    const by = target.sub(this.orbit.target).multiplyScalar(still ? 1 : 1 - Math.exp(-elapsed / FOLLOW_S));
+    this.orbit.target.add(by);
+    this.camera.position.add(by);
   }
 
   /** Turns (rad) and nears (factor) the camera, for keys. */
@@ -665,7 +732,14 @@ export class Scene {
       c.far = 30 + 3 * reach;
       c.updateProjectionMatrix();
     }
+    const now = performance.now() / 1000;
+    this.track(chosen, Number.isNaN(this.preparedAt) ? 0 : Math.min(0.5, now - this.preparedAt));
+    this.preparedAt = now;
+    scratchA.copy(this.orbit.target);
     this.orbit.update();
+    if (this.followed && scratchA.distanceTo(this.orbit.target) > PANNED) this.follow = false;
+    // Labels are placed with the view of this picture, not of the one before.
+    this.camera.updateMatrixWorld();
     // The figure moves on while a push is drawn on it, and under a pointer that rests.
     this.drawPush();
     if (this.hovered) {

@@ -197,9 +197,9 @@ export class Session {
   private take(frame: WorldFrame): void {
     const last = this.playhead.newest();
     this.playhead.push(frame);
-    if (last?.tick === frame.tick) return;
+    // A paused world sends its tick again when a figure was changed.
     for (const f of frame.figures) this.people.get(f.figureIndex)?.take(f, frame.timeS);
-    this.framed(frame);
+    if (last?.tick !== frame.tick) this.framed(frame);
   }
 
   /** Asks again for what figures play and how strong they are. */
@@ -253,13 +253,49 @@ export class Session {
     );
   }
 
-  /** Lets a figure begin its clip anew, standing. */
-  async standUp(p: Person): Promise<void> {
-    const load = p.loadKg();
+  /** Puts a figure back to its place and starts its clip again, without loads and pushes. */
+  private async restart(p: Person): Promise<void> {
     const { clip } = p;
     await this.api.figures.resetFigure({ name: p.figure.name });
     if (clip) await this.api.motion.playClip({ figure: p.figure.name, clip, loop: true, reset: true, placement: p.figure.placement });
+  }
+
+  /** Stands a figure up again at its place: its clip starts again, with the same load. */
+  async standUp(p: Person): Promise<void> {
+    const load = p.loadKg();
+    await this.restart(p);
     if (load > 0) await this.carry([p], load);
+    await this.tickIfPaused();
+  }
+
+  /** Flags, contacts and torques of a figure that was put back come with the next tick: a paused world computes one. */
+  private async tickIfPaused(): Promise<void> {
+    if (!this.world || !this.paused) return;
+    try {
+      await this.api.worlds.stepWorld({ name: this.world.name, tickCount: 1 });
+    } catch (error) {
+      // Another client has resumed the world meanwhile: then ticks come anyway.
+      if (!(error instanceof ConnectError && error.code === Code.FailedPrecondition)) throw error;
+    }
+  }
+
+  /**
+   * Puts every figure back to its place and starts all clips again, in the same tick; loads and pushes are gone. Settings, obstacles and
+   * the clock go on as they are. Gives the figures that could not be reset, with the reason.
+   */
+  async reset(): Promise<string[]> {
+    if (!this.world) return [];
+    const { name } = this.world;
+    const ran = !this.paused;
+    if (ran) await this.api.worlds.pauseWorld({ name });
+    try {
+      const people = [...this.people.values()];
+      const results = await Promise.allSettled(people.map((p) => this.restart(p)));
+      await this.tickIfPaused();
+      return results.flatMap((r, i) => (r.status === "rejected" ? [`${people[i].name} (${message(r.reason)})`] : []));
+    } finally {
+      if (ran) await this.api.worlds.resumeWorld({ name });
+    }
   }
 }
 

@@ -11,6 +11,7 @@ export interface Address {
   load: number | undefined;
   hide: string[];
   camera: number[] | undefined;
+  follow: boolean;
   figures: Cast[];
 }
 
@@ -61,6 +62,7 @@ export function write(a: Address): string {
   if (a.load !== undefined) q.set("load", String(a.load));
   if (a.hide.length) q.set("hide", a.hide.join("."));
   if (a.camera) q.set("camera", a.camera.join("_"));
+  if (a.follow) q.set("follow", "1");
   for (const c of a.figures) q.append("f", [c.id, c.body, c.controller, c.strength, c.clip, c.x, c.y, c.stepper, c.assist || "", c.preset, c.fatigue || ""].join("~").replace(/~+$/, ""));
   return q.toString();
 }
@@ -87,6 +89,7 @@ export function read(text: string): Address {
     load: load !== undefined && load >= 0 && load <= 20 ? load : undefined,
     hide: (q.get("hide") ?? "").split(".").filter(Boolean),
     camera: camera?.every(Number.isFinite) ? camera : undefined,
+    follow: q.get("follow") === "1",
     figures,
   };
 }

@@ -1,5 +1,6 @@
 // From names of the protocol to words for people.
 import { EventType, type Event } from "./gen/sinew/v1/state_pb.js";
+import type { ClampedAngle, RetargetReport } from "./gen/sinew/v1/types_pb.js";
 
 /** `l_shoulder_flexion` or `l_shoulder` → `left shoulder`. */
 export function joint(name: string): string {
@@ -15,34 +16,97 @@ export function dof(name: string): string {
   return side + parts.slice(side ? 1 : 0).join(" ");
 }
 
-/** What is worth a caption of its own, or nothing. Limits of strength have captions that count, elsewhere. */
+/** What is worth a caption of its own, or nothing. Torque limits and falls are shown elsewhere for as long as they last. */
 export function event(e: Event): { text: string; grave: boolean } | undefined {
-  const who = e.figure;
+  const { figure } = e;
   switch (e.type) {
     case EventType.BALANCE_LOST:
-      return { text: `${who} loses balance`, grave: true };
+      return { text: `${figure} loses balance`, grave: true };
     case EventType.RECOVERED:
-      return { text: `${who} is in balance again`, grave: false };
-    case EventType.FELL:
-      return { text: `${who} has fallen`, grave: true };
+      return { text: `${figure} regains balance`, grave: false };
     case EventType.GOT_UP:
-      return { text: `${who} stands again`, grave: false };
+      return { text: `${figure} is back on its feet`, grave: false };
     case EventType.LOAD_SLIPPED:
-      return { text: `${short(e.massKg)} kg slip from the ${joint(e.segment)} of ${who}`, grave: true };
+      return { text: `${figure} drops ${kilograms(e.massKg)} from the ${joint(e.segment)}`, grave: true };
     case EventType.QUARANTINED:
-      return { text: `${who} is frozen: its state became unusable`, grave: true };
+      return { text: `${figure} is frozen: its simulation state became invalid`, grave: true };
     case EventType.DRIVE_BEGAN:
-      return { text: `${who} is driven live${e.detail ? ` by ${e.detail}` : ""}`, grave: false };
+      return { text: `${figure} is now driven live${e.detail ? ` by ${e.detail}` : ""}`, grave: false };
     case EventType.DRIVE_ENDED:
-      return { text: `${who} is no longer driven live`, grave: false };
+      return { text: `Live control of ${figure} has ended`, grave: false };
     case EventType.WORLD_FAILED:
-      return { text: `The world failed: ${e.detail}`, grave: true };
+      return { text: `The world has failed: ${e.detail}`, grave: true };
     default:
       return undefined;
   }
 }
 
-/** Three figures at most, no trailing zeros. */
-export function short(value: number): string {
-  return String(Number(value.toPrecision(value >= 100 ? 3 : 2)));
+/** What a figure does, from its flags. */
+export function state(has: (flag: string) => boolean): string {
+  const base = has("QUARANTINED") ? "frozen" : has("FALLEN") ? "fallen" : has("BALANCE_LOST") ? "off balance" : has("FLIGHT") ? "in the air" : "standing";
+  return has("HANDED_OVER") ? `${base}, torque-driven for now` : base;
+}
+
+/** Distance of the zero-moment point from the edge of the support polygon: positive inside. */
+export function margin(metres: number | undefined): string {
+  if (metres === undefined || !Number.isFinite(metres)) return "no support";
+  const cm = Math.round(metres * 100) || 0;
+  return cm < 0 ? `${Math.abs(cm)} cm outside support` : `${cm} cm`;
+}
+
+/** Kilograms with one decimal at most; small masses with two figures. */
+export function kilograms(mass: number): string {
+  return `${Number(mass < 1 ? mass.toPrecision(2) : mass.toFixed(1))} kg`;
+}
+
+/** A number with a true minus sign, as axes and readouts have it. */
+export function signed(value: number, digits = 0): string {
+  const text = value.toFixed(digits);
+  return (Number(text) === 0 ? text.replace("-", "") : text).replace("-", "−");
+}
+
+/** Names of degrees of freedom in a sentence, as words. */
+function spelled(sentence: string, dofs: string[]): string {
+  const replaced = dofs.reduce((text, name) => text.replaceAll(new RegExp(`\\b${name}\\b`, "g"), dof(name)), sentence);
+  const words = replaced.replace(/\b[lr]_[a-z]+(?:_[a-z]+)*\b/g, dof);
+  return words.charAt(0).toUpperCase() + words.slice(1);
+}
+
+const cm = (metres: number): string => `${(metres * 100).toFixed(1)} cm`;
+
+/** What was found in a recording. */
+export function found(r: RetargetReport): string[] {
+  return [
+    `${r.mapped.length} bones matched`,
+    `Performer ${r.statureM.toFixed(2)} m tall, ${r.upAxis} axis up, ${r.sourceRateHz.toFixed(0)} frames per second`,
+    `Feet slide ${cm(r.footSlideBeforeM)} in the recording, ${cm(r.footSlideAfterM)} after preparation`,
+  ];
+}
+
+/** One clamped angle: of which joint, in how much of the clip, by how much. */
+export function clamp(c: ClampedAngle): [string, string, string] {
+  const share = c.fraction < 0.01 ? "< 1" : (c.fraction * 100).toFixed(0);
+  const degrees = (c.maxExcessRad * 180) / Math.PI;
+  return [dof(c.dof), `${share} %`, degrees < 1 ? "< 1°" : `${degrees.toFixed(0)}°`];
+}
+
+/** Whether a sentence names a degree of freedom, as the protocol does or in words. */
+function names(sentence: string, name: string): boolean {
+  const plain = (text: string): string => text.toLowerCase().replace(/[^a-z]+/g, " ");
+  return sentence.includes(name) || ` ${plain(sentence)} `.includes(` ${plain(dof(name))} `);
+}
+
+/** Excess (rad) and share of the frames beyond which a clamped angle is a warning. */
+const CLAMP_WARNS = { excess: 0.087, share: 0.05 };
+
+/** Every warning about a recording: the server's, and clamped angles that it does not mention itself. */
+export function warnings(r: RetargetReport): string[] {
+  const dofs = r.clamped.map((c) => c.dof);
+  const large = r.clamped.filter((c) => c.maxExcessRad > CLAMP_WARNS.excess && c.fraction > CLAMP_WARNS.share);
+  const more = large.filter((c) => !r.warnings.some((w) => names(w, c.dof)));
+  const lines = more.map((c) => {
+    const [, share, excess] = clamp(c);
+    return `${c.dof} exceeds the body's limits by up to ${excess} in ${share} of the frames`;
+  });
+  return [...r.warnings, ...lines].map((text) => spelled(text, dofs));
 }

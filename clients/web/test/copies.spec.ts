@@ -1,7 +1,7 @@
 // What can be copied from the page does what the page shows.
 import { execFile } from "node:child_process";
 import { promisify } from "node:util";
-import { expect, live, program, test } from "./support.js";
+import { expect, fact, live, program, test } from "./support.js";
 
 const run = promisify(execFile);
 
@@ -11,7 +11,7 @@ test("copies reproduce the scene", async ({ page, server, context }) => {
   await live(page, server.url);
   const copied = (): Promise<string> => page.evaluate(() => navigator.clipboard.readText());
   await page.locator("#load-slider").fill("6");
-  await expect(page.locator("#summary")).toContainText("Carries 6 kg");
+  await expect(fact(page, "load")).toHaveText("6 kg");
   await page.locator("#assist").fill("0.5");
   await expect(page.locator("#assist")).toHaveValue("0.5");
   await expect.poll(() => page.url()).toContain("0.5");
@@ -31,7 +31,7 @@ test("copies reproduce the scene", async ({ page, server, context }) => {
 
   // What only the paper's controller knows is said in full.
   await page.locator("#controller").selectOption("paper 2000");
-  await page.locator("#preset").selectOption("as printed in 2000");
+  await page.locator("#preset").selectOption("as published in 2000");
   await page.locator("#stepper").selectOption("kinematic");
   await expect.poll(() => page.url()).toContain("kinematic");
   await page.locator("#copy-cli").click();
@@ -47,5 +47,5 @@ test("copies reproduce the scene", async ({ page, server, context }) => {
   const link = await copied();
   await page.goto("about:blank");
   await page.goto(link);
-  await expect(page.locator("#summary")).toContainText("Carries 6 kg");
+  await expect(fact(page, "load")).toHaveText("6 kg");
 });

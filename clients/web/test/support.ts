@@ -1,5 +1,5 @@
 // A server of its own for each test, and what tests ask of the page.
-import { test as base, expect, type Page } from "@playwright/test";
+import { test as base, expect, type Locator, type Page } from "@playwright/test";
 import { spawn, type ChildProcess } from "node:child_process";
 import { mkdirSync } from "node:fs";
 import { dirname, join } from "node:path";
@@ -53,7 +53,11 @@ export const test = base.extend<{ server: Server }>({
   server: async ({ page, context }, use) => {
     const server = new Server();
     if (pageFolder)
-      for (const name of ["viewer.js", "viewer.css"]) await context.route(`**/${name}`, (r) => r.fulfill({ path: join(pageFolder, name), headers: { "content-type": name.endsWith("js") ? "text/javascript" : "text/css" } }));
+      for (const [path, name] of [["/", "index.html"], ["/viewer.js", "viewer.js"], ["/viewer.css", "viewer.css"]])
+        await context.route(
+          (url) => url.pathname === path,
+          async (r) => r.fulfill({ response: await r.fetch({ headers: { ...r.request().headers(), "accept-encoding": "identity" } }), path: join(pageFolder, name) }),
+        );
     const foreign: string[] = [];
     const errors: string[] = [];
     context.on("request", (r) => {
@@ -82,12 +86,51 @@ export async function shot(page: Page, name: string): Promise<void> {
   await page.screenshot({ path: join(SHOTS, `${name}.png`) });
 }
 
+/** A row of the summary of the chosen figure. */
+export function fact(page: Page, name: "state" | "margin" | "load" | "effort" | "error"): Locator {
+  return page.locator(`#summary [data-fact=${name}]`);
+}
+
 /** How far the chosen figure is from the desired motion, degrees, as the summary says. */
 export async function off(page: Page): Promise<number> {
-  const text = await page.locator("#summary").innerText();
-  return Number(/by ([\d.]+)°/.exec(text)?.[1]);
+  return Number(/^([\d.]+)° rms$/.exec(await fact(page, "error").innerText())?.[1]);
+}
+
+/** Drops a file on the page. */
+export async function dropFile(page: Page, name: string, content: string): Promise<void> {
+  const transfer = await page.evaluateHandle(
+    ([name, content]) => {
+      const data = new DataTransfer();
+      data.items.add(new File([content], name));
+      return data;
+    },
+    [name, content],
+  );
+  await page.dispatchEvent("body", "dragenter", { dataTransfer: transfer });
+  await expect(page.locator("#drop")).toBeVisible();
+  await page.dispatchEvent("body", "drop", { dataTransfer: transfer });
+  await expect(page.locator("#drop")).toBeHidden();
+}
+
+/** How many pixels differ between two pictures (PNG), by more than `threshold` of 255 in any colour. */
+export async function differing(page: Page, a: Buffer, b: Buffer, threshold = 6): Promise<number> {
+  return page.evaluate(
+    async ([a, b, threshold]) => {
+      const pixels = async (text: string): Promise<Uint8ClampedArray> => {
+        const picture = await createImageBitmap(new Blob([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))]));
+        const canvas = new OffscreenCanvas(picture.width, picture.height);
+        const ink = canvas.getContext("2d");
+        ink?.drawImage(picture, 0, 0);
+        return ink?.getImageData(0, 0, picture.width, picture.height).data ?? new Uint8ClampedArray();
+      };
+      const [x, y] = [await pixels(a), await pixels(b)];
+      let count = 0;
+      for (let i = 0; i < x.length; i += 4) if ([0, 1, 2].some((k) => Math.abs(x[i + k] - y[i + k]) > threshold)) count++;
+      return count;
+    },
+    [a.toString("base64"), b.toString("base64"), threshold] as const,
+  );
 }
 
 /** A call over gRPC-Web from the test's own side. */
 export { Sinew } from "../src/client.js";
-export const mocap = process.env.SINEW_MOCAP_DIR ?? join(root, "../shared/mocap");
