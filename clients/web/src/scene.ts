@@ -356,7 +356,7 @@ class Actor {
     if (up.lengthSq() < 0.01) up.set(1, 0, 0).addScaledVector(across, -across.x);
     up.normalize();
     this.crate.quaternion.setFromRotationMatrix(new THREE.Matrix4().makeBasis(new THREE.Vector3().crossVectors(across, up), across, up));
-    this.crate.scale.set(1, Math.max(0.4, (width - 0.06) / CRATE[1]), 1);
+    this.crate.scale.set(1, Math.max(0.4, width / CRATE[1]), 1);
   }
 
   private showSupport(frame: FigureFrame, shown: boolean): void {
