@@ -29,7 +29,7 @@ const KNEE_STEPS: usize = 8;
 /// A free foot may be this deep in the floor, m; how often its leg is solved for less.
 pub(super) const DEEP: f64 = 0.01;
 
-const RAISES: usize = 4;
+const RAISES: usize = 8;
 
 /// What is left of a lock when the legs are within their limits.
 #[derive(Default)]

@@ -152,11 +152,20 @@ pub(super) fn unfold(
             let lacks = lacks_flexion(body, &with(i, need[i], 0.0), deep[i]);
             need[i] = (need[i] + lacks).min(MOST_TILT);
         }
+        // Where something else is cut, a tilt may put the feet deeper.
+        if deepest(body, &with(i, need[i], 0.0), soles) >= deepest(body, &original[i], soles) {
+            need[i] = 0.0;
+        }
     }
     let tilt = smooth(&need);
     let mut need = vec![0.0f64; n];
     for i in 0..n {
-        let depth = |raise: f64| deepest(body, &with(i, tilt[i], raise), soles);
+        // A free foot is raised by its own leg, later.
+        let depth = |raise: f64| {
+            let both = depths(body, &with(i, tilt[i], raise), soles);
+            let standing = both.into_iter().zip(planted[i]).filter(|(_, on)| *on);
+            standing.fold(0.0f64, |most, (depth, _)| most.max(depth))
+        };
         let first = depth(0.0);
         if first <= DEEP {
             continue;
