@@ -22,6 +22,8 @@ enum Command {
     Watch(cli::watch::Args),
     /// Run motions through the physics, offline, and report how well the figure followed
     Run(Box<cli::run::RunArgs>),
+    /// Run every clip of a corpus, judge it by published rules, and compare with an earlier survey
+    Survey(Box<cli::survey::SurveyArgs>),
     /// Say how recordings fit the body: what was found, guessed and changed
     Lint(cli::lint::LintArgs),
     /// Fit a recording to the body and write the prepared motion
@@ -45,6 +47,7 @@ fn main() -> ExitCode {
         Some(Command::Push(args)) => cli::push::run(&args),
         Some(Command::Watch(args)) => cli::watch::run(&args),
         Some(Command::Run(args)) => cli::run::run(&args),
+        Some(Command::Survey(args)) => cli::survey::run(&args),
         Some(Command::Lint(args)) => cli::lint::run(&args),
         Some(Command::Convert(args)) => cli::convert::run(&args),
         Some(Command::Paper(args)) => cli::paper::run(&args),

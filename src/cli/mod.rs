@@ -12,6 +12,7 @@ pub mod push;
 pub mod run;
 pub mod serve;
 pub mod source;
+pub mod survey;
 pub mod walking;
 pub mod watch;
 

@@ -6,12 +6,14 @@
 
 pub mod audit;
 pub mod experiments;
+pub mod forecast;
 pub mod metrics;
 pub mod noise;
 pub mod plot;
 pub mod pose;
 pub mod report;
 pub mod strip;
+pub mod survey;
 pub mod survival;
 pub mod table;
 
