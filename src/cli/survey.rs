@@ -23,10 +23,11 @@ use std::sync::Arc;
 /// Most copies of a clip.
 const MAX_COPIES: u32 = 1000;
 
-/// Runs every clip of a corpus and says how well it was followed, by kind of motion, with a forecast of each before it is run.
+/// Runs every clip of a corpus and says how well it was followed, by kind of motion, with a forecast of each before
+/// it is run.
 ///
-/// Exit code 0: the survey is written; clips that cannot be read are rows with their error. 1: it could not be made, or `--compare` found
-/// regressions beyond noise. 2: bad arguments. docs/survey.md defines every column.
+/// Exit code 0: the survey is written; clips that cannot be read are rows with their error. 1: it could not be made,
+/// or `--compare` found regressions beyond noise. 2: bad arguments. docs/survey.md defines every column.
 #[derive(Clone, Debug, clap::Args)]
 pub struct SurveyArgs {
     /// Motions: BVH files, folders (all *.bvh in them) or builtin:NAME.
@@ -62,9 +63,14 @@ pub struct SurveyArgs {
     /// Load held by one or two segments, for example 3@r_hand or 8@l_hand+r_hand (repeatable).
     #[arg(long, value_name = "KG@SEGMENT[+SEGMENT][@T0..T1]")]
     pub load: Vec<LoadSpec>,
-    /// Push on a segment: 20@chest@1.5:1,0,0 (N·s, start in s from the beginning of the run, world direction), or 10@random, 10@pelvis@random at a
-    /// time and in a level direction that follow from the clip and the copy (repeatable).
-    #[arg(long, value_name = "NS@SEGMENT@T:x,y,z|NS@random", allow_hyphen_values = true)]
+    /// Push on a segment: 20@chest@1.5:1,0,0 (N·s, start in s from the beginning of the run, world direction), or
+    /// 10@random, 10@pelvis@random at a time and in a level direction that follow from the clip and the copy
+    /// (repeatable).
+    #[arg(
+        long,
+        value_name = "NS@SEGMENT@T:x,y,z|NS@random",
+        allow_hyphen_values = true
+    )]
     pub push: Vec<SurveyPush>,
     /// How long a push lasts, s.
     #[arg(long, value_name = "S", default_value_t = 0.2)]
@@ -109,7 +115,13 @@ impl FromStr for NoiseSpec {
         let form = || format!("{text:?} is not of the form MMmm,DEGdeg, for example 1mm,0.2deg");
         let (mm, deg) = text.split_once(',').ok_or_else(form)?;
         let number = |text: &str, unit: &str, most: f64| {
-            let n: f64 = text.trim().strip_suffix(unit).ok_or_else(form)?.trim().parse().map_err(|_| form())?;
+            let n: f64 = text
+                .trim()
+                .strip_suffix(unit)
+                .ok_or_else(form)?
+                .trim()
+                .parse()
+                .map_err(|_| form())?;
             if (0.0..=most).contains(&n) {
                 Ok(n)
             } else {
@@ -125,8 +137,8 @@ impl FromStr for NoiseSpec {
 
 /// Runs the command.
 ///
-/// # Errors
-/// Bad arguments, an empty corpus, files that cannot be written, settings that differ from those compared with, regressions.
+/// # Errors Bad arguments, an empty corpus, files that cannot be written, settings that differ from those compared
+/// with, regressions.
 pub fn run(args: &SurveyArgs) -> Result<()> {
     check(args)?;
     let body = Arc::new(args.body.build()?);
@@ -179,7 +191,11 @@ fn check(args: &SurveyArgs) -> Result<()> {
         ("--live-window", args.live_window.unwrap_or(1.0), [0.3, 1.0]),
         ("--gravity", args.gravity, [0.0, 30.0]),
         ("--rate", args.rate, [30.0, 240.0]),
-        ("--copies", f64::from(args.copies), [0.0, f64::from(MAX_COPIES)]),
+        (
+            "--copies",
+            f64::from(args.copies),
+            [0.0, f64::from(MAX_COPIES)],
+        ),
         ("--jobs", args.jobs.unwrap_or(1) as f64, [1.0, 256.0]),
     ] {
         ensure!(
@@ -196,7 +212,13 @@ fn settings(args: &SurveyArgs, body: &Body) -> serde_json::Map<String, serde_jso
     let loads: Vec<String> = (args.load.iter())
         .map(|l| {
             let second = l.second.map_or(String::new(), |s| format!("+{}", s.name()));
-            format!("{}@{}{second}@{}..{}", l.mass_kg, l.segment.name(), l.from_s, l.to_s)
+            format!(
+                "{}@{}{second}@{}..{}",
+                l.mass_kg,
+                l.segment.name(),
+                l.from_s,
+                l.to_s
+            )
         })
         .collect();
     let pushes: Vec<String> = args.push.iter().map(ToString::to_string).collect();
@@ -257,7 +279,15 @@ mod tests {
     fn noise_is_read_with_its_units() {
         let n: NoiseSpec = "1.5mm, 0.2deg".parse().expect("noise");
         assert!((n.metres - 0.0015).abs() < 1e-12 && n.degrees == 0.2);
-        for bad in ["1,0.2", "1mm", "1mm,0.2", "xmm,1deg", "-1mm,1deg", "nanmm,1deg", "1mm,90deg"] {
+        for bad in [
+            "1,0.2",
+            "1mm",
+            "1mm,0.2",
+            "xmm,1deg",
+            "-1mm,1deg",
+            "nanmm,1deg",
+            "1mm,90deg",
+        ] {
             assert!(bad.parse::<NoiseSpec>().is_err(), "{bad}");
         }
     }

@@ -1,8 +1,9 @@
 //! How hard a motion is for a body, told before anything is simulated, and what will come of it.
 //!
-//! Inverse dynamics of the prepared motion: at each sample the floor pushes at the points that touch it, within friction, so that the needed
-//! wrench is met as well as can be and the joints are loaded as evenly as can be. What is left of the wrench the floor lacks; the torques are
-//! compared with the strength of the body at those angles and speeds. [`Limits`] turns both into a verdict with its reason.
+//! Inverse dynamics of the prepared motion: at each sample the floor pushes at the points that touch it, within
+//! friction, so that the needed wrench is met as well as can be and the joints are loaded as evenly as can be. What
+//! is left of the wrench the floor lacks; the torques are compared with the strength of the body at those angles and
+//! speeds. [`Limits`] turns both into a verdict with its reason.
 
 use super::survey::stats::short;
 use crate::sim::body::angles::anatomical_angles;
@@ -31,7 +32,8 @@ const TOUCH: f64 = 0.03;
 const SLOW: f64 = 0.6;
 /// Points of a foot that the motion plants touch within this height over its lowest one, m: a raised heel does not.
 const SOLE: f64 = 0.02;
-/// Weight of a joint at its limit against one body weight of force that is missing: even torques matter only where forces are not determined.
+/// Weight of a joint at its limit against one body weight of force that is missing: even torques matter only where
+/// forces are not determined.
 const EVEN: f64 = 0.01;
 /// Keeps the least squares solvable; forces are in weights.
 const RIDGE: f64 = 1e-8;
@@ -43,10 +45,12 @@ const STEP: f64 = 0.5;
 const INVERTED: f64 = -0.3;
 /// Rows: force, moment about the centre of mass, joint torques.
 const ROWS: usize = 6 + DOF_COUNT;
-/// Longest part of a clip that is looked at, s, so that the cost of a long recording stays bounded by that of its preparation.
+/// Longest part of a clip that is looked at, s, so that the cost of a long recording stays bounded by that of its
+/// preparation.
 const LONGEST: f64 = 900.0;
 
-/// How hard a motion is. Forces in body weights, moments in weight × metre, torques over the strength at that instant, times on the clip's clock.
+/// How hard a motion is. Forces in body weights, moments in weight × metre, torques over the strength at that
+/// instant, times on the clip's clock.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "net", derive(serde::Serialize, serde::Deserialize))]
 pub struct Difficulty {
@@ -64,12 +68,19 @@ pub struct Difficulty {
     pub lacking_moment_at_s: f64,
     /// Farthest that what is lacking drives the capture point within 0.5 s, m.
     pub drift_m: f64,
-    /// End of that half second, s.
+    /// Middle of that time, s.
     pub drift_at_s: f64,
+    /// Mean level force that is lacking in that time, weights, and mean level moment, weight × m.
+    pub drift_force: f64,
+    /// See `drift_force`.
+    pub drift_moment: f64,
     /// Largest vertical speed that what is lacking makes within 0.5 s, m/s.
     pub sink_mps: f64,
-    /// End of that half second, s.
+    /// Middle of that time, s.
     pub sink_at_s: f64,
+    /// Mean vertical force that is lacking in that time, weights: positive where the floor would have to push harder,
+    /// negative where it would have to pull.
+    pub sink_force: f64,
     /// Largest mean torque over 0.1 s, over the strength there.
     pub torque_peak: f64,
     /// DOF of that torque; empty if none is needed.
@@ -80,6 +91,15 @@ pub struct Difficulty {
     pub torque_p95: f64,
     /// Its DOF; empty if none is needed.
     pub torque_p95_dof: String,
+    /// Largest 95th percentile of the joints that carry: hips, knees, waist and thorax in flexion and to the side. An
+    /// ankle is not among them: where under the sole the floor pushes decides its torque.
+    pub support_p95: f64,
+    /// Its DOF; empty if none is needed.
+    pub support_p95_dof: String,
+    /// Largest mean torque of that DOF over 0.1 s, over its strength there.
+    pub support_peak: f64,
+    /// When, s.
+    pub support_peak_at_s: f64,
     /// Share of the clip in which some DOF needs more than its strength.
     pub overload_share: f64,
     /// Time with nothing on the floor, s.
@@ -132,33 +152,35 @@ pub struct Forecast {
     pub verdict: Verdict,
     /// Why, as the end of the sentence "follows …", "needs help: …", "cannot: …".
     pub reason: String,
-    /// The hardest demand over what is believed to be followed; up to 1 it follows, from [`Limits::cannot`] on it cannot.
+    /// The hardest demand: up to 1 it follows, from 2 on it cannot ([`Limits`]).
     pub demand: f64,
     /// The figures behind it.
     pub difficulty: Difficulty,
 }
 
-/// Up to where a motion is believed to be followed. One struct for all clips; nothing in it belongs to a single recording.
+/// Up to where a motion is believed to be followed, and from where on no small help will do. One struct for all
+/// clips; nothing in it belongs to a single recording.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
-    /// [`Difficulty::drift_m`], m. A foot reaches about 0.1 m around its middle; what drives the capture point beyond the edge of the support needs
-    /// a step that the motion does not have.
-    pub drift_m: f64,
-    /// [`Difficulty::sink_mps`], m/s. A body that lacks so much upward speed misses the height of the motion by a hand's breadth.
-    pub sink_mps: f64,
-    /// [`Difficulty::torque_peak`]. Beyond 1 the joint gives way; neighbours and momentum bridge a short excess.
-    pub torque: f64,
-    /// Demand, as a multiple of the above, from which no small help will do.
-    pub cannot: f64,
+    /// [`Difficulty::drift_m`], m. A foot reaches 0.1 to 0.2 m around its middle: what drives the capture point
+    /// farther needs a step that the motion does not have. From half a metre on the drift alone is what counts as
+    /// lost (PHC's rule).
+    pub drift_m: [f64; 2],
+    /// [`Difficulty::sink_mps`], m/s. A body that lacks 0.5 m/s of upward speed is a hand's breadth too low after 0.2
+    /// s; 2.2 m/s is what it has after falling by 0.25 m.
+    pub sink_mps: [f64; 2],
+    /// [`Difficulty::support_p95`]. A joint that carries has no more than its strength; momentum bridges less than a
+    /// twentieth of the time. At three times the strength of the joint most of the load would have to be carried by
+    /// something else.
+    pub support: [f64; 2],
 }
 
 impl Default for Limits {
     fn default() -> Self {
         Self {
-            drift_m: 0.2,
-            sink_mps: 0.8,
-            torque: 1.5,
-            cannot: 3.0,
+            drift_m: [0.15, 0.5],
+            sink_mps: [0.5, 2.2],
+            support: [1.0, 3.0],
         }
     }
 }
@@ -193,48 +215,63 @@ pub fn forecast_plain(body: &Body, clip: &Clip) -> Forecast {
 pub fn judge(difficulty: &Difficulty, limits: &Limits) -> Forecast {
     let d = difficulty;
     let demands = [
-        (d.drift_m / limits.drift_m, 0),
-        (d.sink_mps / limits.sink_mps, 1),
-        (d.torque_peak / limits.torque, 2),
+        demand(d.support_p95, limits.support),
+        demand(d.drift_m, limits.drift_m),
+        demand(d.sink_mps, limits.sink_mps),
     ];
-    let (demand, which) =
-        (demands.into_iter()).fold((0.0, 2), |a, b| if b.0 > a.0 { b } else { a });
-    let verdict = match demand {
+    let most = demands.iter().copied().fold(0.0, f64::max);
+    let verdict = match most {
         x if x <= 1.0 => Verdict::Follows,
-        x if x < limits.cannot => Verdict::NeedsHelp,
+        x if x < 2.0 => Verdict::NeedsHelp,
         _ => Verdict::Cannot,
     };
     let time = |t: f64| match t {
         t if t < 0.0 => format!("{:.1} s before its first frame", -t),
         t => format!("at {t:.1} s"),
     };
-    let reason = match which {
-        0 => format!(
-            "the floor lacks {:.2} weights and {:.2} weight·m {}, which drives the capture point {:.2} m off in half a second",
-            d.lacking_force_peak,
-            d.lacking_moment_peak,
-            time(d.drift_at_s),
-            d.drift_m
-        ),
-        1 => format!(
-            "the floor would have to {} with {:.1} weights more than it can {}",
-            if d.lacking_force_peak > 0.0 { "push or pull" } else { "push" },
-            d.lacking_force_peak,
-            time(d.sink_at_s)
-        ),
-        _ if d.torque_peak_dof.is_empty() => "needs no strength".to_owned(),
-        _ => format!(
-            "needs {:.1} times the strength of {} {}",
-            d.torque_peak,
-            spoken(&d.torque_peak_dof),
-            time(d.torque_peak_at_s)
-        ),
+    let reason = if d.support_p95_dof.is_empty() && most <= 0.0 {
+        "needs no strength".to_owned()
+    } else if demands[0] >= most {
+        format!(
+            "needs {:.1} times the strength of {} {} ({:.1} times or more in a twentieth of its time)",
+            d.support_peak,
+            spoken(&d.support_p95_dof),
+            time(d.support_peak_at_s),
+            d.support_p95
+        )
+    } else if demands[1] >= most {
+        format!(
+            "the floor lacks {:.2} weights and {:.2} weight·m around {:.1} s, \
+             which drives the capture point off by {:.2} m",
+            d.drift_force, d.drift_moment, d.drift_at_s, d.drift_m
+        )
+    } else {
+        let way = if d.sink_force > 0.0 {
+            "push harder"
+        } else {
+            "pull"
+        };
+        format!(
+            "the floor would have to {way} by {:.1} weights around {:.1} s",
+            d.sink_force.abs(),
+            d.sink_at_s
+        )
     };
     Forecast {
         verdict,
         reason,
-        demand: short(demand),
+        demand: short(most),
         difficulty: d.clone(),
+    }
+}
+
+/// 0 for nothing, 1 where a motion is no longer believed to be followed, 2 where no small help will do; linear in
+/// between and beyond.
+fn demand(value: f64, [follows, cannot]: [f64; 2]) -> f64 {
+    if value <= follows {
+        value / follows
+    } else {
+        1.0 + (value - follows) / (cannot - follows)
     }
 }
 
@@ -377,7 +414,8 @@ impl<'a> Looker<'a> {
         }
     }
 
-    /// Fills the columns with the edges of the friction cones of all touching points; whether feet, and whether other parts, touch.
+    /// Fills the columns with the edges of the friction cones of all touching points; whether feet, and whether other
+    /// parts, touch.
     fn touch(&mut self, target: &Target, com: Vec3, per_limit: &[f64; DOF_COUNT]) -> (bool, bool) {
         self.columns.clear();
         let root = target.posture.root_position.z;
@@ -401,7 +439,11 @@ impl<'a> Looker<'a> {
                 let on = (planted && height < TOUCH.max(lowest + SOLE))
                     || (height < TOUCH && speed() < SLOW);
                 if on {
-                    *(if side.is_some() { &mut feet } else { &mut others }) = true;
+                    *(if side.is_some() {
+                        &mut feet
+                    } else {
+                        &mut others
+                    }) = true;
                     self.add_cone(s, self.kin.position[s] + arm, com, per_limit);
                 }
             }
@@ -409,7 +451,8 @@ impl<'a> Looker<'a> {
         (feet, others)
     }
 
-    /// Edges of the cone at `point` (from the pelvis origin, world axes) of segment `s`; a unit is one weight along the normal.
+    /// Edges of the cone at `point` (from the pelvis origin, world axes) of segment `s`; a unit is one weight along
+    /// the normal.
     fn add_cone(&mut self, s: usize, point: Vec3, com: Vec3, per_limit: &[f64; DOF_COUNT]) {
         let corner = std::f64::consts::FRAC_1_SQRT_2;
         const AROUND: [(f64, f64); EDGES] = [
@@ -516,6 +559,12 @@ impl Difficulty {
             &mut self.drift_at_s,
             &mut self.sink_mps,
             &mut self.sink_at_s,
+            &mut self.drift_force,
+            &mut self.drift_moment,
+            &mut self.sink_force,
+            &mut self.support_p95,
+            &mut self.support_peak,
+            &mut self.support_peak_at_s,
             &mut self.torque_peak,
             &mut self.torque_peak_at_s,
             &mut self.torque_p95,
@@ -525,7 +574,10 @@ impl Difficulty {
             &mut self.floor_s,
             &mut self.inverted_s,
         ];
-        let lists = self.torque_peak_by_dof.iter_mut().chain(&mut self.torque_p95_by_dof);
+        let lists = self
+            .torque_peak_by_dof
+            .iter_mut()
+            .chain(&mut self.torque_p95_by_dof);
         for x in all.into_iter().chain(lists) {
             *x = short(*x);
         }
@@ -533,8 +585,8 @@ impl Difficulty {
     }
 }
 
-/// How far the missing wrench drives a linear inverted pendulum within [`STEP`]: `ξ̇ = ω δ + f g/ω` with the missing shift δ of the zero-moment
-/// point and the missing level force f (in weights), and how fast it makes it sink.
+/// How far the missing wrench drives a linear inverted pendulum within [`STEP`]: `ξ̇ = ω δ + f g/ω` with the missing
+/// shift δ of the zero-moment point and the missing level force f (in weights), and how fast it makes it sink.
 fn drift(demands: &[Demand], out: &mut Difficulty) {
     let rate: Vec<(f64, f64, f64)> = demands
         .iter()
@@ -549,18 +601,36 @@ fn drift(demands: &[Demand], out: &mut Difficulty) {
         })
         .collect();
     let most = ((STEP * RATE).round() as usize).max(1);
+    let (mut far, mut fast) = ((0, 0), (0, 0));
     for start in 0..rate.len() {
         let (mut x, mut y, mut z) = (0.0, 0.0, 0.0);
         for (i, r) in rate.iter().enumerate().skip(start).take(most) {
             (x, y, z) = (x + r.0 / RATE, y + r.1 / RATE, z + r.2 / RATE);
             if x.hypot(y) > out.drift_m {
-                (out.drift_m, out.drift_at_s) = (x.hypot(y), demands[i].time);
+                (out.drift_m, far) = (x.hypot(y), (start, i));
             }
             if z.abs() > out.sink_mps {
-                (out.sink_mps, out.sink_at_s) = (z.abs(), demands[i].time);
+                (out.sink_mps, fast) = (z.abs(), (start, i));
             }
         }
     }
+    let mean = |(a, b): (usize, usize), of: &dyn Fn(&Demand) -> Vec3| {
+        let part = demands.get(a..=b).unwrap_or_default();
+        part.iter().fold(Vec3::zero(), |sum, d| sum + of(d)) * (1.0 / part.len().max(1) as f64)
+    };
+    let middle = |(a, b): (usize, usize)| demands.get((a + b) / 2).map_or(0.0, |d| d.time);
+    let level = |v: Vec3| v.x.hypot(v.y);
+    (out.drift_at_s, out.sink_at_s) = (middle(far), middle(fast));
+    out.drift_force = level(mean(far, &|d| d.lacking.0));
+    out.drift_moment = level(mean(far, &|d| d.lacking.1));
+    out.sink_force = mean(fast, &|d| d.lacking.0).z;
+}
+
+/// DOFs that carry the body.
+fn carries(dof: &str) -> bool {
+    let joint = ["hip_", "knee_", "waist_", "thorax_"];
+    let turns = ["rotation"];
+    joint.iter().any(|j| dof.contains(j)) && !turns.iter().any(|t| dof.ends_with(t))
 }
 
 fn torques(demands: &[Demand], out: &mut Difficulty) {
@@ -591,10 +661,172 @@ fn torques(demands: &[Demand], out: &mut Difficulty) {
             ratios.get(rank.saturating_sub(1)).copied().unwrap_or(0.0)
         })
         .collect();
+    let mut peak_at = [0.0; DOF_COUNT];
+    for (i, sum) in &sums {
+        for d in 0..DOF_COUNT {
+            if sum[d] / width >= out.torque_peak_by_dof[d] {
+                peak_at[d] = demands[*i].time;
+            }
+        }
+    }
     for d in 0..DOF_COUNT {
+        if carries(DOF_NAMES[d]) && out.torque_p95_by_dof[d] > out.support_p95 {
+            out.support_p95 = out.torque_p95_by_dof[d];
+            out.support_p95_dof = DOF_NAMES[d].to_owned();
+            (out.support_peak, out.support_peak_at_s) = (out.torque_peak_by_dof[d], peak_at[d]);
+        }
         if out.torque_p95_by_dof[d] > out.torque_p95 {
             out.torque_p95 = out.torque_p95_by_dof[d];
             out.torque_p95_dof = DOF_NAMES[d].to_owned();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::body::Posture;
+    use crate::sim::motion::builtin::{at_ease, builtin};
+
+    /// A clip of 1.5 s in the posture of quiet standing, changed by `place`.
+    fn clip(planted: bool, place: impl Fn(f64, &mut Posture)) -> Clip {
+        let body = Body::adult_man();
+        let postures = (0..90)
+            .map(|i| {
+                let mut p = at_ease(&body);
+                place(f64::from(i) / 60.0, &mut p);
+                p
+            })
+            .collect();
+        Clip::from_postures("test", 60.0, postures, vec![[planted; 2]; 90]).expect("a clip")
+    }
+
+    fn of(clip: &Clip) -> Forecast {
+        forecast_plain(&Body::adult_man(), clip)
+    }
+
+    #[test]
+    fn standing_lacks_nothing_and_follows() {
+        let f = of(&clip(true, |_, _| {}));
+        let d = &f.difficulty;
+        assert_eq!(f.verdict, Verdict::Follows, "{f:?}");
+        assert!(
+            d.lacking_force_peak < 1e-3 && d.lacking_moment_peak < 1e-3,
+            "{d:?}"
+        );
+        assert!(d.torque_peak > 0.0 && d.torque_peak < 0.5, "{d:?}");
+        assert_eq!((d.flight_s, d.floor_s, d.inverted_s), (0.0, 0.0, 0.0));
+    }
+
+    #[test]
+    fn free_fall_lacks_nothing_and_floating_lacks_the_weight() {
+        let fall =
+            |t: f64, p: &mut Posture| p.root_position.z += 2.0 + 5.0 * t - 0.5 * GRAVITY * t * t;
+        let d = of(&clip(false, fall)).difficulty;
+        assert!(d.lacking_force_peak < 1e-3 && d.sink_mps < 1e-2, "{d:?}");
+        assert!(
+            d.flight_s > 1.3 && (d.longest_flight_s - d.flight_s).abs() < 1e-6,
+            "{d:?}"
+        );
+        let float = of(&clip(false, |_, p| p.root_position.z += 1.0));
+        assert!(
+            (float.difficulty.lacking_force_peak - 1.0).abs() < 1e-3,
+            "{float:?}"
+        );
+        // Half a second of 9.81 m/s².
+        assert!(
+            (float.difficulty.sink_mps - 4.905).abs() < 0.01,
+            "{float:?}"
+        );
+        assert_eq!(float.verdict, Verdict::Cannot);
+        assert!(
+            float.reason.contains("push harder by 1.0 weights"),
+            "{}",
+            float.reason
+        );
+    }
+
+    #[test]
+    fn a_lean_beyond_the_soles_lacks_the_moment_of_its_distance() {
+        // The whole body turns about its feet, which are said to stand: its centre of mass leaves them by its height
+        // times the lean.
+        let body = Body::adult_man();
+        let lean = |angle: f64| {
+            of(&clip(true, move |_, p| {
+                let q = crate::sim::math::Quat::exp(Vec3::Y * angle);
+                let foot = Vec3::X * 0.0;
+                p.root_position = foot + q.rotate(p.root_position - foot);
+                p.root_rotation = q * p.root_rotation;
+            }))
+        };
+        let (small, large) = (lean(0.02), lean(0.4));
+        assert!(small.difficulty.lacking_moment_peak < 0.01, "{small:?}");
+        assert!(large.difficulty.lacking_moment_peak > 0.1, "{large:?}");
+        assert_ne!(large.verdict, Verdict::Follows);
+        assert!(body.standing_root_height() > 0.8);
+    }
+
+    #[test]
+    fn less_strength_and_more_load_need_a_larger_share() {
+        let body = Body::adult_man();
+        let strength = Strength::for_body(&body);
+        let squat = builtin(&body, "squat").expect("built in");
+        let links = Links::new(&body);
+        let share = |links: &Links, all: f64| {
+            let scale = StrengthScale {
+                all,
+                ..StrengthScale::default()
+            };
+            forecast(&body, links, &strength, &scale, &squat)
+        };
+        let (plain, weak) = (share(&links, 1.0), share(&links, 0.2));
+        assert_eq!(plain.verdict, Verdict::Follows, "{plain:?}");
+        assert!(weak.difficulty.support_p95 > 3.0 * plain.difficulty.support_p95);
+        assert_ne!(weak.verdict, Verdict::Follows, "{weak:?}");
+        assert!(
+            weak.reason.contains("times the strength of the"),
+            "{}",
+            weak.reason
+        );
+        let mut loaded = links.clone();
+        loaded.add_load(
+            SegmentId::from_name("chest").expect("a chest"),
+            Vec3::Z * 0.2,
+            60.0,
+        );
+        assert!(share(&loaded, 1.0).difficulty.support_p95 > plain.difficulty.support_p95);
+    }
+
+    #[test]
+    fn the_worst_demand_gives_the_reason() {
+        let limits = Limits::default();
+        let d = Difficulty {
+            support_p95: 1.4,
+            support_p95_dof: "r_knee_flexion".into(),
+            support_peak: 1.8,
+            support_peak_at_s: 1.2,
+            drift_m: 0.1,
+            ..Difficulty::default()
+        };
+        let f = judge(&d, &limits);
+        assert_eq!((f.verdict, f.demand), (Verdict::NeedsHelp, 1.2));
+        let says = "needs 1.8 times the strength of the right knee (flexion) at 1.2 s";
+        assert!(f.reason.starts_with(says), "{}", f.reason);
+        let pulled = Difficulty {
+            sink_mps: 3.0,
+            sink_at_s: 0.7,
+            sink_force: -0.6,
+            ..d
+        };
+        let f = judge(&pulled, &limits);
+        assert_eq!(f.verdict, Verdict::Cannot);
+        assert_eq!(
+            f.reason,
+            "the floor would have to pull by 0.6 weights around 0.7 s"
+        );
+        assert_eq!(
+            judge(&Difficulty::default(), &limits).verdict,
+            Verdict::Follows
+        );
     }
 }

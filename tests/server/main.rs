@@ -5,6 +5,7 @@
 mod clips;
 mod constraints;
 mod drives;
+mod forecast;
 mod live;
 #[allow(dead_code)] // the list of clips
 #[path = "../common/mocap.rs"]

@@ -2,12 +2,13 @@
 import type { MessageInitShape } from "@bufbuild/protobuf";
 import { Sex, type BodyProfileSchema } from "./gen/sinew/v1/body_pb.js";
 import { Controller, PaperPreset, Stepper, type FigureSchema } from "./gen/sinew/v1/figure_pb.js";
+import type { Forecast } from "./gen/sinew/v1/motion_pb.js";
 import type { RetargetReport } from "./gen/sinew/v1/types_pb.js";
 import type { Person } from "./model.js";
 import { busiest, plot, PLOTS, plotText } from "./plots.js";
 import type { Shown } from "./scene.js";
 import type { Session } from "./session.js";
-import { dof as dofWords, short } from "./words.js";
+import { dof as dofWords, forecast as forecastText, short } from "./words.js";
 
 type Child = Node | string;
 
@@ -340,7 +341,7 @@ export class Panel {
   }
 
   /** How a file was understood, or why it was not. */
-  showReport(file: string, outcome: RetargetReport | undefined, error?: string): void {
+  showReport(file: string, outcome: RetargetReport | undefined, error?: string, forecast?: Forecast): void {
     if (error !== undefined) {
       this.report.replaceChildren(el("div", { class: "report bad", role: "alert" }, el("strong", {}, `${file} cannot be used`), el("p", {}, error)));
       return;
@@ -352,6 +353,7 @@ export class Panel {
       `a person of ${r.statureM.toFixed(2)} m, up is ${r.upAxis}, ${r.sourceRateHz.toFixed(0)} frames per second`,
       `feet slide ${(r.footSlideBeforeM * 100).toFixed(1)} cm as recorded, ${(r.footSlideAfterM * 100).toFixed(1)} cm as prepared`,
     ];
+    if (forecast) facts.push(forecastText(forecast));
     if (r.clamped.length) facts.push(`${r.clamped.length} ${r.clamped.length === 1 ? "angle" : "angles"} went beyond the body's limits`);
     const map = el("details", {}, el("summary", {}, "Bones"), el("ul", {}, ...r.mapped.map((m) => el("li", {}, `${m.bone}: ${m.joints.join(", ")}`))));
     this.report.replaceChildren(

@@ -1,4 +1,5 @@
 // From names of the protocol to words for people.
+import { ForecastVerdict, type Forecast } from "./gen/sinew/v1/motion_pb.js";
 import { EventType, type Event } from "./gen/sinew/v1/state_pb.js";
 
 /** `l_shoulder_flexion` or `l_shoulder` → `left shoulder`. */
@@ -13,6 +14,13 @@ export function dof(name: string): string {
   const parts = name.split("_");
   const side = parts[0] === "l" ? "left " : parts[0] === "r" ? "right " : "";
   return side + parts.slice(side ? 1 : 0).join(" ");
+}
+
+/** What will come of a clip, and why, in a line. */
+export function forecast(f: Forecast): string {
+  const follows = f.verdict === ForecastVerdict.FOLLOWS;
+  const word = follows ? "should be followed" : f.verdict === ForecastVerdict.NEEDS_HELP ? "will need help" : "cannot be followed";
+  return `forecast: ${word}: ${f.reason}`;
 }
 
 /** What is worth a caption of its own, or nothing. Limits of strength have captions that count, elsewhere. */

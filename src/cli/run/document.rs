@@ -5,6 +5,7 @@ use crate::cli::args::{ControllerArg, StepperArg, sex_name};
 use crate::cli::lint;
 use crate::cli::source::Source;
 use crate::evaluate::RunReport;
+use crate::evaluate::forecast::Forecast;
 use crate::sim::body::SegmentId;
 use serde::Serialize;
 
@@ -31,6 +32,8 @@ pub(super) struct Document<'a> {
     then: Vec<ThenEntry<'a>>,
     #[serde(flatten)]
     measures: &'a RunReport,
+    /// What was to be expected of the clip.
+    forecast: &'a Forecast,
     /// `null` for built-in motions, which are made for the body.
     retarget: serde_json::Value,
 }
@@ -74,7 +77,7 @@ pub(super) fn document<'a>(
     scenario: &Scenario<'a>,
     source: &'a Source,
     duration_s: f64,
-    measures: &'a RunReport,
+    (measures, forecast): (&'a RunReport, &'a Forecast),
 ) -> Document<'a> {
     let args = scenario.args;
     let profile = scenario.body.profile;
@@ -126,6 +129,7 @@ pub(super) fn document<'a>(
             })
             .collect(),
         measures,
+        forecast,
         retarget: source
             .retarget
             .as_ref()

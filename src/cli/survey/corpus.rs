@@ -46,7 +46,11 @@ pub(super) fn gather(corpus: &[String]) -> Result<Vec<Entry>> {
             out.push(Entry::file(path));
         }
     }
-    ensure!(out.len() <= MAX_CLIPS, "{} clips: at most {MAX_CLIPS}", out.len());
+    ensure!(
+        out.len() <= MAX_CLIPS,
+        "{} clips: at most {MAX_CLIPS}",
+        out.len()
+    );
     let mut names: Vec<&str> = out.iter().map(|e| e.name.as_str()).collect();
     names.sort_unstable();
     if let Some(twice) = names.windows(2).find(|w| w[0] == w[1]) {
@@ -73,7 +77,9 @@ fn folder(path: &Path) -> Result<Vec<PathBuf>> {
     let mut out = Vec::new();
     for entry in std::fs::read_dir(path).with_context(at)? {
         let file = entry.with_context(at)?.path();
-        let is_bvh = file.extension().is_some_and(|e| e.eq_ignore_ascii_case("bvh"));
+        let is_bvh = file
+            .extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case("bvh"));
         if is_bvh && file.is_file() {
             out.push(file);
         }
@@ -95,11 +101,25 @@ mod tests {
         }
         let dir = folder.file_name().unwrap().to_string_lossy().into_owned();
         let given = [folder.display().to_string(), "builtin:idle".to_owned()];
-        let names: Vec<String> = gather(&given).unwrap().into_iter().map(|e| e.name).collect();
-        assert_eq!(names, [format!("{dir}/a.BVH"), format!("{dir}/b.bvh"), "builtin:idle".into()]);
+        let names: Vec<String> = gather(&given)
+            .unwrap()
+            .into_iter()
+            .map(|e| e.name)
+            .collect();
+        assert_eq!(
+            names,
+            [
+                format!("{dir}/a.BVH"),
+                format!("{dir}/b.bvh"),
+                "builtin:idle".into()
+            ]
+        );
         let twice = [given[0].clone(), folder.join("b.bvh").display().to_string()];
         let error = gather(&twice).unwrap_err().to_string();
-        assert!(error.contains("two clips") && error.contains("b.bvh"), "{error}");
+        assert!(
+            error.contains("two clips") && error.contains("b.bvh"),
+            "{error}"
+        );
         std::fs::remove_dir_all(&folder).unwrap();
     }
 }

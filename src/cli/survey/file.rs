@@ -1,8 +1,8 @@
 //! The file of a survey.
 
 use crate::cli::output::write;
-use crate::evaluate::survey::tables::{self, Table};
 use crate::evaluate::survey::Row;
+use crate::evaluate::survey::tables::{self, Table};
 use anyhow::{Context, Result, bail, ensure};
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
@@ -28,7 +28,8 @@ pub(super) struct Survey {
 /// # Errors
 /// A file that cannot be read or is no survey of this format.
 pub(super) fn read(path: &Path) -> Result<Survey> {
-    let text = std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))?;
+    let text =
+        std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))?;
     let at = || format!("{} is not a survey", path.display());
     let value: Value = serde_json::from_str(&text).with_context(at)?;
     let format = value.get("format").and_then(Value::as_u64);
@@ -54,7 +55,8 @@ pub(super) fn write_survey(path: &Path, settings: &Map<String, Value>, rows: &[R
         clips.push(serde_json::to_string(row).context("a row cannot be written as JSON")?);
     }
     let text = format!(
-        "{{\n\"format\": {FORMAT},\n\"build\": {},\n\"settings\": {},\n\"by_kind\": {},\n\"forecasts\": {},\n\"rows\": [\n{}\n]\n}}\n",
+        "{{\n\"format\": {FORMAT},\n\"build\": {},\n\"settings\": {},\n\"by_kind\": {},\n\
+         \"forecasts\": {},\n\"rows\": [\n{}\n]\n}}\n",
         line(super::build()?.into())?,
         line(Value::Object(settings.clone()))?,
         line(objects(&tables::by_kind(rows)))?,
@@ -84,7 +86,10 @@ pub(super) fn check_settings(
 ) -> Result<()> {
     if let Some(unknown) = across.iter().find(|a| !new.contains_key(*a)) {
         let names: Vec<&str> = new.keys().map(String::as_str).collect();
-        bail!("--across {unknown}: no such setting; there are {}", names.join(", "));
+        bail!(
+            "--across {unknown}: no such setting; there are {}",
+            names.join(", ")
+        );
     }
     let mut names: Vec<&String> = old.keys().chain(new.keys()).collect();
     names.sort();
@@ -120,9 +125,14 @@ mod tests {
         let old = map(json!({ "strength": 1.0, "gravity_mps2": 9.81, "copies": 0 }));
         let new = map(json!({ "strength": 1.5, "gravity_mps2": 10.3, "copies": 0 }));
         let error = check_settings(&old, &new, &[]).unwrap_err().to_string();
-        assert!(error.contains("strength was 1.0, is 1.5") && !error.contains("gravity"), "{error}");
+        assert!(
+            error.contains("strength was 1.0, is 1.5") && !error.contains("gravity"),
+            "{error}"
+        );
         check_settings(&old, &new, &["strength".into()]).unwrap();
-        let error = check_settings(&old, &new, &["stength".into()]).unwrap_err().to_string();
+        let error = check_settings(&old, &new, &["stength".into()])
+            .unwrap_err()
+            .to_string();
         assert!(error.contains("stength: no such setting"), "{error}");
     }
 }

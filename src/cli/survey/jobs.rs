@@ -1,7 +1,8 @@
 //! The work of a survey: clips and copies on several threads, continued where an interrupted run stopped.
 //!
-//! A job is one run of one clip: the clip itself, or one noisy copy. Each result is a line of the partial file as soon as it is there, under a key
-//! made of the bytes of the clip, the settings, the build and the copy, so that whatever has changed is run again.
+//! A job is one run of one clip: the clip itself, or one noisy copy. Each result is a line of the partial file as
+//! soon as it is there, under a key made of the bytes of the clip, the settings, the build and the copy, so that
+//! whatever has changed is run again.
 
 use super::SurveyArgs;
 use super::corpus::{Entry, Source};
@@ -65,7 +66,8 @@ pub(super) fn run_all(
     settings: &Map<String, Value>,
     clips: &[Entry],
 ) -> Result<Vec<Row>> {
-    let settings = serde_json::to_string(settings).context("the settings cannot be written as JSON")?;
+    let settings =
+        serde_json::to_string(settings).context("the settings cannot be written as JSON")?;
     let build = super::build()?;
     let inputs: Vec<Input> = clips
         .iter()
@@ -73,7 +75,9 @@ pub(super) fn run_all(
             entry: entry.clone(),
             bytes: match &entry.source {
                 Source::Builtin(name) => Ok(name.clone().into_bytes()),
-                Source::File(path) => std::fs::read(path).map_err(|e| format!("cannot be read: {e}")),
+                Source::File(path) => {
+                    std::fs::read(path).map_err(|e| format!("cannot be read: {e}"))
+                }
             },
         })
         .collect();
@@ -85,7 +89,13 @@ pub(super) fn run_all(
         .map(|(i, k)| {
             let bytes = inputs[*i].bytes.as_deref().unwrap_or_default();
             let name = inputs[*i].entry.name.as_bytes();
-            super::hash(&[name, bytes, settings.as_bytes(), build.as_bytes(), &k.to_le_bytes()])
+            super::hash(&[
+                name,
+                bytes,
+                settings.as_bytes(),
+                build.as_bytes(),
+                &k.to_le_bytes(),
+            ])
         })
         .collect();
     let path = partial(&args.out);
@@ -116,7 +126,9 @@ pub(super) fn run_all(
                     });
                     bar.set_message(inputs[i].entry.name.clone());
                     bar.inc(1);
-                    results.lock().expect("no thread panics while it holds the results")[j] = Some(done);
+                    results
+                        .lock()
+                        .expect("no thread panics while it holds the results")[j] = Some(done);
                 }
             });
         }
@@ -144,11 +156,15 @@ fn copies(args: &SurveyArgs, input: &Input) -> u32 {
     }
 }
 
-/// The row of a clip from its own result and those of its copies. A copy that cannot be run, where the clip can, is one that is lost.
+/// The row of a clip from its own result and those of its copies. A copy that cannot be run, where the clip can, is
+/// one that is lost.
 fn row(input: &Input, done: Vec<Done>) -> Row {
     let mut row = Row {
         clip: input.entry.name.clone(),
-        input: input.bytes.as_ref().map_or(String::new(), |b| super::hash(&[b])),
+        input: input
+            .bytes
+            .as_ref()
+            .map_or(String::new(), |b| super::hash(&[b])),
         error: None,
         result: None,
     };
@@ -171,9 +187,10 @@ fn row(input: &Input, done: Vec<Done>) -> Row {
 
 fn progress(jobs: u64) -> ProgressBar {
     // Drawn to the standard error stream, and not at all where that is no terminal.
-    let style = ProgressStyle::with_template("{wide_bar:.cyan/dim} {pos}/{len} runs, {eta} left, {msg}")
-        .expect("the template is a constant")
-        .progress_chars("━╸─");
+    let style =
+        ProgressStyle::with_template("{wide_bar:.cyan/dim} {pos}/{len} runs, {eta} left, {msg}")
+            .expect("the template is a constant")
+            .progress_chars("━╸─");
     ProgressBar::new(jobs).with_style(style)
 }
 
@@ -204,11 +221,14 @@ fn keep(file: &Mutex<(File, std::io::Result<()>)>, key: &str, done: &Done) {
         key: key.to_owned(),
         done: done.clone(),
     };
-    let mut text = serde_json::to_string(&line).expect("results have string keys and finite numbers");
+    let mut text =
+        serde_json::to_string(&line).expect("results have string keys and finite numbers");
     // A line before it that was cut short ends here.
     text.insert(0, '\n');
     text.push('\n');
-    let mut held = file.lock().expect("no thread panics while it holds the file");
+    let mut held = file
+        .lock()
+        .expect("no thread panics while it holds the file");
     let (file, written) = &mut *held;
     if written.is_ok() {
         *written = file.write_all(text.as_bytes());
@@ -227,7 +247,10 @@ fn one(args: &SurveyArgs, body: &Arc<Body>, input: &Input, copy: u32) -> Done {
         Err(panic) => {
             let text = panic.downcast_ref::<String>().map(String::as_str);
             let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
-            Done::Failed(format!("the program failed: {}", text.unwrap_or("no message")))
+            Done::Failed(format!(
+                "the program failed: {}",
+                text.unwrap_or("no message")
+            ))
         }
     }
 }
@@ -248,7 +271,10 @@ fn job(
     let fitted = match source {
         Source::Builtin(name) => {
             let clip = builtin(body, name).with_context(|| {
-                format!("no built-in motion is called {name:?}; there are {}", BUILTIN_NAMES.join(", "))
+                format!(
+                    "no built-in motion is called {name:?}; there are {}",
+                    BUILTIN_NAMES.join(", ")
+                )
             })?;
             Fitted {
                 reference: Reference::authored(Arc::new(clip)),
@@ -293,7 +319,12 @@ fn job(
     if copy > 0 {
         return Ok(Done::Copy(Box::new(outcome)));
     }
-    Ok(Done::Clip(Box::new(measured(args, &conditions, &fitted, outcome))))
+    Ok(Done::Clip(Box::new(measured(
+        args,
+        &conditions,
+        &fitted,
+        outcome,
+    ))))
 }
 
 /// Fits a recording, or a copy of it with noise, to the body: as it is, and prepared.
@@ -365,8 +396,14 @@ fn measured(
         clip_s: short(recorded.duration()),
         walked: fitted.prepared.as_ref().is_some_and(|r| r.walked),
         prepared_off_m: short(reference.prepared_off(body)),
-        warnings: fitted.prepared.as_ref().map_or(Vec::new(), |r| r.warnings.clone()),
-        recorded_lacks: fitted.prepared.as_ref().map(|_| lacks(&raw, &label, recorded)),
+        warnings: fitted
+            .prepared
+            .as_ref()
+            .map_or(Vec::new(), |r| r.warnings.clone()),
+        recorded_lacks: fitted
+            .prepared
+            .as_ref()
+            .map(|_| lacks(&raw, &label, recorded)),
         prepared_lacks: lacks(&postures(prepared), &own, prepared),
         forecast: forecast(body, &links, &strength, &conditions.strength, prepared),
         outcome,

@@ -22,7 +22,9 @@ impl FromStr for PageSpec {
             Some((file, section))
                 if !file.is_empty()
                     && !section.is_empty()
-                    && section.chars().all(|c| c.is_ascii_alphanumeric() || c == '-') =>
+                    && section
+                        .chars()
+                        .all(|c| c.is_ascii_alphanumeric() || c == '-') =>
             {
                 Ok(Self {
                     file: file.into(),
@@ -66,7 +68,9 @@ fn command(arguments: impl Iterator<Item = String>) -> String {
     let mut words = vec!["sinew".to_owned()];
     for word in arguments.skip(1) {
         let (path, section) = word.split_once('#').unwrap_or((&word, ""));
-        let last = Path::new(path).file_name().filter(|_| Path::new(path).is_absolute());
+        let last = Path::new(path)
+            .file_name()
+            .filter(|_| Path::new(path).is_absolute());
         let mut shown = last.map_or(path.to_owned(), |l| l.to_string_lossy().into_owned());
         if !section.is_empty() {
             shown = format!("{shown}#{section}");
@@ -118,14 +122,28 @@ mod tests {
         assert!(once.ends_with(
             "<!-- survey wide begin: sinew survey a -->\n\n```sh\nsinew survey a\n```\n\n| t |\n\n<!-- survey wide end -->\nafter\n"
         ));
-        assert_eq!(replaced(&once, "wide", "sinew survey a", "| t |\n").unwrap(), once);
+        assert_eq!(
+            replaced(&once, "wide", "sinew survey a", "| t |\n").unwrap(),
+            once
+        );
         assert!(replaced(PAGE, "none", "", "").is_err());
         assert!(replaced("<!-- survey a begin: -->", "a", "", "").is_err());
     }
 
     #[test]
     fn the_command_names_no_place_of_this_machine() {
-        let words = ["/x/sinew", "survey", "/data/mocap", "tests/corpus", "--push", "10@chest@1:0,1,0", "--noise", "1mm, 0.2deg", "--page", "docs/limits.md#wide"];
+        let words = [
+            "/x/sinew",
+            "survey",
+            "/data/mocap",
+            "tests/corpus",
+            "--push",
+            "10@chest@1:0,1,0",
+            "--noise",
+            "1mm, 0.2deg",
+            "--page",
+            "docs/limits.md#wide",
+        ];
         assert_eq!(
             command(words.iter().map(|w| (*w).to_owned())),
             "sinew survey mocap tests/corpus --push 10@chest@1:0,1,0 --noise '1mm, 0.2deg' --page docs/limits.md#wide"
@@ -135,7 +153,10 @@ mod tests {
     #[test]
     fn a_page_is_a_file_and_a_section() {
         let p: PageSpec = "docs/a#b.md#wide-1".parse().unwrap();
-        assert_eq!((p.file, p.section), ("docs/a#b.md".into(), "wide-1".to_owned()));
+        assert_eq!(
+            (p.file, p.section),
+            ("docs/a#b.md".into(), "wide-1".to_owned())
+        );
         for bad in ["docs/limits.md", "#a", "a#", "a#b c"] {
             assert!(bad.parse::<PageSpec>().is_err(), "{bad}");
         }

@@ -66,9 +66,12 @@ impl FromStr for SurveyPush {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let Some(head) = text.strip_suffix("@random") else {
-            return text.parse().map(Self::At).map_err(|e: crate::cli::args::SpecError| {
-                format!("{e}; or NS@random, NS@SEGMENT@random")
-            });
+            return text
+                .parse()
+                .map(Self::At)
+                .map_err(|e: crate::cli::args::SpecError| {
+                    format!("{e}; or NS@random, NS@SEGMENT@random")
+                });
         };
         let (impulse, name) = head.split_once('@').unwrap_or((head, "chest"));
         let segment = SegmentId::from_name(name)
@@ -78,7 +81,9 @@ impl FromStr for SurveyPush {
                 segment,
                 impulse_ns: n,
             }),
-            _ => Err(format!("impulse (N·s): {impulse:?} is no number within 0…{MOST}")),
+            _ => Err(format!(
+                "impulse (N·s): {impulse:?} is no number within 0…{MOST}"
+            )),
         }
     }
 }
@@ -88,7 +93,16 @@ impl fmt::Display for SurveyPush {
         match self {
             Self::At(p) => {
                 let d = p.direction.to_array();
-                write!(f, "{}@{}@{}:{},{},{}", p.impulse_ns, p.segment.name(), p.at_s, d[0], d[1], d[2])
+                write!(
+                    f,
+                    "{}@{}@{}:{},{},{}",
+                    p.impulse_ns,
+                    p.segment.name(),
+                    p.at_s,
+                    d[0],
+                    d[1],
+                    d[2]
+                )
             }
             Self::Random {
                 segment,
@@ -108,7 +122,9 @@ mod tests {
         let push: SurveyPush = "10@random".parse().expect("a push");
         assert_eq!(push.to_string(), "10@chest@random");
         let of = |seed| match push.perturbation(&body, 0.2, (2.0, 4.0), seed) {
-            Perturbation::Force { force, from, to, .. } => (force, from, to),
+            Perturbation::Force {
+                force, from, to, ..
+            } => (force, from, to),
             other => panic!("{other:?}"),
         };
         for seed in 0..20 {
@@ -131,6 +147,9 @@ mod tests {
             let error = text.parse::<SurveyPush>().expect_err(text);
             assert!(error.contains(says), "{text}: {error}");
         }
-        assert!(matches!("20@chest@1.5:1,0,0".parse(), Ok(SurveyPush::At(_))));
+        assert!(matches!(
+            "20@chest@1.5:1,0,0".parse(),
+            Ok(SurveyPush::At(_))
+        ));
     }
 }

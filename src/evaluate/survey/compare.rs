@@ -1,8 +1,10 @@
-//! Two surveys of the same clips under the same settings: what got better, what got worse, and what of it is more than noise.
+//! Two surveys of the same clips under the same settings: what got better, what got worse, and what of it is more
+//! than noise.
 //!
-//! Without copies runs are deterministic: a verdict that turns is a change, and so is a measure that moves by more than its stated tolerance
-//! ([`Measure::least`], [`Measure::share`]), which covers how builds round. With copies the share that completes is compared by the 95 % interval of the
-//! difference of two shares, and measures by their medians: they differ if their 95 % intervals (notches) do not overlap and the tolerance is exceeded.
+//! Without copies runs are deterministic: a verdict that turns is a change, and so is a measure that moves by more
+//! than its stated tolerance ([`Measure::least`], [`Measure::share`]), which covers how builds round. With copies the
+//! share that completes is compared by the 95 % interval of the difference of two shares, and measures by their
+//! medians: they differ if their 95 % intervals (notches) do not overlap and the tolerance is exceeded.
 
 use super::outcome::{Better, MEASURES, Measure, Outcome};
 use super::stats::{Quartiles, difference};
@@ -46,7 +48,11 @@ impl Comparison {
         }
         for c in &self.changes {
             let word = if c.worse { "worse " } else { "better" };
-            let clip = if c.clip.is_empty() { "all clips" } else { &c.clip };
+            let clip = if c.clip.is_empty() {
+                "all clips"
+            } else {
+                &c.clip
+            };
             let _ = writeln!(out, "  {word}  {clip}: {}", c.text);
         }
         let worse = self.regressions();
@@ -66,7 +72,8 @@ pub fn compare(old: &[Row], new: &[Row]) -> Comparison {
     let mut totals = [(0, 0); 2];
     for row in new {
         let Some(before) = old.iter().find(|o| o.clip == row.clip) else {
-            out.skipped.push((row.clip.clone(), "only in the new survey"));
+            out.skipped
+                .push((row.clip.clone(), "only in the new survey"));
             continue;
         };
         if before.input != row.input {
@@ -110,7 +117,10 @@ pub fn compare(old: &[Row], new: &[Row]) -> Comparison {
     if let Some(worse) = differs(a, b) {
         out.changes.push(Change {
             clip: String::new(),
-            text: format!("{} of {} completed (PHC), were {} of {}", b.0, b.1, a.0, a.1),
+            text: format!(
+                "{} of {} completed (PHC), were {} of {}",
+                b.0, b.1, a.0, a.1
+            ),
             worse,
         });
     }
@@ -172,9 +182,12 @@ fn of_copies(m: &Measure, old: &Quartiles, new: &Quartiles, add: &mut impl FnMut
 }
 
 fn of_runs(a: &Outcome, b: &Outcome, add: &mut impl FnMut(String, bool)) {
-    let verdicts: [(&str, fn(&Outcome) -> Option<f64>); 4] = [
+    let verdicts: [(&str, fn(&Outcome) -> Option<f64>); 5] = [
         ("lost by PHC's rule", |o| o.lost_at_s),
-        ("lost by the rule of height and tilt", |o| o.anchor_lost_at_s),
+        ("lost against the prepared motion", |o| o.prepared_lost_at_s),
+        ("lost by the rule of height and tilt", |o| {
+            o.anchor_lost_at_s
+        }),
         ("fell", |o| o.fell_at_s),
         ("frozen", |o| o.frozen_at_s),
     ];
@@ -259,7 +272,10 @@ mod tests {
     #[test]
     fn the_same_is_clean_and_rounding_is_no_change() {
         assert_eq!(of(|_| {}).changes, []);
-        assert_eq!(of(|m| m.outcome.recorded.mpjpe_global_mm = 62.0).changes, []);
+        assert_eq!(
+            of(|m| m.outcome.recorded.mpjpe_global_mm = 62.0).changes,
+            []
+        );
     }
 
     #[test]
@@ -269,14 +285,31 @@ mod tests {
             m.outcome.lost_at_s = Some(1.0);
         });
         assert_eq!(lost.regressions(), 1, "{lost:?}");
-        assert!(lost.text().contains("worse   a.bvh: lost by PHC's rule at 1.00 s"), "{}", lost.text());
-        assert_eq!(of(|m| m.outcome.recorded.mpjpe_global_mm = 90.0).regressions(), 1);
-        assert_eq!(of(|m| m.outcome.contact_recall = Some(0.6)).regressions(), 1);
+        assert!(
+            lost.text()
+                .contains("worse   a.bvh: lost by PHC's rule at 1.00 s"),
+            "{}",
+            lost.text()
+        );
+        assert_eq!(
+            of(|m| m.outcome.recorded.mpjpe_global_mm = 90.0).regressions(),
+            1
+        );
+        assert_eq!(
+            of(|m| m.outcome.contact_recall = Some(0.6)).regressions(),
+            1
+        );
         let better = of(|m| m.outcome.recorded.mpjpe_global_mm = 30.0);
         assert_eq!((better.regressions(), better.changes.len()), (0, 1));
         // Away from zero is worse in either direction.
-        assert_eq!(of(|m| m.outcome.impulse_balance = Some(-0.05)).regressions(), 1);
-        assert_eq!(of(|m| m.outcome.impulse_balance = Some(0.05)).regressions(), 1);
+        assert_eq!(
+            of(|m| m.outcome.impulse_balance = Some(-0.05)).regressions(),
+            1
+        );
+        assert_eq!(
+            of(|m| m.outcome.impulse_balance = Some(0.05)).regressions(),
+            1
+        );
     }
 
     #[test]

@@ -63,8 +63,8 @@ pub fn match_touch_downs(down: &[Vec<bool>; 2], label: &[Vec<bool>; 2], dt: f64)
     out
 }
 
-/// Share of the figure's foot-ticks on the floor that the recording has there too (precision), and share of the recording's that the figure has
-/// too (recall). `None` where there are none.
+/// Share of the figure's foot-ticks on the floor that the recording has there too (precision), and share of the
+/// recording's that the figure has too (recall). `None` where there are none.
 pub fn precision_recall(
     down: &[Vec<bool>; 2],
     label: &[Vec<bool>; 2],

@@ -82,8 +82,8 @@ pub fn errors(samples: &[Sample], of: impl Fn(&Sample) -> &Placed) -> Errors {
     }
 }
 
-/// Root mean square of the third differences of all segment origins, figure over recording; `None` without four ticks or without any in the
-/// recording.
+/// Root mean square of the third differences of all segment origins, figure over recording; `None` without four ticks
+/// or without any in the recording.
 pub fn jerk_ratio(samples: &[Sample]) -> Option<f64> {
     let square = |of: &dyn Fn(&Sample) -> &Placed| {
         let third = |w: &[Sample], s: usize| {
@@ -157,6 +157,10 @@ pub(super) mod tests {
             s.recorded = Placed::new(&body, &moved);
         }
         assert!((jerk_ratio(&samples).expect("moves") - 2.0).abs() < 1e-6);
-        assert_eq!(jerk_ratio(&apart(|_| Vec3::zero(), 10)), None, "no jerk to compare with");
+        assert_eq!(
+            jerk_ratio(&apart(|_| Vec3::zero(), 10)),
+            None,
+            "no jerk to compare with"
+        );
     }
 }

@@ -1,6 +1,6 @@
 //! What kind of motion a clip is, by measurement of the fitted recording; never by its name.
 
-use crate::sim::body::topology::{L_FOOT, R_FOOT};
+use crate::sim::body::topology::{HEAD, L_FOOT, R_FOOT};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::Vec3;
 use crate::sim::motion::contacts::runs;
@@ -8,6 +8,8 @@ use crate::sim::motion::leg_ik::forward;
 
 /// Upright part of the pelvis's vertical axis below which the body is upside down (107° from upright).
 const INVERTED: f64 = -0.3;
+/// The head of such a body is lower than its pelvis by this, m: one that lies on its back only lifts its hips.
+const UNDER: f64 = 0.2;
 /// A pelvis below this share of its standing height is on the floor.
 const FLOOR: f64 = 0.45;
 /// A posture lasts at least this long to count, s.
@@ -42,7 +44,7 @@ pub enum Kind {
     Jump,
     /// The pelvis is on the floor for 0.2 s or more.
     Floor,
-    /// The pelvis is upside down for 0.1 s or more.
+    /// The pelvis is upside down, over the head, for 0.1 s or more.
     Acrobatic,
 }
 
@@ -76,7 +78,8 @@ impl Kind {
 
 /// The kind of a motion; of several that hold, the last one of [`Kind::ALL`].
 ///
-/// * `postures`: the fitted recording, `rate_hz` samples per second, not empty; `label`: feet (left, right) that it has on the floor.
+/// * `postures`: the fitted recording, `rate_hz` samples per second, not empty; `label`: feet (left, right) that it
+///   has on the floor.
 pub fn kind(body: &Body, postures: &[Posture], label: &[[bool; 2]], rate_hz: f64) -> Kind {
     let n = postures.len().min(label.len());
     let longest = |on: &dyn Fn(usize) -> bool| {
@@ -84,8 +87,12 @@ pub fn kind(body: &Body, postures: &[Posture], label: &[[bool; 2]], rate_hz: f64
         let all = runs(&flags).into_iter().filter(|r| r.2);
         all.map(|(i, j, _)| j - i).max().unwrap_or(0) as f64 / rate_hz
     };
-    let up = |i: usize| postures[i].root_rotation.rotate(Vec3::Z).z;
-    if longest(&|i| up(i) < INVERTED) >= 0.5 * LASTS {
+    let inverted = |i: usize| {
+        let p = &postures[i];
+        let turned = p.root_rotation.rotate(Vec3::Z).z < INVERTED;
+        turned && forward(body, p)[HEAD.index()].0.z < p.root_position.z - UNDER
+    };
+    if longest(&inverted) >= 0.5 * LASTS {
         return Kind::Acrobatic;
     }
     let low = FLOOR * body.standing_root_height();
@@ -106,7 +113,11 @@ pub fn kind(body: &Body, postures: &[Posture], label: &[[bool; 2]], rate_hz: f64
         let way: f64 = (flights.iter())
             .map(|(i, j)| level(&postures[*i], &postures[j - 1]))
             .sum();
-        let time: f64 = flights.iter().map(|(i, j)| (j - i - 1).max(1) as f64).sum::<f64>() / rate_hz;
+        let time: f64 = flights
+            .iter()
+            .map(|(i, j)| (j - i - 1).max(1) as f64)
+            .sum::<f64>()
+            / rate_hz;
         return if flights.len() >= 2 && way / time > RUN_SPEED {
             Kind::Run
         } else {
@@ -114,7 +125,9 @@ pub fn kind(body: &Body, postures: &[Posture], label: &[[bool; 2]], rate_hz: f64
         };
     }
     let steps = steps(body, &postures[..n], label);
-    let way: f64 = (postures[..n].windows(2)).map(|w| level(&w[0], &w[1])).sum();
+    let way: f64 = (postures[..n].windows(2))
+        .map(|w| level(&w[0], &w[1]))
+        .sum();
     let speed = way * rate_hz / n.max(1) as f64;
     if steps >= WALK.1 && speed > WALK.0 {
         return Kind::Walk;
@@ -198,7 +211,11 @@ mod tests {
             let clip = builtin(&body, name).expect("built in");
             let postures: Vec<_> = clip.samples().map(|s| *s.0).collect();
             let label: Vec<_> = clip.samples().map(|s| s.1).collect();
-            assert_eq!(kind(&body, &postures, &label, clip.rate_hz()), want, "{name}");
+            assert_eq!(
+                kind(&body, &postures, &label, clip.rate_hz()),
+                want,
+                "{name}"
+            );
         }
     }
 

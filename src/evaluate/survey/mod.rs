@@ -1,8 +1,8 @@
 //! Many clips, each run once or with copies, judged by one set of rules: the measures behind `sinew survey`.
 //!
-//! Every error is against a motion that is fixed in the world: the recording as fitted to the body ([`Reference::recorded`]) or the motion as
-//! prepared ([`Reference::prepared`]), at the same time on the clip's clock. Nothing is re-anchored to where the figure is.
-//! `docs/survey.md` defines every column.
+//! Every error is against a motion that is fixed in the world: the recording as fitted to the body
+//! ([`Reference::recorded`]) or the motion as prepared ([`Reference::prepared`]), at the same time on the clip's
+//! clock. Nothing is re-anchored to where the figure is. `docs/survey.md` defines every column.
 
 pub mod compare;
 pub mod contacts;
@@ -46,7 +46,8 @@ pub struct Measured {
     pub clip_s: f64,
     /// True if runs of the recording are walked in the prepared motion, which is longer then.
     pub walked: bool,
-    /// Largest mean distance of the prepared motion from the recording at the same time, m: more than 0.5 cannot be completed.
+    /// Largest mean distance of the prepared motion from the recording at the same time, m: more than 0.5 cannot be
+    /// completed.
     pub prepared_off_m: f64,
     /// Warnings of the reader.
     pub warnings: Vec<String>,

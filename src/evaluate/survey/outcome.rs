@@ -40,6 +40,9 @@ pub struct Outcome {
     pub lost_at_s: Option<f64>,
     /// When the pelvis was off by 0.25 m in height or 0.8 in tilt, s.
     pub anchor_lost_at_s: Option<f64>,
+    /// When the mean distance from the motion as prepared exceeded 0.5 m, to that motion's end, s: what a forecast is
+    /// about.
+    pub prepared_lost_at_s: Option<f64>,
     /// When our own event `fell` came, s: also on the way in, and in the second after the way out.
     pub fell_at_s: Option<f64>,
     /// When the state ran away and the figure was frozen, s.
@@ -66,8 +69,8 @@ pub struct Outcome {
     pub penetration_mm: f64,
     /// Largest vertical push of the floor in a tick, body weights.
     pub peak_force_weights: f64,
-    /// Vertical impulse of the floor and the assist, less the change of momentum, over weight (at 9.81 m/s²) × time, minus 1: 0 where the laws hold.
-    /// `None` if loads came or went.
+    /// Vertical impulse of the floor and the assist, less the change of momentum, over weight (at 9.81 m/s²) × time,
+    /// minus 1: 0 where the laws hold. `None` if loads came or went.
     pub impulse_balance: Option<f64>,
     /// Jerk of the segments over that of the recording.
     pub jerk_ratio: Option<f64>,
@@ -81,6 +84,13 @@ pub struct Outcome {
     pub limit_dof: String,
     /// How long, s.
     pub limit_dof_s: f64,
+}
+
+impl Outcome {
+    /// True if the motion as prepared was followed to its end, within 0.5 m and without a frozen state.
+    pub fn followed_as_prepared(&self) -> bool {
+        self.prepared_lost_at_s.is_none() && self.frozen_at_s.is_none()
+    }
 }
 
 /// What came of the noisy copies of a clip.
@@ -162,7 +172,12 @@ const fn measure(
 
 /// What surveys are compared by.
 pub const MEASURES: [Measure; 17] = [
-    measure("followed, s", |o| Some(o.followed_s), Better::More, (0.05, 0.0)),
+    measure(
+        "followed, s",
+        |o| Some(o.followed_s),
+        Better::More,
+        (0.05, 0.0),
+    ),
     measure(
         "root-relative error to the recording, mm",
         |o| Some(o.recorded.mpjpe_root_mm),

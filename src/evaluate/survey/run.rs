@@ -32,7 +32,8 @@ const FEET: [[crate::sim::body::SegmentId; 2]; 2] = [[L_FOOT, L_TOES], [R_FOOT, 
 /// What a clip is measured against.
 #[derive(Clone, Debug)]
 pub struct Reference {
-    /// The recording as fitted to the body: no foot lock, no shift for balance, no steps before or after it, runs as they were.
+    /// The recording as fitted to the body: no foot lock, no shift for balance, no steps before or after it, runs as
+    /// they were.
     pub recorded: Arc<Clip>,
     /// The motion as prepared, in the same place of the world.
     pub prepared: Arc<Clip>,
@@ -54,7 +55,9 @@ impl Reference {
     /// Feet on the floor at time `t` of the recording, s.
     pub fn labelled(&self, t: f64) -> [bool; 2] {
         let phase = self.phases.iter().find(|p| t < p.end);
-        phase.or(self.phases.last()).map_or([false; 2], |p| p.planted)
+        phase
+            .or(self.phases.last())
+            .map_or([false; 2], |p| p.planted)
     }
 
     /// Largest mean distance of the prepared motion from the recording, m, at 30 samples a second.
@@ -245,7 +248,8 @@ impl Course {
         if figure.is_fallen() {
             self.fell_at.get_or_insert(time);
         }
-        let within = time > -1e-9 && time < reference.recorded.duration() + 1e-9;
+        let end = (reference.recorded.duration()).max(reference.prepared.duration());
+        let within = time > -1e-9 && time < end + 1e-9;
         if self.fell_at.is_none() {
             self.peak = self.peak.max(floor / weight);
             for (k, segments) in FEET.into_iter().enumerate() {
@@ -279,14 +283,18 @@ impl Course {
     }
 
     fn outcome(&self, reference: &Reference, dt: f64) -> Outcome {
-        let lost = phc_lost(&self.samples);
         let end = reference.recorded.duration();
+        // A motion whose runs are walked lasts longer than its recording.
+        let until = |t: f64| self.samples.partition_point(|s| s.time < t + 1e-9);
+        let recorded = &self.samples[..until(end)];
+        let whole = &self.samples[..until(reference.prepared.duration())];
+        let lost = phc_lost(recorded, |s| &s.recorded);
         let until = [lost, self.fell_at, self.frozen_at]
             .into_iter()
             .flatten()
             .fold(f64::INFINITY, f64::min);
-        let followed = self.samples.partition_point(|s| s.time < until);
-        let samples = &self.samples[..followed];
+        let followed = recorded.partition_point(|s| s.time < until);
+        let samples = &recorded[..followed];
         let feet = |of: &dyn Fn(&Sample) -> [bool; 2]| -> [Vec<bool>; 2] {
             [0, 1].map(|k| {
                 let all: Vec<bool> = samples.iter().map(|s| of(s)[k]).collect();
@@ -301,7 +309,8 @@ impl Course {
             // A frozen figure has no samples any more: what it did not reach it did not complete.
             completed: lost.is_none() && self.frozen_at.is_none_or(|t| t > end),
             lost_at_s: lost.map(short),
-            anchor_lost_at_s: anchor_lost(&self.samples).map(short),
+            anchor_lost_at_s: anchor_lost(recorded).map(short),
+            prepared_lost_at_s: phc_lost(whole, |s| &s.prepared).map(short),
             fell_at_s: self.fell_at.map(short),
             frozen_at_s: self.frozen_at.map(short),
             followed_s: short(until.clamp(0.0, end)),

@@ -6,7 +6,8 @@ const Z: f64 = 1.959964;
 /// Smaller numbers are rounding.
 const NOTHING: f64 = 1e-12;
 
-/// `x` to seven significant digits, so that writing it as text and reading it again gives the same bits; 0 if it is not finite or below 1e-12.
+/// `x` to seven significant digits, so that writing it as text and reading it again gives the same bits; 0 if it is
+/// not finite or below 1e-12.
 pub fn short(x: f64) -> f64 {
     if !x.is_finite() || x.abs() < NOTHING {
         return 0.0;
@@ -105,10 +106,16 @@ mod tests {
     fn intervals_of_shares_are_the_published_ones() {
         // Newcombe 1998, table II: 56/70 − 48/80 = 0.2, interval 0.0524…0.3339.
         let d = difference((48, 80), (56, 70));
-        assert!((d[0] - 0.0524).abs() < 1e-4 && (d[1] - 0.3339).abs() < 1e-4, "{d:?}");
+        assert!(
+            (d[0] - 0.0524).abs() < 1e-4 && (d[1] - 0.3339).abs() < 1e-4,
+            "{d:?}"
+        );
         // Wilson's interval of 81/263, Newcombe 1998 (one sample): 0.2553…0.3662.
         let w = wilson(81, 263);
-        assert!((w[0] - 0.2553).abs() < 1e-4 && (w[1] - 0.3662).abs() < 1e-4, "{w:?}");
+        assert!(
+            (w[0] - 0.2553).abs() < 1e-4 && (w[1] - 0.3662).abs() < 1e-4,
+            "{w:?}"
+        );
         assert_eq!(wilson(0, 0), [0.0, 1.0]);
     }
 

@@ -17,12 +17,29 @@ impl Table {
     /// In the form of Markdown.
     pub fn markdown(&self) -> String {
         let cell = |c: &str| c.replace('|', "\\|").replace('\n', " ");
-        let mut out = format!("| {} |\n|{}\n", self.head.join(" | "), "---|".repeat(self.head.len()));
+        let mut out = format!(
+            "| {} |\n|{}\n",
+            self.head.join(" | "),
+            "---|".repeat(self.head.len())
+        );
         for row in &self.rows {
             let cells: Vec<String> = row.iter().map(|c| cell(c)).collect();
             out += &format!("| {} |\n", cells.join(" | "));
         }
         out
+    }
+
+    /// Without the columns that have one of these heads.
+    pub fn without(&self, heads: &[&str]) -> Self {
+        let stays = |k: &usize| !heads.contains(&self.head[*k]);
+        let columns: Vec<usize> = (0..self.head.len()).filter(stays).collect();
+        let cell = |row: &Vec<String>, k: usize| row.get(k).cloned().unwrap_or_default();
+        Self {
+            head: columns.iter().map(|k| self.head[*k]).collect(),
+            rows: (self.rows.iter())
+                .map(|row| columns.iter().map(|k| cell(row, *k)).collect())
+                .collect(),
+        }
     }
 
     /// Columns of equal width, numbers to the right.
@@ -33,7 +50,8 @@ impl Table {
             widest.max(self.head[k].chars().count())
         };
         let widths: Vec<usize> = (0..self.head.len()).map(width).collect();
-        let is_number = |c: &str| c.starts_with(|c: char| c.is_ascii_digit() || c == '-' || c == '−');
+        let is_number =
+            |c: &str| c.starts_with(|c: char| c.is_ascii_digit() || c == '-' || c == '−');
         let mut out = String::new();
         let mut line = |cells: &mut dyn Iterator<Item = &str>| {
             let mut text = String::new();
@@ -77,7 +95,9 @@ fn pair(a: Option<f64>, b: Option<f64>, decimals: usize) -> String {
 
 /// One row per clip: verdicts, errors, contacts.
 pub fn by_clip(rows: &[Row]) -> Table {
-    let copies = rows.iter().any(|r| r.result.as_ref().is_some_and(|m| m.copies.is_some()));
+    let copies = rows
+        .iter()
+        .any(|r| r.result.as_ref().is_some_and(|m| m.copies.is_some()));
     let mut head = vec![
         "clip",
         "kind",
@@ -152,7 +172,13 @@ pub fn by_clip(rows: &[Row]) -> Table {
         if copies {
             let text = m.copies.as_ref().map_or(NONE.to_owned(), |c| {
                 let [low, high] = c.completed_share;
-                format!("{} of {} ({:.0}–{:.0} %)", c.completed, c.count, 100.0 * low, 100.0 * high)
+                format!(
+                    "{} of {} ({:.0}–{:.0} %)",
+                    c.completed,
+                    c.count,
+                    100.0 * low,
+                    100.0 * high
+                )
             });
             cells.insert(4, text);
         }
@@ -168,15 +194,16 @@ pub fn difficulties(rows: &[Row]) -> Table {
             "clip",
             "forecast",
             "demand",
-            "because",
-            "came of it",
+            "came of it (as prepared)",
             "floor lacks rms/peak, weights",
             "moment rms/peak, weight·m",
-            "strength peak/95 %",
+            "strength of what carries: peak/95 %",
+            "of any joint: peak/95 %",
             "flight/longest, s",
             "floor, s",
             "inverted, s",
             "prepared off, mm",
+            "because",
         ],
         rows: Vec::new(),
     };
@@ -187,22 +214,27 @@ pub fn difficulties(rows: &[Row]) -> Table {
             row.clip.clone(),
             m.forecast.verdict.name().to_owned(),
             digits(Some(m.forecast.demand), 2),
-            m.forecast.reason.clone(),
-            outcome_word(m).to_owned(),
+            outcome_word(m),
             pair(Some(d.lacking_force_rms), Some(d.lacking_force_peak), 2),
             pair(Some(d.lacking_moment_rms), Some(d.lacking_moment_peak), 2),
-            pair(Some(d.torque_peak), Some(d.torque_p95), 2),
+            pair(Some(d.support_peak), Some(d.support_p95), 2),
+            pair(Some(d.torque_peak), Some(d.torque_p95), 1),
             pair(Some(d.flight_s), Some(d.longest_flight_s), 2),
             digits(Some(d.floor_s), 1),
             digits(Some(d.inverted_s), 1),
             digits(Some(1e3 * m.prepared_off_m), 0),
+            m.forecast.reason.clone(),
         ]);
     }
     out
 }
 
-fn outcome_word(m: &Measured) -> &'static str {
-    if m.outcome.completed { "completed" } else { "lost" }
+fn outcome_word(m: &Measured) -> String {
+    let o = &m.outcome;
+    match o.prepared_lost_at_s.or(o.frozen_at_s) {
+        None => "followed".to_owned(),
+        lost => format!("lost {}", at(lost)),
+    }
 }
 
 /// One row per kind of motion, and one for all.
@@ -253,7 +285,11 @@ pub fn by_kind(rows: &[Row]) -> Table {
         ]);
     };
     for kind in Kind::ALL {
-        let of: Vec<&Measured> = measured.iter().copied().filter(|m| m.kind == kind).collect();
+        let of: Vec<&Measured> = measured
+            .iter()
+            .copied()
+            .filter(|m| m.kind == kind)
+            .collect();
         if !of.is_empty() {
             add(kind.name(), &of);
         }
@@ -262,17 +298,20 @@ pub fn by_kind(rows: &[Row]) -> Table {
     out
 }
 
-/// How many clips of each forecast were completed and lost.
+/// How many clips of each forecast were followed as prepared, and how many were lost.
 pub fn confusion(rows: &[Row]) -> Table {
     let mut out = Table {
-        head: vec!["forecast", "completed (PHC)", "lost", "completed, %"],
+        head: vec!["forecast", "followed as prepared", "lost", "followed, %"],
         rows: Vec::new(),
     };
     for verdict in Verdict::ALL {
         let of: Vec<&Measured> = (rows.iter().filter_map(|r| r.result.as_ref()))
             .filter(|m| m.forecast.verdict == verdict)
             .collect();
-        let k = of.iter().filter(|m| m.outcome.completed).count();
+        let k = of
+            .iter()
+            .filter(|m| m.outcome.followed_as_prepared())
+            .count();
         let share = (!of.is_empty()).then(|| 100.0 * k as f64 / of.len() as f64);
         out.rows.push(vec![
             verdict.name().to_owned(),
@@ -293,20 +332,41 @@ pub fn markdown(rows: &[Row]) -> String {
     out.trim_end().to_owned() + "\n"
 }
 
-/// All tables one after the other, for a terminal.
+/// All tables one after the other, for a terminal: those by clip with fewer columns than the Markdown has.
 pub fn text(rows: &[Row]) -> String {
     let mut out = String::new();
     for (title, table) in titled(rows) {
-        out += &format!("{title}\n\n{}\n", table.text());
+        out += &format!("{title}\n\n{}\n", table.without(&WIDE).text());
     }
     out
 }
 
+/// Columns that a terminal has no room for.
+const WIDE: [&str; 11] = [
+    "to prepared: root-rel./global, mm",
+    "missed/added",
+    "depth, mm",
+    "F_z, weights",
+    "jerk ratio",
+    "floor lacks rms/peak, weights",
+    "moment rms/peak, weight·m",
+    "of any joint: peak/95 %",
+    "floor, s",
+    "inverted, s",
+    "joints to recording, °",
+];
+
 fn titled(rows: &[Row]) -> [(&'static str, Table); 4] {
     [
         ("By kind of motion (medians):", by_kind(rows)),
-        ("By clip (errors until the clip is lost or the figure fell):", by_clip(rows)),
-        ("Difficulty and forecast, before the run:", difficulties(rows)),
+        (
+            "By clip (errors until the clip is lost or the figure fell):",
+            by_clip(rows),
+        ),
+        (
+            "Difficulty and forecast, before the run:",
+            difficulties(rows),
+        ),
         ("Forecasts and what came of them:", confusion(rows)),
     ]
 }
@@ -319,10 +379,18 @@ mod tests {
     fn columns_line_up_and_markdown_escapes_bars() {
         let t = Table {
             head: vec!["a", "long head"],
-            rows: vec![vec!["x|y".into(), "1.5".into()], vec!["z".into(), "text".into()]],
+            rows: vec![
+                vec!["x|y".into(), "1.5".into()],
+                vec!["z".into(), "text".into()],
+            ],
         };
         assert_eq!(t.text(), "a    long head\nx|y        1.5\nz    text\n");
-        assert_eq!(t.markdown(), "| a | long head |\n|---|---|\n| x\\|y | 1.5 |\n| z | text |\n");
+        assert_eq!(t.without(&["a"]).head, ["long head"]);
+        assert_eq!(t.without(&["a"]).rows[1], ["text"]);
+        assert_eq!(
+            t.markdown(),
+            "| a | long head |\n|---|---|\n| x\\|y | 1.5 |\n| z | text |\n"
+        );
     }
 
     #[test]

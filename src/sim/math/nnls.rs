@@ -125,7 +125,8 @@ mod tests {
     }
 
     proptest! {
-        /// Karush, Kuhn and Tucker: no unknown is negative, no gradient of a zero unknown is positive, that of a positive one is zero.
+        /// Karush, Kuhn and Tucker: no unknown is negative, no gradient of a zero unknown is positive, that of a
+        /// positive one is zero.
         #[test]
         fn the_conditions_of_optimality_hold(
             values in prop::collection::vec(-1.0f64..1.0, 6 * 12),
