@@ -30,7 +30,7 @@ pub(super) fn of(scenario: &Scenario<'_>, clip: &Clip) -> Forecast {
 /// The forecast in a line.
 pub(super) fn line(forecast: &Forecast) -> String {
     format!(
-        "{:<14} forecast: {} ({:.2} of what is followed): {}",
+        "{:<14} forecast: {}, demand {:.2}: {}",
         "",
         forecast.verdict.name(),
         forecast.demand,

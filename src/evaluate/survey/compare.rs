@@ -226,7 +226,9 @@ fn number(x: f64) -> String {
         a if a >= 1.0 => 2,
         _ => 3,
     };
-    format!("{x:.digits$}")
+    let text = format!("{x:.digits$}");
+    let is_zero = text.chars().all(|c| "-0.".contains(c));
+    text.trim_start_matches(|c| is_zero && c == '-').to_owned()
 }
 
 #[cfg(test)]
@@ -267,6 +269,12 @@ mod tests {
 
     fn of(change: impl Fn(&mut Measured)) -> Comparison {
         compare(&[row(|_| {})], &[row(change)])
+    }
+
+    #[test]
+    fn numbers_are_short_and_zero_has_no_sign() {
+        let all = [-1e-7, 0.05, -0.05, 1.234, 56.78, 901.2].map(number);
+        assert_eq!(all, ["0.000", "0.050", "-0.050", "1.23", "56.8", "901"]);
     }
 
     #[test]

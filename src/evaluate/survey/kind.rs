@@ -1,6 +1,6 @@
 //! What kind of motion a clip is, by measurement of the fitted recording; never by its name.
 
-use crate::sim::body::topology::{HEAD, L_FOOT, R_FOOT};
+use crate::sim::body::topology::{L_FOOT, R_FOOT};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::Vec3;
 use crate::sim::motion::contacts::runs;
@@ -8,8 +8,6 @@ use crate::sim::motion::leg_ik::forward;
 
 /// Upright part of the pelvis's vertical axis below which the body is upside down (107° from upright).
 const INVERTED: f64 = -0.3;
-/// The head of such a body is lower than its pelvis by this, m: one that lies on its back only lifts its hips.
-const UNDER: f64 = 0.2;
 /// A pelvis below this share of its standing height is on the floor.
 const FLOOR: f64 = 0.45;
 /// A posture lasts at least this long to count, s.
@@ -44,7 +42,7 @@ pub enum Kind {
     Jump,
     /// The pelvis is on the floor for 0.2 s or more.
     Floor,
-    /// The pelvis is upside down, over the head, for 0.1 s or more.
+    /// The pelvis is upside down, and not on the floor, for 0.1 s or more.
     Acrobatic,
 }
 
@@ -87,15 +85,14 @@ pub fn kind(body: &Body, postures: &[Posture], label: &[[bool; 2]], rate_hz: f64
         let all = runs(&flags).into_iter().filter(|r| r.2);
         all.map(|(i, j, _)| j - i).max().unwrap_or(0) as f64 / rate_hz
     };
+    let low = FLOOR * body.standing_root_height();
     let inverted = |i: usize| {
         let p = &postures[i];
-        let turned = p.root_rotation.rotate(Vec3::Z).z < INVERTED;
-        turned && forward(body, p)[HEAD.index()].0.z < p.root_position.z - UNDER
+        p.root_rotation.rotate(Vec3::Z).z < INVERTED && p.root_position.z > low
     };
     if longest(&inverted) >= 0.5 * LASTS {
         return Kind::Acrobatic;
     }
-    let low = FLOOR * body.standing_root_height();
     if longest(&|i| postures[i].root_position.z < low) >= LASTS {
         return Kind::Floor;
     }
@@ -205,7 +202,6 @@ mod tests {
             ("idle", Kind::Stand),
             ("wave", Kind::Stand),
             ("squat", Kind::Stand),
-            ("step", Kind::Step),
             ("walk", Kind::Walk),
         ] {
             let clip = builtin(&body, name).expect("built in");

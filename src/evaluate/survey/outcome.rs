@@ -86,7 +86,20 @@ pub struct Outcome {
     pub limit_dof_s: f64,
 }
 
+/// Errors over less time than this are none, s.
+const LEAST_S: f64 = 0.1;
+
 impl Outcome {
+    /// Errors against the recording, if it was followed for 0.1 s or more.
+    pub fn to_recorded(&self) -> Option<&Errors> {
+        (self.followed_s >= LEAST_S).then_some(&self.recorded)
+    }
+
+    /// Errors against the motion as prepared, likewise.
+    pub fn to_prepared(&self) -> Option<&Errors> {
+        (self.followed_s >= LEAST_S).then_some(&self.prepared)
+    }
+
     /// True if the motion as prepared was followed to its end, within 0.5 m and without a frozen state.
     pub fn followed_as_prepared(&self) -> bool {
         self.prepared_lost_at_s.is_none() && self.frozen_at_s.is_none()
@@ -180,37 +193,37 @@ pub const MEASURES: [Measure; 17] = [
     ),
     measure(
         "root-relative error to the recording, mm",
-        |o| Some(o.recorded.mpjpe_root_mm),
+        |o| o.to_recorded().map(|e| e.mpjpe_root_mm),
         Better::Less,
         (2.0, 0.05),
     ),
     measure(
         "global error to the recording, mm",
-        |o| Some(o.recorded.mpjpe_global_mm),
+        |o| o.to_recorded().map(|e| e.mpjpe_global_mm),
         Better::Less,
         (5.0, 0.05),
     ),
     measure(
         "joint error to the recording, deg",
-        |o| Some(o.recorded.joint_rms_deg),
+        |o| o.to_recorded().map(|e| e.joint_rms_deg),
         Better::Less,
         (0.1, 0.05),
     ),
     measure(
         "root-relative error to the prepared motion, mm",
-        |o| Some(o.prepared.mpjpe_root_mm),
+        |o| o.to_prepared().map(|e| e.mpjpe_root_mm),
         Better::Less,
         (2.0, 0.05),
     ),
     measure(
         "global error to the prepared motion, mm",
-        |o| Some(o.prepared.mpjpe_global_mm),
+        |o| o.to_prepared().map(|e| e.mpjpe_global_mm),
         Better::Less,
         (5.0, 0.05),
     ),
     measure(
         "joint error to the prepared motion, deg",
-        |o| Some(o.prepared.joint_rms_deg),
+        |o| o.to_prepared().map(|e| e.joint_rms_deg),
         Better::Less,
         (0.1, 0.05),
     ),

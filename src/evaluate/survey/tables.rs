@@ -1,7 +1,7 @@
 //! A survey as tables: by clip, by kind of motion, and how its forecasts compare with what came of them.
 
 use super::stats::median;
-use super::{Kind, Measured, Row};
+use super::{Errors, Kind, Measured, Row};
 use crate::evaluate::forecast::Verdict;
 
 /// Heads and rows.
@@ -106,9 +106,9 @@ pub fn by_clip(rows: &[Row]) -> Table {
         "fell at, s",
         "height/tilt lost at, s",
         "to recording: root-rel./global, mm",
-        "joints, °",
+        "joints to recording, °",
         "to prepared: root-rel./global, mm",
-        "joints, °",
+        "joints to prepared, °",
         "touch-down median/worst, ms",
         "missed/added",
         "precision/recall",
@@ -145,8 +145,12 @@ pub fn by_clip(rows: &[Row]) -> Table {
             format!("{:.1} ({} {:.1})", o.limit_s, o.limit_dof, o.limit_dof_s)
         };
         let walked = if m.walked { ", walked" } else { "" };
-        let e = [&o.recorded, &o.prepared];
-        let mm = |k: usize| pair(Some(e[k].mpjpe_root_mm), Some(e[k].mpjpe_global_mm), 0);
+        let e = [o.to_recorded(), o.to_prepared()];
+        let mm = |k: usize| {
+            let of = |f: fn(&Errors) -> f64| e[k].map(f);
+            pair(of(|e| e.mpjpe_root_mm), of(|e| e.mpjpe_global_mm), 0)
+        };
+        let joints = |k: usize| digits(e[k].map(|e| e.joint_rms_deg), 1);
         let t = &o.touch_downs;
         let mut cells = vec![
             row.clip.clone(),
@@ -156,9 +160,9 @@ pub fn by_clip(rows: &[Row]) -> Table {
             at(o.fell_at_s),
             at(o.anchor_lost_at_s),
             mm(0),
-            digits(Some(e[0].joint_rms_deg), 1),
+            joints(0),
             mm(1),
-            digits(Some(e[1].joint_rms_deg), 1),
+            joints(1),
             pair(t.median_ms, t.worst_ms, 0),
             format!("{}/{} of {}", t.missed, t.added, t.recorded),
             pair(o.contact_precision, o.contact_recall, 2),
@@ -274,10 +278,10 @@ pub fn by_kind(rows: &[Row]) -> Table {
             count(&|m| m.outcome.completed),
             count(&|m| m.outcome.anchor_lost_at_s.is_none() && m.outcome.frozen_at_s.is_none()),
             count(&|m| m.outcome.fell_at_s.is_none()),
-            middle(&|m| Some(m.outcome.recorded.mpjpe_root_mm), 0),
-            middle(&|m| Some(m.outcome.recorded.mpjpe_global_mm), 0),
-            middle(&|m| Some(m.outcome.recorded.joint_rms_deg), 1),
-            middle(&|m| Some(m.outcome.prepared.joint_rms_deg), 1),
+            middle(&|m| m.outcome.to_recorded().map(|e| e.mpjpe_root_mm), 0),
+            middle(&|m| m.outcome.to_recorded().map(|e| e.mpjpe_global_mm), 0),
+            middle(&|m| m.outcome.to_recorded().map(|e| e.joint_rms_deg), 1),
+            middle(&|m| m.outcome.to_prepared().map(|e| e.joint_rms_deg), 1),
             middle(&|m| m.outcome.touch_downs.median_ms, 0),
             middle(&|m| m.outcome.contact_recall, 2),
             middle(&|m| m.outcome.skate_worst_mm, 1),
@@ -342,7 +346,7 @@ pub fn text(rows: &[Row]) -> String {
 }
 
 /// Columns that a terminal has no room for.
-const WIDE: [&str; 11] = [
+const WIDE: [&str; 10] = [
     "to prepared: root-rel./global, mm",
     "missed/added",
     "depth, mm",
@@ -353,7 +357,6 @@ const WIDE: [&str; 11] = [
     "of any joint: peak/95 %",
     "floor, s",
     "inverted, s",
-    "joints to recording, °",
 ];
 
 fn titled(rows: &[Row]) -> [(&'static str, Table); 4] {
@@ -367,7 +370,10 @@ fn titled(rows: &[Row]) -> [(&'static str, Table); 4] {
             "Difficulty and forecast, before the run:",
             difficulties(rows),
         ),
-        ("Forecasts and what came of them:", confusion(rows)),
+        (
+            "Forecasts and what came of them (within 0.5 m of the prepared motion, to its end):",
+            confusion(rows),
+        ),
     ]
 }
 
