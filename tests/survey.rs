@@ -179,22 +179,20 @@ fn unchanged_code_compares_clean_and_wrong_gravity_does_not() {
     let f = Folder::new("compare");
     let (old, new) = (f.path("old.json"), f.path("new.json"));
     let clips = ["builtin:idle", "builtin:squat", "builtin:walk"];
-    let with = |more: &[&str]| [&clips[..], more].concat();
-    good(&with(&["--out", &old]));
-    let text = good(&with(&["--out", &new, "--compare", &old]));
+    fn with<'a>(clips: &[&'a str], more: &[&'a str]) -> Vec<&'a str> {
+        [clips, more].concat()
+    }
+    good(&with(&clips, &["--out", &old]));
+    let text = good(&with(&clips, &["--out", &new, "--compare", &old]));
     assert!(
         text.contains("3 clips compared: 0 better, 0 worse"),
         "{text}"
     );
 
-    let wrong = survey(&with(&[
-        "--out",
-        &new,
-        "--compare",
-        &old,
-        "--gravity",
-        "10.3",
-    ]));
+    let wrong = survey(&with(
+        &clips,
+        &["--out", &new, "--compare", &old, "--gravity", "10.3"],
+    ));
     let text = String::from_utf8_lossy(&wrong.stdout).into_owned();
     assert_eq!(wrong.status.code(), Some(1), "{text}");
     for clip in clips {
@@ -202,27 +200,26 @@ fn unchanged_code_compares_clean_and_wrong_gravity_does_not() {
         assert!(text.contains(&line), "{text}");
     }
 
-    let other = survey(&with(&[
-        "--out",
-        &new,
-        "--compare",
-        &old,
-        "--strength",
-        "2",
-    ]));
+    let other = survey(&with(
+        &clips,
+        &["--out", &new, "--compare", &old, "--strength", "2"],
+    ));
     assert_eq!(other.status.code(), Some(1));
     let error = String::from_utf8_lossy(&other.stderr).into_owned();
     assert!(error.contains("strength was 1.0, is 2.0"), "{error}");
-    let allowed = survey(&with(&[
-        "--out",
-        &new,
-        "--compare",
-        &old,
-        "--strength",
-        "2",
-        "--across",
-        "strength",
-    ]));
+    let allowed = survey(&with(
+        &clips,
+        &[
+            "--out",
+            &new,
+            "--compare",
+            &old,
+            "--strength",
+            "2",
+            "--across",
+            "strength",
+        ],
+    ));
     let error = String::from_utf8_lossy(&allowed.stderr).into_owned();
     assert!(!error.contains("different settings"), "{error}");
 }
@@ -313,28 +310,26 @@ fn labels_of_one_foot_that_are_wrong_are_seen() {
     for phase in &mut mirrored.phases {
         phase.planted[1] = phase.planted[0];
     }
-    // The left foot does everything 0.15 s later.
-    let mut late = right.clone();
-    let mut cuts: Vec<f64> = right
-        .phases
-        .iter()
-        .flat_map(|p| [p.end, p.end + 0.15])
+    // The left foot does everything 0.15 s too soon. (The figure lands up to 0.15 s after the label of this motion.)
+    let mut early = right.clone();
+    let mut cuts: Vec<f64> = (right.phases.iter())
+        .flat_map(|p| [p.end - 0.15, p.end])
+        .filter(|t| *t > 0.0)
         .collect();
     cuts.sort_by(f64::total_cmp);
     let mut start = 0.0;
-    late.phases = cuts
+    early.phases = cuts
         .into_iter()
         .map(|end| {
             let mut phase = right.phases[0];
             (phase.start, phase.end) = (start, end);
             let middle = 0.5 * (start + end);
-            let planted = |t: f64| right.labelled(t.max(0.0));
-            phase.planted = [planted(middle - 0.15)[0], planted(middle)[1]];
+            phase.planted = [right.labelled(middle + 0.15)[0], right.labelled(middle)[1]];
             start = end;
             phase
         })
         .collect();
-    for (name, wrong) in [("mirrored", mirrored), ("late", late)] {
+    for (name, wrong) in [("mirrored", mirrored), ("early", early)] {
         let found = compare(std::slice::from_ref(&good), &[row(&wrong)]);
         assert!(found.regressions() > 0, "{name}: {}", found.text());
         assert!(
