@@ -23,6 +23,8 @@ enum Command {
     /// Simulate motions offline and report how closely the figure tracks them
     #[command(after_help = exit::EXIT_CODES)]
     Run(Box<cli::run::RunArgs>),
+    /// Run every clip of a corpus, judge it by published rules, and compare with an earlier survey
+    Survey(Box<cli::survey::SurveyArgs>),
     /// Report how recordings fit the body: what was found, estimated and changed
     Lint(cli::lint::LintArgs),
     /// Fit a recording to the body and write the prepared motion
@@ -48,6 +50,7 @@ fn main() -> ExitCode {
         Some(Command::Push(args)) => cli::push::run(&args).map(Into::into),
         Some(Command::Watch(args)) => cli::watch::run(&args).map(Into::into),
         Some(Command::Run(args)) => cli::run::run(&args),
+        Some(Command::Survey(args)) => cli::survey::run(&args).map(Into::into),
         Some(Command::Lint(args)) => cli::lint::run(&args).map(Into::into),
         Some(Command::Convert(args)) => cli::convert::run(&args).map(Into::into),
         Some(Command::Paper(args)) => cli::paper::run(&args).map(Into::into),

@@ -17,6 +17,7 @@ pub mod push;
 pub mod run;
 pub mod serve;
 pub mod source;
+pub mod survey;
 pub mod terminal;
 pub mod walking;
 pub mod watch;

@@ -2,6 +2,7 @@
 
 mod csv;
 mod document;
+mod forecast;
 mod strip;
 mod summary;
 
@@ -389,6 +390,8 @@ fn run_one(
     })?;
     bar.finish_and_clear();
     table.line(&source.name, &report)?;
+    let forecast = forecast::of(scenario, played);
+    table.print(&forecast::line(&forecast))?;
     if let Some(csv) = csv {
         csv.finish()?;
     }
@@ -399,7 +402,8 @@ fn run_one(
         let path = for_clip(path, &source.name, several);
         write_strip(scenario, &source.name, &frames, &path)?;
     }
-    let document = document(scenario, source, ticks as f64 / args.rate_hz(), &report);
+    let measures = (&report, &forecast);
+    let document = document(scenario, source, ticks as f64 / args.rate_hz(), measures);
     serde_json::to_value(document).context("the report cannot be written as JSON")
 }
 

@@ -3,6 +3,7 @@
 //! Everything else of the server goes through the types and functions that are named here, so that the seam between clock and physics
 //! is one file.
 
+use crate::evaluate::forecast::Verdict;
 use crate::sim::body::palm::load_point;
 use crate::sim::body::provenance::Provenance;
 use crate::sim::body::topology::{self, BONE_NAMES, SEGMENT_NAMES};
@@ -21,7 +22,7 @@ use crate::sim::world::{FigureSetup, WorldError, WorldParams};
 use crate::wire::status::Fault;
 use crate::wire::types::{
     BvhReading, ConstraintSettings, Disturbance, EventKind, FigureSettings, FigureSnapshot,
-    MotionSource, Place, ReadingReport, WorldSettings,
+    ForecastInfo, ForecastVerdict, MotionSource, Place, ReadingReport, WorldSettings,
 };
 use std::sync::Arc;
 
@@ -97,6 +98,32 @@ pub fn prepare(
                 .map_err(|e| Fault::invalid(format!("{field}.frames"), e.to_string()))?;
             Ok((clip, None))
         }
+    }
+}
+
+/// What will come of a clip when `body` follows it by its own strength, without loads. Slow: not on the thread of a tick.
+pub fn forecast(body: &Body, clip: &Clip) -> ForecastInfo {
+    let f = crate::evaluate::forecast::forecast_plain(body, clip);
+    let d = f.difficulty;
+    ForecastInfo {
+        verdict: match f.verdict {
+            Verdict::Follows => ForecastVerdict::Follows,
+            Verdict::NeedsHelp => ForecastVerdict::NeedsHelp,
+            Verdict::Cannot => ForecastVerdict::Cannot,
+        },
+        reason: f.reason,
+        demand: f.demand,
+        lacking_force: [
+            d.lacking_force_rms,
+            d.lacking_force_peak,
+            d.lacking_force_at_s,
+        ],
+        lacking_moment: d.lacking_moment_peak,
+        drift_m: d.drift_m,
+        strength_peak: [d.support_peak, d.support_peak_at_s],
+        strength_dof: d.support_p95_dof,
+        strength_p95: d.support_p95,
+        times_s: [d.flight_s, d.longest_flight_s, d.floor_s, d.inverted_s],
     }
 }
 

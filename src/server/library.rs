@@ -145,6 +145,7 @@ impl Clips {
                 duration: clip.duration(),
                 report: None,
                 created: None,
+                forecast: None,
             };
             let key = (reference.id.clone(), Manner::recorded(false));
             let prepared = HashMap::from([(key, Arc::new(clip))]);
@@ -223,6 +224,7 @@ impl Clips {
         let field = source_field(&source);
         let title = id.as_deref().unwrap_or("clip").to_owned();
         let (clip, report) = engine::prepare(field, &title, &source, body, 1.0)?;
+        let forecast = engine::forecast(body, &clip);
         let bytes = source_bytes(&source) + clip.len() as u64 * FRAME_BYTES;
         let mut held = locked(&self.held);
         let id = id.unwrap_or_else(|| {
@@ -245,6 +247,7 @@ impl Clips {
             duration: clip.duration(),
             report: report.map(Arc::new),
             created: Some(SystemTime::now()),
+            forecast: Some(Arc::new(forecast)),
         };
         let stored = Stored {
             info: info.clone(),

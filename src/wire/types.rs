@@ -621,6 +621,44 @@ pub struct ClipInfo {
     pub report: Option<Arc<ReadingReport>>,
     /// When it was stored.
     pub created: Option<std::time::SystemTime>,
+    /// What will come of it.
+    pub forecast: Option<Arc<ForecastInfo>>,
+}
+
+/// Verdict of a forecast.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ForecastVerdict {
+    /// The figure follows.
+    Follows,
+    /// It deviates or falls, unless it is helped.
+    NeedsHelp,
+    /// No help short of carrying it will do.
+    Cannot,
+}
+
+/// What will come of a clip, in the words of the API.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ForecastInfo {
+    /// What will come of it.
+    pub verdict: ForecastVerdict,
+    /// Why.
+    pub reason: String,
+    /// Hardest demand over what is believed to be followed.
+    pub demand: f64,
+    /// Force that the floor lacks: rms and peak, weights, and time of the peak, s.
+    pub lacking_force: [f64; 3],
+    /// Peak of the moment that it lacks, weight × m.
+    pub lacking_moment: f64,
+    /// How far that drives the capture point, m.
+    pub drift_m: f64,
+    /// Largest torque of `strength_dof` over its strength, and its time, s.
+    pub strength_peak: [f64; 2],
+    /// The DOF that carries and is closest to its strength.
+    pub strength_dof: String,
+    /// Its 95th percentile.
+    pub strength_p95: f64,
+    /// Times in flight, in the longest flight, on something other than the feet, and upside down, s.
+    pub times_s: [f64; 4],
 }
 
 /// How a file was understood, in the words of the API.

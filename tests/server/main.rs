@@ -9,6 +9,7 @@ mod constraints;
 #[path = "../common/corpus.rs"]
 mod corpus;
 mod drives;
+mod forecast;
 mod live;
 mod obstacles;
 mod pages;

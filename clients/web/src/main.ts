@@ -330,7 +330,7 @@ async function openFile(file: File): Promise<void> {
     await session.api.motion.playClip({ figure: p.figure.name, clip: clip?.name ?? "", loop: true, reset: true });
     await session.refresh();
     await takeAgain(p);
-    panel.showReport(file.name, clip?.report);
+    panel.showReport(file.name, clip?.report, undefined, clip?.forecast);
     say(`${p.name} plays ${file.name}`);
     remember();
   } catch (error) {

@@ -2,12 +2,13 @@
 import type { MessageInitShape } from "@bufbuild/protobuf";
 import { Sex, type BodyProfileSchema } from "./gen/sinew/v1/body_pb.js";
 import { Controller, PaperPreset, Stepper, type FigureSchema } from "./gen/sinew/v1/figure_pb.js";
+import type { Forecast } from "./gen/sinew/v1/motion_pb.js";
 import type { RetargetReport } from "./gen/sinew/v1/types_pb.js";
 import type { Person } from "./model.js";
 import { busiest, inPlace, Plot, PLOTS } from "./plots.js";
 import type { Shown } from "./scene.js";
 import type { Session } from "./session.js";
-import { clamp, dof as dofWords, found, kilograms, margin, state, warnings } from "./words.js";
+import { clamp, dof as dofWords, forecast as forecastText, found, kilograms, margin, state, warnings } from "./words.js";
 
 type Child = Node | string;
 
@@ -340,7 +341,7 @@ export class Panel {
   }
 
   /** How a file was understood, or why it was not. */
-  showReport(file: string, outcome: RetargetReport | undefined, error?: string): void {
+  showReport(file: string, outcome: RetargetReport | undefined, error?: string, forecast?: Forecast): void {
     if (error !== undefined) {
       this.report.replaceChildren(el("div", { class: "report bad", role: "alert" }, el("strong", {}, `${file} could not be read`), el("p", {}, error)));
       return;
@@ -348,6 +349,7 @@ export class Panel {
     const r = outcome;
     if (!r) return;
     const facts = found(r);
+    if (forecast) facts.push(forecastText(forecast));
     const said = warnings(r);
     const notes = said.length ? [el("strong", { class: "warnings" }, said.length === 1 ? "1 warning" : `${said.length} warnings`), el("ul", { class: "warnings" }, ...said.map((w) => el("li", {}, w)))] : [];
     const clamps = [...r.clamped].sort((a, b) => b.maxExcessRad - a.maxExcessRad).map((c) => el("tr", {}, ...clamp(c).map((text) => el("td", {}, text))));

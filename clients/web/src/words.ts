@@ -1,4 +1,5 @@
 // From names of the protocol to words for people.
+import { ForecastVerdict, type Forecast } from "./gen/sinew/v1/motion_pb.js";
 import { EventType, type Event } from "./gen/sinew/v1/state_pb.js";
 import type { ClampedAngle, RetargetReport } from "./gen/sinew/v1/types_pb.js";
 
@@ -14,6 +15,13 @@ export function dof(name: string): string {
   const parts = name.split("_");
   const side = parts[0] === "l" ? "left " : parts[0] === "r" ? "right " : "";
   return side + parts.slice(side ? 1 : 0).join(" ");
+}
+
+/** What will come of a clip, and why, in a line. */
+export function forecast(f: Forecast): string {
+  const follows = f.verdict === ForecastVerdict.FOLLOWS;
+  const word = follows ? "should be followed" : f.verdict === ForecastVerdict.NEEDS_HELP ? "will need help" : "cannot be followed";
+  return `Forecast: ${word}: ${f.reason}`;
 }
 
 /** What is worth a caption of its own, or nothing. Torque limits and falls are shown elsewhere for as long as they last. */

@@ -5,6 +5,7 @@ use crate::cli::args::{ControllerArg, StepperArg};
 use crate::cli::lint;
 use crate::cli::source::Source;
 use crate::evaluate::RunReport;
+use crate::evaluate::forecast::Forecast;
 use crate::sim::body::SegmentId;
 use crate::sim::body::names::sex_name;
 use serde::Serialize;
@@ -32,6 +33,8 @@ pub(super) struct Document<'a> {
     then: Vec<ThenEntry<'a>>,
     #[serde(flatten)]
     measures: &'a RunReport,
+    /// What was to be expected of the clip.
+    forecast: &'a Forecast,
     /// `null` for built-in motions, which are made for the body.
     retarget: serde_json::Value,
 }
@@ -77,7 +80,7 @@ pub(super) fn document<'a>(
     scenario: &Scenario<'a>,
     source: &'a Source,
     duration_s: f64,
-    measures: &'a RunReport,
+    (measures, forecast): (&'a RunReport, &'a Forecast),
 ) -> Document<'a> {
     let args = scenario.args;
     let profile = scenario.body.profile;
@@ -130,6 +133,7 @@ pub(super) fn document<'a>(
             })
             .collect(),
         measures,
+        forecast,
         retarget: source
             .retarget
             .as_ref()

@@ -128,6 +128,11 @@ pub struct Stance {
 }
 
 impl Stance {
+    /// What the foot carried in the last tick, N.
+    pub fn load(&self) -> f64 {
+        self.load
+    }
+
     /// Takes in the contact points of a tick, of which those on `segments` are the foot's; the way of a stance so far, m.
     pub fn observe(&mut self, now: &[ContactPoint], segments: [SegmentId; 2]) -> f64 {
         let mine = |c: &&ContactPoint| segments.contains(&c.segment);

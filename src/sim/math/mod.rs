@@ -9,6 +9,7 @@ pub mod exp;
 pub mod hash;
 pub mod lane;
 pub mod mat3;
+pub mod nnls;
 pub mod quat;
 pub mod trig;
 pub mod vec3;

@@ -12,12 +12,15 @@ use super::leg_ik::forward;
 use super::polygon::{hull, margin};
 use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::body::{Body, Posture};
+use crate::sim::math::nnls::nnls;
 use crate::sim::math::{Quat, Vec3};
 
 /// Friction that the ground is believed to have: what the modern controller counts on, on the default ground.
 const FRICTION: f64 = 0.8;
 /// Edges of the pyramid that stands for a friction cone.
 const EDGES: usize = 8;
+/// Keeps the equations solvable where edges of cones depend on each other; forces are in weights.
+const RIDGE: f64 = 1e-10;
 /// A pelvis below this share of its standing height sits or lies: feet are not what carries it.
 const SEATED: f64 = 0.45;
 
@@ -186,88 +189,15 @@ fn lacking(polygon: &[[f64; 2]], com: Vec3, force: Vec3, moment: Vec3) -> (f64, 
         }
     }
     let (f, m) = (force.to_array(), moment.to_array());
-    let rest = residual(&columns, [f[0], f[1], f[2], m[0], m[1], m[2]]);
+    let mut rest = [f[0], f[1], f[2], m[0], m[1], m[2]];
+    let pushes = nnls(&columns, &rest, RIDGE);
+    for (c, x) in columns.iter().zip(&pushes) {
+        for (r, a) in rest.iter_mut().zip(c) {
+            *r -= a * x;
+        }
+    }
     let length = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     (length(&rest[..3]), length(&rest[3..]))
-}
-
-/// `b − A x` with the x ≥ 0 that makes it shortest (Lawson & Hanson 1974, ch. 23); `columns` are those of A.
-fn residual(columns: &[[f64; 6]], b: [f64; 6]) -> [f64; 6] {
-    /// Keeps the normal equations solvable where columns depend on each other.
-    const RIDGE: f64 = 1e-10;
-    const TOLERANCE: f64 = 1e-9;
-    let dot = |a: &[f64; 6], b: &[f64; 6]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
-    let mut x = vec![0.0; columns.len()];
-    let mut active: Vec<usize> = Vec::new();
-    let mut rest = b;
-    // Each round adds the column that helps most; far more rounds than a cone of six dimensions takes.
-    for _ in 0..60 {
-        let best = (0..columns.len())
-            .filter(|k| !active.contains(k))
-            .map(|k| (dot(&columns[k], &rest), k))
-            .max_by(|a, b| a.0.total_cmp(&b.0));
-        match best {
-            Some((gain, k)) if gain > TOLERANCE => active.push(k),
-            _ => break,
-        }
-        while !active.is_empty() {
-            let m = active.len();
-            let mut gram = vec![vec![0.0; m + 1]; m];
-            for (i, row) in gram.iter_mut().enumerate() {
-                for (j, g) in row[..m].iter_mut().enumerate() {
-                    *g = dot(&columns[active[i]], &columns[active[j]]);
-                }
-                row[i] += RIDGE;
-                row[m] = dot(&columns[active[i]], &b);
-            }
-            let z = eliminate(gram);
-            // The longest step that keeps all forces pushing; who would pull leaves.
-            let step = (0..m)
-                .filter(|i| z[*i] <= 0.0)
-                .map(|i| x[active[i]] / (x[active[i]] - z[i]).max(1e-300))
-                .fold(1.0, f64::min);
-            for (i, &k) in active.iter().enumerate() {
-                x[k] += step * (z[i] - x[k]);
-            }
-            if step >= 1.0 {
-                break;
-            }
-            active.retain(|k| {
-                let stays = x[*k] > 1e-14;
-                if !stays {
-                    x[*k] = 0.0;
-                }
-                stays
-            });
-        }
-        rest = b;
-        for (c, x) in columns.iter().zip(&x) {
-            for (r, a) in rest.iter_mut().zip(c) {
-                *r -= a * x;
-            }
-        }
-    }
-    rest
-}
-
-/// Solves a positive definite system given with its right-hand side as the last column.
-fn eliminate(mut a: Vec<Vec<f64>>) -> Vec<f64> {
-    let m = a.len();
-    for k in 0..m {
-        for i in k + 1..m {
-            let w = a[i][k] / a[k][k];
-            for j in k..=m {
-                let upper = a[k][j];
-                a[i][j] -= w * upper;
-            }
-        }
-    }
-    let mut x = vec![0.0; m];
-    for i in (0..m).rev() {
-        let known: f64 = (i + 1..m).map(|j| a[i][j] * x[j]).sum();
-        x[i] = (a[i][m] - known) / a[i][i];
-    }
-    x
 }
 
 #[cfg(test)]

@@ -4,8 +4,8 @@ use super::super::pb;
 use super::super::posture::{segment_of_bone, set_joint_rotation};
 use super::super::status::Fault;
 use super::super::types::{
-    BvhReading, ClipInfo, Delay, DriveOpen, DriveSettings, Feedback, FigureSample, MotionSample,
-    MotionSource, Playback, ReadingReport, Supply,
+    BvhReading, ClipInfo, Delay, DriveOpen, DriveSettings, Feedback, FigureSample, ForecastInfo,
+    ForecastVerdict, MotionSample, MotionSource, Playback, ReadingReport, Supply,
 };
 use super::{
     WORLD_EXTENT, client_id, or_default, place, rotation, shortened, timestamp, vector, within,
@@ -523,6 +523,39 @@ pub fn clip_out(c: &ClipInfo, with_report: bool) -> pb::Clip {
             .filter(|_| with_report)
             .map(|r| report_out(r)),
         create_time: c.created.map(timestamp),
+        forecast: c
+            .forecast
+            .as_ref()
+            .filter(|_| with_report)
+            .map(|f| forecast_out(f)),
+    }
+}
+
+/// A forecast for a response.
+pub fn forecast_out(f: &ForecastInfo) -> pb::Forecast {
+    use pb::ForecastVerdict as V;
+    let verdict = match f.verdict {
+        ForecastVerdict::Follows => V::Follows,
+        ForecastVerdict::NeedsHelp => V::NeedsHelp,
+        ForecastVerdict::Cannot => V::Cannot,
+    };
+    pb::Forecast {
+        verdict: verdict.into(),
+        reason: f.reason.clone(),
+        demand: f.demand,
+        lacking_force_rms_weights: f.lacking_force[0],
+        lacking_force_peak_weights: f.lacking_force[1],
+        lacking_force_peak_time_s: f.lacking_force[2],
+        lacking_moment_peak_weight_m: f.lacking_moment,
+        capture_point_drift_m: f.drift_m,
+        strength_peak_ratio: f.strength_peak[0],
+        strength_peak_time_s: f.strength_peak[1],
+        strength_dof: f.strength_dof.clone(),
+        strength_p95_ratio: f.strength_p95,
+        flight_s: f.times_s[0],
+        longest_flight_s: f.times_s[1],
+        floor_contact_s: f.times_s[2],
+        inverted_s: f.times_s[3],
     }
 }
 

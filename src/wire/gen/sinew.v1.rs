@@ -2457,6 +2457,62 @@ pub struct Clip {
     /// When it was stored; absent for built-in clips.
     #[prost(message, optional, tag = "9")]
     pub create_time: ::core::option::Option<::prost_types::Timestamp>,
+    /// What will come of it when that body follows it by its own strength, without loads; absent for built-in clips, and in lists.
+    #[prost(message, optional, tag = "10")]
+    pub forecast: ::core::option::Option<Forecast>,
+}
+/// How hard a clip is, from inverse dynamics of the prepared motion. Peaks are means over 0.1 s; times are those of the clip, negative on the way
+/// into it.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct Forecast {
+    /// What will come of it.
+    #[prost(enumeration = "ForecastVerdict", tag = "1")]
+    pub verdict: i32,
+    /// The demand that decided, as a sentence without its beginning, for example `needs 1.8 times the strength of the right knee (flexion) at 1.2 s`.
+    #[prost(string, tag = "2")]
+    pub reason: ::prost::alloc::string::String,
+    /// How large that demand is: up to 1 motions are believed to be followed, from 2 on not even with a little help.
+    #[prost(double, tag = "3")]
+    pub demand: f64,
+    /// Force that no push of the floor gives, root mean square, body weights.
+    #[prost(double, tag = "4")]
+    pub lacking_force_rms_weights: f64,
+    /// Its peak, body weights.
+    #[prost(double, tag = "5")]
+    pub lacking_force_peak_weights: f64,
+    /// When, s.
+    #[prost(double, tag = "6")]
+    pub lacking_force_peak_time_s: f64,
+    /// Peak of the moment about the centre of mass that no push of the floor gives, body weight times metre.
+    #[prost(double, tag = "7")]
+    pub lacking_moment_peak_weight_m: f64,
+    /// How far what is lacking drives the capture point within 0.5 s, m.
+    #[prost(double, tag = "8")]
+    pub capture_point_drift_m: f64,
+    /// Largest torque of `strength_dof` over the strength at those angles and speeds.
+    #[prost(double, tag = "9")]
+    pub strength_peak_ratio: f64,
+    /// DOF among hips, knees, waist and thorax that is closest to its strength, for example `r_knee_flexion`; empty if none is needed.
+    #[prost(string, tag = "10")]
+    pub strength_dof: ::prost::alloc::string::String,
+    /// When, s.
+    #[prost(double, tag = "11")]
+    pub strength_peak_time_s: f64,
+    /// 95th percentile of the torque of `strength_dof` over its strength.
+    #[prost(double, tag = "12")]
+    pub strength_p95_ratio: f64,
+    /// Time with nothing on the floor, s.
+    #[prost(double, tag = "13")]
+    pub flight_s: f64,
+    /// Longest of those times, s.
+    #[prost(double, tag = "14")]
+    pub longest_flight_s: f64,
+    /// Time with something other than the feet on the floor, s.
+    #[prost(double, tag = "15")]
+    pub floor_contact_s: f64,
+    /// Time with the pelvis upside down, s.
+    #[prost(double, tag = "16")]
+    pub inverted_s: f64,
 }
 /// How a BVH file is read. Everything may be left out.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -2844,6 +2900,43 @@ pub struct FigureFeedback {
     /// Length of the window in which motion is prepared, ms; contained in `playout_delay_ms`. 0: frames are used as they come.
     #[prost(double, tag = "16")]
     pub preparation_window_ms: f64,
+}
+/// What will come of a clip.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum ForecastVerdict {
+    /// Not told.
+    Unspecified = 0,
+    /// The figure follows it by its own strength.
+    Follows = 1,
+    /// It deviates or falls, unless it is helped.
+    NeedsHelp = 2,
+    /// No help short of carrying it will do.
+    Cannot = 3,
+}
+impl ForecastVerdict {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "FORECAST_VERDICT_UNSPECIFIED",
+            Self::Follows => "FORECAST_VERDICT_FOLLOWS",
+            Self::NeedsHelp => "FORECAST_VERDICT_NEEDS_HELP",
+            Self::Cannot => "FORECAST_VERDICT_CANNOT",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "FORECAST_VERDICT_UNSPECIFIED" => Some(Self::Unspecified),
+            "FORECAST_VERDICT_FOLLOWS" => Some(Self::Follows),
+            "FORECAST_VERDICT_NEEDS_HELP" => Some(Self::NeedsHelp),
+            "FORECAST_VERDICT_CANNOT" => Some(Self::Cannot),
+            _ => None,
+        }
+    }
 }
 /// What a bone rotation is relative to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]

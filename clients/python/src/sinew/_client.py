@@ -463,6 +463,11 @@ class Clip:
         """How a BVH file was understood; `None` for other clips."""
         return self.message.report if self.message.HasField("report") else None
 
+    @property
+    def forecast(self) -> motion_pb2.Forecast | None:
+        """What will come of it when its body follows it: verdict, reason and figures; `None` for built-in clips."""
+        return self.message.forecast if self.message.HasField("forecast") else None
+
     def motion(self, *, body: str | Profile = "adult-man", rate_hz: float = 60.0) -> Motion:
         """The motion as arrays (rad, m, world frame) at `rate_hz`, as it is asked of a figure with this body:
         retargeted, smoothed, feet planted.

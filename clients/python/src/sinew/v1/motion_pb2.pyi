@@ -21,6 +21,34 @@ else:
 
 DESCRIPTOR: _descriptor.FileDescriptor
 
+class _ForecastVerdict:
+    ValueType = _typing.NewType("ValueType", _builtins.int)
+    V: _TypeAlias = ValueType  # noqa: Y015
+
+class _ForecastVerdictEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_ForecastVerdict.ValueType], _builtins.type):
+    DESCRIPTOR: _descriptor.EnumDescriptor
+    FORECAST_VERDICT_UNSPECIFIED: _ForecastVerdict.ValueType  # 0
+    """Not told."""
+    FORECAST_VERDICT_FOLLOWS: _ForecastVerdict.ValueType  # 1
+    """The figure follows it by its own strength."""
+    FORECAST_VERDICT_NEEDS_HELP: _ForecastVerdict.ValueType  # 2
+    """It deviates or falls, unless it is helped."""
+    FORECAST_VERDICT_CANNOT: _ForecastVerdict.ValueType  # 3
+    """No help short of carrying it will do."""
+
+class ForecastVerdict(_ForecastVerdict, metaclass=_ForecastVerdictEnumTypeWrapper):
+    """What will come of a clip."""
+
+FORECAST_VERDICT_UNSPECIFIED: ForecastVerdict.ValueType  # 0
+"""Not told."""
+FORECAST_VERDICT_FOLLOWS: ForecastVerdict.ValueType  # 1
+"""The figure follows it by its own strength."""
+FORECAST_VERDICT_NEEDS_HELP: ForecastVerdict.ValueType  # 2
+"""It deviates or falls, unless it is helped."""
+FORECAST_VERDICT_CANNOT: ForecastVerdict.ValueType  # 3
+"""No help short of carrying it will do."""
+Global___ForecastVerdict: _TypeAlias = ForecastVerdict  # noqa: Y015
+
 class _RotationSpace:
     ValueType = _typing.NewType("ValueType", _builtins.int)
     V: _TypeAlias = ValueType  # noqa: Y015
@@ -124,6 +152,7 @@ class Clip(_message.Message):
     DURATION_S_FIELD_NUMBER: _builtins.int
     REPORT_FIELD_NUMBER: _builtins.int
     CREATE_TIME_FIELD_NUMBER: _builtins.int
+    FORECAST_FIELD_NUMBER: _builtins.int
     name: _builtins.str
     """Resource name `clips/{clip}`."""
     display_name: _builtins.str
@@ -146,6 +175,10 @@ class Clip(_message.Message):
     def create_time(self) -> _timestamp_pb2.Timestamp:
         """When it was stored; absent for built-in clips."""
 
+    @_builtins.property
+    def forecast(self) -> Global___Forecast:
+        """What will come of it when that body follows it by its own strength, without loads; absent for built-in clips, and in lists."""
+
     def __init__(
         self,
         *,
@@ -158,14 +191,99 @@ class Clip(_message.Message):
         duration_s: _builtins.float = ...,
         report: _types_pb2.RetargetReport | None = ...,
         create_time: _timestamp_pb2.Timestamp | None = ...,
+        forecast: Global___Forecast | None = ...,
     ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _typing.Literal["create_time", b"create_time", "report", b"report"]  # noqa: Y015
+    _HasFieldArgType: _TypeAlias = _typing.Literal["create_time", b"create_time", "forecast", b"forecast", "report", b"report"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["body", b"body", "builtin", b"builtin", "create_time", b"create_time", "display_name", b"display_name", "duration_s", b"duration_s", "frame_count", b"frame_count", "name", b"name", "rate_hz", b"rate_hz", "report", b"report"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["body", b"body", "builtin", b"builtin", "create_time", b"create_time", "display_name", b"display_name", "duration_s", b"duration_s", "forecast", b"forecast", "frame_count", b"frame_count", "name", b"name", "rate_hz", b"rate_hz", "report", b"report"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
 Global___Clip: _TypeAlias = Clip  # noqa: Y015
+
+@_typing.final
+class Forecast(_message.Message):
+    """How hard a clip is, from inverse dynamics of the prepared motion. Peaks are means over 0.1 s; times are those of the clip, negative on the way
+    into it.
+    """
+
+    DESCRIPTOR: _descriptor.Descriptor
+
+    VERDICT_FIELD_NUMBER: _builtins.int
+    REASON_FIELD_NUMBER: _builtins.int
+    DEMAND_FIELD_NUMBER: _builtins.int
+    LACKING_FORCE_RMS_WEIGHTS_FIELD_NUMBER: _builtins.int
+    LACKING_FORCE_PEAK_WEIGHTS_FIELD_NUMBER: _builtins.int
+    LACKING_FORCE_PEAK_TIME_S_FIELD_NUMBER: _builtins.int
+    LACKING_MOMENT_PEAK_WEIGHT_M_FIELD_NUMBER: _builtins.int
+    CAPTURE_POINT_DRIFT_M_FIELD_NUMBER: _builtins.int
+    STRENGTH_PEAK_RATIO_FIELD_NUMBER: _builtins.int
+    STRENGTH_DOF_FIELD_NUMBER: _builtins.int
+    STRENGTH_PEAK_TIME_S_FIELD_NUMBER: _builtins.int
+    STRENGTH_P95_RATIO_FIELD_NUMBER: _builtins.int
+    FLIGHT_S_FIELD_NUMBER: _builtins.int
+    LONGEST_FLIGHT_S_FIELD_NUMBER: _builtins.int
+    FLOOR_CONTACT_S_FIELD_NUMBER: _builtins.int
+    INVERTED_S_FIELD_NUMBER: _builtins.int
+    verdict: Global___ForecastVerdict.ValueType
+    """What will come of it."""
+    reason: _builtins.str
+    """The demand that decided, as a sentence without its beginning, for example `needs 1.8 times the strength of the right knee (flexion) at 1.2 s`."""
+    demand: _builtins.float
+    """How large that demand is: up to 1 motions are believed to be followed, from 2 on not even with a little help."""
+    lacking_force_rms_weights: _builtins.float
+    """Force that no push of the floor gives, root mean square, body weights."""
+    lacking_force_peak_weights: _builtins.float
+    """Its peak, body weights."""
+    lacking_force_peak_time_s: _builtins.float
+    """When, s."""
+    lacking_moment_peak_weight_m: _builtins.float
+    """Peak of the moment about the centre of mass that no push of the floor gives, body weight times metre."""
+    capture_point_drift_m: _builtins.float
+    """How far what is lacking drives the capture point within 0.5 s, m."""
+    strength_peak_ratio: _builtins.float
+    """Largest torque of `strength_dof` over the strength at those angles and speeds."""
+    strength_dof: _builtins.str
+    """DOF among hips, knees, waist and thorax that is closest to its strength, for example `r_knee_flexion`; empty if none is needed."""
+    strength_peak_time_s: _builtins.float
+    """When, s."""
+    strength_p95_ratio: _builtins.float
+    """95th percentile of the torque of `strength_dof` over its strength."""
+    flight_s: _builtins.float
+    """Time with nothing on the floor, s."""
+    longest_flight_s: _builtins.float
+    """Longest of those times, s."""
+    floor_contact_s: _builtins.float
+    """Time with something other than the feet on the floor, s."""
+    inverted_s: _builtins.float
+    """Time with the pelvis upside down, s."""
+    def __init__(
+        self,
+        *,
+        verdict: Global___ForecastVerdict.ValueType = ...,
+        reason: _builtins.str = ...,
+        demand: _builtins.float = ...,
+        lacking_force_rms_weights: _builtins.float = ...,
+        lacking_force_peak_weights: _builtins.float = ...,
+        lacking_force_peak_time_s: _builtins.float = ...,
+        lacking_moment_peak_weight_m: _builtins.float = ...,
+        capture_point_drift_m: _builtins.float = ...,
+        strength_peak_ratio: _builtins.float = ...,
+        strength_dof: _builtins.str = ...,
+        strength_peak_time_s: _builtins.float = ...,
+        strength_p95_ratio: _builtins.float = ...,
+        flight_s: _builtins.float = ...,
+        longest_flight_s: _builtins.float = ...,
+        floor_contact_s: _builtins.float = ...,
+        inverted_s: _builtins.float = ...,
+    ) -> None: ...
+    _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
+    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["capture_point_drift_m", b"capture_point_drift_m", "demand", b"demand", "flight_s", b"flight_s", "floor_contact_s", b"floor_contact_s", "inverted_s", b"inverted_s", "lacking_force_peak_time_s", b"lacking_force_peak_time_s", "lacking_force_peak_weights", b"lacking_force_peak_weights", "lacking_force_rms_weights", b"lacking_force_rms_weights", "lacking_moment_peak_weight_m", b"lacking_moment_peak_weight_m", "longest_flight_s", b"longest_flight_s", "reason", b"reason", "strength_dof", b"strength_dof", "strength_p95_ratio", b"strength_p95_ratio", "strength_peak_ratio", b"strength_peak_ratio", "strength_peak_time_s", b"strength_peak_time_s", "verdict", b"verdict"]  # noqa: Y015
+    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    def WhichOneof(self, oneof_group: _Never) -> None: ...
+
+Global___Forecast: _TypeAlias = Forecast  # noqa: Y015
 
 @_typing.final
 class BvhOptions(_message.Message):

@@ -14,7 +14,7 @@ import type { Message } from "@bufbuild/protobuf";
  * Describes the file sinew/v1/motion.proto.
  */
 export const file_sinew_v1_motion: GenFile = /*@__PURE__*/
-  fileDesc("ChVzaW5ldy92MS9tb3Rpb24ucHJvdG8SCHNpbmV3LnYxIt4BCgRDbGlwEgwKBG5hbWUYASABKAkSFAoMZGlzcGxheV9uYW1lGAIgASgJEg8KB2J1aWx0aW4YAyABKAgSDAoEYm9keRgEIAEoCRIPCgdyYXRlX2h6GAUgASgBEhMKC2ZyYW1lX2NvdW50GAYgASgFEhIKCmR1cmF0aW9uX3MYByABKAESKAoGcmVwb3J0GAggASgLMhguc2luZXcudjEuUmV0YXJnZXRSZXBvcnQSLwoLY3JlYXRlX3RpbWUYCSABKAsyGi5nb29nbGUucHJvdG9idWYuVGltZXN0YW1wIvcBCgpCdmhPcHRpb25zEhMKBnVuaXRfbRgBIAEoAUgAiAEBEg8KB3VwX2F4aXMYAiABKAkSFAoHcmF0ZV9oehgDIAEoAUgBiAEBEhYKCWZpdF9mbG9vchgEIAEoCEgCiAEBEhYKCWxvY2tfZmVldBgFIAEoCEgDiAEBEhYKCWN1dG9mZl9oehgGIAEoAUgEiAEBEhYKCXdhbGtfcnVucxgHIAEoCEgFiAEBQgkKB191bml0X21CCgoIX3JhdGVfaHpCDAoKX2ZpdF9mbG9vckIMCgpfbG9ja19mZWV0QgwKCl9jdXRvZmZfaHpCDAoKX3dhbGtfcnVucyJACglCdmhTb3VyY2USDAoEZGF0YRgBIAEoDBIlCgdvcHRpb25zGAIgASgLMhQuc2luZXcudjEuQnZoT3B0aW9ucyJGCgtGcmFtZVNvdXJjZRIPCgdyYXRlX2h6GAEgASgBEiYKBmZyYW1lcxgCIAMoCzIWLnNpbmV3LnYxLkZpZ3VyZU1vdGlvbiKfAQoRQ3JlYXRlQ2xpcFJlcXVlc3QSDwoHY2xpcF9pZBgBIAEoCRIUCgxkaXNwbGF5X25hbWUYAiABKAkSDAoEYm9keRgDIAEoCRIiCgNidmgYBCABKAsyEy5zaW5ldy52MS5CdmhTb3VyY2VIABInCgZmcmFtZXMYBSABKAsyFS5zaW5ldy52MS5GcmFtZVNvdXJjZUgAQggKBnNvdXJjZSIyChJDcmVhdGVDbGlwUmVzcG9uc2USHAoEY2xpcBgBIAEoCzIOLnNpbmV3LnYxLkNsaXAiHgoOR2V0Q2xpcFJlcXVlc3QSDAoEbmFtZRgBIAEoCSIvCg9HZXRDbGlwUmVzcG9uc2USHAoEY2xpcBgBIAEoCzIOLnNpbmV3LnYxLkNsaXAiOQoQTGlzdENsaXBzUmVxdWVzdBIRCglwYWdlX3NpemUYASABKAUSEgoKcGFnZV90b2tlbhgCIAEoCSJLChFMaXN0Q2xpcHNSZXNwb25zZRIdCgVjbGlwcxgBIAMoCzIOLnNpbmV3LnYxLkNsaXASFwoPbmV4dF9wYWdlX3Rva2VuGAIgASgJIiEKEURlbGV0ZUNsaXBSZXF1ZXN0EgwKBG5hbWUYASABKAkiFAoSRGVsZXRlQ2xpcFJlc3BvbnNlIq8BCg9QbGF5Q2xpcFJlcXVlc3QSDgoGZmlndXJlGAEgASgJEgwKBGNsaXAYAiABKAkSDQoFc3BlZWQYAyABKAESDAoEbG9vcBgEIAEoCBIZCgxzdGFydF90aW1lX3MYBSABKAFIAIgBARINCgVyZXNldBgGIAEoCBImCglwbGFjZW1lbnQYByABKAsyEy5zaW5ldy52MS5QbGFjZW1lbnRCDwoNX3N0YXJ0X3RpbWVfcyIoChBQbGF5Q2xpcFJlc3BvbnNlEhQKDHN0YXJ0X3RpbWVfcxgBIAEoASIhCg9TdG9wQ2xpcFJlcXVlc3QSDgoGZmlndXJlGAEgASgJIhIKEFN0b3BDbGlwUmVzcG9uc2UiRAoMQm9uZVJvdGF0aW9uEgwKBGJvbmUYASABKAkSJgoIcm90YXRpb24YAiABKAsyFC5zaW5ldy52MS5RdWF0ZXJuaW9uItoBCgxGaWd1cmVNb3Rpb24SDgoGZmlndXJlGAEgASgJEhwKBHJvb3QYAiABKAsyDi5zaW5ldy52MS5Qb3NlEhgKEGpvaW50X2FuZ2xlc19yYWQYAyADKAESLgoOYm9uZV9yb3RhdGlvbnMYBCADKAsyFi5zaW5ldy52MS5Cb25lUm90YXRpb24SLwoOcm90YXRpb25fc3BhY2UYBSABKA4yFy5zaW5ldy52MS5Sb3RhdGlvblNwYWNlEhAKCHZlbG9jaXR5GAYgAygBEg8KB3BsYW50ZWQYByADKAgiYAoLTW90aW9uRnJhbWUSEAoIc2VxdWVuY2UYASABKAMSFgoOc291cmNlX3RpbWVfbnMYAiABKBASJwoHZmlndXJlcxgDIAMoCzIWLnNpbmV3LnYxLkZpZ3VyZU1vdGlvbiKwAwoLRHJpdmVIZWFkZXISDQoFd29ybGQYASABKAkSDwoHZmlndXJlcxgCIAMoCRIRCglkcml2ZXJfaWQYAyABKAkSFwoPbm9taW5hbF9yYXRlX2h6GAQgASgBEh0KEHBsYXlvdXRfZGVsYXlfbXMYBSABKAFIAIgBARIcChRtYXhfcGxheW91dF9kZWxheV9tcxgGIAEoARIkCgh1bmRlcnJ1bhgHIAEoDjISLnNpbmV3LnYxLlVuZGVycnVuEiMKFmV4dHJhcG9sYXRpb25fbGltaXRfbXMYCCABKAFIAYgBARIaCg1ob2xkX2xpbWl0X21zGAkgASgBSAKIAQESFQoIZ3JhY2VfbXMYCiABKAFIA4gBARINCgVyZXNldBgLIAEoCBIiChVwcmVwYXJhdGlvbl93aW5kb3dfbXMYDCABKAFIBIgBAUITChFfcGxheW91dF9kZWxheV9tc0IZChdfZXh0cmFwb2xhdGlvbl9saW1pdF9tc0IQCg5faG9sZF9saW1pdF9tc0ILCglfZ3JhY2VfbXNCGAoWX3ByZXBhcmF0aW9uX3dpbmRvd19tcyI0CgtNb3Rpb25CYXRjaBIlCgZmcmFtZXMYASADKAsyFS5zaW5ldy52MS5Nb3Rpb25GcmFtZSJxChNEcml2ZUZpZ3VyZXNSZXF1ZXN0EicKBmhlYWRlchgBIAEoCzIVLnNpbmV3LnYxLkRyaXZlSGVhZGVySAASJgoFYmF0Y2gYAiABKAsyFS5zaW5ldy52MS5Nb3Rpb25CYXRjaEgAQgkKB21lc3NhZ2UiQQoURHJpdmVGaWd1cmVzUmVzcG9uc2USKQoIZmVlZGJhY2sYASABKAsyFy5zaW5ldy52MS5Ecml2ZUZlZWRiYWNrImAKEVB1c2hNb3Rpb25SZXF1ZXN0EiUKBmhlYWRlchgBIAEoCzIVLnNpbmV3LnYxLkRyaXZlSGVhZGVyEiQKBWJhdGNoGAIgASgLMhUuc2luZXcudjEuTW90aW9uQmF0Y2giPwoSUHVzaE1vdGlvblJlc3BvbnNlEikKCGZlZWRiYWNrGAEgASgLMhcuc2luZXcudjEuRHJpdmVGZWVkYmFjayKTAQoNRHJpdmVGZWVkYmFjaxIRCglkcml2ZXJfaWQYASABKAkSDAoEdGljaxgCIAEoAxIZChFyZWNlaXZlZF9zZXF1ZW5jZRgDIAEoAxIbChNyZWZ1c2VkX2JhdGNoX2NvdW50GAQgASgDEikKB2ZpZ3VyZXMYBSADKAsyGC5zaW5ldy52MS5GaWd1cmVGZWVkYmFjayKYAwoORmlndXJlRmVlZGJhY2sSDgoGZmlndXJlGAEgASgJEhgKEGFwcGxpZWRfc2VxdWVuY2UYAiABKAMSHgoWYXBwbGllZF9zb3VyY2VfdGltZV9ucxgDIAEoEBITCgtidWZmZXJlZF9tcxgEIAEoARIYChBwbGF5b3V0X2RlbGF5X21zGAUgASgBEhEKCWppdHRlcl9tcxgGIAEoARIgCgZzdXBwbHkYByABKA4yEC5zaW5ldy52MS5TdXBwbHkSFQoNcHJlc2VudF9jb3VudBgIIAEoAxIaChJpbnRlcnBvbGF0ZWRfY291bnQYCSABKAMSGgoSZXh0cmFwb2xhdGVkX2NvdW50GAogASgDEhIKCmhlbGRfY291bnQYCyABKAMSFQoNcmVsYXhlZF9jb3VudBgMIAEoAxISCgpsYXRlX2NvdW50GA0gASgDEhMKC3N0YWxlX2NvdW50GA4gASgDEhYKDm92ZXJmbG93X2NvdW50GA8gASgDEh0KFXByZXBhcmF0aW9uX3dpbmRvd19tcxgQIAEoASpkCg1Sb3RhdGlvblNwYWNlEh4KGlJPVEFUSU9OX1NQQUNFX1VOU1BFQ0lGSUVEEAASGQoVUk9UQVRJT05fU1BBQ0VfUEFSRU5UEAESGAoUUk9UQVRJT05fU1BBQ0VfV09STEQQAipRCghVbmRlcnJ1bhIYChRVTkRFUlJVTl9VTlNQRUNJRklFRBAAEhgKFFVOREVSUlVOX0VYVFJBUE9MQVRFEAESEQoNVU5ERVJSVU5fSE9MRBACKp8BCgZTdXBwbHkSFgoSU1VQUExZX1VOU1BFQ0lGSUVEEAASEgoOU1VQUExZX1BSRVNFTlQQARIXChNTVVBQTFlfSU5URVJQT0xBVEVEEAISFwoTU1VQUExZX0VYVFJBUE9MQVRFRBADEg8KC1NVUFBMWV9IRUxEEAQSEgoOU1VQUExZX1JFTEFYRUQQBRISCg5TVVBQTFlfV0FJVElORxAGMskECg1Nb3Rpb25TZXJ2aWNlEkcKCkNyZWF0ZUNsaXASGy5zaW5ldy52MS5DcmVhdGVDbGlwUmVxdWVzdBocLnNpbmV3LnYxLkNyZWF0ZUNsaXBSZXNwb25zZRI+CgdHZXRDbGlwEhguc2luZXcudjEuR2V0Q2xpcFJlcXVlc3QaGS5zaW5ldy52MS5HZXRDbGlwUmVzcG9uc2USRAoJTGlzdENsaXBzEhouc2luZXcudjEuTGlzdENsaXBzUmVxdWVzdBobLnNpbmV3LnYxLkxpc3RDbGlwc1Jlc3BvbnNlEkcKCkRlbGV0ZUNsaXASGy5zaW5ldy52MS5EZWxldGVDbGlwUmVxdWVzdBocLnNpbmV3LnYxLkRlbGV0ZUNsaXBSZXNwb25zZRJBCghQbGF5Q2xpcBIZLnNpbmV3LnYxLlBsYXlDbGlwUmVxdWVzdBoaLnNpbmV3LnYxLlBsYXlDbGlwUmVzcG9uc2USQQoIU3RvcENsaXASGS5zaW5ldy52MS5TdG9wQ2xpcFJlcXVlc3QaGi5zaW5ldy52MS5TdG9wQ2xpcFJlc3BvbnNlEkcKClB1c2hNb3Rpb24SGy5zaW5ldy52MS5QdXNoTW90aW9uUmVxdWVzdBocLnNpbmV3LnYxLlB1c2hNb3Rpb25SZXNwb25zZRJRCgxEcml2ZUZpZ3VyZXMSHS5zaW5ldy52MS5Ecml2ZUZpZ3VyZXNSZXF1ZXN0Gh4uc2luZXcudjEuRHJpdmVGaWd1cmVzUmVzcG9uc2UoATABYgZwcm90bzM", [file_google_protobuf_timestamp, file_sinew_v1_types]);
+  fileDesc("ChVzaW5ldy92MS9tb3Rpb24ucHJvdG8SCHNpbmV3LnYxIoQCCgRDbGlwEgwKBG5hbWUYASABKAkSFAoMZGlzcGxheV9uYW1lGAIgASgJEg8KB2J1aWx0aW4YAyABKAgSDAoEYm9keRgEIAEoCRIPCgdyYXRlX2h6GAUgASgBEhMKC2ZyYW1lX2NvdW50GAYgASgFEhIKCmR1cmF0aW9uX3MYByABKAESKAoGcmVwb3J0GAggASgLMhguc2luZXcudjEuUmV0YXJnZXRSZXBvcnQSLwoLY3JlYXRlX3RpbWUYCSABKAsyGi5nb29nbGUucHJvdG9idWYuVGltZXN0YW1wEiQKCGZvcmVjYXN0GAogASgLMhIuc2luZXcudjEuRm9yZWNhc3QiywMKCEZvcmVjYXN0EioKB3ZlcmRpY3QYASABKA4yGS5zaW5ldy52MS5Gb3JlY2FzdFZlcmRpY3QSDgoGcmVhc29uGAIgASgJEg4KBmRlbWFuZBgDIAEoARIhChlsYWNraW5nX2ZvcmNlX3Jtc193ZWlnaHRzGAQgASgBEiIKGmxhY2tpbmdfZm9yY2VfcGVha193ZWlnaHRzGAUgASgBEiEKGWxhY2tpbmdfZm9yY2VfcGVha190aW1lX3MYBiABKAESJAocbGFja2luZ19tb21lbnRfcGVha193ZWlnaHRfbRgHIAEoARIdChVjYXB0dXJlX3BvaW50X2RyaWZ0X20YCCABKAESGwoTc3RyZW5ndGhfcGVha19yYXRpbxgJIAEoARIUCgxzdHJlbmd0aF9kb2YYCiABKAkSHAoUc3RyZW5ndGhfcGVha190aW1lX3MYCyABKAESGgoSc3RyZW5ndGhfcDk1X3JhdGlvGAwgASgBEhAKCGZsaWdodF9zGA0gASgBEhgKEGxvbmdlc3RfZmxpZ2h0X3MYDiABKAESFwoPZmxvb3JfY29udGFjdF9zGA8gASgBEhIKCmludmVydGVkX3MYECABKAEi9wEKCkJ2aE9wdGlvbnMSEwoGdW5pdF9tGAEgASgBSACIAQESDwoHdXBfYXhpcxgCIAEoCRIUCgdyYXRlX2h6GAMgASgBSAGIAQESFgoJZml0X2Zsb29yGAQgASgISAKIAQESFgoJbG9ja19mZWV0GAUgASgISAOIAQESFgoJY3V0b2ZmX2h6GAYgASgBSASIAQESFgoJd2Fsa19ydW5zGAcgASgISAWIAQFCCQoHX3VuaXRfbUIKCghfcmF0ZV9oekIMCgpfZml0X2Zsb29yQgwKCl9sb2NrX2ZlZXRCDAoKX2N1dG9mZl9oekIMCgpfd2Fsa19ydW5zIkAKCUJ2aFNvdXJjZRIMCgRkYXRhGAEgASgMEiUKB29wdGlvbnMYAiABKAsyFC5zaW5ldy52MS5CdmhPcHRpb25zIkYKC0ZyYW1lU291cmNlEg8KB3JhdGVfaHoYASABKAESJgoGZnJhbWVzGAIgAygLMhYuc2luZXcudjEuRmlndXJlTW90aW9uIp8BChFDcmVhdGVDbGlwUmVxdWVzdBIPCgdjbGlwX2lkGAEgASgJEhQKDGRpc3BsYXlfbmFtZRgCIAEoCRIMCgRib2R5GAMgASgJEiIKA2J2aBgEIAEoCzITLnNpbmV3LnYxLkJ2aFNvdXJjZUgAEicKBmZyYW1lcxgFIAEoCzIVLnNpbmV3LnYxLkZyYW1lU291cmNlSABCCAoGc291cmNlIjIKEkNyZWF0ZUNsaXBSZXNwb25zZRIcCgRjbGlwGAEgASgLMg4uc2luZXcudjEuQ2xpcCIeCg5HZXRDbGlwUmVxdWVzdBIMCgRuYW1lGAEgASgJIi8KD0dldENsaXBSZXNwb25zZRIcCgRjbGlwGAEgASgLMg4uc2luZXcudjEuQ2xpcCI5ChBMaXN0Q2xpcHNSZXF1ZXN0EhEKCXBhZ2Vfc2l6ZRgBIAEoBRISCgpwYWdlX3Rva2VuGAIgASgJIksKEUxpc3RDbGlwc1Jlc3BvbnNlEh0KBWNsaXBzGAEgAygLMg4uc2luZXcudjEuQ2xpcBIXCg9uZXh0X3BhZ2VfdG9rZW4YAiABKAkiIQoRRGVsZXRlQ2xpcFJlcXVlc3QSDAoEbmFtZRgBIAEoCSIUChJEZWxldGVDbGlwUmVzcG9uc2UirwEKD1BsYXlDbGlwUmVxdWVzdBIOCgZmaWd1cmUYASABKAkSDAoEY2xpcBgCIAEoCRINCgVzcGVlZBgDIAEoARIMCgRsb29wGAQgASgIEhkKDHN0YXJ0X3RpbWVfcxgFIAEoAUgAiAEBEg0KBXJlc2V0GAYgASgIEiYKCXBsYWNlbWVudBgHIAEoCzITLnNpbmV3LnYxLlBsYWNlbWVudEIPCg1fc3RhcnRfdGltZV9zIigKEFBsYXlDbGlwUmVzcG9uc2USFAoMc3RhcnRfdGltZV9zGAEgASgBIiEKD1N0b3BDbGlwUmVxdWVzdBIOCgZmaWd1cmUYASABKAkiEgoQU3RvcENsaXBSZXNwb25zZSJECgxCb25lUm90YXRpb24SDAoEYm9uZRgBIAEoCRImCghyb3RhdGlvbhgCIAEoCzIULnNpbmV3LnYxLlF1YXRlcm5pb24i2gEKDEZpZ3VyZU1vdGlvbhIOCgZmaWd1cmUYASABKAkSHAoEcm9vdBgCIAEoCzIOLnNpbmV3LnYxLlBvc2USGAoQam9pbnRfYW5nbGVzX3JhZBgDIAMoARIuCg5ib25lX3JvdGF0aW9ucxgEIAMoCzIWLnNpbmV3LnYxLkJvbmVSb3RhdGlvbhIvCg5yb3RhdGlvbl9zcGFjZRgFIAEoDjIXLnNpbmV3LnYxLlJvdGF0aW9uU3BhY2USEAoIdmVsb2NpdHkYBiADKAESDwoHcGxhbnRlZBgHIAMoCCJgCgtNb3Rpb25GcmFtZRIQCghzZXF1ZW5jZRgBIAEoAxIWCg5zb3VyY2VfdGltZV9ucxgCIAEoEBInCgdmaWd1cmVzGAMgAygLMhYuc2luZXcudjEuRmlndXJlTW90aW9uIrADCgtEcml2ZUhlYWRlchINCgV3b3JsZBgBIAEoCRIPCgdmaWd1cmVzGAIgAygJEhEKCWRyaXZlcl9pZBgDIAEoCRIXCg9ub21pbmFsX3JhdGVfaHoYBCABKAESHQoQcGxheW91dF9kZWxheV9tcxgFIAEoAUgAiAEBEhwKFG1heF9wbGF5b3V0X2RlbGF5X21zGAYgASgBEiQKCHVuZGVycnVuGAcgASgOMhIuc2luZXcudjEuVW5kZXJydW4SIwoWZXh0cmFwb2xhdGlvbl9saW1pdF9tcxgIIAEoAUgBiAEBEhoKDWhvbGRfbGltaXRfbXMYCSABKAFIAogBARIVCghncmFjZV9tcxgKIAEoAUgDiAEBEg0KBXJlc2V0GAsgASgIEiIKFXByZXBhcmF0aW9uX3dpbmRvd19tcxgMIAEoAUgEiAEBQhMKEV9wbGF5b3V0X2RlbGF5X21zQhkKF19leHRyYXBvbGF0aW9uX2xpbWl0X21zQhAKDl9ob2xkX2xpbWl0X21zQgsKCV9ncmFjZV9tc0IYChZfcHJlcGFyYXRpb25fd2luZG93X21zIjQKC01vdGlvbkJhdGNoEiUKBmZyYW1lcxgBIAMoCzIVLnNpbmV3LnYxLk1vdGlvbkZyYW1lInEKE0RyaXZlRmlndXJlc1JlcXVlc3QSJwoGaGVhZGVyGAEgASgLMhUuc2luZXcudjEuRHJpdmVIZWFkZXJIABImCgViYXRjaBgCIAEoCzIVLnNpbmV3LnYxLk1vdGlvbkJhdGNoSABCCQoHbWVzc2FnZSJBChREcml2ZUZpZ3VyZXNSZXNwb25zZRIpCghmZWVkYmFjaxgBIAEoCzIXLnNpbmV3LnYxLkRyaXZlRmVlZGJhY2siYAoRUHVzaE1vdGlvblJlcXVlc3QSJQoGaGVhZGVyGAEgASgLMhUuc2luZXcudjEuRHJpdmVIZWFkZXISJAoFYmF0Y2gYAiABKAsyFS5zaW5ldy52MS5Nb3Rpb25CYXRjaCI/ChJQdXNoTW90aW9uUmVzcG9uc2USKQoIZmVlZGJhY2sYASABKAsyFy5zaW5ldy52MS5Ecml2ZUZlZWRiYWNrIpMBCg1Ecml2ZUZlZWRiYWNrEhEKCWRyaXZlcl9pZBgBIAEoCRIMCgR0aWNrGAIgASgDEhkKEXJlY2VpdmVkX3NlcXVlbmNlGAMgASgDEhsKE3JlZnVzZWRfYmF0Y2hfY291bnQYBCABKAMSKQoHZmlndXJlcxgFIAMoCzIYLnNpbmV3LnYxLkZpZ3VyZUZlZWRiYWNrIpgDCg5GaWd1cmVGZWVkYmFjaxIOCgZmaWd1cmUYASABKAkSGAoQYXBwbGllZF9zZXF1ZW5jZRgCIAEoAxIeChZhcHBsaWVkX3NvdXJjZV90aW1lX25zGAMgASgQEhMKC2J1ZmZlcmVkX21zGAQgASgBEhgKEHBsYXlvdXRfZGVsYXlfbXMYBSABKAESEQoJaml0dGVyX21zGAYgASgBEiAKBnN1cHBseRgHIAEoDjIQLnNpbmV3LnYxLlN1cHBseRIVCg1wcmVzZW50X2NvdW50GAggASgDEhoKEmludGVycG9sYXRlZF9jb3VudBgJIAEoAxIaChJleHRyYXBvbGF0ZWRfY291bnQYCiABKAMSEgoKaGVsZF9jb3VudBgLIAEoAxIVCg1yZWxheGVkX2NvdW50GAwgASgDEhIKCmxhdGVfY291bnQYDSABKAMSEwoLc3RhbGVfY291bnQYDiABKAMSFgoOb3ZlcmZsb3dfY291bnQYDyABKAMSHQoVcHJlcGFyYXRpb25fd2luZG93X21zGBAgASgBKo8BCg9Gb3JlY2FzdFZlcmRpY3QSIAocRk9SRUNBU1RfVkVSRElDVF9VTlNQRUNJRklFRBAAEhwKGEZPUkVDQVNUX1ZFUkRJQ1RfRk9MTE9XUxABEh8KG0ZPUkVDQVNUX1ZFUkRJQ1RfTkVFRFNfSEVMUBACEhsKF0ZPUkVDQVNUX1ZFUkRJQ1RfQ0FOTk9UEAMqZAoNUm90YXRpb25TcGFjZRIeChpST1RBVElPTl9TUEFDRV9VTlNQRUNJRklFRBAAEhkKFVJPVEFUSU9OX1NQQUNFX1BBUkVOVBABEhgKFFJPVEFUSU9OX1NQQUNFX1dPUkxEEAIqUQoIVW5kZXJydW4SGAoUVU5ERVJSVU5fVU5TUEVDSUZJRUQQABIYChRVTkRFUlJVTl9FWFRSQVBPTEFURRABEhEKDVVOREVSUlVOX0hPTEQQAiqfAQoGU3VwcGx5EhYKElNVUFBMWV9VTlNQRUNJRklFRBAAEhIKDlNVUFBMWV9QUkVTRU5UEAESFwoTU1VQUExZX0lOVEVSUE9MQVRFRBACEhcKE1NVUFBMWV9FWFRSQVBPTEFURUQQAxIPCgtTVVBQTFlfSEVMRBAEEhIKDlNVUFBMWV9SRUxBWEVEEAUSEgoOU1VQUExZX1dBSVRJTkcQBjLJBAoNTW90aW9uU2VydmljZRJHCgpDcmVhdGVDbGlwEhsuc2luZXcudjEuQ3JlYXRlQ2xpcFJlcXVlc3QaHC5zaW5ldy52MS5DcmVhdGVDbGlwUmVzcG9uc2USPgoHR2V0Q2xpcBIYLnNpbmV3LnYxLkdldENsaXBSZXF1ZXN0Ghkuc2luZXcudjEuR2V0Q2xpcFJlc3BvbnNlEkQKCUxpc3RDbGlwcxIaLnNpbmV3LnYxLkxpc3RDbGlwc1JlcXVlc3QaGy5zaW5ldy52MS5MaXN0Q2xpcHNSZXNwb25zZRJHCgpEZWxldGVDbGlwEhsuc2luZXcudjEuRGVsZXRlQ2xpcFJlcXVlc3QaHC5zaW5ldy52MS5EZWxldGVDbGlwUmVzcG9uc2USQQoIUGxheUNsaXASGS5zaW5ldy52MS5QbGF5Q2xpcFJlcXVlc3QaGi5zaW5ldy52MS5QbGF5Q2xpcFJlc3BvbnNlEkEKCFN0b3BDbGlwEhkuc2luZXcudjEuU3RvcENsaXBSZXF1ZXN0Ghouc2luZXcudjEuU3RvcENsaXBSZXNwb25zZRJHCgpQdXNoTW90aW9uEhsuc2luZXcudjEuUHVzaE1vdGlvblJlcXVlc3QaHC5zaW5ldy52MS5QdXNoTW90aW9uUmVzcG9uc2USUQoMRHJpdmVGaWd1cmVzEh0uc2luZXcudjEuRHJpdmVGaWd1cmVzUmVxdWVzdBoeLnNpbmV3LnYxLkRyaXZlRmlndXJlc1Jlc3BvbnNlKAEwAWIGcHJvdG8z", [file_google_protobuf_timestamp, file_sinew_v1_types]);
 
 /**
  * A stored desired motion.
@@ -84,6 +84,13 @@ export type Clip = Message<"sinew.v1.Clip"> & {
    * @generated from field: google.protobuf.Timestamp create_time = 9;
    */
   createTime?: Timestamp | undefined;
+
+  /**
+   * What will come of it when that body follows it by its own strength, without loads; absent for built-in clips, and in lists.
+   *
+   * @generated from field: sinew.v1.Forecast forecast = 10;
+   */
+  forecast?: Forecast | undefined;
 };
 
 /**
@@ -92,6 +99,133 @@ export type Clip = Message<"sinew.v1.Clip"> & {
  */
 export const ClipSchema: GenMessage<Clip> = /*@__PURE__*/
   messageDesc(file_sinew_v1_motion, 0);
+
+/**
+ * How hard a clip is, from inverse dynamics of the prepared motion. Peaks are means over 0.1 s; times are those of the clip, negative on the way
+ * into it.
+ *
+ * @generated from message sinew.v1.Forecast
+ */
+export type Forecast = Message<"sinew.v1.Forecast"> & {
+  /**
+   * What will come of it.
+   *
+   * @generated from field: sinew.v1.ForecastVerdict verdict = 1;
+   */
+  verdict: ForecastVerdict;
+
+  /**
+   * The demand that decided, as a sentence without its beginning, for example `needs 1.8 times the strength of the right knee (flexion) at 1.2 s`.
+   *
+   * @generated from field: string reason = 2;
+   */
+  reason: string;
+
+  /**
+   * How large that demand is: up to 1 motions are believed to be followed, from 2 on not even with a little help.
+   *
+   * @generated from field: double demand = 3;
+   */
+  demand: number;
+
+  /**
+   * Force that no push of the floor gives, root mean square, body weights.
+   *
+   * @generated from field: double lacking_force_rms_weights = 4;
+   */
+  lackingForceRmsWeights: number;
+
+  /**
+   * Its peak, body weights.
+   *
+   * @generated from field: double lacking_force_peak_weights = 5;
+   */
+  lackingForcePeakWeights: number;
+
+  /**
+   * When, s.
+   *
+   * @generated from field: double lacking_force_peak_time_s = 6;
+   */
+  lackingForcePeakTimeS: number;
+
+  /**
+   * Peak of the moment about the centre of mass that no push of the floor gives, body weight times metre.
+   *
+   * @generated from field: double lacking_moment_peak_weight_m = 7;
+   */
+  lackingMomentPeakWeightM: number;
+
+  /**
+   * How far what is lacking drives the capture point within 0.5 s, m.
+   *
+   * @generated from field: double capture_point_drift_m = 8;
+   */
+  capturePointDriftM: number;
+
+  /**
+   * Largest torque of `strength_dof` over the strength at those angles and speeds.
+   *
+   * @generated from field: double strength_peak_ratio = 9;
+   */
+  strengthPeakRatio: number;
+
+  /**
+   * DOF among hips, knees, waist and thorax that is closest to its strength, for example `r_knee_flexion`; empty if none is needed.
+   *
+   * @generated from field: string strength_dof = 10;
+   */
+  strengthDof: string;
+
+  /**
+   * When, s.
+   *
+   * @generated from field: double strength_peak_time_s = 11;
+   */
+  strengthPeakTimeS: number;
+
+  /**
+   * 95th percentile of the torque of `strength_dof` over its strength.
+   *
+   * @generated from field: double strength_p95_ratio = 12;
+   */
+  strengthP95Ratio: number;
+
+  /**
+   * Time with nothing on the floor, s.
+   *
+   * @generated from field: double flight_s = 13;
+   */
+  flightS: number;
+
+  /**
+   * Longest of those times, s.
+   *
+   * @generated from field: double longest_flight_s = 14;
+   */
+  longestFlightS: number;
+
+  /**
+   * Time with something other than the feet on the floor, s.
+   *
+   * @generated from field: double floor_contact_s = 15;
+   */
+  floorContactS: number;
+
+  /**
+   * Time with the pelvis upside down, s.
+   *
+   * @generated from field: double inverted_s = 16;
+   */
+  invertedS: number;
+};
+
+/**
+ * Describes the message sinew.v1.Forecast.
+ * Use `create(ForecastSchema)` to create a new message.
+ */
+export const ForecastSchema: GenMessage<Forecast> = /*@__PURE__*/
+  messageDesc(file_sinew_v1_motion, 1);
 
 /**
  * How a BVH file is read. Everything may be left out.
@@ -155,7 +289,7 @@ export type BvhOptions = Message<"sinew.v1.BvhOptions"> & {
  * Use `create(BvhOptionsSchema)` to create a new message.
  */
 export const BvhOptionsSchema: GenMessage<BvhOptions> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 1);
+  messageDesc(file_sinew_v1_motion, 2);
 
 /**
  * A BVH file.
@@ -183,7 +317,7 @@ export type BvhSource = Message<"sinew.v1.BvhSource"> & {
  * Use `create(BvhSourceSchema)` to create a new message.
  */
 export const BvhSourceSchema: GenMessage<BvhSource> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 2);
+  messageDesc(file_sinew_v1_motion, 3);
 
 /**
  * A motion as frames of one figure, at a constant rate.
@@ -211,7 +345,7 @@ export type FrameSource = Message<"sinew.v1.FrameSource"> & {
  * Use `create(FrameSourceSchema)` to create a new message.
  */
 export const FrameSourceSchema: GenMessage<FrameSource> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 3);
+  messageDesc(file_sinew_v1_motion, 4);
 
 /**
  * Asks to store a clip.
@@ -269,7 +403,7 @@ export type CreateClipRequest = Message<"sinew.v1.CreateClipRequest"> & {
  * Use `create(CreateClipRequestSchema)` to create a new message.
  */
 export const CreateClipRequestSchema: GenMessage<CreateClipRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 4);
+  messageDesc(file_sinew_v1_motion, 5);
 
 /**
  * The stored clip.
@@ -290,7 +424,7 @@ export type CreateClipResponse = Message<"sinew.v1.CreateClipResponse"> & {
  * Use `create(CreateClipResponseSchema)` to create a new message.
  */
 export const CreateClipResponseSchema: GenMessage<CreateClipResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 5);
+  messageDesc(file_sinew_v1_motion, 6);
 
 /**
  * Asks for one clip.
@@ -311,7 +445,7 @@ export type GetClipRequest = Message<"sinew.v1.GetClipRequest"> & {
  * Use `create(GetClipRequestSchema)` to create a new message.
  */
 export const GetClipRequestSchema: GenMessage<GetClipRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 6);
+  messageDesc(file_sinew_v1_motion, 7);
 
 /**
  * One clip.
@@ -332,7 +466,7 @@ export type GetClipResponse = Message<"sinew.v1.GetClipResponse"> & {
  * Use `create(GetClipResponseSchema)` to create a new message.
  */
 export const GetClipResponseSchema: GenMessage<GetClipResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 7);
+  messageDesc(file_sinew_v1_motion, 8);
 
 /**
  * Asks for clips.
@@ -360,7 +494,7 @@ export type ListClipsRequest = Message<"sinew.v1.ListClipsRequest"> & {
  * Use `create(ListClipsRequestSchema)` to create a new message.
  */
 export const ListClipsRequestSchema: GenMessage<ListClipsRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 8);
+  messageDesc(file_sinew_v1_motion, 9);
 
 /**
  * A page of clips.
@@ -388,7 +522,7 @@ export type ListClipsResponse = Message<"sinew.v1.ListClipsResponse"> & {
  * Use `create(ListClipsResponseSchema)` to create a new message.
  */
 export const ListClipsResponseSchema: GenMessage<ListClipsResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 9);
+  messageDesc(file_sinew_v1_motion, 10);
 
 /**
  * Forgets a clip.
@@ -409,7 +543,7 @@ export type DeleteClipRequest = Message<"sinew.v1.DeleteClipRequest"> & {
  * Use `create(DeleteClipRequestSchema)` to create a new message.
  */
 export const DeleteClipRequestSchema: GenMessage<DeleteClipRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 10);
+  messageDesc(file_sinew_v1_motion, 11);
 
 /**
  * The clip is gone.
@@ -424,7 +558,7 @@ export type DeleteClipResponse = Message<"sinew.v1.DeleteClipResponse"> & {
  * Use `create(DeleteClipResponseSchema)` to create a new message.
  */
 export const DeleteClipResponseSchema: GenMessage<DeleteClipResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 11);
+  messageDesc(file_sinew_v1_motion, 12);
 
 /**
  * Lets a figure play a clip.
@@ -490,7 +624,7 @@ export type PlayClipRequest = Message<"sinew.v1.PlayClipRequest"> & {
  * Use `create(PlayClipRequestSchema)` to create a new message.
  */
 export const PlayClipRequestSchema: GenMessage<PlayClipRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 12);
+  messageDesc(file_sinew_v1_motion, 13);
 
 /**
  * The clip plays, or waits until the figure stands.
@@ -513,7 +647,7 @@ export type PlayClipResponse = Message<"sinew.v1.PlayClipResponse"> & {
  * Use `create(PlayClipResponseSchema)` to create a new message.
  */
 export const PlayClipResponseSchema: GenMessage<PlayClipResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 13);
+  messageDesc(file_sinew_v1_motion, 14);
 
 /**
  * Ends a clip.
@@ -534,7 +668,7 @@ export type StopClipRequest = Message<"sinew.v1.StopClipRequest"> & {
  * Use `create(StopClipRequestSchema)` to create a new message.
  */
 export const StopClipRequestSchema: GenMessage<StopClipRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 14);
+  messageDesc(file_sinew_v1_motion, 15);
 
 /**
  * The figure stands, or comes to a stand.
@@ -549,7 +683,7 @@ export type StopClipResponse = Message<"sinew.v1.StopClipResponse"> & {
  * Use `create(StopClipResponseSchema)` to create a new message.
  */
 export const StopClipResponseSchema: GenMessage<StopClipResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 15);
+  messageDesc(file_sinew_v1_motion, 16);
 
 /**
  * Rotation of one bone.
@@ -577,7 +711,7 @@ export type BoneRotation = Message<"sinew.v1.BoneRotation"> & {
  * Use `create(BoneRotationSchema)` to create a new message.
  */
 export const BoneRotationSchema: GenMessage<BoneRotation> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 16);
+  messageDesc(file_sinew_v1_motion, 17);
 
 /**
  * Desired motion of one figure at one instant: joint angles or bone rotations, not both.
@@ -640,7 +774,7 @@ export type FigureMotion = Message<"sinew.v1.FigureMotion"> & {
  * Use `create(FigureMotionSchema)` to create a new message.
  */
 export const FigureMotionSchema: GenMessage<FigureMotion> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 17);
+  messageDesc(file_sinew_v1_motion, 18);
 
 /**
  * Desired motion at one instant.
@@ -675,7 +809,7 @@ export type MotionFrame = Message<"sinew.v1.MotionFrame"> & {
  * Use `create(MotionFrameSchema)` to create a new message.
  */
 export const MotionFrameSchema: GenMessage<MotionFrame> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 18);
+  messageDesc(file_sinew_v1_motion, 19);
 
 /**
  * How figures are driven.
@@ -777,7 +911,7 @@ export type DriveHeader = Message<"sinew.v1.DriveHeader"> & {
  * Use `create(DriveHeaderSchema)` to create a new message.
  */
 export const DriveHeaderSchema: GenMessage<DriveHeader> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 19);
+  messageDesc(file_sinew_v1_motion, 20);
 
 /**
  * Batch of desired motion.
@@ -798,7 +932,7 @@ export type MotionBatch = Message<"sinew.v1.MotionBatch"> & {
  * Use `create(MotionBatchSchema)` to create a new message.
  */
 export const MotionBatchSchema: GenMessage<MotionBatch> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 20);
+  messageDesc(file_sinew_v1_motion, 21);
 
 /**
  * What a driver sends.
@@ -835,7 +969,7 @@ export type DriveFiguresRequest = Message<"sinew.v1.DriveFiguresRequest"> & {
  * Use `create(DriveFiguresRequestSchema)` to create a new message.
  */
 export const DriveFiguresRequestSchema: GenMessage<DriveFiguresRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 21);
+  messageDesc(file_sinew_v1_motion, 22);
 
 /**
  * What a driver is told.
@@ -856,7 +990,7 @@ export type DriveFiguresResponse = Message<"sinew.v1.DriveFiguresResponse"> & {
  * Use `create(DriveFiguresResponseSchema)` to create a new message.
  */
 export const DriveFiguresResponseSchema: GenMessage<DriveFiguresResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 22);
+  messageDesc(file_sinew_v1_motion, 23);
 
 /**
  * A batch of live desired motion.
@@ -884,7 +1018,7 @@ export type PushMotionRequest = Message<"sinew.v1.PushMotionRequest"> & {
  * Use `create(PushMotionRequestSchema)` to create a new message.
  */
 export const PushMotionRequestSchema: GenMessage<PushMotionRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 23);
+  messageDesc(file_sinew_v1_motion, 24);
 
 /**
  * State of the drive after the batch was taken.
@@ -905,7 +1039,7 @@ export type PushMotionResponse = Message<"sinew.v1.PushMotionResponse"> & {
  * Use `create(PushMotionResponseSchema)` to create a new message.
  */
 export const PushMotionResponseSchema: GenMessage<PushMotionResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 24);
+  messageDesc(file_sinew_v1_motion, 25);
 
 /**
  * State of a drive.
@@ -954,7 +1088,7 @@ export type DriveFeedback = Message<"sinew.v1.DriveFeedback"> & {
  * Use `create(DriveFeedbackSchema)` to create a new message.
  */
 export const DriveFeedbackSchema: GenMessage<DriveFeedback> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 25);
+  messageDesc(file_sinew_v1_motion, 26);
 
 /**
  * State of the jitter buffer of one figure.
@@ -1080,7 +1214,48 @@ export type FigureFeedback = Message<"sinew.v1.FigureFeedback"> & {
  * Use `create(FigureFeedbackSchema)` to create a new message.
  */
 export const FigureFeedbackSchema: GenMessage<FigureFeedback> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 26);
+  messageDesc(file_sinew_v1_motion, 27);
+
+/**
+ * What will come of a clip.
+ *
+ * @generated from enum sinew.v1.ForecastVerdict
+ */
+export enum ForecastVerdict {
+  /**
+   * Not told.
+   *
+   * @generated from enum value: FORECAST_VERDICT_UNSPECIFIED = 0;
+   */
+  UNSPECIFIED = 0,
+
+  /**
+   * The figure follows it by its own strength.
+   *
+   * @generated from enum value: FORECAST_VERDICT_FOLLOWS = 1;
+   */
+  FOLLOWS = 1,
+
+  /**
+   * It deviates or falls, unless it is helped.
+   *
+   * @generated from enum value: FORECAST_VERDICT_NEEDS_HELP = 2;
+   */
+  NEEDS_HELP = 2,
+
+  /**
+   * No help short of carrying it will do.
+   *
+   * @generated from enum value: FORECAST_VERDICT_CANNOT = 3;
+   */
+  CANNOT = 3,
+}
+
+/**
+ * Describes the enum sinew.v1.ForecastVerdict.
+ */
+export const ForecastVerdictSchema: GenEnum<ForecastVerdict> = /*@__PURE__*/
+  enumDesc(file_sinew_v1_motion, 0);
 
 /**
  * What a bone rotation is relative to.
@@ -1114,7 +1289,7 @@ export enum RotationSpace {
  * Describes the enum sinew.v1.RotationSpace.
  */
 export const RotationSpaceSchema: GenEnum<RotationSpace> = /*@__PURE__*/
-  enumDesc(file_sinew_v1_motion, 0);
+  enumDesc(file_sinew_v1_motion, 1);
 
 /**
  * What a figure does when desired motion is late.
@@ -1148,7 +1323,7 @@ export enum Underrun {
  * Describes the enum sinew.v1.Underrun.
  */
 export const UnderrunSchema: GenEnum<Underrun> = /*@__PURE__*/
-  enumDesc(file_sinew_v1_motion, 1);
+  enumDesc(file_sinew_v1_motion, 2);
 
 /**
  * How desired motion answers.
@@ -1210,7 +1385,7 @@ export enum Supply {
  * Describes the enum sinew.v1.Supply.
  */
 export const SupplySchema: GenEnum<Supply> = /*@__PURE__*/
-  enumDesc(file_sinew_v1_motion, 2);
+  enumDesc(file_sinew_v1_motion, 3);
 
 /**
  * Desired motions: stored clips and live streams.

@@ -1,0 +1,39 @@
+//! What will come of a clip, told beside what came of it.
+
+use super::Scenario;
+use crate::evaluate::forecast::{Forecast, forecast};
+use crate::sim::body::Links;
+use crate::sim::figure::StrengthScale;
+use crate::sim::motion::Clip;
+use crate::sim::strength::Strength;
+
+/// The forecast for a clip as it is played: with the strength and the loads of the scenario.
+pub(super) fn of(scenario: &Scenario<'_>, clip: &Clip) -> Forecast {
+    let (args, body) = (scenario.args, &scenario.body);
+    let mut links = Links::new(body);
+    let held = args.load.iter().filter(|l| l.from_s <= 0.0);
+    for load in held.filter_map(|l| l.perturbation(body, f64::INFINITY).load()) {
+        for (segment, point, mass) in load.shares() {
+            links.add_load(segment, point, mass);
+        }
+    }
+    let scale = StrengthScale {
+        all: args.strength,
+        percentile: args.percentile,
+        effort: args.effort,
+        ..StrengthScale::default()
+    };
+    let strength = Strength::at_percentile(body, args.percentile);
+    forecast(body, &links, &strength, &scale, clip)
+}
+
+/// The forecast in a line.
+pub(super) fn line(forecast: &Forecast) -> String {
+    format!(
+        "{:<14} forecast: {}, demand {:.2}: {}",
+        "",
+        forecast.verdict.name(),
+        forecast.demand,
+        forecast.reason
+    )
+}

@@ -1,0 +1,125 @@
+//! Which clips a survey is about.
+
+use anyhow::{Context, Result, ensure};
+use std::path::{Path, PathBuf};
+
+/// Most clips of a survey.
+const MAX_CLIPS: usize = 10_000;
+
+/// One clip.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Entry {
+    /// Folder and file name, or `builtin:NAME`: the same wherever the corpus lies.
+    pub name: String,
+    /// Where its bytes are.
+    pub source: Source,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Source {
+    /// A file.
+    File(PathBuf),
+    /// A motion that comes with the program.
+    Builtin(String),
+}
+
+/// The clips of files, folders and `builtin:NAME`, in the order given; those of a folder by name.
+///
+/// # Errors
+/// A folder that cannot be listed or holds none, two clips of one name, too many.
+pub(super) fn gather(corpus: &[String]) -> Result<Vec<Entry>> {
+    let mut out: Vec<Entry> = Vec::new();
+    for spec in corpus {
+        if let Some(name) = spec.strip_prefix("builtin:") {
+            out.push(Entry {
+                name: spec.clone(),
+                source: Source::Builtin(name.to_owned()),
+            });
+            continue;
+        }
+        let path = Path::new(spec);
+        if path.is_dir() {
+            let found = folder(path)?;
+            ensure!(!found.is_empty(), "{spec} holds no .bvh file");
+            out.extend(found.iter().map(|p| Entry::file(p)));
+        } else {
+            out.push(Entry::file(path));
+        }
+    }
+    ensure!(
+        out.len() <= MAX_CLIPS,
+        "{} clips: at most {MAX_CLIPS}",
+        out.len()
+    );
+    let mut names: Vec<&str> = out.iter().map(|e| e.name.as_str()).collect();
+    names.sort_unstable();
+    if let Some(twice) = names.windows(2).find(|w| w[0] == w[1]) {
+        anyhow::bail!("two clips of the corpus are called {}", twice[0]);
+    }
+    Ok(out)
+}
+
+impl Entry {
+    fn file(path: &Path) -> Self {
+        let last = |p: &Path| p.file_name().map(|n| n.to_string_lossy().into_owned());
+        let whole = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        let folder = whole.parent().and_then(last);
+        let file = last(path).unwrap_or_else(|| path.display().to_string());
+        Self {
+            name: folder.map_or(file.clone(), |f| format!("{f}/{file}")),
+            source: Source::File(path.to_owned()),
+        }
+    }
+}
+
+fn folder(path: &Path) -> Result<Vec<PathBuf>> {
+    let at = || format!("cannot list {}", path.display());
+    let mut out = Vec::new();
+    for entry in std::fs::read_dir(path).with_context(at)? {
+        let file = entry.with_context(at)?.path();
+        let is_bvh = file
+            .extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case("bvh"));
+        if is_bvh && file.is_file() {
+            out.push(file);
+        }
+    }
+    out.sort();
+    Ok(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_folder_is_its_files_by_name() {
+        let folder = std::env::temp_dir().join(format!("sinew-corpus-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        for name in ["b.bvh", "a.BVH", "c.txt"] {
+            std::fs::write(folder.join(name), "").unwrap();
+        }
+        let dir = folder.file_name().unwrap().to_string_lossy().into_owned();
+        let given = [folder.display().to_string(), "builtin:idle".to_owned()];
+        let names: Vec<String> = gather(&given)
+            .unwrap()
+            .into_iter()
+            .map(|e| e.name)
+            .collect();
+        assert_eq!(
+            names,
+            [
+                format!("{dir}/a.BVH"),
+                format!("{dir}/b.bvh"),
+                "builtin:idle".into()
+            ]
+        );
+        let twice = [given[0].clone(), folder.join("b.bvh").display().to_string()];
+        let error = gather(&twice).unwrap_err().to_string();
+        assert!(
+            error.contains("two clips") && error.contains("b.bvh"),
+            "{error}"
+        );
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+}

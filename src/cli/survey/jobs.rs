@@ -1,0 +1,421 @@
+//! The work of a survey: clips and copies on several threads, continued where an interrupted run stopped.
+//!
+//! A job is one run of one clip: the clip itself, or one noisy copy. Each result is a line of the partial file as
+//! soon as it is there, under a key made of the bytes of the clip, the settings, the build and the copy, so that
+//! whatever has changed is run again.
+
+use super::SurveyArgs;
+use super::corpus::{Entry, Source};
+use crate::cli::args::LoadSpec;
+use crate::evaluate::forecast::forecast;
+use crate::evaluate::noise::noisy;
+use crate::evaluate::survey::stats::short;
+use crate::evaluate::survey::{self, Conditions, Copies, Lacks, Measured, Outcome, Reference, Row};
+use crate::sim::body::{Body, Links};
+use crate::sim::figure::{FigureOptions, Perturbation, StrengthScale};
+use crate::sim::motion::builtin::{BUILTIN_NAMES, builtin};
+use crate::sim::motion::consistency::consistency;
+use crate::sim::motion::{Bvh, Clip, RetargetOptions, RetargetReport, retarget};
+use crate::sim::strength::Strength;
+use crate::sim::world::WorldParams;
+use anyhow::{Context, Result, anyhow};
+use indicatif::{ProgressBar, ProgressStyle};
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+use std::collections::HashMap;
+use std::fs::File;
+use std::io::Write;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
+
+/// What came of one job.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+enum Done {
+    /// The clip itself.
+    Clip(Box<Measured>),
+    /// A copy of it.
+    Copy(Box<Outcome>),
+    /// It cannot be run, and why.
+    Failed(String),
+}
+
+/// A line of the partial file.
+#[derive(Serialize, Deserialize)]
+struct Line {
+    key: String,
+    done: Done,
+}
+
+/// A clip that was read.
+struct Input {
+    entry: Entry,
+    bytes: Result<Vec<u8>, String>,
+}
+
+/// Runs everything that no partial file has, and puts the rows together in the order of the clips.
+///
+/// # Errors
+/// The partial file cannot be written.
+pub(super) fn run_all(
+    args: &SurveyArgs,
+    body: &Arc<Body>,
+    settings: &Map<String, Value>,
+    clips: &[Entry],
+) -> Result<Vec<Row>> {
+    let settings =
+        serde_json::to_string(settings).context("the settings cannot be written as JSON")?;
+    let build = super::build()?;
+    let inputs: Vec<Input> = clips
+        .iter()
+        .map(|entry| Input {
+            entry: entry.clone(),
+            bytes: match &entry.source {
+                Source::Builtin(name) => Ok(name.clone().into_bytes()),
+                Source::File(path) => {
+                    std::fs::read(path).map_err(|e| format!("cannot be read: {e}"))
+                }
+            },
+        })
+        .collect();
+    let jobs: Vec<(usize, u32)> = (0..inputs.len())
+        .flat_map(|i| (0..=copies(args, &inputs[i])).map(move |k| (i, k)))
+        .collect();
+    let keys: Vec<String> = jobs
+        .iter()
+        .map(|(i, k)| {
+            let bytes = inputs[*i].bytes.as_deref().unwrap_or_default();
+            let name = inputs[*i].entry.name.as_bytes();
+            super::hash(&[
+                name,
+                bytes,
+                settings.as_bytes(),
+                build.as_bytes(),
+                &k.to_le_bytes(),
+            ])
+        })
+        .collect();
+    let path = partial(&args.out);
+    let known = read_partial(&path);
+    let file = File::options()
+        .create(true)
+        .append(true)
+        .open(&path)
+        .with_context(|| format!("cannot write {}", path.display()))?;
+    let file = Mutex::new((file, Ok(())));
+    let bar = progress(jobs.len() as u64);
+    let next = AtomicUsize::new(0);
+    let results: Mutex<Vec<Option<Done>>> = Mutex::new(vec![None; jobs.len()]);
+    let threads = args
+        .jobs
+        .or_else(|| std::thread::available_parallelism().ok().map(usize::from))
+        .unwrap_or(1);
+    std::thread::scope(|scope| {
+        for _ in 0..threads.min(jobs.len()) {
+            scope.spawn(|| {
+                loop {
+                    let j = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(&(i, copy)) = jobs.get(j) else { break };
+                    let done = known.get(&keys[j]).cloned().unwrap_or_else(|| {
+                        let done = one(args, body, &inputs[i], copy);
+                        keep(&file, &keys[j], &done);
+                        done
+                    });
+                    bar.set_message(inputs[i].entry.name.clone());
+                    bar.inc(1);
+                    results
+                        .lock()
+                        .expect("no thread panics while it holds the results")[j] = Some(done);
+                }
+            });
+        }
+    });
+    bar.finish_and_clear();
+    let (_, written) = file.into_inner().expect("all threads have ended");
+    written.with_context(|| format!("cannot write {}", path.display()))?;
+    let results = results.into_inner().expect("all threads have ended");
+    let mut done = jobs.iter().zip(results);
+    Ok(inputs
+        .iter()
+        .map(|input| {
+            let count = 1 + copies(args, input) as usize;
+            let mine = done.by_ref().take(count).filter_map(|(_, d)| d).collect();
+            row(input, mine)
+        })
+        .collect())
+}
+
+/// Built-in motions have no file that could have noise.
+fn copies(args: &SurveyArgs, input: &Input) -> u32 {
+    match input.entry.source {
+        Source::File(_) if input.bytes.is_ok() => args.copies,
+        _ => 0,
+    }
+}
+
+/// The row of a clip from its own result and those of its copies. A copy that cannot be run, where the clip can, is
+/// one that is lost.
+fn row(input: &Input, done: Vec<Done>) -> Row {
+    let mut row = Row {
+        clip: input.entry.name.clone(),
+        input: input
+            .bytes
+            .as_ref()
+            .map_or(String::new(), |b| super::hash(&[b])),
+        error: None,
+        result: None,
+    };
+    let mut outcomes = Vec::new();
+    for d in done {
+        match d {
+            Done::Clip(measured) => row.result = Some(*measured),
+            Done::Copy(outcome) => outcomes.push(*outcome),
+            Done::Failed(why) if row.result.is_none() => row.error = row.error.or(Some(why)),
+            Done::Failed(_) => outcomes.push(Outcome::default()),
+        }
+    }
+    if let Some(measured) = &mut row.result
+        && !outcomes.is_empty()
+    {
+        measured.copies = Some(Copies::of(&outcomes));
+    }
+    row
+}
+
+fn progress(jobs: u64) -> ProgressBar {
+    // Drawn to the standard error stream, and not at all where that is no terminal.
+    let style =
+        ProgressStyle::with_template("{wide_bar:.cyan/dim} {pos}/{len} runs, {eta} left, {msg}")
+            .expect("the template is a constant")
+            .progress_chars("━╸─");
+    ProgressBar::new(jobs).with_style(style)
+}
+
+/// Where results are kept until the survey is written.
+fn partial(out: &Path) -> PathBuf {
+    let mut name = out.file_name().map(ToOwned::to_owned).unwrap_or_default();
+    name.push(".partial");
+    out.with_file_name(name)
+}
+
+/// Takes the partial file of a finished survey away.
+pub(super) fn forget_partial(out: &Path) {
+    // A file that stays is read again and does no harm.
+    let _ = std::fs::remove_file(partial(out));
+}
+
+/// Results of an interrupted run; a line that was cut short is left out.
+fn read_partial(path: &Path) -> HashMap<String, Done> {
+    let text = std::fs::read(path).unwrap_or_default();
+    text.split(|b| *b == b'\n')
+        .filter_map(|line| serde_json::from_slice::<Line>(line).ok())
+        .map(|line| (line.key, line.done))
+        .collect()
+}
+
+fn keep(file: &Mutex<(File, std::io::Result<()>)>, key: &str, done: &Done) {
+    let line = Line {
+        key: key.to_owned(),
+        done: done.clone(),
+    };
+    let mut text =
+        serde_json::to_string(&line).expect("results have string keys and finite numbers");
+    // A line before it that was cut short ends here.
+    text.insert(0, '\n');
+    text.push('\n');
+    let mut held = file
+        .lock()
+        .expect("no thread panics while it holds the file");
+    let (file, written) = &mut *held;
+    if written.is_ok() {
+        *written = file.write_all(text.as_bytes());
+    }
+}
+
+/// One job. A panic is a row with its message, not the end of the survey.
+fn one(args: &SurveyArgs, body: &Arc<Body>, input: &Input, copy: u32) -> Done {
+    let work = || match &input.bytes {
+        Err(why) => Err(anyhow!("{why}")),
+        Ok(bytes) => job(args, body, &input.entry.source, bytes, copy),
+    };
+    match catch_unwind(AssertUnwindSafe(work)) {
+        Ok(Ok(done)) => done,
+        Ok(Err(error)) => Done::Failed(format!("{error:#}")),
+        Err(panic) => {
+            let text = panic.downcast_ref::<String>().map(String::as_str);
+            let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
+            Done::Failed(format!(
+                "the program failed: {}",
+                text.unwrap_or("no message")
+            ))
+        }
+    }
+}
+
+/// A recording with what was said of it.
+struct Fitted {
+    reference: Reference,
+    prepared: Option<RetargetReport>,
+}
+
+fn job(
+    args: &SurveyArgs,
+    body: &Arc<Body>,
+    source: &Source,
+    bytes: &[u8],
+    copy: u32,
+) -> Result<Done> {
+    let fitted = match source {
+        Source::Builtin(name) => {
+            let clip = builtin(body, name).with_context(|| {
+                format!(
+                    "no built-in motion is called {name:?}; there are {}",
+                    BUILTIN_NAMES.join(", ")
+                )
+            })?;
+            Fitted {
+                reference: Reference::authored(Arc::new(clip)),
+                prepared: None,
+            }
+        }
+        Source::File(_) => fit(args, body, bytes, copy)?,
+    };
+    let reference = &fitted.reference;
+    let loads: Vec<Perturbation> = (args.load.iter())
+        .map(|l| l.perturbation(body, f64::INFINITY))
+        .collect();
+    let lead = match args.live_window {
+        Some(_) => 0.0,
+        None => reference.prepared.lead_in(),
+    };
+    let clip = (lead, lead + reference.recorded.duration());
+    let pushes = args.push.iter().enumerate().map(|(k, push)| {
+        let seed = seed(bytes, copy, k as u32 + 1);
+        push.perturbation(body, args.push_duration, clip, seed)
+    });
+    let conditions = Conditions {
+        body: Arc::clone(body),
+        world: WorldParams {
+            rate_hz: args.rate,
+            gravity: args.gravity,
+            ..WorldParams::default()
+        },
+        strength: StrengthScale {
+            all: args.strength,
+            percentile: args.percentile,
+            ..StrengthScale::default()
+        },
+        options: FigureOptions {
+            assist: args.assist,
+            ..FigureOptions::default()
+        },
+        perturbations: loads.into_iter().chain(pushes).collect(),
+        live_window: args.live_window,
+    };
+    let outcome = survey::run(&conditions, reference)?;
+    if copy > 0 {
+        return Ok(Done::Copy(Box::new(outcome)));
+    }
+    Ok(Done::Clip(Box::new(measured(
+        args,
+        &conditions,
+        &fitted,
+        outcome,
+    ))))
+}
+
+/// Fits a recording, or a copy of it with noise, to the body: as it is, and prepared.
+fn fit(args: &SurveyArgs, body: &Body, bytes: &[u8], copy: u32) -> Result<Fitted> {
+    let as_recorded = RetargetOptions {
+        lock_feet: false,
+        balance: false,
+        ends: false,
+        walk_runs: false,
+        ..RetargetOptions::default()
+    };
+    let options = RetargetOptions {
+        walk_runs: !args.keep_runs,
+        ..RetargetOptions::default()
+    };
+    let mut bvh = Bvh::parse(bytes).context("not a BVH file")?;
+    let mut recorded = retarget(&bvh, body, &as_recorded).context("does not fit the body")?;
+    if copy > 0 {
+        let mut rng = Pcg64Mcg::seed_from_u64(seed(bytes, copy, 0));
+        let distance = args.noise.metres / recorded.report.unit_m;
+        let random = || rng.random_range(-1.0..=1.0);
+        let text = noisy(bytes, &bvh, distance, args.noise.degrees, random)
+            .context("has no motion that could have noise")?;
+        bvh = Bvh::parse(text.as_bytes()).context("the copy is not a BVH file")?;
+        recorded = retarget(&bvh, body, &as_recorded).context("the copy does not fit the body")?;
+    }
+    let prepared = retarget(&bvh, body, &options).context("does not fit the body")?;
+    Ok(Fitted {
+        reference: Reference {
+            phases: recorded.report.phases.clone(),
+            recorded: Arc::new(recorded.clip),
+            prepared: Arc::new(prepared.clip),
+        },
+        prepared: Some(prepared.report),
+    })
+}
+
+/// A seed of its own for each clip, copy and purpose.
+fn seed(bytes: &[u8], copy: u32, purpose: u32) -> u64 {
+    let text = super::hash(&[bytes, &copy.to_le_bytes(), &purpose.to_le_bytes()]);
+    u64::from_str_radix(&text, 16).expect("a hash is sixteen hexadecimal digits")
+}
+
+/// What is known of a clip besides how it ran.
+fn measured(
+    args: &SurveyArgs,
+    conditions: &Conditions,
+    fitted: &Fitted,
+    outcome: Outcome,
+) -> Measured {
+    let (body, reference) = (&conditions.body, &fitted.reference);
+    let (recorded, prepared) = (&reference.recorded, &reference.prepared);
+    let postures = |clip: &Clip| -> Vec<_> { (0..clip.len()).map(|i| *clip.posture(i)).collect() };
+    let label: Vec<[bool; 2]> = (0..recorded.len())
+        .map(|i| reference.labelled((i as f64 + 0.5) / recorded.rate_hz()))
+        .collect();
+    let raw = postures(recorded);
+    let own: Vec<[bool; 2]> = (0..prepared.len()).map(|i| prepared.planted(i)).collect();
+    let lacks = |postures: &[_], label: &[[bool; 2]], clip: &Clip| {
+        Lacks::from(&consistency(body, postures, label, clip.rate_hz()))
+    };
+    let mut links = Links::new(body);
+    for load in args.load.iter().filter(|l| l.from_s <= 0.0) {
+        add(&mut links, body, load);
+    }
+    let strength = Strength::at_percentile(body, conditions.strength.percentile);
+    Measured {
+        kind: survey::kind::kind(body, &raw, &label, recorded.rate_hz()),
+        clip_s: short(recorded.duration()),
+        walked: fitted.prepared.as_ref().is_some_and(|r| r.walked),
+        prepared_off_m: short(reference.prepared_off(body)),
+        warnings: fitted
+            .prepared
+            .as_ref()
+            .map_or(Vec::new(), |r| r.warnings.clone()),
+        recorded_lacks: fitted
+            .prepared
+            .as_ref()
+            .map(|_| lacks(&raw, &label, recorded)),
+        prepared_lacks: lacks(&postures(prepared), &own, prepared),
+        forecast: forecast(body, &links, &strength, &conditions.strength, prepared),
+        outcome,
+        copies: None,
+    }
+}
+
+/// A load that is carried from the beginning on.
+fn add(links: &mut Links, body: &Body, load: &LoadSpec) {
+    if let Some(held) = load.perturbation(body, f64::INFINITY).load() {
+        for (segment, point, mass) in held.shares() {
+            links.add_load(segment, point, mass);
+        }
+    }
+}
