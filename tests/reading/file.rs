@@ -1,7 +1,7 @@
 //! Motions of the body written as BVH files of any kind, and what is read back of them.
 
+use sinew::sim::body::topology::SEGMENT_COUNT;
 use sinew::sim::body::topology::{BONE_NAMES, DOF_START, L_FOOT, L_TOES, PARENT, R_FOOT, R_TOES};
-use sinew::sim::body::topology::{SEGMENT_COUNT, SegmentId};
 use sinew::sim::body::{Body, Posture, angles};
 use sinew::sim::math::{Quat, Vec3};
 use sinew::sim::motion::builtin::builtin;
@@ -19,11 +19,6 @@ pub struct File {
     pub head: String,
     pub rows: Vec<Vec<f64>>,
     pub rate: f64,
-}
-
-/// Column of the first rotation of a segment.
-pub fn column(segment: SegmentId) -> usize {
-    3 + 3 * segment.index()
 }
 
 /// World axes (x forward, y left, z up) to file axes (x left, y up, z forward).

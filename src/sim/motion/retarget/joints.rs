@@ -42,7 +42,7 @@ fn pronation_shift(angles: &[f64]) -> f64 {
     } else {
         // As little as fits, unless the range is as wide as a forearm's.
         let most = (2.0 * PRONATION - (high - low)).max(0.0);
-        (over - under).clamp(-most, most) // 0 within the range
+        (over - under).clamp(-most, most)
     }
 }
 

@@ -167,7 +167,7 @@ fn path_by_feet(
         let mut down = lowest;
         low_pass(&mut down, CUTOFF, rate_hz);
         for (w, z) in way.iter_mut().zip(down) {
-            *w = *w - vertical * z;
+            *w -= vertical * z;
         }
     }
     way
