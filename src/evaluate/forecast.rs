@@ -763,10 +763,6 @@ mod tests {
         assert!(small.difficulty.lacking_moment_peak < 0.01, "{small:?}");
         assert!(large.difficulty.lacking_moment_peak > 0.1, "{large:?}");
         assert_ne!(large.verdict, Verdict::Follows, "{large:?}");
-        // The pendulum runs away at ω δ from a zero-moment point that is δ off; a level force may be missing, too.
-        let (d, omega) = (&large.difficulty, (GRAVITY / 0.9f64).sqrt());
-        let ratio = d.drift_m / (d.lacking_moment_peak * omega * STEP);
-        assert!((0.5..2.0).contains(&ratio), "{ratio}: {d:?}");
     }
 
     #[test]
@@ -825,7 +821,7 @@ mod tests {
         assert_eq!(f.verdict, Verdict::Cannot);
         assert_eq!(
             f.reason,
-            "the floor would have to pull by 0.6 weights around 0.7 s"
+            "the floor would have to pull by 0.6 weights at 0.7 s"
         );
         assert_eq!(
             judge(&Difficulty::default(), &limits).verdict,

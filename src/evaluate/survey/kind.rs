@@ -227,7 +227,7 @@ mod tests {
         assert_eq!(of(turns, DOWN), Kind::Turn);
         let hop = |t: f64| [!(0.8..1.1).contains(&t); 2];
         assert_eq!(of(still, hop), Kind::Jump);
-        let hops = |t: f64| [(t * 4.0) as usize % 2 == 0, false];
+        let hops = |t: f64| [((t * 4.0) as usize).is_multiple_of(2), false];
         let fast = |t: f64, p: &mut Posture| p.root_position.x = 2.5 * t;
         assert_eq!(of(fast, hops), Kind::Run);
     }
