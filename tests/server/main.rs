@@ -4,7 +4,6 @@
 
 mod clips;
 mod constraints;
-#[allow(dead_code)] // the list of clips
 #[allow(dead_code)] // not every function
 #[path = "../common/corpus.rs"]
 mod corpus;
