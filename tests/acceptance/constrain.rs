@@ -1,7 +1,7 @@
 //! Goal: a part that a client constrains goes where it is told, and stays there, while the figure goes on with its motion; what cannot be reached is
 //! approached without harm. Method: the state after a while against the constraint.
 
-use crate::common::{Scene, authored, bent, figure, man, play, still, synthesised};
+use crate::common::{Scene, authored, bent, figure, man, play, still, synthesised_cycle};
 use crate::symmetry::{flip, flip_rotation, mirrored_state, opposite};
 use crate::vec3;
 use sinew::sim::body::topology::{DOF_START, HEAD, L_FOOT, L_HAND, PELVIS, R_HAND};
@@ -12,7 +12,6 @@ use sinew::sim::figure::{
     Constrained, Constraint, ControllerKind, Perturbation, StepperKind, setup::FigureOptions,
 };
 use sinew::sim::math::{Mat3, Quat, Vec3};
-use sinew::sim::motion::cycle;
 use sinew::sim::world::{ClipPlayback, Drive, WorldError};
 use std::sync::Arc;
 
@@ -149,7 +148,7 @@ fn a_hand_is_held_and_turned() {
 #[test]
 fn a_hand_is_held_while_walking() {
     let body = man();
-    let walk = Arc::new(cycle(&body, &synthesised(&body, "walk-normal.vrm")).unwrap());
+    let walk = synthesised_cycle(&body);
     for held in [Held::Nothing, Held::Body, Held::World] {
         let mut scene = Scene::of(figure(
             &body,

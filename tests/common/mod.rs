@@ -13,7 +13,7 @@ use sinew::sim::body::{Body, DOF_COUNT, Posture, Profile, Sex, State};
 use sinew::sim::figure::ControllerKind;
 use sinew::sim::motion::builtin::builtin;
 use sinew::sim::motion::retarget::{RetargetOptions, retarget};
-use sinew::sim::motion::{Bvh, Clip};
+use sinew::sim::motion::{Bvh, Clip, cycle};
 use sinew::sim::world::{ClipPlayback, Drive, Figure, FigureKey, FigureSetup, World, WorldParams};
 use std::sync::Arc;
 
@@ -27,6 +27,15 @@ pub fn synthesised(body: &Body, name: &str) -> Arc<Clip> {
     let bvh = Bvh::parse(&corpus::read(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
     let fitted = retarget(&bvh, body, &RetargetOptions::default());
     Arc::new(fitted.unwrap_or_else(|e| panic!("{name}: {e}")).clip)
+}
+
+/// A walk that repeats: the strides in the middle of the synthesised one.
+pub fn synthesised_cycle(body: &Body) -> Arc<Clip> {
+    let bvh = Bvh::parse(&corpus::piece("walk-normal.vrm", 1.8, 5.4)).unwrap();
+    let clip = retarget(&bvh, body, &RetargetOptions::default())
+        .unwrap()
+        .clip;
+    Arc::new(cycle(body, &clip).expect("a walk repeats"))
 }
 
 /// The recording `name` fitted to `body`; panics if the data set is missing.

@@ -101,7 +101,7 @@ async fn a_recording_is_played_faster_and_slower() {
         .motions()
         .create_clip(pb::CreateClipRequest {
             clip_id: "around".into(),
-            source: Some(source(corpus::read("walk-arc.vrm"))),
+            source: Some(source(corpus::piece("walk-arc.vrm", 1.8, 5.4))),
             ..Default::default()
         })
         .await

@@ -11,7 +11,7 @@ use std::time::Duration;
 use tonic::Code;
 
 fn walk(body: &Body) -> Clip {
-    let bvh = Bvh::parse(&corpus::read("walk-normal.vrm")).unwrap();
+    let bvh = Bvh::parse(&corpus::piece("walk-normal.vrm", 1.8, 5.4)).unwrap();
     let clip = retarget(&bvh, body, &RetargetOptions::default())
         .unwrap()
         .clip;

@@ -140,7 +140,7 @@ mod tests {
     fn bad_pushes_say_what_is_wrong() {
         for (text, says) in [
             ("x@random", "is no number"),
-            ("10@nose@random", "no segment is called \"nose\""),
+            ("10@nose@random", "there is no segment \"nose\""),
             ("10@chest", "NS@random"),
             ("nan@random", "is no number"),
         ] {
