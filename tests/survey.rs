@@ -246,10 +246,15 @@ fn tables_are_put_into_a_page_with_their_command() {
     assert!(once.starts_with(begin), "{once}");
     assert!(once.ends_with("<!-- survey quick end -->\n\nEnd.\n"));
     assert!(
-        once.contains("| builtin:idle | stand |") && once.contains("| follows | 1 | 0 |"),
+        once.contains("| stand | 1 | 1 of 1 |") && once.contains("| follows | 1 | 0 |"),
         "{once}"
     );
-    assert!(once.contains(f.text("s.md").trim()));
+    assert!(
+        !once.contains("| builtin:idle | stand |"),
+        "clips are in the other file"
+    );
+    let all = f.text("s.md");
+    assert!(all.contains("| builtin:idle | stand |") && all.contains("| stand | 1 | 1 of 1 |"));
     good(&given);
     assert_eq!(f.text("limits.md"), once);
     let missing = survey(&[

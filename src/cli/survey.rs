@@ -90,10 +90,10 @@ pub struct SurveyArgs {
     /// Runs at the same time; the result does not depend on it. Default: one for each core.
     #[arg(long, value_name = "N")]
     pub jobs: Option<usize>,
-    /// Writes the tables in Markdown.
+    /// Writes all tables in Markdown.
     #[arg(long, value_name = "FILE.md")]
     pub markdown: Option<PathBuf>,
-    /// Puts the tables and the command that makes them between the marks of a section in a file:
+    /// Puts the table by kind of motion, what came of the forecasts, and the command that makes them between the marks of a section in a file:
     /// `<!-- survey SECTION begin: … -->` and `<!-- survey SECTION end -->`.
     #[arg(long, value_name = "FILE#SECTION")]
     pub page: Option<PageSpec>,
@@ -163,10 +163,12 @@ pub fn run(args: &SurveyArgs) -> Result<()> {
         args.out.display()
     ));
     if let Some(path) = &args.markdown {
-        write(path, tables::markdown(&rows))?;
+        let command = page::command(std::env::args());
+        let text = format!("# Survey\n\n`{command}`\n\n{}", tables::markdown(&rows));
+        write(path, text)?;
     }
     if let Some(page) = &args.page {
-        page.fill(&tables::markdown(&rows), std::env::args())?;
+        page.fill(&tables::summary(&rows), std::env::args())?;
     }
     let Some(old) = old else { return Ok(()) };
     let found = compare(&old.rows, &rows);

@@ -64,7 +64,7 @@ impl PageSpec {
 }
 
 /// The command that was given, without places of this machine: of paths from the root only the last part is kept.
-fn command(arguments: impl Iterator<Item = String>) -> String {
+pub(super) fn command(arguments: impl Iterator<Item = String>) -> String {
     let mut words = vec!["sinew".to_owned()];
     for word in arguments.skip(1) {
         let (path, section) = word.split_once('#').unwrap_or((&word, ""));

@@ -262,6 +262,10 @@ pub fn by_kind(rows: &[Row]) -> Table {
         rows: Vec::new(),
     };
     let measured: Vec<&Measured> = rows.iter().filter_map(|r| r.result.as_ref()).collect();
+    let copied = measured.iter().any(|m| m.copies.is_some());
+    if copied {
+        out.head.insert(3, "copies completed");
+    }
     let mut add = |name: &str, of: &[&Measured]| {
         let count = |yes: &dyn Fn(&Measured) -> bool| {
             let k = of.iter().filter(|m| yes(m)).count();
@@ -272,7 +276,7 @@ pub fn by_kind(rows: &[Row]) -> Table {
             let values: Vec<f64> = of.iter().filter_map(|m| value(m)).collect();
             digits(median(&values), decimals)
         };
-        out.rows.push(vec![
+        let mut row = vec![
             name.to_owned(),
             of.len().to_string(),
             count(&|m| m.outcome.completed),
@@ -286,7 +290,13 @@ pub fn by_kind(rows: &[Row]) -> Table {
             middle(&|m| m.outcome.contact_recall, 2),
             middle(&|m| m.outcome.skate_worst_mm, 1),
             middle(&|m| Some(m.outcome.limit_s), 1),
-        ]);
+        ];
+        if copied {
+            let all = of.iter().filter_map(|m| m.copies.as_ref());
+            let [completed, run] = all.fold([0, 0], |[k, n], c| [k + c.completed, n + c.count]);
+            row.insert(3, format!("{completed} of {run}"));
+        }
+        out.rows.push(row);
     };
     for kind in Kind::ALL {
         let of: Vec<&Measured> = measured
@@ -329,8 +339,18 @@ pub fn confusion(rows: &[Row]) -> Table {
 
 /// All tables one after the other, in the form of Markdown, each under its sentence.
 pub fn markdown(rows: &[Row]) -> String {
+    in_markdown(titled(rows))
+}
+
+/// The tables that fit a page for readers, in Markdown: by kind of motion, and what came of the forecasts.
+pub fn summary(rows: &[Row]) -> String {
+    let [kinds, _, _, forecasts] = titled(rows);
+    in_markdown([kinds, forecasts])
+}
+
+fn in_markdown<const N: usize>(tables: [(&'static str, Table); N]) -> String {
     let mut out = String::new();
-    for (title, table) in titled(rows) {
+    for (title, table) in tables {
         out += &format!("{title}\n\n{}\n", table.markdown());
     }
     out.trim_end().to_owned() + "\n"
