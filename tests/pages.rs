@@ -10,8 +10,8 @@ use std::process::Command;
 const SHARE: f64 = 0.02;
 /// … or within so many units of their last printed digit.
 const DIGITS: f64 = 2.0;
-/// Columns with one of these in their heading hold times of the machine.
-const TIMES: [&str; 3] = ["µs", "times faster", "time of a tick"];
+/// Columns with one of these in their heading hold times of the machine, or what rounding leaves.
+const NOT_COMPARED: [&str; 4] = ["µs", "speed", "computing time", "relative difference"];
 
 /// A line without its numbers, and the numbers with the unit of their last digit.
 #[derive(Debug, PartialEq)]
@@ -60,9 +60,9 @@ impl Line {
     }
 }
 
-/// The lines of a page without times.
+/// The lines of a page without the columns that are not compared.
 fn lines(page: &str) -> Vec<String> {
-    let mut timed: Vec<usize> = Vec::new();
+    let mut left_out: Vec<usize> = Vec::new();
     let mut in_table = false;
     page.lines()
         .map(|line| {
@@ -73,14 +73,16 @@ fn lines(page: &str) -> Vec<String> {
             let cells: Vec<&str> = line.split('|').collect();
             if !in_table {
                 in_table = true;
-                let is_time = |c: &&str| TIMES.iter().any(|t| c.contains(t));
-                timed = (0..cells.len()).filter(|k| is_time(&cells[*k])).collect();
+                let is_left_out = |c: &&str| NOT_COMPARED.iter().any(|t| c.contains(t));
+                left_out = (0..cells.len())
+                    .filter(|k| is_left_out(&cells[*k]))
+                    .collect();
                 return line.to_owned();
             }
             let kept = cells
                 .iter()
                 .enumerate()
-                .map(|(k, c)| if timed.contains(&k) { "" } else { c });
+                .map(|(k, c)| if left_out.contains(&k) { "" } else { c });
             kept.collect::<Vec<_>>().join("|")
         })
         .collect()

@@ -5,6 +5,8 @@ import { dof as dofWords, signed } from "./words.js";
 /** How many DOFs are plotted at a time. */
 export const PLOTS = 3;
 
+/** What a plot without curves is called. */
+const EMPTY = "no torque to plot";
 /** Least height of a torque axis, N·m. */
 const LEAST_SPAN = 4;
 /** Marks on the time axis, s before now. */
@@ -68,6 +70,7 @@ export class Plot {
 
   constructor() {
     this.canvas.setAttribute("role", "img");
+    this.canvas.setAttribute("aria-label", EMPTY);
     this.canvas.tabIndex = -1;
     this.torques.setAttribute("aria-hidden", "true");
     const times = element("div", "times", ...TIMES.map((t) => element("span", "", t === 0 ? "0 s" : signed(t))));
@@ -89,7 +92,7 @@ export class Plot {
     if (!person || dof === undefined || !newest) {
       this.name.textContent = this.value.textContent = "";
       this.torques.replaceChildren();
-      this.canvas.removeAttribute("aria-label");
+      this.canvas.setAttribute("aria-label", EMPTY);
       this.canvas.getContext("2d")?.clearRect(0, 0, this.canvas.width, this.canvas.height);
       return;
     }

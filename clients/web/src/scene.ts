@@ -503,7 +503,7 @@ const SLACK = { mouse: 8, touch: 22 };
 const FOLLOW_S = 0.3;
 /** Height above the floor that the view looks at while it follows: the pelvis, but within these bounds, m. */
 const FOLLOW_HEIGHT = { least: 0.45, most: 1.4 };
-/** Movement of the point looked at by the pointer from which on the user has taken the view over, m per picture. */
+/** Movement of the point looked at by a drag from which on the user has taken the view over, m. */
 const PANNED = 0.002;
 
 export class Scene {
@@ -524,6 +524,8 @@ export class Scene {
   private readonly ray = new THREE.Raycaster();
   private moved = false;
   private followed = false;
+  /** The point that was looked at when a drag of the view began, moved along with what the view follows. */
+  private dragged: THREE.Vector3 | undefined;
   private preparedAt = NaN;
   /** Pictures drawn with a figure in them. */
   drawn = 0;
@@ -545,7 +547,14 @@ export class Scene {
     this.orbit.maxDistance = 40;
     this.orbit.enableDamping = true;
     this.orbit.dampingFactor = 0.12;
-    this.orbit.addEventListener("start", () => (this.moved = true));
+    this.orbit.addEventListener("start", () => {
+      this.moved = true;
+      this.dragged = this.orbit.target.clone();
+    });
+    this.orbit.addEventListener("end", () => {
+      this.endFollowIfPanned();
+      this.dragged = undefined;
+    });
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(2048, 2048);
     this.sun.shadow.radius = 5;
@@ -679,6 +688,12 @@ export class Scene {
     const by = target.sub(this.orbit.target).multiplyScalar(still ? 1 : 1 - Math.exp(-elapsed / FOLLOW_S));
     this.orbit.target.add(by);
     this.camera.position.add(by);
+    this.dragged?.add(by);
+  }
+
+  /** Panning ends following; the way on which a view comes to rest after a drag does not. */
+  private endFollowIfPanned(): void {
+    if (this.followed && this.dragged && this.dragged.distanceTo(this.orbit.target) > PANNED) this.follow = false;
   }
 
   /** Turns (rad) and nears (factor) the camera, for keys. */
@@ -735,9 +750,8 @@ export class Scene {
     const now = performance.now() / 1000;
     this.track(chosen, Number.isNaN(this.preparedAt) ? 0 : Math.min(0.5, now - this.preparedAt));
     this.preparedAt = now;
-    scratchA.copy(this.orbit.target);
     this.orbit.update();
-    if (this.followed && scratchA.distanceTo(this.orbit.target) > PANNED) this.follow = false;
+    this.endFollowIfPanned();
     // Labels are placed with the view of this picture, not of the one before.
     this.camera.updateMatrixWorld();
     // The figure moves on while a push is drawn on it, and under a pointer that rests.
