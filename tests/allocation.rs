@@ -10,7 +10,7 @@ use sinew::sim::body::SegmentId;
 use sinew::sim::body::topology::{CHEST, L_HAND, R_HAND};
 use sinew::sim::figure::{Constrained, Constraint, ControllerKind, Flags, Perturbation};
 use sinew::sim::math::{Quat, Vec3};
-use sinew::sim::motion::live::{LiveMotion, RATE};
+use sinew::sim::plan::stream::{RATE, StreamPlan};
 use sinew::sim::world::{ClipPlayback, Drive, LivePlayback, World};
 use std::sync::Arc;
 
@@ -265,7 +265,7 @@ fn a_prepared_stream_allocates_nothing() {
     let walk = authored(&body, "walk");
     let lead = walk.lead_in();
     let posture = |i: f64| walk.sample(i / RATE - lead).posture;
-    let mut motion = LiveMotion::new(Arc::clone(&body), 0.5);
+    let mut motion = StreamPlan::new(Arc::clone(&body), 0.5);
     let mut fed = 0.0;
     while fed / RATE <= motion.window() + 0.1 {
         motion.push(&posture(fed), None);
@@ -292,7 +292,7 @@ fn a_prepared_stream_allocates_nothing() {
             world.step();
         });
         fed += 1.0;
-        walked |= scene.figure().gait().is_walking();
+        walked |= scene.figure().tracker().is_walking();
         if tick >= WARM_UP as u64 {
             assert_eq!(
                 (counted.count_total, counted.bytes_total),

@@ -29,11 +29,13 @@ const PARTS: &[(&str, &[&str])] = &[
 const SIM: &[&[&str]] = &[
     &["world"],
     &["figure"],
-    &["gait"],
+    &["track", "get_up"],
     &["control"],
     &["collide"],
     &["contact"],
     &["figure::setup"],
+    &["retarget"],
+    &["plan"],
     &["support", "motion"],
     &["strength"],
     &["dynamics"],
@@ -81,8 +83,8 @@ const TICK_MODULES: &[&str] = &[
     "sim::contact",
     "sim::collide",
     "sim::figure",
-    "sim::motion::ascent",
-    "sim::motion::live",
+    "sim::get_up",
+    "sim::plan::stream",
     "sim::world",
 ];
 

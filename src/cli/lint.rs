@@ -5,8 +5,8 @@ use super::number::{fixed, hertz, metres, rounded, seconds};
 use super::source::{Source, load};
 use super::terminal::{print, print_line};
 use crate::sim::body::Body;
-use crate::sim::motion::consistency::{Consistency, Spread, consistency};
-use crate::sim::motion::retarget::{RetargetOptions, RetargetReport, UpAxis};
+use crate::sim::plan::feasibility::{Consistency, Spread, consistency};
+use crate::sim::retarget::{RetargetOptions, RetargetReport, UpAxis};
 use anyhow::{Context, Result};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -176,7 +176,7 @@ fn describe_consistency(name: &str, c: &Consistency) -> String {
 
 /// The report as JSON; lengths in mm where they are errors, in m otherwise; angles in degrees.
 pub fn to_json(r: &RetargetReport) -> Value {
-    let outside = |z: &crate::sim::motion::prepare::ZmpOutside| json!({ "share": z.fraction, "mean_mm": 1e3 * z.mean, "p95_mm": 1e3 * z.p95, "max_mm": 1e3 * z.max });
+    let outside = |z: &crate::sim::plan::prepare::ZmpOutside| json!({ "share": z.fraction, "mean_mm": 1e3 * z.mean, "p95_mm": 1e3 * z.p95, "max_mm": 1e3 * z.max });
     json!({
         "mapped": r.mapped.iter().map(|m| json!({ "segment": m.segment, "bones": m.bones })).collect::<Vec<_>>(),
         "missing": r.missing,

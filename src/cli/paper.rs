@@ -18,7 +18,7 @@ use crate::evaluate::strip::View;
 use crate::sim::body::topology::DOF_NAMES;
 use crate::sim::body::{Body, Profile, Sex};
 use crate::sim::motion::builtin::{at_ease, builtin};
-use crate::sim::motion::retarget::RetargetOptions;
+use crate::sim::retarget::RetargetOptions;
 use anyhow::Result;
 use std::fmt::Write as _;
 use std::path::PathBuf;

@@ -10,7 +10,9 @@ use crate::server::engine;
 use crate::sim::body::names::DEFAULT_BODY;
 use crate::sim::body::{Body, Profile};
 use crate::sim::math::Quat;
-use crate::sim::motion::{Bvh, Clip, PlanarTransform, RetargetOptions, cycle};
+use crate::sim::motion::{Bvh, Clip, PlanarTransform};
+use crate::sim::plan::cycle;
+use crate::sim::retarget::RetargetOptions;
 use crate::wire::convert::{self, motion::figure_motion};
 use crate::wire::frame::values;
 use crate::wire::pb;
@@ -216,7 +218,7 @@ fn prepared(args: &Args, bvh: &Bvh, body: &Body) -> anyhow::Result<Clip> {
             ends: false,
             ..Default::default()
         });
-        let fitted = crate::sim::motion::retarget(bvh, body, &options)
+        let fitted = crate::sim::retarget::retarget(bvh, body, &options)
             .map_err(|e| anyhow::anyhow!("{path}: {e}"))?;
         (fitted.clip, fitted.report.warnings)
     } else {

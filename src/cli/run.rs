@@ -19,8 +19,9 @@ use crate::evaluate::{Metrics, RunReport, Tick};
 use crate::sim::body::Body;
 use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES};
 use crate::sim::figure::{Constraint, ControlParams, FigureOptions, StrengthScale};
-use crate::sim::motion::retarget::RetargetOptions;
-use crate::sim::motion::{Clip, cycle, write_bvh};
+use crate::sim::motion::{Clip, write_bvh};
+use crate::sim::plan::cycle;
+use crate::sim::retarget::RetargetOptions;
 use crate::sim::strength::fatigue::MAX_TIME_SCALE;
 use crate::sim::world::{
     ClipPlayback, Drive, Figure, FigureEvent, FigureKey, FigureSetup, World, WorldParams,

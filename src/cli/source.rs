@@ -2,8 +2,8 @@
 
 use crate::sim::body::Body;
 use crate::sim::motion::builtin::{BUILTIN_NAMES, builtin};
-use crate::sim::motion::retarget::{RetargetOptions, RetargetReport, retarget};
 use crate::sim::motion::{Bvh, Clip};
+use crate::sim::retarget::{RetargetOptions, RetargetReport, retarget};
 use anyhow::{Context, Result, bail};
 use std::path::Path;
 

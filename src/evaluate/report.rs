@@ -3,7 +3,7 @@
 //! # What tracking errors refer to
 //!
 //! Measures named `tracking_…` are distances from the *target*, the posture that the controller is asked for. The target is not fixed in
-//! the world: after a step, the reference motion is moved to where the foot landed ([`crate::sim::gait::anchor`]), and planned steps that
+//! the world: after a step, the reference motion is moved to where the foot landed ([`crate::sim::track::planned_to_world`]), and planned steps that
 //! a disturbance changed are part of it. A figure that drifts away from the recording with every step therefore still has small tracking
 //! errors. Errors against the recording itself, fixed in the world, are those of `sinew survey`.
 

@@ -16,7 +16,8 @@ use crate::sim::figure::{
     StrengthScale,
 };
 use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::{Bvh, PlanarTransform, RetargetOptions, Target, UpAxis};
+use crate::sim::motion::{Bvh, PlanarTransform, Target};
+use crate::sim::retarget::{RetargetOptions, UpAxis};
 use crate::sim::strength::Strength;
 use crate::sim::world::{FigureSetup, WorldError, WorldParams};
 use crate::wire::status::Fault;
@@ -152,7 +153,7 @@ pub fn retarget(
         tempo,
         ..defaults
     };
-    let out = crate::sim::motion::retarget(bvh, body, &options).map_err(|e| e.to_string())?;
+    let out = crate::sim::retarget::retarget(bvh, body, &options).map_err(|e| e.to_string())?;
     let r = out.report;
     let bone = |segment: &str| {
         let i = SEGMENT_NAMES.iter().position(|s| *s == segment);

@@ -3,8 +3,8 @@
 use super::config::Config;
 use super::engine::{self, BUILTIN_NAMES, Clip};
 use crate::sim::body::{Body, Posture};
-use crate::sim::motion::cycle;
-use crate::sim::motion::retarget::TEMPI;
+use crate::sim::plan::cycle;
+use crate::sim::retarget::TEMPI;
 use crate::wire::convert::body::{NAMED, by_id};
 use crate::wire::status::Fault;
 use crate::wire::types::{BodyRef, ClipInfo, MotionSource};

@@ -1,6 +1,6 @@
 //! Physics and control: pure, synchronous, without I/O, clock or logging.
 //!
-//! `world` ─► `figure` ─► `gait` ─► `control` ─► `collide` ─► `contact` ─► `support`, `strength`, `motion` ─► `dynamics` ─► `body` ─► `math`.
+//! `world` ─► `figure` ─► `track` ─► `control` ─► `collide` ─► `contact` ─► `retarget` ─► `plan` ─► `motion`, `support` ─► `strength` ─► `dynamics` ─► `body` ─► `math`.
 
 pub mod body;
 pub mod collide;
@@ -8,9 +8,12 @@ pub mod contact;
 pub mod control;
 pub mod dynamics;
 pub mod figure;
-pub mod gait;
+pub mod get_up;
 pub mod math;
 pub mod motion;
+pub mod plan;
+pub mod retarget;
 pub mod strength;
 pub mod support;
+pub mod track;
 pub mod world;

@@ -12,8 +12,9 @@ use sinew::sim::body::topology::{DOF_NAMES, L_FOOT, R_FOOT};
 use sinew::sim::body::{Body, DOF_COUNT, Posture, Profile, Sex, State};
 use sinew::sim::figure::ControllerKind;
 use sinew::sim::motion::builtin::builtin;
-use sinew::sim::motion::retarget::{RetargetOptions, retarget};
-use sinew::sim::motion::{Bvh, Clip, cycle};
+use sinew::sim::motion::{Bvh, Clip};
+use sinew::sim::plan::cycle;
+use sinew::sim::retarget::{RetargetOptions, retarget};
 use sinew::sim::world::{ClipPlayback, Drive, Figure, FigureKey, FigureSetup, World, WorldParams};
 use std::sync::Arc;
 

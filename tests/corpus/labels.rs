@@ -1,7 +1,7 @@
 //! When feet stand: the labels of the retargeter against the truth.
 
 use crate::recorded::{Fit, Truth, fits};
-use sinew::sim::motion::contacts::ContactPhase;
+use sinew::sim::plan::contact_labels::ContactPhase;
 
 /// How well labels agree with the truth.
 pub struct Agreement {

@@ -6,9 +6,11 @@ use sinew::sim::body::angles::anatomical_angles;
 use sinew::sim::body::topology::{DOF_COUNT, DOF_NAMES, L_FOOT, L_TOES, R_FOOT, R_TOES};
 use sinew::sim::body::{Body, Posture};
 use sinew::sim::math::{Quat, Vec3};
-use sinew::sim::motion::foot_lock::Sole;
+use sinew::sim::motion::Bvh;
 use sinew::sim::motion::leg_ik::forward;
-use sinew::sim::motion::{Bvh, Retargeted, retarget};
+use sinew::sim::plan::foot_lock::Sole;
+use sinew::sim::retarget::Retargeted;
+use sinew::sim::retarget::retarget;
 
 const FOOT: [usize; 2] = [L_FOOT.index(), R_FOOT.index()];
 const TOES: [usize; 2] = [L_TOES.index(), R_TOES.index()];

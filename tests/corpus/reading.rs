@@ -4,8 +4,9 @@ use crate::dialect::{Dialect, file_axes, joint_points};
 use crate::recorded::{Truth, all_fits, bvh, fits, man, motion, recordings};
 use crate::tracks::DEG;
 use sinew::sim::math::Vec3;
-use sinew::sim::motion::foot_lock::Sole;
-use sinew::sim::motion::{Bvh, UpAxis};
+use sinew::sim::motion::Bvh;
+use sinew::sim::plan::foot_lock::Sole;
+use sinew::sim::retarget::UpAxis;
 
 /// Rounding of the files (0.005° and up to 0.5 mm) over the length of a limb, m.
 const ROUNDING: f64 = 1e-3;

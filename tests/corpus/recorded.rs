@@ -4,8 +4,10 @@ use crate::corpus;
 use crate::dialect::Dialect;
 use crate::plan::Motion;
 use sinew::sim::body::Body;
-pub use sinew::sim::motion::RetargetOptions;
-use sinew::sim::motion::{Bvh, Retargeted, retarget};
+use sinew::sim::motion::Bvh;
+pub use sinew::sim::retarget::RetargetOptions;
+use sinew::sim::retarget::Retargeted;
+use sinew::sim::retarget::retarget;
 use std::path::PathBuf;
 use std::sync::OnceLock;
 

@@ -5,9 +5,11 @@ use sinew::sim::body::topology::{BONE_NAMES, DOF_START, L_FOOT, L_TOES, PARENT, 
 use sinew::sim::body::{Body, Posture, angles};
 use sinew::sim::math::{Quat, Vec3};
 use sinew::sim::motion::builtin::builtin;
-use sinew::sim::motion::foot_lock::Sole;
 use sinew::sim::motion::leg_ik::forward;
-use sinew::sim::motion::{Bvh, Clip, RetargetOptions, Retargeted, retarget};
+use sinew::sim::motion::{Bvh, Clip};
+use sinew::sim::plan::foot_lock::Sole;
+use sinew::sim::retarget::retarget;
+use sinew::sim::retarget::{RetargetOptions, Retargeted};
 use std::fmt::Write;
 
 /// Samples per second of the built-in motions.

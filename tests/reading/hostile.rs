@@ -4,7 +4,9 @@ use crate::file::{File, motion};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 use sinew::sim::body::Body;
-use sinew::sim::motion::{Bvh, RetargetOptions, retarget};
+use sinew::sim::motion::Bvh;
+use sinew::sim::retarget::RetargetOptions;
+use sinew::sim::retarget::retarget;
 
 fn refuse(text: &str) -> String {
     match Bvh::parse(text.as_bytes()) {

@@ -4,7 +4,7 @@ use crate::file::{File, bare, motion, turned};
 use sinew::sim::body::Body;
 use sinew::sim::body::topology::{L_UPPER_ARM, R_FOREARM};
 use sinew::sim::math::{Quat, Vec3};
-use sinew::sim::motion::Retargeted;
+use sinew::sim::retarget::Retargeted;
 
 /// The motion `name` with the figure turned by 120° about the vertical.
 fn turned_file(body: &Body, name: &str) -> File {

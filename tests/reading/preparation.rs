@@ -8,8 +8,8 @@ use sinew::sim::body::{Body, Posture};
 use sinew::sim::math::ease::smoothstep;
 use sinew::sim::math::vec3::vec3;
 use sinew::sim::math::{Quat, Vec3};
-use sinew::sim::motion::RetargetOptions;
 use sinew::sim::motion::leg_ik::{forward, solve_leg};
+use sinew::sim::retarget::RetargetOptions;
 
 /// Stands, squats down so far that the pelvis is `height` m over the floor and leans by `lean` rad, and stands up again; the feet stay.
 fn squat(body: &Body, height: f64, lean: f64) -> Vec<Posture> {

@@ -11,7 +11,7 @@ use sinew::sim::collide::{Mobility, ObstacleSetup, Shape};
 use sinew::sim::figure::ControllerKind;
 use sinew::sim::math::{Quat, Vec3};
 use sinew::sim::motion::Clip;
-use sinew::sim::motion::retarget::RetargetOptions;
+use sinew::sim::retarget::RetargetOptions;
 use sinew::sim::world::{World, WorldParams};
 use std::sync::Arc;
 

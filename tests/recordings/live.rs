@@ -8,10 +8,12 @@ use sinew::sim::body::topology::{CHEST, L_FOOT, R_FOOT};
 use sinew::sim::body::{Body, Posture};
 use sinew::sim::figure::{ControllerKind, Flags, Perturbation};
 use sinew::sim::math::Vec3;
-use sinew::sim::motion::consistency::consistency;
+use sinew::sim::motion::Clip;
 use sinew::sim::motion::leg_ik::forward;
-use sinew::sim::motion::live::{LiveMotion, RATE};
-use sinew::sim::motion::{Clip, RetargetOptions, cycle};
+use sinew::sim::plan::cycle;
+use sinew::sim::plan::feasibility::consistency;
+use sinew::sim::plan::stream::{RATE, StreamPlan};
+use sinew::sim::retarget::RetargetOptions;
 use sinew::sim::world::{ClipPlayback, Drive, LivePlayback, World, WorldParams};
 use std::sync::Arc;
 
@@ -33,7 +35,7 @@ fn prepared(
     seconds: f64,
     window: f64,
 ) -> (Vec<Posture>, Vec<[bool; 2]>) {
-    let mut live = LiveMotion::new(Arc::clone(body), window);
+    let mut live = StreamPlan::new(Arc::clone(body), window);
     let n = (seconds * RATE) as usize;
     let mut out = (Vec::new(), Vec::new());
     for i in 0..n {
@@ -83,7 +85,7 @@ fn watch(world: &mut World, seconds: f64, mut each: impl FnMut(&mut World, f64))
         assert!(r.over_limit <= 1e-9 && !r.flags.has(Flags::QUARANTINED));
         // Nobody is ahead of what has come, or knows for good where he is going to land.
         if matches!(f.drive(), Drive::Live(_)) {
-            assert!(f.gait().lag() > -1e-9 && !f.gait().lands_as_planned());
+            assert!(f.tracker().lag() > -1e-9 && !f.tracker().lands_as_planned());
         }
         if f.is_fallen() {
             out.fell = Some(time);
@@ -91,7 +93,7 @@ fn watch(world: &mut World, seconds: f64, mut each: impl FnMut(&mut World, f64))
         }
         count += r.joint_error.len() as f64;
         out.joints += r.joint_error.iter().map(|e| e * e).sum::<f64>();
-        let e = f.gait().capture().error;
+        let e = f.tracker().capture().error;
         out.capture = out.capture.max(e[0].hypot(e[1]));
     }
     out.joints = (out.joints / count).sqrt().to_degrees();
@@ -134,7 +136,7 @@ fn follow_pushed(
     window: f64,
     push: Option<Perturbation>,
 ) -> Followed {
-    let mut motion = LiveMotion::new(Arc::clone(body), window);
+    let mut motion = StreamPlan::new(Arc::clone(body), window);
     let mut fed = 0.0;
     while fed / RATE <= motion.window() {
         motion.push(&posture(fed / RATE).unwrap(), None);
@@ -386,7 +388,7 @@ fn a_recording_whose_last_posture_is_held_ends_in_a_stand() {
 fn a_stream_that_stands_still_is_not_broken_off() {
     let body = man();
     let raw = bare(&body, "walk");
-    let mut motion = LiveMotion::new(Arc::clone(&body), 0.5);
+    let mut motion = StreamPlan::new(Arc::clone(&body), 0.5);
     let at = |i: usize| raw.sample(1.0 + i as f64 / RATE).posture;
     (0..30).for_each(|i| motion.push(&at(i), None));
     (0..5).for_each(|_| motion.push(&at(29), None));
@@ -397,7 +399,7 @@ fn a_stream_that_stands_still_is_not_broken_off() {
     assert_eq!((motion.fed(), motion.moved()), (36, 30));
     motion.push(&at(30), None);
     assert!(!motion.breaks_off(), "it goes on");
-    let mut stands = LiveMotion::new(Arc::clone(&body), 0.5);
+    let mut stands = StreamPlan::new(Arc::clone(&body), 0.5);
     (0..120).for_each(|_| stands.push(&at(0), None));
     assert!(!stands.breaks_off());
 }

@@ -7,8 +7,8 @@ use sinew::sim::body::topology::{CHEST, L_FOOT, L_TOES, R_FOOT, R_TOES, SegmentI
 use sinew::sim::body::{Body, Sex};
 use sinew::sim::figure::{ControllerKind, FigureEvent, Flags, Perturbation};
 use sinew::sim::math::Vec3;
-use sinew::sim::motion::RetargetOptions;
-use sinew::sim::motion::live::{LiveMotion, RATE};
+use sinew::sim::plan::stream::{RATE, StreamPlan};
+use sinew::sim::retarget::RetargetOptions;
 use sinew::sim::world::{ClipPlayback, Drive, LivePlayback, WorldParams};
 use std::sync::Arc;
 
@@ -224,7 +224,7 @@ fn who_lies_under_a_stream_gets_up_when_it_does() {
         ..RetargetOptions::default()
     };
     let clip = recorded_with(&body, "get-up", &raw);
-    let mut motion = LiveMotion::new(Arc::clone(&body), 0.5);
+    let mut motion = StreamPlan::new(Arc::clone(&body), 0.5);
     let mut fed = 0.0;
     while fed / RATE <= motion.window() {
         motion.push(&clip.sample(fed / RATE).posture, None);

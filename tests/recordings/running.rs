@@ -5,9 +5,11 @@
 use crate::common::{man, mocap, recorded_with};
 use sinew::evaluate::experiments::walk::{Walk, Walker, walk};
 use sinew::sim::body::Posture;
-use sinew::sim::gait::StepPlan;
-use sinew::sim::motion::balance::mass_track;
-use sinew::sim::motion::{Bvh, RetargetOptions, retarget};
+use sinew::sim::motion::Bvh;
+use sinew::sim::plan::pelvis_shift::mass_track;
+use sinew::sim::retarget::RetargetOptions;
+use sinew::sim::retarget::retarget;
+use sinew::sim::track::StepPlan;
 
 const GRAVITY: f64 = 9.81;
 

@@ -8,7 +8,9 @@ use sinew::evaluate::experiments::walk::Stance;
 use sinew::sim::body::Body;
 use sinew::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use sinew::sim::figure::ControllerKind;
-use sinew::sim::motion::{Clip, RetargetOptions, cycle};
+use sinew::sim::motion::Clip;
+use sinew::sim::plan::cycle;
+use sinew::sim::retarget::RetargetOptions;
 use sinew::sim::world::{ClipPlayback, Drive, FigureKey, World, WorldParams};
 use std::sync::Arc;
 
@@ -166,7 +168,7 @@ fn passes(body: &Arc<Body>, first: &Played, second: Option<&Played>, at: f64) ->
             }
         }
         if world.time() < time + out.began + SEAM {
-            let [x, y] = figure.gait().capture().error;
+            let [x, y] = figure.tracker().capture().error;
             out.capture = out.capture.max(x.hypot(y));
             let square: f64 = report.joint_error.iter().map(|e| e * e).sum();
             let rms = (square / report.joint_error.len() as f64).sqrt();

@@ -7,8 +7,10 @@ use crate::common::{man, mocap, recorded_with};
 use sinew::evaluate::experiments::walk::{Walk, Walker, walk};
 use sinew::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use sinew::sim::body::{Body, Posture};
+use sinew::sim::motion::Bvh;
 use sinew::sim::motion::leg_ik::forward;
-use sinew::sim::motion::{Bvh, RetargetOptions, retarget};
+use sinew::sim::retarget::RetargetOptions;
+use sinew::sim::retarget::retarget;
 use std::sync::Arc;
 
 /// The recording as a server prepares it for a pace.

@@ -1,6 +1,6 @@
 //! How a recording is read.
 
-use crate::sim::motion::retarget::{RetargetOptions, UpAxis};
+use crate::sim::retarget::{RetargetOptions, UpAxis};
 use clap::ValueEnum;
 
 /// Which axis of the file points up.

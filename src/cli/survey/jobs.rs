@@ -14,8 +14,10 @@ use crate::evaluate::survey::{self, Conditions, Copies, Lacks, Measured, Outcome
 use crate::sim::body::{Body, Links};
 use crate::sim::figure::{FigureOptions, Perturbation, StrengthScale};
 use crate::sim::motion::builtin::{BUILTIN_NAMES, builtin};
-use crate::sim::motion::consistency::consistency;
-use crate::sim::motion::{Bvh, Clip, RetargetOptions, RetargetReport, retarget};
+use crate::sim::motion::{Bvh, Clip};
+use crate::sim::plan::feasibility::consistency;
+use crate::sim::retarget::retarget;
+use crate::sim::retarget::{RetargetOptions, RetargetReport};
 use crate::sim::strength::Strength;
 use crate::sim::world::WorldParams;
 use anyhow::{Context, Result, anyhow};

@@ -4,7 +4,9 @@ use super::{Motion, Study, hundredths};
 use crate::cli::page::Page;
 use crate::evaluate::experiments::walk::{Hands, Walk, Walker, walk};
 use crate::sim::body::{Body, Profile, Sex};
-use crate::sim::motion::{Bvh, RetargetOptions, retarget};
+use crate::sim::motion::Bvh;
+use crate::sim::retarget::RetargetOptions;
+use crate::sim::retarget::retarget;
 use anyhow::{Context, Result};
 use std::sync::Arc;
 

@@ -208,7 +208,7 @@ pub fn walk(walker: &Walker, walk: &Walk) -> Walked {
             break;
         }
         seen += 1;
-        let off = figure.gait().capture().error;
+        let off = figure.tracker().capture().error;
         let off = off[0].hypot(off[1]);
         square += off * off;
         largest = largest.max(off);
@@ -220,7 +220,7 @@ pub fn walk(walker: &Walker, walk: &Walk) -> Walked {
             slip = slip.max(stance.observe(&r.contacts, segments));
             peak[1] = peak[1].max(stance.load / weight);
         }
-        if let Some(landing) = figure.gait().landing() {
+        if let Some(landing) = figure.tracker().landing() {
             steps += 1;
             late = late.max(landing.late.abs());
         }

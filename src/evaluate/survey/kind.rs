@@ -3,8 +3,8 @@
 use crate::sim::body::topology::{L_FOOT, R_FOOT};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::Vec3;
-use crate::sim::motion::contacts::runs;
 use crate::sim::motion::leg_ik::forward;
+use crate::sim::plan::contact_labels::runs;
 
 /// Upright part of the pelvis's vertical axis below which the body is upside down (107° from upright).
 const INVERTED: f64 = -0.3;

@@ -20,7 +20,7 @@ pub use outcome::{Copies, Errors, Outcome, TouchDowns};
 pub use run::{Conditions, Reference, run};
 
 use super::forecast::Forecast;
-use crate::sim::motion::consistency::Consistency;
+use crate::sim::plan::feasibility::Consistency;
 
 /// One clip of a survey.
 #[derive(Clone, Debug, PartialEq)]

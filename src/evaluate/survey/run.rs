@@ -11,9 +11,10 @@ use crate::sim::body::Body;
 use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES, L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::dynamics::{Kinematics, momentum};
 use crate::sim::figure::{ControllerKind, FigureOptions, Flags, Perturbation, StrengthScale};
-use crate::sim::motion::contacts::ContactPhase;
-use crate::sim::motion::live::RATE;
-use crate::sim::motion::{Clip, LiveMotion};
+use crate::sim::motion::Clip;
+use crate::sim::plan::StreamPlan;
+use crate::sim::plan::contact_labels::ContactPhase;
+use crate::sim::plan::stream::RATE;
 use crate::sim::world::{
     ClipPlayback, Drive, Figure, FigureSetup, LivePlayback, World, WorldError, WorldParams,
 };
@@ -46,7 +47,7 @@ impl Reference {
     pub fn authored(clip: Arc<Clip>) -> Self {
         let label: Vec<[bool; 2]> = (0..clip.len()).map(|i| clip.planted(i)).collect();
         Self {
-            phases: crate::sim::motion::contacts::phases(&label, clip.rate_hz()),
+            phases: crate::sim::plan::contact_labels::phases(&label, clip.rate_hz()),
             recorded: Arc::clone(&clip),
             prepared: clip,
         }
@@ -202,7 +203,7 @@ fn fed(window: Option<f64>) -> usize {
 
 /// A stream whose window is full.
 fn stream(c: &Conditions, reference: &Reference, window: f64) -> Drive {
-    let mut motion = LiveMotion::new(Arc::clone(&c.body), window);
+    let mut motion = StreamPlan::new(Arc::clone(&c.body), window);
     for i in 0..fed(Some(window)) {
         motion.push(&posture(reference, i), None);
     }

@@ -4,7 +4,7 @@ use super::{Api, answer};
 use crate::server::engine;
 use crate::server::library::Manner;
 use crate::server::simulate::{self, Limits};
-use crate::sim::motion::cycle;
+use crate::sim::plan::cycle;
 use crate::wire::convert::simulation::{self, Source};
 use crate::wire::pb::{self, simulation_service_server::SimulationService};
 use std::sync::Arc;

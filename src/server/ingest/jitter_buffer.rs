@@ -6,8 +6,8 @@
 //! world time, so that pausing or slowing a world does not starve its drivers.
 
 use crate::sim::body::{NV, Posture};
-use crate::sim::motion::live::is_same;
 use crate::sim::motion::{Target, TargetPair};
+use crate::sim::plan::stream::is_same;
 use crate::wire::types::{Delay, DriveSettings, Supply};
 use std::collections::VecDeque;
 

@@ -4,8 +4,9 @@ use crate::server::engine::{self, Figure, FigureKey, LivePlayback};
 use crate::server::ingest::admission::Admission;
 use crate::server::ingest::jitter_buffer::{Due, Frame, JitterBuffer};
 use crate::sim::body::State;
-use crate::sim::motion::live::RATE;
-use crate::sim::motion::{LiveMotion, TargetPair};
+use crate::sim::motion::TargetPair;
+use crate::sim::plan::StreamPlan;
+use crate::sim::plan::stream::RATE;
 use crate::wire::status::Fault;
 use crate::wire::types::{DriveSettings, Feedback, FigureFeedback, MotionSample, Supply};
 use std::sync::Arc;
@@ -43,7 +44,7 @@ pub struct Window {
 impl Window {
     /// A window of `length` seconds for a figure with this body.
     pub fn new(body: &Arc<crate::sim::body::Body>, length: f64) -> Self {
-        let motion = LiveMotion::new(Arc::clone(body), length);
+        let motion = StreamPlan::new(Arc::clone(body), length);
         Self {
             length: motion.window(),
             waiting: Some(Box::new(LivePlayback {

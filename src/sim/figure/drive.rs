@@ -1,13 +1,14 @@
 //! Where a figure's desired motion comes from.
 
-use super::planning::Plan;
+use super::background::Plan;
 use crate::sim::body::Posture;
-use crate::sim::gait::StepPlan;
-use crate::sim::gait::anchor::Anchor;
 use crate::sim::math::Vec3;
 use crate::sim::motion::clip::{Clip, PlanarTransform};
-use crate::sim::motion::transition::{Next, WayIn};
-use crate::sim::motion::{LiveMotion, Target, TargetPair};
+use crate::sim::motion::{Target, TargetPair};
+use crate::sim::plan::StreamPlan;
+use crate::sim::plan::motion_transition::{Next, WayIn};
+use crate::sim::track::StepPlan;
+use crate::sim::track::planned_to_world::Anchor;
 use std::sync::Arc;
 
 /// A clip being played.
@@ -31,7 +32,7 @@ pub struct ClipPlayback {
 #[derive(Clone, Debug)]
 pub struct LivePlayback {
     /// The stream.
-    pub motion: LiveMotion,
+    pub motion: StreamPlan,
     /// Time of the stream minus world time, s. Whoever feeds it keeps it so that its window lies behind what has come.
     pub offset: f64,
 }

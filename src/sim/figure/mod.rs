@@ -1,19 +1,19 @@
 //! One figure, one tick. The stages are listed in [`step`].
 
 pub mod assist;
-pub mod balance;
-mod carrying;
+mod background;
+pub mod balance_loss;
 pub mod constraints;
 pub mod drive;
 pub mod events;
+mod get_up;
 pub mod kinematic_step;
+mod load_compensation;
 pub mod loads;
-mod planning;
 pub mod report;
-mod rising;
 pub mod setup;
-pub mod step;
 pub mod tasks;
+pub mod tick;
 pub mod torque_step;
 pub mod touches;
 
@@ -25,7 +25,7 @@ pub use setup::{
     ControlParams, ControllerKind, FigureOptions, FigureSetup, HeldLoad, Metric, Perturbation,
     Priority, Share, StepperKind, StrengthScale,
 };
-pub use step::{Figure, TickContext};
+pub use tick::{Figure, TickContext};
 
 /// Identity of a figure in a world; never used again after removal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

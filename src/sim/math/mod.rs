@@ -4,13 +4,16 @@
 //! for all of them: no fused multiply-add, and sine, cosine and arc tangent come from [`trig`], never from the platform, so a
 //! figure gets the same bits alone, in a batch, and on any instruction set.
 
+pub mod banded;
 pub mod ease;
 pub mod exp;
 pub mod hash;
 pub mod lane;
 pub mod mat3;
 pub mod nnls;
+pub mod polygon;
 pub mod quat;
+pub mod rotation_vector;
 pub mod trig;
 pub mod vec3;
 

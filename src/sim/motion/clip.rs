@@ -10,13 +10,13 @@ mod seam;
 
 pub use planar::PlanarTransform;
 
-use super::chart;
 use super::target::Target;
 use crate::sim::body::state::{ball_rate_vector, ball_rates};
 use crate::sim::body::topology::{
     BALL_COUNT, DOF_LEN, DOF_START, JOINT, JOINT_NAMES, Joint, SEGMENT_COUNT,
 };
 use crate::sim::body::{NV, Posture};
+use crate::sim::math::rotation_vector;
 use crate::sim::math::{Quat, Vec3, trig};
 use seam::Seam;
 
@@ -55,7 +55,7 @@ pub enum ClipError {
 
 /// A sample with its rates, in the layout of a state's velocity, but with the pelvis's angular part in pelvis axes.
 #[derive(Clone, Debug)]
-pub(super) struct Knot {
+pub(crate) struct Knot {
     /// Posture.
     pub posture: Posture,
     /// First derivative.
@@ -144,7 +144,7 @@ impl Clip {
         Ok(clip)
     }
 
-    /// Declares the first `lead_in` and the last `lead_out` samples to be the way into the motion and out of it ([`super::ends`]): times count
+    /// Declares the first `lead_in` and the last `lead_out` samples to be the way into the motion and out of it ([`crate::sim::plan::stop`]): times count
     /// from the first sample between them, and repetition leaves them out. At least one sample stays between.
     pub fn with_ends(mut self, lead_in: usize, lead_out: usize) -> Self {
         let most = self.knots.len() - 1;
@@ -261,7 +261,7 @@ impl Clip {
 }
 
 /// The motion at share `u` (0…1) of the `h` seconds from knot `a` to knot `b`. No allocation.
-pub(super) fn between(a: &Knot, b: &Knot, h: f64, u: f64) -> Target {
+pub(crate) fn between(a: &Knot, b: &Knot, h: f64, u: f64) -> Target {
     let x = u * h;
     let step = local_difference(&a.posture, &b.posture);
     let mut target = Target {
@@ -271,7 +271,7 @@ pub(super) fn between(a: &Knot, b: &Knot, h: f64, u: f64) -> Target {
         planted: if u < 0.5 { a.planted } else { b.planted },
     };
     let fifth = |k: usize, end: [f64; 3]| {
-        chart::quintic(h, x, a.first[k], a.second[k], end[0], end[1], end[2])
+        rotation_vector::quintic(h, x, a.first[k], a.second[k], end[0], end[1], end[2])
     };
     for_each_part(|part| match part {
         Part::Scalar(k) => {
@@ -282,7 +282,7 @@ pub(super) fn between(a: &Knot, b: &Knot, h: f64, u: f64) -> Target {
         }
         Part::Rotation { start, ball } => {
             let phi = vector(ball, start, &step);
-            let (d1, a1) = chart::vector_rates(
+            let (d1, a1) = rotation_vector::vector_rates(
                 phi,
                 vector(ball, start, &b.first),
                 vector(ball, start, &b.second),
@@ -292,14 +292,15 @@ pub(super) fn between(a: &Knot, b: &Knot, h: f64, u: f64) -> Target {
                 vector(ball, start, &a.second).to_array(),
             );
             let (phi, d1, a1) = (phi.to_array(), d1.to_array(), a1.to_array());
-            let curve: [[f64; 3]; 3] =
-                std::array::from_fn(|c| chart::quintic(h, x, d0[c], a0[c], phi[c], d1[c], a1[c]));
+            let curve: [[f64; 3]; 3] = std::array::from_fn(|c| {
+                rotation_vector::quintic(h, x, d0[c], a0[c], phi[c], d1[c], a1[c])
+            });
             let row = |r: usize| Vec3 {
                 x: curve[0][r],
                 y: curve[1][r],
                 z: curve[2][r],
             };
-            let (omega, alpha) = chart::rates(row(0), row(1), row(2));
+            let (omega, alpha) = rotation_vector::rates(row(0), row(1), row(2));
             let q = rotation_mut(&mut target.posture, ball);
             *q = (*q * Quat::exp(row(0))).normalized();
             set_vector(ball, start, omega, &mut target.velocity);

@@ -157,7 +157,7 @@ pub fn solve_leg_in_plane(
 ///
 /// Start to end is `r(θ) = a + R(θ) b`. With the parts of a and b across n,
 /// `|r|² = |a|² + |b|² + 2 (a·n)(b·n) + 2 C cos(θ − φ)`, `C = |a⊥||b⊥|`: longest at θ = φ, shorter on both sides.
-pub(super) fn hinge_for_distance(a: Vec3, b: Vec3, n: Vec3, distance: f64) -> f64 {
+pub(crate) fn hinge_for_distance(a: Vec3, b: Vec3, n: Vec3, distance: f64) -> f64 {
     let (an, bn) = (a.dot(n), b.dot(n));
     let (across_a, across_b) = (a - n * an, b - n * bn);
     let cosine_part = across_a.dot(across_b);
@@ -171,7 +171,7 @@ pub(super) fn hinge_for_distance(a: Vec3, b: Vec3, n: Vec3, distance: f64) -> f6
 
 /// Rotation that takes `reach` to the unit vector `direction` and turns `n` as near to `axis` as that leaves open (`spare` where
 /// `axis` does not say).
-pub(super) fn point_and_roll(
+pub(crate) fn point_and_roll(
     reach: Vec3,
     n: Vec3,
     direction: Vec3,

@@ -198,7 +198,7 @@ pub fn drive_open(field: &str, h: &pb::DriveHeader) -> Result<DriveOpen, Fault> 
 
 /// A window in ms as seconds: none, or one that is long enough to be of use.
 fn window(field: &str, ms: f64) -> Result<f64, Fault> {
-    let (least, most) = crate::sim::motion::live::WINDOW;
+    let (least, most) = crate::sim::plan::stream::WINDOW;
     if ms == 0.0 {
         return Ok(0.0);
     }

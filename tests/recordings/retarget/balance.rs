@@ -2,8 +2,8 @@
 
 use super::{STANDING, take, text};
 use sinew::sim::body::{Body, Posture};
-use sinew::sim::motion::RetargetOptions;
-use sinew::sim::motion::consistency::consistency;
+use sinew::sim::plan::feasibility::consistency;
+use sinew::sim::retarget::RetargetOptions;
 
 #[test]
 fn standing_motions_keep_the_zero_moment_point_over_the_feet() {

@@ -5,7 +5,7 @@ use super::{same, take};
 use sinew::sim::body::Body;
 use sinew::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use sinew::sim::motion::leg_ik::forward;
-use sinew::sim::motion::{RetargetOptions, UpAxis};
+use sinew::sim::retarget::{RetargetOptions, UpAxis};
 
 /// Names of the CMU skeleton's limbs in other dialects. CMU's `LeftHand` only twists the forearm; its `LeftFingerBase` is the wrist.
 const DIALECTS: [(&str, [&str; 11]); 9] = [

@@ -3,7 +3,7 @@
 use super::source::Source;
 use super::{same, take, text};
 use sinew::sim::body::Body;
-use sinew::sim::motion::{RetargetError, RetargetOptions};
+use sinew::sim::retarget::{RetargetError, RetargetOptions};
 
 #[test]
 fn poses_before_the_motion_and_glitches_are_taken_out() {

@@ -5,10 +5,10 @@ use crate::common::mocap::CLIPS;
 use sinew::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use sinew::sim::body::{Body, Posture};
 use sinew::sim::math::Vec3;
-use sinew::sim::motion::RetargetOptions;
-use sinew::sim::motion::contacts::ContactPhase;
-use sinew::sim::motion::foot_lock::Sole;
 use sinew::sim::motion::leg_ik::forward;
+use sinew::sim::plan::contact_labels::ContactPhase;
+use sinew::sim::plan::foot_lock::Sole;
+use sinew::sim::retarget::RetargetOptions;
 
 /// Heel, toe joint and tip of the toes of both feet, and the lowest point of either sole.
 fn soles(body: &Body, posture: &Posture) -> [([Vec3; 3], f64); 2] {

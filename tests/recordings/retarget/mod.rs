@@ -14,8 +14,10 @@ use sinew::sim::body::Body;
 use sinew::sim::body::angles::anatomical_angles;
 use sinew::sim::body::topology::{DOF_NAMES, L_FOOT, L_THIGH, R_FOOT, R_THIGH};
 use sinew::sim::math::Vec3;
+use sinew::sim::motion::Bvh;
 use sinew::sim::motion::leg_ik::forward;
-use sinew::sim::motion::{Bvh, RetargetError, RetargetOptions, Retargeted, UpAxis, retarget};
+use sinew::sim::retarget::retarget;
+use sinew::sim::retarget::{RetargetError, RetargetOptions, Retargeted, UpAxis};
 
 /// Clips in which the person stands on the spot: they must stay on their feet.
 const STANDING: [&str; 4] = ["idle", "lift", "punch", "wave"];

@@ -6,7 +6,8 @@ use crate::common::{man, recorded};
 use sinew::sim::body::topology::{DOF_START, L_HAND, L_THIGH, R_HAND, R_UPPER_ARM};
 use sinew::sim::body::{Body, SegmentId};
 use sinew::sim::figure::Perturbation;
-use sinew::sim::motion::{Clip, cycle};
+use sinew::sim::motion::Clip;
+use sinew::sim::plan::cycle;
 use std::sync::Arc;
 
 /// The repeated walk of 20 s with `mass` kg in each of `hands` from `from` until `to` (s): its measures.
@@ -130,7 +131,7 @@ fn who_waves_a_load_about_does_not_fall_over_it() {
                 sum += e * e;
                 count += 1;
             }
-            let e = figure.gait().capture().error;
+            let e = figure.tracker().capture().error;
             capture = capture.max(e[0].hypot(e[1]));
         }
         let rms = (sum / f64::from(count)).sqrt().to_degrees();

@@ -22,7 +22,10 @@ use sinew::sim::dynamics::{Kinematics, momentum};
 use sinew::sim::figure::{ControllerKind, Flags};
 use sinew::sim::math::Vec3;
 use sinew::sim::motion::leg_ik::forward;
-use sinew::sim::motion::{Bvh, Clip, RetargetOptions, cycle, retarget};
+use sinew::sim::motion::{Bvh, Clip};
+use sinew::sim::plan::cycle;
+use sinew::sim::retarget::RetargetOptions;
+use sinew::sim::retarget::retarget;
 use sinew::sim::world::{ClipPlayback, Drive, FigureKey, World, WorldParams};
 use std::ops::Range;
 use std::sync::Arc;
@@ -67,7 +70,7 @@ fn run(world: &mut World, key: FigureKey, name: &str, seconds: f64, from: f64) -
         assert!(r.over_limit <= 1e-9 && !r.flags.has(Flags::QUARANTINED));
         sum += r.joint_error.iter().map(|e| e * e).sum::<f64>();
         count += r.joint_error.len();
-        let e = figure.gait().capture().error;
+        let e = figure.tracker().capture().error;
         // The way in is a start from standing; the bound is that of steady walking.
         if tick as f64 / RATE > from {
             capture = capture.max(e[0].hypot(e[1]));

@@ -3,7 +3,9 @@
 
 use super::walk;
 use crate::common::{man, mocap};
-use sinew::sim::motion::{Bvh, RetargetOptions, retarget};
+use sinew::sim::motion::Bvh;
+use sinew::sim::retarget::RetargetOptions;
+use sinew::sim::retarget::retarget;
 use std::sync::Arc;
 
 /// The frames of a recording from `from` on for `seconds`, as a file of its own.

@@ -10,9 +10,10 @@ use sinew::sim::body::topology::{
 use sinew::sim::body::{Body, SegmentId};
 use sinew::sim::dynamics::Kinematics;
 use sinew::sim::figure::{Figure, Perturbation};
-use sinew::sim::gait::Purpose;
 use sinew::sim::math::Vec3;
-use sinew::sim::motion::{Clip, cycle};
+use sinew::sim::motion::Clip;
+use sinew::sim::plan::cycle;
+use sinew::sim::track::Purpose;
 use std::f64::consts::FRAC_PI_4;
 use std::sync::Arc;
 
@@ -87,7 +88,7 @@ fn hard_pushes_to_the_side_are_caught_by_quick_steps() {
             while world.time() < at + 4.0 && !world.figure(key).unwrap().is_fallen() {
                 world.step();
                 let figure = world.figure(key).unwrap();
-                hurried |= figure.gait().lag() < -0.02;
+                hurried |= figure.tracker().lag() < -0.02;
                 kin.set_posture(figure.links(), &figure.state().posture);
                 let up = kin.rotation[CHEST.index()] * Vec3::Z;
                 lean = lean.max(up.z.clamp(-1.0, 1.0).acos().to_degrees());
@@ -193,8 +194,8 @@ fn puts_down(body: &Arc<Body>, clip: &Arc<Clip>, looped: bool, seconds: f64, pus
             "falls at {now:.2} s, pushed by {push:?}"
         );
         assert!(figure.report().unwrap().over_limit <= 1e-9);
-        let step = figure.gait().unplanned();
-        assert_eq!(figure.gait().lands_as_planned(), step.is_none());
+        let step = figure.tracker().unplanned();
+        assert_eq!(figure.tracker().lands_as_planned(), step.is_none());
         let alone = step.is_some_and(|step| step.purpose == Purpose::CatchAlone);
         count += usize::from(alone && !under_way);
         under_way = alone;
@@ -221,7 +222,7 @@ fn puts_down(body: &Arc<Body>, clip: &Arc<Clip>, looped: bool, seconds: f64, pus
     let off = figure.report().unwrap().joint_error;
     let rms = (off.iter().map(|e| e * e).sum::<f64>() / off.len() as f64).sqrt();
     // It is back in the motion, which has not waited longer than 3 s for each foot.
-    let lag = figure.gait().lag();
+    let lag = figure.tracker().lag();
     assert!(
         rms.to_degrees() < 4.0 && lag < 3.0 * count as f64 + 0.2,
         "{:.1} deg, {lag:.1} s, {count}",

@@ -1,7 +1,7 @@
 //! The motion is a sine of the right elbow, so that every answer has a closed form.
 
 use super::*;
-use crate::sim::motion::LiveMotion;
+use crate::sim::plan::StreamPlan;
 
 const RATE: f64 = 60.0;
 const TICK: f64 = 1.0 / 60.0;
@@ -191,7 +191,7 @@ fn a_posture_that_is_repeated_breaks_the_stream_off_and_is_no_news() {
     };
     let mut b = buffer(Delay::Fixed(0.05));
     let body = std::sync::Arc::new(crate::sim::body::Body::adult_man());
-    let mut motion = LiveMotion::new(body, 0.3);
+    let mut motion = StreamPlan::new(body, 0.3);
     let (mut news, mut broken) = (Vec::new(), Vec::new());
     for i in 0..60 {
         let t = i as f64 * TICK;

@@ -12,9 +12,9 @@ use crate::sim::body::{Body, Posture, SEGMENT_COUNT};
 use crate::sim::math::{Quat, Vec3};
 use std::f64::consts::{PI, TAU};
 
-use super::super::GRAVITY;
 use super::super::leg_ik::{center_of_mass, forward};
 use super::shape::set;
+use crate::sim::motion::GRAVITY;
 
 /// Time the zero moment point takes from between the feet under the first to stand on, and back after the last step, s.
 const TRANSFER: f64 = 0.5;

@@ -60,7 +60,7 @@ impl Clip {
                 let alpha = vector(ball, start, &goal.acceleration)
                     - back.rotate(vector(ball, start, &end.second))
                     - carried.cross(omega);
-                let (d, a) = chart::vector_rates(epsilon, omega, alpha);
+                let (d, a) = rotation_vector::vector_rates(epsilon, omega, alpha);
                 set_vector(ball, start, d, &mut ends[1]);
                 set_vector(ball, start, a, &mut ends[2]);
             }
@@ -78,7 +78,7 @@ impl Seam {
     pub(super) fn blend(&self, into: f64, target: &mut Target) {
         let fifth = |k: usize| {
             let end = [self.end[0][k], self.end[1][k], self.end[2][k]];
-            chart::quintic(self.length, into, 0.0, 0.0, end[0], end[1], end[2])
+            rotation_vector::quintic(self.length, into, 0.0, 0.0, end[0], end[1], end[2])
         };
         let curve: [[f64; 3]; NV] = std::array::from_fn(fifth);
         let row = |r: usize| -> [f64; NV] { std::array::from_fn(|k| curve[k][r]) };
@@ -94,7 +94,7 @@ impl Seam {
             }
             Part::Rotation { start, ball } => {
                 let epsilon = vector(ball, start, &value);
-                let (omega, alpha) = chart::rates(
+                let (omega, alpha) = rotation_vector::rates(
                     epsilon,
                     vector(ball, start, &slope),
                     vector(ball, start, &bend),

@@ -1,0 +1,382 @@
+//! How a load changes a motion that steps: whoever carries leans to the other side and lets the arm hang.
+//!
+//! A motion is prepared for an unloaded body. With a load its centre of mass lies elsewhere, by m/M of the way to the load: 10 kg in one hand
+//! move it 5 cm to that side, half a foot's width from where every step of the motion has its zero-moment point. So the trunk leans and the pelvis
+//! shifts until the loaded body has its centre of mass, over the floor, where the unloaded one has it in the motion. The feet stay, the head keeps its
+//! direction, and what carries is moved with the forces that an empty hand takes: an arm that hangs swings the less the more it carries, and what
+//! any arm does quickly it does less of.
+
+mod arm;
+
+use crate::sim::body::topology::{
+    ABDOMEN, CHEST, HEAD, JOINT, Joint, L_FOOT, L_TOES, L_UPPER_ARM, PARENT, R_FOOT, R_TOES,
+    R_UPPER_ARM, SEGMENT_COUNT,
+};
+use crate::sim::body::{Body, Links, NV, Posture, SegmentId};
+use crate::sim::math::exp::exp;
+use crate::sim::math::{Quat, Vec3};
+use crate::sim::motion::leg_ik::{forward, solve_leg};
+use crate::sim::motion::{Target, TargetPair};
+use arm::{ARMS, Arm, Habit, Poses};
+
+/// Lean of the trunk per shift of the centre of mass, rad/m, and most of it, rad: it does about half, and the pelvis the rest.
+const LEAN: f64 = 1.8;
+const MOST_LEAN: f64 = 0.25;
+/// The pelvis is shifted by no more than this, m.
+const MOST_SHIFT: f64 = 0.12;
+/// Time constant, twice, with which a load that was taken up or let go makes itself felt, s.
+const FELT: f64 = 0.2;
+/// A load that differs by less than this from what is felt is felt as it is, kg and kg·m.
+const SAME: f64 = 1e-6;
+/// Pelvis and trunk move by this much more than the centre of mass, because the feet stay.
+const LEAD: f64 = 1.15;
+/// Rounds in which the shift of the pelvis is found: each leaves a tenth of what was off.
+const ROUNDS: usize = 3;
+/// The rates of a changed motion are taken over so long before and after a moment, s: short enough to be those of the moment, long enough for what
+/// mirrored and turned bodies round differently to stay below 1e-9 in their torques.
+const INSTANT: f64 = 5e-4;
+
+/// Masses and first moments of mass of the segments with a load, segment frames, kg and kg·m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Masses {
+    mass: [f64; SEGMENT_COUNT],
+    moment: [Vec3; SEGMENT_COUNT],
+}
+
+impl Masses {
+    fn of(links: &Links) -> Self {
+        Self {
+            mass: links.mass,
+            moment: links.moment,
+        }
+    }
+
+    /// Centre of mass, m.
+    fn center(&self, poses: &Poses) -> Vec3 {
+        let (mut sum, mut mass) = (Vec3::zero(), 0.0);
+        for (s, (position, rotation)) in poses.iter().enumerate() {
+            sum += *position * self.mass[s] + rotation.rotate(self.moment[s]);
+            mass += self.mass[s];
+        }
+        sum * (1.0 / mass)
+    }
+
+    /// `self + a·x + b·y`, by what x and y differ from `self`.
+    fn toward(&self, (x, a): (&Self, f64), (y, b): (&Self, f64)) -> Self {
+        let mut out = *self;
+        for s in 0..SEGMENT_COUNT {
+            out.mass[s] += a * (x.mass[s] - self.mass[s]) + b * (y.mass[s] - self.mass[s]);
+            out.moment[s] +=
+                (x.moment[s] - self.moment[s]) * a + (y.moment[s] - self.moment[s]) * b;
+        }
+        out
+    }
+
+    fn is_near(&self, other: &Self) -> bool {
+        (0..SEGMENT_COUNT).all(|s| {
+            (self.mass[s] - other.mass[s]).abs() < SAME
+                && (self.moment[s] - other.moment[s]).norm() < SAME
+        })
+    }
+}
+
+/// What is felt at a moment.
+struct Felt {
+    load: Masses,
+    /// What the arms had done lately when the tick began, how much they hung then, 0…1, and how long ago that was, s.
+    before: [Habit; 2],
+    hung: [f64; 2],
+    ahead: f64,
+}
+
+/// What one figure carries and how it feels it.
+#[derive(Clone, Debug)]
+pub(super) struct LoadCompensation {
+    unloaded: Masses,
+    /// What it carries as it follows from loads that come and go at once: after one time constant, and after both.
+    halfway: Masses,
+    felt: Masses,
+    /// What each arm has done lately; `None` before something is carried.
+    habits: Option<[Habit; 2]>,
+}
+
+impl LoadCompensation {
+    /// For figures with this body, without a load.
+    pub fn new(body: &Body) -> Self {
+        let unloaded = Masses::of(&Links::new(body));
+        Self {
+            unloaded,
+            halfway: unloaded,
+            felt: unloaded,
+            habits: None,
+        }
+    }
+
+    /// What the left and the right hand of a figure that steps feel, kg. One that stays where it is lifts its loads as the motion has it.
+    pub fn in_hands(&self) -> [f64; 2] {
+        ARMS.map(|[.., hand]| self.felt.mass[hand.index()] - self.unloaded.mass[hand.index()])
+    }
+
+    /// Forgets the past.
+    pub fn reset(&mut self) {
+        (self.halfway, self.felt) = (self.unloaded, self.unloaded);
+        self.habits = None;
+    }
+
+    /// Changes the desired motion of a tick of `dt` seconds for a body with the present loads, `links`; `steps` if the motion steps: one that stays
+    /// where it is has room in its feet and is left alone. No allocation; nothing is done without a load.
+    pub fn lean(
+        &mut self,
+        body: &Body,
+        links: &Links,
+        target: &mut TargetPair,
+        steps: bool,
+        dt: f64,
+    ) {
+        let real = Masses::of(links);
+        let carried = if steps { real } else { self.unloaded };
+        if carried == self.unloaded && self.felt == self.unloaded {
+            self.habits = None;
+            return;
+        }
+        let lean = Lean {
+            body,
+            unloaded: &self.unloaded,
+            real: &real,
+        };
+        let now = ARMS.map(|arm| Habit::of(body, &target.now.posture, arm));
+        let before = self.habits.unwrap_or(now);
+        let hung = now.map(|h| h.hangs);
+        let next = target.next.posture;
+        let felt = |ahead: f64| Felt {
+            load: self.felt_in(&carried, ahead).1,
+            before,
+            hung,
+            ahead,
+        };
+        let around = |t: f64| [t - INSTANT, t, t + INSTANT].map(felt);
+        lean.change(&mut target.now, &around(0.0));
+        lean.change(&mut target.next, &around(dt));
+        self.habits = Some([0, 1].map(|k| before[k].after(dt, hung[k], Arm::of(&next, ARMS[k]))));
+        (self.halfway, self.felt) = self.felt_in(&carried, dt);
+        if self.felt.is_near(&carried) && self.halfway.is_near(&carried) {
+            (self.halfway, self.felt) = (carried, carried);
+        }
+    }
+
+    /// What will be felt `ahead` seconds from now of what is carried then: halfway, and in full.
+    fn felt_in(&self, carried: &Masses, ahead: f64) -> (Masses, Masses) {
+        let left = exp(-ahead / FELT);
+        let none = (carried, 0.0);
+        (
+            carried.toward((&self.halfway, left), none),
+            carried.toward((&self.felt, left), (&self.halfway, left * ahead / FELT)),
+        )
+    }
+}
+
+/// How a body leans.
+struct Lean<'a> {
+    body: &'a Body,
+    unloaded: &'a Masses,
+    real: &'a Masses,
+}
+
+impl Lean<'_> {
+    /// Changes a target and its rates for what is felt an instant before, now, and an instant later.
+    fn change(&self, target: &mut Target, [before, felt, after]: &[Felt; 3]) {
+        let moved = |seconds: f64| {
+            let mut p = target.posture;
+            p.integrate(&target.velocity, seconds);
+            p
+        };
+        let from = self.leaned(&moved(-INSTANT), before);
+        let way = from.difference(&self.leaned(&moved(INSTANT), after));
+        target.posture = self.leaned(&target.posture, felt);
+        target.velocity = std::array::from_fn::<f64, NV, _>(|i| way[i] * (0.5 / INSTANT));
+    }
+
+    /// The posture in which the body with what is `felt` has its centre of mass where the unloaded one has it in `posture`.
+    fn leaned(&self, posture: &Posture, felt: &Felt) -> Posture {
+        let planned = forward(self.body, posture);
+        let mut out = *posture;
+        for (k, arm) in ARMS.into_iter().enumerate() {
+            let hand = arm[2].index();
+            let load = felt.load.mass[hand] - self.unloaded.mass[hand];
+            if load > 0.0 {
+                let habit = felt.before[k].after(felt.ahead, felt.hung[k], Arm::of(posture, arm));
+                arm::slow(&mut out, arm, load, &habit);
+                arm::hang(self.body, &mut out, &planned, arm, load, &habit);
+            }
+        }
+        let poses = forward(self.body, &out);
+        let by = self.unloaded.center(&planned) - felt.load.center(&poses);
+        let by = Vec3 { z: 0.0, ..by };
+        tilt(&mut out, &poses, by);
+        let goal = self.real.center(&poses) + by;
+        let mut shift = Vec3::zero();
+        for _ in 0..ROUNDS {
+            let off = goal - self.real.center(&forward(self.body, &out));
+            shift = capped(shift + Vec3 { z: 0.0, ..off } * LEAD, MOST_SHIFT);
+            out.root_position = posture.root_position + shift;
+            for (left, foot, toes) in [(true, L_FOOT, L_TOES), (false, R_FOOT, R_TOES)] {
+                if let Joint::Hinge1(toe) = JOINT[toes.index()] {
+                    let toe = posture.hinge[toe];
+                    solve_leg(self.body, &mut out, left, planned[foot.index()], toe);
+                }
+            }
+        }
+        out
+    }
+}
+
+/// Tilts the trunk towards `by`, half of it in the waist; head and arms keep the directions they have in `poses`.
+fn tilt(posture: &mut Posture, poses: &Poses, by: Vec3) {
+    let tilt = capped(Vec3::Z.cross(by) * LEAN, MOST_LEAN);
+    let mut turned = poses.map(|(_, rotation)| rotation);
+    turned[ABDOMEN.index()] = Quat::exp(tilt * 0.5) * turned[ABDOMEN.index()];
+    turned[CHEST.index()] = Quat::exp(tilt) * turned[CHEST.index()];
+    for s in [ABDOMEN, CHEST, HEAD, L_UPPER_ARM, R_UPPER_ARM].map(SegmentId::index) {
+        if let Joint::Ball(b) = JOINT[s] {
+            posture.ball[b] = (turned[PARENT[s]].conjugate() * turned[s]).normalized();
+        }
+    }
+}
+
+/// Capped in norm.
+fn capped(v: Vec3, most: f64) -> Vec3 {
+    let n = v.norm();
+    if n > most { v * (most / n) } else { v }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::body::topology::{L_HAND, R_FOREARM, R_HAND};
+    use crate::sim::motion::Clip;
+    use crate::sim::motion::builtin::builtin;
+
+    const DT: f64 = 1.0 / 60.0;
+
+    fn walk(body: &Body) -> Clip {
+        builtin(body, "walk").expect("there is a built-in walk")
+    }
+
+    fn at(clip: &Clip, t: f64, dt: f64) -> TargetPair {
+        TargetPair {
+            now: clip.sample_looped(t),
+            next: clip.sample_looped(t + dt),
+        }
+    }
+
+    fn with_load(body: &Body, hand: SegmentId, mass: f64) -> Links {
+        let mut links = Links::new(body);
+        links.add_load(hand, body.segment(hand).com, mass);
+        links
+    }
+
+    /// Has carried `links` for long.
+    fn used_to(body: &Body, clip: &Clip, links: &Links) -> LoadCompensation {
+        let mut carrying = LoadCompensation::new(body);
+        for _ in 0..600 {
+            carrying.lean(body, links, &mut at(clip, 1.0, DT), true, DT);
+        }
+        carrying
+    }
+
+    #[test]
+    fn the_loaded_body_is_where_the_unloaded_one_was_and_its_feet_stay() {
+        let body = Body::adult_man();
+        let clip = walk(&body);
+        for (hand, mass) in [(R_HAND, 5.0), (L_HAND, 10.0), (R_HAND, 15.0)] {
+            let links = with_load(&body, hand, mass);
+            let mut carrying = used_to(&body, &clip, &links);
+            for k in 0..20 {
+                let before = at(&clip, 0.2 + 0.1 * f64::from(k), DT);
+                let mut after = before.clone();
+                carrying.lean(&body, &links, &mut after, true, DT);
+                let (p, q) = (&before.now.posture, &after.now.posture);
+                let (p, q) = (forward(&body, p), forward(&body, q));
+                let off = Masses::of(&links).center(&q) - carrying.unloaded.center(&p);
+                assert!(off.x.hypot(off.y) < 1e-3, "{mass} kg: {off:?}");
+                let shift = after.now.posture.root_position - before.now.posture.root_position;
+                assert!(shift.norm() > 1.5e-3 * mass && shift.norm() < 0.08);
+                for foot in [L_FOOT, R_FOOT].map(SegmentId::index) {
+                    assert!((p[foot].0 - q[foot].0).norm() < 2e-3, "{mass} kg");
+                    assert!((p[foot].1.conjugate() * q[foot].1).log().norm() < 1e-9);
+                }
+                let head = HEAD.index();
+                assert!((p[head].1.conjugate() * q[head].1).log().norm() < 1e-9);
+            }
+        }
+    }
+
+    #[test]
+    fn rates_are_those_of_the_posture_also_while_a_load_comes() {
+        let body = Body::adult_man();
+        let links = with_load(&body, R_HAND, 12.0);
+        let mut carrying = LoadCompensation::new(&body);
+        let dt = 1e-4;
+        let clip = walk(&body);
+        for k in 0..40 {
+            let mut pair = at(&clip, 0.7 + f64::from(k) * dt, dt);
+            carrying.lean(&body, &links, &mut pair, true, dt);
+            let way = pair.now.posture.difference(&pair.next.posture);
+            for i in 0..NV {
+                let mean = 0.5 * (pair.now.velocity[i] + pair.next.velocity[i]);
+                assert!((way[i] / dt - mean).abs() < 2e-2, "{i}: {way:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn without_a_load_or_steps_nothing_changes_and_a_load_let_go_is_forgotten() {
+        let body = Body::adult_man();
+        let clip = walk(&body);
+        let (bare, links) = (Links::new(&body), with_load(&body, R_HAND, 15.0));
+        for (links, steps) in [(&bare, true), (&links, false)] {
+            let mut pair = at(&clip, 1.0, DT);
+            LoadCompensation::new(&body).lean(&body, links, &mut pair, steps, DT);
+            assert_eq!(pair, at(&clip, 1.0, DT));
+        }
+        let mut carrying = used_to(&body, &clip, &links);
+        let mut last = f64::INFINITY;
+        for _ in 0..600 {
+            let mut pair = at(&clip, 1.0, DT);
+            let planned = pair.now.posture.root_position;
+            carrying.lean(&body, &bare, &mut pair, true, DT);
+            let off = (pair.now.posture.root_position - planned).norm();
+            assert!(off <= last + 1e-9, "it does not overshoot");
+            last = off;
+        }
+        assert_eq!(last, 0.0);
+    }
+
+    #[test]
+    fn arms_that_hold_something_in_front_do_not_drop_it() {
+        let body = Body::adult_man();
+        let clip = walk(&body);
+        let links = with_load(&body, R_HAND, 10.0);
+        let mut carrying = used_to(&body, &clip, &links);
+        let (Joint::Ball(shoulder), Joint::Hinge2(elbow)) =
+            (JOINT[R_UPPER_ARM.index()], JOINT[R_FOREARM.index()])
+        else {
+            unreachable!()
+        };
+        let mut before = at(&clip, 1.0, DT);
+        for t in [&mut before.now, &mut before.next] {
+            t.posture.ball[shoulder] = Quat::identity();
+            t.posture.hinge[elbow] = 1.6;
+        }
+        // Once they have got there: what is done at once is done slowly.
+        let mut pair = before.clone();
+        for _ in 0..1800 {
+            pair = before.clone();
+            carrying.lean(&body, &links, &mut pair, true, DT);
+        }
+        let arms = before.now.posture.hinge[..8].iter();
+        for (is, meant) in pair.now.posture.hinge.iter().zip(arms) {
+            assert!((is - meant).abs() < 1e-9, "{is} for {meant} rad");
+        }
+    }
+}

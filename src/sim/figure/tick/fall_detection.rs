@@ -1,0 +1,146 @@
+//! Judgements of a tick: is balance lost, has it fallen, who may move it, is its state sound.
+
+use super::{Figure, TickContext};
+use crate::sim::body::SegmentId;
+use crate::sim::body::topology::{L_FOOT, L_TOES, NV, R_FOOT, R_TOES};
+use crate::sim::control::Controller;
+use crate::sim::figure::balance_loss::Reach;
+use crate::sim::figure::events::FigureEvent;
+use crate::sim::figure::kinematic_step::{SPEED_CAP, other_part_arrives};
+use crate::sim::figure::report::Flags;
+use crate::sim::figure::setup::{ControllerKind, StepperKind};
+
+/// A figure has fallen when its CoM is below this share of its standing height and something other than a foot carries it.
+const FALLEN_HEIGHT: f64 = 0.45;
+/// It stands again when its CoM is above this share of the standing height.
+const RISEN_HEIGHT: f64 = 0.6;
+/// Torques give back to prescribed accelerations after the figure has stood this long on flat feet with strength to spare, s.
+const CALM_TIME: f64 = 0.5;
+/// Parts that a figure stands on.
+pub(super) const FEET: [SegmentId; 4] = [L_FOOT, L_TOES, R_FOOT, R_TOES];
+
+impl Figure {
+    /// Is balance lost? Full assist holds the pelvis, so there is none to lose; and prescribed accelerations fall by themselves.
+    pub(super) fn watch_balance(&mut self, world: &TickContext) {
+        let s = &self.setup;
+        let falls = s.stepper == StepperKind::Kinematic && self.handed_over.is_none();
+        let motors = s.controller == ControllerKind::Motors;
+        if self.rising.is_rising()
+            || falls
+            || motors
+            || !s.params.hand_over
+            || s.options.assist > 0.0
+        {
+            self.balance.reset();
+            return;
+        }
+        let modern = s.controller == ControllerKind::Modern;
+        let reach = match s.params.protective_steps {
+            true if modern => Reach::Step,
+            false if modern => Reach::Body,
+            _ => Reach::Paper,
+        };
+        let height = self.terms.com.z / self.standing_com_height;
+        let before = self.balance.lost();
+        let off = self.tracker.off_plan().filter(|_| self.steps());
+        self.balance.observe(
+            &s.body,
+            &self.terms,
+            &self.support,
+            (world.gravity, world.dt),
+            (reach, height),
+            off,
+        );
+        if before && !self.balance.lost() {
+            self.start_afresh();
+        }
+    }
+
+    /// Controllers and steps forget what they knew of a figure that has fallen or stumbled since.
+    pub(super) fn start_afresh(&mut self) {
+        self.modern.reset();
+        self.paper.reset();
+        self.tracker.reset();
+    }
+
+    /// The chosen controller, or motors alone once balance is lost or the figure lies on the ground.
+    pub(super) fn active_controller(&self) -> ControllerKind {
+        if self.is_limp() || self.balance.lost() {
+            ControllerKind::Motors
+        } else {
+            self.setup.controller
+        }
+    }
+
+    /// True if accelerations are to be applied as they are. A load held in two hands and the assist act by forces, which need torques.
+    pub(super) fn prescribes(&self) -> bool {
+        self.setup.stepper == StepperKind::Kinematic
+            && self.setup.options.assist == 0.0
+            && self.disturbances.bar().is_none()
+            && self.active_controller() != ControllerKind::Motors
+            && self.handed_over.is_none()
+            && !self.rising.is_rising()
+    }
+
+    /// Prescribed accelerations on a tilting support create energy once joints saturate, and they know nothing of parts other than feet:
+    /// there torques take over (ALGORITHM §6), until the figure has stood calmly for a while. The state is the same for both.
+    pub(super) fn judge_hand_over(&mut self, dt: f64) {
+        let r = &self.report;
+        if self.prescribed && self.setup.params.hand_over {
+            let saturated = (r.saturated | r.saturated_secondary) != 0;
+            let arrives = other_part_arrives(&self.setup.body, &self.terms, dt);
+            let fast = self.state.velocity[6..].iter().any(|v| v.abs() > SPEED_CAP);
+            if arrives || fast || (self.tips && saturated) || r.flags.has(Flags::OVERLOAD) {
+                self.prescribed = false;
+                self.handed_over = Some(0.0);
+            }
+        } else if let Some(calm) = self.handed_over {
+            let points = self.support.points();
+            let flat = points.len() >= 3 && points.iter().all(|p| FEET.contains(&p.segment));
+            let upright = !self.fallen && !self.balance.lost();
+            let alone = self.touches.list().next().is_none();
+            let stands = flat && upright && alone && !self.tips && r.saturated == 0;
+            self.handed_over = match calm + dt {
+                t if !stands && t > 0.0 => Some(0.0),
+                t if t > CALM_TIME => None,
+                t => Some(t),
+            };
+        }
+    }
+
+    /// True while it lies and does nothing about it.
+    pub(super) fn is_limp(&self) -> bool {
+        self.fallen && !self.rising.is_rising()
+    }
+
+    /// Freezes a figure whose state is not finite at its last good state; the world goes on.
+    pub(super) fn contain(&mut self) -> bool {
+        let good = self.state.is_finite();
+        if good {
+            self.last_good = self.state;
+        } else {
+            self.state = self.last_good;
+            self.state.velocity = [0.0; NV];
+            self.frozen = true;
+            self.watcher.push(FigureEvent::Quarantined);
+        }
+        !good
+    }
+
+    /// Falls and rises (ALGORITHM §12).
+    pub(super) fn judge_fall(&mut self) {
+        let height = self.terms.com.z / self.standing_com_height;
+        let on_other = self
+            .report
+            .contacts
+            .iter()
+            .any(|c| !FEET.contains(&c.segment))
+            || self.touches.list().any(|t| !FEET.contains(&t.segment));
+        if !self.fallen && height < FALLEN_HEIGHT && on_other {
+            self.fallen = true;
+        } else if self.fallen && height > RISEN_HEIGHT && !self.rising.is_rising() {
+            self.fallen = false;
+            self.start_afresh();
+        }
+    }
+}

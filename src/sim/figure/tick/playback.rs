@@ -1,0 +1,274 @@
+//! From one motion to another while the figure moves: from step to step where they fit, else by a stand for which what was asked for waits.
+
+use super::Figure;
+use super::fall_detection::FEET;
+use super::motion_switch::ASIDE;
+use crate::sim::body::Posture;
+use crate::sim::control::Controller;
+use crate::sim::figure::background::Plan;
+use crate::sim::figure::drive::{ClipPlayback, Drive, Queued};
+use crate::sim::figure::setup::ControllerKind;
+use crate::sim::motion::{Clip, Target};
+use crate::sim::plan::splice;
+use crate::sim::track::StepPlan;
+use std::sync::Arc;
+
+/// A clip that waits begins so long before the motion that leads to it is over, if the figure has settled, s.
+const SOONER: f64 = 0.4;
+/// Its joints are where that motion leads them then, rad.
+const STILL: f64 = 0.05;
+/// It begins at the latest so long after that motion is over, s.
+const PATIENCE: f64 = 2.0;
+/// A clip that begins with the pelvis above this share of its standing height, on both feet, begins standing.
+const UPRIGHT: f64 = 0.9;
+/// Time that the way from a stand into a clip takes, as is expected before it is worked out, s.
+const LED_AFTER: f64 = 2.7;
+/// Who gets up stands once the centre of mass is above this share of its standing height.
+const UP: f64 = 0.75;
+
+/// How a clip begins.
+struct Beginning {
+    /// Clip time at which it does, s, and the posture then.
+    first: f64,
+    posture: Posture,
+    /// Standing, on one foot or both.
+    upright: bool,
+    /// On both feet, and at rest.
+    rests: bool,
+}
+
+impl Figure {
+    /// Plays a clip from world time `time` on. A figure that walks, or is in the middle of another clip, goes over to it from step to step where the one
+    /// is like the beginning of the other; else it finishes its step and stands first, as the clip begins. Then the clip begins where its feet are, unless
+    /// `fixed` says that its origin is meant: by a way of its own, if it begins neither as the figure stands nor with steps from there. One that stands already
+    /// as the clip begins, has fallen, or makes no steps begins at once.
+    ///
+    /// Returns the world time at which the clip's time 0 plays, s. If the figure goes over, has to stand first, or needs a way into the clip, that is
+    /// expected: ways are worked out aside, and taken in a tick that is fixed now. Allocates.
+    pub fn play(&mut self, play: ClipPlayback, fixed: bool, time: f64) -> f64 {
+        let begin = self.beginning(&play, time);
+        let first = begin.first;
+        let led = begin.upright && !fixed;
+        let rises = self.rising.is_rising();
+        let moves = rises || self.is_busy(time) || led && self.crouches();
+        let stands = !moves && !self.tracker.eases(&self.terms);
+        let begins_so = |stand: &Posture| {
+            let motion = play.motion();
+            !led || motion.begins_as(&self.setup.body, first, stand)
+        };
+        if !(rises || self.steps()) || (stands && begins_so(&self.comes_to())) {
+            let start = play.start;
+            self.set_drive(Drive::Clip(play));
+            return start;
+        }
+        let ease = *self.tracker.ease();
+        let goal = if begin.rests { begin.posture } else { ease };
+        let stand = match (moves, self.is_slow()) {
+            (false, _) => self.comes_to(),
+            (true, true) => goal,
+            (true, false) => ease,
+        };
+        let led_after = if begins_so(&stand) { 0.0 } else { LED_AFTER };
+        let from = play.start + first / play.speed;
+        let (due, entered) = if moves {
+            let goal = begin.upright.then_some(goal);
+            self.leave(&play, (goal, fixed), from, time)
+        } else {
+            (time, None)
+        };
+        let expected = entered.unwrap_or(due.max(from) + led_after - first / play.speed);
+        let plan = StepPlan::new(&self.setup.body, &play.clip, play.looped);
+        let stance = self.tracker.stance_of(&self.setup.body, &begin.posture);
+        self.queued = Some(Box::new(Queued {
+            plan,
+            first,
+            from,
+            stance: (!fixed).then_some(stance),
+            due,
+            led,
+            entry: None,
+            play,
+        }));
+        if self.leaving.is_none() {
+            self.plan_entry(time);
+        }
+        expected
+    }
+
+    /// How a clip begins, if it is to play from world time `time` on.
+    fn beginning(&self, play: &ClipPlayback, time: f64) -> Beginning {
+        let first = play.clip_time(time).clamp(-play.clip.lead_in(), 0.0);
+        let Target {
+            posture, planted, ..
+        } = play.clip.sample(first);
+        let body = &self.setup.body;
+        let slow = play.motion().begins_as(body, first, &posture);
+        Beginning {
+            first,
+            posture,
+            upright: posture.root_position.z > UPRIGHT * body.standing_root_height(),
+            rests: planted == [true; 2] && slow,
+        }
+    }
+
+    /// True if it does not stand upright when its motion is over.
+    pub(super) fn crouches(&self) -> bool {
+        self.comes_to().root_position.z < UPRIGHT * self.setup.body.standing_root_height()
+    }
+
+    /// The posture in which it stands when its motion is over.
+    fn comes_to(&self) -> Posture {
+        if let Some(ease) = self.tracker.comes_to() {
+            return *ease;
+        }
+        match &self.drive {
+            Drive::Hold(posture) => *posture,
+            Drive::Clip(play) => play.clip.sample(f64::INFINITY).posture,
+            Drive::External(_) | Drive::Live(_) => self.target.next.posture,
+        }
+    }
+
+    /// True if the motion that ends moves no joint any more.
+    fn has_come(&self, time: f64) -> bool {
+        let Drive::Clip(end) = &self.drive else {
+            return true;
+        };
+        let here = end.sample(time - self.tracker.lag()).posture;
+        let left = here.joint_difference(&self.comes_to());
+        self.tracker.comes_to().is_some() || left.iter().all(|e| e.abs() < STILL)
+    }
+
+    /// Begins to work out the way from the stand that its motion leads to into the clip that waits, if it takes one.
+    pub(super) fn plan_entry(&mut self, time: f64) {
+        let Some(q) = &self.queued else { return };
+        let stands = !self.fallen && !self.crouches();
+        let (next, first) = (q.play.motion(), q.first);
+        let (body, stand) = (Arc::clone(&self.setup.body), self.comes_to());
+        if !stands || !q.led || next.begins_as(&body, first, &stand) {
+            return;
+        }
+        let way = move || next.from_stand(&body, first, &stand);
+        if let Some(q) = &mut self.queued {
+            q.from = q.from.max(time + ASIDE as f64 / splice::RATE);
+            q.entry = Some(Plan::new(way));
+        }
+    }
+
+    /// The clip that is to begin, if one waits or is gone over to.
+    pub fn next_clip(&self) -> Option<&Arc<Clip>> {
+        let coming = |play: &ClipPlayback| {
+            let way = play.way_in.as_ref();
+            way.is_some_and(|w| self.tracker.phase() < w.enters)
+        };
+        match (&self.queued, &self.drive) {
+            (Some(q), _) => Some(&q.play.clip),
+            (None, Drive::Clip(play)) if coming(play) => Some(&play.clip),
+            _ => None,
+        }
+    }
+
+    /// True in the middle of a clip or of a step.
+    fn is_busy(&self, time: f64) -> bool {
+        let plays = match &self.drive {
+            Drive::Clip(play) => {
+                let over = play.clip.duration() + play.clip.lead_out();
+                play.looped || play.clip_time(time - self.tracker.lag()) < over
+            }
+            Drive::Live(_) => self.tracker.is_walking(),
+            Drive::Hold(_) | Drive::External(_) => false,
+        };
+        plays || self.leaving.is_some() || self.tracker.unplanned().is_some()
+    }
+
+    /// Begins the clip that waits, once the figure stands.
+    pub(super) fn begin_queued(&mut self, time: f64) {
+        let Some(q) = &self.queued else { return };
+        if self.leaving.is_some() {
+            return;
+        }
+        let ready = if self.rising.is_rising() || (self.balance.lost() && !self.fallen) {
+            false
+        } else if !self.steps() || time > q.due + PATIENCE {
+            true
+        } else {
+            let soon = time >= q.from.max(q.due - SOONER) && self.tracker.is_settled(&self.terms);
+            soon && self.has_come(time)
+        };
+        if !ready {
+            return;
+        }
+        let stance = self.tracker.stance(&self.terms);
+        if let Some(mut q) = self.queued.take() {
+            if let Some(way) = q.entry.take().and_then(Plan::take) {
+                let begins = way.clip.sample(0.0).posture;
+                q.stance = Some(self.tracker.stance_of(&self.setup.body, &begins));
+                q.first = way.begin;
+                q.plan = q.plan.entered_by(&self.setup.body, &way);
+                q.play.way_in = Some(Arc::new(way));
+            }
+            let (play, plan) = q.begin(time, stance);
+            self.tracker.follow(Some((plan, play.speed, play.origin)));
+            self.drive = Drive::Clip(play);
+            self.ending = false;
+            self.rising.reset();
+        }
+    }
+
+    /// A fallen figure gets up when its motion, which lay down, does: in its own way, after which it stands. What it is asked to do meanwhile waits.
+    pub(super) fn get_up(&mut self, time: f64) {
+        let able = self.setup.controller == ControllerKind::Modern;
+        if !self.fallen || !able || self.setup.options.assist >= 1.0 {
+            self.rising.reset();
+            return;
+        }
+        let com = &self.pending.tasks.com.now;
+        let height = com.z / self.standing_com_height;
+        let before = self.rising.is_rising();
+        self.rising.watch(&self.terms, height);
+        if before != self.rising.is_rising() {
+            self.modern.reset();
+            self.ending = !before;
+        }
+        if self.rising.is_up() && self.stands_on_feet() {
+            self.stand_up();
+            self.plan_entry(time);
+        }
+    }
+
+    /// It stands: it holds what it has come to.
+    fn stand_up(&mut self) {
+        self.drive = Drive::Hold(self.target.next.posture);
+        self.rising.reset();
+        self.leaving = None;
+        self.tracker.follow(None);
+        self.fallen = false;
+        self.start_afresh();
+    }
+
+    /// True if only its feet touch, as its way has it, and it is up.
+    fn stands_on_feet(&self) -> bool {
+        let points = self.support.points();
+        self.terms.com.z > UP * self.standing_com_height
+            && self.target.next.planted == [true; 2]
+            && points.iter().all(|p| FEET.contains(&p.segment))
+            && self.support.rests().is_empty()
+    }
+
+    /// Comes to a stand from world time `time` on: a walk is ended by the steps that takes, everything else is held as it is. The steps are worked out
+    /// aside, while the motion goes on. Allocates.
+    pub fn stop(&mut self, time: f64) {
+        self.queued = None;
+        // Ends may have been left out for a way over.
+        self.leaving = self.leaving.take().filter(|l| !l.leads_over());
+        // It does so already: a step that is under way is finished.
+        if self.ending || self.leaving.is_some() || matches!(self.drive, Drive::Hold(_)) {
+            return;
+        }
+        if !self.steps() || !self.tracker.is_walking() {
+            let posture = self.target.next.posture;
+            self.set_drive(Drive::Hold(posture));
+            return;
+        }
+        self.leave_for_a_stand(time);
+    }
+}

@@ -1,0 +1,350 @@
+//! Getting up, for any body, from where it lies: worked out as it is done.
+//!
+//! A sequence of [`stages`], each a handful of [`goals`]: where pelvis, knees, feet and hands are, over what the centre of mass is, what
+//! the joints look like. From one stage to the next goals and weights pass over smoothly, and in each tick one step of [`solver`] moves the posture towards
+//! them: nothing is planned ahead, and nothing allocates. What is on the floor counts where it really is, so nothing has to be where a plan made beforehand would have it; and the way can be gone at any pace.
+
+mod goals;
+mod reference_pose;
+mod solver;
+mod stages;
+
+use crate::sim::body::angles::anatomical_angles;
+use crate::sim::body::topology::{
+    CHEST, HEAD, L_FOOT, L_FOREARM, L_HAND, L_SHANK, L_TOES, L_UPPER_ARM, NV, R_FOOT, R_FOREARM,
+    R_HAND, R_SHANK, R_TOES, R_UPPER_ARM, SEGMENT_COUNT, SegmentId,
+};
+use crate::sim::body::{Body, Posture};
+use crate::sim::dynamics::Terms;
+use crate::sim::math::ease::smootherstep;
+use crate::sim::math::exp::exp;
+use crate::sim::math::{Quat, Vec3, trig};
+use crate::sim::motion::{PlanarTransform, Target, TargetPair};
+use goals::Goals;
+use reference_pose::Looks;
+use solver::{BALL, HANDS, KNEE, SHANKS, Solver, TOES};
+use stages::{Down, Here, Stage};
+
+/// Leg length (hip to ankle) that distances are written for, m.
+const REFERENCE_LEG: f64 = 0.867;
+/// Time constant with which what is on the floor counts as where it really is, s.
+const TAKE_OVER: f64 = 0.3;
+/// Lower than the first it is on the floor, than the second it will be as soon as it is leant on, m.
+const TOUCH: f64 = 0.02;
+const NEARLY: f64 = 0.05;
+/// Who looks down this much lies on the belly; who is turned less than this from there lies on the side.
+const PRONE: f64 = 0.7;
+const ON_ITS_SIDE: f64 = 1.9;
+/// The stage in which who lies on the side begins.
+const SIDE: usize = 2;
+
+/// The way up of one figure.
+#[derive(Clone, Debug)]
+pub struct GetUpMotion {
+    solver: Solver,
+    looks: Looks,
+    here: Here,
+    /// Where the way lies in the world.
+    place: PlanarTransform,
+    stages: &'static [Stage],
+    /// They lead over onto the belly, not up.
+    turns_over: bool,
+    stage: usize,
+    /// Over the left side instead of the right.
+    mirrored: bool,
+    /// Time since the stage began, s.
+    since: f64,
+    /// How long it has waited for what should be on the floor, s.
+    waits: f64,
+    /// Goals as it began, and now.
+    from: Goals,
+    now: Goals,
+    posture: Posture,
+    velocity: [f64; NV],
+}
+
+/// How far who looks to `front` is turned from lying on the belly, rad: π on the back, π/2 on the right side.
+fn roll(front: Vec3) -> f64 {
+    trig::atan2(front.y, -front.z)
+}
+
+/// Turns a point of the world into one of the way.
+fn inverse(place: PlanarTransform, p: Vec3) -> Vec3 {
+    let back = Quat::exp(Vec3::Z * -place.yaw);
+    back.rotate(Vec3 {
+        x: p.x - place.x,
+        y: p.y - place.y,
+        z: p.z,
+    })
+}
+
+impl GetUpMotion {
+    /// Ways up of `body`, that ends standing like `at_ease`. Allocates.
+    pub fn new(body: &Body, at_ease: &Posture) -> Self {
+        let leg =
+            body.joint_offset[L_FOOT.index()].norm() + body.joint_offset[L_SHANK.index()].norm();
+        let o = [Vec3::zero(); 2];
+        Self {
+            solver: Solver::new(body),
+            looks: Looks::new(anatomical_angles(at_ease)),
+            here: Here {
+                scale: leg / REFERENCE_LEG,
+                pelvis: Vec3::zero(),
+                roll: 0.0,
+                yaw: 0.0,
+                knees: o,
+                balls: o,
+                hands: o,
+            },
+            place: PlanarTransform::default(),
+            stages: stages::UP,
+            turns_over: false,
+            stage: 0,
+            mirrored: false,
+            since: 0.0,
+            waits: 0.0,
+            from: Goals::default(),
+            now: Goals::default(),
+            posture: Posture::default(),
+            velocity: [0.0; NV],
+        }
+    }
+
+    /// Begins where the body of `terms` lies: on its belly, or else by rolling onto it.
+    pub fn begin(&mut self, terms: &Terms) {
+        let p = &terms.state.posture;
+        let knees = SHANKS.map(|s| terms.point_world(s.index(), self.solver.contact(s, KNEE)));
+        let chest = terms.segment_position(CHEST.index());
+        let front = p.root_rotation.rotate(Vec3::X);
+        let prone = front.z < -PRONE;
+        // Who does not lie straight rolls about the trunk.
+        let back = if prone {
+            (knees[0] + knees[1]) * 0.5
+        } else {
+            p.root_position
+        };
+        let ahead = chest - back;
+        self.place = PlanarTransform {
+            x: p.root_position.x,
+            y: p.root_position.y,
+            yaw: trig::atan2(ahead.y, ahead.x),
+        };
+        self.posture = *p;
+        self.posture.root_position = inverse(self.place, p.root_position);
+        let back = Quat::exp(Vec3::Z * -self.place.yaw);
+        self.posture.root_rotation = (back * p.root_rotation).normalized();
+        self.velocity = [0.0; NV];
+        self.here.yaw = 0.0;
+        self.here.roll = roll(back.rotate(front));
+        for side in 0..2 {
+            self.here.knees[side] = self.real(terms, (SHANKS[side], KNEE));
+            self.here.balls[side] = self.ball(terms, side);
+            self.here.hands[side] =
+                inverse(self.place, terms.segment_position(HANDS[side].index()));
+        }
+        self.turns_over = !prone;
+        self.stages = if prone { stages::UP } else { stages::OVER };
+        self.mirrored = !prone && self.here.roll < 0.0;
+        let first = if !prone && self.here.roll.abs() < ON_ITS_SIDE {
+            SIDE
+        } else {
+            0
+        };
+        self.here.pelvis = self.posture.root_position;
+        let up = self.posture.root_rotation.rotate(Vec3::Z);
+        self.now = self.goals(first);
+        self.now.begin(
+            [trig::atan2(up.x, up.z), self.here.roll, 0.0],
+            &anatomical_angles(&self.posture),
+        );
+        self.enter(first);
+    }
+
+    /// Goals of a stage.
+    fn goals(&self, stage: usize) -> Goals {
+        let goals = self.stages[stage].goals;
+        if self.mirrored {
+            goals(&self.here.mirrored(), &self.looks).mirrored()
+        } else {
+            goals(&self.here, &self.looks)
+        }
+    }
+
+    fn real(&self, terms: &Terms, (s, point): (SegmentId, usize)) -> Vec3 {
+        let p = self.solver.contact(s, point);
+        inverse(self.place, terms.point_world(s.index(), p))
+    }
+
+    fn ball(&self, terms: &Terms, side: usize) -> Vec3 {
+        let [a, b] = BALL.map(|k| self.real(terms, (TOES[side], k)));
+        (a + b) * 0.5
+    }
+
+    fn enter(&mut self, stage: usize) {
+        self.stage = stage;
+        self.since = 0.0;
+        self.waits = 0.0;
+        self.from = self.now;
+    }
+
+    /// True once the last stage is over.
+    pub fn is_over(&self) -> bool {
+        !self.turns_over
+            && self.stage + 1 == self.stages.len()
+            && self.since >= self.stages[self.stage].seconds
+    }
+
+    /// True if a segment that touches the floor carries: arms and feet on their way elsewhere slide.
+    pub fn carries(&self, s: SegmentId) -> bool {
+        let down = self.stages[self.stage].down;
+        match s {
+            _ if down.whole => true,
+            L_UPPER_ARM | L_FOREARM | L_HAND => down.hands[0],
+            R_UPPER_ARM | R_FOREARM | R_HAND => down.hands[1],
+            L_FOOT | L_TOES | R_FOOT | R_TOES => down.balls,
+            L_SHANK | R_SHANK => down.knees,
+            HEAD => !down.balls,
+            _ => !down.balls || down.slides,
+        }
+    }
+
+    /// True while the trunk lies on the floor.
+    pub fn lies(&self) -> bool {
+        let down = self.stages[self.stage].down;
+        down.whole || !down.balls
+    }
+
+    /// True while it rolls over.
+    pub fn rolls(&self) -> bool {
+        self.stages[self.stage].down.whole
+    }
+
+    /// Segments that may slide over the floor.
+    pub fn slides(&self) -> &[bool; SEGMENT_COUNT] {
+        const NONE: [bool; SEGMENT_COUNT] = [false; SEGMENT_COUNT];
+        const BUT_FEET: [bool; SEGMENT_COUNT] = {
+            let mut out = [true; SEGMENT_COUNT];
+            out[L_FOOT.index()] = false;
+            out[R_FOOT.index()] = false;
+            out[L_TOES.index()] = false;
+            out[R_TOES.index()] = false;
+            out
+        };
+        const BUT_HANDS: [bool; SEGMENT_COUNT] = {
+            let mut out = [true; SEGMENT_COUNT];
+            out[L_HAND.index()] = false;
+            out[R_HAND.index()] = false;
+            out
+        };
+        match self.stages[self.stage].down {
+            Down { whole: true, .. } => &BUT_FEET,
+            Down { slides: true, .. } => &BUT_HANDS,
+            _ => &NONE,
+        }
+    }
+
+    /// How long it has waited for what should be on the floor by now, s.
+    pub fn waits(&self) -> f64 {
+        self.waits
+    }
+
+    /// What it is about.
+    pub fn stage(&self) -> &'static str {
+        self.stages[self.stage].name
+    }
+
+    /// Desired motion of a tick of `dt` seconds at a share `pace` of its own pace, for the body of `terms`. No allocation.
+    pub fn advance(&mut self, body: &Body, terms: &Terms, dt: f64, pace: f64) -> TargetPair {
+        let before = self.target();
+        self.since += dt * pace;
+        let stage = self.stages[self.stage];
+        if self.since >= stage.seconds && self.stage + 1 < self.stages.len() {
+            if self.is_down(terms, self.stages[self.stage + 1].down) {
+                self.enter(self.stage + 1);
+            } else {
+                self.since = stage.seconds;
+                self.waits += dt;
+            }
+        } else if self.since >= stage.seconds && self.turns_over {
+            self.begin(terms);
+        }
+        self.look_around(terms, dt);
+        let stage = &self.stages[self.stage];
+        let u = (self.since / stage.seconds).min(1.0);
+        let share = smootherstep(u);
+        self.now = self.from.mix(&self.goals(self.stage), share);
+        let mut goals = self.now;
+        if let Some((side, height)) = stage.step {
+            let rise = height * self.here.scale * 16.0 * u * u * (1.0 - u) * (1.0 - u);
+            goals.hands[side][2].at += rise;
+            goals.palms[side].at += rise;
+        }
+        self.solver
+            .advance(body, (&mut self.posture, &mut self.velocity), &goals, dt);
+        TargetPair {
+            now: before,
+            next: self.target(),
+        }
+    }
+
+    /// True if all that the next stage leans on is on the floor.
+    fn is_down(&self, terms: &Terms, down: Down) -> bool {
+        (0..2).all(|side| {
+            let low = |s: SegmentId| self.solver.lowest(terms, s) < NEARLY;
+            down.whole
+                || (!down.knees || !down.balls || low(SHANKS[side]))
+                    && (!down.balls || low(TOES[side]))
+                    && (!down.hands[side] || low(HANDS[side]))
+        })
+    }
+
+    /// What is on the floor counts where it is.
+    fn look_around(&mut self, terms: &Terms, dt: f64) {
+        let share = 1.0 - exp(-dt / TAKE_OVER);
+        let real = &terms.state.posture;
+        self.here.pelvis = inverse(self.place, real.root_position);
+        let heading = if self.stages[self.stage].down.whole {
+            real.root_rotation.rotate(Vec3::Z)
+        } else {
+            real.root_rotation.rotate(Vec3::Y).cross(Vec3::Z)
+        };
+        let yaw = trig::atan2(heading.y, heading.x) - self.place.yaw;
+        let off = trig::wrapped(yaw - self.here.yaw);
+        self.here.yaw += share * off;
+        let down = self.stages[self.stage].down;
+        for side in 0..2 {
+            let knee = self.real(terms, (SHANKS[side], KNEE));
+            let ball = self.ball(terms, side);
+            let wrist = inverse(self.place, terms.segment_position(HANDS[side].index()));
+            let palm = self.solver.lowest(terms, HANDS[side]);
+            let toes = self.solver.lowest(terms, TOES[side]);
+            let h = &mut self.here;
+            let take = |place: &mut Vec3, real: Vec3, low: f64, down: bool| {
+                if down && low < TOUCH {
+                    *place += (real - *place) * share;
+                }
+            };
+            take(&mut h.knees[side], knee, knee.z, down.knees);
+            take(&mut h.balls[side], ball, toes, down.balls);
+            take(&mut h.hands[side], wrist, palm, down.hands[side]);
+            if !down.balls {
+                h.balls[side] = ball;
+            }
+            if !down.hands[side] {
+                h.hands[side] = wrist;
+            }
+        }
+    }
+
+    fn target(&self) -> Target {
+        let mut out = Target::still(self.posture);
+        out.velocity = self.velocity;
+        let d = self.stages[self.stage].down;
+        out.planted = [d.balls && !d.knees && d.hands == [false; 2]; 2];
+        self.place.apply_to(&mut out);
+        out
+    }
+}
+
+#[cfg(test)]
+mod tests;

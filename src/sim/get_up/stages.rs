@@ -1,0 +1,487 @@
+//! The stages of the way up: what each is meant to look like, from where the body is.
+//!
+//! From the belly: arms out, toes tucked, hands beside the ribs, hips up and back over the knees, up on hands and knees, one hand after the
+//! other to the knees, knees off the floor, one hand after the other to the feet, heels down, up. Who lies on the back or on a side rolls over before: one foot set up,
+//! pushed over by it, leg and arm across. All of it is written for rolling over the right side; the other is the mirror image.
+
+use super::goals::{Aim, Goals, swapped};
+use super::reference_pose::Looks;
+use crate::sim::body::topology::DOF_COUNT;
+use crate::sim::math::Vec3;
+use std::f64::consts::FRAC_PI_2;
+
+/// Half the distance between the hands, reference body, m.
+const ARMS_APART: f64 = 0.25;
+/// A wrist is this high over a hand that lies flat, reference body, m.
+const WRIST: f64 = 0.045;
+/// The balls of the feet lie this far behind the knees of who kneels with tucked toes, reference body, m.
+const SHANK: f64 = 0.4;
+/// Weights: what carries, hands, centre of mass, looks.
+const FIRM: f64 = 10.0;
+const HAND: f64 = 5.0;
+const COM: f64 = 10.0;
+const LOOK: f64 = 0.01;
+
+/// How long a hand steps, s, and how high, reference body, m.
+const STEP: (f64, f64) = (1.0, 0.08);
+
+/// Where everything is.
+#[derive(Clone, Copy, Debug)]
+pub struct Here {
+    /// Length over that of the reference body.
+    pub scale: f64,
+    /// The pelvis as it really is, and how far it is turned about the vertical, rad.
+    pub pelvis: Vec3,
+    pub yaw: f64,
+    /// How far it was from lying on its belly as the way began, rad.
+    pub roll: f64,
+    /// Where knees, balls of the feet and wrists are on the floor, or were last.
+    pub knees: [Vec3; 2],
+    pub balls: [Vec3; 2],
+    pub hands: [Vec3; 2],
+}
+
+/// A stage of the way.
+#[derive(Clone, Copy, Debug)]
+pub struct Stage {
+    pub name: &'static str,
+    /// How long it takes, s.
+    pub seconds: f64,
+    /// Its goals.
+    pub goals: fn(&Here, &Looks) -> Goals,
+    /// What is on the floor.
+    pub down: Down,
+    /// A hand that steps, and how high, m.
+    pub step: Option<(usize, f64)>,
+}
+
+/// What is on the floor in a stage.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Down {
+    /// Whatever touches.
+    pub whole: bool,
+    /// What touches may slide.
+    pub slides: bool,
+    pub knees: bool,
+    pub balls: bool,
+    pub hands: [bool; 2],
+}
+
+const ROLLS: Down = Down {
+    whole: true,
+    slides: true,
+    ..LIES
+};
+const PUSHES: Down = Down {
+    balls: true,
+    ..ROLLS
+};
+const LIES: Down = Down {
+    whole: false,
+    slides: true,
+    knees: true,
+    balls: false,
+    hands: [false; 2],
+};
+const KNEELS: Down = Down {
+    whole: false,
+    slides: false,
+    knees: true,
+    balls: true,
+    hands: [true; 2],
+};
+const SLIDES: Down = Down {
+    slides: true,
+    ..KNEELS
+};
+const STANDS: Down = Down {
+    whole: false,
+    slides: false,
+    knees: false,
+    balls: true,
+    hands: [false; 2],
+};
+/// On the balls of the feet and these hands.
+const fn leans(hands: [bool; 2]) -> Down {
+    Down { hands, ..STANDS }
+}
+
+fn look(angles: &[f64; DOF_COUNT], weight: f64) -> [Aim; DOF_COUNT] {
+    angles.map(|a| Aim::new(a, weight))
+}
+
+fn middle(p: [Vec3; 2]) -> Vec3 {
+    (p[0] + p[1]) * 0.5
+}
+
+/// Where something stays on the floor.
+fn stay(p: Vec3, weight: f64) -> [Aim; 3] {
+    [
+        Aim::new(p.x, weight),
+        Aim::new(p.y, weight),
+        Aim::new(0.0, weight),
+    ]
+}
+
+/// The tips of the toes, tucked under.
+fn tucked(p: Vec3) -> [Aim; 3] {
+    let [x, y, z] = stay(p, FIRM);
+    [x, y, Aim { weight: 0.1, ..z }]
+}
+
+impl Here {
+    /// The mirror image.
+    pub fn mirrored(&self) -> Self {
+        let place = |p: Vec3| Vec3 { y: -p.y, ..p };
+        Self {
+            scale: self.scale,
+            pelvis: place(self.pelvis),
+            roll: -self.roll,
+            yaw: -self.yaw,
+            knees: swapped(self.knees).map(place),
+            balls: swapped(self.balls).map(place),
+            hands: swapped(self.hands).map(place),
+        }
+    }
+
+    /// A hand that lies flat at `x`, `y`.
+    fn flat(&self, x: f64, y: f64) -> ([Aim; 3], Aim) {
+        let wrist = [
+            Aim::new(x, HAND),
+            Aim::new(y, HAND),
+            Aim::new(WRIST * self.scale, HAND),
+        ];
+        (wrist, Aim::new(0.0, HAND))
+    }
+
+    /// Hands stay where they are.
+    fn hands(&self) -> ([[Aim; 3]; 2], [Aim; 2]) {
+        let [l, r] = self.hands.map(|p| self.flat(p.x, p.y));
+        ([l.0, r.0], [l.1, r.1])
+    }
+
+    /// The same, with the hand of one side so far ahead of the feet.
+    fn step(&self, mut goals: Goals, side: usize, x: f64) -> Goals {
+        let feet = middle(self.balls);
+        let y = if side == 0 { 1.0 } else { -1.0 } * ARMS_APART;
+        let to = self.flat(feet.x + x * self.scale, feet.y + y * self.scale);
+        (goals.hands[side], goals.palms[side]) = to;
+        goals
+    }
+
+    /// Centre of mass over the mean of the places, by their shares.
+    fn over(&self, shares: &[(Vec3, f64)], weight: f64) -> [Aim; 2] {
+        let (mut sum, mut whole) = (Vec3::zero(), 0.0);
+        for (p, share) in shares {
+            sum += *p * *share;
+            whole += share;
+        }
+        let at = sum * (1.0 / whole);
+        [Aim::new(at.x, weight), Aim::new(at.y, weight)]
+    }
+
+    /// The pelvis bent forward by `pitch`, level and straight otherwise.
+    fn level(&self, pitch: f64, weight: f64) -> [Aim; 3] {
+        [
+            Aim::new(pitch, weight),
+            Aim::new(0.0, 1.0),
+            Aim::new(self.yaw, 0.3),
+        ]
+    }
+
+    /// Above the floor, so far ahead of `from`, reference body, m.
+    fn place(&self, from: Vec3, x: f64, z: f64, weight: f64) -> [Aim; 3] {
+        [
+            Aim::new(from.x + x * self.scale, weight),
+            Aim::NONE,
+            Aim::new(z * self.scale, weight),
+        ]
+    }
+}
+
+const fn stage(
+    name: &'static str,
+    seconds: f64,
+    goals: fn(&Here, &Looks) -> Goals,
+    down: Down,
+) -> Stage {
+    Stage {
+        name,
+        seconds,
+        goals,
+        down,
+        step: None,
+    }
+}
+
+const fn stepping(name: &'static str, goals: fn(&Here, &Looks) -> Goals, side: usize) -> Stage {
+    let mut hands = [true; 2];
+    hands[side] = false;
+    Stage {
+        name,
+        seconds: STEP.0,
+        goals,
+        down: leans(hands),
+        step: Some((side, STEP.1)),
+    }
+}
+
+const fn crawling(name: &'static str, goals: fn(&Here, &Looks) -> Goals, side: usize) -> Stage {
+    let mut out = stepping(name, goals, side);
+    out.down.knees = true;
+    out
+}
+
+/// Over its right side onto the belly, from the back and from the side.
+pub const OVER: &[Stage] = &[
+    stage("gather", 1.6, gather, ROLLS),
+    stage("push", 1.0, push, PUSHES),
+    stage("over", 1.2, |h, l| roll(h, &l.rolled, 1.0), ROLLS),
+    stage("tip", 1.0, |h, l| roll(h, &l.tipped, 0.3), ROLLS),
+    stage("flat", 1.2, |h, l| roll(h, &l.sprawled, 0.0), ROLLS),
+];
+
+/// Up from the belly.
+pub const UP: &[Stage] = &[
+    stage("sprawl", 1.6, sprawl, LIES),
+    stage("plant", 1.6, plant, LIES),
+    stage("draw", 1.6, draw, SLIDES),
+    stage("sink back", 1.4, sink_back, KNEELS),
+    stage("all fours", 1.4, on_all_fours, KNEELS),
+    stage("back", 0.8, |h, l| crawl(h, l, 0), KNEELS),
+    crawling("left hand", |h, l| crawl_hand(h, l, 0), 0),
+    stage("over", 0.6, |h, l| crawl(h, l, 1), KNEELS),
+    crawling("right hand", |h, l| crawl_hand(h, l, 1), 1),
+    stage("bear", 1.8, bear, leans([true; 2])),
+    stage(
+        "lean right",
+        0.6,
+        |h, l| lean(h, l, 0, (0.0, 0.7)),
+        leans([true; 2]),
+    ),
+    stepping("left hand", |h, l| reach(h, l, 0, (-0.06, 0.71), 0.3), 0),
+    stage(
+        "lean left",
+        0.6,
+        |h, l| lean(h, l, 1, (-0.12, 0.72)),
+        leans([true; 2]),
+    ),
+    stepping("right hand", |h, l| reach(h, l, 1, (-0.18, 0.72), 0.3), 1),
+    stage("fold", 1.4, fold, leans([true; 2])),
+    stage("rise", 2.0, rise, STANDS),
+    stage("stand", 0.8, stand, STANDS),
+];
+
+/// Lying as it lies: the left foot set up, the right arm out of the way, the left one across.
+fn gather(h: &Here, l: &Looks) -> Goals {
+    set_up(h, l, h.roll, 1.0)
+}
+
+/// Turned so far from lying on the belly, the left foot set up behind.
+fn set_up(h: &Here, l: &Looks, turn: f64, weight: f64) -> Goals {
+    let mut out = roll(h, &l.gathered, turn);
+    out.balls[0][2] = Aim::new(0.0, weight);
+    out.tips[0] = Aim::new(0.0, weight);
+    out.heels[0] = Aim::new(0.0, weight);
+    out
+}
+
+/// Pushed over by the left foot, which stays where it is.
+fn push(h: &Here, l: &Looks) -> Goals {
+    let mut out = set_up(h, l, 2.2, FIRM);
+    out.balls[0] = stay(h.balls[0], FIRM);
+    out
+}
+
+/// Turned so far from lying on the belly.
+fn roll(h: &Here, looks: &[f64; DOF_COUNT], turn: f64) -> Goals {
+    Goals {
+        pelvis: h.pelvis.to_array().map(|x| Aim::new(x, FIRM)),
+        turn: [
+            Aim::new(FRAC_PI_2, 0.3),
+            Aim::new(turn, 1.0),
+            Aim::new(h.yaw, 0.3),
+        ],
+        looks: look(looks, 0.03),
+        ..Goals::default()
+    }
+}
+
+/// Lying as it lay: arms out to the sides, feet off the floor so that the toes can be tucked.
+fn sprawl(h: &Here, l: &Looks) -> Goals {
+    let knees = h.knees.map(|p| stay(p, 1.0));
+    Goals {
+        pelvis: h.pelvis.to_array().map(|x| Aim::new(x, 1.0)),
+        turn: h.level(FRAC_PI_2, 0.3),
+        knees,
+        chest: Aim::new(0.0, 1.0),
+        looks: look(&l.sprawled, 0.1),
+        ..Goals::default()
+    }
+}
+
+/// Hands flat beside the ribs, toes tucked.
+fn plant(h: &Here, l: &Looks) -> Goals {
+    let k = middle(h.knees);
+    let y = ARMS_APART * h.scale;
+    let [left, right] = [y, -y].map(|y| h.flat(k.x + 0.6 * h.scale, k.y + y));
+    Goals {
+        pelvis: h.pelvis.to_array().map(|x| Aim::new(x, 1.0)),
+        turn: h.level(FRAC_PI_2, 0.1),
+        knees: h.knees.map(|p| stay(p, FIRM)),
+        balls: h.knees.map(|p| {
+            tucked(Vec3 {
+                x: p.x - SHANK * h.scale,
+                ..p
+            })
+        }),
+        tips: [Aim::new(0.0, FIRM); 2],
+        hands: [left.0, right.0],
+        palms: [left.1, right.1],
+        chest: Aim::new(0.0, FIRM),
+        looks: look(&l.planted, LOOK),
+        ..Goals::default()
+    }
+}
+
+/// The hips up, the chest still on the floor.
+fn draw(h: &Here, l: &Looks) -> Goals {
+    Goals {
+        pelvis: h.place(middle(h.knees), 0.25, 0.34, 1.0),
+        turn: h.level(1.85, 0.3),
+        chest: Aim::new(0.01, FIRM),
+        looks: look(&l.drawn, LOOK),
+        ..kneeling(h)
+    }
+}
+
+fn kneeling(h: &Here) -> Goals {
+    let (hands, palms) = h.hands();
+    Goals {
+        turn: h.level(1.35, 1.0),
+        knees: h.knees.map(|p| stay(p, FIRM)),
+        balls: h.balls.map(tucked),
+        tips: [Aim::new(0.0, FIRM); 2],
+        hands,
+        palms,
+        ..Goals::default()
+    }
+}
+
+/// Hips back over the knees, which takes the weight off the bent arms.
+fn sink_back(h: &Here, l: &Looks) -> Goals {
+    Goals {
+        pelvis: h.place(middle(h.knees), -0.12, 0.38, 1.0),
+        turn: h.level(1.75, 0.3),
+        looks: look(&l.sunk, LOOK),
+        ..kneeling(h)
+    }
+}
+
+fn on_all_fours(h: &Here, l: &Looks) -> Goals {
+    Goals {
+        pelvis: h.place(middle(h.knees), 0.02, 0.46, 1.0),
+        looks: look(&l.on_all_fours, LOOK),
+        ..kneeling(h)
+    }
+}
+
+/// On knees and feet, and the hand that is not of `side`.
+fn crawl(h: &Here, l: &Looks, side: usize) -> Goals {
+    let shares = [
+        (middle(h.knees), 0.6),
+        (middle(h.balls), if side == 0 { 0.2 } else { 0.12 }),
+        (h.hands[1 - side], if side == 0 { 0.2 } else { 0.28 }),
+    ];
+    Goals {
+        pelvis: h.place(middle(h.knees), -0.15, 0.43, 0.3),
+        com: h.over(&shares, COM),
+        looks: look(&l.on_all_fours, LOOK),
+        ..kneeling(h)
+    }
+}
+
+fn crawl_hand(h: &Here, l: &Looks, side: usize) -> Goals {
+    h.step(crawl(h, l, side), side, 0.62)
+}
+
+/// On hands and the balls of the feet.
+fn leaning(h: &Here, shares: &[(Vec3, f64)]) -> Goals {
+    let (hands, palms) = h.hands();
+    Goals {
+        com: h.over(shares, COM),
+        turn: h.level(1.4, 0.3),
+        balls: h.balls.map(|p| stay(p, FIRM)),
+        tips: [Aim::new(0.0, FIRM); 2],
+        hands,
+        palms,
+        ..Goals::default()
+    }
+}
+
+fn bear(h: &Here, l: &Looks) -> Goals {
+    let shares = [(middle(h.balls), 0.6), (middle(h.hands), 0.4)];
+    Goals {
+        pelvis: h.place(middle(h.balls), 0.1, 0.66, 5.0),
+        com: h.over(&shares, 3.0),
+        looks: look(&l.bear, LOOK),
+        ..leaning(h, &shares)
+    }
+}
+
+/// Away from the hand of one side.
+fn lean(h: &Here, l: &Looks, side: usize, at: (f64, f64)) -> Goals {
+    let other = 1 - side;
+    let shares = [
+        (h.balls[side], 0.42),
+        (h.balls[other], 0.34),
+        (h.hands[other], 0.24),
+    ];
+    Goals {
+        pelvis: h.place(middle(h.balls), at.0, at.1, 2.0),
+        looks: look(&l.bear, LOOK),
+        ..leaning(h, &shares)
+    }
+}
+
+/// The hand of one side steps to so far ahead of the feet.
+fn reach(h: &Here, l: &Looks, side: usize, at: (f64, f64), x: f64) -> Goals {
+    h.step(lean(h, l, side, at), side, x)
+}
+
+/// The middle of the feet, ahead of the heels.
+fn soles(h: &Here) -> [(Vec3, f64); 1] {
+    let mut p = middle(h.balls);
+    p.x -= 0.06 * h.scale;
+    [(p, 1.0)]
+}
+
+/// Heels down and all the weight on the feet, the hands still on the floor.
+fn fold(h: &Here, l: &Looks) -> Goals {
+    let mut out = Goals {
+        pelvis: h.place(middle(h.balls), -0.27, 0.72, 0.5),
+        heels: [Aim::new(0.0, FIRM); 2],
+        looks: look(&l.folded, LOOK),
+        ..leaning(h, &soles(h))
+    };
+    for (hand, palm) in out.hands.iter_mut().zip(&mut out.palms) {
+        *hand = hand.map(|a| Aim::new(a.at, 1.0));
+        palm.weight = 0.5;
+    }
+    out
+}
+
+fn rise(h: &Here, l: &Looks) -> Goals {
+    Goals {
+        hands: [[Aim::NONE; 3]; 2],
+        palms: [Aim::NONE; 2],
+        heels: [Aim::new(0.0, FIRM); 2],
+        turn: h.level(0.0, 0.3),
+        looks: look(&l.at_ease, 0.05),
+        ..leaning(h, &soles(h))
+    }
+}
+
+fn stand(h: &Here, l: &Looks) -> Goals {
+    rise(h, l)
+}

@@ -1,0 +1,247 @@
+//! What one foot can hold alone: the zero-moment points that its ankle is strong enough for.
+//!
+//! Soles reach farther than the muscles over them: in an adult man the toes end 20 cm before the ankle, but his calf holds his weight no
+//! farther than 14 cm before it. A motion planned up to the edge of the sole leaves no torque for the body to correct anything with.
+
+use super::foot_lock::{Anchor, Sole};
+use crate::sim::body::Body;
+use crate::sim::body::topology::{DOF_COUNT, DOF_START, L_FOOT};
+use crate::sim::motion::GRAVITY;
+use crate::sim::strength::{MuscleScale, Strength};
+
+/// Share of its strength that an ankle gives at the edge of the support.
+const FIRM: f64 = 0.87;
+/// A body slower than the first, m/s, stays over the foot until an error has grown; one faster than the second is past it before: its support
+/// is longer by so much.
+const SLOW: f64 = 0.8;
+const FAST: f64 = 1.2;
+const LONGER: f64 = 0.4;
+/// Nobody is planned on less than this share of his sole before the ankle: whose calf is weaker than that is weak in knees and hips too, and falls by those
+/// when he is kept farther back. At speed he gets as much again as he lacked.
+const LEAST: f64 = 0.61;
+/// Who stands on the ball of his foot has nothing behind his toe joint to stand on: he is planned on this much before it, m, whatever his calf holds.
+const BALL: f64 = 0.015;
+/// A runner's foot that carries less than this share of his weight is as strong as one that carries so much.
+const LEAST_LOAD: f64 = 0.5;
+/// The support is moved against the lean of the body by no more than this, m.
+const MOST_MOVED: f64 = 0.03;
+
+/// Where a body is over its foot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Over {
+    /// Height of the centre of mass, m.
+    pub height: f64,
+    /// Its speed over the floor, m/s.
+    pub speed: f64,
+    /// From the zero-moment point to the centre of mass, over the floor, m.
+    pub lean: [f64; 2],
+    /// What a runner's foot carries, in units of the weight; absent for who walks.
+    pub load: Option<f64>,
+}
+
+/// Limits of the support of one foot that carries a whole body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AnkleTorqueLimit {
+    /// Distance before the ankle at which the weight of the body takes [`FIRM`] of the strength of the ankle, or [`LEAST`] of the sole, m.
+    front: f64,
+    /// How much farther that is than what the ankle holds, m.
+    lacks: f64,
+    /// Height of the ankle over the floor, m.
+    ankle: f64,
+}
+
+impl AnkleTorqueLimit {
+    /// Of a body of average strength, standing with its foot flat. Allocates.
+    pub fn new(body: &Body) -> Self {
+        let weight = GRAVITY * body.segments.iter().map(|s| s.mass).sum::<f64>();
+        let (mut lower, mut upper) = ([0.0; DOF_COUNT], [0.0; DOF_COUNT]);
+        Strength::for_body(body).range(
+            &[0.0; DOF_COUNT],
+            &[0.0; DOF_COUNT],
+            &MuscleScale::default(),
+            &mut lower,
+            &mut upper,
+        );
+        let sole = Sole::new(body, 0);
+        let toes = sole.points(0.0).map(|p| p.x).fold(0.0, f64::max);
+        let firm = -FIRM * lower[DOF_START[L_FOOT.index()]] / weight;
+        let lacks = (LEAST * toes - firm).max(0.0);
+        let front = firm + lacks;
+        Self {
+            front,
+            lacks,
+            ankle: sole.ankle_height,
+        }
+    }
+
+    /// Visits the corners (x, y) of the support of a foot that stands alone at `at`.
+    ///
+    /// The ankle feels the line of force where it passes the height of the ankle, a little from the zero-moment point towards the centre of mass.
+    pub fn each_corner(
+        &self,
+        sole: &Sole,
+        at: &Anchor,
+        over: &Over,
+        mut visit: impl FnMut([f64; 2]),
+    ) {
+        let Over {
+            height,
+            speed,
+            lean,
+            load,
+        } = *over;
+        let hurry = ((speed - SLOW) / (FAST - SLOW)).clamp(0.0, 1.0);
+        let mut front = self.front * (1.0 + LONGER * hurry) + self.lacks * hurry;
+        if let Some(load) = load {
+            front = self.front / load.max(LEAST_LOAD);
+        }
+        // Who runs is over it before that matters.
+        if at.is_on_ball() && load.is_none() {
+            front = front.max(sole.toe_joint.x + BALL);
+        }
+        let rise = self.ankle / height.max(self.ankle);
+        let lean = lean.map(|d| d * rise);
+        let far = (lean[0] * lean[0] + lean[1] * lean[1]).sqrt();
+        let share = (MOST_MOVED / far.max(MOST_MOVED)).min(1.0);
+        let ahead = at.ahead();
+        sole.each_corner(at, |p| {
+            let x = (p[0] - at.place.x) * ahead[0] + (p[1] - at.place.y) * ahead[1];
+            let cut = (x - front).max(0.0);
+            visit(std::array::from_fn(|k| {
+                p[k] - cut * ahead[k] - share * lean[k]
+            }));
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::body::{Profile, Sex};
+    use crate::sim::math::Vec3;
+    use crate::sim::math::polygon::{hull, margin};
+
+    const AT: Anchor = Anchor {
+        place: Vec3 {
+            x: 0.3,
+            y: -0.2,
+            z: 0.0,
+        },
+        yaw: 0.7,
+        pitch: 0.0,
+        tip: 0.0,
+    };
+
+    fn support(one: &AnkleTorqueLimit, sole: &Sole, lean: [f64; 2], speed: f64) -> Vec<[f64; 2]> {
+        let mut corners = Vec::new();
+        let over = Over {
+            height: 1.0,
+            speed,
+            lean,
+            load: None,
+        };
+        one.each_corner(sole, &AT, &over, |p| corners.push(p));
+        hull(&corners)
+    }
+
+    #[test]
+    fn the_support_ends_where_the_calf_does() {
+        for body in [Body::adult_man(), Body::adult_woman()] {
+            let (one, sole) = (AnkleTorqueLimit::new(&body), Sole::new(&body, 0));
+            let p = support(&one, &sole, [0.0, 0.0], 0.0);
+            let before = |x: f64| [AT.place.x + x * 0.7f64.cos(), AT.place.y + x * 0.7f64.sin()];
+            assert!(margin(&p, before(one.front)).abs() < 1e-9);
+            assert!(margin(&p, before(one.front - 0.01)) > 0.009);
+            let toes = sole.points(0.0).map(|p| p.x).fold(0.0, f64::max);
+            assert!(one.front > 0.5 * toes && one.front < 0.9 * toes, "{one:?}");
+            let hurried = support(&one, &sole, [0.0, 0.0], 2.0);
+            assert!(margin(&hurried, before(one.front)) > 0.01);
+        }
+    }
+
+    #[test]
+    fn nobody_stands_behind_the_ball_of_a_foot_whose_heel_is_up() {
+        for body in [Body::adult_man(), Body::adult_woman()] {
+            let (one, sole) = (AnkleTorqueLimit::new(&body), Sole::new(&body, 0));
+            let at = Anchor { pitch: -0.3, ..AT };
+            for speed in [0.0, 2.0] {
+                let over = Over {
+                    height: 1.0,
+                    speed,
+                    lean: [0.0, 0.0],
+                    load: None,
+                };
+                let mut reach = (f64::INFINITY, f64::NEG_INFINITY);
+                one.each_corner(&sole, &at, &over, |p| {
+                    let x = (p[0] - at.place.x) * 0.7f64.cos() + (p[1] - at.place.y) * 0.7f64.sin();
+                    reach = (reach.0.min(x), reach.1.max(x));
+                });
+                let ball = sole.toe_joint.x;
+                assert!(
+                    reach.0 >= ball - 0.01 && reach.1 >= ball + BALL - 1e-9,
+                    "{speed} m/s: {reach:?}, ball at {ball}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn the_more_a_runner_weighs_on_his_foot_the_nearer_to_his_ankle() {
+        let body = Body::adult_man();
+        let (one, sole) = (AnkleTorqueLimit::new(&body), Sole::new(&body, 0));
+        let reach = |load: f64| {
+            let over = Over {
+                height: 1.0,
+                speed: 3.5,
+                lean: [0.0, 0.0],
+                load: Some(load),
+            };
+            let mut most = f64::NEG_INFINITY;
+            one.each_corner(&sole, &AT, &over, |p| {
+                let x = (p[0] - AT.place.x) * 0.7f64.cos() + (p[1] - AT.place.y) * 0.7f64.sin();
+                most = most.max(x);
+            });
+            most
+        };
+        // Where the moment about the ankle is what it gives.
+        assert!((reach(1.0) - one.front).abs() < 1e-9);
+        assert!((reach(2.5) - one.front / 2.5).abs() < 1e-9);
+        // But no farther than the toes.
+        let toes = sole.points(0.0).map(|p| p.x).fold(0.0, f64::max);
+        assert!((reach(0.1) - toes).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_weak_calf_is_planned_on_most_of_its_sole_and_at_speed_on_all_of_it() {
+        let old = |age| Body::humanoid(Profile::ordinary(Sex::Male, age)).unwrap();
+        for body in [old(70.0), old(80.0)] {
+            let (one, sole) = (AnkleTorqueLimit::new(&body), Sole::new(&body, 0));
+            let toes = sole.points(0.0).map(|p| p.x).fold(0.0, f64::max);
+            assert!((one.front - LEAST * toes).abs() < 1e-12, "{one:?}");
+            let mut whole = Vec::new();
+            sole.footprint(&AT, &mut whole);
+            assert_eq!(support(&one, &sole, [0.0, 0.0], FAST), hull(&whole));
+        }
+        // Nothing changes for who is strong enough, and there is no jump where that ends.
+        let at = |age: f64| AnkleTorqueLimit::new(&old(age));
+        let young = at(30.0);
+        assert!(young.lacks == 0.0 && at(70.0).lacks > 0.02);
+        for age in 45..80 {
+            let (a, b) = (at(f64::from(age)), at(f64::from(age) + 1.0));
+            let step = (a.front - b.front).abs().max((a.lacks - b.lacks).abs());
+            assert!(step < 0.006, "{age}: {a:?}, {b:?}");
+        }
+    }
+
+    #[test]
+    fn it_moves_against_the_lean_as_far_as_the_ankle_is_high() {
+        let body = Body::adult_man();
+        let (one, sole) = (AnkleTorqueLimit::new(&body), Sole::new(&body, 0));
+        let still = support(&one, &sole, [0.0, 0.0], 0.0);
+        for (lean, moved) in [(0.1, 0.1 * sole.ankle_height), (1.0, MOST_MOVED)] {
+            for (a, b) in still.iter().zip(&support(&one, &sole, [lean, 0.0], 0.0)) {
+                assert!((a[0] - b[0] - moved).abs() < 1e-12 && (a[1] - b[1]).abs() < 1e-12);
+            }
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! Which foot stands when, from trajectories of points of the feet.
+//!
+//! A captured foot slides a little in stance, and its floor is off by centimetres. So a foot counts as planted while one of its
+//! points moves slowly near its *own* lowest level; hysteresis, short gaps and short touches are cleaned up afterwards.
+
+use crate::sim::math::Vec3;
+use crate::sim::motion::filter::{low_pass_points, percentile, speeds};
+
+/// A point is on the floor below this speed, m/s.
+const SPEED_ON: f64 = 0.45;
+/// A point on the floor stays there up to this speed, m/s.
+const SPEED_OFF: f64 = 0.55;
+/// A point is on the floor within this height of its own lowest level, m.
+const HEIGHT_ON: f64 = 0.06;
+/// A point on the floor stays there up to this height, m.
+const HEIGHT_OFF: f64 = 0.07;
+/// Light smoothing before speeds are formed, Hz: takes out marker noise, leaves touch-down sharp.
+const LABEL_CUTOFF: f64 = 15.0;
+/// Gaps and touches shorter than this are noise, s.
+const SHORTEST: f64 = 0.08;
+/// With no foot down for less than this it was no flight: the later foot came earlier, s.
+const SHORTEST_FLIGHT: f64 = 0.06;
+
+/// A stretch of the clip with the same feet on the floor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactPhase {
+    /// Start, s from the start of the clip.
+    pub start: f64,
+    /// End, s.
+    pub end: f64,
+    /// Left foot, right foot planted.
+    pub planted: [bool; 2],
+}
+
+impl ContactPhase {
+    /// `D` both feet, `L`, `R`, or `-` none.
+    pub fn letter(&self) -> char {
+        match self.planted {
+            [true, true] => 'D',
+            [true, false] => 'L',
+            [false, true] => 'R',
+            [false, false] => '-',
+        }
+    }
+}
+
+/// Runs of equal value as half-open index ranges: `(start, end, value)`.
+pub fn runs<T: PartialEq + Copy>(flags: &[T]) -> Vec<(usize, usize, T)> {
+    let mut out = Vec::new();
+    let mut start = 0;
+    for i in 1..=flags.len() {
+        if i == flags.len() || flags[i] != flags[start] {
+            out.push((start, i, flags[start]));
+            start = i;
+        }
+    }
+    out
+}
+
+/// Labels both feet.
+///
+/// * `points`: for each foot the trajectories of its points (ankle, toe joint, toe tip; those the file has), m, z up, all of one length.
+/// * `rate_hz`: samples per second.
+///
+/// Returns left and right label per sample. O(n log n).
+pub fn label_feet(points: [&[Vec<Vec3>]; 2], rate_hz: f64) -> Vec<[bool; 2]> {
+    let n = points[0].first().map_or(0, Vec::len);
+    let mut feet = points.map(|p| label_foot(p, n, rate_hz));
+    // Someone must stand unless it is a flight: a very short gap is closed by the foot that lands.
+    let none: Vec<bool> = (0..n).map(|i| !feet[0][i] && !feet[1][i]).collect();
+    for (i, j, gap) in runs(&none) {
+        if gap && i > 0 && j < n && ((j - i) as f64) < SHORTEST_FLIGHT * rate_hz {
+            let side = usize::from(!feet[0][j]);
+            feet[side][i..j].fill(true);
+        }
+    }
+    (0..n).map(|i| [feet[0][i], feet[1][i]]).collect()
+}
+
+fn label_foot(points: &[Vec<Vec3>], n: usize, rate_hz: f64) -> Vec<bool> {
+    let mut on = vec![false; n];
+    for p in points {
+        let mut p = p.clone();
+        low_pass_points(&mut p, LABEL_CUTOFF, rate_hz);
+        let speed = speeds(&p, rate_hz);
+        let heights: Vec<f64> = p.iter().map(|p| p.z).collect();
+        let level = percentile(&heights, 0.005);
+        let mut down = false;
+        for i in 0..n {
+            let (fast, high) = if down {
+                (SPEED_OFF, HEIGHT_OFF)
+            } else {
+                (SPEED_ON, HEIGHT_ON)
+            };
+            down = speed[i] < fast && heights[i] - level < high;
+            on[i] |= down;
+        }
+    }
+    let short = SHORTEST * rate_hz;
+    for (i, j, v) in runs(&on) {
+        if !v && i > 0 && j < n && ((j - i) as f64) < short {
+            on[i..j].fill(true);
+        }
+    }
+    for (i, j, v) in runs(&on) {
+        if v && i > 0 && j < n && ((j - i) as f64) < short {
+            on[i..j].fill(false);
+        }
+    }
+    on
+}
+
+/// Phases of a label sequence, in order, without gaps between them.
+pub fn phases(planted: &[[bool; 2]], rate_hz: f64) -> Vec<ContactPhase> {
+    runs(planted)
+        .into_iter()
+        .map(|(i, j, planted)| ContactPhase {
+            start: i as f64 / rate_hz,
+            end: j as f64 / rate_hz,
+            planted,
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A point that stands at height `z` for half a second, moves 0.6 m in an arc during half a second, and stands again.
+    fn step(z: f64) -> Vec<Vec3> {
+        (0..180)
+            .map(|i| {
+                let u = ((f64::from(i) - 60.0) / 60.0).clamp(0.0, 1.0);
+                let s = u * u * (3.0 - 2.0 * u);
+                Vec3::from_array([0.6 * s, 0.0, z + 0.3 * (s * (1.0 - s))])
+            })
+            .collect()
+    }
+
+    #[test]
+    fn a_step_is_two_stances_whatever_the_level_of_the_floor() {
+        for z in [-0.7, 0.0, 0.08] {
+            let moving = [step(z)];
+            let still = [vec![Vec3::from_array([0.0, 0.2, z]); 180]];
+            let p = phases(&label_feet([&moving, &still], 120.0), 120.0);
+            let letters: String = p.iter().map(ContactPhase::letter).collect();
+            assert_eq!(letters, "DRD");
+            assert!(
+                (p[1].start - 0.5).abs() < 0.15 && (p[1].end - 1.0).abs() < 0.15,
+                "{p:?}"
+            );
+        }
+    }
+}

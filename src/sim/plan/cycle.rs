@@ -1,0 +1,209 @@
+//! A stretch of a motion that can repeat: where its end looks most like its beginning, closed so that nothing jumps and no foot slides.
+
+use super::foot_lock::Sole;
+use super::prepare::{Draft, HELD, PrepareOptions, prepare};
+use crate::sim::body::topology::{DOF_COUNT, L_FOOT, R_FOOT};
+use crate::sim::body::{Body, Posture};
+use crate::sim::math::Vec3;
+use crate::sim::motion::clip::Clip;
+use crate::sim::motion::leg_ik::forward;
+
+/// Shortest cycle, s, and share of the motion that it has to be: less would no longer be the motion that was asked for.
+const SHORTEST: (f64, f64) = (0.6, 0.45);
+/// Samples per second at which beginnings and ends are compared.
+const COMPARED: f64 = 30.0;
+/// Rates count this much against angles, s.
+const RATE_SHARE: f64 = 0.05;
+/// Unlikeness, rad rms, up to which a motion repeats as a whole, and up to which a stretch of it does.
+const ALIKE: f64 = 0.06;
+const CLOSABLE: f64 = 0.12;
+/// What a longer cycle is worth, rad per share of the motion.
+const LENGTH: f64 = 0.25;
+
+/// How far balance looks ahead and back, s.
+const AHEAD: f64 = 1.0;
+
+/// What two samples are compared by.
+struct Key {
+    posture: Posture,
+    rates: [f64; DOF_COUNT],
+    planted: [bool; 2],
+}
+
+/// Unlikeness of two samples whatever their place and heading, rad rms; `None` if they do not stand on the same feet.
+fn unlike(a: &Key, b: &Key) -> Option<f64> {
+    if a.planted != b.planted {
+        return None;
+    }
+    let angles = a.posture.joint_difference(&b.posture);
+    let mut sum: f64 = angles.iter().map(|e| e * e).sum();
+    for (x, y) in a.rates.iter().zip(&b.rates) {
+        sum += (RATE_SHARE * (x - y)).powi(2);
+    }
+    // Tilt: where the vertical is in the pelvis.
+    let up = |p: &Posture| p.root_rotation.conjugate().rotate(Vec3::Z);
+    let tilt = up(&a.posture) - up(&b.posture);
+    let height = a.posture.root_position.z - b.posture.root_position.z;
+    sum += 4.0 * tilt.dot(tilt) + 25.0 * height * height;
+    Some((sum / DOF_COUNT as f64).sqrt())
+}
+
+/// How a motion repeats.
+enum Repeat {
+    /// As it is.
+    Whole,
+    /// From one sample to another.
+    Stretch(usize, usize),
+    /// Not without standing still in between.
+    Standing,
+}
+
+fn find(clip: &Clip) -> Repeat {
+    let n = clip.len();
+    let stride = (clip.rate_hz() / COMPARED).round().max(1.0) as usize;
+    let at: Vec<usize> = (0..n).step_by(stride).collect();
+    let keys: Vec<Key> = at
+        .iter()
+        .map(|&i| {
+            let t = clip.sample(i as f64 / clip.rate_hz());
+            let mut rates = [0.0; DOF_COUNT];
+            // At its very ends a clip may be at rest.
+            let inner = (1..n.max(3) - 1).contains(&i);
+            let v = if inner {
+                t.velocity
+            } else {
+                clip.sample((i.clamp(1, n.max(3) - 2)) as f64 / clip.rate_hz())
+                    .velocity
+            };
+            rates.copy_from_slice(&v[6..]);
+            Key {
+                posture: *clip.posture(i),
+                rates,
+                planted: clip.planted(i),
+            }
+        })
+        .collect();
+    let steps = keys.iter().any(|k| k.planted != [true; 2]);
+    let whole = unlike(&keys[0], &keys[keys.len() - 1]);
+    if whole.is_some_and(|u| u < ALIKE) {
+        return Repeat::Whole;
+    }
+    if !steps {
+        return Repeat::Standing;
+    }
+    let least = (SHORTEST.0 * clip.rate_hz()).max(SHORTEST.1 * n as f64);
+    let shortest = (least / stride as f64).ceil() as usize;
+    let mut best = (f64::INFINITY, 0, 0);
+    for i in 0..keys.len() {
+        for j in i + shortest..keys.len() {
+            let Some(u) = unlike(&keys[i], &keys[j]).filter(|u| *u < CLOSABLE) else {
+                continue;
+            };
+            let score = u - LENGTH * (j - i) as f64 / keys.len() as f64;
+            if score < best.0 {
+                best = (score, at[i], at[j]);
+            }
+        }
+    }
+    if best.0.is_finite() {
+        Repeat::Stretch(best.1, best.2)
+    } else {
+        Repeat::Standing
+    }
+}
+
+/// The motion such that it repeats well; `None` if it does so as it is. A stretch of it that is close to a cycle is closed, with all that comes
+/// before it as the lead-in; a motion without one stands still between its rounds. Offline: allocates, about a tenth of a second for
+/// some seconds of motion.
+pub fn cycle(body: &Body, clip: &Clip) -> Option<Clip> {
+    match find(clip) {
+        Repeat::Whole => None,
+        Repeat::Stretch(i, j) => closed(body, clip, i, j),
+        Repeat::Standing => through_standing(body, clip),
+    }
+}
+
+const HOW: PrepareOptions = PrepareOptions {
+    lock_feet: true,
+    balance: true,
+    runs: true,
+    held: HELD,
+};
+
+/// A sole this low, m, and this slow, m/s, is on the floor.
+const LOW: f64 = 0.015;
+const SLOW: f64 = 0.3;
+
+/// Feet on the floor: the planted ones, and those that a former preparation set free because the leg could not hold them exactly.
+pub(crate) fn label(
+    body: &Body,
+    rate: f64,
+    postures: &[Posture],
+    planted: &[[bool; 2]],
+) -> Vec<[bool; 2]> {
+    let soles = [Sole::new(body, 0), Sole::new(body, 1)];
+    let feet: Vec<[(Vec3, f64); 2]> = postures
+        .iter()
+        .map(|p| {
+            let poses = forward(body, p);
+            std::array::from_fn(|s| {
+                let (ankle, rotation) = poses[[L_FOOT, R_FOOT][s].index()];
+                (ankle, ankle.z + soles[s].lowest(rotation, 0.0))
+            })
+        })
+        .collect();
+    (0..postures.len())
+        .map(|i| {
+            let before = i.saturating_sub(1);
+            std::array::from_fn(|s| {
+                let speed = (feet[i][s].0 - feet[before][s].0).norm() * rate;
+                planted[i][s] || (feet[i][s].1 < LOW && speed < SLOW)
+            })
+        })
+        .collect()
+}
+
+/// Lead-in and motion, then on to standing as it began.
+fn through_standing(body: &Body, clip: &Clip) -> Option<Clip> {
+    let rate = clip.rate_hz();
+    let count = clip.len() + (clip.lead_in() * rate).round() as usize;
+    let (postures, planted): (Vec<_>, Vec<_>) =
+        clip.samples().take(count).map(|(p, f)| (*p, f)).unzip();
+    let first = *postures.first()?;
+    let label = label(body, rate, &postures, &planted);
+    let mut draft = Draft::of_postures(body, rate, postures, label);
+    if draft.end_like(body, &first) == 0 {
+        return None;
+    }
+    let whole = prepare(body, &draft, HOW);
+    Clip::from_postures(clip.name(), rate, whole.postures, whole.planted).ok()
+}
+
+/// The stretch from sample `i` to `j` repeated.
+fn closed(body: &Body, clip: &Clip, i: usize, j: usize) -> Option<Clip> {
+    let rate = clip.rate_hz();
+    let lead = (clip.lead_in() * rate).round() as usize + i;
+    let samples: Vec<(Posture, [bool; 2])> = clip.samples().map(|(p, f)| (*p, f)).collect();
+    let (postures, planted): (Vec<_>, Vec<_>) =
+        samples[lead..=lead + j - i].iter().copied().unzip();
+    let piece = Clip::from_postures(clip.name(), rate, postures, planted).ok()?;
+    // Several rounds, prepared as one motion: the one that is kept has others around it for as long as balance looks ahead and back, and
+    // those before it lead in.
+    let round = j - i;
+    let around = (AHEAD * rate / round as f64).ceil().max(1.0) as usize;
+    let (mut postures, mut planted): (Vec<_>, Vec<_>) = samples[..lead].iter().copied().unzip();
+    for k in 0..=(2 * around + 1) * round {
+        let t = piece.sample_looped(k as f64 / rate);
+        postures.push(t.posture);
+        planted.push(t.planted);
+    }
+    let label = label(body, rate, &postures, &planted);
+    let draft = Draft::of_postures(body, rate, postures, label);
+    let prepared = prepare(body, &draft, HOW);
+    let lead = lead + around * round;
+    let (mut postures, mut planted) = (prepared.postures, prepared.planted);
+    postures.truncate(lead + round + 1);
+    planted.truncate(lead + round + 1);
+    let out = Clip::from_postures(clip.name(), rate, postures, planted).ok()?;
+    Some(out.with_ends(lead, 0))
+}

@@ -1,0 +1,292 @@
+//! Can a body do this motion on its feet? What inverse dynamics asks of the ground against what the ground can give (WALKING §1).
+//!
+//! A recording is consistent with the dynamics of a body if its zero-moment point stays inside the support polygon and the wrench that
+//! its acceleration needs lies in the friction cones of the feet that stand. How far it is from that says, before anything is simulated,
+//! how hard it will be to follow. Pure, offline; nothing here changes a motion.
+
+use super::contact_labels::runs;
+use super::foot_lock::{Anchor, Sole};
+use super::pelvis_shift::{LIGHT, mass_track};
+use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
+use crate::sim::body::{Body, Posture};
+use crate::sim::math::nnls::nnls;
+use crate::sim::math::polygon::{hull, margin};
+use crate::sim::math::{Quat, Vec3};
+use crate::sim::motion::GRAVITY;
+use crate::sim::motion::leg_ik::forward;
+
+/// Friction that the ground is believed to have: what the modern controller counts on, on the default ground.
+const FRICTION: f64 = 0.8;
+/// Edges of the pyramid that stands for a friction cone.
+const EDGES: usize = 8;
+/// Keeps the equations solvable where edges of cones depend on each other; forces are in weights.
+const RIDGE: f64 = 1e-10;
+/// A pelvis below this share of its standing height sits or lies: feet are not what carries it.
+const SEATED: f64 = 0.45;
+
+/// Root mean square and largest value of something over a motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Spread {
+    /// Root mean square.
+    pub rms: f64,
+    /// Largest value.
+    pub max: f64,
+}
+
+impl Spread {
+    fn of(values: &[f64]) -> Self {
+        let n = values.len().max(1) as f64;
+        Self {
+            rms: (values.iter().map(|v| v * v).sum::<f64>() / n).sqrt(),
+            max: values.iter().copied().fold(0.0, f64::max),
+        }
+    }
+}
+
+/// How far a motion is from one that a body on its feet can do.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Consistency {
+    /// Share of the samples on feet whose zero-moment point is outside the support polygon.
+    pub outside: f64,
+    /// How far outside, 0 for samples inside, m.
+    pub distance: Spread,
+    /// Force that the feet cannot give within friction, over weight; flight included, where it is all there is.
+    pub force: Spread,
+    /// Moment about the centre of mass that they cannot give, over weight × 1 m.
+    pub moment: Spread,
+    /// Share of the samples with no foot on the floor.
+    pub flight: f64,
+    /// Share of the samples that something other than the feet carries; they are in none of the other figures.
+    pub carried: f64,
+    /// Number of stances.
+    pub stances: usize,
+    /// Farthest that the place of a foot strays from its mean within a stance, m: mean over stances and largest.
+    pub slip: (f64, f64),
+    /// Largest depth of a sole under the floor and largest height over it while its foot stands, m.
+    pub floor: (f64, f64),
+}
+
+/// Measures a motion.
+///
+/// * `postures`: samples, floor at z = 0, `rate_hz` samples per second.
+/// * `label`: feet on the floor (left, right) per sample, as the motion means it.
+///
+/// The first and last two samples have no acceleration of their own and repeat their neighbour. O(n); allocates.
+pub fn consistency(
+    body: &Body,
+    postures: &[Posture],
+    label: &[[bool; 2]],
+    rate_hz: f64,
+) -> Consistency {
+    let n = postures.len().min(label.len());
+    let track = mass_track(body, &postures[..n], rate_hz);
+    let soles = [Sole::new(body, 0), Sole::new(body, 1)];
+    let weight = GRAVITY * body.segments.iter().map(|s| s.mass).sum::<f64>();
+    let seated = SEATED * body.standing_root_height();
+    let feet: Vec<[Standing; 2]> = postures[..n]
+        .iter()
+        .map(|p| Standing::both(body, &soles, p))
+        .collect();
+    let (mut outside, mut force, mut moment) = (Vec::new(), Vec::new(), Vec::new());
+    let mut out = Consistency::default();
+    let mut corners = Vec::new();
+    for i in 0..n {
+        if postures[i].root_position.z < seated {
+            out.carried += 1.0 / n as f64;
+            continue;
+        }
+        corners.clear();
+        for s in (0..2).filter(|s| label[i][*s]) {
+            soles[s].footprint(&feet[i][s].at, &mut corners);
+            out.floor.0 = out.floor.0.max(-feet[i][s].low);
+            out.floor.1 = out.floor.1.max(feet[i][s].low);
+        }
+        if label[i] == [false; 2] {
+            out.flight += 1.0 / n as f64;
+        }
+        let polygon = hull(&corners);
+        if !polygon.is_empty() && track.load[i] > LIGHT {
+            outside.push((-margin(&polygon, track.zmp[i])).max(0.0));
+        }
+        let (f, m) = track.wrench[i];
+        let (f, m) = lacking(
+            &polygon,
+            track.com[i],
+            f * (1.0 / weight),
+            m * (1.0 / weight),
+        );
+        force.push(f);
+        moment.push(m);
+    }
+    out.outside = outside.iter().filter(|d| **d > 0.0).count() as f64 / outside.len().max(1) as f64;
+    out.distance = Spread::of(&outside);
+    out.force = Spread::of(&force);
+    out.moment = Spread::of(&moment);
+    let mut sum = 0.0;
+    for s in 0..2 {
+        let on: Vec<bool> = label[..n].iter().map(|l| l[s]).collect();
+        for (i, j, _) in runs(&on).into_iter().filter(|r| r.2) {
+            let mean =
+                (i..j).fold(Vec3::zero(), |m, k| m + feet[k][s].at.place) * (1.0 / (j - i) as f64);
+            let far = (i..j)
+                .map(|k| (feet[k][s].at.place - mean).norm())
+                .fold(0.0, f64::max);
+            out.stances += 1;
+            sum += far;
+            out.slip.1 = out.slip.1.max(far);
+        }
+    }
+    out.slip.0 = sum / out.stances.max(1) as f64;
+    out
+}
+
+/// Where a foot is, if it stands.
+struct Standing {
+    at: Anchor,
+    /// Height of its lowest point, m.
+    low: f64,
+}
+
+impl Standing {
+    fn both(body: &Body, soles: &[Sole; 2], posture: &Posture) -> [Self; 2] {
+        let poses = forward(body, posture);
+        [(L_FOOT, L_TOES), (R_FOOT, R_TOES)].map(|(foot, toes)| {
+            let sole = &soles[usize::from(foot == R_FOOT)];
+            let lowest = |(at, q): (Vec3, Quat), points: &[Vec3]| {
+                points
+                    .iter()
+                    .map(|p| at.z + q.rotate(*p).z)
+                    .fold(f64::INFINITY, f64::min)
+            };
+            Self {
+                at: sole.footing(poses[foot.index()]),
+                low: lowest(poses[foot.index()], sole.foot_points())
+                    .min(lowest(poses[toes.index()], sole.toe_points())),
+            }
+        })
+    }
+}
+
+/// What is left of a wrench (force, moment about `com`) after the best forces in the friction cones at the corners of `polygon`:
+/// lengths of force and moment, in the units given.
+fn lacking(polygon: &[[f64; 2]], com: Vec3, force: Vec3, moment: Vec3) -> (f64, f64) {
+    let mut columns = Vec::with_capacity(polygon.len() * EDGES);
+    for p in polygon {
+        let arm = Vec3 {
+            x: p[0] - com.x,
+            y: p[1] - com.y,
+            z: -com.z,
+        };
+        for k in 0..EDGES {
+            let (s, c) = (std::f64::consts::TAU * k as f64 / EDGES as f64).sin_cos();
+            let f = Vec3 {
+                x: FRICTION * c,
+                y: FRICTION * s,
+                z: 1.0,
+            };
+            let m = arm.cross(f);
+            columns.push([f.x, f.y, f.z, m.x, m.y, m.z]);
+        }
+    }
+    let (f, m) = (force.to_array(), moment.to_array());
+    let mut rest = [f[0], f[1], f[2], m[0], m[1], m[2]];
+    let pushes = nnls(&columns, &rest, RIDGE);
+    for (c, x) in columns.iter().zip(&pushes) {
+        for (r, a) in rest.iter_mut().zip(c) {
+            *r -= a * x;
+        }
+    }
+    let length = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    (length(&rest[..3]), length(&rest[3..]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::motion::builtin::at_ease;
+    use crate::sim::motion::leg_ik::center_of_mass;
+
+    #[test]
+    fn standing_still_lacks_nothing() {
+        let body = Body::adult_man();
+        let c = consistency(&body, &[at_ease(&body); 60], &[[true; 2]; 60], 60.0);
+        assert_eq!(
+            (c.outside, c.distance.max, c.flight, c.carried),
+            (0.0, 0.0, 0.0, 0.0)
+        );
+        assert!(c.force.max < 1e-6 && c.moment.max < 1e-6, "{c:?}");
+        assert!(
+            c.slip.1 < 1e-12 && c.floor.0 < 1e-3 && c.floor.1 < 1e-3,
+            "{c:?}"
+        );
+        assert_eq!(c.stances, 2);
+    }
+
+    #[test]
+    fn a_lean_beyond_the_soles_is_found_again() {
+        // Method: the trunk of a standing man is moved forward so that his centre of mass lies a known distance before the soles.
+        let body = Body::adult_man();
+        let mut posture = at_ease(&body);
+        let feet = forward(&body, &posture);
+        let feet = [L_FOOT, R_FOOT].map(|s| feet[s.index()]);
+        let soles = [Sole::new(&body, 0), Sole::new(&body, 1)];
+        let mut corners = Vec::new();
+        for (sole, foot) in soles.iter().zip(Standing::both(&body, &soles, &posture)) {
+            sole.footprint(&foot.at, &mut corners);
+        }
+        let front = corners
+            .iter()
+            .map(|c| c[0])
+            .fold(f64::NEG_INFINITY, f64::max);
+        posture.root_position.z -= 0.15; // bent knees reach farther
+        for lean in [0.02, 0.05, 0.1] {
+            // The legs stay where they are, so the centre of mass follows the pelvis by less than all of its way.
+            for _ in 0..30 {
+                let com = center_of_mass(&body, &forward(&body, &posture)).x;
+                posture.root_position.x += front + lean - com;
+                for (side, pose) in feet.iter().enumerate() {
+                    crate::sim::motion::leg_ik::solve_leg(
+                        &body,
+                        &mut posture,
+                        side == 0,
+                        *pose,
+                        0.0,
+                    );
+                }
+            }
+            let c = consistency(&body, &[posture; 30], &[[true; 2]; 30], 60.0);
+            assert_eq!(c.outside, 1.0);
+            assert!((c.distance.max - lean).abs() < 1e-6, "{lean}: {c:?}");
+            assert!((c.distance.rms - lean).abs() < 1e-6, "{lean}: {c:?}");
+            // Weight at the edge of the soles leaves a moment of at most weight × lean.
+            assert!(
+                c.moment.max < lean && c.moment.max > 0.3 * lean,
+                "{lean}: {c:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn in_the_air_only_free_fall_is_consistent() {
+        let body = Body::adult_man();
+        let rate = 120.0;
+        let at = |g: f64| -> Vec<Posture> {
+            (0..40)
+                .map(|i| {
+                    let t = f64::from(i) / rate;
+                    let mut p = at_ease(&body);
+                    p.root_position.z += 0.5 + 1.5 * t - 0.5 * g * t * t;
+                    p
+                })
+                .collect()
+        };
+        let air = [[false; 2]; 40];
+        let fall = consistency(&body, &at(GRAVITY), &air, rate);
+        assert!(
+            (fall.flight - 1.0).abs() < 1e-9 && fall.force.max < 1e-6,
+            "{fall:?}"
+        );
+        let float = consistency(&body, &at(0.0), &air, rate);
+        assert!((float.force.rms - 1.0).abs() < 1e-6, "{float:?}");
+    }
+}

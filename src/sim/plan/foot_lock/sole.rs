@@ -1,0 +1,258 @@
+//! The sole of a foot: its points, where it stands flat or rolled about heel edge or toe joint, and how far a foot is from that.
+
+use crate::sim::body::Body;
+use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
+use crate::sim::math::{Quat, Vec3, trig};
+
+/// Length of the toes' tip, m; toes are on it when they are turned up by more than this, rad.
+const TIP: f64 = 0.02;
+pub(in crate::sim::plan) const ON_TIP: f64 = 0.02;
+/// A foot pitched by less than this stands on its whole sole, rad.
+const PITCHED: f64 = 0.02;
+
+/// Pose of one foot: ankle position, `world_from_foot`, toe extension.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FootPose {
+    /// Ankle, m.
+    pub ankle: Vec3,
+    /// `world_from_foot`.
+    pub rotation: Quat,
+    /// Toe extension, rad.
+    pub toe: f64,
+}
+
+/// The sole of one foot of a body.
+#[derive(Clone, Debug)]
+pub struct Sole {
+    pub(super) foot: Vec<Vec3>,
+    pub(super) toes: Vec<Vec3>,
+    pub(in crate::sim::plan) toe_joint: Vec3,
+    pub(super) heel: Vec3,
+    /// Height of the ankle over the floor when the foot is flat, m.
+    pub ankle_height: f64,
+    pub(super) toe_range: (f64, f64),
+}
+
+/// Where a planted foot stands in one sample.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Anchor {
+    /// Point of the floor under the flat ankle, m (z = 0).
+    pub place: Vec3,
+    /// Heading of the foot, rad.
+    pub yaw: f64,
+    /// Pitch, rad, toe-up positive.
+    pub pitch: f64,
+    /// By how much the toes are turned up about their tip, as at the end of a runner's stance, rad; the foot with them.
+    pub tip: f64,
+}
+
+impl Anchor {
+    /// Point of the floor, m, and heading, rad.
+    pub fn place_and_yaw(&self) -> (Vec3, f64) {
+        (self.place, self.yaw)
+    }
+
+    /// True where the heel is raised: nothing behind the ball of the foot carries.
+    pub(in crate::sim::plan) fn is_on_ball(&self) -> bool {
+        self.pitch <= -PITCHED
+    }
+
+    /// Direction in which the foot points, x and y.
+    pub(in crate::sim::plan) fn ahead(&self) -> [f64; 2] {
+        let x = Quat::exp(Vec3::Z * self.yaw).rotate(Vec3::X);
+        [x.x, x.y]
+    }
+}
+
+impl Sole {
+    /// Sole of the left (`side` 0) or right (1) foot.
+    pub fn new(body: &Body, side: usize) -> Self {
+        let (f, t) = [(L_FOOT, L_TOES), (R_FOOT, R_TOES)][side];
+        let foot = body.segment(f).contact_points.clone();
+        let toes = body.segment(t).contact_points.clone();
+        let toe_joint = body.joint_offset[t.index()];
+        let low = foot.iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
+        let toe_low = toes
+            .iter()
+            .map(|p| p.z + toe_joint.z)
+            .fold(f64::INFINITY, f64::min);
+        let height = -low.min(toe_low);
+        let ankle_height = if height.is_finite() { height } else { 0.0 };
+        let back = foot.iter().map(|p| p.x).fold(f64::INFINITY, f64::min);
+        let heel = Vec3 {
+            x: if back.is_finite() { back } else { 0.0 },
+            y: 0.0,
+            z: -ankle_height,
+        };
+        let dof = crate::sim::body::topology::DOF_START[t.index()];
+        Self {
+            foot,
+            toes,
+            toe_joint,
+            heel,
+            ankle_height,
+            toe_range: (body.lower[dof], body.upper[dof]),
+        }
+    }
+
+    /// Contact points of the foot, foot frame, m.
+    pub fn foot_points(&self) -> &[Vec3] {
+        &self.foot
+    }
+
+    /// Contact points of the toes, toe frame, m.
+    pub fn toe_points(&self) -> &[Vec3] {
+        &self.toes
+    }
+
+    /// Contact points of the foot and of the toes in the foot frame, toes extended by `toe` rad.
+    pub fn points(&self, toe: f64) -> impl Iterator<Item = Vec3> + '_ {
+        let foot_from_toes = Quat::exp(Vec3::Y * -toe);
+        self.foot.iter().copied().chain(
+            self.toes
+                .iter()
+                .map(move |p| self.toe_joint + foot_from_toes.rotate(*p)),
+        )
+    }
+
+    /// Height of the lowest point of the sole relative to the ankle, m.
+    pub fn lowest(&self, rotation: Quat, toe: f64) -> f64 {
+        self.points(toe)
+            .map(|p| rotation.rotate(p).z)
+            .fold(0.0, f64::min)
+    }
+
+    /// Toe angle that keeps the toes flat on the floor with the foot pitched by `pitch` rad (toe-up positive).
+    fn flat_toe(&self, pitch: f64) -> f64 {
+        (-pitch).clamp(self.toe_range.0.max(0.0), self.toe_range.1.max(0.0))
+    }
+
+    /// Largest distance between where a foot is and where it should be, over ankle, heel edge and toe joint, m.
+    pub fn stray(&self, is: (Vec3, Quat), should: &FootPose) -> f64 {
+        [Vec3::zero(), self.heel, self.toe_joint]
+            .into_iter()
+            .map(|p| (is.0 + is.1.rotate(p) - should.ankle - should.rotation.rotate(p)).norm())
+            .fold(0.0, f64::max)
+    }
+
+    /// Pose of a foot that stands at `anchor` with heading `yaw`, pitched about heel edge (toe-up) or toe joint (heel-up).
+    pub fn stand(&self, anchor: Vec3, yaw: f64, pitch: f64) -> FootPose {
+        let pitched = Quat::exp(Vec3::Y * -pitch);
+        let toe = self.flat_toe(pitch);
+        let pivot = if pitch >= 0.0 {
+            self.heel
+        } else {
+            self.toe_joint
+        };
+        let mut ankle = pivot - pitched.rotate(pivot);
+        ankle.z = -self.lowest(pitched, toe);
+        let heading = Quat::exp(Vec3::Z * yaw);
+        FootPose {
+            ankle: anchor + heading.rotate(ankle),
+            rotation: (heading * pitched).normalized(),
+            toe,
+        }
+    }
+
+    /// The same with the toes turned up about their tip by `tip` rad, and the foot with them.
+    pub fn stand_on_tip(&self, at: &Anchor) -> FootPose {
+        let mut pose = self.stand(at.place, at.yaw, at.pitch);
+        if at.tip > 0.0 {
+            let toes = pose.rotation * Quat::exp(Vec3::Y * -pose.toe);
+            let tip =
+                pose.ankle + pose.rotation.rotate(self.toe_joint) + toes.rotate(self.toe_tip());
+            let turn = Quat::exp(pose.rotation.rotate(Vec3::Y) * at.tip);
+            pose.ankle = tip + turn.rotate(pose.ankle - tip);
+            pose.rotation = (turn * pose.rotation).normalized();
+        }
+        pose
+    }
+
+    /// Where a foot at `ankle` with `world_from_foot` stands, or would: rolled about its heel edge or its toe joint, as it is pitched. The
+    /// same bits on every machine, since ticks use it.
+    pub fn footing(&self, (ankle, rotation): (Vec3, Quat)) -> Anchor {
+        let x = rotation.rotate(Vec3::X);
+        let level = (x.x * x.x + x.y * x.y).sqrt();
+        let (yaw, pitch) = (trig::atan2(x.y, x.x), trig::atan2(x.z, level));
+        let place = ankle - self.stand(Vec3::zero(), yaw, pitch).ankle;
+        Anchor {
+            place: Vec3 { z: 0.0, ..place },
+            yaw,
+            pitch,
+            tip: 0.0,
+        }
+    }
+
+    /// Middle of the front edge of the toes, toe frame, m.
+    pub fn toe_tip(&self) -> Vec3 {
+        let front = self.toes.iter().map(|p| p.x).fold(0.0, f64::max);
+        let low = self.toes.iter().map(|p| p.z).fold(0.0, f64::min);
+        Vec3 {
+            x: front,
+            y: 0.0,
+            z: low,
+        }
+    }
+
+    /// Heights of ankle, toe joint and toe tip of a foot that stands flat, m.
+    pub fn standing_heights(&self) -> [f64; 3] {
+        let joint = self.ankle_height + self.toe_joint.z;
+        [self.ankle_height, joint, joint + self.toe_tip().z]
+    }
+
+    /// Visits the floor polygon corners (x, y) that carry a foot standing at `at`: heel while not heel-up, toes while not toe-up.
+    pub fn each_corner(&self, at: &Anchor, mut visit: impl FnMut([f64; 2])) {
+        let Anchor {
+            place: anchor,
+            yaw,
+            pitch,
+            tip,
+        } = *at;
+        let heading = Quat::exp(Vec3::Z * yaw);
+        let ball = self.toe_joint.x;
+        let mut push = |p: Vec3| {
+            let w = anchor + heading.rotate(p);
+            visit([w.x, w.y]);
+        };
+        for p in &self.foot {
+            let front = p.x > 0.5 * ball;
+            if (!at.is_on_ball() || front) && (pitch < PITCHED || !front) {
+                push(*p);
+            }
+        }
+        if pitch < PITCHED {
+            // On their tip the toes still carry with a strip of it.
+            let front = self.toe_tip().x;
+            let back = if tip < ON_TIP {
+                f64::NEG_INFINITY
+            } else {
+                front - TIP
+            };
+            for p in &self.toes {
+                push(
+                    self.toe_joint
+                        + Vec3 {
+                            x: p.x.max(back),
+                            ..*p
+                        },
+                );
+            }
+        }
+    }
+
+    /// Adds the corners of [`Self::each_corner`].
+    pub fn footprint(&self, at: &Anchor, out: &mut Vec<[f64; 2]>) {
+        self.each_corner(at, |p| out.push(p));
+    }
+}
+
+/// Heading and pitch (toe-up positive) of a foot of a recording, rad: `world_from_foot` without roll.
+pub fn yaw_pitch(rotation: Quat) -> (f64, f64) {
+    let x = rotation.rotate(Vec3::X);
+    (x.y.atan2(x.x), x.z.clamp(-1.0, 1.0).asin())
+}
+
+/// Difference of two headings of a recording in −π…π, rad.
+pub fn turn(from: f64, to: f64) -> f64 {
+    (to - from).sin().atan2((to - from).cos())
+}

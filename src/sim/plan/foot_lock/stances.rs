@@ -1,0 +1,279 @@
+//! When feet stand: labels of what is near the floor made into stances, by splitting what shuffles or turns, and by giving swings the time they need.
+
+use super::sole::{Sole, turn, yaw_pitch};
+use super::{STEEPEST, median};
+use crate::sim::math::{Quat, Vec3};
+use crate::sim::plan::contact_labels::runs;
+
+/// One stance of one foot: its place and its heading stay.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stance {
+    /// First sample.
+    pub start: usize,
+    /// One past the last sample.
+    pub end: usize,
+}
+
+/// A recorded foot that strays further than this from its anchor has stepped or pivoted, m and rad.
+const STRAY: (f64, f64) = (0.06, 0.40);
+/// Half of the time that a shuffle is given, s: the first of these that fits.
+const HALF_SHUFFLE: [f64; 3] = [0.14, 0.11, 0.08];
+/// Least way of a shuffle, in units of [`STRAY`].
+const SHUFFLES: f64 = 0.25;
+/// A foot that drags on after the other one has landed stands for so long beside it, s: nobody changes feet in no time.
+const DRAGS: f64 = 0.04;
+/// In so much of a stance at each end, one part in so many and at most so long, s, a foot may be astray without having stepped or pivoted; where
+/// it is then, it is further from its anchor than the first, in units of [`STRAY`], and everywhere else nearer than the second.
+const EDGE: (usize, f64) = (8, 0.15);
+const ASTRAY: f64 = 0.4;
+const STEADY: f64 = 0.6;
+/// Shortest stance that is made by taking samples from another, s.
+const SHORTEST_STANCE: f64 = 0.15;
+/// A swing takes at least √(way over this), m/s², where the way counts a turn by a radian as the second, m. That is what recorded steps of people
+/// take, with few exceptions, whether they walk, dance or shuffle; a leg is on time with it, and would be late and short by a third at twice as much.
+pub(super) const HASTE: f64 = 8.0;
+const TURN_ARM: f64 = 0.25;
+
+/// Foot point and heading per sample: where the flat ankle would stand on the floor.
+pub(super) struct Track {
+    pub point: Vec<Vec3>,
+    pub yaw: Vec<f64>,
+    pub pitch: Vec<f64>,
+    pub roll: Vec<f64>,
+}
+
+impl Track {
+    pub fn new(sole: &Sole, ankles: &[Vec3], rotations: &[Quat]) -> Self {
+        let n = ankles.len();
+        let mut t = Self {
+            point: Vec::with_capacity(n),
+            yaw: Vec::with_capacity(n),
+            pitch: Vec::with_capacity(n),
+            roll: Vec::with_capacity(n),
+        };
+        for (a, q) in ankles.iter().zip(rotations) {
+            let (yaw, pitch) = yaw_pitch(*q);
+            let before = t.yaw.last().copied().unwrap_or(yaw);
+            t.yaw.push(before + turn(before, yaw));
+            t.pitch.push(pitch);
+            t.roll.push(q.rotate(Vec3::Y).z.clamp(-1.0, 1.0).asin());
+            let lift = sole.stand(Vec3::zero(), yaw, pitch).ankle;
+            t.point.push(Vec3 {
+                x: a.x - lift.x,
+                y: a.y - lift.y,
+                z: 0.0,
+            });
+        }
+        t
+    }
+
+    /// Median place and heading over the middle 70 % of a stance.
+    pub fn anchor(&self, start: usize, end: usize) -> (Vec3, f64) {
+        let margin = (end - start) * 15 / 100;
+        let mid = start + margin..(end - margin).max(start + margin + 1);
+        let of = |f: &dyn Fn(usize) -> f64| median(mid.clone().map(f).collect());
+        (
+            Vec3 {
+                x: of(&|i| self.point[i].x),
+                y: of(&|i| self.point[i].y),
+                z: 0.0,
+            },
+            of(&|i| self.yaw[i]),
+        )
+    }
+
+    /// Distance of a sample from an anchor in units of [`STRAY`].
+    pub fn stray(&self, i: usize, anchor: Vec3, yaw: f64) -> f64 {
+        ((self.point[i] - anchor).norm() / STRAY.0).max((self.yaw[i] - yaw).abs() / STRAY.1)
+    }
+
+    /// Splits a stance in which the foot visibly shuffles or pivots into stances joined by short steps, or begins it after, or ends it before it
+    /// does, while the `other` foot is on the floor: a foot that shuffles alone stays.
+    fn split(&self, (start, end): (usize, usize), other: &[bool], rate_hz: f64, out: &mut Pieces) {
+        let shortest = (SHORTEST_STANCE * rate_hz) as usize;
+        let (anchor, yaw) = self.anchor(start, end);
+        let inner = start + (end - start) / 12..end - (end - start) / 12;
+        let worst = inner
+            .clone()
+            .map(|i| self.stray(i, anchor, yaw))
+            .fold(0.0, f64::max);
+        if worst <= 1.0 {
+            out.push((start, end));
+            return;
+        }
+        let moved = |a: usize, b: usize| {
+            ((self.point[b] - self.point[a]).norm() / STRAY.0)
+                .max((self.yaw[b] - self.yaw[a]).abs() / STRAY.1)
+        };
+        // Where the foot moves fastest over one shuffle's time.
+        for half in HALF_SHUFFLE {
+            let half = (half * rate_hz) as usize;
+            let at = (start + shortest + half..end.saturating_sub(half + shortest))
+                .filter(|i| other[i - half..=i + half].iter().all(|o| *o))
+                .map(|i| (i, moved(i - half, i + half)))
+                .max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
+            if let Some((i, _)) = at.filter(|(_, far)| *far > SHUFFLES) {
+                self.split((start, i - half), other, rate_hz, out);
+                self.split((i + half, end), other, rate_hz, out);
+                return;
+            }
+        }
+        // A foot that drags on after the other has landed is lifted there; one that slides on while the other still stands comes down later.
+        let alone_until = (start..end)
+            .rev()
+            .find(|i| !other[*i])
+            .map_or(start, |i| i + 1);
+        let alone_from = (start..end).find(|i| !other[*i]).unwrap_or(end);
+        let least = shortest.max((end - start) / 3).max(1);
+        let drags = (DRAGS * rate_hz) as usize;
+        let tail = (alone_until + drags).max(start + least);
+        let head = alone_from.min(end.saturating_sub(least));
+        if tail < end && moved(tail, end - 1) > SHUFFLES {
+            self.split((start, tail), other, rate_hz, out);
+        } else if head > start && moved(start, head) > SHUFFLES {
+            self.split((head, end), other, rate_hz, out);
+        } else {
+            out.push((start, end));
+        }
+    }
+}
+
+impl Track {
+    /// Takes from the ends of a stance what only there is astray, while the other foot stands too: a foot that begins to turn away, or that is
+    /// still coming, does not stand, and what stands does not pivot because of it.
+    fn trim(&self, (start, end): (usize, usize), other: &[bool], rate_hz: f64) -> (usize, usize) {
+        let (anchor, yaw) = self.anchor(start, end);
+        let edge = ((end - start) / EDGE.0).min((EDGE.1 * rate_hz) as usize);
+        let astray = |i: usize| self.stray(i, anchor, yaw);
+        let leaves = |i: &usize| other[*i] && astray(*i) > ASTRAY;
+        let cut = |outermost: usize, n: usize| if astray(outermost) > 1.0 { n } else { 0 };
+        // Where the recording begins or ends there is no swing that it would belong to.
+        let clip = |at: usize, n: usize| if at == 0 || at == other.len() { 0 } else { n };
+        let head = (start..start + edge).take_while(leaves).count();
+        let tail = (end - edge..end).rev().take_while(leaves).count();
+        let (head, tail) = (clip(start, head), clip(end, tail));
+        let (from, to) = (start + cut(start, head), end - cut(end - 1, tail));
+        if (from..to).any(|i| astray(i) > STEADY) {
+            return (start, end);
+        }
+        (from, to)
+    }
+}
+
+impl Track {
+    /// Gives swings that are shorter than their way takes what they lack, of the time in which both feet are on the floor: from the stance
+    /// before and from the one after, wherever the recorded foot is further from its anchor, and no more than half of what there is, since the
+    /// other foot may need some as well. Labels see the fastest part of a low step only.
+    fn unhurry(&self, pieces: &mut [(usize, usize)], other: &[bool], rate_hz: f64) {
+        let shortest = (SHORTEST_STANCE * rate_hz) as usize;
+        let anchors: Vec<_> = pieces.iter().map(|&(i, j)| self.anchor(i, j)).collect();
+        for w in 1..pieces.len() {
+            let ((from, yaw_from), (to, yaw_to)) = (anchors[w - 1], anchors[w]);
+            let way = (to - from).norm() + TURN_ARM * (yaw_to - yaw_from).abs();
+            let needed = ((way / HASTE).sqrt() * rate_hz).ceil() as usize;
+            let ((start, mut end), (mut begin, finish)) = (pieces[w - 1], pieces[w]);
+            let both = |k: &usize| other[*k];
+            let (first, last) = ((start + shortest).min(end), finish.saturating_sub(shortest));
+            let mut before = (first..end).rev().take_while(both).count() / 2;
+            let mut after = (begin..last.max(begin)).take_while(both).count() / 2;
+            while begin - end < needed && before + after > 0 {
+                let left = self.stray(end - 1, from, yaw_from);
+                let right = self.stray(begin, to, yaw_to);
+                if after == 0 || (before > 0 && left >= right) {
+                    (end, before) = (end - 1, before - 1);
+                } else {
+                    (begin, after) = (begin + 1, after - 1);
+                }
+            }
+            (pieces[w - 1].1, pieces[w].0) = (end, begin);
+        }
+    }
+}
+
+impl Track {
+    /// When the foot stands where its `label` says that it is on the floor, with the `other` foot's.
+    pub fn pieces(&self, label: &[bool], other: &[bool], rate_hz: f64) -> Pieces {
+        let mut pieces = Vec::new();
+        for (i, j, on) in runs(label) {
+            let of = |v: &[f64]| median(v[i..j].to_vec());
+            let (pitch, roll) = (of(&self.pitch), of(&self.roll));
+            if on && pitch > STEEPEST.0 && pitch < STEEPEST.1 && roll.abs() < STEEPEST.2 {
+                self.split((i, j), other, rate_hz, &mut pieces);
+            }
+        }
+        pieces
+    }
+
+    /// How far the recorded foot is from where it would stand, squared and summed over its stances, in units of [`STRAY`].
+    fn strays(&self, pieces: &[(usize, usize)]) -> f64 {
+        let of = |&(i, j): &(usize, usize)| {
+            let (anchor, yaw) = self.anchor(i, j);
+            (i..j)
+                .map(|k| self.stray(k, anchor, yaw).powi(2))
+                .sum::<f64>()
+        };
+        pieces.iter().map(of).sum()
+    }
+}
+
+/// When both feet stand: where their labels say so and they neither shuffle nor turn away. Which one gives way to the other first is decided by how far
+/// they stand from where the recording has them.
+///
+/// * `ankles`, `rotations`: recorded ankle (m) and `world_from_foot` per sample, floor at z = 0, body scale.
+/// * `labels`: where the feet are on the floor (from [`super::contacts`]).
+/// * `rate_hz`: samples per second.
+pub fn stances(
+    soles: &[Sole; 2],
+    ankles: [&[Vec3]; 2],
+    rotations: [&[Quat]; 2],
+    labels: [&[bool]; 2],
+    rate_hz: f64,
+) -> [Vec<Stance>; 2] {
+    let tracks: [Track; 2] =
+        std::array::from_fn(|s| Track::new(&soles[s], ankles[s], rotations[s]));
+    let first = |first: usize| sequence(&tracks, labels, [first, 1 - first], rate_hz);
+    let (left, right) = (first(0), first(1));
+    let strays = |pieces: &[Pieces; 2]| tracks[0].strays(&pieces[0]) + tracks[1].strays(&pieces[1]);
+    let best = if strays(&left) <= strays(&right) {
+        left
+    } else {
+        right
+    };
+    best.map(|pieces| {
+        let stance = |(start, end)| Stance { start, end };
+        pieces.into_iter().map(stance).collect()
+    })
+}
+
+/// Stances of one foot as half-open ranges of samples, in order.
+pub(super) type Pieces = Vec<(usize, usize)>;
+
+/// The stances of both feet if foot `order[0]` gives way first: the other one relies on where that one really stands, not on where it is on the
+/// floor. Feet that both turn on the floor would each leave the body to the other one.
+fn sequence(
+    tracks: &[Track; 2],
+    labels: [&[bool]; 2],
+    order: [usize; 2],
+    rate_hz: f64,
+) -> [Pieces; 2] {
+    let held = |pieces: &Pieces| {
+        let mut held = vec![false; labels[0].len()];
+        pieces.iter().for_each(|&(i, j)| held[i..j].fill(true));
+        held
+    };
+    let [first, second] = order;
+    let mut out: [Pieces; 2] = Default::default();
+    out[first] = tracks[first].pieces(labels[first], labels[second], rate_hz);
+    out[second] = tracks[second].pieces(labels[second], &held(&out[first]), rate_hz);
+    for s in order {
+        let other = held(&out[1 - s]);
+        for piece in &mut out[s] {
+            *piece = tracks[s].trim(*piece, &other, rate_hz);
+        }
+    }
+    for s in order {
+        let other = held(&out[1 - s]);
+        tracks[s].unhurry(&mut out[s], &other, rate_hz);
+    }
+    out
+}

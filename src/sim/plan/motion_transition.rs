@@ -1,0 +1,168 @@
+//! From step to step: out of a motion into a clip without standing in between.
+//!
+//! As in motion graphs (Kovar, Gleicher & Pighin 2002) the coming part of the one is searched for moments that are like the beginning of the
+//! other; what makes them like is said in terms of the body that has to go over: the capture point over the foot that stands, where the other
+//! foot is, and the joints ([`search`]). At such a moment the second motion is put on the standing foot, the difference between the two fades,
+//! and both are prepared together as one draft, so that no planted foot slides and the zero-moment point stays in the support ([`way`]). Who stands when it
+//! begins, but not as the clip begins, is led into it from there ([`stand`]).
+
+mod candidates;
+mod from_stand;
+mod seam;
+
+pub use candidates::Moment;
+
+use super::splice::Sample;
+use crate::sim::body::Body;
+use crate::sim::motion::clip::Clip;
+use crate::sim::motion::target::Target;
+use candidates::{Looks, moments};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Samples per second of what is searched and prepared here.
+pub const RATE: f64 = 120.0;
+/// Time of the motion so far that is taken along, s: what is prepared with the seam, and some more.
+pub const RUN_UP: f64 = 0.5;
+/// How far ahead a motion is looked at for a place to leave it, s: more than a stride.
+pub const AHEAD: f64 = 1.5;
+/// What of it is needed beyond the last such place, s.
+pub const BEYOND: f64 = 0.05;
+/// Most of a clip that is skipped: s, and share of its length.
+const SKIPPED: (f64, f64) = (0.4, 0.15);
+/// The same of one that repeats, where what is skipped comes in the next round: a stride, s.
+const SKIPPED_OF_ROUND: f64 = 1.2;
+
+/// The clip that is to follow, in its own place and time.
+#[derive(Clone, Debug)]
+pub struct Next {
+    /// The clip.
+    pub clip: Arc<Clip>,
+    /// Clip seconds per second.
+    pub speed: f64,
+    /// It repeats.
+    pub looped: bool,
+}
+
+impl Next {
+    /// The motion at clip time `t`, s.
+    fn sample(&self, t: f64) -> Target {
+        if self.looped {
+            self.clip.sample_looped(t)
+        } else {
+            self.clip.sample(t)
+        }
+    }
+
+    /// Clip time up to which its beginning may be skipped, s.
+    fn skipped(&self) -> f64 {
+        let long = self.clip.duration();
+        if self.looped {
+            SKIPPED_OF_ROUND.min(long)
+        } else {
+            SKIPPED.0.min(SKIPPED.1 * long)
+        }
+    }
+
+    /// Samples at [`RATE`] of the world from clip time `from` (s) on.
+    fn samples(&self, from: f64, count: usize) -> Vec<Sample> {
+        let at = |k: usize| from + k as f64 * self.speed / RATE;
+        let samples = (0..count).map(|k| self.sample(at(k)));
+        samples.map(|t| (t.posture, t.planted)).collect()
+    }
+}
+
+/// The way from a motion or a stand into a clip, in the place and time of the clip: it plays instead of what the clip has before `until`.
+#[derive(Clone, Debug)]
+pub struct WayIn {
+    /// The motion: first the one that is left, at last the clip itself.
+    pub clip: Clip,
+    /// Clip time of its first sample, s.
+    pub begin: f64,
+    /// Clip time at which the one turns into the other, s; from a stand it is on its way into the clip from its first sample on.
+    pub enters: f64,
+    /// Clip time from which on it is the clip, s.
+    pub until: f64,
+}
+
+impl WayIn {
+    /// True if it comes out of another motion, not from a stand.
+    pub fn leads_over(&self) -> bool {
+        self.enters > self.begin
+    }
+}
+
+/// The ways from a motion into a clip, at the moments that are most alike. Each can be worked out on its own; the first one that a body can go is taken.
+pub struct Ways {
+    body: Arc<Body>,
+    known: Vec<Sample>,
+    now: usize,
+    next: Next,
+    moments: Vec<Moment>,
+    /// First way that a body can go, as far as is known: those after it are not wanted.
+    found: AtomicUsize,
+}
+
+impl Ways {
+    /// * `known`: the motion from at least [`RUN_UP`] ago to [`AHEAD`] and [`BEYOND`] ahead, samples at [`RATE`]; it goes on at least up to sample `now`.
+    /// * `from`: the first sample at which it may be left.
+    pub fn new(
+        body: &Arc<Body>,
+        known: Vec<Sample>,
+        (now, from): (usize, usize),
+        next: Next,
+    ) -> Self {
+        let long = (next.skipped() / next.speed * RATE) as usize;
+        // With a sample before and after, for rates.
+        let beginning = next.samples(-next.speed / RATE, long + 3);
+        let (left, entered) = (Looks::new(body, &known), Looks::new(body, &beginning));
+        let moments = moments(&left, from.max(now), &entered);
+        Self {
+            body: Arc::clone(body),
+            known,
+            now,
+            next,
+            moments,
+            found: AtomicUsize::new(usize::MAX),
+        }
+    }
+
+    /// The moments that are like, most alike first.
+    pub fn moments(&self) -> &[Moment] {
+        &self.moments
+    }
+
+    /// Clip time at which the clip is entered at a moment, s.
+    pub fn enters(&self, moment: &Moment) -> f64 {
+        moment.entered as f64 * self.next.speed / RATE
+    }
+
+    /// The way at the `k`-th moment, and where it puts the origin of the clip; `None` if a body cannot go it, or if one before it
+    /// is found already.
+    pub fn way(&self, k: usize) -> Option<(WayIn, crate::sim::motion::PlanarTransform)> {
+        let moment = self.moments.get(k)?;
+        if k > self.found.load(Ordering::Relaxed) {
+            return None;
+        }
+        let (asks, way) = seam::lead_over(
+            &self.body,
+            &self.known,
+            self.now,
+            &self.next,
+            (moment, self.enters(moment)),
+        )?;
+        if asks > seam::MOST_ASKED {
+            return None;
+        }
+        self.found.fetch_min(k, Ordering::Relaxed);
+        Some((way, moment.place))
+    }
+
+    /// True once a way was found.
+    pub fn found(&self) -> bool {
+        self.found.load(Ordering::Relaxed) < usize::MAX
+    }
+}
+
+#[cfg(test)]
+mod tests;

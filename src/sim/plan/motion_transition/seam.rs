@@ -1,0 +1,427 @@
+//! The way from one motion into another at a moment at which they are alike.
+//!
+//! Both are as a body can follow them already, so what is like stays as it is: where there is no difference, there is no change. The difference that there
+//! is fades from the seam on; a foot that stands stays in its place until it leaves the floor, legs follow the feet, and the pelvis is shifted where
+//! the zero-moment point would leave the support.
+
+use super::candidates::Moment;
+use super::{Next, RATE, WayIn};
+use crate::sim::body::angles::clamp_to_limits;
+use crate::sim::body::topology::{
+    DOF_START, JOINT, Joint, L_FOOT, L_THIGH, L_TOES, L_UPPER_ARM, NV, R_FOOT, R_TOES,
+};
+use crate::sim::body::{Body, Posture};
+use crate::sim::math::ease::smootherstep;
+use crate::sim::math::{Quat, Vec3, trig};
+use crate::sim::motion::clip::Clip;
+use crate::sim::motion::leg_ik::{forward, knee_axis, solve_leg_in_plane};
+use crate::sim::plan::ankle_torque_limit::AnkleTorqueLimit;
+use crate::sim::plan::cycle::label;
+use crate::sim::plan::envelope::smoothest_below;
+use crate::sim::plan::feasibility::consistency;
+use crate::sim::plan::foot_lock::{Anchor, FootPose, LockedFoot, Sole, fade};
+use crate::sim::plan::pelvis_shift::{mass_track, pelvis_shift};
+use crate::sim::plan::prepare::{
+    CARRIED, DROP_TIME, INSET, carriers_of, held_by, leg_geometry, may_rest, planted_of,
+};
+use crate::sim::plan::splice::Sample;
+
+/// Force and moment that a way may ask for from nothing, shares of what a body weighs. Of 35 ways of 17 pairs of recordings that asked for less nobody fell; of
+/// 29 that asked for more six did.
+pub(super) const MOST_ASKED: f64 = 0.05;
+/// Time in which trunk and legs turn from one motion to the other, and arms, s.
+const BLEND: f64 = 0.4;
+const ARMS_BLEND: f64 = 0.6;
+/// A swinging foot has less if it lands sooner, but at least this, s.
+const LEAST_BLEND: f64 = 0.1;
+/// Time before the seam in which the pelvis may be shifted for what comes, s.
+const BEFORE: f64 = 0.5;
+/// Time in which a shift of the pelvis comes in, and goes out, s.
+const EDGE: f64 = 0.25;
+/// What is known before and after that, for accelerations and filters, s.
+const MARGIN: f64 = 0.3;
+/// The feet have stood, or swung, for so long when the clip itself takes over, and go on, samples.
+const STEADY: usize = 6;
+/// Longest time after the seam until it does, s.
+const LONGEST: f64 = 3.0;
+/// A foot that stays where it is may be so far from where the clip has it, m and rad.
+const IN_PLACE: (f64, f64) = (0.002, 0.02);
+/// A planted leg is stretched to at most this share of its length.
+const REACH: f64 = 0.99;
+/// A foot that its leg cannot hold in place to this accuracy makes a way useless, m.
+const STRAY: f64 = 0.003;
+/// Rounds of shifting the pelvis.
+const ROUNDS: usize = 4;
+
+const FOOT: [usize; 2] = [L_FOOT.index(), R_FOOT.index()];
+
+fn samples_in(seconds: f64) -> usize {
+    (seconds * RATE).round() as usize
+}
+
+/// A difference before, at and after the seam, that fades from there on.
+struct Off<const N: usize>([[f64; N]; 3]);
+
+impl<const N: usize> Off<N> {
+    /// What is left of it `k` samples after the seam, if it fades within `span` samples.
+    fn left(&self, k: usize, span: impl Fn(usize) -> f64) -> [f64; N] {
+        let [before, at, after] = &self.0;
+        std::array::from_fn(|c| {
+            let span = span(c);
+            let u = k as f64 / span;
+            let slope = 0.5 * (after[c] - before[c]) * span;
+            let bend = (after[c] - 2.0 * at[c] + before[c]) * span * span;
+            if u < 1.0 {
+                fade(at[c], slope, bend, u)
+            } else {
+                0.0
+            }
+        })
+    }
+}
+
+/// Both motions at the seam.
+struct Seam {
+    soles: [Sole; 2],
+    /// The one that is left, before, at and after the seam.
+    left: [Posture; 3],
+    /// The other one from the sample before the seam on.
+    entered: Vec<Sample>,
+    /// Feet that it has on the floor, from the seam on.
+    label: Vec<[bool; 2]>,
+    /// Poses of its feet, from the sample before the seam on, and of those of the first one, before, at and after it.
+    feet: Vec<[FootPose; 2]>,
+    from: [[FootPose; 2]; 3],
+}
+
+fn feet_of(body: &Body, posture: &Posture) -> [FootPose; 2] {
+    let poses = forward(body, posture);
+    std::array::from_fn(|s| {
+        let (ankle, rotation) = poses[FOOT[s]];
+        let toe = match JOINT[[L_TOES, R_TOES][s].index()] {
+            Joint::Hinge1(h) => posture.hinge[h],
+            _ => unreachable!("the toes are on a hinge"),
+        };
+        FootPose {
+            ankle,
+            rotation,
+            toe,
+        }
+    })
+}
+
+fn stood(sole: &Sole, pose: &FootPose) -> Anchor {
+    sole.footing((pose.ankle, pose.rotation))
+}
+
+/// From one pose of a foot to another: translation, rotation vector, toes.
+fn between(from: &FootPose, to: &FootPose) -> [f64; 7] {
+    let p = to.ankle - from.ankle;
+    let r = (to.rotation * from.rotation.conjugate()).log();
+    [p.x, p.y, p.z, r.x, r.y, r.z, to.toe - from.toe]
+}
+
+fn moved(pose: &FootPose, by: &[f64; 7]) -> FootPose {
+    let turn = Quat::exp(Vec3::from_array([by[3], by[4], by[5]]));
+    FootPose {
+        ankle: pose.ankle + Vec3::from_array([by[0], by[1], by[2]]),
+        rotation: (turn * pose.rotation).normalized(),
+        toe: pose.toe + by[6],
+    }
+}
+
+impl Seam {
+    /// * `known`, `at`: the motion that is left, and the sample at which it is.
+    /// * `enters`: clip time at which `next` is entered, s; `count`: how many samples of it are looked at.
+    fn new(
+        body: &Body,
+        (known, at): (&[Sample], usize),
+        next: &Next,
+        (moment, enters): (&Moment, f64),
+        count: usize,
+    ) -> Self {
+        let mut entered = next.samples(enters - next.speed / RATE, count + 1);
+        for (posture, _) in &mut entered {
+            moment.place.apply_posture(posture);
+        }
+        let (postures, planted): (Vec<_>, Vec<_>) = entered.iter().copied().unzip();
+        let left = [at - 1, at, at + 1].map(|i| known[i].0);
+        Self {
+            soles: [Sole::new(body, 0), Sole::new(body, 1)],
+            label: label(body, RATE, &postures, &planted).split_off(1),
+            feet: postures.iter().map(|p| feet_of(body, p)).collect(),
+            from: [0, 1, 2].map(|k: usize| feet_of(body, &left[k])),
+            left,
+            entered,
+        }
+    }
+
+    /// Posture of the second motion `k` samples after the seam.
+    fn to(&self, k: usize) -> &Posture {
+        &self.entered[k + 1].0
+    }
+
+    /// Postures from the seam on: those of the second motion, and what is left of the difference.
+    fn postures(&self, count: usize) -> Vec<Posture> {
+        let off = |k: usize| self.entered[k].0.difference(&self.left[k]);
+        let off: Off<NV> = Off([off(0), off(1), off(2)]);
+        let arms = 6 + DOF_START[L_UPPER_ARM.index()]..6 + DOF_START[L_THIGH.index()];
+        let span = |d: usize| RATE * if arms.contains(&d) { ARMS_BLEND } else { BLEND };
+        let posture = |k: usize| {
+            let mut p = *self.to(k);
+            p.integrate(&off.left(k, span), 1.0);
+            p
+        };
+        (0..count).map(posture).collect()
+    }
+
+    /// When foot `side` changes first after the seam, samples.
+    fn first_change(&self, side: usize) -> usize {
+        let here = self.label[0][side];
+        let other = |l: &[bool; 2]| l[side] != here;
+        let change = self.label.iter().position(other);
+        change.unwrap_or(self.label.len())
+    }
+
+    /// Poses of a foot from the seam on. One that stands stays where it is until it leaves the floor; one that swings is led over.
+    fn lead(&self, side: usize) -> Vec<FootPose> {
+        let sole = &self.soles[side];
+        let change = self.first_change(side);
+        let mut out: Vec<_> = self.feet[1..].iter().map(|f| f[side]).collect();
+        let within = |samples: usize| (RATE * BLEND).min(samples as f64).max(RATE * LEAST_BLEND);
+        if !self.label[0][side] {
+            let off = |k: usize| between(&self.feet[k][side], &self.from[k][side]);
+            let off = Off([off(0), off(1), off(2)]);
+            for (k, pose) in out.iter_mut().enumerate() {
+                *pose = moved(pose, &off.left(k, |_| within(change)));
+            }
+            return out;
+        }
+        let pitch = |k: usize| {
+            let [is, should] = [&self.from[k], &self.feet[k]].map(|f| stood(sole, &f[side]));
+            [is.pitch - should.pitch]
+        };
+        let pitch = Off([pitch(0), pitch(1), pitch(2)]);
+        let Anchor { place, yaw, .. } = stood(sole, &self.from[1][side]);
+        let mut last = [0.0; 7];
+        for (k, pose) in out.iter_mut().enumerate().take(change) {
+            let pitched = stood(sole, pose).pitch + pitch.left(k, |_| within(change))[0];
+            let stands = sole.stand(place, yaw, pitched);
+            last = between(pose, &stands);
+            *pose = moved(pose, &last);
+        }
+        let landed = self.label[change..].iter().position(|l| l[side]);
+        let off = Off([last; 3]);
+        let span = within(landed.unwrap_or(usize::MAX));
+        for (k, pose) in out[change..].iter_mut().enumerate() {
+            *pose = moved(pose, &off.left(k, |_| span));
+        }
+        out
+    }
+
+    /// Samples after the seam from which on foot `side` is where the second motion has it: once it has come down anew. `None` if it does not.
+    fn is_led(&self, side: usize) -> Option<usize> {
+        let change = self.first_change(side);
+        if !self.label[0][side] {
+            return (change < self.label.len()).then_some(change);
+        }
+        if let Some(k) = self.label[change..].iter().position(|l| l[side]) {
+            return Some(change + k);
+        }
+        let sole = &self.soles[side];
+        let [is, should] = [&self.from[1], &self.feet[1]].map(|f| stood(sole, &f[side]));
+        let stays = change == self.label.len();
+        let near = (is.place - should.place).norm() < IN_PLACE.0
+            && trig::wrapped(is.yaw - should.yaw).abs() < IN_PLACE.1;
+        (stays && near).then_some(0)
+    }
+
+    /// Samples after the seam at which the clip itself can take over.
+    fn ends(&self) -> Option<usize> {
+        let led = self.is_led(0)?.max(self.is_led(1)?);
+        let earliest = led.max(samples_in(ARMS_BLEND)) + samples_in(EDGE);
+        let steady = |k: &usize| {
+            let around = &self.label[k - STEADY..=k + STEADY];
+            around.iter().all(|l| *l == self.label[*k])
+        };
+        let latest = samples_in(LONGEST).min(self.label.len() - STEADY - 1);
+        (earliest..=latest).find(steady)
+    }
+}
+
+/// A motion as it is made one that a body can follow.
+struct Draft<'a> {
+    body: &'a Body,
+    soles: &'a [Sole; 2],
+    /// Before legs are solved and the pelvis is moved.
+    postures: Vec<Posture>,
+    label: Vec<[bool; 2]>,
+    feet: [LockedFoot; 2],
+    /// How much of a shift of the pelvis each sample takes.
+    share: Vec<f64>,
+}
+
+impl Draft<'_> {
+    /// Postures with the pelvis shifted and lowered, m, and the feet in their places.
+    fn with(&self, shift: &[[f64; 2]], drop: &[f64]) -> Vec<Posture> {
+        let posture = |i: usize| {
+            let mut p = self.postures[i];
+            if self.share[i] <= 0.0 {
+                return p;
+            }
+            p.root_position += Vec3 {
+                x: shift[i][0],
+                y: shift[i][1],
+                z: drop[i],
+            };
+            for (s, foot) in self.feet.iter().enumerate() {
+                let to = &foot.poses[i];
+                let axis = knee_axis(&self.postures[i], s == 0);
+                let pose = (to.ankle, to.rotation);
+                solve_leg_in_plane(self.body, &mut p, s == 0, pose, to.toe, axis);
+            }
+            clamp_to_limits(self.body, &mut p, 0.0);
+            p
+        };
+        (0..self.postures.len()).map(posture).collect()
+    }
+
+    /// By how much the pelvis comes down so that planted legs reach, m.
+    fn drop(&self) -> Vec<f64> {
+        let legs = leg_geometry(self.body);
+        let lacks = |i: usize| {
+            let p = &self.postures[i];
+            let needs = legs.iter().zip(&self.feet).map(|((hip, length), foot)| {
+                if !foot.planted[i] {
+                    return 0.0;
+                }
+                let d = p.root_position + p.root_rotation.rotate(*hip) - foot.poses[i].ankle;
+                let level = d.x * d.x + d.y * d.y;
+                (REACH * REACH * length * length - level).max(0.0).sqrt() - d.z
+            });
+            self.share[i] * needs.fold(0.0, f64::min)
+        };
+        let lacks: Vec<f64> = (0..self.postures.len()).map(lacks).collect();
+        let drop = smoothest_below(&lacks, DROP_TIME, RATE);
+        drop.iter().zip(&self.share).map(|(d, s)| s * d).collect()
+    }
+
+    /// With the pelvis shifted so that the zero-moment point stays in the support.
+    fn balanced(&self) -> Vec<Posture> {
+        let n = self.postures.len();
+        let one_foot = AnkleTorqueLimit::new(self.body);
+        let carriers = carriers_of(
+            self.body,
+            self.soles,
+            &self.postures,
+            (&self.feet, &planted_of(&self.feet)),
+            &self.label,
+        );
+        let elsewhere = may_rest(self.body, &self.postures, &self.label, RATE);
+        let drop = self.drop();
+        let mut shift = vec![[0.0; 2]; n];
+        let mut postures = self.with(&shift, &drop);
+        for _ in 0..ROUNDS {
+            let track = mass_track(self.body, &postures, RATE);
+            let held = held_by(&carriers, self.soles, &self.feet, (&one_foot, &track), RATE);
+            let reach = (INSET, CARRIED);
+            shift = pelvis_shift(&track, &shift, &held, &elsewhere, reach, RATE);
+            for (s, share) in shift.iter_mut().zip(&self.share) {
+                *s = s.map(|x| share * x);
+            }
+            postures = self.with(&shift, &drop);
+        }
+        postures
+    }
+
+    /// Farthest that a foot which stands is from its place, m.
+    fn stray(&self, postures: &[Posture]) -> f64 {
+        let mut worst = 0.0f64;
+        for (i, p) in postures.iter().enumerate() {
+            let is = feet_of(self.body, p);
+            for s in (0..2).filter(|s| self.label[i][*s]) {
+                let pose = (is[s].ankle, is[s].rotation);
+                worst = worst.max(self.soles[s].stray(pose, &self.feet[s].poses[i]));
+            }
+        }
+        worst
+    }
+}
+
+/// The way out of a motion at a moment, and how much it asks of the ground that the ground cannot give, in shares of the weight.
+///
+/// * `known`: the motion; it plays as it is up to sample `now`.
+/// * `enters`: clip time at which `next` is entered at that moment, s.
+pub(super) fn lead_over(
+    body: &Body,
+    known: &[Sample],
+    now: usize,
+    next: &Next,
+    (moment, enters): (&Moment, f64),
+) -> Option<(f64, WayIn)> {
+    let at = moment.left;
+    let count = samples_in(LONGEST) + STEADY + 2;
+    let seam = Seam::new(body, (known, at), next, (moment, enters), count);
+    let ends = seam.ends()?;
+    let count = (ends + samples_in(MARGIN)).min(count);
+
+    let held = now.max(at.saturating_sub(samples_in(BEFORE)));
+    let cut = held.saturating_sub(samples_in(MARGIN));
+    let (mut postures, planted): (Vec<_>, Vec<_>) = known[cut..at].iter().copied().unzip();
+    let mut label = label(body, RATE, &postures, &planted);
+    let mut poses: Vec<[FootPose; 2]> = postures.iter().map(|p| feet_of(body, p)).collect();
+    postures.extend(seam.postures(count));
+    label.extend_from_slice(&seam.label[..count]);
+    let (left, right) = (seam.lead(0), seam.lead(1));
+    poses.extend((0..count).map(|k| [left[k], right[k]]));
+    let n = postures.len();
+    let feet = [0, 1].map(|s: usize| {
+        let anchors = poses.iter().map(|f| stood(&seam.soles[s], &f[s]));
+        LockedFoot {
+            anchors: anchors.collect(),
+            planted: label.iter().map(|l| l[s]).collect(),
+            poses: poses.iter().map(|f| f[s]).collect(),
+            slide_before: 0.0,
+        }
+    });
+    let ends_at = at - cut + ends;
+    let share = |i: usize| {
+        let since = (i + cut).saturating_sub(held) as f64;
+        let until = ends_at.saturating_sub(i) as f64;
+        smootherstep(since.min(until) / (EDGE * RATE))
+    };
+    let draft = Draft {
+        body,
+        soles: &seam.soles,
+        postures,
+        label,
+        feet,
+        share: (0..n).map(share).collect(),
+    };
+    let mut postures = draft.balanced();
+    let stray = draft.stray(&postures);
+    for k in ends..count {
+        postures[at - cut + k] = *seam.to(k);
+    }
+    let from = (held - cut).saturating_sub(4);
+    let asks = consistency(body, &postures[from..], &draft.label[from..], RATE);
+    if stray > STRAY {
+        return None;
+    }
+
+    let (mut all, mut planted): (Vec<_>, Vec<_>) = known[..at].iter().copied().unzip();
+    all.truncate(cut);
+    all.extend(postures);
+    planted.extend(seam.entered[1..=count].iter().map(|s| s.1));
+    let back = moment.place.power(-1.0);
+    all.iter_mut().for_each(|p| back.apply_posture(p));
+    let clip = Clip::from_postures(next.clip.name(), RATE / next.speed, all, planted).ok()?;
+    let seconds = |samples: usize| samples as f64 * next.speed / RATE;
+    let way = WayIn {
+        clip,
+        begin: enters - seconds(at),
+        enters,
+        until: enters + seconds(ends),
+    };
+    Some((asks.force.rms + asks.moment.rms, way))
+}

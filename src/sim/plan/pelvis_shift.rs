@@ -1,0 +1,387 @@
+//! Does a motion keep its balance on the feet it stands on, and what shift of the trunk makes it do so?
+//!
+//! From the postures alone: centre of mass, zero-moment point (with the change of angular momentum), support polygon of the planted
+//! feet. Where the zero-moment point leaves the polygon, the pelvis is shifted by as little as brings it back; it answers to a shift Δ of the
+//! centre of mass by `Δ − Δ̈/ω²`, `ω² = (g + c̈_z)/c_z` (cart-table model of Kajita et al. 2003).
+
+use super::flight_phases::falls;
+use crate::sim::body::topology::SEGMENT_COUNT;
+use crate::sim::body::{Body, Posture};
+use crate::sim::math::Vec3;
+use crate::sim::math::banded::Pentadiagonal;
+use crate::sim::math::polygon::{Region, margin};
+use crate::sim::motion::GRAVITY;
+use crate::sim::motion::filter::low_pass;
+use crate::sim::motion::leg_ik::forward;
+
+/// Ground force over weight below which the zero-moment point is meaningless.
+pub const LIGHT: f64 = 0.25;
+
+/// Centre of mass and zero-moment point of every sample of a motion.
+#[derive(Clone, Debug)]
+pub struct MassTrack {
+    /// Centre of mass, m.
+    pub com: Vec<Vec3>,
+    /// Zero-moment point on the floor z = 0, m.
+    pub zmp: Vec<[f64; 2]>,
+    /// Square of the pendulum frequency `(g + c̈_z)/c_z`, 1/s², limited to 3…40.
+    pub omega2: Vec<f64>,
+    /// Vertical ground force over weight.
+    pub load: Vec<f64>,
+    /// What the ground has to give: force, N, and moment about the centre of mass, N·m.
+    pub wrench: Vec<(Vec3, Vec3)>,
+}
+
+/// Computes [`MassTrack`] by central differences of the postures.
+///
+/// The zero-moment point is that of [`zero_moment_point`], with the change of angular momentum about the centre of mass.
+///
+/// * `rate_hz`: samples per second. The first and last two samples repeat their neighbour. O(n); allocates.
+pub fn mass_track(body: &Body, postures: &[Posture], rate_hz: f64) -> MassTrack {
+    let n = postures.len();
+    let h = 1.0 / rate_hz;
+    let mass: f64 = body.segments.iter().map(|s| s.mass).sum();
+    let poses: Vec<_> = postures.iter().map(|p| forward(body, p)).collect();
+    let centre = |i: usize, s: usize| poses[i][s].0 + poses[i][s].1.rotate(body.segments[s].com);
+    let com: Vec<Vec3> = (0..n)
+        .map(|i| {
+            (0..SEGMENT_COUNT).fold(Vec3::zero(), |sum, s| {
+                sum + centre(i, s) * (body.segments[s].mass / mass)
+            })
+        })
+        .collect();
+    let momentum: Vec<Vec3> = (0..n)
+        .map(|i| {
+            let (a, b) = (i.saturating_sub(1), (i + 1).min(n - 1));
+            let w = 1.0 / (h * (b - a).max(1) as f64);
+            (0..SEGMENT_COUNT).fold(Vec3::zero(), |sum, s| {
+                let seg = &body.segments[s];
+                let v = (centre(b, s) - centre(a, s)) * w;
+                let q = poses[i][s].1;
+                let spin = q
+                    .conjugate()
+                    .rotate((poses[b][s].1 * poses[a][s].1.conjugate()).log() * w);
+                sum + (centre(i, s) - com[i]).cross(v) * seg.mass + q.rotate(seg.inertia * spin)
+            })
+        })
+        .collect();
+    let mut out = MassTrack {
+        zmp: com.iter().map(|c| [c.x, c.y]).collect(),
+        omega2: com.iter().map(|c| GRAVITY / c.z.max(0.2)).collect(),
+        load: vec![1.0; n],
+        wrench: vec![(Vec3::Z * (mass * GRAVITY), Vec3::zero()); n],
+        com,
+    };
+    if n < 5 {
+        return out;
+    }
+    for i in 2..n - 2 {
+        let c = out.com[i];
+        let acc = (out.com[i + 2] - c * 2.0 + out.com[i - 2]) * (0.25 / (h * h));
+        let rate = (momentum[i + 1] - momentum[i - 1]) * (0.5 / h);
+        out.load[i] = 1.0 + acc.z / GRAVITY;
+        out.wrench[i] = ((acc + Vec3::Z * GRAVITY) * mass, rate);
+        out.omega2[i] = ((GRAVITY + acc.z) / c.z.max(0.2)).clamp(3.0, 40.0);
+        // Near flight there is no zero-moment point to speak of; the centre of mass stands in.
+        if out.load[i] > LIGHT {
+            out.zmp[i] = zero_moment_point(c, out.wrench[i]);
+        }
+    }
+    for (i, from) in [(0, 2), (1, 2), (n - 2, n - 3), (n - 1, n - 3)] {
+        let z = out.zmp[from];
+        (out.zmp[i], out.omega2[i], out.load[i]) = (z, out.omega2[from], out.load[from]);
+        out.wrench[i] = out.wrench[from];
+    }
+    out
+}
+
+/// Where on the floor (z = 0) the ground force acts without a level moment.
+///
+/// * `com`: centre of mass, m.
+/// * `wrench`: force of the ground, N, and its moment about the centre of mass, N·m. About the world origin the same would be the small
+///   difference of moments that grow with the distance from it, and differentiation makes them differ by more than the sole is long.
+pub(crate) fn zero_moment_point(com: Vec3, (force, moment): (Vec3, Vec3)) -> [f64; 2] {
+    [
+        com.x - (com.z * force.x + moment.y) / force.z,
+        com.y - (com.z * force.y - moment.x) / force.z,
+    ]
+}
+
+/// How much a body may rest on something other than its feet in one sample, from 0 to 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Elsewhere {
+    /// On a seat.
+    pub seat: f64,
+    /// On its hands.
+    pub hands: f64,
+}
+
+/// What carries the body in one sample.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Carrier {
+    /// Feet on the floor: convex hull of their footprints.
+    Feet(Vec<[f64; 2]>),
+    /// Nothing: free flight.
+    Air,
+    /// Something this preparation knows nothing about: other body parts, a chair.
+    Other,
+}
+
+/// Pelvis and trunk move by this much more than the centre of mass, because the feet stay.
+pub(crate) const LEAD: f64 = 1.15;
+/// A zero-moment point this much outside costs as much as a shift of one metre, m.
+const COST: f64 = 0.1;
+/// Time below which a shift is not to change, s.
+const BEND: f64 = 0.08;
+/// Price of bending the path of a body in the air, against that of a zero-moment point outside, s⁴.
+const FREE: f64 = 1.0;
+/// Most alternations between trajectory and polygons, and the change that is none, m.
+const ALTERNATIONS: usize = 150;
+const SETTLED: f64 = 1e-6;
+/// Most of a correction of the zero-moment point, m.
+const MOST_OFF: f64 = 0.4;
+
+/// How the zero-moment point answers to a shift of the centre of mass: Δ − Δ̈/ω², tridiagonal, the motion mirrored at both ends.
+fn answer(omega2: f64, rate_hz: f64, i: usize, n: usize) -> [f64; 3] {
+    let a = rate_hz * rate_hz / omega2;
+    let side = |edge: bool, other: bool| match (edge, other) {
+        (true, _) => 0.0,
+        (_, true) => -2.0 * a,
+        _ => -a,
+    };
+    let (first, last) = (i == 0, i + 1 == n);
+    [side(first, last), 1.0 + 2.0 * a, side(last, first)]
+}
+
+/// The answer of sample `i` to a shift.
+fn answered(rows: &[[f64; 3]], shift: &[[f64; 2]], i: usize) -> [f64; 2] {
+    let [l, d, r] = rows[i];
+    let (before, after) = (
+        shift[i.saturating_sub(1)],
+        shift[(i + 1).min(shift.len() - 1)],
+    );
+    std::array::from_fn(|a| l * before[a] + d * shift[i][a] + r * after[a])
+}
+
+/// Price of a zero-moment point outside, 1/m².
+const PRICE: f64 = 1.0 / (COST * COST);
+
+/// Share of the way into the support that the zero-moment point is brought in each sample: none where something else than feet carries.
+///
+/// * `plain`: zero-moment point without any shift, m.
+fn how_much_yields(
+    track: &MassTrack,
+    plain: &[[f64; 2]],
+    carriers: &[Carrier],
+    elsewhere: &[Elsewhere],
+    (reach, rate_hz): (f64, f64),
+) -> Vec<f64> {
+    let outside = |(i, c): (usize, &Carrier)| match c {
+        Carrier::Feet(p) => (-margin(p, plain[i])).clamp(0.0, MOST_OFF),
+        _ => 0.0,
+    };
+    // How far outside for about a second: peaks of gait are corrected, a chair is not.
+    let mut lasting: Vec<f64> = carriers.iter().enumerate().map(outside).collect();
+    low_pass(&mut lasting, 0.5, rate_hz);
+    let share = |(i, c): (usize, &Carrier)| {
+        let u = ((lasting[i] - 0.7 * reach) / (0.6 * reach)).clamp(0.0, 1.0);
+        let meant = if matches!(c, Carrier::Feet(_)) {
+            let leans = elsewhere[i].hands * u * u * (3.0 - 2.0 * u);
+            (1.0 - elsewhere[i].seat) * (1.0 - leans)
+        } else {
+            0.0
+        };
+        // A light body's zero-moment point says little.
+        let load = track.load[i].clamp(0.0, 1.0);
+        let sigma = PRICE * meant * load * load;
+        sigma / (sigma + PRICE)
+    };
+    carriers.iter().enumerate().map(share).collect()
+}
+
+/// `1 + PRICE Aᵀ A + τ⁴ D²ᵀ D²` with the answers A (`rows`) of the zero-moment point.
+fn shift_system(rows: &[[f64; 3]], carriers: &[Carrier], rate_hz: f64) -> Pentadiagonal {
+    let n = rows.len();
+    let mut matrix = Pentadiagonal::new(vec![1.0; n]);
+    for i in 0..n {
+        matrix.add_row(i as isize - 1, rows[i], PRICE);
+        if i > 0 && i + 1 < n {
+            // Nothing bends the path of a body in the air.
+            let weight = if carriers[i] == Carrier::Air {
+                FREE * PRICE * rate_hz.powi(4)
+            } else {
+                (BEND * rate_hz).powi(4)
+            };
+            matrix.add_row(i as isize - 1, [1.0, -2.0, 1.0], weight);
+        }
+    }
+    matrix
+}
+
+/// Shift of the pelvis, per sample, that brings the zero-moment point `inset` (m) inside the support: the least one, and the smoothest.
+///
+/// Minimises `Σ s² + τ⁴ s̈² + Σ (outside/COST)²` where the zero-moment point answers to a shift Δ = s/LEAD of the centre of mass by Δ − Δ̈/ω²
+/// (cart-table model of Kajita et al. 2003), by alternating between the trajectory (a banded solve per axis) and the polygons (alternating
+/// direction method of multipliers).
+///
+/// * `track`: of the motion as shifted by `so_far`, m.
+/// * `elsewhere`: what else may carry the body. A body on a seat is left alone, as is one in flight; one that may lean on its hands is where its
+///   zero-moment point is outside by more than `reach` (m) for long.
+///
+/// O(n).
+pub fn pelvis_shift(
+    track: &MassTrack,
+    so_far: &[[f64; 2]],
+    carriers: &[Carrier],
+    elsewhere: &[Elsewhere],
+    (inset, reach): (f64, f64),
+    rate_hz: f64,
+) -> Vec<[f64; 2]> {
+    let around = (carriers, elsewhere);
+    shift_with(track, so_far, around, (inset, reach), None, rate_hz)
+}
+
+/// The same for a body that runs, which flies where `air` is set: the path of its mass is straight there, whatever it was.
+pub(crate) fn pelvis_shift_in_run(
+    track: &MassTrack,
+    so_far: &[[f64; 2]],
+    around: (&[Carrier], &[Elsewhere]),
+    limits: (f64, f64),
+    air: &[bool],
+    rate_hz: f64,
+) -> Vec<[f64; 2]> {
+    let mut straight = vec![[0.0; 2]; air.len()];
+    let plain = |i: usize, k: usize| track.com[i].to_array()[k] - so_far[i][k] / LEAD;
+    let price = FREE * PRICE * rate_hz.powi(4);
+    for i in (1..air.len() - 1).filter(|i| falls(air, *i)) {
+        for k in 0..2 {
+            let bend = plain(i - 1, k) - 2.0 * plain(i, k) + plain(i + 1, k);
+            for (j, r) in [(i - 1, 1.0), (i, -2.0), (i + 1, 1.0)] {
+                straight[j][k] -= price * r * LEAD * bend;
+            }
+        }
+    }
+    shift_with(track, so_far, around, limits, Some(&straight), rate_hz)
+}
+
+/// [`pelvis_shift`] with another pull on the shift, per sample, from whatever else is asked of it.
+fn shift_with(
+    track: &MassTrack,
+    so_far: &[[f64; 2]],
+    (carriers, elsewhere): (&[Carrier], &[Elsewhere]),
+    (inset, reach): (f64, f64),
+    pull: Option<&[[f64; 2]]>,
+    rate_hz: f64,
+) -> Vec<[f64; 2]> {
+    let n = track.com.len();
+    let rows: Vec<[f64; 3]> = (0..n)
+        .map(|i| answer(track.omega2[i], rate_hz, i, n).map(|x| x / LEAD))
+        .collect();
+    // Where the zero-moment point would be without any shift.
+    let plain: Vec<[f64; 2]> = (0..n)
+        .map(|i| minus(track.zmp[i], answered(&rows, so_far, i)))
+        .collect();
+    let inner: Vec<Option<Region>> = carriers
+        .iter()
+        .map(|c| match c {
+            Carrier::Feet(p) => Some(Region::inside(p, inset)),
+            _ => None,
+        })
+        .collect();
+    let yields = how_much_yields(track, &plain, carriers, elsewhere, (reach, rate_hz));
+    let factor = shift_system(&rows, carriers, rate_hz).factor();
+    let mut shift = vec![[0.0; 2]; n];
+    let mut goal = plain.clone();
+    let mut debt = vec![[0.0; 2]; n];
+    for _ in 0..ALTERNATIONS {
+        // PRICE Aᵀ (goal − debt − plain)
+        match pull {
+            Some(pull) => shift.copy_from_slice(pull),
+            None => shift.fill([0.0; 2]),
+        }
+        for i in 0..n {
+            let want = minus(minus(goal[i], debt[i]), plain[i]).map(|w| PRICE * w);
+            let [l, d, r] = rows[i];
+            let mut add = |k: usize, share: f64| {
+                for (x, w) in shift[k].iter_mut().zip(want) {
+                    *x += share * w;
+                }
+            };
+            add(i, d);
+            if i > 0 {
+                add(i - 1, l);
+            }
+            if i + 1 < n {
+                add(i + 1, r);
+            }
+        }
+        factor.solve(&mut shift);
+        let mut change = 0.0f64;
+        for i in 0..n {
+            let a = answered(&rows, &shift, i);
+            let v: [f64; 2] = std::array::from_fn(|k| plain[i][k] + a[k] + debt[i][k]);
+            let inside = match &inner[i] {
+                Some(region) => region.nearest(v),
+                None => v,
+            };
+            for k in 0..2 {
+                let next = v[k] + yields[i] * (inside[k] - v[k]);
+                let owed = v[k] - next;
+                change = change
+                    .max((next - goal[i][k]).abs())
+                    .max((owed - debt[i][k]).abs());
+                (goal[i][k], debt[i][k]) = (next, owed);
+            }
+        }
+        if change < SETTLED {
+            break;
+        }
+    }
+    shift
+}
+
+fn minus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::motion::builtin::builtin;
+
+    #[test]
+    fn the_answer_to_a_shift_is_that_of_the_pendulum() {
+        // c = cos(at) has z = (1 + a²/ω²) c; the slopes at both ends vanish over whole periods.
+        let (rate, a, w2) = (120.0, std::f64::consts::TAU / 2.0, 11.0);
+        let n = 481;
+        let c: Vec<f64> = (0..n).map(|i| (a * i as f64 / rate).cos()).collect();
+        let rows: Vec<_> = (0..n).map(|i| answer(w2, rate, i, n)).collect();
+        let both: Vec<[f64; 2]> = c.iter().map(|c| [*c, -*c]).collect();
+        let worst = (0..n)
+            .flat_map(|i| {
+                let z = answered(&rows, &both, i);
+                [0, 1].map(|k| (z[k] - (1.0 + a * a / w2) * both[i][k]).abs())
+            })
+            .fold(0.0, f64::max);
+        assert!(worst < 1e-3, "{worst}");
+    }
+
+    #[test]
+    fn the_zero_moment_point_moves_along_with_the_motion() {
+        let body = Body::adult_man();
+        let clip = builtin(&body, "walk").unwrap();
+        let here: Vec<Posture> = (0..clip.len()).map(|i| *clip.posture(i)).collect();
+        let far = Vec3 {
+            x: 500.0,
+            y: -800.0,
+            z: 0.0,
+        };
+        let mut there = here.clone();
+        there.iter_mut().for_each(|p| p.root_position += far);
+        let [a, b] = [here, there].map(|p| mass_track(&body, &p, clip.rate_hz()));
+        for (i, (a, b)) in a.zmp.iter().zip(&b.zmp).enumerate() {
+            let off = [b[0] - far.x - a[0], b[1] - far.y - a[1]];
+            assert!(off.iter().all(|e| e.abs() < 1e-5), "{i}: {off:?}");
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! Legs that fold further than a body's: the pelvis gives way where limits would put feet into the floor.
+//!
+//! Hips flex by 125°, spines bend by more: a person who squats that deep tilts the pelvis back and rounds the back. So does this: where a hip lacks
+//! flexion the pelvis is tilted back about the line of the hips, and the spine brings the chest forward again as far as it goes. What is then left,
+//! of knees and ankles, raises the pelvis. Both come and go smoothly, and the legs are solved again.
+
+use super::joint_limits::{DEEP, LIMIT_MARGIN, toe_hinge};
+use super::whole_body::DROP_TIME;
+use super::{FOOT, leg_geometry};
+use crate::sim::body::angles::{anatomical_angles, clamp_to_limits};
+use crate::sim::body::topology::{
+    ABDOMEN, CHEST, DOF_COUNT, DOF_START, JOINT, Joint, L_THIGH, R_THIGH,
+};
+use crate::sim::body::{Body, Posture, SegmentId};
+use crate::sim::math::{Quat, Vec3};
+use crate::sim::motion::leg_ik::{forward, solve_leg};
+use crate::sim::plan::envelope::smoothest_below;
+use crate::sim::plan::foot_lock::{LockedFoot, Sole};
+
+/// The pelvis is tilted back at most this far, rad, and raised at most this far, m.
+const MOST_TILT: f64 = 0.8;
+const MOST_RAISE: f64 = 0.2;
+/// A hip is brought this far inside its limit, rad.
+const SPARE: f64 = 0.03;
+/// How much of what the hips lack is asked for when the first tilt was not enough, and how often.
+const ROUNDS: usize = 3;
+/// Bisections of the raise.
+const HALVINGS: usize = 7;
+
+const THIGH: [SegmentId; 2] = [L_THIGH, R_THIGH];
+
+/// How far the pelvis gave way.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct DeepFlexion {
+    /// Largest tilt, rad.
+    pub tilt_max: f64,
+    /// Largest raise, m.
+    pub raise_max: f64,
+}
+
+fn ball(segment: SegmentId) -> usize {
+    match JOINT[segment.index()] {
+        Joint::Ball(b) => b,
+        _ => unreachable!("hips and spine are ball joints"),
+    }
+}
+
+/// How deep each foot is in the floor when a posture is within its limits, m; 0 for a leg that would have to reach further back, which the knee lifts.
+fn depths(body: &Body, posture: &Posture, soles: &[Sole; 2]) -> [f64; 2] {
+    let mut within = *posture;
+    let off = clamp_to_limits(body, &mut within, LIMIT_MARGIN * 0.5);
+    let poses = forward(body, &within);
+    [0, 1].map(|s| {
+        if off[DOF_START[THIGH[s].index()]] < 0.0 {
+            return 0.0;
+        }
+        let (ankle, rotation) = poses[FOOT[s].index()];
+        -(ankle.z + soles[s].lowest(rotation, within.hinge[toe_hinge(s)]))
+    })
+}
+
+/// The deeper foot, m.
+fn deepest(body: &Body, posture: &Posture, soles: &[Sole; 2]) -> f64 {
+    depths(body, posture, soles).into_iter().fold(0.0, f64::max)
+}
+
+/// By how much the hips of the feet that are `deep` in the floor flex beyond their limit, rad.
+fn lacks_flexion(body: &Body, posture: &Posture, deep: [bool; 2]) -> f64 {
+    let angles: [f64; DOF_COUNT] = anatomical_angles(posture);
+    (0..2)
+        .filter(|s| deep[*s])
+        .map(|s| DOF_START[THIGH[s].index()])
+        .map(|d| angles[d] - (body.upper[d] - SPARE))
+        .fold(0.0, f64::max)
+}
+
+/// Moves the pelvis, with the feet of `like` where they are in it: planted ones as locked.
+fn give_way(
+    body: &Body,
+    like: &Posture,
+    (tilt, raise): (f64, f64),
+    feet: [((Vec3, Quat), f64); 2],
+) -> Posture {
+    let mut posture = *like;
+    let before = like.root_rotation;
+    let hips = leg_geometry(body);
+    let middle = (hips[0].0 + hips[1].0) * 0.5;
+    let left = before.rotate(hips[0].0 - hips[1].0).normalized_or(Vec3::Y);
+    let about = |angle: f64| Quat::exp(left * angle);
+    let (waist, thorax) = (ball(ABDOMEN), ball(CHEST));
+    let abdomen = before * like.ball[waist];
+    let chest = abdomen * like.ball[thorax];
+    // Back is towards negative angles about the left.
+    let root = (about(-tilt) * before).normalized();
+    let abdomen = about(-0.5 * tilt) * abdomen;
+    posture.root_rotation = root;
+    posture.root_position += before.rotate(middle) - root.rotate(middle) + Vec3::Z * raise;
+    posture.ball[waist] = (root.conjugate() * abdomen).normalized();
+    posture.ball[thorax] = (abdomen.conjugate() * chest).normalized();
+    for (s, (pose, toe)) in feet.into_iter().enumerate() {
+        solve_leg(body, &mut posture, s == 0, pose, toe);
+    }
+    posture
+}
+
+/// Tilts back and raises the pelvis where the limits of folded legs would put feet into the floor by more than [`DEEP`].
+///
+/// * `postures`: legs solved, not yet within their limits; `planted`: of each sample; `soles`, `locked`: where planted feet are to be.
+///
+/// O(n).
+pub(super) fn unfold(
+    body: &Body,
+    postures: &mut [Posture],
+    planted: &[[bool; 2]],
+    (soles, locked): (&[Sole; 2], &[LockedFoot; 2]),
+    rate_hz: f64,
+) -> DeepFlexion {
+    let n = postures.len();
+    let deep: Vec<[bool; 2]> = postures
+        .iter()
+        .map(|p| depths(body, p, soles).map(|d| d > DEEP))
+        .collect();
+    if deep.iter().all(|d| *d == [false; 2]) {
+        return DeepFlexion::default();
+    }
+    let original = postures.to_vec();
+    // Where the feet are: of planted ones their lock, of others what was solved.
+    let feet: Vec<[((Vec3, Quat), f64); 2]> = (0..n)
+        .map(|i| {
+            let poses = forward(body, &original[i]);
+            std::array::from_fn(|s| {
+                let lock = &locked[s].poses[i];
+                if planted[i][s] {
+                    ((lock.ankle, lock.rotation), lock.toe)
+                } else {
+                    (poses[FOOT[s].index()], original[i].hinge[toe_hinge(s)])
+                }
+            })
+        })
+        .collect();
+    let with =
+        |i: usize, tilt: f64, raise: f64| give_way(body, &original[i], (tilt, raise), feet[i]);
+    let smooth = |need: &[f64]| -> Vec<f64> {
+        let ceiling: Vec<f64> = need.iter().map(|x| -x).collect();
+        let curve = smoothest_below(&ceiling, DROP_TIME, rate_hz);
+        curve.into_iter().map(|x| (-x).max(0.0)).collect()
+    };
+
+    let mut need = vec![0.0f64; n];
+    for i in (0..n).filter(|i| deep[*i] != [false; 2]) {
+        for _ in 0..ROUNDS {
+            let lacks = lacks_flexion(body, &with(i, need[i], 0.0), deep[i]);
+            need[i] = (need[i] + lacks).min(MOST_TILT);
+        }
+        // Where something else is cut, a tilt may put the feet deeper.
+        if deepest(body, &with(i, need[i], 0.0), soles) >= deepest(body, &original[i], soles) {
+            need[i] = 0.0;
+        }
+    }
+    let tilt = smooth(&need);
+    let mut need = vec![0.0f64; n];
+    for i in 0..n {
+        // A free foot is raised by its own leg, later.
+        let depth = |raise: f64| {
+            let both = depths(body, &with(i, tilt[i], raise), soles);
+            let standing = both.into_iter().zip(planted[i]).filter(|(_, on)| *on);
+            standing.fold(0.0f64, |most, (depth, _)| most.max(depth))
+        };
+        let first = depth(0.0);
+        if first <= DEEP {
+            continue;
+        }
+        let (mut low, mut high) = (0.0, first.min(MOST_RAISE));
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if depth(middle) > DEEP {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        need[i] = high;
+    }
+    let raise = smooth(&need);
+    for (i, posture) in postures.iter_mut().enumerate() {
+        if tilt[i].max(raise[i]) > 1e-6 {
+            *posture = with(i, tilt[i], raise[i]);
+        }
+    }
+    let most = |v: &[f64]| v.iter().copied().fold(0.0, f64::max);
+    DeepFlexion {
+        tilt_max: most(&tilt),
+        raise_max: most(&raise),
+    }
+}

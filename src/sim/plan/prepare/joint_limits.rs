@@ -1,0 +1,194 @@
+//! Joints within the limits of the body: the upper body first, the legs last.
+
+use super::FOOT;
+use crate::sim::body::angles::clamp_to_limits;
+use crate::sim::body::topology::{
+    BALL_COUNT, DOF_COUNT, DOF_START, HINGE_COUNT, JOINT, Joint, L_FOOT, L_SHANK, L_THIGH, L_TOES,
+    R_FOOT, R_SHANK, R_THIGH, R_TOES, SegmentId,
+};
+use crate::sim::body::{Body, Posture};
+use crate::sim::math::{Quat, Vec3};
+use crate::sim::motion::filter::{low_pass, low_pass_rotations};
+use crate::sim::motion::leg_ik::{forward, knee_axis, solve_leg};
+use crate::sim::plan::foot_lock::{LockedFoot, Sole};
+
+const TOES: [SegmentId; 2] = [L_TOES, R_TOES];
+/// Angles are kept this far from their limits, rad.
+pub(super) const LIMIT_MARGIN: f64 = 0.01;
+
+/// An ankle may be lower than it should by this much, m. Least height that bending the knee gives, m/rad; most that it is bent by at a time, rad, and how
+/// often.
+const KNEE_SLACK: f64 = 1e-3;
+
+const LEAST_RISE: f64 = 0.05;
+
+const KNEE_STEP: f64 = 0.3;
+
+const KNEE_STEPS: usize = 8;
+
+/// A free foot may be this deep in the floor, m; how often its leg is solved for less.
+pub(super) const DEEP: f64 = 0.01;
+
+const RAISES: usize = 8;
+
+/// What is left of a lock when the legs are within their limits.
+#[derive(Default)]
+pub(super) struct Held {
+    /// Furthest that a planted foot is from its place, m.
+    pub slide: f64,
+    /// Deepest that one is in the floor, m.
+    pub penetration: f64,
+    /// Foot samples that were declared free.
+    pub freed: usize,
+}
+
+/// Brings the legs into their limits, last, and declares feet free that they cannot hold in place then.
+pub(super) fn into_limits(
+    body: &Body,
+    postures: &mut [Posture],
+    planted: &mut [[bool; 2]],
+    (soles, locked, accuracy): (&[Sole; 2], &[LockedFoot; 2], f64),
+    clamped: &mut [(f64, f64); DOF_COUNT],
+) -> Held {
+    let n = postures.len();
+    let mut held = Held::default();
+    for (i, (posture, planted)) in postures.iter_mut().zip(planted).enumerate() {
+        let wanted = forward(body, posture);
+        let off = clamp_to_limits(body, posture, LIMIT_MARGIN * 0.5);
+        note_clamped(clamped, &off, n);
+        let behind = |s: usize| off[DOF_START[[L_THIGH, R_THIGH][s].index()]] < 0.0;
+        for s in (0..2).filter(|s| !planted[*s] && behind(*s)) {
+            lift_by_knee(body, posture, s, wanted[FOOT[s].index()]);
+        }
+        for s in (0..2).filter(|s| !planted[*s]) {
+            raise_foot(body, posture, s, &soles[s]);
+        }
+        let poses = forward(body, posture);
+        for s in 0..2 {
+            if !planted[s] {
+                continue;
+            }
+            let (at, q) = poses[FOOT[s].index()];
+            let low = at.z + soles[s].lowest(q, posture.hinge[toe_hinge(s)]);
+            let stray = soles[s].stray((at, q), &locked[s].poses[i]);
+            if stray > accuracy || low < -accuracy {
+                planted[s] = false;
+                held.freed += 1;
+                raise_foot(body, posture, s, &soles[s]);
+                continue;
+            }
+            held.slide = held.slide.max(stray);
+            held.penetration = held.penetration.max(-low);
+        }
+    }
+    held
+}
+
+/// A swinging leg whose hip does not reach as far back as it should is bent at the knee until its ankle is as high as `wanted`: its foot would
+/// be in the floor.
+fn lift_by_knee(body: &Body, posture: &mut Posture, side: usize, wanted: (Vec3, Quat)) {
+    let shank = [L_SHANK, R_SHANK][side].index();
+    let foot = FOOT[side].index();
+    let (Joint::Hinge1(k), Joint::Ball(f)) = (JOINT[shank], JOINT[foot]) else {
+        unreachable!("the tree has hinge knees and ball ankles")
+    };
+    let most = body.upper[DOF_START[shank]] - LIMIT_MARGIN;
+    for _ in 0..KNEE_STEPS {
+        let poses = forward(body, posture);
+        let low = wanted.0.z - poses[foot].0.z;
+        let axis = knee_axis(posture, side == 0);
+        let rises = axis.cross(poses[foot].0 - poses[shank].0).z;
+        if low < KNEE_SLACK || rises < LEAST_RISE || posture.hinge[k] >= most {
+            break;
+        }
+        posture.hinge[k] = (posture.hinge[k] + (low / rises).min(KNEE_STEP)).min(most);
+        let shank = forward(body, posture)[shank].1;
+        posture.ball[f] = (shank.conjugate() * wanted.1).normalized();
+    }
+    clamp_to_limits(body, posture, LIMIT_MARGIN * 0.5);
+}
+
+/// A foot that limits have put deeper into the floor than [`DEEP`] is brought up to that by the whole leg.
+fn raise_foot(body: &Body, posture: &mut Posture, side: usize, sole: &Sole) {
+    for _ in 0..RAISES {
+        let (ankle, rotation) = forward(body, posture)[FOOT[side].index()];
+        let toe = posture.hinge[toe_hinge(side)];
+        let deep = -(ankle.z + sole.lowest(rotation, toe)) - DEEP;
+        if deep <= 0.0 {
+            break;
+        }
+        let to = (ankle + Vec3::Z * deep, rotation);
+        solve_leg(body, posture, side == 0, to, toe);
+        clamp_to_limits(body, posture, LIMIT_MARGIN * 0.5);
+    }
+}
+
+pub(super) fn toe_hinge(side: usize) -> usize {
+    match JOINT[TOES[side].index()] {
+        Joint::Hinge1(h) => h,
+        _ => unreachable!("the toes are on a hinge"),
+    }
+}
+
+fn note_clamped(clamped: &mut [(f64, f64); DOF_COUNT], off: &[f64; DOF_COUNT], n: usize) {
+    for (c, o) in clamped.iter_mut().zip(off) {
+        // Below a tenth of a degree it is the margin, not the motion.
+        if o.abs() > 0.002 {
+            c.0 = c.0.max(o.abs());
+            c.1 += 1.0 / n as f64;
+        }
+    }
+}
+
+/// Spine, neck and arms into their limits, then smooth again where clamping left a corner.
+pub(super) fn clamp_upper(
+    body: &Body,
+    postures: &mut [Posture],
+    rate_hz: f64,
+    clamped: &mut [(f64, f64); DOF_COUNT],
+) {
+    let n = postures.len();
+    let mut any = false;
+    for p in postures.iter_mut() {
+        let mut q = *p;
+        // Legs of a draft mean nothing yet: keep them out of the count.
+        for s in [L_THIGH, R_THIGH, L_FOOT, R_FOOT] {
+            if let Joint::Ball(b) = JOINT[s.index()] {
+                q.ball[b] = Quat::identity();
+            }
+        }
+        for s in [L_SHANK, R_SHANK, L_TOES, R_TOES] {
+            if let Joint::Hinge1(h) = JOINT[s.index()] {
+                let d = DOF_START[s.index()];
+                q.hinge[h] = 0.5 * (body.lower[d] + body.upper[d]);
+            }
+        }
+        let off = clamp_to_limits(body, &mut q, LIMIT_MARGIN);
+        let mut upper = off;
+        upper[DOF_START[L_THIGH.index()]..].fill(0.0);
+        any |= upper.iter().any(|o| o.abs() > 0.002);
+        note_clamped(clamped, &upper, n);
+        *p = q;
+    }
+    if any {
+        smooth_joints(postures, 8.0, rate_hz);
+    }
+}
+
+/// Low-pass of all joint positions of a motion, in place; the pelvis is left alone.
+fn smooth_joints(postures: &mut [Posture], cutoff_hz: f64, rate_hz: f64) {
+    for b in 0..BALL_COUNT {
+        let mut q: Vec<Quat> = postures.iter().map(|p| p.ball[b]).collect();
+        low_pass_rotations(&mut q, cutoff_hz, rate_hz);
+        for (p, q) in postures.iter_mut().zip(q) {
+            p.ball[b] = q;
+        }
+    }
+    for h in 0..HINGE_COUNT {
+        let mut a: Vec<f64> = postures.iter().map(|p| p.hinge[h]).collect();
+        low_pass(&mut a, cutoff_hz, rate_hz);
+        for (p, a) in postures.iter_mut().zip(a) {
+            p.hinge[h] = a;
+        }
+    }
+}

@@ -1,0 +1,203 @@
+//! What carries the body in each sample, and how well what is planned stays over it.
+
+use super::{FOOT, LIMIT_MARGIN};
+use crate::sim::body::angles::clamp_to_limits;
+use crate::sim::body::{Body, Posture};
+use crate::sim::math::polygon::{hull, margin};
+use crate::sim::motion::filter::{low_pass, percentile};
+use crate::sim::motion::leg_ik::forward;
+use crate::sim::plan::ankle_torque_limit::{AnkleTorqueLimit, Over};
+use crate::sim::plan::foot_lock::{LockedFoot, Sole};
+use crate::sim::plan::pelvis_shift::{Carrier, Elsewhere, LIGHT, MassTrack};
+
+/// A planted foot that is farther off its place than this, m, does not carry while the other one does.
+const NEAR: f64 = 0.01;
+/// A pelvis below the first share of its standing height may sit, one above the second does not.
+const SITS: (f64, f64) = (0.65, 0.8);
+
+/// Feet that stay for so long before and after a moment do not step, s.
+const STAYS: f64 = 0.5;
+
+/// Time over which the speed is taken with which a body passes over its foot, s.
+const PASSING: f64 = 0.2;
+
+/// Cut-off of the lean of a body over its foot, Hz.
+const LEAN_CUTOFF: f64 = 4.0;
+
+/// How far the zero-moment point is outside the support polygon of planted feet, over the samples that feet carry.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ZmpOutside {
+    /// Fraction of the samples outside.
+    pub fraction: f64,
+    /// Mean excess over all samples (0 inside), m.
+    pub mean: f64,
+    /// 95th percentile of the excess, m.
+    pub p95: f64,
+    /// Largest excess, m.
+    pub max: f64,
+}
+
+/// Which feet are planted, per sample.
+pub(in crate::sim::plan) fn planted_of(locked: &[LockedFoot; 2]) -> Vec<[bool; 2]> {
+    let [left, right] = locked;
+    let both = left.planted.iter().zip(&right.planted);
+    both.map(|(l, r)| [*l, *r]).collect()
+}
+
+/// Which planted feet carry the body: not those that their legs, within their limits, hold far from their places while the other one stands. Declared free in the
+/// end they would leave a body alone on one foot that is balanced on two.
+pub(super) fn within_reach(
+    body: &Body,
+    postures: &[Posture],
+    planted: &[[bool; 2]],
+    (soles, locked): (&[Sole; 2], &[LockedFoot; 2]),
+) -> Vec<[bool; 2]> {
+    let carries = |(i, planted): (usize, &[bool; 2])| {
+        let mut posture = postures[i];
+        clamp_to_limits(body, &mut posture, LIMIT_MARGIN * 0.5);
+        let poses = forward(body, &posture);
+        let near = |s: usize| soles[s].stray(poses[FOOT[s].index()], &locked[s].poses[i]) <= NEAR;
+        match *planted {
+            [true, true] if near(0) != near(1) => [near(0), near(1)],
+            as_locked => as_locked,
+        }
+    };
+    planted.iter().enumerate().map(carries).collect()
+}
+
+/// What carries the body in each sample.
+pub(in crate::sim::plan) fn carriers_of(
+    body: &Body,
+    soles: &[Sole; 2],
+    upper: &[Posture],
+    (locked, carries): (&[LockedFoot; 2], &[[bool; 2]]),
+    label: &[[bool; 2]],
+) -> Vec<Carrier> {
+    let standing = body.standing_root_height();
+    let mut corners = Vec::new();
+    (0..upper.len())
+        .map(|i| {
+            corners.clear();
+            let feet = soles.iter().zip(locked).zip(carries[i]);
+            for ((sole, foot), _) in feet.filter(|(_, carries)| *carries) {
+                sole.footprint(&foot.anchors[i], &mut corners);
+            }
+            if upper[i].root_position.z < 0.45 * standing {
+                Carrier::Other
+            } else if corners.len() >= 3 {
+                Carrier::Feet(hull(&corners))
+            } else if label[i] == [false, false] {
+                Carrier::Air
+            } else {
+                Carrier::Other
+            }
+        })
+        .collect()
+}
+
+/// The same where no foot is asked to hold alone what its ankle cannot.
+pub(in crate::sim::plan) fn held_by(
+    carriers: &[Carrier],
+    soles: &[Sole; 2],
+    locked: &[LockedFoot; 2],
+    (one_foot, track): (&AnkleTorqueLimit, &MassTrack),
+    rate_hz: f64,
+) -> Vec<Carrier> {
+    let carries = planted_of(locked);
+    let feet = (locked, carries.as_slice());
+    held_in_gait(carriers, soles, feet, (one_foot, track), false, rate_hz)
+}
+
+/// The same, of who `runs` or walks.
+pub(super) fn held_in_gait(
+    carriers: &[Carrier],
+    soles: &[Sole; 2],
+    (locked, carries): (&[LockedFoot; 2], &[[bool; 2]]),
+    (one_foot, track): (&AnkleTorqueLimit, &MassTrack),
+    runs: bool,
+    rate_hz: f64,
+) -> Vec<Carrier> {
+    let half = (0.5 * PASSING * rate_hz) as usize;
+    // Without the jumps of touch-downs, from which the rounds would not settle.
+    let lean: [Vec<f64>; 2] = std::array::from_fn(|k| {
+        let both = track.com.iter().zip(&track.zmp);
+        let mut lean: Vec<f64> = both.map(|(c, z)| c.to_array()[k] - z[k]).collect();
+        low_pass(&mut lean, LEAN_CUTOFF, rate_hz);
+        lean
+    });
+    let mut corners = Vec::new();
+    let held = |(i, carrier): (usize, &Carrier)| {
+        let side = match carries[i] {
+            [true, false] => 0,
+            [false, true] => 1,
+            _ => return carrier.clone(),
+        };
+        if !matches!(carrier, Carrier::Feet(_)) {
+            return carrier.clone();
+        }
+        corners.clear();
+        let (before, after) = (i.saturating_sub(half), (i + half).min(carriers.len() - 1));
+        let way = track.com[after] - track.com[before];
+        let over = Over {
+            height: track.com[i].z,
+            speed: way.x.hypot(way.y) * rate_hz / (after - before).max(1) as f64,
+            lean: [lean[0][i], lean[1][i]],
+            load: runs.then(|| track.load[i]),
+        };
+        let at = &locked[side].anchors[i];
+        one_foot.each_corner(&soles[side], at, &over, |p| corners.push(p));
+        Carrier::Feet(hull(&corners))
+    };
+    carriers.iter().enumerate().map(held).collect()
+}
+
+/// What else than the feet may carry the body: a seat where the pelvis is low, hands where both feet stay for a while. Who steps walks on his feet.
+pub(in crate::sim::plan) fn may_rest(
+    body: &Body,
+    upper: &[Posture],
+    planted: &[[bool; 2]],
+    rate_hz: f64,
+) -> Vec<Elsewhere> {
+    let standing = body.standing_root_height();
+    let n = upper.len();
+    let half = (STAYS * rate_hz) as usize;
+    let smooth = |mut x: Vec<f64>| {
+        low_pass(&mut x, 2.0, rate_hz);
+        x
+    };
+    let seat = upper
+        .iter()
+        .map(|p| ((SITS.1 - p.root_position.z / standing) / (SITS.1 - SITS.0)).clamp(0.0, 1.0));
+    let stays = |i: usize| {
+        let around = i.saturating_sub(half)..(i + half).min(n);
+        planted[around].iter().all(|p| *p == [true; 2])
+    };
+    let hands = (0..n).map(|i| f64::from(stays(i)));
+    let (seat, hands) = (smooth(seat.collect()), smooth(hands.collect()));
+    let both = seat.into_iter().zip(hands);
+    both.map(|(seat, hands)| Elsewhere {
+        seat: seat.clamp(0.0, 1.0),
+        hands: hands.clamp(0.0, 1.0),
+    })
+    .collect()
+}
+
+pub(super) fn zmp_outside(track: &MassTrack, carriers: &[Carrier]) -> ZmpOutside {
+    let outside: Vec<f64> = track
+        .zmp
+        .iter()
+        .zip(carriers)
+        .zip(&track.load)
+        .filter_map(|((z, c), load)| match c {
+            Carrier::Feet(p) if *load > LIGHT => Some((-margin(p, *z)).max(0.0)),
+            _ => None,
+        })
+        .collect();
+    let n = outside.len().max(1) as f64;
+    ZmpOutside {
+        fraction: outside.iter().filter(|x| **x > 0.0).count() as f64 / n,
+        mean: outside.iter().sum::<f64>() / n,
+        p95: percentile(&outside, 0.95),
+        max: outside.iter().copied().fold(0.0, f64::max),
+    }
+}

@@ -1,0 +1,195 @@
+//! Postures from the parts that are worked out one by one: upper body, feet, and where the trunk is moved.
+
+use super::ankle_unloading::AnkleUnloading;
+use super::{Draft, pelvis_yaw};
+use crate::sim::body::topology::{
+    JOINT, Joint, L_FOOT, L_SHANK, L_THIGH, L_TOES, R_FOOT, R_SHANK, R_THIGH, R_TOES,
+};
+use crate::sim::body::{Body, Posture};
+use crate::sim::math::ease::smoothstep;
+use crate::sim::math::{Quat, Vec3};
+use crate::sim::motion::filter::{low_pass, low_pass_points, low_pass_rotations};
+use crate::sim::motion::leg_ik::solve_leg_in_plane;
+use crate::sim::plan::contact_labels::runs;
+use crate::sim::plan::envelope::smoothest_below;
+use crate::sim::plan::flight_phases::FlightPhases;
+use crate::sim::plan::foot_lock::LockedFoot;
+
+/// A planted leg reaches at most this fraction of its length: a straight knee makes inverse kinematics jump.
+const REACH: f64 = 0.98;
+
+/// For a swinging leg the pelvis is lowered by no more than this, m.
+const SWING_DROP: f64 = 0.04;
+
+/// The pelvis is lowered over about this time, s.
+pub(in crate::sim::plan) const DROP_TIME: f64 = 0.15;
+
+/// Cut-off of the joints of swinging legs, Hz, and the time over which it comes in and goes out, s.
+const SWING_CUTOFF: f64 = 8.0;
+
+const SWING_EDGE: f64 = 0.08;
+
+/// After take-off feet come to follow the pelvis over this time, and before landing they cease to, s.
+const FLIGHT_EDGE: f64 = 0.1;
+
+/// Hip joint of each side in the pelvis frame, m, and length of the leg from hip to ankle, m.
+pub(in crate::sim::plan) fn leg_geometry(body: &Body) -> [(Vec3, f64); 2] {
+    [L_THIGH, R_THIGH].map(|thigh| {
+        let t = thigh.index();
+        (
+            body.joint_offset[t],
+            body.joint_offset[t + 1].norm() + body.joint_offset[t + 2].norm(),
+        )
+    })
+}
+
+/// Postures from upper body, feet and trunk shift: pelvis lowered until planted legs reach, legs solved.
+pub(super) fn assemble(
+    body: &Body,
+    upper: &[Posture],
+    locked: &[LockedFoot; 2],
+    draft: &Draft,
+    relief: &AnkleUnloading,
+    shift: &[[f64; 2]],
+    flights: Option<&FlightPhases>,
+) -> (Vec<Posture>, Vec<f64>) {
+    let n = upper.len();
+    let legs = leg_geometry(body);
+    let mut out = upper.to_vec();
+    let mut drop = vec![f64::INFINITY; n];
+    for i in 0..n {
+        pelvis_yaw::turn(body, &mut out[i], relief.yaw[i]);
+        out[i].root_position.x += shift[i][0];
+        out[i].root_position.y += shift[i][1];
+        for ((hip, length), foot) in legs.iter().zip(locked) {
+            let d = out[i].root_position + out[i].root_rotation.rotate(*hip) - foot.poses[i].ankle;
+            let most = REACH * length;
+            let level = d.x.hypot(d.y);
+            let height = (most * most - level * level).max(0.04 * most * most).sqrt();
+            let need = height - d.z;
+            // A swinging leg must not be straight when it lands either; one that kicks or lies is its own affair.
+            let weight = if foot.planted[i] {
+                1.0
+            } else {
+                ((0.6 - level / most) / 0.15).clamp(0.0, 1.0)
+            };
+            let need = if foot.planted[i] || need > 0.0 {
+                need
+            } else {
+                need.max(-SWING_DROP) * weight
+            };
+            drop[i] = drop[i].min(need);
+        }
+    }
+    let drop = match flights {
+        None => smoothest_below(&drop, DROP_TIME, draft.rate_hz),
+        Some(f) => f.heights(&drop),
+    };
+    let mut path: Vec<Vec3> = (0..n)
+        .map(|i| {
+            let mut p = out[i].root_position;
+            p.z += drop[i];
+            p
+        })
+        .collect();
+    if flights.is_none() {
+        low_pass_points(&mut path, 10.0, draft.rate_hz);
+    }
+    let flies = if flights.is_some() {
+        vec![0.0; n]
+    } else {
+        in_flight(locked, draft.rate_hz)
+    };
+    for i in 0..n {
+        // In the air the feet go where the pelvis goes; a runner's swing on.
+        let moved = (path[i] - upper[i].root_position) * flies[i];
+        out[i].root_position = path[i];
+        for (s, (hip, length)) in legs.iter().enumerate() {
+            let mut foot = locked[s].poses[i];
+            foot.ankle += moved;
+            let hip = path[i] + out[i].root_rotation.rotate(*hip);
+            let line = foot.ankle - hip;
+            let far = line.norm();
+            let most = 0.995 * length;
+            if !locked[s].planted[i] && far > most {
+                foot.ankle = hip + line * (most / far);
+            }
+            // Inwards is clockwise seen from above for the left leg: about the line pointing down, positive.
+            let inward = if s == 0 {
+                relief.turn_in[s][i]
+            } else {
+                -relief.turn_in[s][i]
+            };
+            let axis =
+                Quat::exp(line.normalized_or(-Vec3::Z) * inward).rotate(draft.knee_axis[s][i]);
+            solve_leg_in_plane(
+                body,
+                &mut out[i],
+                s == 0,
+                (foot.ankle, foot.rotation),
+                foot.toe,
+                axis,
+            );
+        }
+    }
+    for (s, foot) in locked.iter().enumerate() {
+        smooth_swings(&mut out, s, &foot.planted, draft.rate_hz);
+    }
+    (out, drop)
+}
+
+/// From 0 where a foot is planted to 1 inside a flight, per sample.
+fn in_flight(locked: &[LockedFoot; 2], rate_hz: f64) -> Vec<f64> {
+    let planted = locked[0].planted.iter().zip(&locked[1].planted);
+    let grounded: Vec<bool> = planted.map(|(l, r)| *l || *r).collect();
+    let n = grounded.len();
+    let mut share = vec![0.0; n];
+    for (i, j, on) in runs(&grounded) {
+        if on || i == 0 || j == n {
+            continue;
+        }
+        for (k, s) in share.iter_mut().enumerate().take(j).skip(i) {
+            let u = ((k + 1 - i).min(j - k) as f64 / (FLIGHT_EDGE * rate_hz)).min(1.0);
+            *s = smoothstep(u);
+        }
+    }
+    share
+}
+
+/// Low-pass of the joints of a leg while it swings: a knee that comes near to straight makes inverse kinematics jump. Planted legs stay.
+fn smooth_swings(postures: &mut [Posture], side: usize, planted: &[bool], rate_hz: f64) {
+    let leg = [
+        [L_THIGH, L_SHANK, L_FOOT, L_TOES],
+        [R_THIGH, R_SHANK, R_FOOT, R_TOES],
+    ][side];
+    // From 0 where the foot is planted to 1 inside a swing.
+    let mut share = vec![0.0; postures.len()];
+    for (i, j, on) in runs(planted) {
+        for (k, s) in share.iter_mut().enumerate().take(j).skip(i) {
+            let since = if i > 0 { k + 1 - i } else { usize::MAX };
+            let until = if j < planted.len() { j - k } else { usize::MAX };
+            let u = (since.min(until) as f64 / (SWING_EDGE * rate_hz)).min(1.0);
+            *s = if on { 0.0 } else { smoothstep(u) };
+        }
+    }
+    for segment in leg {
+        match JOINT[segment.index()] {
+            Joint::Ball(b) => {
+                let mut q: Vec<Quat> = postures.iter().map(|p| p.ball[b]).collect();
+                low_pass_rotations(&mut q, SWING_CUTOFF, rate_hz);
+                for ((p, q), s) in postures.iter_mut().zip(q).zip(&share) {
+                    let to = (q * p.ball[b].conjugate()).log() * *s;
+                    p.ball[b] = (Quat::exp(to) * p.ball[b]).normalized();
+                }
+            }
+            Joint::Hinge1(h) => {
+                let mut a: Vec<f64> = postures.iter().map(|p| p.hinge[h]).collect();
+                low_pass(&mut a, SWING_CUTOFF, rate_hz);
+                for ((p, a), s) in postures.iter_mut().zip(a).zip(&share) {
+                    p.hinge[h] += s * (a - p.hinge[h]);
+                }
+            }
+            _ => unreachable!("legs have ball joints and hinges of one axis"),
+        }
+    }
+}

@@ -1,0 +1,298 @@
+//! From one motion into another while it goes on: into a stand, or into a clip at the place where that looks most alike.
+//!
+//! The seam is a draft like any other: what was planned so far, then what comes, prepared together so that feet are locked and the
+//! zero-moment point is kept across it. Planned once when a figure is told to do something else; allocates, 10 to 20 ms for each end.
+
+use super::cycle::label;
+use super::feasibility::consistency;
+use super::foot_lock::{fade, turn, yaw_pitch};
+use super::prepare::{Draft, PrepareOptions, prepare_in};
+use crate::sim::body::{Body, Posture};
+use crate::sim::math::ease::smootherstep;
+use crate::sim::motion::clip::{Clip, PlanarTransform};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, OnceLock};
+
+/// Samples per second of what is planned here.
+pub const RATE: f64 = 60.0;
+/// Time of the motion so far that takes part in the seam, s.
+pub const RUN_UP: f64 = 1.4;
+/// Rates count this much against angles, s; moments are alike up to this unlikeness, rad rms; a step is at least so many samples long.
+const RATE_SHARE: f64 = 0.05;
+const ALIKE: f64 = 0.3;
+const LEAST_BACK: usize = 48;
+/// Time over which one motion turns into another, s.
+pub(crate) const BLEND: f64 = 0.3;
+/// How far ahead it is looked for a place to stop, s, and samples between the places that are tried.
+const STEP: f64 = 0.55;
+const APART: usize = 14;
+/// An end that asks for no more than this force and moment from nothing, shares of what a body weighs, is not worth bettering. Of
+/// those above 0.6 most fall, of those above 0.05 some.
+const EASY: f64 = 0.03;
+/// Rounds of preparation: what is known so far has been prepared, or comes off a window.
+pub(crate) const ROUNDS: usize = 4;
+/// Time of the motion so far that is prepared with its end, s.
+pub(crate) const TAKES_PART: f64 = 0.4;
+/// Samples per second of what is prepared.
+pub(crate) const FINE: f64 = 2.0 * RATE;
+
+pub(crate) const HOW: PrepareOptions = PrepareOptions {
+    lock_feet: true,
+    balance: true,
+    runs: true,
+    // A foot that an ankle at its limit moves by millimetres goes on standing: taken off the floor it would step in place, and nobody
+    // who is being stopped has time for that.
+    held: 0.01,
+};
+
+/// A sample: posture, and which feet are planted.
+pub type Sample = (Posture, [bool; 2]);
+
+/// The ends of a motion by the steps that bring it to a stand: the moments of the step to come are tried as the beginning of the end, in turn, until one
+/// asks little of the ground; else the one that asks least is taken. Each can be worked out on its own.
+pub struct Ends {
+    body: Arc<Body>,
+    known: Vec<Sample>,
+    now: usize,
+    goal: Option<Posture>,
+    streamed: bool,
+    way: OnceLock<Option<Way>>,
+    /// First end that was easy, as far as is known: those after it are not wanted.
+    easy: AtomicUsize,
+}
+
+/// What all ends have in common: the motion with samples at [`FINE`], with its step finished, and its labels.
+struct Way {
+    known: Vec<Sample>,
+    postures: Vec<Posture>,
+    label: Vec<[bool; 2]>,
+    now: usize,
+}
+
+impl Ends {
+    /// Most ends that are tried.
+    pub const MOST: usize = (STEP * FINE) as usize / APART + 1;
+
+    /// * `known`: the motion so far and as far ahead as it is known, samples at [`RATE`]; it goes on at least up to sample `now`.
+    /// * `how`: how it stands in the end, wherever that is, at ease if not given; and whether the motion is a stream, which is known less well than a clip.
+    pub fn new(
+        body: &Arc<Body>,
+        known: Vec<Sample>,
+        now: usize,
+        (goal, streamed): (Option<Posture>, bool),
+    ) -> Self {
+        Self {
+            body: Arc::clone(body),
+            known,
+            now,
+            goal,
+            streamed,
+            way: OnceLock::new(),
+            easy: AtomicUsize::new(usize::MAX),
+        }
+    }
+
+    fn way(&self) -> Option<&Way> {
+        let way = || {
+            if self.known.len() < 4 {
+                return None;
+            }
+            let (known, now) = (finer(&self.known)?, 2 * self.now);
+            let (mut postures, planted): (Vec<_>, Vec<_>) = known.iter().copied().unzip();
+            let mut label = label(&self.body, FINE, &postures, &planted);
+            if (now..label.len()).all(|i| label[i] != [true; 2]) {
+                finish_step(&mut postures, &mut label);
+            }
+            Some(Way {
+                known,
+                postures,
+                label,
+                now,
+            })
+        };
+        self.way.get_or_init(way).as_ref()
+    }
+
+    /// The `k`-th end, below [`Self::MOST`], and how much it asks for. Time 0 of the clip is the first sample given. `None` if there is none, if it stands,
+    /// sits or lies anyway, or if an end before it was easy.
+    pub fn end(&self, k: usize) -> Option<(f64, Clip)> {
+        if k > self.easy.load(Ordering::Relaxed) {
+            return None;
+        }
+        let way = self.way()?;
+        // Where in a step a body can be stopped best shows only when it is worked out.
+        let last = way.postures.len() - 1;
+        let latest = (way.now + (STEP * FINE) as usize).min(last);
+        let end = way.now.min(last) + k * APART;
+        if end > latest {
+            return None;
+        }
+        let (postures, label) = (&way.postures[..], &way.label[..]);
+        let how = (self.goal.as_ref(), self.streamed);
+        let found = ending(
+            &self.body,
+            &way.known,
+            (postures, label),
+            (way.now, end),
+            how,
+        )?;
+        if found.0 < EASY {
+            self.easy.fetch_min(k, Ordering::Relaxed);
+        }
+        Some(found)
+    }
+
+    /// The end that is taken, of all in their order. Looks at none behind an easy one.
+    pub fn best(ends: impl IntoIterator<Item = Option<(f64, Clip)>>) -> Option<Clip> {
+        let mut best: Option<(f64, Clip)> = None;
+        for found in ends.into_iter().flatten() {
+            if best.as_ref().is_none_or(|b| found.0 < b.0) {
+                let easy = found.0 < EASY;
+                best = Some(found);
+                if easy {
+                    break;
+                }
+            }
+        }
+        best.map(|(_, clip)| clip)
+    }
+}
+
+/// Ends a motion by the steps that bring it to a stand ([`Ends`]).
+pub fn stop(
+    body: &Arc<Body>,
+    known: Vec<Sample>,
+    now: usize,
+    how: (Option<Posture>, bool),
+) -> Option<Clip> {
+    let ends = Ends::new(body, known, now, how);
+    Ends::best((0..Ends::MOST).map(|k| ends.end(k)))
+}
+
+/// The motion up to sample `end`, then to a stand, and how hard that is for a body.
+fn ending(
+    body: &Body,
+    known: &[Sample],
+    (postures, label): (&[Posture], &[[bool; 2]]),
+    (now, end): (usize, usize),
+    (goal, streamed): (Option<&Posture>, bool),
+) -> Option<(f64, Clip)> {
+    // What was long ago has no part in it.
+    let cut = now.saturating_sub((TAKES_PART * FINE) as usize);
+    let part = (postures[cut..=end].to_vec(), label[cut..=end].to_vec());
+    let mut draft = Draft::of_postures(body, FINE, part.0, part.1);
+    let added = match goal {
+        Some(goal) => draft.end_like(body, goal),
+        None => draft.end_standing(body, streamed),
+    };
+    if added == 0 {
+        return None;
+    }
+    let mut whole = prepare_in(body, &draft, HOW, ROUNDS);
+    hold_on(&mut whole.postures, &known[cut..], now - cut);
+    let from = (now - cut).saturating_sub(4);
+    let asks = consistency(body, &whole.postures[from..], &draft.label[from..], FINE);
+    let (mut all, mut planted): (Vec<_>, Vec<_>) = known[..cut].iter().copied().unzip();
+    all.extend(whole.postures);
+    planted.extend(whole.planted);
+    let clip = Clip::from_postures("stop", FINE, all, planted).ok()?;
+    Some((asks.force.rms + asks.moment.rms, clip))
+}
+
+/// The same motion with as many samples again in between.
+fn finer(known: &[Sample]) -> Option<Vec<Sample>> {
+    let (postures, planted) = known.iter().copied().unzip();
+    let clip = Clip::from_postures("", RATE, postures, planted).ok()?;
+    let count = 2 * (known.len() - 1);
+    let at = |i: usize| clip.sample(i as f64 / FINE);
+    Some(
+        (0..=count)
+            .map(|i| {
+                let t = at(i);
+                (t.posture, t.planted)
+            })
+            .collect(),
+    )
+}
+
+/// What is played already stays as it was: the difference that preparation makes to the samples `before` up to `now` grows in after that.
+pub(crate) fn hold_on(postures: &mut [Posture], before: &[Sample], now: usize) {
+    if now < 1 || now >= postures.len().min(before.len()) {
+        return;
+    }
+    let off = |i: usize| postures[i].difference(&before[i].0);
+    let (last, off) = (off(now - 1), off(now));
+    let span = BLEND * FINE;
+    for (p, b) in postures.iter_mut().zip(before).take(now) {
+        *p = b.0;
+    }
+    for (i, p) in postures.iter_mut().enumerate().skip(now) {
+        let u = (i - now) as f64 / span;
+        if u >= 1.0 {
+            break;
+        }
+        let left: Vec<f64> = (0..off.len())
+            .map(|k| fade(off[k], (off[k] - last[k]) * span, 0.0, u))
+            .collect();
+        let mut e = off;
+        e.copy_from_slice(&left);
+        p.integrate(&e, 1.0);
+    }
+}
+
+/// Goes on with a motion that breaks off in mid-step as it went on the last time that it was like that, until both feet stand. Does nothing
+/// where it never was.
+fn finish_step(postures: &mut Vec<Posture>, label: &mut Vec<[bool; 2]>) {
+    let end = postures.len() - 1;
+    let rates = |i: usize| postures[i - 1].joint_difference(&postures[i]);
+    let last = rates(end);
+    let unlike = |i: usize| -> f64 {
+        let angles = postures[i].joint_difference(&postures[end]);
+        let rates = rates(i);
+        let sum: f64 = (0..angles.len())
+            .map(|k| angles[k].powi(2) + (RATE_SHARE * FINE * (rates[k] - last[k])).powi(2))
+            .sum();
+        (sum / angles.len() as f64).sqrt()
+    };
+    let best = (1..end.saturating_sub(LEAST_BACK))
+        .filter(|i| label[*i] == label[end])
+        .map(|i| (unlike(i), i))
+        .min_by(|a, b| a.0.total_cmp(&b.0));
+    let Some((_, from)) = best.filter(|(u, _)| *u < ALIKE) else {
+        return;
+    };
+    let moved = between(&postures[from], &postures[end]);
+    let placed = |p: &Posture| {
+        let mut p = *p;
+        moved.apply_posture(&mut p);
+        p
+    };
+    let off = placed(&postures[from]).difference(&postures[end]);
+    for i in from + 1..=end {
+        let u = ((i - from) as f64 / (BLEND * FINE)).min(1.0);
+        let s = 1.0 - smootherstep(u);
+        let mut p = placed(&postures[i]);
+        p.integrate(&off.map(|e| e * s), 1.0);
+        postures.push(p);
+        label.push(label[i]);
+        if label[i] == [true; 2] {
+            return;
+        }
+    }
+}
+
+/// What moves a posture to the place and heading of another one.
+pub fn between(from: &Posture, to: &Posture) -> PlanarTransform {
+    let heading = |p: &Posture| yaw_pitch(p.root_rotation).0;
+    let turn = PlanarTransform {
+        x: 0.0,
+        y: 0.0,
+        yaw: turn(heading(from), heading(to)),
+    };
+    let at = turn.point(from.root_position);
+    PlanarTransform {
+        x: to.root_position.x - at.x,
+        y: to.root_position.y - at.y,
+        ..turn
+    }
+}

@@ -1,0 +1,313 @@
+//! From standing into a motion and out of it again: what comes before the first and after the last recorded sample.
+//!
+//! A recording that ends in full stride has no last posture that a body could hold. Here it gets the steps that bring it to a stand: planned on
+//! a pendulum that starts where the recording stops ([`pendulum`]), walked by feet that roll and swing ([`feet`]), while trunk and arms come
+//! to ease. The beginning is the same thing backwards. What comes out is a draft like any other; [`super::prepare`] locks its feet and makes
+//! the whole body keep its balance.
+
+mod foot_curves;
+mod footsteps;
+mod initial_state;
+
+use super::foot_lock::Sole;
+use super::prepare::Draft;
+use crate::sim::body::topology::{L_FOOT, NV, R_FOOT};
+use crate::sim::body::{Body, Posture};
+use crate::sim::math::ease::smootherstep;
+use crate::sim::math::{Quat, Vec3};
+use crate::sim::motion::builtin::at_ease;
+use crate::sim::motion::filter::low_pass_points;
+use crate::sim::motion::leg_ik::{forward, knee_axis};
+use footsteps::{Footsteps, Stand, footsteps, frequency};
+use initial_state::Start;
+
+/// A pelvis below this share of its standing height is not one that walks.
+const UPRIGHT: f64 = 0.75;
+/// A foot that left the floor no longer than this before the end has not left it, s.
+const JUST_LIFTED: f64 = 0.04;
+/// Shortest and longest swing of a step that catches the body, s.
+const SWING: (f64, f64) = (0.26, 0.46);
+/// What a body of 1 m/s should have in hand, s, where the moment is given and not chosen: it stops less well than a pendulum.
+const SPARE: f64 = 0.03;
+/// Time constant with which the rates of the joints die away, s.
+const DECAY: f64 = 0.2;
+/// Time in which trunk and arms come to ease, s.
+const EASE: f64 = 1.0;
+/// Joints this close to where they shall be are there, rad.
+const ALIKE: f64 = 0.03;
+
+const FOOT: [usize; 2] = [L_FOOT.index(), R_FOOT.index()];
+
+/// Value at `t` of the quintic from `x0`, with slope `v0`, to rest at `x1` after time `end`; no curvature at either end.
+fn min_jerk(x0: f64, v0: f64, x1: f64, end: f64, t: f64) -> f64 {
+    let u = (t / end).clamp(0.0, 1.0);
+    let (d, w) = (x1 - x0, v0 * end);
+    let (c3, c4, c5) = (10.0 * d - 6.0 * w, 8.0 * w - 15.0 * d, 6.0 * d - 3.0 * w);
+    x0 + u * (w + u * u * (c3 + u * (c4 + u * c5)))
+}
+
+fn min_jerk_3(x0: Vec3, v0: Vec3, x1: Vec3, end: f64, t: f64) -> Vec3 {
+    let (a, v, b) = (x0.to_array(), v0.to_array(), x1.to_array());
+    Vec3::from_array(std::array::from_fn(|k| min_jerk(a[k], v[k], b[k], end, t)))
+}
+
+fn turned(yaw: f64, v: Vec3) -> Vec3 {
+    Quat::exp(Vec3::Z * yaw).rotate(v)
+}
+
+/// The same point on the floor.
+fn ground(v: Vec3) -> Vec3 {
+    Vec3 { z: 0.0, ..v }
+}
+
+fn level(p: [f64; 2]) -> Vec3 {
+    Vec3 {
+        x: p[0],
+        y: p[1],
+        z: 0.0,
+    }
+}
+
+fn flat(v: Vec3) -> [f64; 2] {
+    [v.x, v.y]
+}
+
+/// How a motion is to end.
+#[derive(Clone, Copy)]
+enum Goal<'a> {
+    /// Standing, at ease if it does not stand.
+    Stand,
+    /// The same, of a motion that runs backwards: it will come from there.
+    Origin,
+    /// At rest: as it stands if it does, and else standing at ease.
+    Still,
+    /// Standing like this, if it does not stand like that.
+    Like(&'a Posture),
+    /// At rest in this posture, however near to it and slow it is.
+    Rest(&'a Posture),
+}
+
+/// Samples after the last one of `draft`, from its motion to its goal. `None` if it is there already, if it does not walk, or if no steps are found that
+/// stop it.
+fn tail(body: &Body, draft: &Draft, goal: Goal<'_>, spare: f64) -> Option<Draft> {
+    if draft.postures.len() < 3 {
+        return None;
+    }
+    let soles = [Sole::new(body, 0), Sole::new(body, 1)];
+    let from = Start::of(body, draft, &soles);
+    let mut stand = match goal {
+        Goal::Stand | Goal::Origin | Goal::Still => Stand::of(body, &at_ease(body)),
+        Goal::Like(posture) | Goal::Rest(posture) => Stand::of(body, posture),
+    };
+    // Who sits or lies is not led to a stand; who squats stands on his feet.
+    let stands = from.stands(&soles, frequency(&from, &stand));
+    if !stands && from.posture.root_position.z < UPRIGHT * body.standing_root_height() {
+        return None;
+    }
+    if stands && matches!(goal, Goal::Still) {
+        // It needs no step, only time.
+        stand = Stand::of(body, &from.posture);
+    }
+    let is_there = match goal {
+        Goal::Stand | Goal::Origin => true,
+        Goal::Still => !from.moves(),
+        Goal::Like(posture) => alike(&from.posture, posture),
+        Goal::Rest(_) => false,
+    };
+    if is_there && stands {
+        return None;
+    }
+    let how = (leg_length(body), draft.rate_hz, spare);
+    let found = footsteps(&from, &stand, &soles, how)?;
+    let axis = [0, 1].map(|s: usize| draft.knee_axis[s].last().copied().unwrap_or(Vec3::Y));
+    let lands = !matches!(goal, Goal::Origin);
+    let how = (axis, draft.rate_hz, lands);
+    Some(walk(&from, &stand, &soles, &found, how))
+}
+
+/// The motion along footsteps: the pelvis with the pendulum's mass, feet from hold to hold, everything else to ease.
+///
+/// * `axis`: knee axes that it starts with; `rate`: samples per second; `lands`: what comes down in it does so in the world, as time runs there.
+fn walk(
+    from: &Start,
+    stand: &Stand,
+    soles: &[Sole; 2],
+    found: &Footsteps,
+    (axis, rate, lands): ([Vec3; 2], f64, bool),
+) -> Draft {
+    let upright =
+        Quat::exp(Vec3::Z * (found.heading - stand.heading)) * stand.posture.root_rotation;
+    // The zero-moment point of the pendulum jumps from foot to foot; a body's does not.
+    let mut path = found.path.clone();
+    low_pass_points(&mut path, 4.0, rate);
+    let offset = ground(from.posture.root_position - from.com);
+    let end_offset = turned(found.heading, ground(stand.pelvis - stand.mass));
+    let mut out = Draft::empty(rate);
+    for i in 1..path.len() {
+        let t = i as f64 / rate;
+        let s = smootherstep(t / EASE);
+        let mut p = from.posture;
+        // Rates die away while the joints come to ease.
+        let mut rates = from.rates;
+        rates[3..6].fill(0.0);
+        p.integrate(&rates, DECAY * (1.0 - (-t / DECAY).exp()));
+        let mut way = [0.0; NV];
+        let spin = (upright * p.root_rotation.conjugate()).log() * s;
+        way[..3].copy_from_slice(&spin.to_array());
+        for (w, d) in way[6..].iter_mut().zip(p.joint_difference(&stand.posture)) {
+            *w = s * d;
+        }
+        p.integrate(&way, 1.0);
+        let at = path[i] + offset * (1.0 - s) + end_offset * s;
+        p.root_position = Vec3 {
+            z: min_jerk(
+                from.posture.root_position.z,
+                from.velocity.z,
+                stand.pelvis.z,
+                EASE,
+                t,
+            ),
+            ..at
+        };
+        let mut label = [true; 2];
+        for side in 0..2 {
+            let yaw = found.heading + stand.yaw[side];
+            let (ankle, foot, down) =
+                foot_curves::pose(from, &found.steps, &soles[side], (side, yaw, lands), t);
+            out.ankle[side].push(ankle);
+            out.foot[side].push(foot);
+            label[side] = down;
+            let axis = axis[side] * (1.0 - s) + p.root_rotation.rotate(Vec3::Y) * s;
+            out.knee_axis[side].push(axis.normalized_or(Vec3::Y));
+        }
+        out.label.push(label);
+        out.postures.push(p);
+    }
+    out
+}
+
+/// Length of a leg from hip to ankle, m.
+fn leg_length(body: &Body) -> f64 {
+    body.joint_offset[FOOT[0]].norm() + body.joint_offset[FOOT[0] - 1].norm()
+}
+
+/// True if nothing worth a movement is between two postures.
+fn alike(a: &Posture, b: &Posture) -> bool {
+    a.joint_difference(b).iter().all(|e| e.abs() < ALIKE)
+}
+
+impl Draft {
+    fn empty(rate_hz: f64) -> Self {
+        Self {
+            rate_hz,
+            postures: Vec::new(),
+            knee_axis: Default::default(),
+            ankle: Default::default(),
+            foot: Default::default(),
+            label: Vec::new(),
+        }
+    }
+
+    /// Postures that are whole, legs included, with the feet labelled as on the floor or not.
+    pub fn of_postures(
+        body: &Body,
+        rate_hz: f64,
+        postures: Vec<Posture>,
+        label: Vec<[bool; 2]>,
+    ) -> Self {
+        let mut out = Self::empty(rate_hz);
+        for p in &postures {
+            let poses = forward(body, p);
+            for s in 0..2 {
+                let (ankle, foot) = poses[FOOT[s]];
+                out.ankle[s].push(ankle);
+                out.foot[s].push(foot);
+                out.knee_axis[s].push(knee_axis(p, s == 0));
+            }
+        }
+        out.postures = postures;
+        out.label = label;
+        out
+    }
+
+    /// The same motion backwards.
+    fn reverse(&mut self) {
+        self.postures.reverse();
+        self.label.reverse();
+        for s in 0..2 {
+            self.knee_axis[s].reverse();
+            self.ankle[s].reverse();
+            self.foot[s].reverse();
+        }
+    }
+
+    /// Leaves feet on the floor that lift in the very end: those of a body that is going to stop need not.
+    fn put_down(&mut self) {
+        let most = (JUST_LIFTED * self.rate_hz) as usize;
+        for s in 0..2 {
+            let on = |l: &[bool; 2]| l[s];
+            if let Some(last) = self.label.iter().rposition(on) {
+                let lifted = &mut self.label[last + 1..];
+                if lifted.len() <= most {
+                    lifted.iter_mut().for_each(|l| l[s] = true);
+                }
+            }
+        }
+    }
+
+    /// Appends an end, if there is one. Returns how many samples that is.
+    fn go_on(&mut self, end: Option<Self>) -> usize {
+        let count = end.as_ref().map_or(0, |e| e.postures.len());
+        if let Some(end) = end {
+            self.append(end);
+        }
+        count
+    }
+
+    fn append(&mut self, more: Self) {
+        self.postures.extend(more.postures);
+        self.label.extend(more.label);
+        let parts = more.knee_axis.into_iter().zip(more.ankle).zip(more.foot);
+        for (s, ((axis, ankle), foot)) in parts.enumerate() {
+            self.knee_axis[s].extend(axis);
+            self.ankle[s].extend(ankle);
+            self.foot[s].extend(foot);
+        }
+    }
+
+    /// Continues a draft of whole postures so that it ends standing like `goal`, wherever that is. Returns how many samples it took.
+    pub fn end_like(&mut self, body: &Body, goal: &Posture) -> usize {
+        self.put_down();
+        let after = tail(body, self, Goal::Like(goal), 0.0);
+        self.go_on(after)
+    }
+
+    /// The same, but to rest in just that posture, however little that takes.
+    pub fn end_at_rest(&mut self, body: &Body, goal: &Posture) -> usize {
+        self.put_down();
+        let after = tail(body, self, Goal::Rest(goal), 0.0);
+        self.go_on(after)
+    }
+
+    /// Continues a draft of whole postures to a stand, wherever that is. Returns how many samples it took; none if it stands, sits or lies.
+    ///
+    /// * `given`: the moment is given, or the motion poorly known: more is kept in hand than for a moment that was chosen for being easy.
+    pub fn end_standing(&mut self, body: &Body, given: bool) -> usize {
+        self.put_down();
+        let after = tail(body, self, Goal::Stand, if given { SPARE } else { 0.0 });
+        self.go_on(after)
+    }
+
+    /// Continues a draft of whole postures to a stand and lets it begin from one, where it does not stand, sit or lie anyway. Returns how
+    /// many samples came before and after.
+    pub fn add_ends(&mut self, body: &Body) -> (usize, usize) {
+        self.put_down();
+        let after = tail(body, self, Goal::Still, SPARE);
+        self.reverse();
+        self.put_down();
+        let before = tail(body, self, Goal::Origin, SPARE);
+        let before = self.go_on(before);
+        self.reverse();
+        (before, self.go_on(after))
+    }
+}

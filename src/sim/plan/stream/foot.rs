@@ -1,0 +1,512 @@
+//! One foot of a stream: when it stands, where, and how it gets from one place to the next.
+
+use super::{H, STEADY};
+use crate::sim::math::ease::fall;
+use crate::sim::math::rotation_vector::quintic;
+use crate::sim::math::{Quat, Vec3, trig};
+use crate::sim::plan::foot_lock::{Anchor, FootPose, Sole};
+
+/// A point touches below this speed, m/s, and until it is faster than that.
+const SPEED: (f64, f64) = (0.45, 0.55);
+/// A point touches this close to its own lowest level, m, and until it is higher than that.
+const HEIGHT: (f64, f64) = (0.05, 0.07);
+/// Speed at which the lowest level is forgotten, m/s, and how far it may be from that of the body's own sole, m.
+const FORGET: f64 = 0.01;
+const UNEVEN: f64 = 0.06;
+/// A standing foot whose recording strays further than this has moved, m and rad; it is given so many samples to get there.
+const STRAY: (f64, f64) = (0.06, 0.40);
+const SHUFFLE: i64 = 12;
+/// A foot that has stood for less than this is not taken off the floor again, samples.
+const SHORTEST: i64 = 9;
+/// A foot is not taken off the floor sooner than that, samples, unless the recording does so: the body has to come over the other one.
+const NOTICE: i64 = 18;
+/// Nor before the other one has stood for so long, samples: nobody changes feet in no time.
+const DRAGS: i64 = 4;
+/// Pitch below which a foot in a stride is flat, rad, and one that stays: a standing person's soles are flat unless clearly raised. It stays when it has
+/// stood for longer than the first, s, and for certain after the second.
+const FLAT: (f64, f64) = (0.07, 0.16);
+const STAYS: (f64, f64) = (0.7, 1.5);
+/// Who lands on his heel begins to come down to his sole after the first, and has after the second, s: a heel alone keeps nobody's balance. Recordings
+/// with a foot pitched up by some degrees throughout would have it so.
+const HEEL: (f64, f64) = (0.1, 0.2);
+/// Largest pitch of a standing foot, rad.
+const STEEPEST: (f64, f64) = (-1.05, 0.6);
+/// Sine of the roll beyond which a foot does not stand on its sole. A foot that comes down is flatter than steepest by this much; one that leaves the
+/// floor may be steeper for so many samples.
+const ROLLED: f64 = 0.56;
+const LANDS: f64 = 0.8;
+const LEAVING: i64 = 12;
+/// Most by which a standing foot rises on its toes so that its leg reaches, rad, and halvings on the way to what it takes.
+const MOST_RISE: f64 = 0.7;
+const HALVINGS: usize = 12;
+/// Time over which a swing departs from a lock while its next place is not known, s.
+const FADE: f64 = 0.4;
+/// Height of a swinging sole, m, share of the step that it is, least height; how fast a sole rises and sinks at least, m/s.
+const CLEARANCE: f64 = 0.045;
+const CLEARANCE_SHARE: f64 = 0.12;
+const CLEARANCE_LEAST: f64 = 0.015;
+const RISE: (f64, f64) = (0.45, 0.4);
+/// It takes about so long until it rises like that, s: a foot that leaves the floor at once jerks the leg.
+const LEAVES: f64 = 0.06;
+/// Largest toe extension of a swinging foot, rad.
+const SWING_TOE: f64 = 0.6;
+/// Speed of a place at which it counts half in where a foot stands, m/s.
+const QUIET: f64 = 0.1;
+/// Neither foot down for no more samples than this is no flight.
+const FLIGHT: i64 = 5;
+/// Samples that labels are kept for.
+const KEPT: usize = 192;
+/// Stances that are kept.
+pub(super) const STANCES: usize = 8;
+/// Most samples that a place is averaged over.
+const AVERAGED: i64 = 30;
+
+/// One stance of one foot. Times in samples of the grid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stance {
+    /// First sample.
+    pub start: i64,
+    /// One past the last sample; `i64::MAX` while it lasts.
+    pub end: i64,
+    /// Point of the floor under the flat ankle, m.
+    pub place: Vec3,
+    /// Heading, rad.
+    pub yaw: f64,
+    /// Place and heading do not change any more.
+    settled: bool,
+    /// It has been flat: it does not rise on its heel again.
+    rolled: bool,
+}
+
+/// A foot as if it stood.
+#[derive(Clone, Copy, Debug)]
+pub struct Standing {
+    /// Point of the floor under the flat ankle, m.
+    pub place: Vec3,
+    /// Heading, rad.
+    pub yaw: f64,
+    /// Pitch, rad, toe-up positive.
+    pub pitch: f64,
+    /// How steep or rolled it is; beyond 1 it does not stand on its sole.
+    pub steep: f64,
+    /// Speed of the place, m/s.
+    pub speed: f64,
+}
+
+/// A foot put where it is to be.
+#[derive(Clone, Copy, Debug)]
+pub struct Posed {
+    /// Pose, without clearance.
+    pub pose: FootPose,
+    /// It stands.
+    pub down: bool,
+    /// What it lacks to clear the floor, m.
+    pub lift: f64,
+}
+
+type Channels = [f64; 7];
+
+/// Labels, stances and the swing of one foot.
+#[derive(Clone, Debug)]
+pub struct Foot {
+    on: [bool; KEPT],
+    down: [bool; KEPT],
+    level: [f64; 3],
+    touches: [bool; 3],
+    stances: [Stance; STANCES],
+    count: usize,
+    /// Where it will land, as far as that can be seen.
+    coming: Option<Stance>,
+    /// Until when a foot that has moved on the floor is taken off it, and for how long it has strayed, samples.
+    moving: i64,
+    strayed: i64,
+    /// For how long it has been steep, samples.
+    steep: i64,
+    /// Offset from the recording, and its first two derivatives.
+    offset: [Channels; 3],
+    posed: i64,
+}
+
+/// How steep or rolled a foot is; beyond 1 it does not stand on its sole.
+pub fn steepness(rotation: Quat, pitch: f64) -> f64 {
+    let roll = rotation.rotate(Vec3::Y).z.abs() / ROLLED;
+    roll.max(pitch / STEEPEST.0).max(pitch / STEEPEST.1)
+}
+
+/// Pitch of a standing foot: flat within a band, with a smooth beginning, and toe-up for a moment only. `age`: for how long it has stood, samples.
+fn stance_pitch(raw: f64, age: i64, rolled: bool) -> f64 {
+    let stood = age as f64 * H;
+    let u = ((stood - STAYS.0) / (STAYS.1 - STAYS.0)).clamp(0.0, 1.0);
+    let flat = FLAT.0 + u * (FLAT.1 - FLAT.0);
+    let beyond = (raw.abs() - flat).max(0.0);
+    let p = (beyond * beyond / (beyond + FLAT.0)).copysign(raw);
+    let p = p.clamp(STEEPEST.0, STEEPEST.1);
+    if p < 0.0 {
+        p
+    } else if rolled {
+        0.0
+    } else {
+        p * fall(stood, HEEL)
+    }
+}
+
+/// Pitch of a standing foot that its leg reaches: it rises on its toes by as little as that takes.
+///
+/// * `lacks`: how far an ankle is out of reach, m.
+pub fn risen(sole: &Sole, at: &Anchor, lacks: &impl Fn(Vec3) -> f64) -> f64 {
+    let left = |rise: f64| lacks(sole.stand(at.place, at.yaw, at.pitch - rise).ankle);
+    let most = MOST_RISE.min(at.pitch.min(0.0) - STEEPEST.0);
+    let (mut low, mut high) = (0.0, most);
+    if left(low) <= 0.0 || most <= 0.0 || left(high) >= left(low) {
+        return at.pitch;
+    }
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if left(middle) > 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    at.pitch - high
+}
+
+fn difference(to: &FootPose, (ankle, rotation): (Vec3, Quat), toe: f64) -> Channels {
+    let p = to.ankle - ankle;
+    let r = (to.rotation * rotation.conjugate()).log();
+    [p.x, p.y, p.z, r.x, r.y, r.z, to.toe - toe]
+}
+
+fn swing_toe(pitch: f64) -> f64 {
+    (-pitch).clamp(0.0, SWING_TOE)
+}
+
+impl Foot {
+    /// A foot of which nothing is known.
+    pub fn new() -> Self {
+        let none = Stance {
+            start: 0,
+            end: 0,
+            place: Vec3::zero(),
+            yaw: 0.0,
+            settled: false,
+            rolled: false,
+        };
+        Self {
+            on: [false; KEPT],
+            down: [false; KEPT],
+            level: [f64::INFINITY; 3],
+            touches: [false; 3],
+            stances: [none; STANCES],
+            count: 0,
+            coming: None,
+            moving: i64::MIN,
+            strayed: 0,
+            steep: 0,
+            offset: [[0.0; 7]; 3],
+            posed: -1,
+        }
+    }
+
+    /// Stances that are known, oldest first, with the one to come.
+    pub fn stances(&self) -> impl Iterator<Item = &Stance> {
+        self.stances[..self.count].iter().chain(&self.coming)
+    }
+
+    fn slot(i: i64) -> usize {
+        i.rem_euclid(KEPT as i64) as usize
+    }
+
+    /// True if it stands in sample `i`.
+    pub fn is_down(&self, i: i64) -> bool {
+        self.down[Self::slot(i.max(0))]
+    }
+
+    /// True if it touches in sample `j`.
+    pub fn touches(&self, j: i64) -> bool {
+        self.on[Self::slot(j)]
+    }
+
+    /// True if it touches in sample `j` or so soon after it that the time between is no flight.
+    fn lands(&self, j: i64, last: i64) -> bool {
+        (j..=(j + FLIGHT).min(last)).any(|i| self.on[Self::slot(i)])
+    }
+
+    fn stance_at(&self, i: i64) -> Option<usize> {
+        (0..self.count).find(|k| (self.stances[*k].start..self.stances[*k].end).contains(&i))
+    }
+
+    /// Notes whether it touches in sample `i`: any of its `points`, by height over its own level and by speed (`None`: unknown, as before).
+    pub fn touch(
+        &mut self,
+        i: i64,
+        points: [Vec3; 3],
+        standing: [f64; 3],
+        speed: impl Fn(usize) -> Option<f64>,
+        hint: Option<bool>,
+    ) {
+        for k in 0..3 {
+            let z = points[k].z;
+            let level = (self.level[k] + FORGET * H).min(z);
+            self.level[k] = level.clamp(standing[k] - UNEVEN, standing[k] + UNEVEN);
+            let (fast, high) = if self.touches[k] {
+                (SPEED.1, HEIGHT.1)
+            } else {
+                (SPEED.0, HEIGHT.0)
+            };
+            let low = z - self.level[k] < high;
+            self.touches[k] = low && speed(k).map_or(self.touches[k], |v| v < fast);
+        }
+        self.on[Self::slot(i)] = hint.unwrap_or(self.touches != [false; 3]);
+        if i == 1 {
+            self.on[0] = self.on[1];
+        }
+    }
+
+    /// Settles whether it stands in sample `j`; `last` is the newest sample that [`Self::touch`] has seen. Returns from which earlier sample on it does not
+    /// stand any more, if that has changed.
+    pub fn label(
+        &mut self,
+        j: i64,
+        last: i64,
+        upright: bool,
+        other: &Self,
+        standing: impl Fn(i64) -> Standing,
+    ) -> Option<i64> {
+        let before = j > 0 && self.down[Self::slot(j - 1)];
+        let on = |i: i64| self.on[Self::slot(i)];
+        // Nobody comes down on a foot as steep as that; who leaves the floor may be so for a moment.
+        let now = standing(j);
+        let most = if before { 1.0 } else { LANDS };
+        self.steep = if now.steep > most { self.steep + 1 } else { 0 };
+        let upright = upright && self.steep < if before { LEAVING } else { 1 };
+        let wanted = on(j) && upright;
+        let steady = j == 0 || (j..=(j + STEADY).min(last)).all(|i| on(i) == on(j));
+        let mut down = if wanted == before || steady {
+            wanted
+        } else {
+            before && upright
+        };
+        // Someone must stand unless it is a flight: the foot that lands comes earlier.
+        down |= upright && !other.touches(j) && self.lands(j, last);
+        let given_up = if down {
+            self.give_up(j, &now, other, &standing)
+        } else {
+            None
+        };
+        if j < self.moving {
+            down = false;
+        }
+        self.down[Self::slot(j)] = down;
+        match (before && given_up.is_none(), down) {
+            (false, true) => {
+                if self.count == STANCES {
+                    self.stances.rotate_left(1);
+                    self.count -= 1;
+                }
+                self.stances[self.count] = self.estimate(j, last, &standing);
+                self.count += 1;
+                self.coming = None;
+                self.strayed = 0;
+            }
+            (true, false) => self.stances[self.count - 1].end = j,
+            _ => {}
+        }
+        given_up
+    }
+
+    /// Takes a foot that has moved while it stood off the floor, to set it down anew: returns from which sample on. One foot gives way where the other one
+    /// really stands, and where there is time enough the body is given some to come over that one.
+    fn give_up(
+        &mut self,
+        j: i64,
+        now: &Standing,
+        other: &Self,
+        standing: &impl Fn(i64) -> Standing,
+    ) -> Option<i64> {
+        let k = self.stance_at(j)?;
+        let st = self.stances[k];
+        // A foot that turns slowly is where it is on average as long as its place may still change.
+        let at = if st.settled {
+            st
+        } else {
+            self.estimate(st.start, j, standing)
+        };
+        let strays = (now.place - at.place).norm() > STRAY.0
+            || trig::wrapped(now.yaw - at.yaw).abs() > STRAY.1;
+        self.strayed = if strays { self.strayed + 1 } else { 0 };
+        let carried = |i: i64| (1..=DRAGS).all(|k| other.is_down(i - k));
+        if self.strayed <= STEADY || !(other.touches(j) && carried(j) && j >= other.moving) {
+            return None;
+        }
+        let wanted = j - self.strayed - SHUFFLE / 2;
+        let first = wanted
+            .max(self.posed + NOTICE)
+            .max(st.start + SHORTEST)
+            .min(j);
+        let from = (first..j).rev().take_while(|i| carried(*i)).last();
+        let from = from.unwrap_or(j);
+        for i in from..j {
+            self.down[Self::slot(i)] = false;
+        }
+        self.stances[k].end = from;
+        self.moving = (from + SHUFFLE).max(j + 1);
+        Some(from)
+    }
+
+    /// A stance from sample `start` on, placed by what is known up to `last`: where the foot moves least.
+    fn estimate(&self, start: i64, last: i64, standing: &impl Fn(i64) -> Standing) -> Stance {
+        let mut out = Stance {
+            start,
+            end: i64::MAX,
+            place: Vec3::zero(),
+            yaw: 0.0,
+            settled: false,
+            rolled: false,
+        };
+        let first = standing(start);
+        let (mut sum, mut place, mut yaw) = (0.0, Vec3::zero(), 0.0);
+        for i in start..=last.min(start + AVERAGED).max(start) {
+            if i > start && !self.on[Self::slot(i)] {
+                break;
+            }
+            let s = standing(i);
+            let w = QUIET * QUIET / (QUIET * QUIET + s.speed * s.speed);
+            sum += w;
+            place += (s.place - first.place) * w;
+            yaw += trig::wrapped(s.yaw - first.yaw) * w;
+        }
+        out.place = first.place + place * (1.0 / sum);
+        out.yaw = first.yaw + yaw / sum;
+        out
+    }
+
+    /// Where it stands in sample `j`; `None` if it does not.
+    pub fn anchor(&self, j: i64, standing: impl Fn(i64) -> Standing) -> Option<Anchor> {
+        let st = &self.stances[self.stance_at(j)?];
+        Some(Anchor {
+            tip: 0.0,
+            place: st.place,
+            yaw: st.yaw,
+            pitch: stance_pitch(standing(j).pitch, j - st.start, st.rolled),
+        })
+    }
+
+    /// First sample after `f` in which it stands, with that stance: settled up to sample `labelled`, as it seems up to `seen`.
+    fn landing(
+        &self,
+        f: i64,
+        (labelled, seen): (i64, i64),
+        standing: &impl Fn(i64) -> Standing,
+    ) -> Option<Stance> {
+        let known = self.stances[..self.count].iter().find(|s| s.start > f);
+        if let Some(st) = known {
+            return Some(*st);
+        }
+        let mut start = seen + 1;
+        while start > labelled.max(f) + 1 && self.on[Self::slot(start - 1)] {
+            start -= 1;
+        }
+        let comes = start <= seen && start >= self.moving && standing(start).steep < LANDS;
+        comes.then(|| self.estimate(start, seen, standing))
+    }
+
+    /// Poses it in sample `f`, the one after the last posed; `lacks` says how far an ankle is out of the leg's reach, m.
+    pub fn pose(
+        &mut self,
+        sole: &Sole,
+        f: i64,
+        (labelled, seen): (i64, i64),
+        raw: impl Fn(i64) -> (Vec3, Quat),
+        standing: impl Fn(i64) -> Standing,
+        lacks: impl Fn(Vec3) -> f64,
+    ) -> Posed {
+        let now = standing(f);
+        let (ankle, rotation) = raw(f);
+        let toe = swing_toe(now.pitch);
+        if let Some(k) = self.stance_at(f) {
+            if !self.stances[k].settled {
+                let (start, end) = (self.stances[k].start, self.stances[k].end);
+                let better = self.estimate(start, seen.min(end - 1), &standing);
+                let st = &mut self.stances[k];
+                (st.place, st.yaw, st.settled) = (better.place, better.yaw, true);
+            }
+            let st = &mut self.stances[k];
+            st.rolled |= now.pitch < FLAT.0;
+            let at = Anchor {
+                tip: 0.0,
+                place: st.place,
+                yaw: st.yaw,
+                pitch: stance_pitch(now.pitch, f - st.start, st.rolled),
+            };
+            let pose = sole.stand(at.place, at.yaw, risen(sole, &at, &lacks));
+            let o = difference(&pose, (ankle, rotation), toe);
+            let o0 = self.offset[0];
+            self.offset = if self.posed >= 0 {
+                let v: Channels = std::array::from_fn(|c| (o[c] - o0[c]) / H);
+                // Differences of differences would lead the swing astray.
+                [o, v, [0.0; 7]]
+            } else {
+                [o, [0.0; 7], [0.0; 7]]
+            };
+            self.posed = f;
+            self.coming = None;
+            return Posed {
+                pose,
+                down: true,
+                lift: 0.0,
+            };
+        }
+        self.coming = self.landing(f, (labelled, seen), &standing);
+        let (goal, slope, left) = match &self.coming {
+            Some(st) => {
+                let at = |i: i64| {
+                    let s = standing(i);
+                    let pose = sole.stand(st.place, st.yaw, stance_pitch(s.pitch, 0, false));
+                    difference(&pose, raw(i), swing_toe(s.pitch))
+                };
+                let (a, b) = (at(st.start), at((st.start + 1).min(seen)));
+                let slope: Channels = std::array::from_fn(|c| (b[c] - a[c]) / H);
+                (a, slope, (st.start - f + 1) as f64 * H)
+            }
+            None => ([0.0; 7], [0.0; 7], FADE),
+        };
+        let [o0, v0, a0] = self.offset;
+        for c in 0..7 {
+            let [p, v, a] = quintic(left, H, v0[c], a0[c], goal[c] - o0[c], slope[c], 0.0);
+            self.offset[0][c] = o0[c] + p;
+            self.offset[1][c] = v;
+            self.offset[2][c] = a;
+        }
+        self.posed = f;
+        let o = self.offset[0];
+        let pose = FootPose {
+            ankle: ankle + Vec3::from_array([o[0], o[1], o[2]]),
+            rotation: (Quat::exp(Vec3::from_array([o[3], o[4], o[5]])) * rotation).normalized(),
+            toe: (toe + o[6]).max(0.0),
+        };
+        Posed {
+            lift: self.lift(sole, f, &pose, now.place),
+            pose,
+            down: false,
+        }
+    }
+
+    /// What a swinging sole lacks to clear the floor as its time in the air and its way ask for, m.
+    fn lift(&self, sole: &Sole, f: i64, pose: &FootPose, place: Vec3) -> f64 {
+        let last = self.stances[..self.count].iter().rev().find(|s| s.end <= f);
+        let since = last.map_or(1.0, |s| (f + 1 - s.end) as f64 * H);
+        let until = self.coming.map_or(1.0, |s| (s.start - f) as f64 * H);
+        let from = last.map_or(place, |s| s.place);
+        let reach = (place - from)
+            .norm()
+            .max(self.coming.map_or(0.0, |s| (s.place - from).norm()));
+        let most = (CLEARANCE_SHARE * reach).clamp(CLEARANCE_LEAST, CLEARANCE);
+        let need = most
+            .min(RISE.0 * since * since / (since + LEAVES))
+            .min(RISE.1 * until);
+        let lacks = (need - (pose.ankle.z + sole.lowest(pose.rotation, pose.toe))).max(0.0);
+        let w = (since.min(until) / 0.06).min(1.0);
+        lacks * w * w * (3.0 - 2.0 * w)
+    }
+}

@@ -1,0 +1,605 @@
+//! A stream made into a motion that a body can follow, while it comes (WALKING §1, sliding window).
+//!
+//! What [`prepare`](super::prepare) does with a whole clip happens here sample by sample, a window behind the newest one: smoothing,
+//! labels of planted feet, foot lock, swings that clear the floor and meet the next foothold, a pelvis that both legs reach, and the
+//! shift of the trunk that keeps the zero-moment point over the feet, solved over the window again with every sample. Memory is a ring,
+//! time per sample is bounded, nothing allocates. Rounds alike everywhere: it is part of the tick.
+//!
+//! Places of a sample on its way, in samples behind the newest: smoothed (`SMOOTH`), labelled and balanced (`LABEL`), feet posed and balanced again as the
+//! body is to be (up to `FORESEEN` before the output), put out (the window).
+
+mod foot;
+mod momentum;
+mod polygon;
+mod receding_horizon;
+mod silence;
+mod whole_body;
+
+use super::ankle_torque_limit::AnkleTorqueLimit;
+use super::foot_lock::{FootPose, Sole};
+use crate::sim::body::topology::{L_FOOT, L_TOES, NV, R_FOOT, R_TOES, SEGMENT_COUNT};
+use crate::sim::body::{Body, Posture};
+use crate::sim::math::ease::smootherstep;
+use crate::sim::math::exp::exp;
+use crate::sim::math::{Quat, Vec3};
+use crate::sim::motion::clip::{Knot, PlanarTransform, between};
+use crate::sim::motion::leg_ik::{center_of_mass, forward};
+use crate::sim::motion::target::Target;
+use foot::Foot;
+pub use foot::Stance;
+use receding_horizon::Balance;
+use silence::Newest;
+pub use silence::is_same;
+use std::collections::VecDeque;
+use std::sync::Arc;
+use whole_body::Lowering;
+
+/// Samples per second of the grid that a stream is prepared on.
+pub const RATE: f64 = 60.0;
+/// Shortest and longest window, s.
+pub const WINDOW: (f64, f64) = (0.3, 1.0);
+/// Most stances of a foot that are known at a time.
+pub const MOST_STANCES: usize = foot::STANCES + 1;
+const H: f64 = 1.0 / RATE;
+/// The shortest window, samples.
+const SHORTEST_WINDOW: i64 = (WINDOW.0 * RATE) as i64;
+
+/// Half width of the smoothing, samples, and its standard deviation: the amplitude is half at 7 Hz.
+const SMOOTH: i64 = 3;
+const SIGMA: f64 = 1.6;
+/// A foot is labelled as on the floor or off it once it has been so for this many samples.
+pub(super) const STEADY: i64 = 3;
+/// Samples between the newest one and the one that is labelled.
+const LABEL: i64 = SMOOTH + 1 + STEADY;
+/// Samples between the one whose feet are posed and the one that is put together: clearance and pelvis height are smooth over them. The latter is the
+/// output with the shortest window, and up to so many samples before it with longer ones: its balance is known better then.
+const POSED: i64 = 2;
+const FORESEEN: i64 = 16;
+/// Samples behind the output that balance looks back on, and that a figure which is late may still ask for.
+const PAST: i64 = 90;
+/// A pelvis below this share of standing height is not one that stands on feet.
+const UPRIGHT: f64 = 0.45;
+/// A stream that is this far from where its last samples were leading has jumped: joints and tilt, rad; pelvis, m.
+const JUMP: (f64, f64) = (0.25, 0.06);
+/// So many coordinates of the joints jump together.
+const SEVERAL: usize = 4;
+/// Time over which a jump is spread, s.
+const FADE: f64 = 0.4;
+/// Samples that may wait to be prepared: ten seconds.
+pub const MOST_PENDING: usize = 600;
+
+/// A sample as it came.
+#[derive(Clone, Copy, Debug)]
+struct Raw {
+    posture: Posture,
+    planted: Option<[bool; 2]>,
+}
+
+/// A sample on its way through the window.
+#[derive(Clone, Debug)]
+struct Sample {
+    /// As it came, where the stream lies now, jumps spread.
+    raw: Posture,
+    /// Points of the feet as they came: ankle, toe joint, toe tip.
+    points: [[Vec3; 3]; 2],
+    /// Labels that came with it.
+    planted: Option<[bool; 2]>,
+    /// The stream jumped just before.
+    broken: bool,
+    smooth: Posture,
+    poses: [(Vec3, Quat); SEGMENT_COUNT],
+    com: Vec3,
+    /// Angular momentum about the centre of mass, kg·m²/s.
+    momentum: Vec3,
+    /// The same of the body as it is to be, without the shift that it has there for balance.
+    built: Built,
+    /// How much the feet are believed to carry the body, 0…1.
+    trust: f64,
+    /// Foot poses as they are to be, heights still without clearance.
+    feet: [FootPose; 2],
+    down: [bool; 2],
+    /// What each sole lacks to clear the floor, m.
+    lift: [f64; 2],
+    /// How much the pelvis has to come down, m (≤ 0).
+    drop: f64,
+}
+
+/// A body as it is to be.
+#[derive(Clone, Debug)]
+struct Built {
+    poses: [(Vec3, Quat); SEGMENT_COUNT],
+    com: Vec3,
+    momentum: Vec3,
+}
+
+impl Sample {
+    fn new(posture: &Posture, poses: [(Vec3, Quat); SEGMENT_COUNT]) -> Self {
+        let still = FootPose {
+            ankle: Vec3::zero(),
+            rotation: Quat::identity(),
+            toe: 0.0,
+        };
+        Self {
+            raw: *posture,
+            points: [[Vec3::zero(); 3]; 2],
+            planted: None,
+            broken: false,
+            smooth: *posture,
+            poses,
+            com: Vec3::zero(),
+            momentum: Vec3::zero(),
+            built: Built {
+                poses,
+                com: Vec3::zero(),
+                momentum: Vec3::zero(),
+            },
+            trust: 1.0,
+            feet: [still; 2],
+            down: [false; 2],
+            lift: [0.0; 2],
+            drop: 0.0,
+        }
+    }
+}
+
+/// A stream of one figure on its way to a motion. Times count from the first sample, s.
+#[derive(Clone, Debug)]
+pub struct StreamPlan {
+    body: Arc<Body>,
+    soles: [Sole; 2],
+    one_foot: AnkleTorqueLimit,
+    window: i64,
+    /// Samples between the output and the one whose feet are posed.
+    ahead: i64,
+    pending: VecDeque<Raw>,
+    newest: Newest,
+    /// Number of samples taken into the ring.
+    count: i64,
+    ring: Vec<Sample>,
+    knots: Vec<Knot>,
+    /// Last five postures that were put out, for their rates.
+    recent: [Posture; 5],
+    out: i64,
+    feet: [Foot; 2],
+    /// Shift of the centre of mass for balance, at the output and one sample before, newest last, m.
+    shift: [[f64; 2]; 2],
+    lowering: Lowering,
+    /// Way from the zero-moment point into the feet on average over about a second, m.
+    lasting: [f64; 2],
+    balance: Balance,
+    /// Where the stream lies: a stream that jumps goes on from where it was.
+    frame: PlanarTransform,
+    /// What is left of a jump, and the samples since.
+    fade: Option<([f64; NV], i64)>,
+    weights: [f64; SMOOTH as usize + 1],
+}
+
+impl StreamPlan {
+    /// A stream without samples, prepared `window` seconds behind its newest one (within [`WINDOW`]). Allocates all it will ever need.
+    pub fn new(body: Arc<Body>, window: f64) -> Self {
+        let window = (window.clamp(WINDOW.0, WINDOW.1) * RATE).floor() as i64;
+        let length = (PAST + window + 8) as usize;
+        let posture = Posture::default();
+        let blank = Sample::new(&posture, forward(&body, &posture));
+        let knot = Knot::of(&[posture], 0, H, [true; 2]);
+        let mut weights: [f64; SMOOTH as usize + 1] =
+            std::array::from_fn(|k| exp(-0.5 * (k as f64 / SIGMA) * (k as f64 / SIGMA)));
+        let sum = weights[0] + 2.0 * weights[1..].iter().sum::<f64>();
+        weights.iter_mut().for_each(|w| *w /= sum);
+        Self {
+            soles: [Sole::new(&body, 0), Sole::new(&body, 1)],
+            one_foot: AnkleTorqueLimit::new(&body),
+            window,
+            ahead: POSED + (window - SHORTEST_WINDOW).min(FORESEEN),
+            pending: VecDeque::with_capacity(MOST_PENDING),
+            newest: Newest::default(),
+            count: 0,
+            ring: vec![blank; length],
+            knots: vec![knot; PAST as usize],
+            recent: [posture; 5],
+            out: -1,
+            feet: [Foot::new(), Foot::new()],
+            shift: [[0.0; 2]; 2],
+            lowering: Lowering::default(),
+            lasting: [0.0; 2],
+            balance: Balance::new(window as usize),
+            frame: PlanarTransform::default(),
+            fade: None,
+            weights,
+            body,
+        }
+    }
+
+    /// Length of the window, s.
+    pub fn window(&self) -> f64 {
+        self.window as f64 * H
+    }
+
+    /// Where the stream lies in the world: it moves when the stream jumps.
+    pub fn frame(&self) -> PlanarTransform {
+        self.frame
+    }
+
+    /// Number of samples that were taken or wait.
+    pub fn fed(&self) -> i64 {
+        self.count + self.pending.len() as i64
+    }
+
+    /// The same without those at the end that repeat one, if it breaks off with them.
+    pub fn moved(&self) -> i64 {
+        let repeated = if self.breaks_off() {
+            self.newest.repeated()
+        } else {
+            0
+        };
+        self.fed() - repeated
+    }
+
+    /// True if its samples have repeated one in the middle of a movement for so long that it is over: no body stops like that.
+    pub fn breaks_off(&self) -> bool {
+        self.newest.breaks_off()
+    }
+
+    /// The next sample, 1/[`RATE`] s after the last one.
+    ///
+    /// * `planted`: feet on the floor (left, right), if the sender knows.
+    ///
+    /// A sample that is not finite is taken for a repetition of the last one.
+    pub fn push(&mut self, posture: &Posture, planted: Option<[bool; 2]>) {
+        if posture.is_finite() {
+            self.newest.take(posture);
+            self.wait(Raw {
+                posture: *posture,
+                planted,
+            });
+        }
+    }
+
+    fn wait(&mut self, raw: Raw) {
+        if self.pending.len() == MOST_PENDING {
+            self.pending.pop_front();
+        }
+        self.pending.push_back(raw);
+    }
+
+    /// Prepares what has come, up to time `t` (s) of the motion. Where the stream has not come that far it stands still in its last posture.
+    pub fn advance(&mut self, t: f64) {
+        let needed = ((t * RATE - 1e-6).ceil() as i64).saturating_add(self.window);
+        // Time jumps of hostile clocks are not made up for sample by sample.
+        let most = self.count + self.window + PAST;
+        while self.count < needed.min(most) {
+            match self.pending.pop_front() {
+                Some(raw) => self.take(&raw.posture, raw.planted),
+                None if self.count > 0 => {
+                    let last = self.at(self.count - 1).raw;
+                    let back = self.unframed(&last);
+                    self.take(&back, None);
+                }
+                None => return,
+            }
+        }
+    }
+
+    fn unframed(&self, posture: &Posture) -> Posture {
+        let mut p = *posture;
+        self.frame.power(-1.0).apply_posture(&mut p);
+        p
+    }
+
+    fn slot(&self, i: i64) -> usize {
+        i.rem_euclid(self.ring.len() as i64) as usize
+    }
+
+    /// Sample `i`; the first one for those before it.
+    fn at(&self, i: i64) -> &Sample {
+        &self.ring[self.slot(i.max(0))]
+    }
+
+    fn at_mut(&mut self, i: i64) -> &mut Sample {
+        let k = self.slot(i);
+        &mut self.ring[k]
+    }
+
+    /// Moves the stream to where the last samples were leading if it has jumped, and spreads what is left of the jump.
+    fn placed(&mut self, posture: &Posture) -> (Posture, bool) {
+        let mut p = *posture;
+        self.frame.apply_posture(&mut p);
+        if self.count < 2 {
+            return (p, false);
+        }
+        let (a, b) = (self.at(self.count - 2).raw, self.at(self.count - 1).raw);
+        let mut led = b;
+        let going = a.difference(&b);
+        led.integrate(&going, 1.0);
+        let mut faded = self.faded(&p);
+        let off = led.difference(&faded);
+        let far = (off[3] * off[3] + off[4] * off[4] + off[5] * off[5]).sqrt();
+        let beyond = |e: &&f64| e.abs() > JUMP.0;
+        // One joint alone that snaps is a glitch of its own; a stream that jumps takes the body along.
+        let jumped = far > JUMP.1
+            || off[..3].iter().any(|e| beyond(&e))
+            || off[6..].iter().filter(beyond).count() >= SEVERAL;
+        if jumped {
+            // The place of the pelvis over the floor and its heading go on as they were; the rest is spread.
+            let yaw = led.root_rotation.heading() - p.root_rotation.heading();
+            let turn = PlanarTransform {
+                x: 0.0,
+                y: 0.0,
+                yaw,
+            };
+            let turned = turn.point(p.root_position);
+            let step = PlanarTransform {
+                x: led.root_position.x - turned.x,
+                y: led.root_position.y - turned.y,
+                yaw,
+            };
+            self.frame = step.after(self.frame);
+            step.apply_posture(&mut p);
+            self.fade = Some((p.difference(&led), 0));
+            faded = self.faded(&p);
+        }
+        if let Some((_, since)) = &mut self.fade {
+            *since += 1;
+            if *since as f64 * H >= FADE {
+                self.fade = None;
+            }
+        }
+        (faded, jumped)
+    }
+
+    fn faded(&self, posture: &Posture) -> Posture {
+        let mut p = *posture;
+        if let Some((e, since)) = &self.fade {
+            let u = (*since as f64 * H / FADE).min(1.0);
+            let s = 1.0 - smootherstep(u);
+            p.integrate(&e.map(|e| e * s), 1.0);
+        }
+        p
+    }
+
+    /// One sample through all stages.
+    fn take(&mut self, posture: &Posture, planted: Option<[bool; 2]>) {
+        let mut given = *posture;
+        let (raw, broken) = self.placed(posture);
+        self.frame.apply_posture(&mut given);
+        let k = self.count;
+        let poses = forward(&self.body, &raw);
+        let mut sample = Sample::new(&raw, poses);
+        let own = forward(&self.body, &given);
+        sample.points = [(L_FOOT, L_TOES), (R_FOOT, R_TOES)].map(|(foot, toes)| {
+            let tip = self.soles[usize::from(foot == R_FOOT)].toe_tip();
+            let (at, q) = own[toes.index()];
+            [own[foot.index()].0, at, at + q.rotate(tip)]
+        });
+        sample.planted = planted;
+        sample.broken = broken;
+        *self.at_mut(k) = sample;
+        self.count += 1;
+        if k == 0 {
+            self.measure(0);
+        }
+        let s = k - SMOOTH;
+        if s < 0 {
+            return;
+        }
+        self.smooth(s);
+        self.measure(s);
+        self.touch(s - 1);
+        self.momentum(s - 1);
+        let j = k - LABEL;
+        if j >= 0 {
+            self.label(j, s - 1);
+            self.balance(j);
+        }
+        let out = k + 3 - self.window;
+        let f = out + self.ahead;
+        if f >= 0 {
+            if out < 0 {
+                self.balance.next(None);
+            }
+            self.pose_feet(f, s - 1, j);
+            let built = f - POSED;
+            if built > out && built >= 0 {
+                self.build(built);
+            }
+        }
+        if out >= 0 {
+            self.put_out(out);
+        }
+    }
+
+    /// Gaussian average about sample `i`, in its tangent space.
+    fn smooth(&mut self, i: i64) {
+        let centre = self.at(i).raw;
+        let mut e = [0.0; NV];
+        // At the beginning the past is taken to mirror what follows.
+        for (k, w) in (1..=SMOOTH.min(i)).zip(&self.weights[1..]) {
+            for j in [i - k, i + k] {
+                let d = centre.difference(&self.at(j).raw);
+                for (e, d) in e.iter_mut().zip(d) {
+                    *e += w * d;
+                }
+            }
+        }
+        let mut smooth = centre;
+        smooth.integrate(&e, 1.0);
+        self.at_mut(i).smooth = smooth;
+    }
+
+    /// Poses and centre of mass of a smoothed sample.
+    fn measure(&mut self, i: i64) {
+        let poses = forward(&self.body, &self.at(i).smooth);
+        let com = center_of_mass(&self.body, &poses);
+        let s = self.at_mut(i);
+        (s.poses, s.com) = (poses, com);
+        s.feet = std::array::from_fn(|k| {
+            let (ankle, rotation) = poses[[L_FOOT, R_FOOT][k].index()];
+            FootPose {
+                ankle,
+                rotation,
+                toe: 0.0,
+            }
+        });
+    }
+
+    /// Which points of the feet touch in sample `i`, as they came.
+    fn touch(&mut self, i: i64) {
+        if i < 0 {
+            return;
+        }
+        // The jump of a stream is not a movement of its feet.
+        let broken = self.at(i).broken || self.at(i + 1).broken;
+        let hint = self.at(i).planted;
+        for side in 0..2 {
+            let (a, b, c) = (
+                self.at(i - 1).points[side],
+                self.at(i).points[side],
+                self.at(i + 1).points[side],
+            );
+            let standing = self.soles[side].standing_heights();
+            let speed = |k: usize| {
+                if broken {
+                    None
+                } else {
+                    Some((c[k] - a[k]).norm() * 0.5 * RATE)
+                }
+            };
+            self.feet[side].touch(i, b, standing, speed, hint.map(|h| h[side]));
+        }
+    }
+
+    /// Settles which feet stand in sample `j`; `last` is the newest one that was looked at.
+    fn label(&mut self, j: i64, last: i64) {
+        let upright =
+            self.at(j).smooth.root_position.z > UPRIGHT * self.body.standing_root_height();
+        for side in 0..2 {
+            let mut foot = std::mem::replace(&mut self.feet[side], Foot::new());
+            let other = &self.feet[1 - side];
+            let given_up = foot.label(j, last, upright, other, |i| self.standing(side, i));
+            self.feet[side] = foot;
+            for i in given_up.unwrap_or(j)..j {
+                self.improve(i, |s| (s.com, s.momentum));
+            }
+        }
+    }
+
+    /// Place, heading and pitch of a foot of a smoothed sample, and how fast its place moves, m/s.
+    fn standing(&self, side: usize, i: i64) -> foot::Standing {
+        let pose = |i: i64| self.at(i).poses[[L_FOOT, R_FOOT][side].index()];
+        let [before, at] = [i - 1, i].map(|i| self.soles[side].footing(pose(i)));
+        foot::Standing {
+            place: at.place,
+            yaw: at.yaw,
+            pitch: at.pitch,
+            steep: foot::steepness(pose(i).1, at.pitch),
+            speed: (at.place - before.place).norm() * RATE,
+        }
+    }
+
+    /// The whole posture of sample `out`.
+    fn put_out(&mut self, out: i64) {
+        self.shift_on(out);
+        let posture = self.posture(out, self.shift[1]);
+        let s = self.at(out);
+        let down = s.down;
+        if out == 0 {
+            self.recent = [posture; 5];
+        }
+        self.recent.rotate_left(1);
+        self.recent[4] = posture;
+        self.out = out;
+        let n = self.knots.len() as i64;
+        self.knots[out.rem_euclid(n) as usize] = Knot::of(&[posture], 0, H, down);
+        // Rates need two neighbours on either side, where there are any.
+        let known = (out + 1).min(5) as usize;
+        let recent = &self.recent[5 - known..];
+        for back in [2, 1] {
+            let i = out - back;
+            if i >= 0 {
+                let down = self.at(i).down;
+                let knot = Knot::of(recent, known - 1 - back as usize, H, down);
+                let n = self.knots.len() as i64;
+                self.knots[i.rem_euclid(n) as usize] = knot;
+            }
+        }
+    }
+
+    /// The motion at time `t`, s; clamped to what was put out and is still held.
+    pub fn sample(&self, t: f64) -> Target {
+        if self.count == 0 {
+            return Target::still(Posture::default());
+        }
+        if self.out < 0 {
+            return Target::still(self.at(0).raw);
+        }
+        if t < 0.0 {
+            return Target::still(self.sample(0.0).posture);
+        }
+        let n = self.knots.len() as i64;
+        // The newest two have no rates of their own yet.
+        let last = (self.out - 2).max(0) as f64;
+        let first = (self.out - n + 1).max(0) as f64;
+        let x = (t * RATE).clamp(first, last.max(first));
+        let i = (x as i64).min((last as i64 - 1).max(0));
+        let knot = |i: i64| &self.knots[i.rem_euclid(n) as usize];
+        between(knot(i), knot(i + 1), H, (x - i as f64).clamp(0.0, 1.0))
+    }
+
+    /// Centroidal angular momentum of the recording at time `t`, s, also of what is not put out yet, N·m·s, axes of the stream; `None` where
+    /// that is not known. In flight a recorded body keeps it, whatever is made of its legs.
+    pub fn spin_at(&self, t: f64) -> Option<Vec3> {
+        let i = (t * RATE).round() as i64;
+        let newest = self.count - SMOOTH - 2;
+        let held = self.count - self.ring.len() as i64;
+        (i > held.max(0) && i <= newest).then(|| self.at(i).momentum)
+    }
+
+    /// Time up to which touch-downs are seen, s.
+    pub fn seen(&self) -> f64 {
+        (self.count - SMOOTH - 2).max(0) as f64 * H
+    }
+
+    /// Latest time that can be sampled, s.
+    pub fn ready(&self) -> f64 {
+        (self.out - 2).max(0) as f64 * H
+    }
+
+    /// Stances of a foot (0 left, 1 right) that are known, oldest first; times in samples.
+    pub fn stances(&self, side: usize) -> impl Iterator<Item = &Stance> {
+        self.feet[side].stances()
+    }
+
+    /// The motion from time `from` (s) on as far as it has come, with its feet: what was put out, then what is still in the window as it came,
+    /// led over from there. Samples are 1/[`RATE`] s apart; the first is at the time returned with them. `came`: how many samples have come, if the
+    /// motion has been prepared beyond them.
+    pub fn known(&self, from: f64, came: i64) -> (f64, Vec<(Posture, [bool; 2])>) {
+        let n = self.knots.len() as i64;
+        let last = self.count.min(came) - 1;
+        let done = (self.out - 2).max(0);
+        let first = ((from * RATE) as i64).clamp((self.out - n + 1).max(0), done);
+        let mut all: Vec<(Posture, [bool; 2])> = (first..=done)
+            .map(|i| {
+                let knot = &self.knots[i.rem_euclid(n) as usize];
+                (knot.posture, knot.planted)
+            })
+            .collect();
+        let Some(&(end, _)) = all.last() else {
+            return (0.0, all);
+        };
+        let moved = self.at(done).raw.difference(&end);
+        let (labelled, seen) = (last - LABEL, last - SMOOTH - 1);
+        for i in done + 1..=last {
+            let mut p = self.at(i).raw;
+            p.integrate(&moved, 1.0);
+            let down = std::array::from_fn(|s| match i {
+                i if i <= labelled => self.feet[s].is_down(i),
+                i => self.feet[s].touches(i.min(seen)),
+            });
+            all.push((p, down));
+        }
+        (first as f64 * H, all)
+    }
+}
+
+#[cfg(test)]
+mod tests;

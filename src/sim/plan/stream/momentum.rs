@@ -1,0 +1,136 @@
+//! What a sample asks of the floor: its angular momentum, its zero-moment point, and whether the feet can have it.
+
+use super::polygon::Polygon;
+use super::receding_horizon::Balanced;
+use super::{H, RATE, Sample, StreamPlan};
+use crate::sim::body::topology::SEGMENT_COUNT;
+use crate::sim::math::ease::smoothstep;
+use crate::sim::math::exp::exp;
+use crate::sim::math::{Quat, Vec3};
+use crate::sim::motion::GRAVITY;
+use crate::sim::motion::leg_ik::{center_of_mass, forward};
+use crate::sim::plan::ankle_torque_limit::Over;
+use crate::sim::plan::pelvis_shift::{LIGHT, zero_moment_point};
+
+/// The zero-moment point is kept this far inside the soles, m.
+const INSET: f64 = 0.04;
+/// Outside to the same side by this much for about a second, m: something other than the feet carries the body.
+const CARRIED: f64 = 0.15;
+
+impl StreamPlan {
+    /// Angular momentum of sample `i` by central differences.
+    pub(super) fn momentum(&mut self, i: i64) {
+        if i >= 0 {
+            let poses = |i: i64| &self.at(i).poses;
+            let sum = self.spin([poses(i - 1), poses(i), poses(i + 1)]);
+            self.at_mut(i).momentum = sum;
+        }
+    }
+
+    /// Angular momentum about the centre of mass in the middle of three successive poses, kg·m²/s.
+    fn spin(&self, [a, b, c]: [&[(Vec3, Quat); SEGMENT_COUNT]; 3]) -> Vec3 {
+        let com = center_of_mass(&self.body, b);
+        let mut sum = Vec3::zero();
+        for (s, segment) in self.body.segments.iter().enumerate() {
+            let centre = |p: &[(Vec3, Quat); SEGMENT_COUNT]| p[s].0 + p[s].1.rotate(segment.com);
+            let v = (centre(c) - centre(a)) * (0.5 * RATE);
+            let q = b[s].1;
+            let turn = (c[s].1 * a[s].1.conjugate()).log() * (0.5 * RATE);
+            let spin = q.conjugate().rotate(turn);
+            let arm = centre(b) - com;
+            sum += arm.cross(v) * segment.mass + q.rotate(segment.inertia * spin);
+        }
+        sum
+    }
+
+    /// How far the zero-moment point of sample `j` is from where the feet could have it, as it came.
+    pub(super) fn balance(&mut self, j: i64) {
+        let (mut balanced, load) = self.balanced(j, |s| (s.com, s.momentum));
+        let inside = balanced.support.and_then(|s| s.nearest(balanced.zmp));
+        let way = inside.map_or([0.0; 2], |p| {
+            [p[0] - balanced.zmp[0], p[1] - balanced.zmp[1]]
+        });
+        // About a second: peaks of gait, which go there and back, are corrected, a chair is not.
+        for (lasting, way) in self.lasting.iter_mut().zip(way) {
+            *lasting += (way - *lasting) * (1.0 - exp(-H));
+        }
+        let [x, y] = self.lasting;
+        let far = (x * x + y * y).sqrt();
+        let u = ((far - 0.7 * CARRIED) / (0.6 * CARRIED)).clamp(0.0, 1.0);
+        let trust = 1.0 - smoothstep(u);
+        self.at_mut(j).trust = trust;
+        balanced.weight = trust * load * load;
+        self.balance.push(balanced);
+    }
+
+    /// The balance of sample `j` with the centre of mass and the angular momentum that are meant, and its load, 0…1.
+    fn balanced(&self, j: i64, of: impl Fn(&Sample) -> (Vec3, Vec3)) -> (Balanced, f64) {
+        let at = |i: i64| of(self.at(i));
+        let (a, b, c) = (at(j - 2).0, at(j).0, at(j + 2).0);
+        let acc = (c - b * 2.0 + a) * (0.25 * RATE * RATE);
+        let rate = (at(j + 1).1 - at(j - 1).1) * (0.5 * RATE);
+        let mass: f64 = self.body.segments.iter().map(|s| s.mass).sum();
+        let load = 1.0 + acc.z / GRAVITY;
+        let omega2 = ((GRAVITY + acc.z) / b.z.max(0.2)).clamp(3.0, 40.0);
+        let looks = self.at(j).smooth.root_rotation.heading();
+        let mut balanced = Balanced::new([b.x, b.y], omega2, looks);
+        if load > LIGHT && j >= 2 {
+            let force = (acc + Vec3::Z * GRAVITY) * mass;
+            let z = zero_moment_point(b, (force, rate));
+            let way = (c - a) * (0.25 * RATE);
+            let over = Over {
+                height: b.z,
+                speed: (way.x * way.x + way.y * way.y).sqrt(),
+                lean: [b.x - z[0], b.y - z[1]],
+                load: None,
+            };
+            let anchors: [_; 2] =
+                std::array::from_fn(|side| self.feet[side].anchor(j, |i| self.standing(side, i)));
+            let alone = anchors[0].is_some() != anchors[1].is_some();
+            let mut polygon = Polygon::default();
+            for (sole, anchor) in self.soles.iter().zip(&anchors) {
+                match anchor {
+                    Some(at) if alone => {
+                        self.one_foot
+                            .each_corner(sole, at, &over, |p| polygon.add(p));
+                    }
+                    Some(at) => sole.each_corner(at, |p| polygon.add(p)),
+                    None => {}
+                }
+            }
+            balanced = Balanced::new(z, omega2, looks);
+            balanced.support = polygon.inner(INSET);
+        }
+        (balanced, load.clamp(0.0, 1.0))
+    }
+
+    /// Puts sample `i` together as it is going to be, and looks at the balance of that.
+    pub(super) fn build(&mut self, i: i64) {
+        let shift = self.planned(i);
+        let posture = self.posture(i, shift);
+        let poses = forward(&self.body, &posture);
+        let com = center_of_mass(&self.body, &poses);
+        let s = self.at_mut(i);
+        s.built.poses = poses;
+        s.built.com = com
+            - Vec3 {
+                x: shift[0],
+                y: shift[1],
+                z: 0.0,
+            };
+        let before = |k: i64| &self.at(i - k).built.poses;
+        let sum = self.spin([before(2), before(1), before(0)]);
+        if i < 4 {
+            return;
+        }
+        self.at_mut(i - 1).built.momentum = sum;
+        self.improve(i - 2, |s| (s.built.com, s.built.momentum));
+    }
+
+    /// Looks at the balance of sample `i` again, with the centre of mass and the angular momentum that are meant.
+    pub(super) fn improve(&mut self, i: i64, of: impl Fn(&Sample) -> (Vec3, Vec3)) {
+        let (mut better, load) = self.balanced(i, of);
+        better.weight = self.at(i).trust * load * load;
+        self.balance.improve(i, better);
+    }
+}

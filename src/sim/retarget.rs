@@ -1,0 +1,445 @@
+//! Recorded skeletons of any shape onto the body, by geometry.
+//!
+//! World positions and rotations of the file are smoothed, brought to metres with z up, levelled and scaled by leg length. Each
+//! segment's frame comes from its end points and the plane of its hinge; near a straight limb, from the bone's own rotation with the
+//! hinge axis that the bent frames of the clip show in it. Trunk, head, hands and feet follow their bones relative to a calibration
+//! pose: the file's rest pose if it looks like a standing person, else the mean over the most upright samples; so the zero pose of the file
+//! means nothing by itself. Relative rotations are split into the joints' own degrees of freedom. Feet and balance: [`super::plan::prepare`].
+
+mod feet;
+mod joints;
+mod recording;
+mod report;
+mod root;
+mod run_detection;
+mod run_to_walk;
+mod scene;
+mod segments;
+mod size;
+
+pub use report::{
+    Bridged, ClampedDof, MappedBone, Origin, RetargetError, RetargetReport, Retargeted,
+};
+
+use super::motion::bvh::Bvh;
+use super::motion::clip::Clip;
+use super::motion::filter::renormalised;
+use super::motion::skeleton_map::map_skeleton;
+use super::plan::contact_labels::{label_feet, phases};
+use super::plan::flight_phases;
+use super::plan::foot_lock::Sole;
+use super::plan::prepare::{Draft, HELD, PrepareOptions, Prepared, prepare};
+use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES, L_FOOT, L_SHANK};
+use crate::sim::body::{Body, Posture};
+use crate::sim::math::{Quat, Vec3};
+use feet::{Ground, fit_floor};
+use joints::Joints;
+use recording::Recording;
+use report::{mapped_bones, missing_segments};
+use root::{RootPath, follow_feet};
+use scene::Scene;
+use size::{guess_up, measure, unit};
+
+/// Most frames of a clip: bounds time and memory (8 min at 120 Hz).
+pub const MAX_FRAMES: usize = 60_000;
+/// Least and largest [`RetargetOptions::tempo`].
+pub const TEMPI: (f64, f64) = (0.5, 2.0);
+/// Rates that are believed, Hz.
+const RATES: (f64, f64) = (10.0, 1000.0);
+
+/// Which axis of the file points up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum UpAxis {
+    Y,
+    Z,
+}
+
+/// What the caller knows better than the file, and what to do with the motion. `Default` guesses everything and prepares fully.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RetargetOptions {
+    /// Name of the clip.
+    pub name: String,
+    /// Metres per unit of the file; guessed from stature if absent.
+    pub unit_m: Option<f64>,
+    /// Up axis; guessed from where the head is if absent.
+    pub up: Option<UpAxis>,
+    /// True frame rate of the file, Hz, where its frame time is wrong.
+    pub rate_hz: Option<f64>,
+    /// Rate of the clip at tempo 1, Hz; absent: the file's own rate if that is 60…240, else 120.
+    pub output_rate_hz: Option<f64>,
+    /// Body size over recorded size, for paths and heights; absent: ratio of leg lengths. Two people of one recording need one value.
+    pub scale: Option<f64>,
+    /// Bring the recorded floor to z = 0 (level and height). Otherwise z = 0 of the file is the floor.
+    pub floor: bool,
+    /// Lock planted feet.
+    pub lock_feet: bool,
+    /// Shift the trunk so that the zero-moment point stays over the planted feet.
+    pub balance: bool,
+    /// Walk what the recording runs: slower and with shorter steps. The muscles that are measured in people's joints do not run.
+    pub walk_runs: bool,
+    /// Cut-off of the zero-phase low-pass, Hz.
+    pub cutoff_hz: f64,
+    /// Times as fast as it was recorded, [`TEMPI`]: feet and postures are those of the recording, steps and balance are prepared for this pace.
+    pub tempo: f64,
+    /// Let the motion begin and end standing, with steps before its first and after its last frame where it takes them.
+    pub ends: bool,
+    /// Keep the file's place and heading (x forward = the file's z where y is up). Otherwise the clip starts at the origin facing +x.
+    pub keep_origin: bool,
+}
+
+impl Default for RetargetOptions {
+    fn default() -> Self {
+        Self {
+            name: "clip".into(),
+            unit_m: None,
+            up: None,
+            rate_hz: None,
+            output_rate_hz: None,
+            scale: None,
+            floor: true,
+            lock_feet: true,
+            balance: true,
+            ends: true,
+            walk_runs: false,
+            tempo: 1.0,
+            cutoff_hz: 6.0,
+            keep_origin: false,
+        }
+    }
+}
+
+/// Retargets a recording onto `body`.
+///
+/// Offline: time and memory are linear in frames × joints, about 0.2 s for 10 s at 120 Hz.
+///
+/// # Errors
+/// [`RetargetError`] names what is missing: the bone, the unit with the measured figure, the frame.
+pub fn retarget(
+    bvh: &Bvh,
+    body: &Body,
+    options: &RetargetOptions,
+) -> Result<Retargeted, RetargetError> {
+    let source_rate = check(bvh, options)?;
+    let mut map = map_skeleton(&bvh.joints)?;
+    let mut warnings: Vec<String> = bvh.warnings.clone();
+    let mut take = Recording::read(bvh, &map)?;
+
+    // Frames that are no motion, then glitches.
+    let skipped_frames = take.skip_pose(source_rate, &mut warnings);
+    if take.len() < 2 {
+        return Err(RetargetError::TooShort(take.len()));
+    }
+    let bridged = take.bridge(bvh, source_rate, skipped_frames);
+    let (mut places, turns) = take.forward();
+
+    // Metres, z up; even samples, smooth.
+    let up = options.up.unwrap_or_else(|| guess_up(&places, &take, &map));
+    let measured = measure(bvh, &places, &take, &map)?;
+    let (unit_m, stature) = unit(options.unit_m, measured.stature)?;
+    let root = RootPath::of(&take, &map, up, measured.leg);
+    if let Some(warning) = root.warning() {
+        let how = (root, up, measured.leg);
+        if follow_feet(&mut places, (&take, &map), how, source_rate)
+            || !Recording::has_positions(bvh, &map)
+        {
+            warnings.push(warning.into());
+        }
+    }
+    let recorded = (places, turns, take.rest(bvh));
+    let (mut scene, seen) = Scene::new(&take, &map, recorded, (up, unit_m), source_rate, options);
+    let keeps_run = seen.keeps_run();
+    let fastest_run = seen.fastest_run();
+    warnings.extend(seen.notes(source_rate));
+    let (mut feet, rate) = (seen.feet, scene.rate);
+    let sides_swapped = scene.settle_sides(&mut map);
+    if sides_swapped {
+        feet.swap(0, 1);
+        warnings.push("left and right were exchanged: the file names them the other way round than its feet and knees point".into());
+    }
+
+    // Scale, floor, heading.
+    let soles = [Sole::new(body, 0), Sole::new(body, 1)];
+    let leg = body.joint_offset[L_SHANK.index()].norm() + body.joint_offset[L_FOOT.index()].norm();
+    let scale = options.scale.unwrap_or(leg / (measured.leg * unit_m));
+    let calibration = scene.calibrate(&map);
+    let mut ankle = [0, 1].map(|s| scene.place(map.sides[s].foot).to_vec());
+    let feet_flat = [0, 1].map(|s| scene.flat_samples(&map, s, measured.leg * unit_m));
+    let mut foot = [0, 1].map(|s| {
+        scene.foot_frames(
+            &map,
+            s,
+            &feet_flat[s],
+            (&calibration, measured.leg * unit_m),
+        )
+    });
+    let ground = if options.floor {
+        fit_floor(&ankle, &feet_flat)
+    } else {
+        Ground {
+            level: Quat::identity(),
+            height: [soles[0].ankle_height / scale; 2],
+            slope: 0.0,
+        }
+    };
+    let pelvis_raw = scene.pelvis(&map, &calibration);
+    let (placing, origin) = Placing::new(&ground, scale, &pelvis_raw, options.keep_origin);
+    let floor_height = 0.5 * (ground.height[0] + ground.height[1]);
+    let ankle_height = soles[0].ankle_height;
+    for v in feet.iter_mut().flatten().flatten() {
+        *v = placing.turn.rotate(*v);
+    }
+    for s in 0..2 {
+        for v in &mut ankle[s] {
+            *v = placing.point(*v, ground.height[s]);
+            v.z += ankle_height;
+        }
+        for q in &mut foot[s] {
+            *q = placing.turn * *q;
+        }
+    }
+    let mut pelvis: Vec<Vec3> = pelvis_raw
+        .0
+        .iter()
+        .map(|v| {
+            let mut p = placing.point(*v, floor_height);
+            p.z += ankle_height;
+            p
+        })
+        .collect();
+
+    // Steps: those of a run that is to be walked are taken so.
+    if let Some(slowed) = &seen.slowed {
+        for v in feet.iter_mut().flatten().flatten() {
+            *v = (*v + placing.shift) * scale;
+        }
+        let others = ankle.iter_mut().chain(feet.iter_mut().flatten());
+        slowed.shorten(&mut pelvis, others);
+        slowed.calm(&mut pelvis, rate);
+        for v in feet.iter_mut().flatten().flatten() {
+            *v = *v * (1.0 / scale);
+        }
+    }
+    let mut label = label_feet([&feet[0], &feet[1]], rate);
+    if let Some(slowed) = &seen.slowed {
+        slowed.step(&mut ankle, &mut foot, &mut label, rate);
+    }
+
+    // Segments, then joints.
+    let turned = |q: Vec<Quat>| -> Vec<Quat> { q.into_iter().map(|q| placing.turn * q).collect() };
+    let directed =
+        |v: Vec<Vec3>| -> Vec<Vec3> { v.into_iter().map(|v| placing.turn.rotate(v)).collect() };
+    let frames = scene.frames(&map, &calibration);
+    let joints = Joints {
+        pelvis: turned(pelvis_raw.1),
+        abdomen: turned(frames.abdomen),
+        chest: turned(frames.chest),
+        head: frames.head.map(turned),
+        upper_arm: frames.upper_arm.map(turned),
+        forearm_axis: frames.forearm.map(directed),
+        hand: frames.hand.map(turned),
+        has_hand: [0, 1].map(|s| map.sides[s].hand.is_some()),
+    };
+    let (mut postures, arms) = joints.postures(&pelvis);
+    for p in &mut postures {
+        p.root_rotation = renormalised(p.root_rotation);
+    }
+
+    // Feet and balance.
+    let mut draft = Draft {
+        rate_hz: rate,
+        postures,
+        knee_axis: frames.knee_axis.map(directed),
+        ankle,
+        foot,
+        label,
+    };
+    if keeps_run {
+        let bare = PrepareOptions {
+            lock_feet: false,
+            balance: false,
+            runs: fastest_run.is_some(),
+            held: HELD,
+        };
+        let recorded = prepare(body, &draft, bare).postures;
+        flight_phases::label_runs(body, &recorded, &mut draft.label, rate);
+    }
+    let rate = rate * options.tempo;
+    draft.rate_hz = rate;
+    let phases = phases(&draft.label, rate);
+    let how = PrepareOptions {
+        lock_feet: options.lock_feet && options.floor,
+        balance: options.balance,
+        runs: fastest_run.is_some(),
+        held: HELD,
+    };
+    let prepared = prepare(body, &draft, how);
+    let (postures, planted, lead_in, lead_out) = if options.ends && how.lock_feet {
+        with_ends(body, &draft, &prepared, how)
+    } else {
+        (prepared.postures, prepared.planted, 0, 0)
+    };
+
+    let mut report = RetargetReport {
+        mapped: mapped_bones(bvh, &map),
+        missing: missing_segments(&map),
+        by_structure: map.by_structure,
+        sides_swapped,
+        unit_m,
+        unit_given: options.unit_m.is_some(),
+        up,
+        stature,
+        scale,
+        source_rate_hz: source_rate,
+        rate_hz: rate,
+        skipped_frames,
+        floor_offset: floor_height - ankle_height / scale,
+        floor_slope: ground.slope,
+        origin,
+        clamped: (0..DOF_COUNT)
+            .filter(|d| prepared.clamped[*d].0 > 0.0)
+            .map(|d| ClampedDof {
+                dof: DOF_NAMES[d],
+                max: prepared.clamped[d].0,
+                fraction: prepared.clamped[d].1,
+            })
+            .collect(),
+        knee_off_axis: frames.knee_off_axis,
+        elbow_off_axis: arms.off_axis,
+        wrist_bias: arms.wrist_bias,
+        pronation_shift: arms.pronation_shift,
+        freed: prepared.freed,
+        foot_slide: prepared.slide,
+        penetration: prepared.penetration,
+        phases,
+        bridged,
+        smoothing_rms: seen.smoothing_rms,
+        runs: fastest_run,
+        walked: seen.slowed.is_some(),
+        zmp_outside: prepared.zmp,
+        shift_max: prepared.shift_max,
+        pelvis_drop_max: prepared.drop_max,
+        pelvis_tilt_max: prepared.tilt_max,
+        pelvis_raise_max: prepared.raise_max,
+        carried: prepared.carried,
+        warnings,
+    };
+    report.note_warnings(calibration.from_rest);
+    let clip =
+        Clip::from_postures(&options.name, rate, postures, planted)?.with_ends(lead_in, lead_out);
+    Ok(Retargeted { clip, report })
+}
+
+/// One turn and shift for everything, from the recorded room to the body: level, heading and place of the first sample, size.
+struct Placing {
+    turn: Quat,
+    shift: Vec3,
+    scale: f64,
+}
+
+impl Placing {
+    /// With the recorded pelvis, places and rotations. With `keep_origin` heading and place stay those of the room.
+    fn new(
+        ground: &Ground,
+        scale: f64,
+        pelvis: &(Vec<Vec3>, Vec<Quat>),
+        keep_origin: bool,
+    ) -> (Self, Origin) {
+        let first = ground.level * pelvis.1[0];
+        let forward = first.rotate(Vec3::X);
+        let yaw = forward.y.atan2(forward.x);
+        let start = ground.level.rotate(pelvis.0[0]);
+        let origin = Origin {
+            x: start.x,
+            y: start.y,
+            yaw,
+        };
+        let (turn, shift) = if keep_origin {
+            // Place is kept in metres of the room; the path about it is in body size.
+            let share = 1.0 / scale - 1.0;
+            (ground.level, start * share)
+        } else {
+            let turn = Quat::exp(Vec3::Z * -yaw);
+            (turn * ground.level, -turn.rotate(start))
+        };
+        let shift = Vec3 { z: 0.0, ..shift };
+        let out = Self { turn, shift, scale };
+        (out, origin)
+    }
+
+    /// A recorded point, in body size over a floor that lies at `height` in the recording.
+    fn point(&self, v: Vec3, height: f64) -> Vec3 {
+        let p = self.turn.rotate(v) + self.shift;
+        Vec3 {
+            x: p.x * self.scale,
+            y: p.y * self.scale,
+            z: (p.z - height) * self.scale,
+        }
+    }
+}
+
+/// Postures and planted feet with the way into the motion and out of it, and the lengths of both in samples.
+fn with_ends(
+    body: &Body,
+    draft: &Draft,
+    prepared: &Prepared,
+    how: PrepareOptions,
+) -> (Vec<Posture>, Vec<[bool; 2]>, usize, usize) {
+    let mut whole = Draft::of_postures(
+        body,
+        draft.rate_hz,
+        prepared.postures.clone(),
+        draft.label.clone(),
+    );
+    let (before, after) = whole.add_ends(body);
+    // Where no way is needed at either end a foot may still have been put down.
+    if (before, after) == (0, 0) && whole.label == draft.label {
+        return (
+            prepared.postures.clone(),
+            prepared.planted.clone(),
+            before,
+            after,
+        );
+    }
+    let whole = prepare(body, &whole, how);
+    (whole.postures, whole.planted, before, after)
+}
+
+/// Frames per second of the file, if it and the options are within bounds.
+fn check(bvh: &Bvh, options: &RetargetOptions) -> Result<f64, RetargetError> {
+    check_options(options)?;
+    let frames = bvh.frame_count;
+    if frames < 2 {
+        return Err(RetargetError::TooShort(frames));
+    }
+    if frames > MAX_FRAMES {
+        return Err(RetargetError::TooLong { frames });
+    }
+    let source_rate = options.rate_hz.unwrap_or(1.0 / bvh.frame_time);
+    if !(source_rate >= RATES.0 && source_rate <= RATES.1) {
+        return Err(RetargetError::Rate {
+            rate_hz: source_rate,
+            lower: RATES.0,
+            upper: RATES.1,
+        });
+    }
+    Ok(source_rate)
+}
+
+fn check_options(o: &RetargetOptions) -> Result<(), RetargetError> {
+    let check = |field, value: Option<f64>, lower: f64, upper: f64| match value {
+        Some(value) if !(value >= lower && value <= upper) => Err(RetargetError::Option {
+            field,
+            value,
+            lower,
+            upper,
+        }),
+        _ => Ok(()),
+    };
+    check("unit_m", o.unit_m, 1e-6, 1e6)?;
+    check("rate_hz", o.rate_hz, RATES.0, RATES.1)?;
+    check("output_rate_hz", o.output_rate_hz, 30.0, 240.0)?;
+    check("scale", o.scale, 0.05, 20.0)?;
+    check("tempo", Some(o.tempo), TEMPI.0, TEMPI.1)?;
+    check("cutoff_hz", Some(o.cutoff_hz), 0.5, 60.0)
+}

@@ -1,0 +1,381 @@
+//! What retargeting found, guessed and changed, and why it could not.
+
+use super::{MAX_FRAMES, UpAxis};
+use crate::sim::body::topology::{SEGMENT_COUNT, SEGMENT_NAMES};
+use crate::sim::motion::bvh::Bvh;
+use crate::sim::motion::clip::{Clip, ClipError};
+use crate::sim::motion::skeleton_map::{MapError, SkeletonMap};
+use crate::sim::plan::contact_labels::ContactPhase;
+use crate::sim::plan::prepare::ZmpOutside;
+
+/// A retargeted clip with its report.
+#[derive(Clone, Debug)]
+pub struct Retargeted {
+    /// The motion.
+    pub clip: Clip,
+    /// What was found and done.
+    pub report: RetargetReport,
+}
+
+/// A segment and the bones of the file that it was read from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MappedBone {
+    /// Segment name.
+    pub segment: &'static str,
+    /// Bone names, parent first.
+    pub bones: Vec<String>,
+}
+
+/// How much of one DOF was outside the body's limits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClampedDof {
+    /// DOF name.
+    pub dof: &'static str,
+    /// Largest excess, rad.
+    pub max: f64,
+    /// Fraction of the samples that were clamped.
+    pub fraction: f64,
+}
+
+impl ClampedDof {
+    /// Joint and motion as people name them: `right ankle: flexion` for `r_ankle_flexion`.
+    fn in_words(&self) -> String {
+        let (side, rest) = match self.dof.split_at(2) {
+            ("l_", rest) => ("left ", rest),
+            ("r_", rest) => ("right ", rest),
+            _ => ("", self.dof),
+        };
+        let (joint, motion) = rest.split_once('_').unwrap_or((rest, "angle"));
+        format!("{side}{joint}: {}", motion.replace('_', " "))
+    }
+}
+
+/// A clamp is worth a warning that is larger than this, rad, and lasts longer than this fraction of the clip.
+const NOTABLE_CLAMP: (f64, f64) = (0.0873, 0.05);
+/// And so is a larger one that lasts less.
+const LARGE_CLAMP: (f64, f64) = (0.17, 0.02);
+
+/// A stretch of frames that was replaced by interpolation.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Bridged {
+    /// Bone name.
+    pub bone: String,
+    /// First replaced frame of the file (0-based).
+    pub first: usize,
+    /// How many.
+    pub count: usize,
+}
+
+/// Where the recorded floor and heading went: maps clip to file (metres, z up).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Origin {
+    /// Pelvis at the first frame, m, along the file's forward and left axes.
+    pub x: f64,
+    /// See `x`.
+    pub y: f64,
+    /// Heading at the first frame, rad.
+    pub yaw: f64,
+}
+
+/// What retargeting found, guessed and changed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RetargetReport {
+    /// Segments and their bones.
+    pub mapped: Vec<MappedBone>,
+    /// Segments without a bone; they keep their neutral angle.
+    pub missing: Vec<&'static str>,
+    /// True if names failed and the structure of the skeleton decided.
+    pub by_structure: bool,
+    /// True if the file's left and right were exchanged, told by position.
+    pub sides_swapped: bool,
+    /// Metres per unit of the file.
+    pub unit_m: f64,
+    /// True if the caller gave the unit.
+    pub unit_given: bool,
+    /// Up axis.
+    pub up: UpAxis,
+    /// Recorded person's stature, m, from leg and trunk length.
+    pub stature: f64,
+    /// Body size over recorded size.
+    pub scale: f64,
+    /// Frame rate of the file as used, Hz.
+    pub source_rate_hz: f64,
+    /// Rate of the clip, Hz.
+    pub rate_hz: f64,
+    /// Frames left out at the start (T-pose).
+    pub skipped_frames: usize,
+    /// Height of the recorded floor over z = 0 of the file, m, before scaling.
+    pub floor_offset: f64,
+    /// Slope of the recorded floor that was levelled.
+    pub floor_slope: f64,
+    /// Place and heading of the first frame.
+    pub origin: Origin,
+    /// Angles that had to be clamped.
+    pub clamped: Vec<ClampedDof>,
+    /// 95th percentile of the angle by which the left and right shank leave the plane of the knee hinge, rad.
+    pub knee_off_axis: [f64; 2],
+    /// The same for forearm and elbow, rad.
+    pub elbow_off_axis: [f64; 2],
+    /// Constant angle taken out of the left and right wrist, rad: the recording's hands do not continue its forearms.
+    pub wrist_bias: [f64; 2],
+    /// Constant angle taken out of the pronation of the left and right forearm, rad: as recorded its range is no forearm's.
+    pub pronation_shift: [f64; 2],
+    /// Fraction of foot samples in stance that were declared free because the leg's limits do not let it hold the foot in place.
+    pub freed: f64,
+    /// Largest distance of a planted foot from its place, m: as recorded, and prepared.
+    pub foot_slide: (f64, f64),
+    /// Largest depth of a sole under the floor in stance, m: as recorded, and prepared.
+    pub penetration: (f64, f64),
+    /// Which feet the recording has on the floor, without gaps.
+    pub phases: Vec<ContactPhase>,
+    /// Glitches.
+    pub bridged: Vec<Bridged>,
+    /// Root mean square distance that smoothing moved the joints, m.
+    pub smoothing_rms: f64,
+    /// Zero-moment point outside the support polygon before and after balancing.
+    pub zmp_outside: (ZmpOutside, ZmpOutside),
+    /// Largest shift of the pelvis for balance, m.
+    pub shift_max: f64,
+    /// Largest lowering of the pelvis so that planted legs reach, m.
+    pub pelvis_drop_max: f64,
+    /// Largest angle by which the pelvis is tilted back where hips do not flex as far as recorded, rad.
+    pub pelvis_tilt_max: f64,
+    /// Largest raise of the pelvis where legs do not fold as far as recorded, m.
+    pub pelvis_raise_max: f64,
+    /// Fraction of the clip in which something other than the feet carries the body (chair, hands, back).
+    pub carried: f64,
+    /// Speed over the floor of the fastest run, m/s, if the recording runs anywhere, and whether it is walked.
+    pub runs: Option<f64>,
+    /// See `runs`.
+    pub walked: bool,
+    /// What a user should know.
+    pub warnings: Vec<String>,
+}
+
+/// Why a file cannot be retargeted.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RetargetError {
+    /// The skeleton has no human shape or names.
+    #[error(transparent)]
+    Map(#[from] MapError),
+    /// Nothing to retarget.
+    #[error("{0} frames; a motion needs at least 2")]
+    TooShort(usize),
+    /// Too much to retarget at once.
+    #[error("{frames} frames; at most {MAX_FRAMES} are read: cut the clip")]
+    TooLong {
+        /// Frames in the file.
+        frames: usize,
+    },
+    /// The rate is no capture rate.
+    #[error(
+        "rate {rate_hz} Hz is outside {lower}…{upper} Hz; give rate_hz if the file's frame time is wrong"
+    )]
+    Rate {
+        /// Offending value.
+        rate_hz: f64,
+        /// Least accepted.
+        lower: f64,
+        /// Largest accepted.
+        upper: f64,
+    },
+    /// No usual unit gives a human stature.
+    #[error(
+        "the figure measures {measured:.4} file units from sole to crown, which no usual unit makes 1.3 to 2.0 m; give unit_m"
+    )]
+    Unit {
+        /// Stature in file units.
+        measured: f64,
+    },
+    /// The given unit gives no human stature.
+    #[error(
+        "with unit_m = {unit_m} the figure measures {stature:.3} m ({measured:.4} file units); people measure 0.7 to 2.6 m"
+    )]
+    Stature {
+        /// Unit as given.
+        unit_m: f64,
+        /// Stature that follows, m.
+        stature: f64,
+        /// Stature in file units.
+        measured: f64,
+    },
+    /// A bone has no length.
+    #[error("bone {bone} has no length")]
+    Degenerate {
+        /// Name of the upper bone.
+        bone: String,
+    },
+    /// A number is NaN, infinite or absurd.
+    #[error("frame {frame}: bone {bone} is not at a finite place")]
+    NotFinite {
+        /// 0-based.
+        frame: usize,
+        /// Bone name.
+        bone: String,
+    },
+    /// An option is out of range.
+    #[error("{field} {value} is outside {lower}…{upper}")]
+    Option {
+        /// Option name.
+        field: &'static str,
+        /// Offending value.
+        value: f64,
+        /// Least accepted.
+        lower: f64,
+        /// Largest accepted.
+        upper: f64,
+    },
+    /// The postures do not make a clip.
+    #[error(transparent)]
+    Clip(#[from] ClipError),
+}
+
+impl RetargetReport {
+    /// Adds a sentence for each finding that a reader should know.
+    pub(super) fn note_warnings(&mut self, from_rest: bool) {
+        let w = &mut self.warnings;
+        if self.by_structure {
+            w.push(
+                "bone names told nothing: the shape of the skeleton decided which bone is which"
+                    .into(),
+            );
+        }
+        if !self.missing.is_empty() {
+            w.push(format!(
+                "no bone for {}: held at the neutral angle",
+                self.missing.join(", ")
+            ));
+        }
+        if !from_rest {
+            w.push("the file's zero pose is no standing person: the mean of its most upright frames was taken for calibration".into());
+        }
+        if !self.bridged.is_empty() {
+            let frames: usize = self.bridged.iter().map(|b| b.count).sum();
+            w.push(format!("{frames} frames with jumps were bridged"));
+        }
+        let notable = |c: &&ClampedDof| {
+            [NOTABLE_CLAMP, LARGE_CLAMP]
+                .iter()
+                .any(|least| c.max > least.0 && c.fraction > least.1)
+        };
+        for c in self.clamped.iter().filter(notable) {
+            w.push(format!(
+                "{} cut by up to {:.0}° in {:.0} % of the clip",
+                c.in_words(),
+                c.max.to_degrees(),
+                100.0 * c.fraction
+            ));
+        }
+        for (side, shift) in ["left", "right"].into_iter().zip(self.pronation_shift) {
+            if shift.abs() > NOTABLE_CLAMP.0 {
+                w.push(format!(
+                    "{side} forearm: its rotation was taken {:.0}° off, as recorded it is no forearm's",
+                    shift.abs().to_degrees()
+                ));
+            }
+        }
+        if self.pelvis_tilt_max > NOTABLE_CLAMP.0 {
+            w.push(format!(
+                "the pelvis is tilted back by up to {:.0}° where hips do not flex as far as recorded",
+                self.pelvis_tilt_max.to_degrees()
+            ));
+        }
+        if self.pelvis_raise_max > 0.01 {
+            w.push(format!(
+                "the pelvis is raised by up to {:.0} cm where legs do not fold as far as recorded",
+                100.0 * self.pelvis_raise_max
+            ));
+        }
+        if self.freed > 0.01 {
+            w.push(format!(
+                "planted feet were let go in {:.0} % of the samples: the legs' limits do not let them stand as recorded",
+                100.0 * self.freed
+            ));
+        }
+        if self.carried > 0.02 {
+            w.push(format!(
+                "in {:.0} % of the clip something other than the feet carries the body (chair, hands, back)",
+                100.0 * self.carried
+            ));
+        }
+        let off = self
+            .knee_off_axis
+            .iter()
+            .chain(&self.elbow_off_axis)
+            .copied()
+            .fold(0.0, f64::max);
+        if off > 0.17 {
+            w.push(format!(
+                "knees or elbows leave their hinge plane by {:.0}° (95th percentile)",
+                off.to_degrees()
+            ));
+        }
+    }
+}
+
+/// Segments and the bones that move them.
+pub(super) fn mapped_bones(bvh: &Bvh, map: &SkeletonMap) -> Vec<MappedBone> {
+    let names = |bones: &[usize]| {
+        bones
+            .iter()
+            .map(|b| bvh.joints[*b].name.clone())
+            .collect::<Vec<_>>()
+    };
+    let split = (map.abdomen + 1).min(map.trunk.len());
+    // A single bone bends both joints of our trunk.
+    let (waist, thorax) = if map.trunk.len() == 1 {
+        (&map.trunk[..], &map.trunk[..])
+    } else {
+        map.trunk.split_at(split)
+    };
+    let mut out = Vec::new();
+    let mut add = |s: usize, bones: Vec<String>| {
+        if !bones.is_empty() {
+            out.push(MappedBone {
+                segment: SEGMENT_NAMES[s],
+                bones,
+            });
+        }
+    };
+    add(0, names(&[map.pelvis]));
+    add(1, names(waist));
+    add(2, names(thorax));
+    add(3, names(map.head.as_slice()));
+    for (s, side) in map.sides.iter().enumerate() {
+        let (arm, leg) = ([4, 7][s], [10, 14][s]);
+        add(arm, names(&[side.upper_arm]));
+        add(arm + 1, names(&[side.forearm]));
+        add(arm + 2, names(side.hand.as_slice()));
+        add(leg, names(&[side.thigh]));
+        add(leg + 1, names(&[side.shank]));
+        add(leg + 2, names(&[side.foot]));
+        add(leg + 3, names(side.toes.as_slice()));
+    }
+    out.sort_by_key(|m| {
+        SEGMENT_NAMES
+            .iter()
+            .position(|n| *n == m.segment)
+            .unwrap_or(SEGMENT_COUNT)
+    });
+    out
+}
+
+/// Segments that no bone moves.
+pub(super) fn missing_segments(map: &SkeletonMap) -> Vec<&'static str> {
+    let mut out = Vec::new();
+    if map.trunk.is_empty() {
+        out.extend([SEGMENT_NAMES[1], SEGMENT_NAMES[2]]);
+    }
+    if map.head.is_none() {
+        out.push(SEGMENT_NAMES[3]);
+    }
+    for (s, side) in map.sides.iter().enumerate() {
+        if side.hand.is_none() {
+            out.push(SEGMENT_NAMES[[6, 9][s]]);
+        }
+        if side.toes.is_none() {
+            out.push(SEGMENT_NAMES[[13, 17][s]]);
+        }
+    }
+    out
+}

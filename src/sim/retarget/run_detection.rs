@@ -1,0 +1,224 @@
+//! Which fast stretches of a recording are runs: told by gait, not by speed.
+//!
+//! A backflip, a dive and a punch are as fast as a run. A run is an upright body whose feet land in turns, with a flight before each landing, and
+//! which gets somewhere by that. The flights are seen in the mass: where the lead of the feet changes a runner falls freely, and a walker is lifted
+//! by both legs.
+
+use super::run_to_walk::{RUNS, WALKS, paces};
+use crate::sim::math::Vec3;
+use crate::sim::motion::GRAVITY;
+use crate::sim::motion::filter::{low_pass, low_pass_points};
+use crate::sim::plan::contact_labels::runs;
+
+/// Cut-off of the way of the body, Hz: to form its direction, and its vertical acceleration.
+const SLOW_CUTOFF: f64 = 2.0;
+const FALL_CUTOFF: f64 = 12.0;
+/// The way between the feet has turned after so much of it back, m; jitter is taken out above this, Hz.
+const TURNS: f64 = 0.05;
+const TURNS_CUTOFF: f64 = 8.0;
+/// A lead of one foot that is smaller than this, m, is no step.
+const LEAST_LEAD: f64 = 0.12;
+/// A running step takes at most so long, s.
+const LONGEST_STEP: f64 = 0.5;
+/// Share of gravity with which a flying body accelerates downwards, and within which share of a step before and after the feet are farthest apart: a
+/// walker's body falls as well, over the foot it stands on.
+const FALLS: f64 = 0.4;
+const AROUND: f64 = 0.25;
+/// Fewest steps of a run, and share of them that have a flight.
+const FEWEST_STEPS: usize = 2;
+const FLYING_SHARE: f64 = 0.5;
+/// A runner's trunk is within this of upright: cosine, and share of the samples that are so.
+const UPRIGHT: f64 = 0.5;
+const UPRIGHT_SHARE: f64 = 0.95;
+/// A run gets at least so far from where it began, m.
+const LEAST_WAY: f64 = 1.0;
+
+/// Points of a recorded figure, per sample, m, z up.
+pub(crate) struct Figure<'a> {
+    /// Middle of all joints.
+    pub middle: &'a [Vec3],
+    /// Ankle of the left and of the right foot.
+    pub feet: [&'a [Vec3]; 2],
+    /// Middle of the hips and middle of the shoulders.
+    pub trunk: [&'a [Vec3]; 2],
+}
+
+/// Why a fast stretch is a run or none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Gait {
+    /// Steps in turns with flights between them, upright, somewhere.
+    Run,
+    /// The trunk is not upright throughout.
+    NotUpright,
+    /// It ends near where it began.
+    GoesNowhere,
+    /// The feet do not take turns, or not several times.
+    FewSteps,
+    /// The body does not fall between the steps.
+    NoFlights,
+}
+
+impl Gait {
+    /// What is missing to a run.
+    fn reason(self) -> &'static str {
+        match self {
+            Self::Run => "it is a run",
+            Self::NotUpright => "the trunk is not upright",
+            Self::GoesNowhere => "it goes nowhere",
+            Self::FewSteps => "the feet do not take several steps in turns",
+            Self::NoFlights => "there are no flights between its steps",
+        }
+    }
+}
+
+/// A stretch that is faster than people walk.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct FastStretch {
+    /// First sample, and one past the last.
+    pub samples: (usize, usize),
+    /// Highest speed over the floor, m/s.
+    pub speed: f64,
+    /// Changes of the leading foot, and how many of them have a flight.
+    pub steps: usize,
+    /// See `steps`.
+    pub flights: usize,
+    /// What it is.
+    pub gait: Gait,
+}
+
+impl FastStretch {
+    /// What a user should know of one that is no run.
+    pub(crate) fn why_not_a_run(&self, rate_hz: f64) -> String {
+        format!(
+            "from {:.2} s to {:.2} s it moves at up to {:.1} m/s, but {}: no run, kept as recorded",
+            self.samples.0 as f64 / rate_hz,
+            self.samples.1 as f64 / rate_hz,
+            self.speed,
+            self.gait.reason()
+        )
+    }
+}
+
+/// The stretches of a recording that are faster than people walk, in order. O(n).
+pub(crate) fn fast_stretches(figure: &Figure<'_>, rate_hz: f64) -> Vec<FastStretch> {
+    let speed = paces(figure.middle, rate_hz);
+    let moves: Vec<bool> = speed.iter().map(|v| *v > WALKS).collect();
+    let most = |i: usize, j: usize| speed[i..j].iter().copied().fold(0.0, f64::max);
+    runs(&moves)
+        .into_iter()
+        .filter(|(i, j, fast)| *fast && most(*i, *j) > RUNS)
+        .map(|(i, j, _)| judge(figure, (i, j), most(i, j), rate_hz))
+        .collect()
+}
+
+fn judge(figure: &Figure<'_>, (i, j): (usize, usize), speed: f64, rate_hz: f64) -> FastStretch {
+    let turns = lead_turns(figure, (i, j), rate_hz);
+    let falls = falling(figure.middle, rate_hz);
+    let steps = turns.windows(2).map(|w| w[1] - w[0]);
+    let step = steps.min().unwrap_or((LONGEST_STEP * rate_hz) as usize);
+    let half = (AROUND * step as f64) as usize;
+    let flies = |k: &&usize| {
+        let around = k.saturating_sub(half).max(i)..(*k + half + 1).min(j);
+        falls[around].contains(&true)
+    };
+    let flights = turns.iter().filter(flies).count();
+    let [hips, shoulders] = figure.trunk;
+    let upright = (i..j)
+        .filter(|k| {
+            let up = (shoulders[*k] - hips[*k]).normalized_or(Vec3::zero());
+            up.z > UPRIGHT
+        })
+        .count();
+    let start = figure.middle[i];
+    let far = figure.middle[i..j].iter().map(|p| {
+        let way = *p - start;
+        way.x.hypot(way.y)
+    });
+    let gait = if (upright as f64) < UPRIGHT_SHARE * (j - i) as f64 {
+        Gait::NotUpright
+    } else if turns.len() < FEWEST_STEPS {
+        Gait::FewSteps
+    } else if far.fold(0.0, f64::max) < LEAST_WAY {
+        Gait::GoesNowhere
+    } else if (flights as f64) < FLYING_SHARE * turns.len() as f64 {
+        Gait::NoFlights
+    } else {
+        Gait::Run
+    };
+    FastStretch {
+        samples: (i, j),
+        speed,
+        steps: turns.len(),
+        flights,
+        gait,
+    }
+}
+
+/// Samples within `i..j` in which the lead of one foot over the other, along the way, is at its largest and the other foot takes over.
+fn lead_turns(figure: &Figure<'_>, (i, j): (usize, usize), rate_hz: f64) -> Vec<usize> {
+    let n = figure.middle.len();
+    let mut slow = figure.middle.to_vec();
+    low_pass_points(&mut slow, SLOW_CUTOFF, rate_hz);
+    let [left, right] = figure.feet;
+    let mut lead: Vec<f64> = (0..n)
+        .map(|k| {
+            let ahead = slow[(k + 1).min(n - 1)] - slow[k.saturating_sub(1)];
+            let ahead = Vec3 { z: 0.0, ..ahead }.normalized_or(Vec3::X);
+            (left[k] - right[k]).dot(ahead)
+        })
+        .collect();
+    low_pass(&mut lead, TURNS_CUTOFF, rate_hz);
+    let (mut turns, mut sense, mut last) = (Vec::<usize>::new(), 0.0f64, i);
+    for k in i + 1..j {
+        let back = lead[last] - lead[k];
+        if sense == 0.0 {
+            if back.abs() > TURNS {
+                (sense, last) = (-back.signum(), k);
+            }
+        } else if sense * back < 0.0 {
+            last = k;
+        } else if sense * back > TURNS {
+            turns.push(last);
+            (sense, last) = (-sense, k);
+        }
+    }
+    // Each one has to be a lead of its own foot, in turns, soon after the one before.
+    let mut steps: Vec<usize> = Vec::new();
+    let mut best: Vec<usize> = Vec::new();
+    for k in turns {
+        let follows = steps.last().is_none_or(|before| {
+            lead[k].signum() != lead[*before].signum()
+                && (k - before) as f64 <= LONGEST_STEP * rate_hz
+        });
+        if lead[k].abs() < LEAST_LEAD {
+            continue;
+        }
+        if !follows {
+            steps.clear();
+        }
+        steps.push(k);
+        if steps.len() > best.len() {
+            best.clone_from(&steps);
+        }
+    }
+    best
+}
+
+/// Samples in which the middle of the body falls.
+fn falling(middle: &[Vec3], rate_hz: f64) -> Vec<bool> {
+    let n = middle.len();
+    let mut height: Vec<f64> = middle.iter().map(|p| p.z).collect();
+    low_pass(&mut height, FALL_CUTOFF, rate_hz);
+    (0..n)
+        .map(|k| {
+            if k == 0 || k + 1 >= n {
+                return false;
+            }
+            let bend = height[k - 1] - 2.0 * height[k] + height[k + 1];
+            bend * rate_hz * rate_hz < -FALLS * GRAVITY
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests;

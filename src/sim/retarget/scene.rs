@@ -1,0 +1,270 @@
+//! The recording as a scene: metres, z up, even samples, smooth.
+
+use super::recording::Recording;
+use super::run_detection::{FastStretch, Figure, Gait, fast_stretches};
+use super::run_to_walk::RunToWalk;
+use super::{MAX_FRAMES, RetargetOptions, UpAxis};
+use crate::sim::math::{Mat3, Quat, Vec3};
+use crate::sim::motion::filter::{
+    low_pass_points, low_pass_rotations, resample_points, resample_rotations,
+};
+use crate::sim::motion::skeleton_map::SkeletonMap;
+use crate::sim::plan::flight_phases;
+
+/// Per sample: smoothed world positions and rotations, metres, z up.
+pub(super) struct Scene<'a> {
+    pub take: &'a Recording,
+    pub places: Vec<Vec<Vec3>>,
+    pub turns: Vec<Vec<Quat>>,
+    pub rest: Vec<Vec3>,
+    pub basis: Quat,
+    pub count: usize,
+    pub rate: f64,
+}
+
+/// What [`Scene::new`] finds on the way.
+pub(super) struct Seen {
+    /// Points of either foot (ankle, toe joint, tip) before they were smoothed, `[side][point][sample]`.
+    pub feet: [Vec<Vec<Vec3>>; 2],
+    /// Mean distance, rms, over which smoothing moved the points, m.
+    pub smoothing_rms: f64,
+    /// Stretches that are faster than people walk, in samples of the recording, and how its runs are slowed down if they are to be walked.
+    pub fast: Vec<FastStretch>,
+    pub slowed: Option<RunToWalk>,
+    /// How many times as long as recorded the motion is for that.
+    pub slower: f64,
+}
+
+impl Seen {
+    /// True if it runs and is to run.
+    pub(super) fn keeps_run(&self) -> bool {
+        self.runs().next().is_some() && self.slowed.is_none()
+    }
+
+    fn runs(&self) -> impl Iterator<Item = &FastStretch> {
+        self.fast.iter().filter(|s| s.gait == Gait::Run)
+    }
+
+    /// Speed of the fastest run, m/s, if there is one.
+    pub(super) fn fastest_run(&self) -> Option<f64> {
+        self.runs().map(|s| s.speed).reduce(f64::max)
+    }
+
+    /// What a user should know of each fast stretch. `rate_hz`: of the recording.
+    pub(super) fn notes(&self, rate_hz: f64) -> Vec<String> {
+        let note = |s: &FastStretch| {
+            if s.gait != Gait::Run {
+                return s.why_not_a_run(rate_hz);
+            }
+            let what = format!(
+                "from {:.2} s to {:.2} s a run of {:.1} m/s ({} changes of the leading foot, {} flights)",
+                s.samples.0 as f64 / rate_hz,
+                s.samples.1 as f64 / rate_hz,
+                s.speed,
+                s.steps,
+                s.flights
+            );
+            if self.slowed.is_some() {
+                let slower = self.slower;
+                format!(
+                    "{what} is walked: slower, with shorter steps; the clip is {slower:.1} times as long as recorded"
+                )
+            } else {
+                format!("{what} takes more strength than people's joints are measured to have")
+            }
+        };
+        self.fast.iter().map(note).collect()
+    }
+}
+
+impl<'a> Scene<'a> {
+    /// World positions and rotations of `take` and its rest pose, file units and axes, in metres with z up, at the output rate, smooth.
+    pub(super) fn new(
+        take: &'a Recording,
+        map: &SkeletonMap,
+        (mut places, mut turns, rest): (Vec<Vec<Vec3>>, Vec<Vec<Quat>>, Vec<Vec3>),
+        (up, unit_m): (UpAxis, f64),
+        source_rate: f64,
+        options: &RetargetOptions,
+    ) -> (Self, Seen) {
+        for p in &mut places {
+            for v in p.iter_mut() {
+                *v = z_up(up, *v * unit_m);
+            }
+        }
+        let basis = Quat::from_mat3(&Mat3 {
+            x: z_up(up, Vec3::X),
+            y: z_up(up, Vec3::Y),
+            z: z_up(up, Vec3::Z),
+        });
+        for t in &mut turns {
+            for q in t.iter_mut() {
+                *q = basis * *q;
+            }
+        }
+        let rest: Vec<Vec3> = rest.into_iter().map(|v| z_up(up, v * unit_m)).collect();
+        let kept = (59.0..=240.5).contains(&source_rate);
+        let rate = options
+            .output_rate_hz
+            .unwrap_or(if kept { source_rate } else { 120.0 });
+        let count = ((((take.len() - 1) as f64) * rate / source_rate + 1e-6).floor() as usize + 1)
+            .min(MAX_FRAMES * 4);
+        let way = middle(&places);
+        let feet = [0, 1].map(|s: usize| places[take.at(map.sides[s].foot)].as_slice());
+        let between = |pair: [usize; 2]| {
+            let [a, b] = pair.map(|j| &places[take.at(j)]);
+            let middle = a.iter().zip(b).map(|(a, b)| (*a + *b) * 0.5);
+            middle.collect::<Vec<_>>()
+        };
+        let [l, r] = &map.sides;
+        let trunk = [
+            between([l.thigh, r.thigh]),
+            between([l.upper_arm, r.upper_arm]),
+        ];
+        let figure = Figure {
+            middle: &way,
+            feet,
+            trunk: [&trunk[0], &trunk[1]],
+        };
+        let fast = fast_stretches(&figure, source_rate);
+        let runs: Vec<(usize, usize)> = fast
+            .iter()
+            .filter(|s| s.gait == Gait::Run)
+            .map(|s| s.samples)
+            .collect();
+        let slowed = options
+            .walk_runs
+            .then(|| RunToWalk::new(&way, feet, &runs, (source_rate, rate)))
+            .flatten();
+        let slower = slowed.as_ref().map_or(1.0, |s| s.stretch(count as f64));
+        let count = slowed.as_ref().map_or(count, RunToWalk::count);
+        let mut smoothing = (0.0, 0usize);
+        let cutoff_hz = if !runs.is_empty() && slowed.is_none() {
+            options.cutoff_hz.max(flight_phases::CUTOFF)
+        } else {
+            options.cutoff_hz
+        };
+        let same = (rate - source_rate).abs() < 1e-9;
+        let mut feet: [Vec<Vec<Vec3>>; 2] = Default::default();
+        for (k, path) in places.iter_mut().enumerate() {
+            if let Some(slowed) = &slowed {
+                *path = slowed.points(path);
+            } else if !same {
+                *path = resample_points(path, source_rate, rate, count);
+            }
+            for (points, side) in feet.iter_mut().zip(&map.sides) {
+                let tip = take.tip(side.toes.unwrap_or(side.foot));
+                if [Some(side.foot), side.toes, tip].contains(&Some(take.joints[k])) {
+                    points.push(path.clone());
+                }
+            }
+            let before = path.clone();
+            low_pass_points(path, cutoff_hz, rate);
+            for (a, b) in before.iter().zip(path.iter()) {
+                smoothing.0 += (*a - *b).dot(*a - *b);
+                smoothing.1 += 1;
+            }
+        }
+        for path in &mut turns {
+            if let Some(slowed) = &slowed {
+                *path = slowed.rotations(path);
+            } else if !same {
+                *path = resample_rotations(path, source_rate, rate, count);
+            }
+            low_pass_rotations(path, cutoff_hz, rate);
+        }
+        let scene = Self {
+            take,
+            places,
+            turns,
+            rest,
+            basis,
+            count,
+            rate,
+        };
+        let smoothing_rms = (smoothing.0 / smoothing.1.max(1) as f64).sqrt();
+        (
+            scene,
+            Seen {
+                feet,
+                smoothing_rms,
+                fast,
+                slowed,
+                slower,
+            },
+        )
+    }
+}
+
+/// The middle of all joints, per sample.
+fn middle(places: &[Vec<Vec3>]) -> Vec<Vec3> {
+    let share = 1.0 / places.len().max(1) as f64;
+    let at = |i: usize| places.iter().fold(Vec3::zero(), |m, p| m + p[i] * share);
+    (0..places.first().map_or(0, Vec::len)).map(at).collect()
+}
+
+fn z_up(up: UpAxis, v: Vec3) -> Vec3 {
+    match up {
+        UpAxis::Y => Vec3 {
+            x: v.z,
+            y: v.x,
+            z: v.y,
+        },
+        UpAxis::Z => v,
+    }
+}
+
+impl Scene<'_> {
+    pub(super) fn place(&self, joint: usize) -> &[Vec3] {
+        &self.places[self.take.at(joint)]
+    }
+    pub(super) fn turn(&self, joint: usize) -> &[Quat] {
+        &self.turns[self.take.at(joint)]
+    }
+
+    /// Direction in which the feet of a sample point, made level in the figure; zero if the file has no toes.
+    pub(super) fn toe_direction(&self, map: &SkeletonMap, s: usize, i: usize) -> Vec3 {
+        let side = &map.sides[s];
+        self.take.toe(side).map_or(Vec3::zero(), |t| {
+            self.place(t)[i] - self.place(side.foot)[i]
+        })
+    }
+
+    /// Exchanges sides that the file names the wrong way round, told by where feet point and knees bend.
+    pub(super) fn settle_sides(&mut self, map: &mut SkeletonMap) -> bool {
+        let mut vote = 0.0;
+        let mut arms = 0.0;
+        for i in 0..self.count {
+            let p = |j: usize| self.place(j)[i];
+            let [l, r] = map.sides;
+            let hips = (p(l.thigh) + p(r.thigh)) * 0.5;
+            let up = ((p(l.upper_arm) + p(r.upper_arm)) * 0.5 - hips).normalized_or(Vec3::Z);
+            let left = (p(l.thigh) - p(r.thigh)).normalized_or(Vec3::Y);
+            let forward = left.cross(up);
+            arms += (p(l.upper_arm) - p(r.upper_arm)).dot(left).signum();
+            for (s, side) in map.sides.iter().enumerate() {
+                let thigh = (p(side.shank) - p(side.thigh)).normalized_or(Vec3::zero());
+                let shank = (p(side.foot) - p(side.shank)).normalized_or(Vec3::zero());
+                // A bent knee turns about an axis towards the left.
+                vote += thigh.cross(shank).dot(left);
+                vote += self
+                    .toe_direction(map, s, i)
+                    .normalized_or(Vec3::zero())
+                    .dot(forward);
+            }
+        }
+        if arms < 0.0 {
+            let [l, r] = map.sides;
+            for (s, other) in [(0, r), (1, l)] {
+                map.sides[s].upper_arm = other.upper_arm;
+                map.sides[s].forearm = other.forearm;
+                map.sides[s].hand = other.hand;
+            }
+        }
+        if vote < 0.0 {
+            map.sides.swap(0, 1);
+            return !map.by_structure;
+        }
+        arms < 0.0 && !map.by_structure
+    }
+}

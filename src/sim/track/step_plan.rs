@@ -1,0 +1,502 @@
+//! When and where the feet of a clip stand: the stances of both feet, in order, also over the seam of a loop.
+
+use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
+use crate::sim::body::{Body, Posture, SegmentId};
+use crate::sim::math::Vec3;
+use crate::sim::motion::Clip;
+use crate::sim::motion::clip::PlanarTransform;
+use crate::sim::motion::leg_ik::forward;
+use crate::sim::plan::contact_labels::runs;
+use crate::sim::plan::foot_lock::Sole;
+use crate::sim::plan::motion_transition::WayIn;
+use crate::sim::plan::pelvis_shift::mass_track;
+use crate::sim::plan::stream;
+use crate::sim::plan::stream::StreamPlan;
+
+/// A stance of one foot as the clip has it. Times in clip seconds, place and heading in clip coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Footfall {
+    /// Touch-down, s.
+    pub on: f64,
+    /// Lift-off, s.
+    pub off: f64,
+    /// Point of the floor under the flat ankle, m.
+    pub place: Vec3,
+    /// Heading of the foot, rad.
+    pub yaw: f64,
+}
+
+/// The stances of a clip. Made when a clip begins to play; queries allocate nothing.
+#[derive(Clone, Debug)]
+pub struct StepPlan {
+    stances: [Vec<Footfall>; 2],
+    /// When the motion begins to move, s: 0, or before that if it has a lead-in.
+    begin: f64,
+    /// When it is over, s: with its lead-out.
+    duration: f64,
+    /// Up to when touch-downs are known, s: a stream's only as far as it has come.
+    seen: f64,
+    /// Displacement of one round, if the clip repeats.
+    round: Option<PlanarTransform>,
+    /// What holds instead before some time: the way into a clip that repeats, with its first round, or the one out of another motion.
+    lead: Option<Box<Lead>>,
+}
+
+/// What holds before time `until`, and tells of touch-downs before time `knows`, s.
+#[derive(Clone, Debug)]
+struct Lead {
+    plan: StepPlan,
+    until: f64,
+    knows: f64,
+}
+
+/// Feet pause that have stood together for so long, s, and will for so long: that leaves time for a step that nobody planned.
+const PAUSE: (f64, f64) = (0.2, 0.1);
+/// A foot this close to the floor carries the body if no other does, m.
+const NEAR_FLOOR: f64 = 0.03;
+
+/// A body falls while the floor would give less than this share of its weight.
+const FALLS: f64 = 0.5;
+
+/// In which of the samples without a planted foot the body falls.
+fn falling(body: &Body, samples: &[(&Posture, [bool; 2])], rate_hz: f64) -> Vec<bool> {
+    // Second differences over five samples.
+    const AROUND: usize = 3;
+    let mut falls = vec![false; samples.len()];
+    let off: Vec<bool> = samples.iter().map(|s| s.1 == [false; 2]).collect();
+    for (i, j, _) in runs(&off).into_iter().filter(|r| r.2) {
+        let from = i.saturating_sub(AROUND);
+        let near = &samples[from..(j + AROUND).min(samples.len())];
+        let postures: Vec<Posture> = near.iter().map(|s| *s.0).collect();
+        let track = mass_track(body, &postures, rate_hz);
+        for k in i..j {
+            falls[k] = track.load[k - from] < FALLS;
+        }
+    }
+    falls
+}
+
+/// Which feet carry the body in each sample: the planted ones, or, where none is and one stays near the floor, that one. (The preparation
+/// declares a foot free that its leg cannot hold in place exactly; that is no flight.)
+fn carried(body: &Body, samples: &[(&Posture, [bool; 2])], rate_hz: f64) -> Vec<[bool; 2]> {
+    let falls = falling(body, samples, rate_hz);
+    let soles = [Sole::new(body, 0), Sole::new(body, 1)];
+    samples
+        .iter()
+        .enumerate()
+        .map(|(i, &(posture, planted))| {
+            if planted != [false; 2] || falls[i] {
+                return planted;
+            }
+            let poses = forward(body, posture);
+            let low = [(L_FOOT, L_TOES), (R_FOOT, R_TOES)].map(|(foot, toes)| {
+                let side = usize::from(foot == R_FOOT);
+                let height = |s: SegmentId, points: &[Vec3]| {
+                    let (at, q) = poses[s.index()];
+                    points
+                        .iter()
+                        .map(|p| at.z + q.rotate(*p).z)
+                        .fold(f64::INFINITY, f64::min)
+                };
+                height(foot, soles[side].foot_points()).min(height(toes, soles[side].toe_points()))
+            });
+            [
+                low[0] < NEAR_FLOOR && low[0] <= low[1],
+                low[1] < NEAR_FLOOR && low[1] < low[0],
+            ]
+        })
+        .collect()
+}
+
+/// A foot that leaves the floor or touches it for less than this does not step, s.
+const SHORTEST: f64 = 0.05;
+
+/// Takes out what is too short for a step: first gaps of a stance, then stances.
+fn steady(planted: &mut [[bool; 2]], side: usize, rate_hz: f64) {
+    let shortest = (SHORTEST * rate_hz) as usize;
+    for short in [false, true] {
+        let label: Vec<bool> = planted.iter().map(|p| p[side]).collect();
+        for (i, j, on) in runs(&label) {
+            if on == short && j - i < shortest && i > 0 && j < label.len() {
+                planted[i..j].iter_mut().for_each(|p| p[side] = !short);
+            }
+        }
+    }
+}
+
+impl StepPlan {
+    /// The plan of `clip` on `body`; `looped` if it repeats.
+    pub fn new(body: &Body, clip: &Clip, looped: bool) -> Self {
+        let rate = clip.rate_hz();
+        let feet = [L_FOOT, R_FOOT];
+        // A round of a loop has neither a lead-in nor a lead-out.
+        let (skipped, begin, duration) = if looped {
+            let lead_in = (clip.lead_in() * rate).round() as usize;
+            (lead_in, 0.0, clip.duration())
+        } else {
+            (0, -clip.lead_in(), clip.duration() + clip.lead_out())
+        };
+        let n = ((duration - begin) * rate).round() as usize + 1;
+        let samples: Vec<_> = clip.samples().skip(skipped).take(n).collect();
+        let mut planted = carried(body, &samples, rate);
+        for side in 0..2 {
+            steady(&mut planted, side, rate);
+        }
+        let stances = std::array::from_fn(|side| {
+            let sole = Sole::new(body, side);
+            let mut out = Vec::new();
+            let mut i = 0;
+            while i < n {
+                if !planted[i][side] {
+                    i += 1;
+                    continue;
+                }
+                let start = i;
+                while i < n && planted[i][side] {
+                    i += 1;
+                }
+                // The middle of a stance is its flattest part.
+                let (ankle, rotation) =
+                    forward(body, samples[(start + i - 1) / 2].0)[feet[side].index()];
+                let (place, yaw) = sole.footing((ankle, rotation)).place_and_yaw();
+                // A sample speaks for the half-interval on either side of it.
+                out.push(Footfall {
+                    on: if start == 0 {
+                        begin
+                    } else {
+                        begin + (start as f64 - 0.5) / rate
+                    },
+                    off: if i == n {
+                        duration
+                    } else {
+                        begin + (i as f64 - 0.5) / rate
+                    },
+                    place,
+                    yaw,
+                });
+            }
+            out
+        });
+        Self {
+            stances,
+            begin,
+            duration,
+            seen: f64::INFINITY,
+            round: looped.then(|| clip.advance()),
+            lead: (looped && clip.lead_in() > 0.0).then(|| {
+                Box::new(Lead {
+                    plan: Self::new(body, clip, false),
+                    until: 0.0,
+                    knows: duration,
+                })
+            }),
+        }
+    }
+
+    /// The same for a figure that comes into the clip by a way of its own; one into its lead-in leaves what is left of that.
+    pub fn entered_by(mut self, body: &Body, way: &WayIn) -> Self {
+        if let Some(mut lead) = self.lead.take_if(|l| way.until < l.until) {
+            lead.plan = lead.plan.entered_by(body, way);
+            self.lead = Some(lead);
+            return self;
+        }
+        let mut plan = Self::new(body, &way.clip, false);
+        plan.begin += way.begin;
+        plan.duration += way.begin;
+        for f in plan.stances.iter_mut().flatten() {
+            f.on += way.begin;
+            f.off += way.begin;
+        }
+        let lead = Lead {
+            plan,
+            until: way.until,
+            knows: f64::INFINITY,
+        };
+        Self {
+            lead: Some(Box::new(lead)),
+            ..self
+        }
+    }
+
+    /// The plan of a stream: nothing is known yet.
+    pub fn live() -> Self {
+        Self {
+            stances: std::array::from_fn(|_| Vec::with_capacity(stream::MOST_STANCES)),
+            begin: 0.0,
+            duration: f64::INFINITY,
+            seen: 0.0,
+            round: None,
+            lead: None,
+        }
+    }
+
+    /// True for the plan of a stream.
+    pub fn is_live(&self) -> bool {
+        self.duration == f64::INFINITY
+    }
+
+    /// What is known of a stream now. No allocation.
+    pub fn refresh(&mut self, motion: &StreamPlan) {
+        self.seen = motion.seen();
+        for (side, known) in self.stances.iter_mut().enumerate() {
+            known.clear();
+            let seconds = |sample: i64| (sample as f64 - 0.5) / stream::RATE;
+            known.extend(motion.stances(side).map(|s| Footfall {
+                on: seconds(s.start),
+                off: if s.end == i64::MAX {
+                    f64::INFINITY
+                } else {
+                    seconds(s.end)
+                },
+                place: s.place,
+                yaw: s.yaw,
+            }));
+        }
+    }
+
+    /// True if it is the plan of a stream that stands on both feet at time `t` (s), has done so for a while and goes on doing so as far as is known.
+    pub fn rests(&self, t: f64) -> bool {
+        const BEFORE: f64 = 0.5;
+        const AFTER: f64 = 0.25;
+        self.is_live()
+            && (0..2).all(|side| {
+                self.current(side, t)
+                    .is_some_and(|f| f.on < t - BEFORE && f.off > t + AFTER)
+            })
+    }
+
+    /// True if both feet have stood at time `t` (s) for longer than in any stride, and go on standing for a moment, or for good.
+    pub fn pauses(&self, t: f64) -> bool {
+        let stays = |f: &Footfall| f.off > t + PAUSE.1 || self.is_over(f.off);
+        let stands = |f: Footfall| f.on < t - PAUSE.0 && stays(&f);
+        (0..2).all(|side| self.current(side, t).is_some_and(stands))
+    }
+
+    /// True if a foot leaves the floor anywhere.
+    pub fn steps(&self) -> bool {
+        self.is_live()
+            || self.lead.as_ref().is_some_and(|l| l.plan.steps())
+            || self
+                .stances
+                .iter()
+                .any(|s| s.len() != 1 || s[0].on > self.begin || s[0].off < self.duration)
+    }
+
+    /// True once a clip that does not repeat has played to its end.
+    pub fn is_over(&self, t: f64) -> bool {
+        self.round.is_none() && t >= self.duration
+    }
+
+    /// The plan that holds on the way in.
+    fn lead_at(&self, t: f64) -> Option<&Lead> {
+        self.lead.as_deref().filter(|l| t < l.until)
+    }
+
+    /// Round of a loop that time `t` falls into, and the time within it.
+    fn round_of(&self, t: f64) -> (f64, f64) {
+        if self.round.is_none() || self.duration <= 0.0 {
+            return (0.0, t);
+        }
+        let round = (t / self.duration).floor();
+        (round, t - round * self.duration)
+    }
+
+    /// How long so many rounds of a loop take, s; 0 for what does not repeat, however long it is: a stream has no end.
+    fn rounds(&self, count: f64) -> f64 {
+        self.round.map_or(0.0, |_| count * self.duration)
+    }
+
+    fn unrolled(&self, f: Footfall, round: f64) -> Footfall {
+        let Some(advance) = self.round else { return f };
+        let moved = advance.power(round);
+        Footfall {
+            on: f.on + round * self.duration,
+            off: f.off + round * self.duration,
+            place: moved.point(f.place),
+            yaw: f.yaw + moved.yaw,
+        }
+    }
+
+    /// True if the stance over the seam goes on in the next round.
+    fn wraps(&self, side: usize) -> bool {
+        let s = &self.stances[side];
+        self.round.is_some()
+            && s.first().is_some_and(|f| f.on <= 0.0)
+            && s.last().is_some_and(|f| f.off >= self.duration)
+    }
+
+    /// Next touch-down of a foot (0 left, 1 right) after time `t` (s); `None` if it never lands again.
+    pub fn next(&self, side: usize, t: f64) -> Option<Footfall> {
+        if let Some(lead) = self.lead_at(t) {
+            let known = |f: &Footfall| f.on < lead.knows;
+            return (lead.plan.next(side, t).filter(known)).or_else(|| self.next(side, lead.until));
+        }
+        let (round, local) = self.round_of(t);
+        let rounds = if self.round.is_some() { 2 } else { 1 };
+        for k in 0..rounds {
+            let first = usize::from(k > 0 && self.wraps(side));
+            let shift = self.rounds(f64::from(k));
+            for f in self.stances[side].iter().skip(first) {
+                if f.on + shift > local {
+                    return Some(self.unrolled(*f, round + f64::from(k)));
+                }
+            }
+        }
+        None
+    }
+
+    /// Earliest time at which a foot may touch down after time `t`, as far as is known, s; infinity if it never does.
+    pub fn earliest(&self, side: usize, t: f64) -> f64 {
+        self.next(side, t).map_or(self.seen, |f| f.on)
+    }
+
+    /// The stance that holds at time `t` (s).
+    pub fn current(&self, side: usize, t: f64) -> Option<Footfall> {
+        if let Some(lead) = self.lead_at(t) {
+            return lead.plan.current(side, t);
+        }
+        let (round, local) = self.round_of(t);
+        let end = self.duration;
+        let f = self.stances[side].iter().find(|f| {
+            (f.on <= local || f.on <= self.begin)
+                && (local < f.off || (f.off >= end && self.round.is_none()))
+        })?;
+        Some(self.unrolled(*f, round))
+    }
+
+    /// The next time in which no foot stands after time `t`, at which one does: from and to, s, of a stream as far as it is seen; `None` if a foot lands
+    /// before the others have left.
+    pub fn next_flight(&self, t: f64) -> Option<(f64, f64)> {
+        let stands_until = |side: usize| {
+            let now = self.current(side, t)?;
+            let (round, _) = self.round_of(t);
+            let goes_on = self.wraps(side) && now.off >= (round + 1.0) * self.duration;
+            let first = self.unrolled(self.stances[side][0], round + 1.0);
+            Some(if goes_on { first.off } else { now.off })
+        };
+        let off = (0..2).filter_map(stands_until).reduce(f64::max)?;
+        let on = f64::min(self.earliest(0, t), self.earliest(1, t));
+        (on > off + SHORTEST && on < f64::INFINITY).then_some((off, on))
+    }
+
+    /// Last lift-off of a foot at or before time `t`, s; the beginning of the clip if there was none.
+    pub fn last_off(&self, side: usize, t: f64) -> f64 {
+        if let Some(lead) = self.lead_at(t) {
+            return lead.plan.last_off(side, t);
+        }
+        let (round, local) = self.round_of(t);
+        let s = &self.stances[side];
+        if let Some(f) = s.iter().rev().find(|f| f.off <= local) {
+            return f.off + self.rounds(round);
+        }
+        match s.last() {
+            Some(f) if self.round.is_some() && !self.wraps(side) => {
+                f.off + self.rounds(round - 1.0)
+            }
+            _ => self.begin + self.rounds(round),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::motion::builtin::builtin;
+    use std::sync::Arc;
+
+    fn stances(times: &[(f64, f64)]) -> Vec<Footfall> {
+        let stance = |&(on, off): &(f64, f64)| Footfall {
+            on,
+            off,
+            place: Vec3::zero(),
+            yaw: 0.0,
+        };
+        times.iter().map(stance).collect()
+    }
+
+    fn plan(left: &[(f64, f64)], right: &[(f64, f64)], round: bool) -> StepPlan {
+        StepPlan {
+            stances: [stances(left), stances(right)],
+            begin: 0.0,
+            duration: 1.0,
+            seen: f64::INFINITY,
+            round: round.then(PlanarTransform::default),
+            lead: None,
+        }
+    }
+
+    #[test]
+    fn a_stream_flies_before_its_landing_has_come() {
+        let stream = |left: &[(f64, f64)], seen: f64| StepPlan {
+            duration: f64::INFINITY,
+            seen,
+            ..plan(left, &[(0.0, 0.35)], false)
+        };
+        let stands = stream(&[(0.0, f64::INFINITY)], 0.5);
+        assert_eq!(stands.next_flight(0.2), None, "one foot stays");
+        assert_eq!(stands.earliest(1, 0.4), 0.5, "it may land as soon as that");
+        let left = &[(0.0, 0.3)];
+        assert_eq!(stream(left, 0.38).next_flight(0.2), None, "too short");
+        assert_eq!(stream(left, 0.5).next_flight(0.2), Some((0.35, 0.5)));
+        let landing = &[(0.0, 0.3), (0.6, f64::INFINITY)];
+        assert_eq!(stream(landing, 0.7).next_flight(0.2), Some((0.35, 0.6)));
+    }
+
+    #[test]
+    fn a_flight_is_the_time_after_the_last_foot_left_and_before_the_first_lands() {
+        let jump = plan(
+            &[(0.0, 0.3), (0.7, 1.0)],
+            &[(0.0, 0.35), (0.65, 1.0)],
+            false,
+        );
+        assert_eq!(jump.next_flight(0.1), Some((0.35, 0.65)));
+        assert_eq!(jump.next_flight(0.32), Some((0.35, 0.65)));
+        assert_eq!(jump.next_flight(0.5), None, "it flies already");
+        assert_eq!(jump.next_flight(0.8), None, "it stays down");
+        assert_eq!(jump.earliest(0, 0.8), f64::INFINITY, "it never lands again");
+        let run = plan(&[(0.0, 0.3)], &[(0.5, 0.8)], true);
+        assert_eq!(run.next_flight(0.1), Some((0.3, 0.5)));
+        let next = run.next_flight(0.6).unwrap();
+        assert!((next.0 - 0.8).abs() < 1e-12 && (next.1 - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn who_walks_never_flies_not_even_over_the_seam() {
+        // The left stance goes on over the seam.
+        let walk = plan(&[(0.0, 0.4), (0.8, 1.0)], &[(0.3, 0.9)], true);
+        for i in 0..300 {
+            let t = f64::from(i) * 0.01;
+            assert_eq!(walk.next_flight(t), None, "{t}");
+        }
+    }
+
+    #[test]
+    fn the_plan_of_a_stream_knows_the_next_foothold_and_the_last_lift_off() {
+        let body = Arc::new(Body::adult_man());
+        let walk = builtin(&body, "walk").unwrap();
+        let clip = StepPlan::new(&body, &walk, false);
+        let mut live = StreamPlan::new(Arc::clone(&body), 1.0);
+        let mut plan = StepPlan::live();
+        let (mut known, mut unknown) = (0, 0);
+        for i in 0..(walk.duration() * stream::RATE) as usize {
+            live.push(&walk.sample(i as f64 / stream::RATE).posture, None);
+            let t = i as f64 / stream::RATE - live.window();
+            live.advance(t);
+            plan.refresh(&live);
+            for side in (0..2).filter(|s| t > 0.0 && plan.current(*s, t).is_none()) {
+                // It has left the floor, and in half a second it will have landed.
+                let off = plan.last_off(side, t);
+                assert!(off <= t && off > t - 1.0, "{t}: {off}");
+                match plan.next(side, t) {
+                    Some(f) => {
+                        known += 1;
+                        let meant = clip.next(side, off).unwrap();
+                        assert!(f.on > t && (f.on - meant.on).abs() < 0.1, "{t}: {f:?}");
+                    }
+                    None => unknown += 1,
+                }
+            }
+        }
+        assert!(known > 60 && unknown < 5, "{known} known, {unknown} not");
+    }
+}
