@@ -1,5 +1,5 @@
-//! Kernels of `sim::dynamics`, each under the name of the function it times. Lane kernels (`_x8`) step eight figures per call and report
-//! throughput per figure.
+//! Kernels of `sim::dynamics`, each under the name of the function it times. Lane kernels (`_x8`) step eight figures
+//! per call and report throughput per figure.
 #![allow(missing_docs)] // criterion's macro writes undocumented functions
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};

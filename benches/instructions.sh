@@ -1,7 +1,7 @@
 #!/bin/sh
-# Instructions per call, counted by valgrind: the same on any machine load, so that a change of 1 % is a change of the code.
-# Usage: benches/instructions.sh [WORK...]     (valgrind needed: apt-get install valgrind)
-# Valgrind knows no AVX-512, so the lane kernels are counted in their AVX2 form.
+# Instructions per call, counted by valgrind: the same on any machine load, so that a change of 1 % is a change of the
+# code. Usage: benches/instructions.sh [WORK...]     (valgrind needed: apt-get install valgrind) Valgrind knows no
+# AVX-512, so the lane kernels are counted in their AVX2 form.
 set -eu
 cd "$(dirname "$0")/.."
 command -v valgrind >/dev/null || { echo "valgrind is not installed: apt-get install valgrind" >&2; exit 1; }

@@ -1,4 +1,5 @@
-//! One solve of an island of free bodies that touch in more and more places: `bodies/contacts`. Time must grow with the smaller of the two.
+//! One solve of an island of free bodies that touch in more and more places: `bodies/contacts`. Time must grow with the
+//! smaller of the two.
 #![allow(missing_docs)] // criterion's macro writes undocumented functions
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Our kernels and ticks against Pinocchio's and MuJoCo's, alternately on one core, three rounds, medians of each round: a table of ratios.
+# Our kernels and ticks against Pinocchio's and MuJoCo's, alternately on one core, three rounds, medians of each round:
+# a table of ratios.
 #
 # Usage: benches/peers.sh [SCRATCH]            SCRATCH: where the peers are built, default target/peers
 #   SINEW_PEERS_DIR   sources of the peer benches, default ../shared/peers

@@ -1,4 +1,5 @@
-//! Whole ticks: `World::step` with 1, 10 and 100 figures that squat, on one thread, per controller. Throughput is figure-ticks.
+//! Whole ticks: `World::step` with 1, 10 and 100 figures that squat, on one thread, per controller. Throughput is
+//! figure-ticks.
 #![allow(missing_docs)] // criterion's macro writes undocumented functions
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};

@@ -1,8 +1,9 @@
 //! Writes random states of several bodies with what our dynamics says about them, for comparison with other engines:
 //! `cargo run --example dump_dynamics -- OUT_DIR [STATES_PER_MODEL]`.
 //!
-//! For each model `OUT_DIR/<name>.mjcf`, `OUT_DIR/<name>.urdf` and `OUT_DIR/<name>.f64`: one record per state of little-endian
-//! doubles, whose fields and sizes `OUT_DIR/manifest.json` lists in order. `tests/oracle/test_dynamics.py` reads them.
+//! For each model `OUT_DIR/<name>.mjcf`, `OUT_DIR/<name>.urdf` and `OUT_DIR/<name>.f64`: one record per state of
+//! little-endian doubles, whose fields and sizes `OUT_DIR/manifest.json` lists in order.
+//! `tests/oracle/test_dynamics.py` reads them.
 
 #[path = "../tests/oracle/bodies.rs"]
 mod bodies;
@@ -40,7 +41,8 @@ impl Record<'_> {
     }
 }
 
-/// Pelvis position, pelvis rotation, then a quaternion or angles per joint: the layout of `FigureFrame.positions` on the wire.
+/// Pelvis position, pelvis rotation, then a quaternion or angles per joint: the layout of `FigureFrame.positions` on
+/// the wire.
 fn positions(state: &State) -> Vec<f64> {
     let p = &state.posture;
     let mut out = p.root_position.to_array().to_vec();

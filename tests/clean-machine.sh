@@ -1,10 +1,13 @@
 #!/bin/sh
-# Proves that a stranger's clone passes: in a bare Debian, in an empty folder, without the caller's environment, runs the README's two commands.
+# Proves that a stranger's clone passes: in a bare Debian, in an empty folder, without the caller's environment, runs
+# the README's two commands.
 #
-#   tests/clean-machine.sh [bookworm|trixie] [FOLDER]      needs root and debootstrap; FOLDER (default: a new one in /tmp) is kept
+#   tests/clean-machine.sh [bookworm|trixie] [FOLDER]      needs root and debootstrap; FOLDER (default: a new one in
+#   /tmp) is kept
 #
-# The Debian has what the README asks for (make, git, a C linker) and the Rust toolchain of the caller; no cargo cache, no Python, no Node, no Go. What is
-# tested is the commit that is checked out, cloned. CLEAN_CA names a file with certificates for machines behind a proxy that has its own.
+# The Debian has what the README asks for (make, git, a C linker) and the Rust toolchain of the caller; no cargo cache,
+# no Python, no Node, no Go. What is tested is the commit that is checked out, cloned. CLEAN_CA names a file with
+# certificates for machines behind a proxy that has its own.
 set -eu
 
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)

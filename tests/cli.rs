@@ -1,5 +1,6 @@
-//! The `sinew` command as a shell and a terminal meet it: exit codes, pipes that end early, output without escape codes, names and numbers.
-//! Method: the real binary with real pipes; motions are built in or tiny BVH texts that are written here.
+//! The `sinew` command as a shell and a terminal meet it: exit codes, pipes that end early, output without escape
+//! codes, names and numbers. Method: the real binary with real pipes; motions are built in or tiny BVH texts that are
+//! written here.
 #![cfg(feature = "net")]
 
 use serde_json::Value;
@@ -61,7 +62,8 @@ impl Drop for Scratch {
     }
 }
 
-/// Bones of a person of about 1.7 m in a T-pose: name, parent, offset in metres (x left, y up, z forward), and the end of leaves.
+/// Bones of a person of about 1.7 m in a T-pose: name, parent, offset in metres (x left, y up, z forward), and the end
+/// of leaves.
 const BONES: [(&str, Option<usize>, [f64; 3], Option<[f64; 3]>); 18] = [
     ("Hips", None, [0.0, 0.0, 0.0], None),
     ("Spine", Some(0), [0.0, 0.10, 0.0], None),

@@ -1,4 +1,5 @@
-//! The vectors of `tests/conformance` against the server in this process. The same files are read in Python and TypeScript.
+//! The vectors of `tests/conformance` against the server in this process. The same files are read in Python and
+//! TypeScript.
 #![cfg(feature = "net")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking")]
 

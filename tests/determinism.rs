@@ -1,7 +1,8 @@
-//! Goal: a figure's motion is a function of its input alone: the same on every run, on any number of threads, and whoever else is in the world.
-//! Method: hashes over all bits of the state after a run. Golden hashes are committed in `tests/golden/hashes.txt`; their scenes are built
-//! with the arithmetic of the simulation alone (no platform mathematics), so they hold on every machine. After an intended change of the
-//! physics: `SINEW_MINT_GOLDEN=1 cargo test --no-default-features --test determinism golden`.
+//! Goal: a figure's motion is a function of its input alone: the same on every run, on any number of threads, and
+//! whoever else is in the world. Method: hashes over all bits of the state after a run. Golden hashes are committed in
+//! `tests/golden/hashes.txt`; their scenes are built with the arithmetic of the simulation alone (no platform
+//! mathematics), so they hold on every machine. After an intended change of the physics:
+//! `SINEW_MINT_GOLDEN=1 cargo test --no-default-features --test determinism golden`.
 #![allow(clippy::unwrap_used)]
 
 mod common;
@@ -233,7 +234,8 @@ fn neighbours_do_not_matter() {
         let mut alone = world(1);
         let key = actor.enter(&mut alone);
         let want = trace(&mut alone, key, 90);
-        // In the middle of the crowd, so that any split over threads or lanes puts others beside it; one leaves half-way.
+        // In the middle of the crowd, so that any split over threads or lanes puts others beside it; one leaves
+        // half-way.
         let mut full = world(2);
         let mut keys: Vec<_> = neighbours[..23]
             .iter()

@@ -1,8 +1,9 @@
 //! The import table of the architecture, read from the source.
 //!
-//! Goal: a module uses only what lies to its right in the table below, and the physics names nothing of network, clock, files or
-//! platform mathematics. Method: a small reader of Rust tokens resolves every path that starts with `crate`, `super`, `self` or `sinew`
-//! (imports, re-exports and paths in code alike) to a module, and looks the pair up. Test modules are left out: they may look anywhere.
+//! Goal: a module uses only what lies to its right in the table below, and the physics names nothing of network, clock,
+//! files or platform mathematics. Method: a small reader of Rust tokens resolves every path that starts with `crate`,
+//! `super`, `self` or `sinew` (imports, re-exports and paths in code alike) to a module, and looks the pair up. Test
+//! modules are left out: they may look anywhere.
 #![allow(clippy::unwrap_used)] // a panic here is the failure message
 
 use std::collections::BTreeMap;
@@ -22,10 +23,11 @@ const PARTS: &[(&str, &[&str])] = &[
     ("sim", &[]),
 ];
 
-/// Layers of the physics, from the left to the right; modules of one layer do not use each other.
-/// Two refinements of the style guide's line: `contact` (the Newton kernel of motors, limits and friction) lies right of `control`, because
-/// the modern controller is solved by the same kernel; and `figure::setup` and `figure::report`, `collide::touch` are plain data, how a figure is set
-/// up and what it says, so they lie right of everything that reads and fills them.
+/// Layers of the physics, from the left to the right; modules of one layer do not use each other. Two refinements of
+/// the style guide's line: `contact` (the Newton kernel of motors, limits and friction) lies right of `control`,
+/// because the modern controller is solved by the same kernel; and `figure::setup` and `figure::report`,
+/// `collide::touch` are plain data, how a figure is set up and what it says, so they lie right of everything that reads
+/// and fills them.
 const SIM: &[&[&str]] = &[
     &["world"],
     &["figure"],

@@ -1,6 +1,7 @@
-//! Goal: `docs/paper` is a page of this build. Method: `sinew paper` writes it again into a folder of the test, and every line is compared with the one that
-//! is committed: its words exactly, its numbers within a tolerance. Times of the machine that wrote the page are left out. When this test fails after a change
-//! that is meant, `sinew paper` writes the page anew; look at its strips.
+//! Goal: `docs/paper` is a page of this build. Method: `sinew paper` writes it again into a folder of the test, and
+//! every line is compared with the one that is committed: its words exactly, its numbers within a tolerance. Times of
+//! the machine that wrote the page are left out. When this test fails after a change that is meant, `sinew paper`
+//! writes the page anew; look at its strips.
 #![cfg(feature = "net")]
 
 use std::path::{Path, PathBuf};

@@ -1,4 +1,5 @@
-//! Regenerates the protobuf code and the descriptor set under `src/wire/gen` and fails if they differ from what is checked in.
+//! Regenerates the protobuf code and the descriptor set under `src/wire/gen` and fails if they differ from what is
+//! checked in.
 //!
 //! Building needs no protobuf compiler because the generated files are part of the source. After a change of `proto/`:
 //! `SINEW_REWRITE=1 cargo test --no-default-features --test proto_bootstrap`.

@@ -1,5 +1,5 @@
-//! The offline commands as a user meets them: `sinew run` on built-in motions writes what it promises, and wrong arguments are answered
-//! with what is wrong. Method: the real binary, files in a directory of its own per test.
+//! The offline commands as a user meets them: `sinew run` on built-in motions writes what it promises, and wrong
+//! arguments are answered with what is wrong. Method: the real binary, files in a directory of its own per test.
 #![cfg(feature = "net")]
 
 use serde_json::Value;

@@ -32,7 +32,8 @@ if ! "$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))'; then
     exit 1
 fi
 
-# True if command $1 exists outside .venv and prints a version of at least $2.$3 when it is called with the other arguments.
+# True if command $1 exists outside .venv and prints a version of at least $2.$3 when it is called with the other
+# arguments.
 recent() {
     name=$1 major=$2 minor=$3
     shift 3

@@ -1,8 +1,8 @@
-//! Goal: nothing that a client can ask for makes the simulation say a number that is not finite, give more torque than strength, panic, hang,
-//! or take unbounded time.
-//! Method: worlds at random: people, strengths, controllers, loads, pushes up to the largest that is taken, obstacles of every shape and
-//! mobility on top of figures, desired postures that jump by half a turn from tick to tick. Seeded; `SINEW_SOAK_TICKS` figure-ticks (default
-//! 20 000, `make soak`: a million), `SINEW_SOAK_SEED` for another run. What is refused must be refused by name and change nothing.
+//! Goal: nothing that a client can ask for makes the simulation say a number that is not finite, give more torque than
+//! strength, panic, hang, or take unbounded time. Method: worlds at random: people, strengths, controllers, loads,
+//! pushes up to the largest that is taken, obstacles of every shape and mobility on top of figures, desired postures
+//! that jump by half a turn from tick to tick. Seeded; `SINEW_SOAK_TICKS` figure-ticks (default 20 000, `make soak`: a
+//! million), `SINEW_SOAK_SEED` for another run. What is refused must be refused by name and change nothing.
 #![allow(clippy::unwrap_used)]
 
 mod common;
@@ -21,7 +21,8 @@ use std::time::{Duration, Instant};
 /// Figures of one world, and ticks it lives.
 const FIGURES: usize = 3;
 const TICKS: u64 = 120;
-/// Longest time of one tick of three figures in the development profile on a busy machine; a median tick takes a thousandth of it.
+/// Longest time of one tick of three figures in the development profile on a busy machine; a median tick takes a
+/// thousandth of it.
 const LONGEST_TICK: Duration = Duration::from_secs(3);
 /// What CI may take.
 const ENOUGH: Duration = Duration::from_secs(60);
@@ -362,8 +363,9 @@ fn nothing_that_can_be_asked_for_breaks_a_world() {
     assert!(seen.contacts > 0);
 }
 
-/// Worlds of the long run in which islands were cut short: bodies whose interior point left its cone, or was stopped by rounding within it; heaps that the
-/// interior point left too early; and blows so large that rounding leaves more than the tolerance.
+/// Worlds of the long run in which islands were cut short: bodies whose interior point left its cone, or was stopped by
+/// rounding within it; heaps that the interior point left too early; and blows so large that rounding leaves more than
+/// the tolerance.
 #[test]
 fn worlds_that_once_jammed_do_not() {
     let (people, mut seen) = (people(), Seen::default());

@@ -1,6 +1,7 @@
 #!/bin/sh
-# Installs what the tests of the viewer need: Chromium by apt, and the npm packages of package-lock.json. Safe to run again and again; does
-# nothing when all is there. tests/setup.sh brings Node. Set SINEW_CHROMIUM to use another Chromium. Building the server needs none of this.
+# Installs what the tests of the viewer need: Chromium by apt, and the npm packages of package-lock.json. Safe to run
+# again and again; does nothing when all is there. tests/setup.sh brings Node. Set SINEW_CHROMIUM to use another
+# Chromium. Building the server needs none of this.
 set -eu
 
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)

@@ -1,4 +1,5 @@
-//! Arguments that several commands share, and the formats of `--load`, `--push`, `--constrain`, `--obstacle` and `--then`.
+//! Arguments that several commands share, and the formats of `--load`, `--push`, `--constrain`, `--obstacle` and
+//! `--then`.
 
 mod body;
 mod constraint;

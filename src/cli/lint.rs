@@ -81,8 +81,8 @@ pub fn run(args: &LintArgs) -> Result<()> {
     Ok(())
 }
 
-/// How far the motion is from one that a body on its feet can do: as recorded (bones on the body, nothing else; `None` for built-in
-/// motions) and as prepared, on the same feet.
+/// How far the motion is from one that a body on its feet can do: as recorded (bones on the body, nothing else; `None`
+/// for built-in motions) and as prepared, on the same feet.
 fn consistencies(
     source: &Source,
     body: &Body,

@@ -1,4 +1,5 @@
-//! Numbers as people read them: `120 Hz`, not `119.99999 Hz`; `0.0564 m`, not `0.056444444 m`. JSON and CSV keep every digit.
+//! Numbers as people read them: `120 Hz`, not `119.99999 Hz`; `0.0564 m`, not `0.056444444 m`. JSON and CSV keep every
+//! digit.
 
 /// Significant digits of measured quantities: lengths, times, masses.
 const MEASURED: usize = 3;
@@ -8,8 +9,8 @@ const RATE: usize = 4;
 /// Most decimals of a rounded number: what is smaller counts as 0.
 const MOST_DECIMALS: i32 = 9;
 
-/// `value` with `digits` significant digits and at most nine decimals, without zeros at the end of a fraction, and never rounded before the
-/// decimal point.
+/// `value` with `digits` significant digits and at most nine decimals, without zeros at the end of a fraction, and
+/// never rounded before the decimal point.
 pub fn rounded(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return value.to_string();

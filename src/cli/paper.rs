@@ -41,8 +41,8 @@ pub struct PaperArgs {
     /// Folder for the page (README.md), its plots and strips; files of the same names are replaced.
     #[arg(long, value_name = "FOLDER", default_value = "docs/paper")]
     pub out: PathBuf,
-    /// Standing recordings (BVH) on which the controllers are compared: writes only that page (recorded.md). A recording called sit-stand
-    /// is given a stool to sit on.
+    /// Standing recordings (BVH) on which the controllers are compared: writes only that page (recorded.md). A
+    /// recording called sit-stand is given a stool to sit on.
     #[arg(long, value_name = "FILES", num_args = 1..)]
     pub recordings: Vec<String>,
 }

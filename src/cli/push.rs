@@ -65,7 +65,8 @@ pub struct Args {
     /// Unit and axes of the file
     #[command(flatten)]
     file: FileArgs,
-    /// Keep recorded runs. Otherwise runs are turned into walks, slower and with shorter steps, which measured strength can do
+    /// Keep recorded runs. Otherwise runs are turned into walks, slower and with shorter steps, which measured strength
+    /// can do
     #[arg(long, conflicts_with = "raw")]
     keep_runs: bool,
 }

@@ -45,7 +45,8 @@ const MAX_DURATION: f64 = 86_400.0;
 /// Simulates motions and reports how closely the figure tracks them.
 #[derive(Clone, Debug, clap::Args)]
 pub struct RunArgs {
-    /// Motions: BVH files or builtin:NAME (idle, lift, crate, squat, wave, step, walk). Each is simulated in a world of its own.
+    /// Motions: BVH files or builtin:NAME (idle, lift, crate, squat, wave, step, walk). Each is simulated in a world of
+    /// its own.
     #[arg(required = true, value_name = "CLIP")]
     pub clips: Vec<String>,
     /// Body of the figure.
@@ -75,11 +76,12 @@ pub struct RunArgs {
     /// Grip strength of one hand, N: a load that needs more slips; unlimited unless given.
     #[arg(long, value_name = "N", default_value_t = f64::INFINITY)]
     pub grip: f64,
-    /// Push on a segment: impulse in N·s, start in s, direction in world axes; for example 20@chest@1.5:1,0,0 (repeatable).
+    /// Push on a segment: impulse in N·s, start in s, direction in world axes; for example 20@chest@1.5:1,0,0
+    /// (repeatable).
     #[arg(long, value_name = "NS@SEGMENT@T:x,y,z", allow_hyphen_values = true)]
     pub push: Vec<PushSpec>,
-    /// Target position, m, of a segment or of the centre of mass (com); repeatable. r_hand@0.4,-0.25,1.1; from 1 s to 3 s
-    /// r_hand@0.4,-0.25,1.1@1..3; with a rotation r_hand@0.4,-0.25,1.1:0,-0.7,0,0.714; y axis only com@_,0.08,_.
+    /// Target position, m, of a segment or of the centre of mass (com); repeatable. r_hand@0.4,-0.25,1.1; from 1 s to 3
+    /// s r_hand@0.4,-0.25,1.1@1..3; with a rotation r_hand@0.4,-0.25,1.1:0,-0.7,0,0.714; y axis only com@_,0.08,_.
     #[arg(
         long,
         value_name = "PART@x,y,z[@T0..T1][:qx,qy,qz,qw]",
@@ -118,17 +120,19 @@ pub struct RunArgs {
     /// Repeat the motion until the end of --duration.
     #[arg(long = "loop", requires = "duration")]
     pub looped: bool,
-    /// Play another clip from T seconds on (repeatable): turn.bvh@5. A walking figure changes over at a step where both clips are
-    /// alike, or else stops first; a standing figure begins at once.
+    /// Play another clip from T seconds on (repeatable): turn.bvh@5. A walking figure changes over at a step where both
+    /// clips are alike, or else stops first; a standing figure begins at once.
     #[arg(long, value_name = "CLIP@T", requires = "duration")]
     pub then: Vec<ThenSpec>,
     /// Begin and end standing: add the steps that lead into the first frame and out of the last one.
     #[arg(long, conflicts_with = "looped")]
     pub standing: bool,
-    /// Keep recorded runs. Otherwise runs are turned into walks, slower and with shorter steps, which measured strength can do.
+    /// Keep recorded runs. Otherwise runs are turned into walks, slower and with shorter steps, which measured strength
+    /// can do.
     #[arg(long)]
     pub keep_runs: bool,
-    /// Playback speed relative to the recording, 0.5 to 2; steps and balance are prepared for it. Built-in motions keep their speed.
+    /// Playback speed relative to the recording, 0.5 to 2; steps and balance are prepared for it. Built-in motions keep
+    /// their speed.
     #[arg(long, value_name = "F", default_value_t = 1.0)]
     pub tempo: f64,
     /// Prints the report as JSON on standard output (a list for several clips), and nothing else there.
@@ -207,7 +211,8 @@ struct Scenario<'a> {
     then: Vec<(f64, Arc<Clip>)>,
 }
 
-/// Runs the command. A figure that falls is a result, not an error: the report says so, and the outcome with `--fail-on-fall`.
+/// Runs the command. A figure that falls is a result, not an error: the report says so, and the outcome with
+/// `--fail-on-fall`.
 ///
 /// # Errors
 /// Bad arguments, unreadable clips, files that cannot be written.
@@ -307,8 +312,8 @@ fn check(args: &RunArgs) -> Result<()> {
     Ok(())
 }
 
-/// Runs every clip, several at a time if `--threads` says so, and prints a line as each one ends; the results are in the order of the
-/// clips.
+/// Runs every clip, several at a time if `--threads` says so, and prints a line as each one ends; the results are in
+/// the order of the clips.
 fn run_all(scenario: &Scenario<'_>, sources: &[Source]) -> Result<Vec<serde_json::Value>> {
     let bars = MultiProgress::new();
     let table = Table::new(
@@ -408,7 +413,8 @@ fn run_one(
     serde_json::to_value(document).context("the report cannot be written as JSON")
 }
 
-/// Steps a world with one figure that follows `clip` for `ticks` ticks; `each` is called after every tick with the time (s).
+/// Steps a world with one figure that follows `clip` for `ticks` ticks; `each` is called after every tick with the time
+/// (s).
 ///
 /// Returns the measures, and the frames of the ticks in `shown`.
 fn simulate(

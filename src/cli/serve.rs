@@ -67,8 +67,8 @@ impl Args {
     }
 }
 
-/// Serves until Ctrl-C or SIGTERM. The first line on standard output holds the address, and connections are accepted by then; logs follow on
-/// standard error.
+/// Serves until Ctrl-C or SIGTERM. The first line on standard output holds the address, and connections are accepted by
+/// then; logs follow on standard error.
 ///
 /// # Errors
 /// Settings that are not usable, or a port that is taken.
@@ -100,7 +100,8 @@ async fn serve(args: &Args, config: Arc<Config>, filter: EnvFilter) -> anyhow::R
             .map_err(|e| anyhow::anyhow!(e))?;
     }
     let serving = tokio::spawn(server::serve(app, listener, interrupted(), stop));
-    // One write: a reader that wants the first line only takes the rest with it. A server without readers serves all the same.
+    // One write: a reader that wants the first line only takes the rest with it. A server without readers serves all
+    // the same.
     match print(&greeting(address, config.viewer, &figures)) {
         Err(error) if !error.is::<OutputClosed>() => note(&format!("warning: {error:#}")),
         _ => {}

@@ -93,8 +93,8 @@ pub struct SurveyArgs {
     /// Writes all tables in Markdown.
     #[arg(long, value_name = "FILE.md")]
     pub markdown: Option<PathBuf>,
-    /// Puts the table by kind of motion, what came of the forecasts, and the command that makes them between the marks of a section in a file:
-    /// `<!-- survey SECTION begin: … -->` and `<!-- survey SECTION end -->`.
+    /// Puts the table by kind of motion, what came of the forecasts, and the command that makes them between the marks
+    /// of a section in a file: `<!-- survey SECTION begin: … -->` and `<!-- survey SECTION end -->`.
     #[arg(long, value_name = "FILE#SECTION")]
     pub page: Option<PageSpec>,
 }

@@ -1,4 +1,5 @@
-//! `sinew walking`: simulates walks with pushes, loads, other bodies and noisy recordings, and writes a page with the results.
+//! `sinew walking`: simulates walks with pushes, loads, other bodies and noisy recordings, and writes a page with the
+//! results.
 
 mod survey;
 

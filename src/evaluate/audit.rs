@@ -1,8 +1,9 @@
 //! The equations of motion rebuilt from outside.
 //!
-//! A tick report carries its last substep: state, acceleration, torques and forces. Here they are put into Newton's and Euler's laws of
-//! every segment, in world axes about the centres of mass, with joint axes taken from the topology table: no kernel of `sim::dynamics`
-//! and no intermediate result of the solver takes part. What remains is force that nothing explains; a real figure has none.
+//! A tick report carries its last substep: state, acceleration, torques and forces. Here they are put into Newton's and
+//! Euler's laws of every segment, in world axes about the centres of mass, with joint axes taken from the topology
+//! table: no kernel of `sim::dynamics` and no intermediate result of the solver takes part. What remains is force that
+//! nothing explains; a real figure has none.
 
 use super::pose::{SegmentPose, segment_poses};
 use crate::sim::body::state::ball_rate_vector;
@@ -16,7 +17,8 @@ use crate::sim::math::{Sym3, Vec3};
 pub struct AuditResult {
     /// `M v̇ + h − Sᵀτ − Σ Jᵀf`, layout of `State::velocity` (N·m, N, N·m).
     pub residual: [f64; NV],
-    /// Length of the residual relative to the lengths of what it is made of: `|r| / (|M v̇ + h| + |Sᵀτ| + |ΣJᵀf|)`; NaN if any part is.
+    /// Length of the residual relative to the lengths of what it is made of: `|r| / (|M v̇ + h| + |Sᵀτ| + |ΣJᵀf|)`; NaN
+    /// if any part is.
     pub relative: f64,
     /// Force on the pelvis that neither contacts nor perturbations nor assist explain, N.
     pub root_force: f64,
@@ -24,7 +26,8 @@ pub struct AuditResult {
     pub root_moment: f64,
 }
 
-/// Checks the substep in `sample` against Newton–Euler for the masses in `links`; `gravity` in m/s², positive downwards.
+/// Checks the substep in `sample` against Newton–Euler for the masses in `links`; `gravity` in m/s², positive
+/// downwards.
 ///
 /// About 10 µs; no allocation.
 pub fn audit(links: &Links, sample: &Audit, gravity: f64) -> AuditResult {
@@ -59,7 +62,8 @@ pub fn audit(links: &Links, sample: &Audit, gravity: f64) -> AuditResult {
     }
 }
 
-/// Generalised force `M v̇ + h` that the motion needs (armature included): Newton's and Euler's law of every segment, projected on the joint axes.
+/// Generalised force `M v̇ + h` that the motion needs (armature included): Newton's and Euler's law of every segment,
+/// projected on the joint axes.
 ///
 /// * `acceleration`: time derivative of `state.velocity`, same layout.
 /// * `gravity`: m/s², positive downwards.
@@ -86,7 +90,8 @@ pub fn inertial_forces(
             acceleration,
         } = motion[s];
         let a_com = acceleration + alpha.cross(r) + omega.cross(omega.cross(r));
-        // Links hold the inertia about the joint; Steiner takes it to the centre of mass, where Euler's law has no coupling terms.
+        // Links hold the inertia about the joint; Steiner takes it to the centre of mass, where Euler's law has no
+        // coupling terms.
         let about_com = links.inertia[s] - Sym3::point_mass(m, com_local);
         let i_world = about_com.rotated(poses[s].rotation.to_mat3());
         wrench[s].add(poses[s].position + r, (a_com + up) * m, pivot);
@@ -187,7 +192,8 @@ fn segment_motions(
     out
 }
 
-/// Generalised force of wrenches on the segments (moments about `pivot`, the pelvis origin): sums over subtrees, seen along each joint axis.
+/// Generalised force of wrenches on the segments (moments about `pivot`, the pelvis origin): sums over subtrees, seen
+/// along each joint axis.
 fn project(
     own: &[Wrench; SEGMENT_COUNT],
     poses: &[SegmentPose; SEGMENT_COUNT],
@@ -212,8 +218,8 @@ fn project(
     out
 }
 
-/// World axis of DOF `k` of segment `s`'s joint. Ball rates are components along child axes; the first hinge is fixed in the parent, and
-/// the second in the child, since turning about an axis leaves it where it is.
+/// World axis of DOF `k` of segment `s`'s joint. Ball rates are components along child axes; the first hinge is fixed
+/// in the parent, and the second in the child, since turning about an axis leaves it where it is.
 fn joint_axis(s: usize, k: usize, poses: &[SegmentPose; SEGMENT_COUNT]) -> Vec3 {
     let axis = Vec3::from_array(DOF_AXIS[DOF_START[s] + k].vector());
     let frame = match JOINT[s] {
@@ -226,7 +232,8 @@ fn joint_axis(s: usize, k: usize, poses: &[SegmentPose; SEGMENT_COUNT]) -> Vec3 
 
 #[cfg(test)]
 mod tests {
-    //! The rebuilt equations agree with the kernels of `sim::dynamics`, to which they owe nothing, and wrong physics is far off.
+    //! The rebuilt equations agree with the kernels of `sim::dynamics`, to which they owe nothing, and wrong physics is
+    //! far off.
 
     use super::*;
     use crate::sim::body::SegmentId;
@@ -240,7 +247,8 @@ mod tests {
         std::array::from_fn(|_| rng.random_range(-most..most))
     }
 
-    /// A sample that `rnea` calls consistent: its root wrench is supplied by a contact couple, its joints by the torques.
+    /// A sample that `rnea` calls consistent: its root wrench is supplied by a contact couple, its joints by the
+    /// torques.
     fn consistent_sample(rng: &mut Pcg64Mcg, links: &Links) -> Audit {
         let state = random_state(rng);
         let acceleration: [f64; NV] = random_vector(rng, 20.0);

@@ -49,7 +49,8 @@ impl<'a> Tick<'a> {
         }
     }
 
-    /// Share of the available muscle torque that each DOF uses in the audited substep, from the strength of the body at that state.
+    /// Share of the available muscle torque that each DOF uses in the audited substep, from the strength of the body at
+    /// that state.
     ///
     /// Limits follow angles and speeds, so mean torques of a tick cannot be compared with limits of one instant.
     pub fn utilisation(&self) -> [f64; DOF_COUNT] {

@@ -1,10 +1,11 @@
 //! Judging a run from outside: what a figure did, measured from its reports and checked against the laws of motion.
 //!
-//! [`metrics`] accumulates a run tick by tick into a [`RunReport`]; [`audit`] rebuilds the equations of motion from the body alone, without
-//! any number of the solver; [`strip`] draws the motion, [`plot`] its numbers; [`table`] writes it as CSV; [`survival`] what was
-//! survived; [`noise`] asks whether that was luck; [`experiments`] are those of `sinew paper` and `sinew walking`;
-//! [`survey`] judges a whole corpus by published rules against references that are fixed in the world, and compares surveys;
-//! [`forecast`] says what will come of a motion before it is run. Nothing here reads a clock or a file.
+//! [`metrics`] accumulates a run tick by tick into a [`RunReport`]; [`audit`] rebuilds the equations of motion from the
+//! body alone, without any number of the solver; [`strip`] draws the motion, [`plot`] its numbers; [`table`] writes it
+//! as CSV; [`survival`] what was survived; [`noise`] asks whether that was luck; [`experiments`] are those of
+//! `sinew paper` and `sinew walking`; [`survey`] judges a whole corpus by published rules against references that are
+//! fixed in the world, and compares surveys; [`forecast`] says what will come of a motion before it is run. Nothing
+//! here reads a clock or a file.
 
 pub mod audit;
 pub mod experiments;

@@ -3,8 +3,9 @@
 use crate::sim::motion::Bvh;
 use crate::sim::motion::bvh::BvhChannel;
 
-/// `bytes`, a BVH file that parses as `bvh`, with every number of its motion off by up to `distance` (file units) or `angle` (degrees), evenly
-/// distributed if `random`, which gives numbers from -1 to 1, is. `None` if the file has no line that begins its motion.
+/// `bytes`, a BVH file that parses as `bvh`, with every number of its motion off by up to `distance` (file units) or
+/// `angle` (degrees), evenly distributed if `random`, which gives numbers from -1 to 1, is. `None` if the file has no
+/// line that begins its motion.
 pub fn noisy(
     bytes: &[u8],
     bvh: &Bvh,

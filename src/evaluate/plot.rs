@@ -1,4 +1,5 @@
-//! Line plots as SVG: curves and bands over one axis each way, with a legend. No styling to choose; colours differ for colour-blind eyes.
+//! Line plots as SVG: curves and bands over one axis each way, with a legend. No styling to choose; colours differ for
+//! colour-blind eyes.
 
 use super::strip::Rgba;
 use std::fmt::Write;

@@ -2,10 +2,11 @@
 //!
 //! # What tracking errors refer to
 //!
-//! Measures named `tracking_…` are distances from the *target*, the posture that the controller is asked for. The target is not fixed in
-//! the world: after a step, the reference motion is moved to where the foot landed ([`crate::sim::track::planned_to_world`]), and planned steps that
-//! a disturbance changed are part of it. A figure that drifts away from the recording with every step therefore still has small tracking
-//! errors. Errors against the recording itself, fixed in the world, are those of `sinew survey`.
+//! Measures named `tracking_…` are distances from the *target*, the posture that the controller is asked for. The
+//! target is not fixed in the world: after a step, the reference motion is moved to where the foot landed
+//! ([`crate::sim::track::planned_to_world`]), and planned steps that a disturbance changed are part of it. A figure
+//! that drifts away from the recording with every step therefore still has small tracking errors. Errors against the
+//! recording itself, fixed in the world, are those of `sinew survey`.
 
 use crate::sim::body::DOF_COUNT;
 use crate::sim::body::topology::DOF_NAMES;
@@ -34,8 +35,8 @@ pub struct RunEvent {
 
 /// The measures of one run. Field names carry their units and are those of `report.json`.
 ///
-/// Tracking errors, slip and margin end with the tick in which the figure falls: afterwards there is nothing left to track. Limits,
-/// residuals and penetration cover every tick.
+/// Tracking errors, slip and margin end with the tick in which the figure falls: afterwards there is nothing left to
+/// track. Limits, residuals and penetration cover every tick.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "net", derive(serde::Serialize))]
 pub struct RunReport {
@@ -51,7 +52,8 @@ pub struct RunReport {
     pub tracking_joint_max_deg: f64,
     /// Mean distance of segment origins from those of the target, both relative to the pelvis origin, mm.
     pub tracking_mpjpe_root_mm: f64,
-    /// Mean distance of segment origins from those of the target in the world, mm. The target is moved along with the feet.
+    /// Mean distance of segment origins from those of the target in the world, mm. The target is moved along with the
+    /// feet.
     pub tracking_mpjpe_global_mm: f64,
     /// Largest used share of the available muscle torque (1 = at the limit).
     pub max_utilisation: f64,
@@ -80,8 +82,8 @@ pub struct RunReport {
     pub foot_slip_mm_per_s: f64,
     /// Deepest contact point below a surface, mm.
     pub penetration_max_mm: f64,
-    /// Least balance margin: distance of the zero-moment point from the edge of the support polygon, positive inside, m; `None` if the
-    /// figure never stood.
+    /// Least balance margin: distance of the zero-moment point from the edge of the support polygon, positive inside,
+    /// m; `None` if the figure never stood.
     pub margin_min_m: Option<f64>,
     /// Hash of the world's state after the last tick, 16 hexadecimal digits.
     pub state_hash: String,

@@ -16,7 +16,8 @@ pub struct Torques<'a> {
     pub upper: &'a [f64; DOF_COUNT],
 }
 
-/// The heading: time, pelvis position and quaternion (x, y, z, w), 39 anatomical angles, and with `torques` the 39 torques and their limits.
+/// The heading: time, pelvis position and quaternion (x, y, z, w), 39 anatomical angles, and with `torques` the 39
+/// torques and their limits.
 pub fn header(torques: bool) -> String {
     let mut out = String::from("time_s,root_x_m,root_y_m,root_z_m,root_qx,root_qy,root_qz,root_qw");
     let mut add = |suffix: &str| {

@@ -1,5 +1,5 @@
-//! Settings of the server: defaults, then a TOML file, then environment variables, then flags. Checked as a whole before a port is
-//! bound, and printed.
+//! Settings of the server: defaults, then a TOML file, then environment variables, then flags. Checked as a whole
+//! before a port is bound, and printed.
 
 use std::net::SocketAddr;
 use std::path::Path;
@@ -54,8 +54,8 @@ pub enum ConfigError {
 
 macro_rules! settings {
     ($($(#[doc = $doc:literal])+ $name:ident: $kind:tt = $default:expr, $least:expr, $most:expr;)*) => {
-        /// The settings. Every one can be given in a TOML file and by the flag `--set name=value` under its name, and in the
-        /// environment in upper case with the prefix `SINEW_`.
+        /// The settings. Every one can be given in a TOML file and by the flag `--set name=value` under its name, and
+        /// in the environment in upper case with the prefix `SINEW_`.
         #[derive(Clone, Debug, PartialEq)]
         pub struct Config {
             $($(#[doc = $doc])+ pub $name: settings!(@type $kind),)*
@@ -146,7 +146,8 @@ fn typed(text: &str) -> toml::Value {
 settings! {
     /// Address and port of gRPC, gRPC-Web, the status page and the metrics.
     listen: addr = "127.0.0.1:7463", (), ();
-    /// Allows an address that other machines can reach. There is no authentication: whoever reaches the port may do everything.
+    /// Allows an address that other machines can reach. There is no authentication: whoever reaches the port may do
+    /// everything.
     insecure_bind_any: flag = false, (), ();
     /// Serves the viewer at `/`; without it the status page is there.
     viewer: flag = true, (), ();
@@ -164,8 +165,8 @@ settings! {
     max_views_per_world: int = 32, 1, 1000;
     /// Streams of desired motion at a time.
     max_drivers: int = 64, 1, 10_000;
-    /// Window in which live motion is prepared for drivers that do not say, ms: 0 (off) or 300 to 1000. It makes streams that walk possible,
-    /// and all streams later by as much.
+    /// Window in which live motion is prepared for drivers that do not say, ms: 0 (off) or 300 to 1000. It makes
+    /// streams that walk possible, and all streams later by as much.
     live_window_ms: float = 0.0, 0.0, 1000.0;
     /// Stored clips.
     max_clips: int = 256, 1, 100_000;

@@ -20,7 +20,8 @@ const PEOPLE: [(&str, &str, f64); 3] = [
     ("child", "child", -1.15),
 ];
 
-/// Creates the world `demo` and returns who is in it: those of the man, the woman and the child that this build has bodies for.
+/// Creates the world `demo` and returns who is in it: those of the man, the woman and the child that this build has
+/// bodies for.
 ///
 /// # Errors
 /// The world is there already, or a limit of the configuration is too small for it.

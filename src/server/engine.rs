@@ -1,7 +1,7 @@
 //! The only place of the server that builds and steps the physics: bodies, clips, worlds.
 //!
-//! Everything else of the server goes through the types and functions that are named here, so that the seam between clock and physics
-//! is one file.
+//! Everything else of the server goes through the types and functions that are named here, so that the seam between
+//! clock and physics is one file.
 
 use crate::evaluate::forecast::Verdict;
 use crate::sim::body::palm::load_point;
@@ -102,7 +102,8 @@ pub fn prepare(
     }
 }
 
-/// What will come of a clip when `body` follows it by its own strength, without loads. Slow: not on the thread of a tick.
+/// What will come of a clip when `body` follows it by its own strength, without loads. Slow: not on the thread of a
+/// tick.
 pub fn forecast(body: &Body, clip: &Clip) -> ForecastInfo {
     let f = crate::evaluate::forecast::forecast_plain(body, clip);
     let d = f.difficulty;
@@ -491,7 +492,8 @@ pub fn add_figure(
     Ok(key)
 }
 
-/// A clip that begins at a place at world time `start`; with its lead-in, which then is what begins there, if it is played from standing.
+/// A clip that begins at a place at world time `start`; with its lead-in, which then is what begins there, if it is
+/// played from standing.
 pub fn playback(
     clip: Arc<Clip>,
     start: f64,

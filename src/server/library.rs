@@ -77,7 +77,8 @@ impl Bodies {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Manner {
     repeats: bool,
-    /// Times as fast as recorded, in steps of 1/[`TEMPO_STEPS`]: what is left is a change of speed that balance does not feel.
+    /// Times as fast as recorded, in steps of 1/[`TEMPO_STEPS`]: what is left is a change of speed that balance does
+    /// not feel.
     tempo: u32,
 }
 
@@ -307,8 +308,9 @@ impl Clips {
         }
     }
 
-    /// What a clip that is to be played at `speed` is prepared for, and the speed at which it is played then: a recording is prepared for the pace
-    /// it gets, because what balances at one pace falls at another; what is made of postures or built in is played faster or slower as it is.
+    /// What a clip that is to be played at `speed` is prepared for, and the speed at which it is played then: a
+    /// recording is prepared for the pace it gets, because what balances at one pace falls at another; what is made of
+    /// postures or built in is played faster or slower as it is.
     ///
     /// # Errors
     /// There is none of that name.

@@ -1,7 +1,7 @@
 //! Everything that touches the network or the clock.
 //!
-//! [`run`] serves one port: gRPC, gRPC-Web, reflection, health, the viewer, a status page and metrics. Each world has a thread of its own that runs
-//! [`tick::run`]; services send it commands and read what it publishes.
+//! [`run`] serves one port: gRPC, gRPC-Web, reflection, health, the viewer, a status page and metrics. Each world has a
+//! thread of its own that runs [`tick::run`]; services send it commands and read what it publishes.
 
 pub mod api;
 pub mod config;
@@ -45,7 +45,8 @@ const HEADER_LIST: u32 = 16 * 1024;
 /// Streams that were reset and not yet forgotten, per connection (rapid reset).
 const RESET_STREAMS: usize = 32;
 
-/// Serves until `shutdown` completes, then stops admitting, tells streams, finishes the ticks and returns within the grace time.
+/// Serves until `shutdown` completes, then stops admitting, tells streams, finishes the ticks and returns within the
+/// grace time.
 ///
 /// # Errors
 /// The built-in data cannot be prepared, or the listener fails.
@@ -59,7 +60,8 @@ pub async fn run(
     serve(app, listener, shutdown, stop).await
 }
 
-/// As [`run`], with an application that the caller has prepared; `stop` must be the sender of the receiver it was made with.
+/// As [`run`], with an application that the caller has prepared; `stop` must be the sender of the receiver it was made
+/// with.
 ///
 /// # Errors
 /// The listener fails.

@@ -49,7 +49,8 @@ pub fn log_filter(config: &Config) -> Result<EnvFilter, String> {
 
 /// Sends logs to standard error. Only the first call in a process has an effect.
 ///
-/// `colour`: with ANSI escape codes, for a terminal. A standard error that cannot be written to loses messages; it stops nothing.
+/// `colour`: with ANSI escape codes, for a terminal. A standard error that cannot be written to loses messages; it
+/// stops nothing.
 pub fn init_logs(filter: EnvFilter, json: bool, colour: bool) {
     let logs = tracing_subscriber::fmt()
         .with_env_filter(filter)

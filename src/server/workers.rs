@@ -1,4 +1,5 @@
-//! Work that takes long (files to clips, offline simulations): a few at a time, off the async threads, given up when the client is gone.
+//! Work that takes long (files to clips, offline simulations): a few at a time, off the async threads, given up when
+//! the client is gone.
 
 use crate::wire::status::Fault;
 use std::sync::Arc;

@@ -1,8 +1,10 @@
 //! Getting up, for any body, from where it lies: worked out as it is done.
 //!
-//! A sequence of [`stages`], each a handful of [`goals`]: where pelvis, knees, feet and hands are, over what the centre of mass is, what
-//! the joints look like. From one stage to the next goals and weights pass over smoothly, and in each tick one step of [`solver`] moves the posture towards
-//! them: nothing is planned ahead, and nothing allocates. What is on the floor counts where it really is, so nothing has to be where a plan made beforehand would have it; and the way can be gone at any pace.
+//! A sequence of [`stages`], each a handful of [`goals`]: where pelvis, knees, feet and hands are, over what the centre
+//! of mass is, what the joints look like. From one stage to the next goals and weights pass over smoothly, and in each
+//! tick one step of [`solver`] moves the posture towards them: nothing is planned ahead, and nothing allocates. What is
+//! on the floor counts where it really is, so nothing has to be where a plan made beforehand would have it; and the way
+//! can be gone at any pace.
 
 mod goals;
 mod reference_pose;
@@ -253,7 +255,8 @@ impl GetUpMotion {
         self.stages[self.stage].name
     }
 
-    /// Desired motion of a tick of `dt` seconds at a share `pace` of its own pace, for the body of `terms`. No allocation.
+    /// Desired motion of a tick of `dt` seconds at a share `pace` of its own pace, for the body of `terms`. No
+    /// allocation.
     pub fn advance(&mut self, body: &Body, terms: &Terms, dt: f64, pace: f64) -> TargetPair {
         let before = self.target();
         self.since += dt * pace;

@@ -1,6 +1,7 @@
 //! Physics and control: pure, synchronous, without I/O, clock or logging.
 //!
-//! `world` ─► `figure` ─► `track` ─► `control` ─► `collide` ─► `contact` ─► `retarget` ─► `plan` ─► `motion`, `support` ─► `strength` ─► `dynamics` ─► `body` ─► `math`.
+//! `world` ─► `figure` ─► `track` ─► `control` ─► `collide` ─► `contact` ─► `retarget` ─► `plan` ─► `motion`, `support`
+//! ─► `strength` ─► `dynamics` ─► `body` ─► `math`.
 
 pub mod body;
 pub mod collide;

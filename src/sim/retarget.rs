@@ -1,10 +1,11 @@
 //! Recorded skeletons of any shape onto the body, by geometry.
 //!
-//! World positions and rotations of the file are smoothed, brought to metres with z up, levelled and scaled by leg length. Each
-//! segment's frame comes from its end points and the plane of its hinge; near a straight limb, from the bone's own rotation with the
-//! hinge axis that the bent frames of the clip show in it. Trunk, head, hands and feet follow their bones relative to a calibration
-//! pose: the file's rest pose if it looks like a standing person, else the mean over the most upright samples; so the zero pose of the file
-//! means nothing by itself. Relative rotations are split into the joints' own degrees of freedom. Feet and balance: [`super::plan::prepare`].
+//! World positions and rotations of the file are smoothed, brought to metres with z up, levelled and scaled by leg
+//! length. Each segment's frame comes from its end points and the plane of its hinge; near a straight limb, from the
+//! bone's own rotation with the hinge axis that the bent frames of the clip show in it. Trunk, head, hands and feet
+//! follow their bones relative to a calibration pose: the file's rest pose if it looks like a standing person, else the
+//! mean over the most upright samples; so the zero pose of the file means nothing by itself. Relative rotations are
+//! split into the joints' own degrees of freedom. Feet and balance: [`super::plan::prepare`].
 
 mod feet;
 mod joints;
@@ -55,7 +56,8 @@ pub enum UpAxis {
     Z,
 }
 
-/// What the caller knows better than the file, and what to do with the motion. `Default` guesses everything and prepares fully.
+/// What the caller knows better than the file, and what to do with the motion. `Default` guesses everything and
+/// prepares fully.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RetargetOptions {
     /// Name of the clip.
@@ -68,7 +70,8 @@ pub struct RetargetOptions {
     pub rate_hz: Option<f64>,
     /// Rate of the clip at tempo 1, Hz; absent: the file's own rate if that is 60…240, else 120.
     pub output_rate_hz: Option<f64>,
-    /// Body size over recorded size, for paths and heights; absent: ratio of leg lengths. Two people of one recording need one value.
+    /// Body size over recorded size, for paths and heights; absent: ratio of leg lengths. Two people of one recording
+    /// need one value.
     pub scale: Option<f64>,
     /// Bring the recorded floor to z = 0 (level and height). Otherwise z = 0 of the file is the floor.
     pub floor: bool,
@@ -76,15 +79,18 @@ pub struct RetargetOptions {
     pub lock_feet: bool,
     /// Shift the trunk so that the zero-moment point stays over the planted feet.
     pub balance: bool,
-    /// Walk what the recording runs: slower and with shorter steps. The muscles that are measured in people's joints do not run.
+    /// Walk what the recording runs: slower and with shorter steps. The muscles that are measured in people's joints do
+    /// not run.
     pub walk_runs: bool,
     /// Cut-off of the zero-phase low-pass, Hz.
     pub cutoff_hz: f64,
-    /// Times as fast as it was recorded, [`TEMPI`]: feet and postures are those of the recording, steps and balance are prepared for this pace.
+    /// Times as fast as it was recorded, [`TEMPI`]: feet and postures are those of the recording, steps and balance are
+    /// prepared for this pace.
     pub tempo: f64,
     /// Let the motion begin and end standing, with steps before its first and after its last frame where it takes them.
     pub ends: bool,
-    /// Keep the file's place and heading (x forward = the file's z where y is up). Otherwise the clip starts at the origin facing +x.
+    /// Keep the file's place and heading (x forward = the file's z where y is up). Otherwise the clip starts at the
+    /// origin facing +x.
     pub keep_origin: bool,
 }
 
@@ -330,7 +336,8 @@ pub fn retarget(
     Ok(Retargeted { clip, report })
 }
 
-/// One turn and shift for everything, from the recorded room to the body: level, heading and place of the first sample, size.
+/// One turn and shift for everything, from the recorded room to the body: level, heading and place of the first sample,
+/// size.
 struct Placing {
     turn: Quat,
     shift: Vec3,

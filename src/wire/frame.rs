@@ -89,7 +89,8 @@ pub fn numbers(format: NumberFormat, values: &[f64]) -> Option<pb::Numbers> {
     })
 }
 
-/// Numbers that hold places in the world: a fixed-point step would grow with the distance from the origin, so crowds get floats.
+/// Numbers that hold places in the world: a fixed-point step would grow with the distance from the origin, so crowds
+/// get floats.
 fn places(format: NumberFormat, values: &[f64]) -> Option<pb::Numbers> {
     numbers(
         match format {

@@ -1,7 +1,8 @@
 //! Protobuf messages and domain types, and the way between them.
 //!
-//! [`pb`] is generated and checked in (`tests/proto_bootstrap.rs`). Only [`convert`] and [`frame`] read or fill its fields; past them
-//! everything is a domain type of [`types`] or of [`crate::sim`]. [`status`] turns faults into gRPC statuses.
+//! [`pb`] is generated and checked in (`tests/proto_bootstrap.rs`). Only [`convert`] and [`frame`] read or fill its
+//! fields; past them everything is a domain type of [`types`] or of [`crate::sim`]. [`status`] turns faults into gRPC
+//! statuses.
 
 /// Messages, clients and servers of package `sinew.v1`, generated.
 #[allow(

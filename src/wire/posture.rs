@@ -22,8 +22,8 @@ pub fn joint_rotation(posture: &Posture, s: usize) -> Quat {
     }
 }
 
-/// Sets the joint of segment `s` from `parent_from_segment`. What hinges cannot do is dropped: of a rotation that is split
-/// about their axes in order, the rest about the axis that is missing.
+/// Sets the joint of segment `s` from `parent_from_segment`. What hinges cannot do is dropped: of a rotation that is
+/// split about their axes in order, the rest about the axis that is missing.
 pub fn set_joint_rotation(posture: &mut Posture, s: usize, q: Quat) {
     let d = DOF_START[s];
     match JOINT[s] {
@@ -65,8 +65,8 @@ pub fn segment_poses(body: &Body, posture: &Posture) -> [(Vec3, Quat); SEGMENT_C
     out
 }
 
-/// The state's own coordinates: pelvis position (3) and rotation (x, y, z, w), then per segment 1…17 the joint position: a quaternion for a
-/// ball joint, one or two angles (rad) for hinges.
+/// The state's own coordinates: pelvis position (3) and rotation (x, y, z, w), then per segment 1…17 the joint
+/// position: a quaternion for a ball joint, one or two angles (rad) for hinges.
 pub fn positions(posture: &Posture) -> [f64; POSITION_COUNT] {
     let mut out = [0.0; POSITION_COUNT];
     out[..3].copy_from_slice(&posture.root_position.to_array());

@@ -1,7 +1,8 @@
 //! Faults of requests and how they look on the wire: a gRPC code with `google.rpc` details (AIP-193).
 //!
-//! Every status carries an `ErrorInfo` with a reason in UPPER_SNAKE; bad input names the field in a `BadRequest`, an unknown resource its
-//! name in a `ResourceInfo`, a limit its name in a `QuotaFailure`, and what may work later says when in a `RetryInfo`.
+//! Every status carries an `ErrorInfo` with a reason in UPPER_SNAKE; bad input names the field in a `BadRequest`, an
+//! unknown resource its name in a `ResourceInfo`, a limit its name in a `QuotaFailure`, and what may work later says
+//! when in a `RetryInfo`.
 
 use std::time::Duration;
 use tonic::{Code, Status};
@@ -111,7 +112,8 @@ impl Fault {
         }
     }
 
-    /// Unknown resource. The name is told as far as an existing one could be long: errors travel in headers, which are short.
+    /// Unknown resource. The name is told as far as an existing one could be long: errors travel in headers, which are
+    /// short.
     pub fn not_found(kind: &'static str, name: impl Into<String>) -> Self {
         let mut name = name.into();
         if let Some((end, _)) = name.char_indices().nth(LONGEST_NAME) {

@@ -141,7 +141,8 @@ pub struct FigureSettings {
 /// Where a part of a figure is wanted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConstraintSettings {
-    /// Segment and point, segment frame; no point: the middle of a hand, else the centre of mass. `None`: the figure's centre of mass.
+    /// Segment and point, segment frame; no point: the middle of a hand, else the centre of mass. `None`: the figure's
+    /// centre of mass.
     pub on: Option<(SegmentId, Option<Vec3>)>,
     /// Wanted position, world, m.
     pub position: Option<Vec3>,

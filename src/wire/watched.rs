@@ -1,7 +1,7 @@
 //! The message of a watch, which the server encodes once for all viewers.
 //!
-//! Generated code would encode it anew for each viewer. This type can hold the bytes of an encoded message instead: sending it to one
-//! more viewer then copies bytes and does nothing else.
+//! Generated code would encode it anew for each viewer. This type can hold the bytes of an encoded message instead:
+//! sending it to one more viewer then copies bytes and does nothing else.
 
 use super::pb::{Roster, WorldFrame};
 use prost::bytes::{Buf, BufMut, Bytes};

@@ -1,4 +1,5 @@
-//! Goal: assist holds the pelvis on its path, is bounded, is reported to the last newton, and is nothing when it is off.
+//! Goal: assist holds the pelvis on its path, is bounded, is reported to the last newton, and is nothing when it is
+//! off.
 
 use crate::common::{Scene, authored, bent, figure, man, still};
 use sinew::evaluate::audit::audit;

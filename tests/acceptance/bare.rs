@@ -1,4 +1,5 @@
-//! The torque stepper alone: a body with a share of its strength and no controller, one substep per step, so that every step is seen.
+//! The torque stepper alone: a body with a share of its strength and no controller, one substep per step, so that every
+//! step is seen.
 
 use sinew::sim::body::angles::anatomical_angles;
 use sinew::sim::body::{Body, DOF_COUNT, Links, State};

@@ -1,7 +1,7 @@
-//! Goal: figures and obstacles that meet push each other, as much as they are pushed; nothing passes through, nothing comes from nowhere,
-//! and whoever is not touched does not notice.
-//! Method: a ball thrown at a figure, two figures pushed into each other, one falling onto another, two that dance; books of momentum and of
-//! the work of contacts by the tick, overlaps, and the hashes of bystanders.
+//! Goal: figures and obstacles that meet push each other, as much as they are pushed; nothing passes through, nothing
+//! comes from nowhere, and whoever is not touched does not notice. Method: a ball thrown at a figure, two figures
+//! pushed into each other, one falling onto another, two that dance; books of momentum and of the work of contacts by
+//! the tick, overlaps, and the hashes of bystanders.
 
 use crate::common::collisions::{Meter, obstacle};
 use crate::common::{authored, figure, man, still};
@@ -37,7 +37,8 @@ fn stander(body: &Arc<Body>, kind: ControllerKind, x: f64, y: f64, yaw: f64) -> 
     setup
 }
 
-/// A ball of 5 kg at 5 m/s from three sides, for every controller. Books of the ball: its momentum changes by what it is pushed and by gravity.
+/// A ball of 5 kg at 5 m/s from three sides, for every controller. Books of the ball: its momentum changes by what it
+/// is pushed and by gravity.
 #[test]
 fn a_ball_hits_a_figure() {
     let body = man();
@@ -144,8 +145,8 @@ fn a_figure_falls_onto_another() {
     }
 }
 
-/// Someone within arm's length of a collision, and someone out of reach, have the bits that they have alone. The number of threads changes
-/// nothing.
+/// Someone within arm's length of a collision, and someone out of reach, have the bits that they have alone. The number
+/// of threads changes nothing.
 #[test]
 fn bystanders_and_threads_do_not_matter() {
     let body = man();

@@ -1,5 +1,5 @@
-//! Goal: a part that a client constrains goes where it is told, and stays there, while the figure goes on with its motion; what cannot be reached is
-//! approached without harm. Method: the state after a while against the constraint.
+//! Goal: a part that a client constrains goes where it is told, and stays there, while the figure goes on with its
+//! motion; what cannot be reached is approached without harm. Method: the state after a while against the constraint.
 
 use crate::common::{Scene, authored, bent, figure, man, play, still, synthesised_cycle};
 use crate::symmetry::{flip, flip_rotation, mirrored_state, opposite};
@@ -144,7 +144,8 @@ fn a_hand_is_held_and_turned() {
     }
 }
 
-/// Who walks on and on reaches for a place that moves with its body, or holds a hand for a second at a place of the world that it passes, and walks on.
+/// Who walks on and on reaches for a place that moves with its body, or holds a hand for a second at a place of the
+/// world that it passes, and walks on.
 #[test]
 fn a_hand_is_held_while_walking() {
     let body = man();

@@ -1,6 +1,6 @@
-//! Goal: a figure that holds its posture with its motors and tips over an edge of its feet falls like the rigid body it looks like.
-//! Method: it starts 3° beyond balance over the edge; the time until its centre of mass is 0.5 m high is compared with the physical
-//! pendulum `I θ̈ = m g l sin θ` about that edge, integrated to rounding.
+//! Goal: a figure that holds its posture with its motors and tips over an edge of its feet falls like the rigid body it
+//! looks like. Method: it starts 3° beyond balance over the edge; the time until its centre of mass is 0.5 m high is
+//! compared with the physical pendulum `I θ̈ = m g l sin θ` about that edge, integrated to rounding.
 
 use crate::common::{Scene, authored, figure, man};
 use crate::{GRAVITY, integrals, vec3};
@@ -116,8 +116,8 @@ fn falls_like_a_pendulum(strength: f64, toes: f64) {
     }
 }
 
-/// Toes as strong as the tables say cannot carry the body on their tips, and a figure whose toes give is no rigid body: forward it
-/// falls three ticks early. All other joints hold at human strength.
+/// Toes as strong as the tables say cannot carry the body on their tips, and a figure whose toes give is no rigid body:
+/// forward it falls three ticks early. All other joints hold at human strength.
 #[test]
 fn at_human_strength_with_strong_toes() {
     falls_like_a_pendulum(1.0, 4.0);
@@ -230,8 +230,8 @@ fn fall(
     }
 }
 
-/// The paper's controller and its own stepper at twenty times human strength: the support turns about its edge, joints hold. Time within
-/// a tick of the pendulum; energy within 0.3 %; direction within 5°; no hand-over.
+/// The paper's controller and its own stepper at twenty times human strength: the support turns about its edge, joints
+/// hold. Time within a tick of the pendulum; energy within 0.3 %; direction within 5°; no hand-over.
 #[test]
 fn prescribed_accelerations_turn_a_stiff_figure_about_its_edge() {
     for rate_hz in [30.0, 60.0, 120.0] {
@@ -259,8 +259,8 @@ fn prescribed_accelerations_turn_a_stiff_figure_about_its_edge() {
     }
 }
 
-/// At human strength toes cannot carry the body on their tips, so that torques take over in the forward fall; in the other directions the
-/// support turns about its edge to the end.
+/// At human strength toes cannot carry the body on their tips, so that torques take over in the forward fall; in the
+/// other directions the support turns about its edge to the end.
 #[test]
 fn prescribed_accelerations_at_human_strength_hand_over_when_toes_give() {
     for direction in DIRECTIONS {
@@ -273,7 +273,8 @@ fn prescribed_accelerations_at_human_strength_hand_over_when_toes_give() {
     }
 }
 
-/// The paper's controller with torques, human strength, toes that hold: within 8 % of the pendulum, sideways within two ticks.
+/// The paper's controller with torques, human strength, toes that hold: within 8 % of the pendulum, sideways within two
+/// ticks.
 #[test]
 fn the_papers_controller_with_torques_falls_like_a_pendulum() {
     for rate_hz in [30.0, 60.0, 120.0] {
@@ -302,7 +303,8 @@ fn the_papers_controller_with_torques_falls_like_a_pendulum() {
     }
 }
 
-/// The modern controller, told not to step, sees that balance is lost and leaves the figure to its motors in the first tick.
+/// The modern controller, told not to step, sees that balance is lost and leaves the figure to its motors in the first
+/// tick.
 #[test]
 fn modern_hands_over_to_motors_alone_and_falls_like_a_pendulum() {
     for rate_hz in [30.0, 60.0, 120.0] {

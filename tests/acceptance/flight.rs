@@ -1,5 +1,6 @@
-//! Goal: in the air nothing but gravity acts on a figure, whatever its motors do; without torque it gains no energy anywhere.
-//! Method: the parabola and both momenta of a thrown figure, with the order at which they converge; energy of a limp one, tick by tick.
+//! Goal: in the air nothing but gravity acts on a figure, whatever its motors do; without torque it gains no energy
+//! anywhere. Method: the parabola and both momenta of a thrown figure, with the order at which they converge; energy of
+//! a limp one, tick by tick.
 
 use crate::bare::Bare;
 use crate::common::{Scene, authored, bent, figure, man, still};
@@ -24,8 +25,8 @@ fn thrown() -> State {
     state
 }
 
-/// Largest distances within 0.3 s from the parabola and from the one that semi-implicit Euler has in its place (m), and changes of linear
-/// and angular momentum, relative.
+/// Largest distances within 0.3 s from the parabola and from the one that semi-implicit Euler has in its place (m), and
+/// changes of linear and angular momentum, relative.
 fn flight(substeps: u32, moving: bool) -> [f64; 4] {
     let body = man();
     let state = thrown();
@@ -63,8 +64,9 @@ fn flight(substeps: u32, moving: bool) -> [f64; 4] {
     worst
 }
 
-/// Steps are first order, so errors halve with the substep and two of them tell the limit: there the conservation laws are exact. How far
-/// the default substep is from it is bounded too (MuJoCo's Euler at half the step: 5e-4 and 4e-3 within 0.5 s).
+/// Steps are first order, so errors halve with the substep and two of them tell the limit: there the conservation laws
+/// are exact. How far the default substep is from it is bounded too (MuJoCo's Euler at half the step: 5e-4 and 4e-3
+/// within 0.5 s).
 #[test]
 fn a_thrown_figure_keeps_parabola_and_momenta() {
     for moving in [false, true] {
@@ -180,9 +182,9 @@ fn limp(start: &State, rate_hz: f64, gravity: f64) -> Limp {
     out
 }
 
-/// Contacts and ligaments take energy but for what takes a penetration back, which is little; what a step returns of an overrun limit is bounded.
-/// A step may still end with a little more than it began with, since steps of fast limbs are first order; that is bounded too, and the energy
-/// stays below the start.
+/// Contacts and ligaments take energy but for what takes a penetration back, which is little; what a step returns of an
+/// overrun limit is bounded. A step may still end with a little more than it began with, since steps of fast limbs are
+/// first order; that is bounded too, and the energy stays below the start.
 #[test]
 fn a_limp_figure_gains_no_energy() {
     let body = man();
@@ -216,8 +218,8 @@ fn a_limp_figure_gains_no_energy() {
     }
 }
 
-/// Weightless and limp, bent as far as its joints go: what tissue stored becomes motion but for its internal friction, and nothing is gained on
-/// the way, at any step.
+/// Weightless and limp, bent as far as its joints go: what tissue stored becomes motion but for its internal friction,
+/// and nothing is gained on the way, at any step.
 #[test]
 fn stretched_tissue_gives_back_no_more_than_it_stored() {
     let body = man();

@@ -1,6 +1,7 @@
-//! Goal: a figure that leans with a hand on a table, on a sloping desk or against a wall stands by it: part of what it weighs goes through the arm, within
-//! friction and strength; without it the figure falls, and an arm that is too weak gives way. Two figures that run into each other push equally.
-//! Method: statics of floor and hand; sums of the forces on both.
+//! Goal: a figure that leans with a hand on a table, on a sloping desk or against a wall stands by it: part of what it
+//! weighs goes through the arm, within friction and strength; without it the figure falls, and an arm that is too weak
+//! gives way. Two figures that run into each other push equally. Method: statics of floor and hand; sums of the forces
+//! on both.
 
 use crate::common::man;
 use sinew::evaluate::experiments::Pair;

@@ -1,5 +1,6 @@
-//! Goal: a figure that pushes itself off the floor flies as it must and lands without gaining energy. Method: a motion that crouches, stretches
-//! until the pelvis rises at 1.5 m/s, holds its posture for the 0.3 s that this throws it up, and gives way on landing.
+//! Goal: a figure that pushes itself off the floor flies as it must and lands without gaining energy. Method: a motion
+//! that crouches, stretches until the pelvis rises at 1.5 m/s, holds its posture for the 0.3 s that this throws it up,
+//! and gives way on landing.
 
 use crate::common::{Scene, figure, man, on_floor, play};
 use crate::{GRAVITY, integrals};
@@ -18,7 +19,8 @@ const FLIGHT: f64 = 0.3;
 const BENDS: [f64; 3] = [0.25, 0.85, 0.35];
 /// Length of crouching, waiting, pushing off, giving way, and rising, s.
 const TIMES: [f64; 5] = [0.8, 0.3, 0.45, 0.45, 0.8];
-/// What touching down does to the energy is seen over this time, s: within a tick muscles may give more than the floor takes.
+/// What touching down does to the energy is seen over this time, s: within a tick muscles may give more than the floor
+/// takes.
 const LANDING: f64 = 0.1;
 /// Factor on its strength: what jumps is an athlete.
 const STRENGTH: f64 = 3.0;

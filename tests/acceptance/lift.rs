@@ -1,5 +1,6 @@
-//! Goal: the paper's three regimes of lifting with an arm that is 2 % too weak for 3 kg. Method: the built-in semi-squat lift; the strength of
-//! the right arm is scaled to 98 % of what the highest demand of the motion at 3 kg needs when it is held still.
+//! Goal: the paper's three regimes of lifting with an arm that is 2 % too weak for 3 kg. Method: the built-in
+//! semi-squat lift; the strength of the right arm is scaled to 98 % of what the highest demand of the motion at 3 kg
+//! needs when it is held still.
 
 use crate::common::{Scene, figure, man, play};
 use sinew::evaluate::experiments::lift::{is_arm, weak_arm};
@@ -153,7 +154,8 @@ fn borne(l: &Lifted) {
     assert!(l.margin > 0.03 && l.over < 1e-9, "{}", l.text);
 }
 
-/// Too heavy: it falls, no gate on when. Or the arm gives way altogether, and what hangs from it at the side is no load to fall by.
+/// Too heavy: it falls, no gate on when. Or the arm gives way altogether, and what hangs from it at the side is no load
+/// to fall by.
 fn overcome(l: &Lifted) {
     let dropped = l.mass > 4.5 && l.arm > 90.0 && l.margin < 1e-3;
     assert!(l.fell.is_some() || dropped, "{}", l.text);

@@ -1,5 +1,5 @@
-//! Goal: a load is inertia of the segment that holds it: it weighs, it has to be accelerated when taken, and it is gone when dropped.
-//! Method: statics of a stretched arm; conservation of momentum in weightless flight.
+//! Goal: a load is inertia of the segment that holds it: it weighs, it has to be accelerated when taken, and it is gone
+//! when dropped. Method: statics of a stretched arm; conservation of momentum in weightless flight.
 
 use crate::common::{Scene, authored, bent, figure, man, still};
 use crate::{GRAVITY, integrals};
@@ -232,8 +232,8 @@ fn a_flying_load_gives_its_momentum_to_who_catches_it() {
             gravity: 0.0,
             ..WorldParams::default()
         };
-        // Weak muscles and a slow ball: the tick also integrates the motion after the catch, and that conserves momentum only to the order of
-        // the step.
+        // Weak muscles and a slow ball: the tick also integrates the motion after the catch, and that conserves
+        // momentum only to the order of the step.
         let mut setup = figure(&body, ControllerKind::Motors, state);
         setup.strength.all = 0.1;
         let mut scene = Scene::with(params, setup);

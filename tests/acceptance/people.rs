@@ -1,5 +1,5 @@
-//! Goal: every kind of person stands, lifts, squats and steps; strength changes with fatigue, percentile and effort as it should; the same
-//! load asks for more of a child than of a man.
+//! Goal: every kind of person stands, lifts, squats and steps; strength changes with fatigue, percentile and effort as
+//! it should; the same load asks for more of a child than of a man.
 
 use crate::common::{Scene, authored, bent, figure, man, still};
 use sinew::sim::body::topology::{DOF_NAMES, R_HAND};

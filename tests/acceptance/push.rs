@@ -1,6 +1,6 @@
-//! Goal: a standing figure takes a push that leaves its centre of mass stoppable over its feet, and falls the way it is pushed when not.
-//! Method: pushes at the chest of 0.1 s, in units of the bound of the linear inverted pendulum `m ω d`, with `ω² = g/h` and d the distance
-//! from the centre of mass to the edge of the support.
+//! Goal: a standing figure takes a push that leaves its centre of mass stoppable over its feet, and falls the way it is
+//! pushed when not. Method: pushes at the chest of 0.1 s, in units of the bound of the linear inverted pendulum
+//! `m ω d`, with `ω² = g/h` and d the distance from the centre of mass to the edge of the support.
 
 use crate::common::{Scene, authored, figure, man, still};
 use crate::{GRAVITY, vec3};

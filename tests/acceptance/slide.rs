@@ -1,6 +1,6 @@
-//! Goal: points that slide obey Coulomb's law, and not the convex one by which they would be carried by the air under them.
-//! Method: a figure that flies low over the floor without weight; the signed gaps, the cone and the direction of every contact force of a limp
-//! body that comes down fast, in each step.
+//! Goal: points that slide obey Coulomb's law, and not the convex one by which they would be carried by the air under
+//! them. Method: a figure that flies low over the floor without weight; the signed gaps, the cone and the direction of
+//! every contact force of a limp body that comes down fast, in each step.
 
 use crate::bare::{Bare, FRICTION};
 use crate::common::{bent, man, still};
@@ -13,7 +13,8 @@ use std::sync::Arc;
 
 const DT: f64 = 1.0 / 120.0;
 
-/// Steps a body with `share` of its strength; calls `see` with the contacts of each step and the states before and after it.
+/// Steps a body with `share` of its strength; calls `see` with the contacts of each step and the states before and
+/// after it.
 fn steps(
     body: &Arc<Body>,
     state: &mut State,
@@ -62,7 +63,8 @@ fn a_figure_that_flies_low_over_the_floor_is_not_touched() {
     }
 }
 
-/// Thrown on its side, sliding and rolling: nothing pushes from a distance, friction is within its cone, and on it against the motion of what slides.
+/// Thrown on its side, sliding and rolling: nothing pushes from a distance, friction is within its cone, and on it
+/// against the motion of what slides.
 #[test]
 fn what_slides_does_so_on_the_floor() {
     let body = man();
@@ -116,8 +118,8 @@ fn what_slides_does_so_on_the_floor() {
     assert!(of(0.99) < 0.8 && of(1.0) < 2.0, "{text}");
 }
 
-/// A body that tips over its toes: its limbs turn at 2 rad/s, and a toe whose velocity alone were held would creep by ½h²J̇v, a tenth of a
-/// millimetre in a step.
+/// A body that tips over its toes: its limbs turn at 2 rad/s, and a toe whose velocity alone were held would creep by
+/// ½h²J̇v, a tenth of a millimetre in a step.
 #[test]
 fn what_rests_stays_in_its_place_while_the_body_turns_about_it() {
     let body = man();

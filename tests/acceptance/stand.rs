@@ -1,5 +1,5 @@
-//! Goal: a figure that is told to stand still on bent knees does, under both controllers and at any tick rate, and the ground carries
-//! exactly its weight under its centre of mass. Method: statics.
+//! Goal: a figure that is told to stand still on bent knees does, under both controllers and at any tick rate, and the
+//! ground carries exactly its weight under its centre of mass. Method: statics.
 
 use crate::GRAVITY;
 use crate::common::{Scene, authored, figure, man, still};

@@ -1,8 +1,9 @@
-//! Goal: nothing in the simulation knows left from right, or north from east. Method: the same scene mirrored in the plane y = 0 with left and
-//! right exchanged, and turned about z; every number of every frame is taken back and compared.
+//! Goal: nothing in the simulation knows left from right, or north from east. Method: the same scene mirrored in the
+//! plane y = 0 with left and right exchanged, and turned about z; every number of every frame is taken back and
+//! compared.
 //!
-//! The paper's controller needs one main support. When both feet carry exactly the same it takes the left one, in the mirror too; the load is
-//! therefore in the hand from the start.
+//! The paper's controller needs one main support. When both feet carry exactly the same it takes the left one, in the
+//! mirror too; the load is therefore in the hand from the start.
 
 use crate::common::{Scene, authored, figure, man, play, synthesised};
 use crate::vec3;
@@ -29,7 +30,8 @@ pub(crate) fn opposite(s: usize) -> usize {
     SegmentId::from_name(&other).unwrap().index()
 }
 
-/// Joint rates, torques and the like, mirrored: anatomical signs are the same on both sides; in the middle, roll and turn change theirs.
+/// Joint rates, torques and the like, mirrored: anatomical signs are the same on both sides; in the middle, roll and
+/// turn change theirs.
 fn mirrored_dofs(x: &[f64]) -> [f64; DOF_COUNT] {
     let mut out = [0.0; DOF_COUNT];
     for s in 1..SEGMENT_COUNT {

@@ -1,4 +1,5 @@
-//! Scenes with obstacles: an obstacle at rest, and the books of momentum, work and overlap of a world in which bodies collide.
+//! Scenes with obstacles: an obstacle at rest, and the books of momentum, work and overlap of a world in which bodies
+//! collide.
 
 use sinew::evaluate::audit;
 use sinew::sim::collide::{Mobility, ObstacleSetup, Other, Shape};

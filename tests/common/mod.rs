@@ -161,7 +161,8 @@ impl Scene {
     }
 }
 
-/// Knees bent by `2·bend` rad over flat feet, trunk upright, arms hanging; ankles below the world origin, soles on the floor.
+/// Knees bent by `2·bend` rad over flat feet, trunk upright, arms hanging; ankles below the world origin, soles on the
+/// floor.
 ///
 /// Made with the arithmetic of the simulation alone, so that it has the same bits on every machine.
 pub fn bent(body: &Body, bend: f64) -> Posture {

@@ -1,7 +1,8 @@
 #!/bin/sh
 # Load test: ghz calls a live server through reflection, a bounded number of times; any answer other than OK fails.
 #
-#   tests/load/run.sh [--release]      options by environment: SINEW_BIN (a built binary), LOAD_SCALE (times as many calls)
+#   tests/load/run.sh [--release]      options by environment: SINEW_BIN (a built binary), LOAD_SCALE (times as many
+#   calls)
 #
 # Installs ghz into .tools if it is missing, which needs Go.
 set -eu

@@ -1,7 +1,7 @@
 //! Random bodies, states and loads, seeded; shared by the tests and by `examples/dump_dynamics.rs`.
 //!
-//! The bodies have nothing human about them but the tree: skew inertias, centres of mass off every axis, joints anywhere. What holds for
-//! them holds for any body.
+//! The bodies have nothing human about them but the tree: skew inertias, centres of mass off every axis, joints
+//! anywhere. What holds for them holds for any body.
 
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -45,8 +45,8 @@ fn inertia(rng: &mut Pcg64Mcg, mass: f64) -> Sym3 {
     Sym3::diagonal(r[1] + r[2], r[0] + r[2], r[0] + r[1]).rotated(turn)
 }
 
-/// A valid body with random offsets, masses and inertias. `armature` is the largest reflected inertia (kg·m²); the DOFs of one
-/// joint share theirs, as MuJoCo's joints do.
+/// A valid body with random offsets, masses and inertias. `armature` is the largest reflected inertia (kg·m²); the DOFs
+/// of one joint share theirs, as MuJoCo's joints do.
 pub fn random_body(rng: &mut Pcg64Mcg, armature: f64) -> Body {
     let segments: Vec<Segment> = (0..SEGMENT_COUNT)
         .map(|_| {

@@ -196,7 +196,8 @@ fn a_swinging_shank_keeps_the_time_of_a_physical_pendulum() {
     );
 }
 
-/// Thigh and shank swing about hip and knee, all else held: the textbook double pendulum, inertia and forces entry by entry.
+/// Thigh and shank swing about hip and knee, all else held: the textbook double pendulum, inertia and forces entry by
+/// entry.
 #[test]
 fn hip_and_knee_make_the_textbook_double_pendulum() {
     let body = Body::adult_woman();
@@ -283,8 +284,8 @@ fn hip_and_knee_make_the_textbook_double_pendulum() {
     }
 }
 
-/// A figure in flight that pulls in its arms and kicks: whatever its torques do, the centre of mass flies a parabola and the
-/// angular momentum about it stays.
+/// A figure in flight that pulls in its arms and kicks: whatever its torques do, the centre of mass flies a parabola
+/// and the angular momentum about it stays.
 #[test]
 fn flight_keeps_the_parabola_and_the_angular_momentum() {
     let mut rng = generator(77);

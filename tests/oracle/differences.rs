@@ -7,7 +7,8 @@ use sinew::sim::body::{Links, NV, SEGMENT_COUNT, State};
 use sinew::sim::dynamics::Terms;
 use sinew::sim::math::{Quat, Vec3};
 
-/// Step of central differences: truncation h² ≈ 1e-10 and rounding 1e-16/h ≈ 1e-11, times third derivatives (speeds of 5 rad/s).
+/// Step of central differences: truncation h² ≈ 1e-10 and rounding 1e-16/h ≈ 1e-11, times third derivatives (speeds of
+/// 5 rad/s).
 const STEP: f64 = 1e-5;
 /// What central differences resolve, relative.
 const RESOLVED: f64 = 1e-7;

@@ -1,5 +1,6 @@
-//! Independent algorithms agree on random bodies and states. Tolerances are relative to the largest entry of the quantity;
-//! [`ROUNDING`] is some hundred operations' worth of rounding, [`SOLVED`] allows for the condition number of M (10⁵–10⁶).
+//! Independent algorithms agree on random bodies and states. Tolerances are relative to the largest entry of the
+//! quantity; [`ROUNDING`] is some hundred operations' worth of rounding, [`SOLVED`] allows for the condition number of
+//! M (10⁵–10⁶).
 
 use super::bodies::{
     components, generator, loaded, random_body, random_loads, random_state, vector,
@@ -226,8 +227,8 @@ fn the_ground_wrench_is_the_rate_of_momentum_minus_gravity() {
     });
 }
 
-/// The state `dt` seconds along the motion that starts with acceleration `a`: exact to second order in the posture, first in the velocity,
-/// which is all that first derivatives at 0 see (odd differences cancel the even terms).
+/// The state `dt` seconds along the motion that starts with acceleration `a`: exact to second order in the posture,
+/// first in the velocity, which is all that first derivatives at 0 see (odd differences cancel the even terms).
 pub fn moved(state: &State, a: &[f64; NV], dt: f64) -> (State, [f64; NV]) {
     let mean: [f64; NV] = std::array::from_fn(|i| state.velocity[i] + 0.5 * dt * a[i]);
     let mut s = *state;

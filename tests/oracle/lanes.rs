@@ -1,5 +1,5 @@
-//! Eight figures in lock-step carry, each, the bits that it would have alone: every kernel, a different body and state per lane, through
-//! the plain generic code and through the run-time dispatch to the machine's widest instructions.
+//! Eight figures in lock-step carry, each, the bits that it would have alone: every kernel, a different body and state
+//! per lane, through the plain generic code and through the run-time dispatch to the machine's widest instructions.
 
 use super::GRAVITY;
 use super::bodies::{

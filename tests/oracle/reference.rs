@@ -1,4 +1,5 @@
-//! Recorded numbers of a body made of hinge chains (`data/reference.json`: six states, from Pinocchio by a prototype of this project).
+//! Recorded numbers of a body made of hinge chains (`data/reference.json`: six states, from Pinocchio by a prototype of
+//! this project).
 //!
 //! The same figure with ball joints moves the same way in other coordinates: `v = A(q) u` with hinge rates `u`, so that
 //! `M_u = Aᵀ M A`, `h_u = Aᵀ (M Ȧu + h)`, `τ_u = Aᵀ τ`. A and Ȧu are tested themselves, against finite differences.

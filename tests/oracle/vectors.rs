@@ -1,5 +1,6 @@
 //! States of random and human bodies, with and without loads, with the numbers that Pinocchio and MuJoCo agree on
-//! (`data/dynamics_vectors.json`, made by `make_vectors.py`, which states the versions). No Python is needed to check them.
+//! (`data/dynamics_vectors.json`, made by `make_vectors.py`, which states the versions). No Python is needed to check
+//! them.
 
 use super::{inverse, relative, terms};
 use serde_json::Value;

@@ -15,7 +15,8 @@ use std::fmt::Write;
 /// Samples per second of the built-in motions.
 pub const RATE: f64 = 120.0;
 
-/// A BVH file in parts. A row has three position channels, unless they are taken out, then Z, X and Y rotation of each segment.
+/// A BVH file in parts. A row has three position channels, unless they are taken out, then Z, X and Y rotation of each
+/// segment.
 #[derive(Clone)]
 pub struct File {
     pub head: String,
@@ -157,7 +158,8 @@ impl File {
     }
 }
 
-/// A rotation that takes the file's forward axis, world x, to the bone of each segment: all bones lie along one axis in the zero pose.
+/// A rotation that takes the file's forward axis, world x, to the bone of each segment: all bones lie along one axis in
+/// the zero pose.
 pub fn bones_along_one_axis(body: &Body) -> [Quat; SEGMENT_COUNT] {
     std::array::from_fn(|s| {
         if s == 0 {

@@ -11,7 +11,8 @@ use sinew::sim::math::{Quat, Vec3};
 use sinew::sim::motion::leg_ik::{forward, solve_leg};
 use sinew::sim::retarget::RetargetOptions;
 
-/// Stands, squats down so far that the pelvis is `height` m over the floor and leans by `lean` rad, and stands up again; the feet stay.
+/// Stands, squats down so far that the pelvis is `height` m over the floor and leans by `lean` rad, and stands up
+/// again; the feet stay.
 fn squat(body: &Body, height: f64, lean: f64) -> Vec<Posture> {
     let start = motion(body, "idle")[0];
     let poses = forward(body, &start);

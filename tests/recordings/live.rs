@@ -1,7 +1,7 @@
-//! Goal: streams that come while they are followed are prepared behind a window well enough to be walked, and figures whose driver falls
-//! silent, or whose clip is stopped, finish their step and stand.
-//! Method: recordings as a capture system would send them (fitted to the body, nothing else), sample by sample, into a figure in torque
-//! simulation; compared with the same recording prepared as a whole.
+//! Goal: streams that come while they are followed are prepared behind a window well enough to be walked, and figures
+//! whose driver falls silent, or whose clip is stopped, finish their step and stand. Method: recordings as a capture
+//! system would send them (fitted to the body, nothing else), sample by sample, into a figure in torque simulation;
+//! compared with the same recording prepared as a whole.
 
 use crate::common::{figure, man, recorded, recorded_with};
 use sinew::sim::body::topology::{CHEST, L_FOOT, R_FOOT};
@@ -236,7 +236,8 @@ fn windows_compared_with_the_whole_recording() {
     }
 }
 
-/// A recording with a foot pitched up by some degrees while it carries everything (`dance`, for 2 s) would have its figure balance on a heel.
+/// A recording with a foot pitched up by some degrees while it carries everything (`dance`, for 2 s) would have its
+/// figure balance on a heel.
 #[test]
 fn nobody_is_left_on_his_heel() {
     let body = man();
@@ -291,8 +292,8 @@ fn a_streamed_jump_is_a_jump_before_its_landing_is_seen() {
     let body = man();
     let raw = bare(&body, "jump");
     let last = raw.duration();
-    // Only with a window of 1 s the landing has come when the feet leave the floor. With 0.5 s it comes down bowed and falls 0.6 s after the last sample;
-    // with the others it stands there for as long as it is watched.
+    // Only with a window of 1 s the landing has come when the feet leave the floor. With 0.5 s it comes down bowed and
+    // falls 0.6 s after the last sample; with the others it stands there for as long as it is watched.
     for (window, after, joints) in [(0.3, 3.0, 5.0), (0.5, 0.0, 9.8), (1.0, 3.0, 5.0)] {
         let posture = |t: f64| Some(raw.sample(t.min(last)).posture);
         let f = follow(&body, posture, last + after, window);
@@ -440,8 +441,8 @@ fn a_clip_that_is_stopped_ends_in_a_stand() {
     assert!(standing >= 6, "{standing} of 8");
 }
 
-/// The way to a stand is worked out aside and takes over four ticks later, whether it has been done for long by then, has just begun, or has found nobody to
-/// work it out.
+/// The way to a stand is worked out aside and takes over four ticks later, whether it has been done for long by then,
+/// has just begun, or has found nobody to work it out.
 #[test]
 fn a_stop_takes_over_at_its_tick_however_fast_it_is_worked_out() {
     let body = man();

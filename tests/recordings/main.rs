@@ -1,10 +1,12 @@
-//! Tests that need real motion capture, which is not part of the repository. `make recordings` runs them; docs/corpus.md says which files they read and
-//! where such files come from. Without the files they fail, and the message names the variable and the page.
+//! Tests that need real motion capture, which is not part of the repository. `make recordings` runs them;
+//! docs/corpus.md says which files they read and where such files come from. Without the files they fail, and the
+//! message names the variable and the page.
 //!
 //! * `bvh`: the reader against joint positions from an independent reader.
 //! * `retarget`: recordings become motions that a body can follow, in whatever dialect they are written.
 //! * `tracking`: figures stay within their strength, and no force acts that nothing explains.
-//! * `walking`, `running`, `variations`: recordings from standing to standing, repeated, pushed, loaded, mirrored, faster and slower.
+//! * `walking`, `running`, `variations`: recordings from standing to standing, repeated, pushed, loaded, mirrored,
+//!   faster and slower.
 //! * `transitions`: from one clip to another.
 //! * `live`: recordings as a stream, through a preparation window.
 //! * `rising`: getting up from the floor.

@@ -1,5 +1,6 @@
-//! Goal: a figure that has fallen gets up when its motion does, within its strength, and nothing else makes it try. Method: the recordings
-//! `get-up` (lies prone, stands after 3 s) and `fall-rise` (falls onto its back, stands after 7 s), as clips and as a stream, and falls from pushes.
+//! Goal: a figure that has fallen gets up when its motion does, within its strength, and nothing else makes it try.
+//! Method: the recordings `get-up` (lies prone, stands after 3 s) and `fall-rise` (falls onto its back, stands after 7
+//! s), as clips and as a stream, and falls from pushes.
 
 use crate::common::{Scene, authored, figure, man, people, play, recorded, recorded_with};
 use crate::vec3;

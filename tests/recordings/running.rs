@@ -1,6 +1,6 @@
 //! Goal: a run that is kept as a run is prepared as what it is, a row of flights, and followed to its last sample.
-//! Method: clips from the motion capture folder, in torque simulation, 60 Hz with two substeps, the modern controller. They begin and end in full
-//! stride: the figure begins in the state of the first sample.
+//! Method: clips from the motion capture folder, in torque simulation, 60 Hz with two substeps, the modern controller.
+//! They begin and end in full stride: the figure begins in the state of the first sample.
 
 use crate::common::{man, mocap, recorded_with};
 use sinew::evaluate::experiments::walk::{Walk, Walker, walk};

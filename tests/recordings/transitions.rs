@@ -1,7 +1,6 @@
-//! Goal: a figure goes over from one clip to another from step to step where the two are alike, and by a stand where they are not; what it was told last
-//! counts.
-//! Method: clips from the motion capture folder, asked for at moments spread over the first one, in torque simulation, 60 Hz with two substeps, the
-//! modern controller.
+//! Goal: a figure goes over from one clip to another from step to step where the two are alike, and by a stand where
+//! they are not; what it was told last counts. Method: clips from the motion capture folder, asked for at moments
+//! spread over the first one, in torque simulation, 60 Hz with two substeps, the modern controller.
 
 use crate::common::{authored, figure, man, recorded, recorded_with};
 use sinew::evaluate::experiments::walk::Stance;
@@ -59,7 +58,8 @@ impl Played {
         (self.clip.duration() + self.clip.lead_out()) / self.speed
     }
 
-    /// The `k`-th of `n` moments spread over a round, or over the clip without its very ends, s from the beginning of [`begun`].
+    /// The `k`-th of `n` moments spread over a round, or over the clip without its very ends, s from the beginning of
+    /// [`begun`].
     fn moment(&self, k: u32, n: u32) -> f64 {
         let share = f64::from(k) / f64::from(n);
         let c = &self.clip;
@@ -104,7 +104,8 @@ fn playing(world: &World, key: FigureKey) -> &ClipPlayback {
 struct Passed {
     /// When it fell, s after that.
     fell: Option<f64>,
-    /// When the other clip began, s after that; whether from step to step, or by a way from a stand that is not like its beginning.
+    /// When the other clip began, s after that; whether from step to step, or by a way from a stand that is not like
+    /// its beginning.
     began: f64,
     over: bool,
     led: bool,
@@ -285,7 +286,8 @@ fn what_begins_standing_waits_for_a_stand() {
     assert!(fallen.len() <= 1);
 }
 
-/// Recordings that begin neither at ease nor with steps: with the feet elsewhere, in another posture, or in motion. Begun at once they fell or were thrown about.
+/// Recordings that begin neither at ease nor with steps: with the feet elsewhere, in another posture, or in motion.
+/// Begun at once they fell or were thrown about.
 #[test]
 fn what_does_not_begin_as_the_figure_stands_is_led_into() {
     let body = man();
@@ -347,7 +349,8 @@ fn what_waits_can_be_taken_back_and_what_stands_begins_at_once() {
     assert!(figure.next_clip().is_none());
 }
 
-/// Told to turn, and told something else before it has begun to: in the same tick, when the way is decided, and on that way.
+/// Told to turn, and told something else before it has begun to: in the same tick, when the way is decided, and on that
+/// way.
 #[test]
 fn who_goes_over_does_what_it_was_told_last() {
     let body = man();
@@ -384,8 +387,8 @@ fn who_goes_over_does_what_it_was_told_last() {
     }
 }
 
-/// The way over is worked out aside and taken four ticks later, whether it has been done for long by then, has just begun, or has found nobody to work it
-/// out; until the one clip turns into the other, the other one is the next.
+/// The way over is worked out aside and taken four ticks later, whether it has been done for long by then, has just
+/// begun, or has found nobody to work it out; until the one clip turns into the other, the other one is the next.
 #[test]
 fn a_way_over_is_taken_at_its_tick_however_fast_it_is_worked_out() {
     let body = man();

@@ -1,7 +1,7 @@
-//! Goal: recordings are followed mirrored, and slower and faster than they were recorded, because their steps and their balance are prepared for the
-//! pace.
-//! Method: clips from the motion capture folder, mirrored, and at 0.8 to 1.2 times their speed, 60 Hz with two substeps, the modern controller; the
-//! same clips played faster and slower as they were prepared, for comparison.
+//! Goal: recordings are followed mirrored, and slower and faster than they were recorded, because their steps and their
+//! balance are prepared for the pace. Method: clips from the motion capture folder, mirrored, and at 0.8 to 1.2 times
+//! their speed, 60 Hz with two substeps, the modern controller; the same clips played faster and slower as they were
+//! prepared, for comparison.
 
 use crate::common::{man, mocap, recorded_with};
 use sinew::evaluate::experiments::walk::{Walk, Walker, walk};
@@ -114,8 +114,8 @@ fn soles(body: &Body, posture: &Posture) -> [f64; 2] {
     })
 }
 
-/// The last long step of a run leaves the other foot 0.7 m behind. It waited there until the body had come to rest over the front one, out of its
-/// leg's reach, and was dragged 0.3 m below the floor.
+/// The last long step of a run leaves the other foot 0.7 m behind. It waited there until the body had come to rest over
+/// the front one, out of its leg's reach, and was dragged 0.3 m below the floor.
 #[test]
 fn a_foot_that_is_left_behind_steps_before_its_leg_is_stretched() {
     let body = man();

@@ -237,7 +237,8 @@ async fn a_recording_is_simulated_without_a_world() {
     server.stop().await;
 }
 
-/// Asked for in mid-walk: the figure stands first. Until then the clip is seen as the next one; it can be replaced and taken back.
+/// Asked for in mid-walk: the figure stands first. Until then the clip is seen as the next one; it can be replaced and
+/// taken back.
 #[tokio::test(flavor = "multi_thread")]
 async fn a_clip_waits_until_a_walking_figure_stands() {
     let server = TestServer::start().await;
@@ -291,7 +292,8 @@ async fn a_clip_waits_until_a_walking_figure_stands() {
     server.stop().await;
 }
 
-/// Who walks and is told to turn does so from step to step, at the time that the answer tells; until then the turn is seen as the next clip.
+/// Who walks and is told to turn does so from step to step, at the time that the answer tells; until then the turn is
+/// seen as the next clip.
 #[tokio::test(flavor = "multi_thread")]
 async fn a_walking_figure_goes_over_to_a_turn_without_a_stand() {
     let server = TestServer::start().await;

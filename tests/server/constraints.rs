@@ -1,4 +1,5 @@
-//! Constraints over the wire: a client holds a hand, sees what is missing, replaces, takes off; what is wrong changes nothing.
+//! Constraints over the wire: a client holds a hand, sees what is missing, replaces, takes off; what is wrong changes
+//! nothing.
 
 use crate::support::{TestServer, refusal};
 use sinew::wire::pb;

@@ -1,4 +1,5 @@
-//! Streams that walk: a window prepares them, whatever the network does. World time is stepped, so that all of it is the same every time.
+//! Streams that walk: a window prepares them, whatever the network does. World time is stepped, so that all of it is
+//! the same every time.
 
 use crate::corpus;
 use crate::support::{FALLEN, FROZEN, TestServer, header, refusal};
@@ -33,7 +34,8 @@ struct Streamed {
     speed: f64,
 }
 
-/// Streams `posture` for `seconds`, with 120 frames per second, through a network; then `silence` seconds more without it.
+/// Streams `posture` for `seconds`, with 120 frames per second, through a network; then `silence` seconds more without
+/// it.
 async fn stream(
     id: &str,
     posture: impl Fn(f64) -> Option<Posture>,

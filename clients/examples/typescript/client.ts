@@ -1,5 +1,5 @@
-// A small client: a man lifts 6 kg, and we see what that asks of his shoulder. With a server running, and after `npm ci` in clients/web:
-//   cd clients/web && npm run example -- http://127.0.0.1:7463
+// A small client: a man lifts 6 kg, and we see what that asks of his shoulder. With a server running, and after
+// `npm ci` in clients/web: cd clients/web && npm run example -- http://127.0.0.1:7463
 import { numbers, Sinew } from "../../web/src/client.js";
 import { Encoding } from "../../web/src/gen/sinew/v1/types_pb.js";
 

@@ -1,12 +1,13 @@
 # %% [markdown]
 # # Audit against Pinocchio
 #
-# Do the numbers of Sinew satisfy the equations of motion? Somebody else should compute that. We export the body, load it into
-# [Pinocchio](https://github.com/stack-of-tasks/pinocchio) and compare, tick by tick,
+# Do the numbers of Sinew satisfy the equations of motion? Somebody else should compute that. We export the body, load
+# it into [Pinocchio](https://github.com/stack-of-tasks/pinocchio) and compare, tick by tick,
 #
 # $$M \dot v + h \quad\text{with}\quad S^T(\tau + \tau_\text{ligament}) + \sum J^T f$$
 #
-# over all contacts and pushes. Nothing of the right side is computed by the simulator that is checked except the forces themselves.
+# over all contacts and pushes. Nothing of the right side is computed by the simulator that is checked except the forces
+# themselves.
 
 # %%
 import tempfile
@@ -36,9 +37,9 @@ with sinew.serve() as client:
 body = recording.body
 
 # %% [markdown]
-# Sinew's velocity is: angular velocity and velocity of the pelvis in world axes, then 39 joint rates; the rates of a ball joint lie along
-# the signed axes that the body lists. Pinocchio's is: velocity and angular velocity of the pelvis in its own axes, then balls along x, y, z.
-# So $u = T v$, and $\dot u = T \dot v + \dot T v$.
+# Sinew's velocity is: angular velocity and velocity of the pelvis in world axes, then 39 joint rates; the rates of a
+# ball joint lie along the signed axes that the body lists. Pinocchio's is: velocity and angular velocity of the pelvis
+# in its own axes, then balls along x, y, z. So $u = T v$, and $\dot u = T \dot v + \dot T v$.
 
 # %%
 with tempfile.TemporaryDirectory() as folder:

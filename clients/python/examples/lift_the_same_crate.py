@@ -1,8 +1,8 @@
 # %% [markdown]
 # # Lift the same crate
 #
-# A man, a woman and a child of ten do the same: they squat, take a crate in both hands and stand up. Nothing is tuned for anyone. What
-# differs is how long their bones are, how heavy they are, and what their muscles can do.
+# A man, a woman and a child of ten do the same: they squat, take a crate in both hands and stand up. Nothing is tuned
+# for anyone. What differs is how long their bones are, how heavy they are, and what their muscles can do.
 
 # %%
 import os
@@ -13,8 +13,8 @@ CRATE_KG = 15.0
 SECONDS = float(os.environ.get("SINEW_EXAMPLE_S", "4"))
 
 # %% [markdown]
-# A world that is paused moves only when we record, as fast as it computes, and always to the same bits. All three get the same clip
-# (`lift`, prepared for each body) and the same crate, at the moment when their hands are down.
+# A world that is paused moves only when we record, as fast as it computes, and always to the same bits. All three get
+# the same clip (`lift`, prepared for each body) and the same crate, at the moment when their hands are down.
 
 # %%
 with sinew.serve() as client, client.create_world("crate", replace=True) as world:

@@ -1,8 +1,8 @@
 # %% [markdown]
 # # Your own motion capture
 #
-# Any BVH file: the server finds out which joint is which, what the unit is and where the floor is, and says so. Set `SINEW_BVH` to the
-# path of your file.
+# Any BVH file: the server finds out which joint is which, what the unit is and where the floor is, and says so. Set
+# `SINEW_BVH` to the path of your file.
 
 # %%
 import os
@@ -39,8 +39,8 @@ plot = recording.plot_torques(title=f"Hardest joints of {path.stem}")
 # %% [markdown]
 # ## Live: as a capture system would
 #
-# `stream` sends the frames at their own pace into a running world; a jitter buffer evens out the connection. Frames of your own go the
-# same way: `with figure.drive() as drive: drive.send(angles)`.
+# `stream` sends the frames at their own pace into a running world; a jitter buffer evens out the connection. Frames of
+# your own go the same way: `with figure.drive() as drive: drive.send(angles)`.
 
 # %%
 with sinew.serve() as client, client.create_world(paused=False) as world:

@@ -1,8 +1,9 @@
 # %% [markdown]
 # # Push-recovery map
 #
-# How hard can one push a standing person, from each side, before they fall? For every direction we look for the largest push at the chest
-# that the figure survives, by halving the interval. Each try is one call of `simulate`: no world, no state, nothing to clean up.
+# How hard can one push a standing person, from each side, before they fall? For every direction we look for the largest
+# push at the chest that the figure survives, by halving the interval. Each try is one call of `simulate`: no world, no
+# state, nothing to clean up.
 
 # %%
 import os

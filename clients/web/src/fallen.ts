@@ -27,7 +27,8 @@ export class Fallen {
   update(people: Iterable<Person>, fallen: (p: Person) => boolean, chosen: Person | undefined): void {
     const lying = new Set<string>();
     for (const p of people) {
-      // A motion that lies on the floor counts as fallen, too: then nothing is wrong. Once told, it stays told until the figure is up.
+      // A motion that lies on the floor counts as fallen, too: then nothing is wrong. Once told, it stays told until
+      // the figure is up.
       if (fallen(p) && (this.lying.has(p.name) || wantsHigher(p))) lying.add(p.name);
     }
     this.lying = lying;

@@ -1,4 +1,5 @@
-// What lies under a pointer. Segments are rigid, so a ray is taken into each segment's own frame once, and nothing is skinned.
+// What lies under a pointer. Segments are rigid, so a ray is taken into each segment's own frame once, and nothing is
+// skinned.
 import * as THREE from "three";
 import type { Body } from "./gen/sinew/v1/body_pb.js";
 import { POSE } from "./model.js";

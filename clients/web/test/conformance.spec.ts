@@ -1,4 +1,5 @@
-// The vectors of tests/conformance, and the small client, over gRPC-Web from Node. The same files are read in Rust and Python.
+// The vectors of tests/conformance, and the small client, over gRPC-Web from Node. The same files are read in Rust and
+// Python.
 import { createRegistry, fromBinary, fromJson, toBinary, toJson, type DescMessage, type DescMethodStreaming, type DescMethodUnary, type JsonValue, type Message } from "@bufbuild/protobuf";
 import { Code, ConnectError } from "@connectrpc/connect";
 import { createGrpcWebTransport } from "@connectrpc/connect-web";

@@ -1,4 +1,5 @@
-// What the page looks like and says: the desired motion, the hint, reset, falls, a layout that stays, axes, the view that follows.
+// What the page looks like and says: the desired motion, the hint, reset, falls, a layout that stays, axes, the view
+// that follows.
 import { create } from "@bufbuild/protobuf";
 import { RetargetReportSchema } from "../src/gen/sinew/v1/types_pb.js";
 import { axis, inPlace, marks, settled, usual } from "../src/plots.js";

@@ -1,4 +1,5 @@
-// A small recording: a standing person, 1.76 m, who raises the right arm. BVH text; y is up, the person looks along z, units are cm.
+// A small recording: a standing person, 1.76 m, who raises the right arm. BVH text; y is up, the person looks along z,
+// units are cm.
 
 interface Bone {
   name: string;

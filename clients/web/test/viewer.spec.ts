@@ -255,8 +255,8 @@ test("twenty figures", async ({ page, server }) => {
   await live(page, `${server.url}#world=crowd`);
   await expect(page.locator("#figures button")).toHaveCount(20);
   await page.waitForTimeout(3000);
-  // What the page itself does for a picture, without the software renderer of this test, must fit 60 pictures per second.
-  // It is a mean over the last pictures; when the machine does other things, one of the next means counts.
+  // What the page itself does for a picture, without the software renderer of this test, must fit 60 pictures per
+  // second. It is a mean over the last pictures; when the machine does other things, one of the next means counts.
   const script = (): Promise<number> => page.evaluate(() => Number(document.body.dataset.script));
   await expect.poll(script).toBeLessThan(12);
   console.log(`twenty figures: ${await script()} ms of script per picture, ${await page.evaluate(() => document.body.dataset.cost)} ms with the software renderer`);

@@ -12,7 +12,8 @@ use std::ffi::OsStr;
 /// Which body the figure has.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub struct BodyArgs {
-    /// Name of the body, as in the API: one of these, or a profile such as female-25y-1680mm-61500g [default: adult-man].
+    /// Name of the body, as in the API: one of these, or a profile such as female-25y-1680mm-61500g [default:
+    /// adult-man].
     #[arg(long, value_name = "NAME", value_parser = BodyNameParser)]
     pub body: Option<Profile>,
     /// Age, years, 6 to 90; the age of the named body unless given.

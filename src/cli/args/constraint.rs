@@ -8,8 +8,8 @@ use crate::sim::figure::{Constrained, Constraint};
 use crate::sim::math::{Quat, Vec3};
 use std::str::FromStr;
 
-/// `PART@x,y,z[@T0..T1][:qx,qy,qz,qw]`: target position and rotation of a segment, or target position of the centre of mass (`com`); `_`
-/// leaves an axis free.
+/// `PART@x,y,z[@T0..T1][:qx,qy,qz,qw]`: target position and rotation of a segment, or target position of the centre of
+/// mass (`com`); `_` leaves an axis free.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConstraintSpec {
     /// Segment; `None`: the centre of mass.

@@ -87,15 +87,16 @@ pub enum ShareArg {
     Balanced,
 }
 
-/// Options of the paper's controller; other controllers ignore them. Options that are not given have the value of the preset, or their
-/// default without one.
+/// Options of the paper's controller; other controllers ignore them. Options that are not given have the value of the
+/// preset, or their default without one.
 #[derive(Clone, Debug, Default, clap::Args)]
 #[command(next_help_heading = "Paper's controller")]
 pub struct PaperOptions {
     /// Preset for the options below.
     #[arg(long, value_enum, conflicts_with_all = ["controller", "stepper"])]
     pub preset: Option<PresetArg>,
-    /// Weight of the position demand against the velocity demand in equation (4) per 1/30 s, 0 to 1; used with --horizon 0.
+    /// Weight of the position demand against the velocity demand in equation (4) per 1/30 s, 0 to 1; used with
+    /// --horizon 0.
     #[arg(long, value_name = "A")]
     pub alpha: Option<f64>,
     /// Time constant of the demand, 0.01 to 2 s; 0: met within one step, as published.

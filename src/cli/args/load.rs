@@ -7,7 +7,8 @@ use crate::sim::figure::{HeldLoad, Perturbation};
 use crate::sim::math::Vec3;
 use std::str::FromStr;
 
-/// `KG@SEGMENT[+SEGMENT][@T0..T1]`: a load held by one or two segments, from T0 to T1 seconds; either end may be left out.
+/// `KG@SEGMENT[+SEGMENT][@T0..T1]`: a load held by one or two segments, from T0 to T1 seconds; either end may be left
+/// out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadSpec {
     /// Carrying segment.

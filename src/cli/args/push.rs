@@ -6,7 +6,8 @@ use crate::sim::figure::Perturbation;
 use crate::sim::math::Vec3;
 use std::str::FromStr;
 
-/// `NS@SEGMENT@T:x,y,z`: a push of NS newton-seconds on a segment, starting at T seconds, along the world direction x, y, z.
+/// `NS@SEGMENT@T:x,y,z`: a push of NS newton-seconds on a segment, starting at T seconds, along the world direction x,
+/// y, z.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PushSpec {
     /// Pushed segment.

@@ -42,8 +42,9 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// The whole of `clip`, called `name`, and a second afterwards. The recording called `sit-stand` gets the stool that it lacks, where it sits: under the
-    /// pelvis, and as high as a rigid one can be there. It ends where it begins to walk away: what becomes of that depends on luck (docs/limits.md).
+    /// The whole of `clip`, called `name`, and a second afterwards. The recording called `sit-stand` gets the stool
+    /// that it lacks, where it sits: under the pelvis, and as high as a rigid one can be there. It ends where it begins
+    /// to walk away: what becomes of that depends on luck (docs/limits.md).
     pub fn new(name: &str, clip: Arc<Clip>) -> Self {
         let sits = name == "sit-stand";
         let half = Vec3 {
@@ -98,7 +99,8 @@ pub struct Outcome {
     pub joints: f64,
     /// Sum of the square distance of the centre of mass from the desired one, m².
     pub com: f64,
-    /// Sum of the changes of torque from tick to tick, as a share of the range, of joints at their limit before or after, and how many.
+    /// Sum of the changes of torque from tick to tick, as a share of the range, of joints at their limit before or
+    /// after, and how many.
     pub chatter: (f64, u32),
 }
 
@@ -113,7 +115,8 @@ impl Outcome {
     pub fn com_mm(&self) -> f64 {
         1e3 * (self.com / f64::from(self.ticks.max(1))).sqrt()
     }
-    /// Mean change of torque of a saturated joint from tick to tick, as a share of its range; `None` if none was ever saturated.
+    /// Mean change of torque of a saturated joint from tick to tick, as a share of its range; `None` if none was ever
+    /// saturated.
     pub fn chatter(&self) -> Option<f64> {
         let (sum, count) = self.chatter;
         (count > 0).then(|| sum / f64::from(count))

@@ -94,7 +94,8 @@ fn edge_towards(body: &Body, posture: &Posture, direction: Vec3) -> (Vec3, Vec3)
     (best.1, best.2)
 }
 
-/// `posture`, turned stiffly about the edge of its soles that faces `direction` until the centre of mass is 3° beyond it.
+/// `posture`, turned stiffly about the edge of its soles that faces `direction` until the centre of mass is 3° beyond
+/// it.
 pub fn leaning(body: &Body, mut posture: Posture, direction: Vec3) -> Leaning {
     let (pivot, normal) = edge_towards(body, &posture, direction);
     let com = com_and_energy(&Links::new(body), &State::at_rest(posture)).0;
@@ -122,8 +123,8 @@ fn com_and_energy(links: &Links, state: &State) -> (Vec3, f64) {
     )
 }
 
-/// The figure as one rigid body turning about the edge: time (s) and height of the centre of mass (m) every millisecond, down to [`LOW`].
-/// Midpoint rule, 0.1 ms.
+/// The figure as one rigid body turning about the edge: time (s) and height of the centre of mass (m) every
+/// millisecond, down to [`LOW`]. Midpoint rule, 0.1 ms.
 pub fn pendulum(body: &Body, start: &Leaning) -> Vec<[f64; 2]> {
     let links = Links::new(body);
     let axis = Vec3::Z.cross(start.normal);
@@ -176,8 +177,8 @@ pub struct Fall {
     pub record: Record,
 }
 
-/// How long the figure takes as a pendulum about the balls of its feet instead of the edge that it leans over, s: what remains of the
-/// support when the toes give.
+/// How long the figure takes as a pendulum about the balls of its feet instead of the edge that it leans over, s: what
+/// remains of the support when the toes give.
 pub fn pendulum_about_the_balls(body: &Body, start: &Leaning) -> f64 {
     let poses = segment_poses(&body.joint_offset, &start.state.posture);
     let ball = (poses[L_TOES.index()].position + poses[R_TOES.index()].position) * 0.5;

@@ -32,7 +32,8 @@ fn is_helper(dof: usize) -> bool {
         .any(|part| DOF_NAMES[dof].contains(part))
 }
 
-/// Factor on the strength of the right arm at which it has 98 % of what `mass` (kg) needs, held still in the clip's worst posture.
+/// Factor on the strength of the right arm at which it has 98 % of what `mass` (kg) needs, held still in the clip's
+/// worst posture.
 pub fn weak_arm(body: &Arc<Body>, clip: &Clip, mass: f64) -> f64 {
     let strength = Strength::for_body(body);
     let mut links = Links::new(body);
@@ -66,7 +67,8 @@ pub struct Lift {
     pub arm_saturated_s: f64,
     /// Largest error of hip, knee, ankle or back, degrees, up to a fall.
     pub helpers_deg: f64,
-    /// Least distance of the zero-moment point inside the polygon after the grasp, m, up to a fall; `None`: it never had one.
+    /// Least distance of the zero-moment point inside the polygon after the grasp, m, up to a fall; `None`: it never
+    /// had one.
     pub margin: Option<f64>,
     /// Largest share of its strength that the right shoulder used.
     pub shoulder_use: f64,

@@ -1,5 +1,5 @@
-//! Experiments as functions: build the scene, run it, return what was measured. `sinew paper` and `sinew walking` print them; nothing here
-//! reads a clock or a file.
+//! Experiments as functions: build the scene, run it, return what was measured. `sinew paper` and `sinew walking` print
+//! them; nothing here reads a clock or a file.
 
 pub mod compare;
 pub mod fall;
@@ -191,7 +191,8 @@ const FELL: f64 = 0.45;
 /// What stands beside the figure in a panel: loads that it carries (segment, point, kg), and things.
 type Beside = (Vec<(usize, Vec3, f64)>, Vec<Thing>);
 
-/// Runs for `seconds` and keeps `panels` evenly spaced frames; `see` is called after every tick with the world and the time (s).
+/// Runs for `seconds` and keeps `panels` evenly spaced frames; `see` is called after every tick with the world and the
+/// time (s).
 fn record(
     world: &mut World,
     key: FigureKey,

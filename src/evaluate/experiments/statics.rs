@@ -20,7 +20,8 @@ pub enum Hold {
     Curl,
 }
 
-/// Share of strength that the deciding joint needs with the empty hand, and the load in the hand that takes all of it, kg.
+/// Share of strength that the deciding joint needs with the empty hand, and the load in the hand that takes all of it,
+/// kg.
 pub fn hold(body: &Body, what: Hold) -> (f64, f64) {
     let name = match what {
         Hold::StraightArm => "r_shoulder_flexion",

@@ -125,7 +125,8 @@ fn prop(body: &Body, posture: &Posture, what: Prop) -> Option<ObstacleSetup> {
     })
 }
 
-/// Leans on a table or a wall with the right hand, with `arm` times the strength in that arm. The feet stay where they are: no protective step.
+/// Leans on a table or a wall with the right hand, with `arm` times the strength in that arm. The feet stay where they
+/// are: no protective step.
 pub fn hand_support(body: &Arc<Body>, pair: &Pair, what: Prop, arm: f64, panels: usize) -> Support {
     let arms = if what == Prop::Wall {
         TO_WALL

@@ -102,8 +102,8 @@ pub struct Walked {
     pub capture: [f64; 2],
     /// Largest way that a foot slid in one stance, m: of its contact points, by their share of the load.
     pub slip: f64,
-    /// Largest push of the floor in a tick, in units of the weight: in all, and on one foot, which is what force plates under walking people
-    /// measure (1.1 to 1.3).
+    /// Largest push of the floor in a tick, in units of the weight: in all, and on one foot, which is what force plates
+    /// under walking people measure (1.1 to 1.3).
     pub peak: [f64; 2],
     /// Steps, and the largest deviation of a touch-down from its plan, s.
     pub steps: usize,
@@ -133,7 +133,8 @@ impl Stance {
         self.load
     }
 
-    /// Takes in the contact points of a tick, of which those on `segments` are the foot's; the way of a stance so far, m.
+    /// Takes in the contact points of a tick, of which those on `segments` are the foot's; the way of a stance so far,
+    /// m.
     pub fn observe(&mut self, now: &[ContactPoint], segments: [SegmentId; 2]) -> f64 {
         let mine = |c: &&ContactPoint| segments.contains(&c.segment);
         let load: f64 = now.iter().filter(mine).map(|c| c.force.z).sum();

@@ -1,7 +1,7 @@
 //! A small stroke font for labels in pixel pictures: lower-case letters, digits and punctuation on a 4 × 8 grid.
 //!
-//! A glyph is a list of strokes; a stroke is a list of points `xy` with x in 0…4 and y in 0…8: 0 is the descender, 2 the base line, 6 the
-//! height of an `x`, 8 the height of an `l`.
+//! A glyph is a list of strokes; a stroke is a list of points `xy` with x in 0…4 and y in 0…8: 0 is the descender, 2
+//! the base line, 6 the height of an `x`, 8 the height of an `l`.
 
 /// Units of advance beyond a glyph's width.
 const SPACING: f64 = 1.6;

@@ -1,8 +1,9 @@
 //! Motion strips: evenly spaced frames of a run side by side, as SVG or PNG.
 //!
-//! Each panel shows the figure as a solid body (left limbs blue, right limbs orange), the desired posture as a pale ghost behind it,
-//! the contact force of each segment, support polygon, centre of mass, zero-moment point, and a ring at every joint that is at (red) or
-//! near (amber) the limit of its strength. [`Drawing`] is the list of shapes; [`svg`] and [`raster`] are its two writers.
+//! Each panel shows the figure as a solid body (left limbs blue, right limbs orange), the desired posture as a pale
+//! ghost behind it, the contact force of each segment, support polygon, centre of mass, zero-moment point, and a ring
+//! at every joint that is at (red) or near (amber) the limit of its strength. [`Drawing`] is the list of shapes;
+//! [`svg`] and [`raster`] are its two writers.
 
 mod drawing;
 #[cfg(feature = "net")]
@@ -44,7 +45,8 @@ pub struct Frame {
     pub desired: Posture,
     /// What stands around it.
     pub things: Vec<Thing>,
-    /// Sum of contact forces (N) on each segment, of the ground and of all else, and the point it acts at (world, m); zero force where nothing touches.
+    /// Sum of contact forces (N) on each segment, of the ground and of all else, and the point it acts at (world, m);
+    /// zero force where nothing touches.
     pub contact: [(Vec3, Vec3); SEGMENT_COUNT],
     /// Centre of mass, world, m.
     pub com: Vec3,
@@ -138,7 +140,8 @@ impl Default for StripOptions {
     }
 }
 
-/// Ticks of a run of `ticks` ticks that `count` evenly spaced panels show: from the first to the last, without repetition.
+/// Ticks of a run of `ticks` ticks that `count` evenly spaced panels show: from the first to the last, without
+/// repetition.
 pub fn evenly_spaced(ticks: u64, count: usize) -> Vec<u64> {
     let last = ticks.saturating_sub(1);
     let steps = (count.max(2) - 1) as u64;

@@ -36,10 +36,12 @@ const LONGEST_FORCE: f64 = 1.0;
 const TILE_DEPTH: f64 = 0.5;
 /// A ghost farther off than this is not drawn: after a fall the desired motion walks on alone, m.
 const GHOST_RANGE: f64 = 1.5;
-/// A thing whose nearest corner is farther from the figure than the first is not drawn; a panel widens for things up to the second, m.
+/// A thing whose nearest corner is farther from the figure than the first is not drawn; a panel widens for things up to
+/// the second, m.
 const THING_RANGE: f64 = 1.3;
 const THING_WIDTH: f64 = 1.6;
-/// The same for the parts of another figure: what two do with each other is the picture, until they have gone separate ways.
+/// The same for the parts of another figure: what two do with each other is the picture, until they have gone separate
+/// ways.
 const OTHER_RANGE: f64 = 3.5;
 const OTHER_WIDTH: f64 = 3.5;
 /// Surface of a limb without a mesh, m.

@@ -1,5 +1,5 @@
-//! Streams of frames and events. A stream is asked for its next message when the connection has room, so a slow viewer skips
-//! frames instead of collecting them.
+//! Streams of frames and events. A stream is asked for its next message when the connection has room, so a slow viewer
+//! skips frames instead of collecting them.
 
 use super::{Place, refusal, stopped};
 use crate::server::fanout::hub::{Channel, Encoded};

@@ -1,4 +1,5 @@
-//! Views of one world: for each that someone watches, a task that encodes the latest frame and hands the bytes to all its viewers.
+//! Views of one world: for each that someone watches, a task that encodes the latest frame and hands the bytes to all
+//! its viewers.
 
 use crate::wire::frame::{shared_frame, shared_roster};
 use crate::wire::status::Fault;
@@ -50,7 +51,8 @@ impl Hub {
         }
     }
 
-    /// The channel of a view of the world whose frames come from `latest`; its task starts with the first viewer and ends with the last.
+    /// The channel of a view of the world whose frames come from `latest`; its task starts with the first viewer and
+    /// ends with the last.
     ///
     /// # Errors
     /// Too many different views.

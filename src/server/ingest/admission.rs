@@ -2,7 +2,8 @@
 
 use std::time::Instant;
 
-/// Batches per second that one driver may send in the long run: twice the fastest tick rate that a person could want to feed.
+/// Batches per second that one driver may send in the long run: twice the fastest tick rate that a person could want to
+/// feed.
 pub const BATCHES_PER_SECOND: f64 = 500.0;
 /// Batches that may come at once, after a pause of the network.
 pub const BATCH_BURST: f64 = 250.0;

@@ -1,9 +1,10 @@
 //! Desired motion of one figure between its arrival and its use.
 //!
-//! Frames carry the time at which they were captured. The buffer plays them at that pace, a playout delay behind their arrival, so that
-//! the jitter of the network does not become jitter of the motion. Asked for an instant it answers with a frame, between two frames,
-//! beyond the newest (fading out), with the last posture, or with quiet standing; each case is counted. Clock of arrival and playout is
-//! world time, so that pausing or slowing a world does not starve its drivers.
+//! Frames carry the time at which they were captured. The buffer plays them at that pace, a playout delay behind their
+//! arrival, so that the jitter of the network does not become jitter of the motion. Asked for an instant it answers
+//! with a frame, between two frames, beyond the newest (fading out), with the last posture, or with quiet standing;
+//! each case is counted. Clock of arrival and playout is world time, so that pausing or slowing a world does not starve
+//! its drivers.
 
 use crate::sim::body::{NV, Posture};
 use crate::sim::motion::{Target, TargetPair};
@@ -98,7 +99,8 @@ pub enum Due<'a> {
     Silence,
 }
 
-/// A window's time runs at most so much faster or slower than the world's while delays change; it jumps where they change by more than this, s.
+/// A window's time runs at most so much faster or slower than the world's while delays change; it jumps where they
+/// change by more than this, s.
 const SLEW: f64 = 0.1;
 const LEAP: f64 = 0.5;
 
@@ -121,7 +123,8 @@ fn on_curve(
 }
 
 impl JitterBuffer {
-    /// An empty buffer for ticks of `tick` seconds. `now` is what is asked of the figure at present, `stand` its quiet standing posture.
+    /// An empty buffer for ticks of `tick` seconds. `now` is what is asked of the figure at present, `stand` its quiet
+    /// standing posture.
     pub fn new(settings: DriveSettings, tick: f64, now: Target, stand: Posture) -> Self {
         Self {
             settings,
@@ -209,7 +212,8 @@ impl JitterBuffer {
             .min(1e12)
     }
 
-    /// Takes a frame that arrived at world time `now`. Frames whose sequence or source time does not grow are dropped and counted.
+    /// Takes a frame that arrived at world time `now`. Frames whose sequence or source time does not grow are dropped
+    /// and counted.
     pub fn push(&mut self, frame: Frame, now: f64) {
         let newer = self
             .frames
@@ -336,8 +340,8 @@ impl JitterBuffer {
                 let c2 = 3.0 * d[k] - 2.0 * m0 - m1;
                 x[k] = u * (m0 + u * (c2 + u * c3));
                 v[k] = (m0 + u * (2.0 * c2 + 3.0 * u * c3)) / h;
-                // Slopes that stand in for velocities are a little off, equally at both ends. The curve would turn that into
-                // accelerations six times as far off per frame time; their difference does not.
+                // Slopes that stand in for velocities are a little off, equally at both ends. The curve would turn that
+                // into accelerations six times as far off per frame time; their difference does not.
                 a[k] = if measured {
                     (2.0 * c2 + 6.0 * u * c3) / (h * h)
                 } else {
@@ -414,8 +418,8 @@ impl JitterBuffer {
         p
     }
 
-    /// The desired motion over the tick from world time `t`. `None` while nothing was pushed or the first frame is still to come:
-    /// what was asked of the figure before then goes on.
+    /// The desired motion over the tick from world time `t`. `None` while nothing was pushed or the first frame is
+    /// still to come: what was asked of the figure before then goes on.
     pub fn sample(&mut self, t: f64) -> Option<TargetPair> {
         let p = self.playout(t)?;
         let (mut now, supply, i) = self.at(p);
@@ -470,7 +474,8 @@ impl JitterBuffer {
         Some(TargetPair { now, next })
     }
 
-    /// True if there is motion that was not handed to a window yet: a driver that repeats what it sent before does not move.
+    /// True if there is motion that was not handed to a window yet: a driver that repeats what it sent before does not
+    /// move.
     pub fn has_news(&self) -> bool {
         let (Some(newest), Some(head)) = (self.frames.back(), self.head) else {
             return false;
@@ -478,9 +483,9 @@ impl JitterBuffer {
         self.seconds(newest) > head && !is_same(&self.at(head).0.posture, &newest.posture)
     }
 
-    /// Hands the samples of a grid of `rate` per second to a window that lies `window` seconds behind them, as far as they are due in the tick from
-    /// world time `t`. Returns the playout time of the newest sample that is due at `t`, s, and how many samples of the grid are over; `None`
-    /// while there is no motion.
+    /// Hands the samples of a grid of `rate` per second to a window that lies `window` seconds behind them, as far as
+    /// they are due in the tick from world time `t`. Returns the playout time of the newest sample that is due at `t`,
+    /// s, and how many samples of the grid are over; `None` while there is no motion.
     pub fn feed(
         &mut self,
         t: f64,

@@ -3,7 +3,8 @@
 use super::shard::Shard;
 use std::sync::Arc;
 
-/// Who asks and in which order: commands that meet in one tick are carried out by (client, sequence), so that a replay is exact.
+/// Who asks and in which order: commands that meet in one tick are carried out by (client, sequence), so that a replay
+/// is exact.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Origin {
     /// Who asks.

@@ -228,8 +228,8 @@ impl Window {
 }
 
 impl Slot {
-    /// Feeds the window with what is due in the tick from world time `time`; once there is enough of it, the figure follows. Returns the state
-    /// that the figure is to be put into, if its driver asked for that.
+    /// Feeds the window with what is due in the tick from world time `time`; once there is enough of it, the figure
+    /// follows. Returns the state that the figure is to be put into, if its driver asked for that.
     pub fn feed(&mut self, time: f64, figure: &mut Figure, reset: bool) -> Option<State> {
         let window = self.window.as_mut()?;
         let length = window.length;

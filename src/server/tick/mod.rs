@@ -1,8 +1,8 @@
 //! The rate keeper: each world has a thread that runs [`run`].
 //!
-//! A tick is: wait for the deadline, carry out commands in order, sample desired motion, step the physics, publish the frame,
-//! account for time. The thread never waits for a client, for a lock held elsewhere, or for the disk. Commands come through a bounded
-//! queue, frames leave through latest-wins cells.
+//! A tick is: wait for the deadline, carry out commands in order, sample desired motion, step the physics, publish the
+//! frame, account for time. The thread never waits for a client, for a lock held elsewhere, or for the disk. Commands
+//! come through a bounded queue, frames leave through latest-wins cells.
 
 pub mod clock;
 pub mod command;

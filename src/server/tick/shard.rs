@@ -1,5 +1,5 @@
-//! One world with everything that belongs to its clock: figures by name, drivers, held frames. Owned by the world's thread; others send
-//! [`Command`](super::command::Command)s that call these methods between ticks.
+//! One world with everything that belongs to its clock: figures by name, drivers, held frames. Owned by the world's
+//! thread; others send [`Command`](super::command::Command)s that call these methods between ticks.
 
 mod desired_motion;
 mod figures;

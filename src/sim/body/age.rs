@@ -1,7 +1,7 @@
 //! What age does to a body: size, proportions, mass fractions and ranges of motion from 6 to 90 years.
 //!
-//! Every quantity is a continuous function of age: values stand at nodes and are interpolated between them, nothing jumps at a birthday.
-//! From 20 to 44 years all of them are those of the adult tables, to the last bit.
+//! Every quantity is a continuous function of age: values stand at nodes and are interpolated between them, nothing
+//! jumps at a birthday. From 20 to 44 years all of them are those of the adult tables, to the last bit.
 
 use super::model::{Profile, Sex};
 use crate::sim::math::ease::rise;
@@ -11,7 +11,8 @@ use crate::sim::math::ease::rise;
 pub struct Origin {
     /// Publication or reason.
     pub source: &'static str,
-    /// S1 read in data that cite the publication; S2 read in the publication or an excerpt; S3 cross-check only; D derived; R estimate.
+    /// S1 read in data that cite the publication; S2 read in the publication or an excerpt; S3 cross-check only; D
+    /// derived; R estimate.
     pub tag: &'static str,
     /// What was done with it.
     pub note: &'static str,
@@ -55,8 +56,8 @@ pub fn mix(male: f64, a: f64, b: f64) -> f64 {
     }
 }
 
-/// Stature (m) and mass (kg) of an ordinary man: growth-chart medians (6–12 y), sizes chosen for the age groups of Anderson 2007 (adults).
-/// Interpolated between ages.
+/// Stature (m) and mass (kg) of an ordinary man: growth-chart medians (6–12 y), sizes chosen for the age groups of
+/// Anderson 2007 (adults). Interpolated between ages.
 const ORDINARY_MAN: [(f64, [f64; 2]); 11] = [
     (6.0, [1.16, 21.0]),
     (8.0, [1.28, 26.0]),
@@ -88,8 +89,8 @@ const ORDINARY_WOMAN: [(f64, [f64; 2]); 11] = [
 impl Profile {
     /// An ordinary person of this sex and age: stature and mass from tables, rounded to centimetres and half kilograms.
     ///
-    /// The man and the woman of 30 years are those that the strength levels refer to: 1.75 m, 75 kg and 1.63 m, 62 kg. Ages outside
-    /// 6…90 years count as the nearest.
+    /// The man and the woman of 30 years are those that the strength levels refer to: 1.75 m, 75 kg and 1.63 m, 62 kg.
+    /// Ages outside 6…90 years count as the nearest.
     pub fn ordinary(sex: Sex, age: f64) -> Self {
         let [height, mass] = match sex {
             Sex::Male => polyline(&ORDINARY_MAN, age),
@@ -162,8 +163,8 @@ impl Proportions {
     }
 }
 
-/// Share of the body mass in each kind of segment, %: pelvis, abdomen, chest, head with neck, then one upper arm, forearm, hand, thigh,
-/// shank, foot with toes.
+/// Share of the body mass in each kind of segment, %: pelvis, abdomen, chest, head with neck, then one upper arm,
+/// forearm, hand, thigh, shank, foot with toes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MassFractions {
     /// Which population.
@@ -231,8 +232,8 @@ impl MassFractions {
         }
     }
 
-    /// Fractions of a person, from those of an adult of the sex: Jensen's children up to 15 years, `adult` from 20, Pavol's older people
-    /// from 73; interpolated between.
+    /// Fractions of a person, from those of an adult of the sex: Jensen's children up to 15 years, `adult` from 20,
+    /// Pavol's older people from 73; interpolated between.
     pub fn of(sex: Sex, age: f64, adult: &Self) -> Self {
         if age < GROWN {
             let rows = CHILDREN.map(|(at, row, head, trunk, limb)| {
@@ -254,8 +255,8 @@ impl MassFractions {
 
 type Whole = (&'static str, f64, f64, [f64; 6]);
 
-/// Age, name, head with neck, trunk, limb segments. The 18-year-olds of the same method are left out: their thighs (11.4 %) contradict the
-/// adults that the body grows into (14.2 %).
+/// Age, name, head with neck, trunk, limb segments. The 18-year-olds of the same method are left out: their thighs
+/// (11.4 %) contradict the adults that the body grows into (14.2 %).
 const CHILDREN: [(f64, &str, f64, f64, [f64; 6]); 3] = [
     (
         6.0,

@@ -1,16 +1,18 @@
 //! Anatomical angles of a posture and back.
 //!
-//! The state of a 3-DOF joint is a quaternion; its three anatomical angles (flexion, abduction or lateral bend, rotation) are
-//! derived by swing–twist: `R = swing · twist`, twist about the segment's long axis z, and the swing's rotation vector gives
-//! flexion and abduction along the signed axes of the joint. Continuous wherever the swing stays below 180°, which the swing limit
-//! of [`SWING_MAX`] guarantees for every reachable posture; equal to the hinge angle for a rotation about a single axis.
+//! The state of a 3-DOF joint is a quaternion; its three anatomical angles (flexion, abduction or lateral bend,
+//! rotation) are derived by swing–twist: `R = swing · twist`, twist about the segment's long axis z, and the swing's
+//! rotation vector gives flexion and abduction along the signed axes of the joint. Continuous wherever the swing stays
+//! below 180°, which the swing limit of [`SWING_MAX`] guarantees for every reachable posture; equal to the hinge angle
+//! for a rotation about a single axis.
 
 use super::model::Body;
 use super::state::{Posture, ball_rate_vector};
 use super::topology::{DOF_AXIS, DOF_COUNT, DOF_LEN, DOF_START, JOINT, Joint, SEGMENT_COUNT};
 use crate::sim::math::{Quat, Vec3, trig};
 
-/// Largest angle between a segment's long axis and its zero-pose direction, rad (172°): keeps a raised arm off the antipode.
+/// Largest angle between a segment's long axis and its zero-pose direction, rad (172°): keeps a raised arm off the
+/// antipode.
 pub const SWING_MAX: f64 = 172.0 / 180.0 * std::f64::consts::PI;
 
 /// Swing and twist of one ball joint.
@@ -75,8 +77,8 @@ pub fn swing_twist(q: Quat) -> SwingTwist {
         (1.0, 0.0)
     };
     let (px, py) = (-uy, ux);
-    // For q_s = (sin(θ/2) u, cos(θ/2)) with u ⟂ z, a horizontal body rate w along p (in swing-child axes) turns u by ψ̇ about z:
-    // horizontal part of the body angular velocity is θ̇ u + sin θ ψ̇ p, so ψ̇ θ = w_p θ / sin θ.
+    // For q_s = (sin(θ/2) u, cos(θ/2)) with u ⟂ z, a horizontal body rate w along p (in swing-child axes) turns u by ψ̇
+    // about z: horizontal part of the body angular velocity is θ̇ u + sin θ ψ̇ p, so ψ̇ θ = w_p θ / sin θ.
     let g = if theta < 1e-4 {
         1.0 + theta * theta / 6.0
     } else {
@@ -153,7 +155,8 @@ pub fn set_anatomical_angles(posture: &mut Posture, angles: &[f64; DOF_COUNT]) {
     }
 }
 
-/// Clamps the joints of `posture` into the body's limits (with `margin` rad to spare) and returns by how much each DOF was off, rad.
+/// Clamps the joints of `posture` into the body's limits (with `margin` rad to spare) and returns by how much each DOF
+/// was off, rad.
 pub fn clamp_to_limits(body: &Body, posture: &mut Posture, margin: f64) -> [f64; DOF_COUNT] {
     let mut a = anatomical_angles(posture);
     let mut off = [0.0; DOF_COUNT];

@@ -43,7 +43,8 @@ struct Inertial {
     inertia: Sym3,
 }
 
-/// The unloaded segment's own numbers where nothing was added (bit for bit), else those of `links` moved to the centre of mass.
+/// The unloaded segment's own numbers where nothing was added (bit for bit), else those of `links` moved to the centre
+/// of mass.
 fn inertial(body: &Body, plain: &Links, links: &Links, i: usize) -> Inertial {
     let same = plain.mass[i] == links.mass[i]
         && plain.moment[i] == links.moment[i]
@@ -93,11 +94,12 @@ pub fn mjcf(body: &Body, actuation: &Actuation) -> String {
 
 /// `body` with the mass properties of `links` (loads welded on) as a MuJoCo XML model. Gravity in m/s², along −z.
 ///
-/// * A free joint `root`, then one MuJoCo body per segment, named as ours and in our order; ball joints bear the joint's name, hinges
-///   the DOF's. `qvel` is MuJoCo's: free joint linear (world) then angular (pelvis axes), balls along child x, y, z; our rates are those
-///   along the signed axes of [`DOF_AXIS`].
-/// * Full inertia of each segment about its centre of mass; armature per joint. MuJoCo gives a ball joint one armature for its three
-///   axes: the first DOF's is written, so the model is exact when the three are equal, as they are in every body Sinew builds.
+/// * A free joint `root`, then one MuJoCo body per segment, named as ours and in our order; ball joints bear the
+///   joint's name, hinges the DOF's. `qvel` is MuJoCo's: free joint linear (world) then angular (pelvis axes), balls
+///   along child x, y, z; our rates are those along the signed axes of [`DOF_AXIS`].
+/// * Full inertia of each segment about its centre of mass; armature per joint. MuJoCo gives a ball joint one armature
+///   for its three axes: the first DOF's is written, so the model is exact when the three are equal, as they are in
+///   every body Sinew builds.
 /// * Segment shapes are visual meshes, contact points are sites: nothing collides.
 /// * One motor per DOF, named after it: control in N·m along the DOF's signed axis, bounds of control and force from
 ///   `actuation`. There is no damping: passive tissue and ligaments are not part of the file.

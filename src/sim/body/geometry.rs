@@ -1,8 +1,8 @@
 //! Mass, centre of mass and inertia of a closed triangulated surface, and the lofts that segments are made of.
 //!
-//! The paper (§3.1) takes mass properties from the polyhedra of the segments. A closed surface is the signed sum of the tetrahedra
-//! that its triangles span with any fixed point, so the volume integrals of 1, x and x xᵀ are sums over triangles (divergence
-//! theorem). Offline code: it runs when a body is built, never within a tick.
+//! The paper (§3.1) takes mass properties from the polyhedra of the segments. A closed surface is the signed sum of the
+//! tetrahedra that its triangles span with any fixed point, so the volume integrals of 1, x and x xᵀ are sums over
+//! triangles (divergence theorem). Offline code: it runs when a body is built, never within a tick.
 
 use super::model::Mesh;
 use crate::sim::math::vec3::vec3;
@@ -146,8 +146,8 @@ fn centre(mesh: &Mesh) -> Vec3 {
 
 /// Mass properties of the solid inside `mesh` when `mass` (kg) is spread uniformly (paper §3.1).
 ///
-/// With tetrahedron (o, a, b, c) of signed volume V and s = a + b + c: ∫x = V s/4, ∫x xᵀ = V (a aᵀ + b bᵀ + c cᵀ + s sᵀ)/20.
-/// Parts that overlap count twice, as if they were pressed into one another.
+/// With tetrahedron (o, a, b, c) of signed volume V and s = a + b + c: ∫x = V s/4, ∫x xᵀ = V (a aᵀ + b bᵀ + c cᵀ + s
+/// sᵀ)/20. Parts that overlap count twice, as if they were pressed into one another.
 ///
 /// # Errors
 /// Whatever [`check`] finds; a mass that is not positive.
@@ -204,7 +204,8 @@ pub fn mass_properties(mesh: &Mesh, mass: f64) -> Result<MassProperties, Geometr
     })
 }
 
-/// One cross-section of a loft: the points `centre + c·u + s·v` over a closed curve (c, s) between an ellipse and its box.
+/// One cross-section of a loft: the points `centre + c·u + s·v` over a closed curve (c, s) between an ellipse and its
+/// box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Section {
     /// Middle of the section, m.
@@ -262,7 +263,8 @@ fn unit_curve(sides: usize, square: [f64; 2]) -> Vec<(f64, f64)> {
 
 /// Surface through `sections` in order, closed by a pole at each end, each with `sides` points (a multiple of 4).
 ///
-/// `poles` are the end points beyond the first and the last section. The result faces outwards whichever way the sections run.
+/// `poles` are the end points beyond the first and the last section. The result faces outwards whichever way the
+/// sections run.
 pub fn loft(sections: &[Section], poles: [Vec3; 2], sides: usize) -> Mesh {
     let mut vertices = Vec::with_capacity(sections.len() * sides + 2);
     for section in sections {

@@ -1,8 +1,9 @@
 //! Bodies of men, women and children from stature, mass, sex and age.
 //!
-//! Lengths and mass fractions are those of de Leva 1996 (adjusted Zatsiorsky–Seluyanov means), scaled by stature and changed with age as
-//! [`super::age`] says; centre of mass and inertia come from the surface of each segment (paper §3.1, [`super::geometry`]), drawn in
-//! [`super::shape`]. The right side is the mirror image of the left to the last bit.
+//! Lengths and mass fractions are those of de Leva 1996 (adjusted Zatsiorsky–Seluyanov means), scaled by stature and
+//! changed with age as [`super::age`] says; centre of mass and inertia come from the surface of each segment (paper
+//! §3.1, [`super::geometry`]), drawn in [`super::shape`]. The right side is the mirror image of the left to the last
+//! bit.
 
 mod parts;
 mod tables;
@@ -17,7 +18,8 @@ use tables::{Table, joint_limits};
 
 pub(super) use tables::limit_changes;
 
-/// Reflected inertia on every joint DOF, kg·m²: keeps toes and wrists at their torque limit from accelerating at 10⁴ rad/s² (ALGORITHM §2).
+/// Reflected inertia on every joint DOF, kg·m²: keeps toes and wrists at their torque limit from accelerating at 10⁴
+/// rad/s² (ALGORITHM §2).
 pub const ARMATURE: f64 = 0.02;
 
 pub use super::age::AGE_RANGE;
@@ -43,13 +45,14 @@ fn within(field: &'static str, value: f64, range: [f64; 2]) -> Result<(), BodyEr
 impl Body {
     /// The body of a person of the given sex, age, stature and mass.
     ///
-    /// Proportions of de Leva 1996 for the sex; children have shorter limbs, a larger head and Jensen's mass fractions, older people those
-    /// of Pavol 2002, and ranges of motion follow age ([`super::age`]). Segment masses add to `profile.mass`; the top of the head
-    /// is at `profile.height` over the soles in the zero pose. Builds surfaces: about a millisecond, allocates.
+    /// Proportions of de Leva 1996 for the sex; children have shorter limbs, a larger head and Jensen's mass fractions,
+    /// older people those of Pavol 2002, and ranges of motion follow age ([`super::age`]). Segment masses add to
+    /// `profile.mass`; the top of the head is at `profile.height` over the soles in the zero pose. Builds surfaces:
+    /// about a millisecond, allocates.
     ///
     /// # Errors
-    /// [`BodyError::Profile`] naming `age_years` (6…90), `height_m` (adults 1.4…2.1) or `mass_kg` (adults 35…180; children by age); NaN
-    /// counts as outside.
+    /// [`BodyError::Profile`] naming `age_years` (6…90), `height_m` (adults 1.4…2.1) or `mass_kg` (adults 35…180;
+    /// children by age); NaN counts as outside.
     pub fn humanoid(profile: Profile) -> Result<Self, BodyError> {
         Self::build(profile, None)
     }
@@ -57,7 +60,8 @@ impl Body {
     /// The same with mass fractions of one's own, for example measured ones.
     ///
     /// # Errors
-    /// As [`Self::humanoid`], and [`BodyError::Fractions`] naming a row whose shares are not positive or do not add to 100 ± 1 %.
+    /// As [`Self::humanoid`], and [`BodyError::Fractions`] naming a row whose shares are not positive or do not add to
+    /// 100 ± 1 %.
     pub fn with_mass_fractions(
         profile: Profile,
         fractions: &MassFractions,

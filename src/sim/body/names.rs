@@ -5,7 +5,8 @@
 
 use super::model::{Profile, Sex};
 
-/// Bodies with a name of their own: name, sex, age in years. Stature and mass are the ordinary ones of that sex and age.
+/// Bodies with a name of their own: name, sex, age in years. Stature and mass are the ordinary ones of that sex and
+/// age.
 pub const NAMED_BODIES: [(&str, Sex, f64); 5] = [
     ("adult-man", Sex::Male, 30.0),
     ("adult-woman", Sex::Female, 30.0),
@@ -35,7 +36,8 @@ pub fn sex_name(sex: Sex) -> &'static str {
 }
 
 impl Profile {
-    /// The profile with its age in tenths of a year, its stature in whole millimetres and its mass in whole grams, as names write them.
+    /// The profile with its age in tenths of a year, its stature in whole millimetres and its mass in whole grams, as
+    /// names write them.
     #[must_use]
     pub fn rounded(self) -> Self {
         Self {
@@ -65,7 +67,8 @@ impl Profile {
         named.map_or_else(|| self.value_name(), |(name, ..)| (*name).to_owned())
     }
 
-    /// The profile of a name of either kind; `None` for any other text. Whether body tables cover it is found when a body is built.
+    /// The profile of a name of either kind; `None` for any other text. Whether body tables cover it is found when a
+    /// body is built.
     pub fn from_name(name: &str) -> Option<Self> {
         let named = NAMED_BODIES.iter().find(|(n, ..)| *n == name);
         named

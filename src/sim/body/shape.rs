@@ -1,9 +1,10 @@
 //! What the segments of an adult look like: cross-sections along each segment for the average man and woman.
 //!
-//! Lengths along a segment follow de Leva 1996 (see [`super::humanoid`]); the cross-sections are drawn here so that, filled with
-//! tissue of the stated density, they come close to the centre of mass and the transverse radii of gyration of that table. A
-//! segment's *girth* (one factor on its cross-sections) is then chosen so that density times volume is the table's mass, which
-//! makes a heavy body stout. Head, hands and feet hardly grow with fat: their girth is bounded and their density gives way.
+//! Lengths along a segment follow de Leva 1996 (see [`super::humanoid`]); the cross-sections are drawn here so that,
+//! filled with tissue of the stated density, they come close to the centre of mass and the transverse radii of gyration
+//! of that table. A segment's *girth* (one factor on its cross-sections) is then chosen so that density times volume is
+//! the table's mass, which makes a heavy body stout. Head, hands and feet hardly grow with fat: their girth is bounded
+//! and their density gives way.
 
 use super::geometry::{Section, append, extreme, loft, volume};
 use super::model::Mesh;
@@ -12,8 +13,8 @@ use crate::sim::math::vec3::vec3;
 
 /// A horizontal cross-section of a segment that runs along z.
 ///
-/// `[z, half depth (x), half width (y), centre x, squareness]`; lengths in mm of the reference figure, z of limbs as a fraction of the
-/// segment length (up positive).
+/// `[z, half depth (x), half width (y), centre x, squareness]`; lengths in mm of the reference figure, z of limbs as a
+/// fraction of the segment length (up positive).
 type Row = [f64; 5];
 
 /// The outline of a segment along z: a pole, rows, a pole; poles as `[z, x]`.
@@ -175,8 +176,8 @@ const HAND: Outline<'static> = Outline {
     last: [-1.0, 0.0],
 };
 
-/// Density of tissue with bone and air as it is found in each part, kg/m³ (after the cadaver means of Dempster 1955 and Clauser
-/// 1969, rounded), and how far the girth of the part may depart from that of the average adult.
+/// Density of tissue with bone and air as it is found in each part, kg/m³ (after the cadaver means of Dempster 1955 and
+/// Clauser 1969, rounded), and how far the girth of the part may depart from that of the average adult.
 #[derive(Clone, Copy)]
 pub(super) struct Fill {
     pub density: f64,
@@ -212,7 +213,8 @@ const HAND_SIDES: usize = 8;
 const FOOT_SIDES: usize = 16;
 const TOE_SIDES: usize = 8;
 
-/// Surface of an outline: z in units of `length` (m), cross-sections in mm × `width`, shifts of the centre in mm × `shift`.
+/// Surface of an outline: z in units of `length` (m), cross-sections in mm × `width`, shifts of the centre in mm ×
+/// `shift`.
 fn surface(o: &Outline<'_>, length: f64, width: f64, shift: f64, sides: usize) -> Mesh {
     let sections: Vec<Section> = o
         .rows
@@ -391,7 +393,8 @@ pub(super) fn hand(scale: f64, length: f64, mass: f64) -> Mesh {
     mesh_of(girth(FILL_HAND, mass, &mesh_of))
 }
 
-/// Sizes of a foot, m: ankle centre over the sole and in front of the heel, MTP joint in front of the ankle and over the sole, toes.
+/// Sizes of a foot, m: ankle centre over the sole and in front of the heel, MTP joint in front of the ankle and over
+/// the sole, toes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FootSize {
     pub ankle_height: f64,
@@ -420,8 +423,8 @@ fn foot_section(x: f64, half: f64, sole: f64, top: f64) -> Section {
     }
 }
 
-/// Foot without toes, and the two corners of its heel, ±y. The ball of the foot belongs to the toes: the foot rolls over the toe joint
-/// without rubbing against what stands on the ground. `mass` is that of foot and toes together.
+/// Foot without toes, and the two corners of its heel, ±y. The ball of the foot belongs to the toes: the foot rolls
+/// over the toe joint without rubbing against what stands on the ground. `mass` is that of foot and toes together.
 pub(super) fn foot(scale: f64, size: FootSize, mass: f64) -> (Mesh, [Vec3; 2]) {
     let w = scale * MM * foot_girth(scale, size, mass);
     let (h, ball, sole) = (size.heel, size.ball, -size.ankle_height);

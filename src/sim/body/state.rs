@@ -33,8 +33,8 @@ impl<L: Lane> Default for Posture<L> {
 
 /// Positions and velocities.
 ///
-/// `velocity` is angular first: pelvis angular velocity (rad/s) and velocity of the pelvis origin (m/s), both in world axes, then the
-/// 39 joint rates (rad/s).
+/// `velocity` is angular first: pelvis angular velocity (rad/s) and velocity of the pelvis origin (m/s), both in world
+/// axes, then the 39 joint rates (rad/s).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State<L = f64> {
     /// Positions.
@@ -132,7 +132,8 @@ impl<L: Lane> Posture<L> {
         e
     }
 
-    /// Full difference `to ⊖ self`: rotation vector (world axes) and translation of the pelvis, then [`Self::joint_difference`].
+    /// Full difference `to ⊖ self`: rotation vector (world axes) and translation of the pelvis, then
+    /// [`Self::joint_difference`].
     #[inline(always)]
     pub fn difference(&self, to: &Self) -> [L; NV] {
         let mut e = [L::zero(); NV];
@@ -168,7 +169,8 @@ impl State<f64> {
         self.posture.is_finite() && self.velocity.iter().all(|v| v.is_finite())
     }
 
-    /// Slows all velocities alike, so that kinetic energy only falls, until none is above `fastest` (rad/s, m/s); true if one was.
+    /// Slows all velocities alike, so that kinetic energy only falls, until none is above `fastest` (rad/s, m/s); true
+    /// if one was.
     pub fn brake(&mut self, fastest: f64) -> bool {
         let most = self.velocity.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         if most > fastest {

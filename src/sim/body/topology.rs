@@ -1,9 +1,10 @@
-//! The tree every figure shares: 18 segments, 17 joints, 39 joint DOFs, in depth-first order (each subtree is contiguous).
+//! The tree every figure shares: 18 segments, 17 joints, 39 joint DOFs, in depth-first order (each subtree is
+//! contiguous).
 //!
-//! Joint `i` joins segment `i` to its parent and carries the segment's name. A 3-DOF joint is a ball joint: its rate is the angular
-//! velocity of the child relative to the parent along the *signed child axes* listed here; 1- and 2-DOF joints are hinges in
-//! series. Angles are anatomically signed (flexion, abduction, internal rotation positive on both sides): the sign is carried by the
-//! axis. The tree is a constant so that kernels unroll it.
+//! Joint `i` joins segment `i` to its parent and carries the segment's name. A 3-DOF joint is a ball joint: its rate is
+//! the angular velocity of the child relative to the parent along the *signed child axes* listed here; 1- and 2-DOF
+//! joints are hinges in series. Angles are anatomically signed (flexion, abduction, internal rotation positive on both
+//! sides): the sign is carried by the axis. The tree is a constant so that kernels unroll it.
 
 /// Segments, pelvis first.
 pub const SEGMENT_COUNT: usize = 18;
@@ -221,7 +222,8 @@ pub const DOF_AXIS: [SignedAxis; DOF_COUNT] = [
     ax(1, 1),
     ax(0, 1),
     ax(2, 1),
-    // left arm: shoulder flexion −y, abduction +x, internal rotation −z; elbow flexion −y, pronation −z; wrist flexion −x, radial deviation −y
+    // left arm: shoulder flexion −y, abduction +x, internal rotation −z; elbow flexion −y, pronation −z; wrist flexion
+    // −x, radial deviation −y
     ax(1, -1),
     ax(0, 1),
     ax(2, -1),
@@ -237,7 +239,8 @@ pub const DOF_AXIS: [SignedAxis; DOF_COUNT] = [
     ax(2, 1),
     ax(0, 1),
     ax(1, -1),
-    // left leg: hip flexion −y, abduction +x, internal rotation −z; knee +y; ankle dorsiflexion −y, roll outward +x, internal rotation −z; toe −y
+    // left leg: hip flexion −y, abduction +x, internal rotation −z; knee +y; ankle dorsiflexion −y, roll outward +x,
+    // internal rotation −z; toe −y
     ax(1, -1),
     ax(0, 1),
     ax(2, -1),

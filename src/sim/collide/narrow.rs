@@ -88,8 +88,8 @@ pub fn capsules(a: &Capsule, b: &Capsule) -> Near {
     }
 }
 
-/// Two capsules: their nearest points, and where the ends of each are nearest to the other. A part that turns fast may hit with an end that
-/// is not the nearest point yet, and two limbs side by side touch at two places.
+/// Two capsules: their nearest points, and where the ends of each are nearest to the other. A part that turns fast may
+/// hit with an end that is not the nearest point yet, and two limbs side by side touch at two places.
 pub fn capsule_points(a: &Capsule, b: &Capsule, mut emit: impl FnMut(Near)) {
     emit(capsules(a, b));
     let ball = |p: Vec3, r: f64| Capsule {

@@ -99,8 +99,8 @@ fn slice(mesh: &Mesh, axis: usize, at: f64, half: f64) -> [(f64, f64); 2] {
     })
 }
 
-/// One tapered capsule along a coordinate axis: radii are the mean half extents a quarter of the length from the ends, continued to the
-/// ends, so that limbs taper; its ends reach as far as the surface.
+/// One tapered capsule along a coordinate axis: radii are the mean half extents a quarter of the length from the ends,
+/// continued to the ends, so that limbs taper; its ends reach as far as the surface.
 fn along(mesh: &Mesh, axis: usize) -> Capsule {
     let (low, high) = extent(mesh, axis, |_| true).unwrap_or((0.0, 0.0));
     let length = high - low;

@@ -1,11 +1,12 @@
 //! A contact strictly inside its friction cone, for the interior-point method ([`super::interior`]).
 //!
-//! Coordinates in which the cone `|(x, y)| ≤ z` is its own dual: normal force times μ, normal velocity over μ. With the scaling W of Nesterov and
-//! Todd the multiplier λ is `W⁻² f`, and eliminating both leaves the stiffness `(R + W⁻²)⁻¹`.
+//! Coordinates in which the cone `|(x, y)| ≤ z` is its own dual: normal force times μ, normal velocity over μ. With the
+//! scaling W of Nesterov and Todd the multiplier λ is `W⁻² f`, and eliminating both leaves the stiffness `(R + W⁻²)⁻¹`.
 //!
-//! Of a point that slides, both force and multiplier come so close to the surface that `z − |(x, y)|` has no digits left, and W⁻² has eigenvalues that are
-//! 10¹⁶ and more apart: put together in x, y and z, the stiffness loses its small eigenvalue, then its sign, and the next force lies outside. So the way to
-//! the surface is a number of its own, and everything is put together along the directions in which W is diagonal, from numbers of one sign.
+//! Of a point that slides, both force and multiplier come so close to the surface that `z − |(x, y)|` has no digits
+//! left, and W⁻² has eigenvalues that are 10¹⁶ and more apart: put together in x, y and z, the stiffness loses its
+//! small eigenvalue, then its sign, and the next force lies outside. So the way to the surface is a number of its own,
+//! and everything is put together along the directions in which W is diagonal, from numbers of one sign.
 
 use crate::sim::math::Vec3;
 
@@ -197,8 +198,8 @@ impl Cone {
         self.w = [k * sum * sum, k / (sum * sum), k];
     }
 
-    /// Eliminates it: the root of its stiffness `(R + W⁻²)⁻¹ = Σ c cᵀ`; [`Self::next`] is its force at the velocity `v` (offset included) then, with the
-    /// multiplier that the aim asks for. `r`: compliance.
+    /// Eliminates it: the root of its stiffness `(R + W⁻²)⁻¹ = Σ c cᵀ`; [`Self::next`] is its force at the velocity `v`
+    /// (offset included) then, with the multiplier that the aim asks for. `r`: compliance.
     #[inline(always)]
     pub(crate) fn eliminate(&mut self, r: f64, mu: f64, v: Vec3, aim: f64) -> [Vec3; 3] {
         self.scale();

@@ -11,7 +11,8 @@ pub type Dense = [[f64; WIDTH]; NV];
 /// A borrowed dense symmetric matrix.
 pub struct DenseSystem<'a>(pub &'a Dense);
 
-/// Cholesky factor in place: reads the part `l[c][r]`, r ≥ c, of a symmetric matrix and leaves L there (column c of L is row c).
+/// Cholesky factor in place: reads the part `l[c][r]`, r ≥ c, of a symmetric matrix and leaves L there (column c of L
+/// is row c).
 #[inline(always)]
 pub fn cholesky(l: &mut Dense) -> bool {
     for j in 0..NV {

@@ -1,16 +1,18 @@
-//! A way in for problems at which the semi-smooth Newton method jams: a primal-dual interior-point method on the same matrix.
+//! A way in for problems at which the semi-smooth Newton method jams: a primal-dual interior-point method on the same
+//! matrix.
 //!
-//! Where many motors and contacts lie far on the wrong side of their corners, an exact line search stops at the nearest corner, again and
-//! again. Here motor values t and forces f are unknowns of their own that stay strictly inside their limits and cones, with multipliers that
-//! tend to zero where t and f are free:
+//! Where many motors and contacts lie far on the wrong side of their corners, an exact line search stops at the nearest
+//! corner, again and again. Here motor values t and forces f are unknowns of their own that stay strictly inside their
+//! limits and cones, with multipliers that tend to zero where t and f are free:
 //!
 //! ```text
 //! A x − b − t − Jᵀf = 0      t/g − rest + x = z₁ − z₂,  z₁ (t − lower) = z₂ (upper − t) = μ      R f + J x + c = λ,  f ∘ λ = μ
 //! ```
 //!
-//! Eliminating them leaves Newton's matrix with other slopes: `1/(1/g + z₁/(t − lower) + z₂/(upper − t))` for a motor and `(R + W⁻²)⁻¹` for a
-//! contact ([`super::cone`]), with the scaling W of Nesterov and Todd for second-order cones (Andersen, Dahl & Vandenberghe 2003). Newton's method finishes from the prices
-//! that come out. The controller's problem has no joint limits; islands of bodies ([`crate::sim::collide::island`]) have them, as [`Wall`]s.
+//! Eliminating them leaves Newton's matrix with other slopes: `1/(1/g + z₁/(t − lower) + z₂/(upper − t))` for a motor
+//! and `(R + W⁻²)⁻¹` for a contact ([`super::cone`]), with the scaling W of Nesterov and Todd for second-order cones
+//! (Andersen, Dahl & Vandenberghe 2003). Newton's method finishes from the prices that come out. The controller's
+//! problem has no joint limits; islands of bodies ([`crate::sim::collide::island`]) have them, as [`Wall`]s.
 
 use super::cone::{Cone, squared};
 use super::limits::MAX_LIMITS;
@@ -24,11 +26,12 @@ use crate::sim::math::{Mat3, Vec3};
 pub(crate) const TO_BOUNDARY: f64 = 0.97;
 /// Complementarity, as a share of that at the start, at which Newton's method takes over.
 const DONE: f64 = 1e-8;
-/// Multipliers at the start, in units of the prices of the linear problem. Far too large is a few iterations lost, too small is a crawl along
-/// the boundary.
+/// Multipliers at the start, in units of the prices of the linear problem. Far too large is a few iterations lost, too
+/// small is a crawl along the boundary.
 pub(crate) const FIRST_MULTIPLIER: f64 = 1e3;
 
-/// A motor between its limits. The way to each limit is kept apart: near one of them the difference of two values would have no digits left.
+/// A motor between its limits. The way to each limit is kept apart: near one of them the difference of two values would
+/// have no digits left.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Inner {
     /// Way to the lower and the upper limit, and their multipliers.
@@ -76,7 +79,8 @@ impl Inner {
         self.z[0] * self.s[0] + self.z[1] * self.s[1]
     }
 
-    /// Eliminates it: its slope; [`Self::next`] is its value at the present price then, with the multipliers that the aim asks for.
+    /// Eliminates it: its slope; [`Self::next`] is its value at the present price then, with the multipliers that the
+    /// aim asks for.
     #[inline(always)]
     pub(crate) fn eliminate(&mut self, motors: &Motors, j: usize, x: f64, aim: f64) -> f64 {
         let g = motors.gain[j];
@@ -219,7 +223,8 @@ pub(crate) fn aim(gap: f64, last_step: f64) -> f64 {
     }
 }
 
-/// Leads `x` near the minimum, wherever it was, in at most `iterations` iterations; returns how many there were. Bounded work, no allocation.
+/// Leads `x` near the minimum, wherever it was, in at most `iterations` iterations; returns how many there were.
+/// Bounded work, no allocation.
 #[inline(always)]
 pub(crate) fn approach<S: System>(
     system: &S,

@@ -1,5 +1,5 @@
-//! Joint limits as unilateral rows: anatomical angles stay in their range, a raised arm stays off the antipode. And the tissue that is stretched
-//! before they are met.
+//! Joint limits as unilateral rows: anatomical angles stay in their range, a raised arm stays off the antipode. And the
+//! tissue that is stretched before they are met.
 
 use crate::sim::body::angles::{SWING_MAX, swing_twist};
 use crate::sim::body::topology::{
@@ -17,8 +17,8 @@ const RETURN_SHARE: f64 = 0.2;
 /// Fastest return into the range, rad/s: a joint far outside is led back, not shot back.
 const RETURN_SPEED: f64 = 3.0;
 
-/// One limit: the distance to it changes at `rate = coefficients · x[first..first + 3]` and must not become negative. Or tissue that is stretched
-/// before a limit is met, which is the same with a stiffness of its own.
+/// One limit: the distance to it changes at `rate = coefficients · x[first..first + 3]` and must not become negative.
+/// Or tissue that is stretched before a limit is met, which is the same with a stiffness of its own.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LimitRow {
     /// First velocity component it acts on.
@@ -33,7 +33,8 @@ pub struct LimitRow {
     pub stiffness: f64,
 }
 
-/// The limit rows of one posture: the nearer limit of every DOF, the swing limit of every ball joint, and what tissue is stretched.
+/// The limit rows of one posture: the nearer limit of every DOF, the swing limit of every ball joint, and what tissue
+/// is stretched.
 #[derive(Clone, Debug, Default)]
 pub struct LimitRows {
     /// Rows.
@@ -155,10 +156,12 @@ fn each_angle(posture: &Posture, mut visit: impl FnMut(AngleRow)) {
     }
 }
 
-/// Fills the rows for a substep of `h` seconds from `state`. Also returns the anatomical angles, which cost nothing extra here.
+/// Fills the rows for a substep of `h` seconds from `state`. Also returns the anatomical angles, which cost nothing
+/// extra here.
 ///
-/// Stretched tissue gives `τ + K h ω` at the end of the substep, ω the speed into it: `K` is its mean stiffness on the way that it would be
-/// stretched at the present speed, so that it takes up at least the energy that it stores, and it only ever pushes.
+/// Stretched tissue gives `τ + K h ω` at the end of the substep, ω the speed into it: `K` is its mean stiffness on the
+/// way that it would be stretched at the present speed, so that it takes up at least the energy that it stores, and it
+/// only ever pushes.
 pub fn collect_limits(
     body: &Body,
     tissue: Option<&Strength>,
@@ -232,7 +235,8 @@ impl Tissue {
         out
     }
 
-    /// Makes the tissue part of the dense dynamics that a controller plans with; returns the blocks of M that were there.
+    /// Makes the tissue part of the dense dynamics that a controller plans with; returns the blocks of M that were
+    /// there.
     pub fn add_to(&self, terms: &mut Terms) -> Blocks {
         let mut before = [[[0.0; 3]; 3]; SEGMENT_COUNT];
         for (h, torque) in terms.h[6..].iter_mut().zip(&self.torque) {

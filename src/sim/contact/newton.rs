@@ -105,8 +105,9 @@ pub struct Outcome {
     pub converged: bool,
 }
 
-/// Largest entry of a gradient, or length of its part on the root's angular or linear velocity: those are in world axes, and when to stop
-/// must not depend on which way north is. Entries that are no numbers are left out: such states are found where they are stored.
+/// Largest entry of a gradient, or length of its part on the root's angular or linear velocity: those are in world
+/// axes, and when to stop must not depend on which way north is. Entries that are no numbers are left out: such states
+/// are found where they are stored.
 pub(crate) fn largest(gradient: &[f64; NV]) -> f64 {
     let length = |g: &[f64]| g.iter().map(|x| x * x).sum::<f64>().sqrt();
     let root = 0f64
@@ -192,7 +193,8 @@ pub fn minimise<S: System>(
     }
 }
 
-/// Gradient `A x − b − t − limits − Jᵀf`, and the slope of each motor; what motors, limits and contacts give goes to `ws`.
+/// Gradient `A x − b − t − limits − Jᵀf`, and the slope of each motor; what motors, limits and contacts give goes to
+/// `ws`.
 #[inline(always)]
 fn gradient(
     ax: &[f64; NV],
@@ -272,8 +274,8 @@ fn add_slopes<S: System>(
     }
 }
 
-/// Length of a step that brings the slope `phi` along it near zero: the whole step, unless the slope there is well above zero; `slope0 < 0`
-/// is the slope at its start, `phi` grows; at most `most` evaluations after the first.
+/// Length of a step that brings the slope `phi` along it near zero: the whole step, unless the slope there is well
+/// above zero; `slope0 < 0` is the slope at its start, `phi` grows; at most `most` evaluations after the first.
 #[inline(always)]
 pub(crate) fn line_search(slope0: f64, most: usize, mut phi: impl FnMut(f64) -> f64) -> f64 {
     let mut a = 1.0;

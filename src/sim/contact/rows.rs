@@ -38,7 +38,8 @@ impl SegmentRows {
         &CHAIN[last_component(self.segment)][..self.len]
     }
 
-    /// `K J` for a stiffness `K` on the segment's twist, as [`System::add_segment`](super::newton::System::add_segment) takes it.
+    /// `K J` for a stiffness `K` on the segment's twist, as [`System::add_segment`](super::newton::System::add_segment)
+    /// takes it.
     #[inline(always)]
     pub fn stiffened(&self, stiffness: &[[f64; 6]; 6]) -> [[f64; CHAIN_WIDTH]; 6] {
         let mut kj = [[0.0; CHAIN_WIDTH]; 6];

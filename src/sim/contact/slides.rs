@@ -1,9 +1,10 @@
 //! Coulomb's law out of the convex one, for points that slide (ADR 0020).
 //!
-//! The convex solve keeps forces within the friction cone and therefore velocities within its dual: a point that slides at v_t may not come
-//! nearer to the ground than μ v_t h, and a foot swinging at 3 m/s is carried over 2 cm of air. De Saxcé's correction gives it back: what keeps a
-//! point up is `v_n + c ≥ μ v_t`, so its row is offset by `s = μ v_t`. As v_t is part of the solution, a few solves look for it, from the velocity
-//! the point has. The forces of each lie within the cone and take energy, however far it is from the last: f·v = −f_n (s + c).
+//! The convex solve keeps forces within the friction cone and therefore velocities within its dual: a point that slides
+//! at v_t may not come nearer to the ground than μ v_t h, and a foot swinging at 3 m/s is carried over 2 cm of air. De
+//! Saxcé's correction gives it back: what keeps a point up is `v_n + c ≥ μ v_t`, so its row is offset by `s = μ v_t`.
+//! As v_t is part of the solution, a few solves look for it, from the velocity the point has. The forces of each lie
+//! within the cone and take energy, however far it is from the last: f·v = −f_n (s + c).
 
 use super::newton::NewtonWorkspace;
 use super::rows::ContactRows;
@@ -11,12 +12,13 @@ use crate::sim::body::topology::NV;
 use crate::sim::figure::report::MAX_CONTACTS;
 use crate::sim::math::Vec3;
 
-/// Most solves of one substep after its first. Nearly all need one, by which a foot that lands has stopped; what goes on sliding halves
-/// its error each time.
+/// Most solves of one substep after its first. Nearly all need one, by which a foot that lands has stopped; what goes
+/// on sliding halves its error each time.
 const ROUNDS: u32 = 4;
 /// Change of an offset that is none, m/s.
 const SETTLED: f64 = 1e-9;
-/// Slower points do not slide, m/s: they hover by less than 0.75 mm (at 120 substeps a second), and standing feet, which creep, cost nothing.
+/// Slower points do not slide, m/s: they hover by less than 0.75 mm (at 120 substeps a second), and standing feet,
+/// which creep, cost nothing.
 pub const CREEP: f64 = 0.1;
 /// What slides faster hovers as if it were slower, m/s: no limb does, and huge offsets spoil the scale of a solve.
 const FASTEST: f64 = 10.0;
@@ -49,7 +51,8 @@ impl Slides {
         }
     }
 
-    /// Offsets the rows as the points slid in the last solve. False where that changes nothing for those that touch, or after the last round.
+    /// Offsets the rows as the points slid in the last solve. False where that changes nothing for those that touch, or
+    /// after the last round.
     pub fn again(&mut self, contacts: &mut ContactRows, ws: &NewtonWorkspace) -> bool {
         self.rounds += 1;
         if self.rounds > ROUNDS {

@@ -50,8 +50,9 @@ fn projection_is_nearest_point_of_the_cone_and_its_derivative_matches_difference
     }
 }
 
-/// A contact, and a motor, at a given velocity have a force that is known. From inside they come to all its digits, whether they slide at a micrometre or at
-/// kilometres a second: the way to the cone's surface goes down to 1e-16 of the force, and stiffnesses stay what they are, positive.
+/// A contact, and a motor, at a given velocity have a force that is known. From inside they come to all its digits,
+/// whether they slide at a micrometre or at kilometres a second: the way to the cone's surface goes down to 1e-16 of
+/// the force, and stiffnesses stay what they are, positive.
 #[test]
 fn from_inside_contacts_and_motors_come_to_their_force() {
     let mut rng = Pcg64Mcg::seed_from_u64(3);

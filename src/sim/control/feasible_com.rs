@@ -1,4 +1,5 @@
-//! Keeps the demanded acceleration of the centre of mass within what the support polygon can give (ALGORITHM §9, safeguard).
+//! Keeps the demanded acceleration of the centre of mass within what the support polygon can give (ALGORITHM §9,
+//! safeguard).
 
 use crate::sim::math::Vec3;
 use crate::sim::support::Polygon;
@@ -8,7 +9,8 @@ pub const INSET: f64 = 0.02;
 /// Height below which the centre of mass is not taken, m (a lying figure).
 const LEAST_HEIGHT: f64 = 0.1;
 
-/// Horizontal acceleration of the centre of mass closest to `demand` whose cart-table zero-moment point lies in `inset`.
+/// Horizontal acceleration of the centre of mass closest to `demand` whose cart-table zero-moment point lies in
+/// `inset`.
 ///
 /// p = c_xy − (c_z/g) c̈;  c̈ = (g/c_z)(c_xy − p), with p replaced by its closest point of the polygon.
 ///

@@ -1,9 +1,9 @@
-//! Constraints from outside, as both controllers see them: where a point of a segment is wanted, how it is turned, and the acceleration that
-//! brings it there.
+//! Constraints from outside, as both controllers see them: where a point of a segment is wanted, how it is turned, and
+//! the acceleration that brings it there.
 //!
-//! A goal is not a trajectory. From wherever the part is it moves at a speed proportional to the distance, with an upper bound, and its
-//! acceleration is bounded: a goal that cannot be reached pulls with a bounded acceleration, however far away it is. Where the place itself moves, all
-//! this is relative to it.
+//! A goal is not a trajectory. From wherever the part is it moves at a speed proportional to the distance, with an
+//! upper bound, and its acceleration is bounded: a goal that cannot be reached pulls with a bounded acceleration,
+//! however far away it is. Where the place itself moves, all this is relative to it.
 
 use crate::sim::body::SegmentId;
 use crate::sim::body::topology::{HEAD, L_UPPER_ARM, PARENT, R_HAND};
@@ -12,15 +12,16 @@ use crate::sim::math::{Quat, Vec3};
 
 /// Most goals of one figure at once: as many as can be set, and as many that fade out.
 pub const MAX_GOALS: usize = 16;
-/// Share of an arm's length that it stretches to, and how much farther than that a point is asked for, m: the trunk bends a little after it.
+/// Share of an arm's length that it stretches to, and how much farther than that a point is asked for, m: the trunk
+/// bends a little after it.
 const STRETCH: f64 = 0.97;
 const BEYOND: f64 = 0.01;
 
 /// How briskly goals are approached.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pace {
-    /// Time constant T, s: speeds are taken up at 1/T and are 0.25/T times the distance, critically damped with 0.25/T² and 1/T; at most 4 T times
-    /// the largest acceleration, so that they can be braked.
+    /// Time constant T, s: speeds are taken up at 1/T and are 0.25/T times the distance, critically damped with 0.25/T²
+    /// and 1/T; at most 4 T times the largest acceleration, so that they can be braked.
     pub horizon: f64,
     /// Largest acceleration of a point, m/s².
     pub most: f64,
@@ -50,7 +51,8 @@ pub struct Goal {
 }
 
 impl Goal {
-    /// Difference of the wanted position from the present one along the axes that count, world, m; zero if no position is wanted.
+    /// Difference of the wanted position from the present one along the axes that count, world, m; zero if no position
+    /// is wanted.
     pub fn distance(&self, terms: &Terms) -> Vec3 {
         let Some(wanted) = self.position else {
             return Vec3::zero();
@@ -113,7 +115,8 @@ impl Goal {
         demand(self.reachable(terms), v, pace.horizon, most)
     }
 
-    /// The segments of the limb that the goal moves, from its own up to the trunk; none if it is on the trunk or on a leg, which carries.
+    /// The segments of the limb that the goal moves, from its own up to the trunk; none if it is on the trunk or on a
+    /// leg, which carries.
     pub fn limb(&self) -> impl Iterator<Item = usize> + use<> {
         let free =
             |s: usize| s == HEAD.index() || (L_UPPER_ARM.index()..=R_HAND.index()).contains(&s);

@@ -82,7 +82,8 @@ pub struct ControlInput<'a> {
     pub com: &'a PointTarget,
     /// Hands that follow the desired motion in space, at most two count.
     pub effectors: &'a [Effector],
-    /// Constraints from outside, the ones that matter more first: at most [`goals::MAX_GOALS`], of which the paper's controller takes eight.
+    /// Constraints from outside, the ones that matter more first: at most [`goals::MAX_GOALS`], of which the paper's
+    /// controller takes eight.
     pub goals: &'a [Goal],
     /// Left and right foot: ankle and rotation of the foot, for feet that the motion swings.
     pub feet: &'a [(PointTarget, RotationTarget); 2],
@@ -104,12 +105,15 @@ pub struct ControlInput<'a> {
     pub gravity: f64,
     /// Length of the tick, s.
     pub dt: f64,
-    /// Compliance with which a plan may count on the assist, [N²·m², N²] per unit of cost: moment and force on the pelvis; zeros without assist.
+    /// Compliance with which a plan may count on the assist, [N²·m², N²] per unit of cost: moment and force on the
+    /// pelvis; zeros without assist.
     pub assist: [f64; 2],
-    /// True if the accelerations are applied as they are. Planted feet are then kept in place by the controller, and overload is answered
-    /// with accelerations that the clipped torques give; strength-limited motors settle both by themselves.
+    /// True if the accelerations are applied as they are. Planted feet are then kept in place by the controller, and
+    /// overload is answered with accelerations that the clipped torques give; strength-limited motors settle both by
+    /// themselves.
     pub kinematic: bool,
-    /// While the whole body works on the floor, as on the way up: whatever touches and is meant to then carries; without, feet and seats do.
+    /// While the whole body works on the floor, as on the way up: whatever touches and is meant to then carries;
+    /// without, feet and seats do.
     pub on_floor: Option<OnFloor<'a>>,
 }
 
@@ -198,7 +202,8 @@ pub struct TakeOff {
 /// Gains of the modern controller's law for the centre of mass, 1/s² and 1/s.
 pub const COM_GAIN: (f64, f64) = (25.0, 10.0);
 
-/// Acceleration of the centre of mass at `com` moving with `velocity` that follows `target` over a tick of `dt` seconds, m/s².
+/// Acceleration of the centre of mass at `com` moving with `velocity` that follows `target` over a tick of `dt`
+/// seconds, m/s².
 pub fn com_law(target: &PointTarget, com: Vec3, velocity: Vec3, dt: f64) -> Vec3 {
     (target.next_velocity - target.now_velocity) * (1.0 / dt)
         + (target.now - com) * COM_GAIN.0

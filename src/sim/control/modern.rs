@@ -1,8 +1,8 @@
 //! Modern mode: whole-body tracking as one convex program, solved through its dual (ALGORITHM §14.1–14.2).
 //!
-//! Unknowns are the 45 accelerations, 39 torques and the forces of the planned contact points; the dual has 45 unknowns and is the same
-//! kernel as the simulator's substep. Torques stay within strength and forces within friction at every iterate, the solution is a
-//! continuous function of the state, and the work is bounded.
+//! Unknowns are the 45 accelerations, 39 torques and the forces of the planned contact points; the dual has 45 unknowns
+//! and is the same kernel as the simulator's substep. Torques stay within strength and forces within friction at every
+//! iterate, the solution is a continuous function of the state, and the work is bounded.
 
 use super::goals::MAX_GOALS;
 use super::tracking::{Law, initial_acceleration};
@@ -31,14 +31,16 @@ mod roll;
 mod take_off;
 mod tasks;
 
-/// Weights in units of force: the cost of a task is about (inertia × acceleration error)², so that a foot's hundred rad/s² cost less than one
-/// m/s² of the body (WALKING §5). Hands, joints and planted feet were set on recorded motion: docs/adr/0004.
+/// Weights in units of force: the cost of a task is about (inertia × acceleration error)², so that a foot's hundred
+/// rad/s² cost less than one m/s² of the body (WALKING §5). Hands, joints and planted feet were set on recorded motion:
+/// docs/adr/0004.
 mod weight {
     pub(super) const COM: [f64; 3] = [1000.0, 1000.0, 300.0];
     /// Upwards, of who is about to take off: what is missing then nobody makes up for in the air.
     pub(super) const COM_TAKES_OFF: f64 = 1000.0;
     pub(super) const HAND: f64 = 1.0;
-    /// Constraints from outside, fully in force: a bounded pull that moves the centre of mass by 3 cm when it cannot be met.
+    /// Constraints from outside, fully in force: a bounded pull that moves the centre of mass by 3 cm when it cannot be
+    /// met.
     pub(super) const GOAL: f64 = 100.0;
     pub(super) const GOAL_ARM: f64 = 200.0;
     pub(super) const GOAL_ROTATION: f64 = 20.0;
@@ -57,11 +59,13 @@ mod weight {
     /// w_f: pull of a contact force towards the last tick's.
     pub(super) const FORCE: f64 = 1e-3;
 }
-/// Weight of a joint while the body is where the motion has it. Where it is about to fall, `clip(M_jj, …)` between the least and this: light joints
-/// give way then, but with less than the least wrists and toes would pay for every other task.
+/// Weight of a joint while the body is where the motion has it. Where it is about to fall, `clip(M_jj, …)` between the
+/// least and this: light joints give way then, but with less than the least wrists and toes would pay for every other
+/// task.
 const JOINT_WEIGHT: f64 = 1.0;
 const LEAST_JOINT_WEIGHT: f64 = 0.05;
-/// Weights of the joints of a limb that a constraint from outside leads, and of its wrist, which is light and would go to its limit first.
+/// Weights of the joints of a limb that a constraint from outside leads, and of its wrist, which is light and would go
+/// to its limit first.
 const LED_LIMB: f64 = 0.02;
 const LED_WRIST: f64 = 0.2;
 /// Load in a hand with which arm and hand count a quarter, kg.
@@ -70,25 +74,30 @@ const HALF_ARM: f64 = 2.0;
 const ARM_DOFS: usize = 7;
 /// Friction the plan counts on; below the simulator's.
 const FRICTION_MARGIN: f64 = 0.7 / 0.9;
-/// Horizon of joints and rotations as a share of the one that is set (0.1 s): 278/s² and 33/s. Gait needs limbs that are on time; the continuous program stays free of chatter with them, unlike the paper's active set.
+/// Horizon of joints and rotations as a share of the one that is set (0.1 s): 278/s² and 33/s. Gait needs limbs that
+/// are on time; the continuous program stays free of chatter with them, unlike the paper's active set.
 const SHARPNESS: f64 = 0.3;
-/// That of joints and rotations where the body is about to fall (149/s², 24/s): balance must not have to fight the posture.
+/// That of joints and rotations where the body is about to fall (149/s², 24/s): balance must not have to fight the
+/// posture.
 const YIELDING_SHARPNESS: f64 = 0.41;
 /// Largest feedback of a rotation, rad/s².
 const ROTATION_FEEDBACK: f64 = 50.0;
-/// Distance of the capture point from the motion's at which balance begins to count more, and at which it counts most, m.
+/// Distance of the capture point from the motion's at which balance begins to count more, and at which it counts most,
+/// m.
 const DANGER: (f64, f64) = (0.04, 0.12);
-/// Iterations after which Newton's method has jammed and the interior-point method leads it on, and most of that. In gait the median is 3. From
-/// prices of an unrelated problem both together, and Newton's last steps, take 52 at most in 320 cases.
+/// Iterations after which Newton's method has jammed and the interior-point method leads it on, and most of that. In
+/// gait the median is 3. From prices of an unrelated problem both together, and Newton's last steps, take 52 at most in
+/// 320 cases.
 const NEWTON_ITERATIONS: u32 = 20;
 const INTERIOR_ITERATIONS: u32 = 30;
-/// Newton's last steps go on to this share of the tolerance: coming from the interior, the first iterate within it has not converged
-/// quadratically yet.
+/// Newton's last steps go on to this share of the tolerance: coming from the interior, the first iterate within it has
+/// not converged quadratically yet.
 const POLISHED: f64 = 1e-2;
 /// Most iterations of all kinds; residual of the equations of motion at which it stops, N·m.
 const MAX_ITERATIONS: u32 = 60;
 const TOLERANCE: f64 = 1e-3;
-/// Who works on the floor is meant to touch it with a point that the motion has below the first height, not at all above the second, m.
+/// Who works on the floor is meant to touch it with a point that the motion has below the first height, not at all
+/// above the second, m.
 const MEANT_FADE: (f64, f64) = (0.004, 0.012);
 /// Points of one segment.
 const POINTS: usize = MAX_CONTACTS / SEGMENT_COUNT;
@@ -181,8 +190,9 @@ fn danger(input: &ControlInput<'_>) -> f64 {
     1.0 - fall((off.x * off.x + off.y * off.y).sqrt(), DANGER)
 }
 
-/// What is left of the weights of an arm whose hand carries `load`, kg. A joint at its limit is turned all the same by moving what it hangs on: an arm too
-/// weak for its load would twist the trunk under it. So the arm gives way, and where it has the strength the weight does not matter.
+/// What is left of the weights of an arm whose hand carries `load`, kg. A joint at its limit is turned all the same by
+/// moving what it hangs on: an arm too weak for its load would twist the trunk under it. So the arm gives way, and
+/// where it has the strength the weight does not matter.
 fn gives_way(load: f64) -> f64 {
     let share = HALF_ARM / (HALF_ARM + load);
     share * share
@@ -399,7 +409,8 @@ fn kernel(c: &mut Modern, t: &Terms, diagonal: &[f64; NV], linear: &mut [f64; WI
             }
         }
     }
-    // 2. Y = L⁻¹ M, A = YᵀY = M P⁻¹ M, b = −(Yᵀ L⁻¹ p + h). P is positive definite: every diagonal entry has its own weight.
+    // 2. Y = L⁻¹ M, A = YᵀY = M P⁻¹ M, b = −(Yᵀ L⁻¹ p + h). P is positive definite: every diagonal entry has its own
+    //    weight.
     let positive = cholesky(&mut c.p);
     debug_assert!(positive, "P is positive definite by construction");
     *c.y = *t.m;

@@ -1,10 +1,12 @@
-//! The controller of Oshita & Makinouchi 2000, Eqs. (4)–(17): track, stay within strength, keep centre of mass and hands.
+//! The controller of Oshita & Makinouchi 2000, Eqs. (4)–(17): track, stay within strength, keep centre of mass and
+//! hands.
 //!
-//! Two passes (ALGORITHM §9): first with the support at rest; if the zero-moment point of that solution leaves the support polygon, once
-//! more with the support free to tip about its edge (S1).
+//! Two passes (ALGORITHM §9): first with the support at rest; if the zero-moment point of that solution leaves the
+//! support polygon, once more with the support free to tip about its edge (S1).
 //!
-//! [`Paper::decide`] chooses the pass that counts; [`Paper::pass`] is the list of equations. Beside it: `supports` (which feet carry, and
-//! how they share), `targets` (centre of mass, hands and other points), and the siblings of this module for (4), (7)–(11) and (16).
+//! [`Paper::decide`] chooses the pass that counts; [`Paper::pass`] is the list of equations. Beside it: `supports`
+//! (which feet carry, and how they share), `targets` (centre of mass, hands and other points), and the siblings of this
+//! module for (4), (7)–(11) and (16).
 
 mod supports;
 mod targets;
@@ -128,7 +130,8 @@ impl Paper {
         &self.map
     }
 
-    /// The pass that counts: with the support at rest, or tipping, or in flight, as the zero-moment point of the first one says.
+    /// The pass that counts: with the support at rest, or tipping, or in flight, as the zero-moment point of the first
+    /// one says.
     fn decide(&mut self, input: &ControlInput<'_>, law: &Law, initial: &Row) -> (Pass, Stand) {
         let (terms, support) = (input.terms, input.support);
         let mut stand = Stand::default();
@@ -137,9 +140,9 @@ impl Paper {
             return (self.pass(input, law, initial, Mode::Flight), stand);
         };
         let first = self.pass(input, law, initial, Mode::Rest(main));
-        // Decide with the support at rest: when it tips, the zero-moment point lies on the pivot by construction.
-        // One that tips already can do nothing for the balance any more: what counts there is where the joints alone, holding
-        // their posture, would put it.
+        // Decide with the support at rest: when it tips, the zero-moment point lies on the pivot by construction. One
+        // that tips already can do nothing for the balance any more: what counts there is where the joints alone,
+        // holding their posture, would put it.
         let tilted = Self::tilted(input, main);
         let qdd = if tilted { initial } else { &first.qdd };
         let (force, moment) = self.map.ground_wrench_world(terms, qdd);
@@ -263,9 +266,9 @@ impl Paper {
         !input.support.polygon().has_area() || (input.kinematic && spin > AT_REST)
     }
 
-    /// With the ZMP-feasible demand, θ̈_initial gets the centre-of-mass part of (12) before strength is looked at. Without saturation the
-    /// result is the same. With it, (7)–(11) would otherwise act on a demand whose zero-moment point may be far outside the foot:
-    /// ankle and toes saturate, and the least change spreads over the whole body.
+    /// With the ZMP-feasible demand, θ̈_initial gets the centre-of-mass part of (12) before strength is looked at.
+    /// Without saturation the result is the same. With it, (7)–(11) would otherwise act on a demand whose zero-moment
+    /// point may be far outside the foot: ankle and toes saturate, and the least change spreads over the whole body.
     fn balance_first(
         &mut self,
         input: &ControlInput<'_>,
@@ -288,8 +291,8 @@ impl Paper {
         (0..ROW).for_each(|d| initial[d] += x[d]);
     }
 
-    /// The overload rule (ALGORITHM §8). With motors behind it, the intent of (4) and (12) as it is, to be clipped; for accelerations that
-    /// are applied as they are, those of the clipped torques (W = H²) without secondary constraints.
+    /// The overload rule (ALGORITHM §8). With motors behind it, the intent of (4) and (12) as it is, to be clipped; for
+    /// accelerations that are applied as they are, those of the clipped torques (W = H²) without secondary constraints.
     fn overloaded(
         &mut self,
         input: &ControlInput<'_>,
@@ -342,7 +345,8 @@ impl Controller for Paper {
         for j in 0..DOF_COUNT {
             let (lower, upper) = (input.lower[j], input.upper[j]);
             let tau = pass.tau[j];
-            // Within limits by construction; rounding, overload and a damped solution are cut here. (`max` first: NaN becomes a limit.)
+            // Within limits by construction; rounding, overload and a damped solution are cut here. (`max` first: NaN
+            // becomes a limit.)
             torque[j] = tau.max(lower).min(upper);
             if !self.overload && violates(tau, lower, upper, CLAMP_NOTICE) {
                 flags.set(Flags::DAMPED);

@@ -1,8 +1,10 @@
-//! Dynamics seen from the support (ALGORITHM §4): accelerations and torques as affine functions of the joint accelerations.
+//! Dynamics seen from the support (ALGORITHM §4): accelerations and torques as affine functions of the joint
+//! accelerations.
 //!
-//! The state is always rooted at the pelvis; "the support is the root" (paper §3.1) is a projection. With `v̇ = N θ̈ + b` and the unknown
-//! wrench at the support removed by `Nᵀ`, torques are `τ = H θ̈ + c₀` (6). The same form holds for a tilting support (S1), in flight, and
-//! with other contacts sharing the load (S2); only N, b, H, c₀ differ.
+//! The state is always rooted at the pelvis; "the support is the root" (paper §3.1) is a projection. With
+//! `v̇ = N θ̈ + b` and the unknown wrench at the support removed by `Nᵀ`, torques are `τ = H θ̈ + c₀` (6). The same
+//! form holds for a tilting support (S1), in flight, and with other contacts sharing the load (S2); only N, b, H, c₀
+//! differ.
 
 use super::rows::{ROW, Row, Square, dot};
 use crate::sim::body::{DOF_COUNT, NV, SegmentId};
@@ -48,19 +50,21 @@ impl Default for SupportMap {
 }
 
 impl SupportMap {
-    /// Support `s` holds still. `acceleration`: angular and linear (of the segment origin), world axes; zero for a support at rest.
+    /// Support `s` holds still. `acceleration`: angular and linear (of the segment origin), world axes; zero for a
+    /// support at rest.
     #[inline(always)]
     pub fn set_support(&mut self, terms: &Terms, s: SegmentId, acceleration: (Vec3, Vec3)) {
         use crate::sim::body::topology::{DOF_LEN, DOF_START, PARENT};
         let s = s.index();
-        // J_S = [J_Sb J_Sj] with J_Sb = [1 0; −[r]× 1], so −J_Sb⁻¹ J_Sj is minus the joint's velocity field at the pelvis origin.
+        // J_S = [J_Sb J_Sj] with J_Sb = [1 0; −[r]× 1], so −J_Sb⁻¹ J_Sj is minus the joint's velocity field at the
+        // pelvis origin.
         self.base = [[0.0; ROW]; 6];
         let mut a = s;
         while a != 0 {
             let position = terms.kin.position[a];
             for d in DOF_START[a]..DOF_START[a] + DOF_LEN[a] {
-                // A unit rate turns the support by `axis` and moves its point at the pelvis origin by axis × (0 − position);
-                // the pelvis has to do the opposite.
+                // A unit rate turns the support by `axis` and moves its point at the pelvis origin by axis × (0 −
+                // position); the pelvis has to do the opposite.
                 let axis = terms.kin.axis[d];
                 let v = axis.cross(position);
                 for (k, x) in [-axis.x, -axis.y, -axis.z, v.x, v.y, v.z]
@@ -125,8 +129,9 @@ impl SupportMap {
         self.finish(terms);
     }
 
-    /// Support `s` rotates about a pivot (S1). The wrench that the pivot cannot give is turned into rotation of the whole body:
-    /// `N_t = N − E Q M N`, `b_t = b − E Q (M b + h)`, `Q = (Eᵀ M E)⁻¹ Eᵀ`; `H = Nᵀ M N_t`, `c₀ = Nᵀ (M b_t + h)`.
+    /// Support `s` rotates about a pivot (S1). The wrench that the pivot cannot give is turned into rotation of the
+    /// whole body: `N_t = N − E Q M N`, `b_t = b − E Q (M b + h)`, `Q = (Eᵀ M E)⁻¹ Eᵀ`; `H = Nᵀ M N_t`,
+    /// `c₀ = Nᵀ (M b_t + h)`.
     #[inline(always)]
     pub fn set_tilting(&mut self, terms: &Terms, s: SegmentId, pivot: &Pivot) {
         let i = s.index();
@@ -216,12 +221,13 @@ impl SupportMap {
         }
     }
 
-    /// Lets other contacts carry their share (S2): `τ = (H − KᵀΛW_θ) θ̈ + (c₀ − KᵀΛW₀)`. Contacts of `main` change nothing; it carries the
-    /// rest.
+    /// Lets other contacts carry their share (S2): `τ = (H − KᵀΛW_θ) θ̈ + (c₀ − KᵀΛW₀)`. Contacts of `main` change
+    /// nothing; it carries the rest.
     #[inline(always)]
     pub fn add_sharing(&mut self, terms: &Terms, sharing: &Sharing, main: SegmentId) {
         use crate::sim::body::topology::SEGMENT_COUNT;
-        // u_j = Σ_s G_s (velocity field of segment s about the reference, per joint acceleration), so that the torque is u_jᵀ G⁺ W.
+        // u_j = Σ_s G_s (velocity field of segment s about the reference, per joint acceleration), so that the torque
+        // is u_jᵀ G⁺ W.
         let mut u = [[0.0; ROW]; 6];
         let mut any = false;
         let reference = sharing.reference - terms.state.posture.root_position;
@@ -266,7 +272,8 @@ impl SupportMap {
         }
     }
 
-    /// Takes a known force (N, world axes) at a world point of segment `s` into c₀: the paper's "external force at the end of a path".
+    /// Takes a known force (N, world axes) at a world point of segment `s` into c₀: the paper's "external force at the
+    /// end of a path".
     #[inline(always)]
     pub fn add_force(&mut self, terms: &Terms, s: SegmentId, point: Vec3, force: Vec3) {
         let r = point - terms.state.posture.root_position;

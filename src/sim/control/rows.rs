@@ -1,4 +1,5 @@
-//! Dense algebra on rows of 39 joint components: what the two active sets need, without allocation and in a fixed order of sums.
+//! Dense algebra on rows of 39 joint components: what the two active sets need, without allocation and in a fixed order
+//! of sums.
 
 use crate::sim::body::DOF_COUNT;
 
@@ -44,8 +45,8 @@ pub fn padded(a: &[f64; DOF_COUNT]) -> Row {
 
 /// Householder QR of `Aᵀ` for rows of A that arrive one after another (an active set that only grows).
 ///
-/// Rows are scaled to unit length. With Aᵀ = Q R the least-norm solution of `A x = t` is Q R⁻ᵀ t; the normal matrix, whose condition is
-/// squared, is formed only for dependent rows.
+/// Rows are scaled to unit length. With Aᵀ = Q R the least-norm solution of `A x = t` is Q R⁻ᵀ t; the normal matrix,
+/// whose condition is squared, is formed only for dependent rows.
 #[derive(Clone, Debug)]
 pub struct RowQr {
     len: usize,
@@ -112,8 +113,9 @@ impl RowQr {
         self.len += 1;
     }
 
-    /// Takes in the rows `members[first..]` of `h`, those before them being in. The rows `held` come before all of them, while there is room:
-    /// when there is none left, it starts over without. `fixed` of them are in; returns how many are then.
+    /// Takes in the rows `members[first..]` of `h`, those before them being in. The rows `held` come before all of
+    /// them, while there is room: when there is none left, it starts over without. `fixed` of them are in; returns how
+    /// many are then.
     #[inline(always)]
     pub fn grow(
         &mut self,
@@ -205,8 +207,8 @@ impl RowQr {
     }
 }
 
-/// Solves the leading `n`×`n` block of a symmetric positive definite matrix (lower triangle given, overwritten by its factor).
-/// A pivot that rounding made non-positive is treated as infinitely stiff.
+/// Solves the leading `n`×`n` block of a symmetric positive definite matrix (lower triangle given, overwritten by its
+/// factor). A pivot that rounding made non-positive is treated as infinitely stiff.
 #[inline(always)]
 pub fn cholesky_solve<const W: usize>(a: &mut [[f64; W]], n: usize, y: &mut [f64]) {
     for i in 0..n {
@@ -238,8 +240,8 @@ pub fn cholesky_solve<const W: usize>(a: &mut [[f64; W]], n: usize, y: &mut [f64
     }
 }
 
-/// Solves the leading `n`×`n` system `a x = b` by elimination with row pivoting; `a` and `b` are overwritten, `b` becomes x.
-/// Returns false if the matrix is singular to rounding (then `b` is not a solution).
+/// Solves the leading `n`×`n` system `a x = b` by elimination with row pivoting; `a` and `b` are overwritten, `b`
+/// becomes x. Returns false if the matrix is singular to rounding (then `b` is not a solution).
 #[inline(always)]
 pub fn eliminate(a: &mut Square, n: usize, b: &mut Row) -> bool {
     let mut largest = 0.0f64;

@@ -13,7 +13,8 @@ const COM_ROWS: usize = 6;
 const COM_DAMPING: f64 = 1e-6;
 /// Damping λ² of end-effector rows, for rows of unit length: a straight arm makes them dependent.
 const EFFECTOR_DAMPING: f64 = 1e-4;
-/// The same for constraints from outside: a body that is stretched already is not torn after a point that is higher still.
+/// The same for constraints from outside: a body that is stretched already is not torn after a point that is higher
+/// still.
 const GOAL_DAMPING: f64 = 1e-2;
 /// The same for limbs that are led: they are not asked for more than their length.
 const LED_DAMPING: f64 = 1e-3;
@@ -107,7 +108,8 @@ impl Task {
     }
 }
 
-/// Adds to `x` the damped least-norm solution `J⁺ t`: rows scaled by `1/lengths`, then `Jᵀ(J Jᵀ + λ²)⁻¹`. At most `N` rows count.
+/// Adds to `x` the damped least-norm solution `J⁺ t`: rows scaled by `1/lengths`, then `Jᵀ(J Jᵀ + λ²)⁻¹`. At most `N`
+/// rows count.
 #[inline(always)]
 fn add_damped<const N: usize>(
     rows: &[Row],
@@ -132,8 +134,8 @@ fn add_damped<const N: usize>(
     }
 }
 
-/// Lengths that scale rows before damping; one for each group of `group` rows, the components of one vector. With a length for every row the
-/// damping would depend on which way the axes of the world point.
+/// Lengths that scale rows before damping; one for each group of `group` rows, the components of one vector. With a
+/// length for every row the damping would depend on which way the axes of the world point.
 fn lengths(rows: &[Row], group: usize) -> [f64; MAX_ROWS] {
     let mut l = [1.0; MAX_ROWS];
     for (l, r) in l.chunks_mut(group).zip(rows.chunks(group)) {
@@ -145,13 +147,14 @@ fn lengths(rows: &[Row], group: usize) -> [f64; MAX_ROWS] {
 
 /// The wish x of Eq. (12) for the centre of mass and the end-effectors.
 ///
-/// `Priority::Paper`:  x = J_g⁺Δg̈ + (I − J_g⁺J_g) J_e⁺Δë.
-/// `Priority::Nested`: x = J_g⁺Δg̈ + (J_e P)⁺(Δë − J_e J_g⁺Δg̈), P = I − J_g⁺J_g: exact for the end-effector as far as the centre of mass allows.
+/// `Priority::Paper`:  x = J_g⁺Δg̈ + (I − J_g⁺J_g) J_e⁺Δë. `Priority::Nested`: x = J_g⁺Δg̈ + (J_e P)⁺(Δë − J_e
+/// J_g⁺Δg̈), P = I − J_g⁺J_g: exact for the end-effector as far as the centre of mass allows.
 ///
-/// Rows of `led` come last, each served by its own limb only: with all joints the least change would bend ankles and knees first, which have the
-/// longest lever.
+/// Rows of `led` come last, each served by its own limb only: with all joints the least change would bend ankles and
+/// knees first, which have the longest lever.
 ///
-/// Pseudo-inverses are damped. The printed (13) and (15) exchange J_e and J_g; this is what the text means. No allocation.
+/// Pseudo-inverses are damped. The printed (13) and (15) exchange J_e and J_g; this is what the text means. No
+/// allocation.
 #[inline(always)]
 pub fn wish(com: &Task, effector: &Task, led: &Task, priority: Priority) -> Row {
     let mut x = [0.0; ROW];
@@ -225,8 +228,9 @@ pub struct SpatialLimits {
 impl SpatialLimits {
     /// The part of the wish `x` that torques allow, in place: Δ₂ = x − H_L⁺H_L x (16).
     ///
-    /// L starts empty and takes in every DOF whose torque `τ₁ + HΔ₂` would leave its limits; its torque then stays at τ₁ — or goes to
-    /// the violated limit with `to_limit`. At 39 members Δ₂ = 0 (or what the limits ask for): the loop cannot fail.
+    /// L starts empty and takes in every DOF whose torque `τ₁ + HΔ₂` would leave its limits; its torque then stays at
+    /// τ₁ — or goes to the violated limit with `to_limit`. At 39 members Δ₂ = 0 (or what the limits ask for): the loop
+    /// cannot fail.
     ///
     /// * `held`: rows that keep the value they have for `x` (kinematic loops), dropped when there is no room.
     /// * `most`: larger sets are given up.

@@ -57,7 +57,8 @@ impl TorqueLimits {
     /// τ = τ₀ + HΔ; K = K ∪ {violators}; H_K Δ = τ_lim,K − τ₀,K; Δ = H_K⁺(…) — Oshita & Makinouchi 2000, Eqs. 7–11
     ///
     /// * `h`: rad/s² → N·m; `tau0`: torques of the initial accelerations; `lower`, `upper`: available torques, N·m.
-    /// * `held`: rows that must not change (kinematic loops); respected by [`Metric::Identity`] while there is room for them.
+    /// * `held`: rows that must not change (kinematic loops); respected by [`Metric::Identity`] while there is room for
+    ///   them.
     /// * `most`: larger sets are given up (`complete` = false).
     ///
     /// K only grows, hence at most 39 rounds. No allocation.
@@ -127,7 +128,8 @@ impl TorqueLimits {
         }
     }
 
-    /// W = H: only the members accelerate differently, H_KK Δ_K = t, refined once. False if singular (then least norm is used).
+    /// W = H: only the members accelerate differently, H_KK Δ_K = t, refined once. False if singular (then least norm
+    /// is used).
     #[inline(always)]
     fn solve_members(&mut self, h: &Square, k: usize) -> bool {
         self.change = [0.0; ROW];

@@ -18,8 +18,8 @@ const PAPER_STEP: f64 = 1.0 / 30.0;
 
 /// The tracking law: turns errors of position and rate into a demanded acceleration.
 ///
-/// Without horizon it is Eq. (4), with α made independent of the step, `α(Δt) = 1 − (1 − α)^(Δt / (1/30 s))`. With a horizon T (S3) it is
-/// `a_ff + (0.25/T²) error + (1/T) rate error`, errors at the start of the step.
+/// Without horizon it is Eq. (4), with α made independent of the step, `α(Δt) = 1 − (1 − α)^(Δt / (1/30 s))`. With a
+/// horizon T (S3) it is `a_ff + (0.25/T²) error + (1/T) rate error`, errors at the start of the step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Law {
     alpha: f64,
@@ -55,15 +55,17 @@ impl Law {
         self.horizon.unwrap_or(self.dt)
     }
 
-    /// True if errors are taken at the start of the step (with horizon), false if against the desired state at its end (4).
+    /// True if errors are taken at the start of the step (with horizon), false if against the desired state at its end
+    /// (4).
     pub fn uses_errors_now(&self) -> bool {
         self.horizon.is_some()
     }
 
     /// Demanded acceleration.
     ///
-    /// * `now`: error of position and desired rate at the start of the step; `next`: position error of the present state against the
-    ///   desired position at the end of the step, and desired rate there. `rate`: present rate. All in the same axes.
+    /// * `now`: error of position and desired rate at the start of the step; `next`: position error of the present
+    ///   state against the desired position at the end of the step, and desired rate there. `rate`: present rate. All
+    ///   in the same axes.
     #[inline(always)]
     pub fn demand(&self, now: (f64, f64), next: (f64, f64), rate: f64) -> f64 {
         let dt = self.dt;
@@ -87,7 +89,8 @@ impl Law {
     }
 }
 
-/// `x^y` for 0 < x ≤ 1 and y > 0 with additions and multiplications only: the platform's `powf` need not give the same bits everywhere.
+/// `x^y` for 0 < x ≤ 1 and y > 0 with additions and multiplications only: the platform's `powf` need not give the same
+/// bits everywhere.
 fn power(x: f64, y: f64) -> f64 {
     // Square-and-multiply for the integer part, repeated square roots for the binary fraction.
     let (mut whole, mut fraction) = (y.trunc().min(1e9) as u64, y.fract());
@@ -111,8 +114,8 @@ fn power(x: f64, y: f64) -> f64 {
     result
 }
 
-/// Joint errors and desired rates in the axes of the present state: `error = log(R⁻¹ R_des)` along the child axes for ball joints, and
-/// desired rates turned from the desired child axes into the present ones by `R⁻¹ R_des`.
+/// Joint errors and desired rates in the axes of the present state: `error = log(R⁻¹ R_des)` along the child axes for
+/// ball joints, and desired rates turned from the desired child axes into the present ones by `R⁻¹ R_des`.
 fn errors(posture: &Posture, target: &Target) -> ([f64; DOF_COUNT], [f64; DOF_COUNT]) {
     let error = posture.joint_difference(&target.posture);
     let mut rate = [0.0; DOF_COUNT];
@@ -130,7 +133,8 @@ fn errors(posture: &Posture, target: &Target) -> ([f64; DOF_COUNT], [f64; DOF_CO
     (error, rate)
 }
 
-/// θ̈_initial of Eq. (4), or its form with a horizon (S3), then clamped so that the next anatomical angles stay inside the limits.
+/// θ̈_initial of Eq. (4), or its form with a horizon (S3), then clamped so that the next anatomical angles stay inside
+/// the limits.
 ///
 /// * Returns joint accelerations in rad/s² (ball joints: along the signed child axes), padded. No allocation.
 #[inline(always)]
@@ -139,7 +143,8 @@ pub fn initial_acceleration(body: &Body, state: &State, target: &TargetPair, law
     let (e0, r0) = errors(posture, &target.now);
     let (e1, mut r1) = errors(posture, &target.next);
     if law.uses_errors_now() {
-        // The feed-forward is a difference of rates over the step; both must be seen in the same (present desired) axes.
+        // The feed-forward is a difference of rates over the step; both must be seen in the same (present desired)
+        // axes.
         for s in 1..SEGMENT_COUNT {
             if let Joint::Ball(b) = JOINT[s] {
                 let d = DOF_START[s];
@@ -157,8 +162,9 @@ pub fn initial_acceleration(body: &Body, state: &State, target: &TargetPair, law
     qdd
 }
 
-/// Clamps accelerations so that the anatomical angles after the step are inside the joint limits (§7). An angle that is outside already
-/// is asked to come back by [`LIMIT_RETURN`] of its violation, not at once: a dead-beat return would saturate the joint.
+/// Clamps accelerations so that the anatomical angles after the step are inside the joint limits (§7). An angle that is
+/// outside already is asked to come back by [`LIMIT_RETURN`] of its violation, not at once: a dead-beat return would
+/// saturate the joint.
 #[inline(always)]
 fn clamp_to_limits(body: &Body, state: &State, dt: f64, qdd: &mut Row) {
     let clamp = |d: usize, angle: f64, next_rate: f64| {
@@ -310,8 +316,8 @@ mod tests {
 
     #[test]
     fn desired_rates_are_seen_in_present_axes() {
-        // Present joint turned by 90° about x against the desired one: a desired rate about the desired child's y is one about the
-        // present child's axis R⁻¹ R_des y.
+        // Present joint turned by 90° about x against the desired one: a desired rate about the desired child's y is
+        // one about the present child's axis R⁻¹ R_des y.
         let body = mannequin();
         let mut state = standing(&body);
         let mut target = Target::still(state.posture);

@@ -125,8 +125,9 @@ fn mul<L: Lane>(m: &[[L; 6]; 6], v: Spatial<L>) -> Spatial<L> {
 
 /// Acceleration `vdot` under generalised forces `tau` (layout of `State::velocity`; the first six act on the pelvis).
 ///
-/// Featherstone 2008, §7.3, all bodies in world axes about the pelvis origin. The DOFs of one joint are eliminated one after the
-/// other, which is Gaussian elimination of the joint's block. Arguments as in [`rnea`](super::rnea::rnea). O(n), no allocation.
+/// Featherstone 2008, §7.3, all bodies in world axes about the pelvis origin. The DOFs of one joint are eliminated one
+/// after the other, which is Gaussian elimination of the joint's block. Arguments as in [`rnea`](super::rnea::rnea).
+/// O(n), no allocation.
 #[inline(always)]
 pub fn aba<L: Lane>(
     links: &Links<L>,

@@ -44,8 +44,8 @@ fn shifted<L: Lane>(mass: L, moment: Vec3<L>, inertia: Sym3<L>, p: Vec3<L>) -> S
 
 /// Inertia matrix M(q), armature included, and the composite inertias it is made of.
 ///
-/// Featherstone 2008, §6.2, with every segment seen from the pelvis origin in world axes, so that composites simply add.
-/// Needs [`Kinematics::set_posture`]. O(n·depth), no allocation.
+/// Featherstone 2008, §6.2, with every segment seen from the pelvis origin in world axes, so that composites simply
+/// add. Needs [`Kinematics::set_posture`]. O(n·depth), no allocation.
 #[inline(always)]
 pub fn crba<L: Lane>(
     links: &Links<L>,

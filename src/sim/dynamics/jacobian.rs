@@ -5,8 +5,8 @@ use super::rnea::RneaWorkspace;
 use crate::sim::body::topology::{DOF_LEN, DOF_START, NV, PARENT, SEGMENT_COUNT};
 use crate::sim::math::{Lane, Vec3};
 
-/// Visits the velocity components that move segment `s`, with the angular and the linear velocity that a unit of each gives to the
-/// point at `r` (world axes, relative to the pelvis origin).
+/// Visits the velocity components that move segment `s`, with the angular and the linear velocity that a unit of each
+/// gives to the point at `r` (world axes, relative to the pelvis origin).
 #[inline(always)]
 pub fn for_each_column<L: Lane>(
     kin: &Kinematics<L>,
@@ -35,7 +35,8 @@ pub fn for_each_column<L: Lane>(
     }
 }
 
-/// Angular acceleration and acceleration of the origin of every segment at `v̇ = 0` and without gravity (`J̇ v`), into `ws`.
+/// Angular acceleration and acceleration of the origin of every segment at `v̇ = 0` and without gravity (`J̇ v`), into
+/// `ws`.
 #[inline(always)]
 pub fn bias_accelerations<L: Lane>(
     kin: &Kinematics<L>,

@@ -174,7 +174,8 @@ impl<L: Lane> Kinematics<L> {
         self.set_velocity(&state.velocity);
     }
 
-    /// `J̇v` of the joint of segment `s`: what the relative angular acceleration of child and parent holds beyond the axes times `q̈`.
+    /// `J̇v` of the joint of segment `s`: what the relative angular acceleration of child and parent holds beyond the
+    /// axes times `q̈`.
     #[inline(always)]
     pub fn joint_bias(&self, s: usize, v: &[L]) -> Vec3<L> {
         let (p, d) = (PARENT[s], DOF_START[s]);

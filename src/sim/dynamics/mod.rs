@@ -1,8 +1,9 @@
 //! Articulated-body dynamics: pure kernels, generic over lanes, one file per algorithm.
 //!
-//! All kernels work in *world axes with the pelvis origin as reference point*, so nothing depends on where in the world a figure
-//! stands. Bodies, not joint frames, are the unit: three rotations of a ball joint share one position, one inertia and one
-//! acceleration. Accelerations are classical time derivatives of [`State::velocity`](super::body::State::velocity).
+//! All kernels work in *world axes with the pelvis origin as reference point*, so nothing depends on where in the world
+//! a figure stands. Bodies, not joint frames, are the unit: three rotations of a ball joint share one position, one
+//! inertia and one acceleration. Accelerations are classical time derivatives of
+//! [`State::velocity`](super::body::State::velocity).
 
 pub mod aba;
 pub mod crba;

@@ -45,7 +45,8 @@ impl<L: Lane> Default for RneaWorkspace<L> {
 /// * `velocity`, `vdot`: layout of `State::velocity`.
 /// * `gravity`: magnitude, m/s², acting along −z.
 /// * `external`: one per segment, or empty.
-/// * `tau`: result: moment (N·m, about the pelvis origin) and force (N) that must act on the pelvis, world axes, then joint torques.
+/// * `tau`: result: moment (N·m, about the pelvis origin) and force (N) that must act on the pelvis, world axes, then
+///   joint torques.
 ///
 /// O(n), no allocation.
 #[inline(always)]

@@ -1,4 +1,5 @@
-//! Everything of one state that controllers and steppers share: inertia, bias, centre of mass, Jacobians (ALGORITHM §1, §4).
+//! Everything of one state that controllers and steppers share: inertia, bias, centre of mass, Jacobians (ALGORITHM §1,
+//! §4).
 
 use super::crba::{CompositeInertia, crba};
 use super::jacobian::{bias_accelerations, for_each_column};
@@ -225,10 +226,11 @@ impl Terms {
             (out[3][i], out[4][i], out[5][i]) = (v.x, v.y, v.z);
         });
     }
-    /// Rows A and bias b of the centroidal angular momentum L, world axes: `L = A v`, N·m·s, and `L̇ = A v̇ + b`, N·m (the angular half of the
-    /// centroidal momentum matrix of Orin, Goswami & Lee 2013).
+    /// Rows A and bias b of the centroidal angular momentum L, world axes: `L = A v`, N·m·s, and `L̇ = A v̇ + b`, N·m
+    /// (the angular half of the centroidal momentum matrix of Orin, Goswami & Lee 2013).
     ///
-    /// The first three rows of `M v̇ + h` are a moment about the pelvis, the next three a force; taken about the centre of mass, gravity gives none.
+    /// The first three rows of `M v̇ + h` are a moment about the pelvis, the next three a force; taken about the centre
+    /// of mass, gravity gives none.
     pub fn spin_rows(&self) -> ([[f64; WIDTH]; 3], Vec3) {
         let c = self.com - self.state.posture.root_position;
         let about = |moment: Vec3, force: Vec3| moment - c.cross(force);
@@ -251,8 +253,8 @@ impl Terms {
         );
         (rows, bias)
     }
-    /// Force and moment about the world origin that the ground must supply for the acceleration `vdot` (first six rows of
-    /// `M v̇ + h`, ALGORITHM §4).
+    /// Force and moment about the world origin that the ground must supply for the acceleration `vdot` (first six rows
+    /// of `M v̇ + h`, ALGORITHM §4).
     pub fn ground_wrench(&self, vdot: &[f64; NV]) -> (Vec3, Vec3) {
         let row = |i: usize| self.h[i] + (0..NV).map(|j| self.m[i][j] * vdot[j]).sum::<f64>();
         let moment = Vec3 {

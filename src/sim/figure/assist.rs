@@ -1,8 +1,10 @@
-//! Help that physics does not give: a bounded wrench on the pelvis towards its desired pose, off unless asked for and always reported.
+//! Help that physics does not give: a bounded wrench on the pelvis towards its desired pose, off unless asked for and
+//! always reported.
 //!
-//! An implicit spring on the velocity of the pelvis, solved together with motors, joint limits and contacts (docs/adr/0011): its impulse over a
-//! substep is `κ (v* − v⁺)`, where v* brings the pelvis back to the desired pose, and it is cut in norm. Force and moment, and their
-//! bounds, grow with the figure's `assist` (0…1); at 1 they hold the pelvis on its path within millimetres whatever the legs do.
+//! An implicit spring on the velocity of the pelvis, solved together with motors, joint limits and contacts
+//! (docs/adr/0011): its impulse over a substep is `κ (v* − v⁺)`, where v* brings the pelvis back to the desired pose,
+//! and it is cut in norm. Force and moment, and their bounds, grow with the figure's `assist` (0…1); at 1 they hold the
+//! pelvis on its path within millimetres whatever the legs do.
 
 use crate::sim::body::{Body, State};
 use crate::sim::math::Vec3;

@@ -1,7 +1,7 @@
 //! Work that is too long for a tick, done aside: begun in one tick, needed in a later one that is fixed beforehand.
 //!
-//! Who needs it waits if it is not done by then, and does it itself if nobody has begun: what comes out, and when it counts, depends neither on how fast
-//! the machine is nor on how many threads it has.
+//! Who needs it waits if it is not done by then, and does it itself if nobody has begun: what comes out, and when it
+//! counts, depends neither on how fast the machine is nor on how many threads it has.
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};

@@ -1,5 +1,5 @@
-//! Is balance lost for good? Then the controller, which would bend ankles and knees to keep soles flat that cannot stay flat, hands over to
-//! motors alone (ALGORITHM §14.3): the figure falls as the body it is.
+//! Is balance lost for good? Then the controller, which would bend ankles and knees to keep soles flat that cannot stay
+//! flat, hands over to motors alone (ALGORITHM §14.3): the figure falls as the body it is.
 
 use super::report::MAX_CONTACTS;
 use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
@@ -66,8 +66,8 @@ impl BalanceWatch {
     ///
     /// * `reach`: what may bring it back.
     /// * `height`: of the centre of mass, as a share of the standing one.
-    /// * `off`: distance of the capture point from where the motion has it, m, while that motion walks: who walks falls from foot to foot, and has
-    ///   lost nothing as long as it falls where the next foot is going to be.
+    /// * `off`: distance of the capture point from where the motion has it, m, while that motion walks: who walks falls
+    ///   from foot to foot, and has lost nothing as long as it falls where the next foot is going to be.
     pub fn observe(
         &mut self,
         body: &Body,
@@ -93,7 +93,8 @@ impl BalanceWatch {
         }
     }
 
-    /// What the supports can cover: all of a foot of which a part touches, since it can be put down again; of other segments what touches.
+    /// What the supports can cover: all of a foot of which a part touches, since it can be put down again; of other
+    /// segments what touches.
     fn cover(&mut self, body: &Body, terms: &Terms, support: &Support) {
         let points = support.points();
         let touches = |s: SegmentId| points.iter().any(|p| p.segment == s);

@@ -1,5 +1,5 @@
-//! Constraints that a client gives: a point of a segment or the centre of mass at a place, a segment turned a certain way, while the rest of the
-//! body follows its motion as well as it can.
+//! Constraints that a client gives: a point of a segment or the centre of mass at a place, a segment turned a certain
+//! way, while the rest of the body follows its motion as well as it can.
 
 use crate::sim::body::topology::{
     L_FOOT, L_FOREARM, L_HAND, L_TOES, L_UPPER_ARM, R_FOOT, R_FOREARM, R_HAND, R_TOES, R_UPPER_ARM,
@@ -16,14 +16,18 @@ use crate::sim::support::{Polygon, Support};
 pub const MAX_CONSTRAINTS: usize = 8;
 /// Largest `ease`, s.
 pub const MAX_EASE: f64 = 60.0;
-/// How far inside of what carries it the wanted centre of mass is kept, m. Feet count from the heel to the ball: toes cannot carry a body for long.
+/// How far inside of what carries it the wanted centre of mass is kept, m. Feet count from the heel to the ball: toes
+/// cannot carry a body for long.
 pub const COM_INSET: f64 = 0.03;
-/// How far from where the motion has it a point of trunk, head or legs is led, m: beyond, whole-body motion cannot keep balance.
+/// How far from where the motion has it a point of trunk, head or legs is led, m: beyond, whole-body motion cannot keep
+/// balance.
 pub const TRUNK_REACH: f64 = 0.15;
-/// How far ahead of the present place the centre of mass is asked for, m: 2.5 m/s² and 0.25 m/s with the controllers' law.
+/// How far ahead of the present place the centre of mass is asked for, m: 2.5 m/s² and 0.25 m/s with the controllers'
+/// law.
 const COM_LEASH: f64 = 0.1;
 
-/// Places that are given anew within this time are one place that moves, s; slower than this, m/s: faster ones have jumped.
+/// Places that are given anew within this time are one place that moves, s; slower than this, m/s: faster ones have
+/// jumped.
 const STREAMED: f64 = 0.1;
 const STREAM_SPEED: f64 = 5.0;
 /// Time constant with which its velocity is taken from them, s.
@@ -40,8 +44,8 @@ pub enum Constrained {
 
 /// Where the centre of mass or a point of a segment should be, and how the segment should be turned.
 ///
-/// At least one of `position` and `rotation` is given; the centre of mass has no rotation. The part moves there from wherever it is. What cannot be
-/// reached is approached as far as balance, strength and joints let it.
+/// At least one of `position` and `rotation` is given; the centre of mass has no rotation. The part moves there from
+/// wherever it is. What cannot be reached is approached as far as balance, strength and joints let it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Constraint {
     /// What it is on.
@@ -147,8 +151,9 @@ impl Default for Constraints {
 }
 
 impl Constraints {
-    /// Replaces all; at most [`MAX_CONSTRAINTS`] are taken. One on a part that was constrained already goes on from there instead of easing in anew; those on other
-    /// parts fade out within their `ease`. A place that is given anew for the same part within 0.1 s has moved there, and is taken to move on.
+    /// Replaces all; at most [`MAX_CONSTRAINTS`] are taken. One on a part that was constrained already goes on from
+    /// there instead of easing in anew; those on other parts fade out within their `ease`. A place that is given anew
+    /// for the same part within 0.1 s has moved there, and is taken to move on.
     pub fn replace(&mut self, new: &[Constraint], time: f64) {
         let new = &new[..new.len().min(MAX_CONSTRAINTS)];
         let streams: [Option<Stream>; MAX_CONSTRAINTS] = std::array::from_fn(|i| {
@@ -191,7 +196,8 @@ impl Constraints {
         self.errors.clear();
     }
 
-    /// What is in force at `time`, the start of a tick: shifts the wanted centre of mass and collects the goals. No allocation.
+    /// What is in force at `time`, the start of a tick: shifts the wanted centre of mass and collects the goals. No
+    /// allocation.
     pub(crate) fn begin(
         &mut self,
         time: f64,
@@ -265,7 +271,8 @@ impl Constraints {
         }
     }
 
-    /// Blends the wanted centre of mass with a constraint on it: horizontally inside what the supports cover, and never far ahead of where it is.
+    /// Blends the wanted centre of mass with a constraint on it: horizontally inside what the supports cover, and never
+    /// far ahead of where it is.
     fn shift_com(
         &mut self,
         body: &Body,
@@ -339,7 +346,8 @@ impl Constraints {
         self.hands.iter().flatten().copied()
     }
 
-    /// Distance (m, along the axes that count) and angle (rad) that are missing at the start of the tick, one pair per given constraint.
+    /// Distance (m, along the axes that count) and angle (rad) that are missing at the start of the tick, one pair per
+    /// given constraint.
     pub(crate) fn errors(&mut self, terms: &Terms) -> &[[f64; 2]] {
         self.errors.clear();
         for c in &self.given {

@@ -24,7 +24,8 @@ pub struct ClipPlayback {
     pub looped: bool,
     /// Where the clip's origin lies in the world.
     pub origin: PlanarTransform,
-    /// How the figure came into it, if that was out of another motion without standing in between, or from a stand that is not like its beginning.
+    /// How the figure came into it, if that was out of another motion without standing in between, or from a stand that
+    /// is not like its beginning.
     pub way_in: Option<Arc<WayIn>>,
 }
 
@@ -115,7 +116,8 @@ pub(super) struct Queued {
     pub first: f64,
     /// World time before which it does not, s.
     pub from: f64,
-    /// Where its feet stand then, in clip coordinates: the middle between them, and their heading. `None`: the caller fixed its origin.
+    /// Where its feet stand then, in clip coordinates: the middle between them, and their heading. `None`: the caller
+    /// fixed its origin.
     pub stance: Option<(Vec3, f64)>,
     /// When the figure should stand, s.
     pub due: f64,

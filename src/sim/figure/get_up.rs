@@ -1,7 +1,9 @@
-//! Getting up (ALGORITHM §12): a figure that lies where its motion lay down gets up when the motion does, in its own way.
+//! Getting up (ALGORITHM §12): a figure that lies where its motion lay down gets up when the motion does, in its own
+//! way.
 //!
-//! A recorded way up cannot be repeated as it is: it was made by another body, it leans on hands whose skin nobody recorded, and often it
-//! leaps. So the motion says *when*; *how* is the figure's own ([`crate::sim::get_up`]), at the pace at which it can follow.
+//! A recorded way up cannot be repeated as it is: it was made by another body, it leans on hands whose skin nobody
+//! recorded, and often it leaps. So the motion says *when*; *how* is the figure's own ([`crate::sim::get_up`]), at the
+//! pace at which it can follow.
 
 use super::report::MAX_CONTACTS;
 use super::tasks::TaskWorkspace;
@@ -20,8 +22,8 @@ const LOW: f64 = 0.45;
 /// It lies whose trunk rises less than this, and lies still below this speed, m/s.
 const LEVEL: f64 = 0.7;
 const STILL: f64 = 0.3;
-/// The way goes on at full pace below the first of both and waits at the second: rms of the joints, rad; turn of the pelvis, rad; distance of the
-/// centre of mass over the floor, m.
+/// The way goes on at full pace below the first of both and waits at the second: rms of the joints, rad; turn of the
+/// pelvis, rad; distance of the centre of mass over the floor, m.
 const PACE: [(f64, f64); 3] = [(0.08, 0.2), (0.15, 0.4), (0.03, 0.08)];
 /// The same without the centre of mass for who lies and has nothing to lose: he waits less, and not for ever.
 const LYING_PACE: [(f64, f64); 2] = [(0.08, 0.2), (0.25, 0.6)];
@@ -114,7 +116,8 @@ impl GetUp {
         })
     }
 
-    /// Judges a fallen figure in the state of `terms`, whose motion had its centre of mass at `height` (share of the standing one).
+    /// Judges a fallen figure in the state of `terms`, whose motion had its centre of mass at `height` (share of the
+    /// standing one).
     pub fn watch(&mut self, terms: &Terms, height: f64) {
         match self.phase {
             Phase::Lying if self.own => self.own = false,
@@ -136,7 +139,8 @@ impl GetUp {
         }
     }
 
-    /// Desired motion of a tick of `dt` seconds, if it is the way's: at the pace at which the figure, in the state of `terms`, follows the last tick's `target`.
+    /// Desired motion of a tick of `dt` seconds, if it is the way's: at the pace at which the figure, in the state of
+    /// `terms`, follows the last tick's `target`.
     pub fn targets(
         &mut self,
         body: &Body,

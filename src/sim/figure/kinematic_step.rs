@@ -1,8 +1,8 @@
-//! The paper's own way to move a figure (ALGORITHM §6, §10): the controller's accelerations are applied as they are, and the support holds
-//! still, rotates about the minimum-moment point, or flies.
+//! The paper's own way to move a figure (ALGORITHM §6, §10): the controller's accelerations are applied as they are,
+//! and the support holds still, rotates about the minimum-moment point, or flies.
 //!
-//! Nothing here can push back: what the ground would have to give follows from inverse dynamics and is shared among the touching points.
-//! What they cannot give shows as a residual of the audit; it is not hidden.
+//! Nothing here can push back: what the ground would have to give follows from inverse dynamics and is shared among the
+//! touching points. What they cannot give shows as a residual of the audit; it is not hidden.
 
 use super::report::{Audit, ContactPoint, Flags, MAX_CONTACTS};
 use super::torque_step::{MAX_SPEED, StepInput, TickForces};
@@ -39,7 +39,8 @@ const NEARLY_FLAT: f64 = 1.4e-3;
 const SETTLE: f64 = 0.2;
 /// Contact points of one segment that are looked at, as in the other stepper.
 const POINTS_PER_SEGMENT: usize = MAX_CONTACTS / SEGMENT_COUNT;
-/// Joint speed that the motors may reach under prescribed accelerations; beyond it torques take over, rad/s (ALGORITHM §12).
+/// Joint speed that the motors may reach under prescribed accelerations; beyond it torques take over, rad/s (ALGORITHM
+/// §12).
 pub const SPEED_CAP: f64 = 15.0;
 
 /// What this stepper reads beside the common input.
@@ -55,7 +56,8 @@ pub struct Decision<'a> {
     pub planted: [bool; 2],
     /// Touching points that carry nothing by the controller's decision, by index, if it has decided.
     pub left_out: Option<&'a [bool; MAX_CONTACTS]>,
-    /// Torques are the controller's, whatever the ground forces found here say: its sharing has no point forces (ratios (2)).
+    /// Torques are the controller's, whatever the ground forces found here say: its sharing has no point forces (ratios
+    /// (2)).
     pub as_commanded: bool,
 }
 
@@ -123,8 +125,9 @@ impl KinematicStepper {
         self.penetration
     }
 
-    /// Advances `state` by one tick: the commanded accelerations, the support as the decision has it, impacts of points that arrive.
-    /// False if the decision is to be within strength and is not: then nothing has moved. Allocates nothing.
+    /// Advances `state` by one tick: the commanded accelerations, the support as the decision has it, impacts of points
+    /// that arrive. False if the decision is to be within strength and is not: then nothing has moved. Allocates
+    /// nothing.
     #[must_use]
     pub fn step(
         &mut self,
@@ -221,10 +224,12 @@ impl KinematicStepper {
                     y: row(1),
                     z: row(2),
                 } + t.segment_bias(s).0;
-                // With torques that know the tilt (S1) there is no moment left about the pivot; with the paper's it all turns the figure.
+                // With torques that know the tilt (S1) there is no moment left about the pivot; with the paper's it all
+                // turns the figure.
                 let (force, moment) = t.ground_wrench(a);
                 let alpha = alpha + tipping_acceleration(t, &p, force, moment);
-                // The weight turns with the figure, which one step forward would miss by several per cent of the energy of a fall.
+                // The weight turns with the figure, which one step forward would miss by several per cent of the energy
+                // of a fall.
                 let before = p.project(t.kin.omega[s]);
                 let alpha = p.project(alpha);
                 let turn = Quat::exp((before + alpha * (0.5 * dt)) * dt);
@@ -245,7 +250,8 @@ impl KinematicStepper {
         self.place(input, s, &wanted, state);
     }
 
-    /// Moves the whole body rigidly so that segment `s` is where and as fast as wanted; joints keep their angles and rates.
+    /// Moves the whole body rigidly so that segment `s` is where and as fast as wanted; joints keep their angles and
+    /// rates.
     fn place(&mut self, input: &StepInput<'_>, s: usize, wanted: &Rigid, state: &mut State) {
         self.kin.set_state(input.links, state);
         let p = &mut state.posture;
@@ -301,8 +307,9 @@ impl KinematicStepper {
         first
     }
 
-    /// Inelastic impact of all touching points of the whole body: least change of velocity in the metric of M under which none goes on
-    /// into the floor; friction within its cone. Kinetic energy cannot rise. The workspace holds the terms of `state`.
+    /// Inelastic impact of all touching points of the whole body: least change of velocity in the metric of M under
+    /// which none goes on into the floor; friction within its cone. Kinetic energy cannot rise. The workspace holds the
+    /// terms of `state`.
     fn impact(&mut self, input: &StepInput<'_>, state: &mut State) {
         let terms = &self.terms;
         self.contacts.clear();
@@ -481,7 +488,8 @@ fn input_acceleration(start: &State, velocity: &[f64; NV], dt: f64) -> [f64; NV]
     std::array::from_fn(|i| (velocity[i] - start.velocity[i]) / dt)
 }
 
-/// A foot that holds is laid flat on the floor, little by little: contact has a tolerance of some millimetres, standing has not.
+/// A foot that holds is laid flat on the floor, little by little: contact has a tolerance of some millimetres, standing
+/// has not.
 fn settle(input: &StepInput<'_>, main: SegmentId, position: Vec3, rotation: Quat) -> (Vec3, Quat) {
     if main != L_FOOT && main != R_FOOT {
         return (position, rotation);

@@ -1,10 +1,11 @@
 //! How a load changes a motion that steps: whoever carries leans to the other side and lets the arm hang.
 //!
-//! A motion is prepared for an unloaded body. With a load its centre of mass lies elsewhere, by m/M of the way to the load: 10 kg in one hand
-//! move it 5 cm to that side, half a foot's width from where every step of the motion has its zero-moment point. So the trunk leans and the pelvis
-//! shifts until the loaded body has its centre of mass, over the floor, where the unloaded one has it in the motion. The feet stay, the head keeps its
-//! direction, and what carries is moved with the forces that an empty hand takes: an arm that hangs swings the less the more it carries, and what
-//! any arm does quickly it does less of.
+//! A motion is prepared for an unloaded body. With a load its centre of mass lies elsewhere, by m/M of the way to the
+//! load: 10 kg in one hand move it 5 cm to that side, half a foot's width from where every step of the motion has its
+//! zero-moment point. So the trunk leans and the pelvis shifts until the loaded body has its centre of mass, over the
+//! floor, where the unloaded one has it in the motion. The feet stay, the head keeps its direction, and what carries is
+//! moved with the forces that an empty hand takes: an arm that hangs swings the less the more it carries, and what any
+//! arm does quickly it does less of.
 
 mod arm;
 
@@ -19,7 +20,8 @@ use crate::sim::motion::leg_ik::{forward, solve_leg};
 use crate::sim::motion::{Target, TargetPair};
 use arm::{ARMS, Arm, Habit, Poses};
 
-/// Lean of the trunk per shift of the centre of mass, rad/m, and most of it, rad: it does about half, and the pelvis the rest.
+/// Lean of the trunk per shift of the centre of mass, rad/m, and most of it, rad: it does about half, and the pelvis
+/// the rest.
 const LEAN: f64 = 1.8;
 const MOST_LEAN: f64 = 0.25;
 /// The pelvis is shifted by no more than this, m.
@@ -32,8 +34,8 @@ const SAME: f64 = 1e-6;
 const LEAD: f64 = 1.15;
 /// Rounds in which the shift of the pelvis is found: each leaves a tenth of what was off.
 const ROUNDS: usize = 3;
-/// The rates of a changed motion are taken over so long before and after a moment, s: short enough to be those of the moment, long enough for what
-/// mirrored and turned bodies round differently to stay below 1e-9 in their torques.
+/// The rates of a changed motion are taken over so long before and after a moment, s: short enough to be those of the
+/// moment, long enough for what mirrored and turned bodies round differently to stay below 1e-9 in their torques.
 const INSTANT: f64 = 5e-4;
 
 /// Masses and first moments of mass of the segments with a load, segment frames, kg and kg·m.
@@ -112,7 +114,8 @@ impl LoadCompensation {
         }
     }
 
-    /// What the left and the right hand of a figure that steps feel, kg. One that stays where it is lifts its loads as the motion has it.
+    /// What the left and the right hand of a figure that steps feel, kg. One that stays where it is lifts its loads as
+    /// the motion has it.
     pub fn in_hands(&self) -> [f64; 2] {
         ARMS.map(|[.., hand]| self.felt.mass[hand.index()] - self.unloaded.mass[hand.index()])
     }
@@ -123,8 +126,9 @@ impl LoadCompensation {
         self.habits = None;
     }
 
-    /// Changes the desired motion of a tick of `dt` seconds for a body with the present loads, `links`; `steps` if the motion steps: one that stays
-    /// where it is has room in its feet and is left alone. No allocation; nothing is done without a load.
+    /// Changes the desired motion of a tick of `dt` seconds for a body with the present loads, `links`; `steps` if the
+    /// motion steps: one that stays where it is has room in its feet and is left alone. No allocation; nothing is done
+    /// without a load.
     pub fn lean(
         &mut self,
         body: &Body,
@@ -196,7 +200,8 @@ impl Lean<'_> {
         target.velocity = std::array::from_fn::<f64, NV, _>(|i| way[i] * (0.5 / INSTANT));
     }
 
-    /// The posture in which the body with what is `felt` has its centre of mass where the unloaded one has it in `posture`.
+    /// The posture in which the body with what is `felt` has its centre of mass where the unloaded one has it in
+    /// `posture`.
     fn leaned(&self, posture: &Posture, felt: &Felt) -> Posture {
         let planned = forward(self.body, posture);
         let mut out = *posture;

@@ -106,8 +106,9 @@ impl Disturbances {
 
     /// Takes up and lets go loads that are due at `time`, and collects the forces of the tick that begins then.
     ///
-    /// A load is taken up inelastically and momentum is conserved: `v⁺ = v⁻ − M'⁻¹ Σ J_pᵀ m (J_p v⁻ − v_load)` with M' the loaded inertia
-    /// (ALGORITHM §10, where the load is at rest). What is due before the first tick was carried all along.
+    /// A load is taken up inelastically and momentum is conserved: `v⁺ = v⁻ − M'⁻¹ Σ J_pᵀ m (J_p v⁻ − v_load)` with M'
+    /// the loaded inertia (ALGORITHM §10, where the load is at rest). What is due before the first tick was carried all
+    /// along.
     pub fn apply(
         &mut self,
         time: f64,
@@ -227,9 +228,11 @@ impl Disturbances {
 
     /// Finds loads whose force at a hand exceeds the grip: they go at the start of the next tick.
     ///
-    /// The force is that of the tick before, `m (a + g) − f`, a from the velocities of the point at its start and end, f the bar's.
+    /// The force is that of the tick before, `m (a + g) − f`, a from the velocities of the point at its start and end,
+    /// f the bar's.
     ///
-    /// * `terms`: of the state at the start of this tick; `bar_force`: mean force of the bar on its second end in the last tick, N.
+    /// * `terms`: of the state at the start of this tick; `bar_force`: mean force of the bar on its second end in the
+    ///   last tick, N.
     pub fn check_grip(&mut self, time: f64, dt: f64, terms: &Terms, gravity: f64, bar_force: Vec3) {
         for s in self.scheduled.iter_mut().filter(|s| s.carried) {
             let Some(load) = s.what.load().filter(|l| l.grip.is_finite()) else {

@@ -44,8 +44,8 @@ impl Flags {
     pub const QUARANTINED: Self = Self(1 << 7);
     /// Balance is lost: the controller handed over to motors alone.
     pub const BALANCE_LOST: Self = Self(1 << 8);
-    /// Prescribed accelerations could not go on (saturated joints on a tilting support, overload, a part other than a foot touching):
-    /// a figure with the kinematic stepper is moved by its torques for the time being.
+    /// Prescribed accelerations could not go on (saturated joints on a tilting support, overload, a part other than a
+    /// foot touching): a figure with the kinematic stepper is moved by its torques for the time being.
     pub const HANDED_OVER: Self = Self(1 << 9);
     /// The state was faster than anything a body does and was braked.
     pub const SPEED_BOUND: Self = Self(1 << 10);
@@ -79,8 +79,8 @@ impl Flags {
 pub struct Audit {
     /// State at the start of the substep.
     pub state: State,
-    /// Acceleration over the substep `(v⁺ − v)/h`, layout of `State::velocity`; with the kinematic stepper the one that was applied, to which
-    /// impacts and the return of the support to its place come on top.
+    /// Acceleration over the substep `(v⁺ − v)/h`, layout of `State::velocity`; with the kinematic stepper the one that
+    /// was applied, to which impacts and the return of the support to its place come on top.
     pub acceleration: [f64; NV],
     /// Joint torques of muscles, N·m.
     pub torque: [f64; DOF_COUNT],
@@ -152,7 +152,8 @@ pub struct TickReport {
     pub ligament_torque: [f64; DOF_COUNT],
     /// Assist on the pelvis: moment about its origin (N·m), then force (N), world axes; zero unless it is on.
     pub assist: [f64; 6],
-    /// What fatigue has left of the strength at the end of the tick, positive and negative direction of each DOF; 1 when it is off.
+    /// What fatigue has left of the strength at the end of the tick, positive and negative direction of each DOF; 1
+    /// when it is off.
     pub remaining: [[f64; 2]; DOF_COUNT],
     /// Least available torque at the start of the tick, N·m (negative).
     pub torque_lower: [f64; DOF_COUNT],
@@ -168,7 +169,8 @@ pub struct TickReport {
     pub saturated_secondary: u64,
     /// Touching points with their mean force.
     pub contacts: Vec<ContactPoint>,
-    /// Parts that touch other figures and obstacles, by segment, then by what is touched; at most [`MAX_TOUCHES`](crate::sim::collide::touch::MAX_TOUCHES).
+    /// Parts that touch other figures and obstacles, by segment, then by what is touched; at most
+    /// [`MAX_TOUCHES`](crate::sim::collide::touch::MAX_TOUCHES).
     pub touches: Vec<Touch>,
     /// Main supporting segment, if any.
     pub main_support: Option<SegmentId>,
@@ -186,7 +188,8 @@ pub struct TickReport {
     pub com_velocity: Vec3,
     /// Desired centre of mass at the end of the tick, world, m.
     pub com_desired: Vec3,
-    /// What is missing of each constraint that a client gave, at the start of the tick: distance along the axes that count (m), angle (rad).
+    /// What is missing of each constraint that a client gave, at the start of the tick: distance along the axes that
+    /// count (m), angle (rad).
     pub constraint_error: Vec<[f64; 2]>,
     /// Joint error `desired ⊖ actual` at the start of the tick, rad.
     pub joint_error: [f64; DOF_COUNT],

@@ -59,8 +59,8 @@ pub enum ControllerKind {
 pub enum StepperKind {
     /// Torques drive full rigid-body dynamics with contact, ALGORITHM §14.3.
     Torque,
-    /// The controller's accelerations are applied as they are; the support holds, tips about an edge or a vertex, or flies (ALGORITHM §6).
-    /// For the paper's controller. Motors alone need torques: with them this is `Torque`.
+    /// The controller's accelerations are applied as they are; the support holds, tips about an edge or a vertex, or
+    /// flies (ALGORITHM §6). For the paper's controller. Motors alone need torques: with them this is `Torque`.
     Kinematic,
 }
 
@@ -116,8 +116,8 @@ pub struct ControlParams {
     pub track_hands: bool,
     /// Control the centre of mass.
     pub track_com: bool,
-    /// Hand over what cannot go on: to torques, while the kinematic stepper's prescribed accelerations cannot (ALGORITHM §6); to motors
-    /// alone, while balance is lost (ALGORITHM §14.3).
+    /// Hand over what cannot go on: to torques, while the kinematic stepper's prescribed accelerations cannot
+    /// (ALGORITHM §6); to motors alone, while balance is lost (ALGORITHM §14.3).
     pub hand_over: bool,
     /// Step when the capture point has left the feet (modern controller).
     pub protective_steps: bool,
@@ -143,8 +143,9 @@ impl Default for ControlParams {
 }
 
 impl ControlParams {
-    /// The paper to the letter, all safeguards off: dead-beat demand, W = I, (12) as printed, sharing by ratios (2), a support that tips but
-    /// whose torques do not know it. Meant for [`StepperKind::Kinematic`], 30 ticks a second and a body without armature; for comparison only.
+    /// The paper to the letter, all safeguards off: dead-beat demand, W = I, (12) as printed, sharing by ratios (2), a
+    /// support that tips but whose torques do not know it. Meant for [`StepperKind::Kinematic`], 30 ticks a second and
+    /// a body without armature; for comparison only.
     pub fn paper2000() -> Self {
         Self {
             horizon: None,
@@ -212,8 +213,8 @@ pub struct HeldLoad {
     pub mass: f64,
     /// Velocity of the load before it is taken, world axes, m/s. Taking it is perfectly inelastic.
     pub velocity: Vec3,
-    /// Second hand (or other segment) with its point. From then on the two points keep their distance: the load is a rigid bar between
-    /// them, free to turn in either.
+    /// Second hand (or other segment) with its point. From then on the two points keep their distance: the load is a
+    /// rigid bar between them, free to turn in either.
     pub second: Option<(SegmentId, Vec3)>,
     /// Force at one hand beyond which the load is lost, N; `f64::INFINITY` = never.
     pub grip: f64,

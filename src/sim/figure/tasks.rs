@@ -87,7 +87,8 @@ pub struct TaskWorkspace {
 }
 
 impl TaskWorkspace {
-    /// Where the desired motion has a point (segment frame, m) at the start of the tick, world, m; after [`points`](Self::points).
+    /// Where the desired motion has a point (segment frame, m) at the start of the tick, world, m; after
+    /// [`points`](Self::points).
     pub fn desired_point(&self, target: &TargetPair, s: SegmentId, point: Vec3) -> Vec3 {
         let root = target.now.posture.root_position;
         Pose {

@@ -1,5 +1,5 @@
-//! One tick of one figure (ALGORITHM §10). The world calls `Figure::prepare` (stages 1–5), `simulate` (stage 6; `among` for figures that
-//! are near something) and `finish` (stages 7 and 8); their bodies are the list of stages.
+//! One tick of one figure (ALGORITHM §10). The world calls `Figure::prepare` (stages 1–5), `simulate` (stage 6; `among`
+//! for figures that are near something) and `finish` (stages 7 and 8); their bodies are the list of stages.
 
 mod access;
 mod actuation;
@@ -226,7 +226,8 @@ impl Figure {
         );
     }
 
-    /// Stage 2: everything of the present state, and what is asked of it: of a fallen figure that it gets up, if its motion does.
+    /// Stage 2: everything of the present state, and what is asked of it: of a fallen figure that it gets up, if its
+    /// motion does.
     fn look(&mut self, world: &TickContext) {
         let applied = self.disturbances.applied();
         self.terms
@@ -269,7 +270,8 @@ impl Figure {
         RESTS * self.terms.mass * world.gravity
     }
 
-    /// Stage 4: what the muscles can give at these angles and rates, and what stretched tissue gives. The paper's body has none.
+    /// Stage 4: what the muscles can give at these angles and rates, and what stretched tissue gives. The paper's body
+    /// has none.
     fn flex(&mut self, world: &TickContext) {
         let tissue = self.setup.controller != ControllerKind::Paper;
         let p = &mut self.pending;
@@ -288,8 +290,8 @@ impl Figure {
         );
     }
 
-    /// Stage 5: constraints and steps shift what is asked for, then the controller decides. What the figure leans on, and what its
-    /// stretched tissue gives, is known to it.
+    /// Stage 5: constraints and steps shift what is asked for, then the controller decides. What the figure leans on,
+    /// and what its stretched tissue gives, is known to it.
     fn decide(&mut self, world: &TickContext) {
         let bias = self.terms.h;
         let least = self.least_rest(world);

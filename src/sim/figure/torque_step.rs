@@ -1,9 +1,10 @@
 //! Full rigid-body dynamics driven by strength-limited motors, with contact and joint limits (ALGORITHM §14.3).
 //!
-//! One substep solves, implicitly and all at once, for the velocity at its end: motors that pull towards the commanded motion within
-//! the strength of that instant, unilateral joint limits, and speculative frictional contact with the ground. Then the step is *closed*:
-//! the velocity is recomputed from the impulses of the last iterate, so that torques, contact forces and accelerations satisfy the
-//! equations of motion to rounding whatever residual the iteration stopped at.
+//! One substep solves, implicitly and all at once, for the velocity at its end: motors that pull towards the commanded
+//! motion within the strength of that instant, unilateral joint limits, and speculative frictional contact with the
+//! ground. Then the step is *closed*: the velocity is recomputed from the impulses of the last iterate, so that
+//! torques, contact forces and accelerations satisfy the equations of motion to rounding whatever residual the
+//! iteration stopped at.
 
 use super::assist::{Assist, Spring};
 use super::loads::{Bar, MAX_EXTERNAL};
@@ -34,8 +35,8 @@ const PENETRATION_RETURN: f64 = 0.2;
 const PENETRATION_SLOP: f64 = 1e-4;
 /// Fastest push-out of a penetrating point, m/s.
 const PENETRATION_SPEED: f64 = 1.0;
-/// Most Newton iterations of one substep. 2 to 6 are typical; a foot that strikes while joints are near their limits takes up to 70, and
-/// a step cut short at 30 there flings light joints.
+/// Most Newton iterations of one substep. 2 to 6 are typical; a foot that strikes while joints are near their limits
+/// takes up to 70, and a step cut short at 30 there flings light joints.
 const MAX_ITERATIONS: u32 = 80;
 /// Gain that is left for the second try of a substep that did not converge.
 const SOFTENING: f64 = 0.01;
@@ -77,8 +78,8 @@ pub struct StepInput<'a> {
     pub substeps: u32,
 }
 
-/// Rates (rad/s) and speeds (m/s) beyond this are braked: far above what bodies do (a pitcher's shoulder turns at 130 rad/s), low enough
-/// that a substep resolves it and a push of any size leaves numbers that can be computed with.
+/// Rates (rad/s) and speeds (m/s) beyond this are braked: far above what bodies do (a pitcher's shoulder turns at 130
+/// rad/s), low enough that a substep resolves it and a push of any size leaves numbers that can be computed with.
 pub(super) const MAX_SPEED: f64 = 200.0;
 
 /// Who moves the body (ALGORITHM §15).
@@ -204,7 +205,8 @@ pub struct TorqueStepper {
     /// Impulse along the bar, N·s; positive pushes its ends apart.
     bar_impulse: f64,
     bar_forces: Option<[(SegmentId, Vec3, Vec3); 2]>,
-    /// Sum of contact impulses over the tick by segment × 8 + vertex, N·s, and where the point was when it first touched.
+    /// Sum of contact impulses over the tick by segment × 8 + vertex, N·s, and where the point was when it first
+    /// touched.
     impulse: Box<[(Vec3, Vec3); MAX_CONTACTS]>,
     penetration: f64,
     /// Joint rates at the start of the tick.
@@ -311,7 +313,8 @@ impl TorqueStepper {
         self.penetration = 0.0;
     }
 
-    /// Substep `i`: everything that depends on the state, and the velocity at its end if nothing but the ground is touched.
+    /// Substep `i`: everything that depends on the state, and the velocity at its end if nothing but the ground is
+    /// touched.
     pub(crate) fn open_substep(&mut self, input: &StepInput<'_>, state: &State, i: u32) {
         let StepInput {
             body,
@@ -356,7 +359,8 @@ impl TorqueStepper {
         self.solve_substep(h, state, spring.as_ref());
     }
 
-    /// What other bodies give in this substep, after an island has been solved for the velocity that it left in [`Self::parts`].
+    /// What other bodies give in this substep, after an island has been solved for the velocity that it left in
+    /// [`Self::parts`].
     pub(crate) fn touch(&mut self, impulse: [f64; NV], outcome: Outcome) {
         self.external = Some(impulse);
         self.outcome = Outcome {
@@ -412,9 +416,9 @@ impl TorqueStepper {
 impl TorqueStepper {
     /// Rows for every contact point that is low or arrives within the substep.
     ///
-    /// A point with velocity Jv moves by h(Jv + ½h J̇v): limbs turn, and a foot that rolls over its toes with Jv = 0 would creep by
-    /// ½h²J̇v, 0.3 mm a tick. What rests is therefore held where it is, not at rest. What lands or slides moves otherwise after the
-    /// substep than before, and its J̇v says nothing.
+    /// A point with velocity Jv moves by h(Jv + ½h J̇v): limbs turn, and a foot that rolls over its toes with Jv = 0
+    /// would creep by ½h²J̇v, 0.3 mm a tick. What rests is therefore held where it is, not at rest. What lands or
+    /// slides moves otherwise after the substep than before, and its J̇v says nothing.
     fn collect_contacts(&mut self, body: &Body, h: f64) {
         self.contacts.clear();
         let (t, root) = (&self.terms, self.terms.state.posture.root_position);
@@ -533,8 +537,8 @@ impl TorqueStepper {
         }
     }
 
-    /// Solves with a bar: one unknown impulse along it, found by Newton and secant steps on the rate of its length, which grows with the
-    /// impulse. Leaves the impulse in [`Self::bar_impulse`]; it is the next substep's first guess.
+    /// Solves with a bar: one unknown impulse along it, found by Newton and secant steps on the rate of its length,
+    /// which grows with the impulse. Leaves the impulse in [`Self::bar_impulse`]; it is the next substep's first guess.
     fn solve_barred(
         &mut self,
         momentum: &[f64; NV],
@@ -585,7 +589,8 @@ impl TorqueStepper {
         }
     }
 
-    /// Solves for the velocity at the end of the substep; with `assisted`, for the matrix that carries the springs of the assist.
+    /// Solves for the velocity at the end of the substep; with `assisted`, for the matrix that carries the springs of
+    /// the assist.
     fn solve_freely(&mut self, momentum: &[f64; NV], v: &mut [f64; NV], assisted: bool) -> Outcome {
         let outcome = self.solve_once(momentum, v, assisted);
         if outcome.converged {
@@ -614,8 +619,8 @@ impl TorqueStepper {
         )
     }
 
-    /// Solves with the springs of the assist; a part whose impulse exceeds its bound becomes a constant one at the bound, and the rest is
-    /// solved again. Leaves the impulse in [`Self::assist`].
+    /// Solves with the springs of the assist; a part whose impulse exceeds its bound becomes a constant one at the
+    /// bound, and the rest is solved again. Leaves the impulse in [`Self::assist`].
     fn solve_assisted(
         &mut self,
         momentum: &[f64; NV],
@@ -658,8 +663,9 @@ impl TorqueStepper {
         }
     }
 
-    /// Second try of a substep whose stiff motors, limits and contacts kept Newton's method zigzagging: the same strength and friction with
-    /// motors that saturate later. Closing an unconverged step would turn its residual into the speed of a light joint.
+    /// Second try of a substep whose stiff motors, limits and contacts kept Newton's method zigzagging: the same
+    /// strength and friction with motors that saturate later. Closing an unconverged step would turn its residual into
+    /// the speed of a light joint.
     fn solve_softer(
         &mut self,
         momentum: &[f64; NV],

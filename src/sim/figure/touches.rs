@@ -8,7 +8,8 @@ use crate::sim::dynamics::jacobian::for_each_column;
 use crate::sim::math::Vec3;
 use crate::sim::support::Rest;
 
-/// Part of a reaction that a controller takes in per tick: a blow is over before it is known, a seat is known after some ticks.
+/// Part of a reaction that a controller takes in per tick: a blow is over before it is known, a seat is known after
+/// some ticks.
 const LEARN: f64 = 0.15;
 /// Largest reaction a controller counts on, N.
 const MOST: f64 = 2000.0;
@@ -59,8 +60,9 @@ struct Entry {
     weight: f64,
     /// Mean place on the segment, segment frame, m.
     local: Vec3,
-    /// Reaction of the whole part, for controllers that count on it as a force, N. It is learned apart from that of the spots: those come and
-    /// go and share it out anew from tick to tick, while their sum has to stay smooth; and a touch counts from its second tick on.
+    /// Reaction of the whole part, for controllers that count on it as a force, N. It is learned apart from that of the
+    /// spots: those come and go and share it out anew from tick to tick, while their sum has to stay smooth; and a
+    /// touch counts from its second tick on.
     expected: Vec3,
     spots: [Spot; SPOTS],
     /// How many of them count.
@@ -268,8 +270,8 @@ impl Touches {
         })
     }
 
-    /// Counts the expected reactions among the forces in `terms.h`; those of level rests that carry more than `least` N, if given, are left
-    /// to a controller that chooses them.
+    /// Counts the expected reactions among the forces in `terms.h`; those of level rests that carry more than `least`
+    /// N, if given, are left to a controller that chooses them.
     pub fn lean(&self, terms: &mut Terms, least: Option<f64>) {
         for e in &self.now {
             let chosen = least.is_some_and(|l| Rest::level(e.touch.normal) && e.carries(l));

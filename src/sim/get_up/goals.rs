@@ -36,15 +36,18 @@ impl Aim {
     }
 }
 
-/// Goals of an instant: places along x (ahead), y (to the left) and z of the way, m; angles, rad. Pairs are left and right.
+/// Goals of an instant: places along x (ahead), y (to the left) and z of the way, m; angles, rad. Pairs are left and
+/// right.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Goals {
     pub pelvis: [Aim; 3],
-    /// How far the pelvis is bent forward from upright, its turn about its own long axis before, and the way's heading after that.
+    /// How far the pelvis is bent forward from upright, its turn about its own long axis before, and the way's heading
+    /// after that.
     pub turn: [Aim; 3],
     /// Centre of mass, x and y.
     pub com: [Aim; 2],
-    /// Knee caps, balls of the feet, tips of the toes and heels (height only), wrists, palms (height of what lies flat).
+    /// Knee caps, balls of the feet, tips of the toes and heels (height only), wrists, palms (height of what lies
+    /// flat).
     pub knees: [[Aim; 3]; 2],
     pub balls: [[Aim; 3]; 2],
     pub tips: [Aim; 2],

@@ -16,14 +16,16 @@ pub const SHANKS: [SegmentId; 2] = [L_SHANK, R_SHANK];
 pub const FEET: [SegmentId; 2] = [L_FOOT, R_FOOT];
 pub const TOES: [SegmentId; 2] = [L_TOES, R_TOES];
 pub const HANDS: [SegmentId; 2] = [L_HAND, R_HAND];
-/// Points of the shank on which one kneels, of the toes under the ball of the foot, of the chest that carry who lies on it.
+/// Points of the shank on which one kneels, of the toes under the ball of the foot, of the chest that carry who lies on
+/// it.
 pub const KNEE: usize = 0;
 pub const BALL: [usize; 2] = [0, 1];
 /// Points of a palm that lies flat: finger tip, knuckles, palm.
 const PALM: [usize; 4] = [0, 1, 3, 4];
 /// Time constant with which goals are approached, s.
 const APPROACH: f64 = 0.1;
-/// Weights: change of a rate within [`STEADY_TIME`], a rate, the trunk's level, nothing in the floor, fingers to the front.
+/// Weights: change of a rate within [`STEADY_TIME`], a rate, the trunk's level, nothing in the floor, fingers to the
+/// front.
 const STEADY: f64 = 1e-3;
 const STEADY_TIME: f64 = 0.05;
 const DAMPING: f64 = 3e-4;

@@ -1,8 +1,9 @@
 //! The stages of the way up: what each is meant to look like, from where the body is.
 //!
-//! From the belly: arms out, toes tucked, hands beside the ribs, hips up and back over the knees, up on hands and knees, one hand after the
-//! other to the knees, knees off the floor, one hand after the other to the feet, heels down, up. Who lies on the back or on a side rolls over before: one foot set up,
-//! pushed over by it, leg and arm across. All of it is written for rolling over the right side; the other is the mirror image.
+//! From the belly: arms out, toes tucked, hands beside the ribs, hips up and back over the knees, up on hands and
+//! knees, one hand after the other to the knees, knees off the floor, one hand after the other to the feet, heels down,
+//! up. Who lies on the back or on a side rolls over before: one foot set up, pushed over by it, leg and arm across. All
+//! of it is written for rolling over the right side; the other is the mirror image.
 
 use super::goals::{Aim, Goals, swapped};
 use super::reference_pose::Looks;

@@ -1,4 +1,5 @@
-//! Goal: the way up is one that a body can go. Method: a body that does exactly what is asked of it, of four people, from belly, back and sides.
+//! Goal: the way up is one that a body can go. Method: a body that does exactly what is asked of it, of four people,
+//! from belly, back and sides.
 
 use super::*;
 use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES};

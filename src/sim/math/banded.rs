@@ -1,4 +1,5 @@
-//! Least squares along a trajectory (offline): every row couples a sample with its neighbours, so the normal matrix has two bands.
+//! Least squares along a trajectory (offline): every row couples a sample with its neighbours, so the normal matrix has
+//! two bands.
 
 /// Symmetric positive definite matrix with two bands above its diagonal, and after [`Self::factor`] its LDLᵀ.
 #[derive(Clone, Debug, Default)]
@@ -32,7 +33,8 @@ impl Pentadiagonal {
         }
     }
 
-    /// Adds `weight · rᵀr` of a row `r` whose elements from column `first` on are these; those outside the matrix are left out.
+    /// Adds `weight · rᵀr` of a row `r` whose elements from column `first` on are these; those outside the matrix are
+    /// left out.
     pub fn add_row(&mut self, first: isize, row: [f64; 3], weight: f64) {
         let n = self.diagonal.len() as isize;
         for (k, a) in row.into_iter().enumerate() {

@@ -17,7 +17,8 @@ pub fn exp(x: f64) -> f64 {
     p * f64::from_bits(((n as i64 + 1023) as u64) << 52)
 }
 
-/// Natural logarithm of a positive normal number, error below 1e-15 of the larger of 1 and the result; NaN for anything else.
+/// Natural logarithm of a positive normal number, error below 1e-15 of the larger of 1 and the result; NaN for anything
+/// else.
 pub fn ln(x: f64) -> f64 {
     if !(x.is_normal() && x > 0.0) {
         return f64::NAN;

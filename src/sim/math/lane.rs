@@ -4,8 +4,8 @@ use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 /// A number of one figure (`f64`) or of eight figures in lock-step ([`F64x8`]).
 ///
-/// Every operation acts on each lane separately with IEEE rounding, so lane `k` of a batched kernel carries exactly the bits
-/// that the scalar kernel computes for figure `k`.
+/// Every operation acts on each lane separately with IEEE rounding, so lane `k` of a batched kernel carries exactly the
+/// bits that the scalar kernel computes for figure `k`.
 pub trait Lane:
     Copy
     + Clone

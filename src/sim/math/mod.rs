@@ -1,8 +1,8 @@
 //! Scalars, lanes and small fixed-size algebra that the kernels are written in.
 //!
-//! Every kernel is generic over [`Lane`]: `f64` steps one figure, [`F64x8`] steps eight in lock-step. One rounding rule holds
-//! for all of them: no fused multiply-add, and sine, cosine and arc tangent come from [`trig`], never from the platform, so a
-//! figure gets the same bits alone, in a batch, and on any instruction set.
+//! Every kernel is generic over [`Lane`]: `f64` steps one figure, [`F64x8`] steps eight in lock-step. One rounding rule
+//! holds for all of them: no fused multiply-add, and sine, cosine and arc tangent come from [`trig`], never from the
+//! platform, so a figure gets the same bits alone, in a batch, and on any instruction set.
 
 pub mod banded;
 pub mod ease;

@@ -27,8 +27,8 @@ pub fn hull(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     out
 }
 
-/// Signed distance of `z` from the border of a convex counter-clockwise polygon: positive inside, m. For fewer than three corners,
-/// minus the distance to the nearest one.
+/// Signed distance of `z` from the border of a convex counter-clockwise polygon: positive inside, m. For fewer than
+/// three corners, minus the distance to the nearest one.
 pub fn margin(polygon: &[[f64; 2]], z: [f64; 2]) -> f64 {
     let n = polygon.len();
     if n < 3 {
@@ -127,7 +127,8 @@ impl Region {
         }
     }
 
-    /// The part of a convex counter-clockwise polygon that is at least `inset` (m) inside; its middle if it is too narrow for that.
+    /// The part of a convex counter-clockwise polygon that is at least `inset` (m) inside; its middle if it is too
+    /// narrow for that.
     pub fn inside(polygon: &[[f64; 2]], inset: f64) -> Self {
         Self::new(inner_polygon(polygon, inset))
     }

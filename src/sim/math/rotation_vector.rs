@@ -1,7 +1,8 @@
 //! Calculus of rotation vectors, for curves of the form `q(t) = q₀ · exp(φ(t))`.
 //!
-//! With φ a smooth curve, the angular velocity in child axes is `ω = Jr(φ) φ̇` (right Jacobian of the exponential map) and its
-//! derivative `α = Jr φ̈ + J̇r φ̇`; see for example Chirikjian, *Stochastic Models, Information Theory, and Lie Groups*, vol. 2.
+//! With φ a smooth curve, the angular velocity in child axes is `ω = Jr(φ) φ̇` (right Jacobian of the exponential map)
+//! and its derivative `α = Jr φ̈ + J̇r φ̇`; see for example Chirikjian, *Stochastic Models, Information Theory, and Lie
+//! Groups*, vol. 2.
 
 use crate::sim::math::{Vec3, trig};
 
@@ -89,7 +90,8 @@ pub fn rates(phi: Vec3, phi_dot: Vec3, phi_ddot: Vec3) -> (Vec3, Vec3) {
     (omega, alpha)
 }
 
-/// `φ̇` and `φ̈` of the curve that has angular velocity `omega` and acceleration `alpha` (child axes) at φ, |φ| ≤ π; inverse of [`rates`].
+/// `φ̇` and `φ̈` of the curve that has angular velocity `omega` and acceleration `alpha` (child axes) at φ, |φ| ≤ π;
+/// inverse of [`rates`].
 pub fn vector_rates(phi: Vec3, omega: Vec3, alpha: Vec3) -> (Vec3, Vec3) {
     let theta2 = phi.dot(phi);
     let k = if theta2 < 0.01 {

@@ -1,7 +1,7 @@
 //! Sine, cosine and arc tangent with one fixed rounding on every machine and in every lane.
 //!
-//! Argument reduction by π/2 in three parts (Cody & Waite) and the minimax polynomials of fdlibm; absolute error below 3e-16
-//! for |x| < 1e5. The platform's libm is never used in the core: it differs between systems.
+//! Argument reduction by π/2 in three parts (Cody & Waite) and the minimax polynomials of fdlibm; absolute error below
+//! 3e-16 for |x| < 1e5. The platform's libm is never used in the core: it differs between systems.
 
 use super::Lane;
 

@@ -1,9 +1,9 @@
 //! Motions that need no recording: written for any body, balanced and within its limits.
 //!
-//! Each motion is a smooth plan (joint angles of the upper body, orientation and height of the pelvis, poses of the feet, path
-//! of the centre of mass over the floor); `shape` turns it into postures: legs by inverse kinematics, and the pelvis shifted until
-//! the centre of mass is where the plan wants it. Lengths scale with the body's legs. The figure starts at the origin,
-//! facing +x, on the floor z = 0.
+//! Each motion is a smooth plan (joint angles of the upper body, orientation and height of the pelvis, poses of the
+//! feet, path of the centre of mass over the floor); `shape` turns it into postures: legs by inverse kinematics, and
+//! the pelvis shifted until the centre of mass is where the plan wants it. Lengths scale with the body's legs. The
+//! figure starts at the origin, facing +x, on the floor z = 0.
 
 mod gait;
 mod shape;
@@ -24,7 +24,8 @@ pub const LIFT_GRASP: f64 = standing::LIFT_GRASP;
 /// The built-in motion `name` for `body`; `None` if there is no such name.
 ///
 /// * `idle` (8 s, loops): breathing and a slight shift of weight.
-/// * `lift` (4 s): semi-squat, right hand to an object half a metre up, grasp ([`LIFT_GRASP`]), raise it in front to shoulder height.
+/// * `lift` (4 s): semi-squat, right hand to an object half a metre up, grasp ([`LIFT_GRASP`]), raise it in front to
+///   shoulder height.
 /// * `crate` (7.6 s, loops): both hands hold a crate at the waist, set it low, raise it to the chest, and take it back.
 /// * `squat` (5 s): down with the arms forward, and up.
 /// * `wave` (5 s): the right arm waves beside the head.

@@ -1,8 +1,9 @@
 //! Reading BVH motion capture (Biovision hierarchy).
 //!
-//! One pass over the bytes, no recursion, memory and time linear in their number: what a file declares (joints, frames, channels) is
-//! believed only as far as the bytes bear it out. The hierarchy and the head of the motion part are read word by word, so line
-//! breaks, indentation and brace placement do not matter there; each frame is one line. LF, CRLF and lone CR end a line.
+//! One pass over the bytes, no recursion, memory and time linear in their number: what a file declares (joints, frames,
+//! channels) is believed only as far as the bytes bear it out. The hierarchy and the head of the motion part are read
+//! word by word, so line breaks, indentation and brace placement do not matter there; each frame is one line. LF, CRLF
+//! and lone CR end a line.
 //!
 //! Numbers stay in file units and file axes, angles in degrees; what they mean in metres and which way is up is for
 //! retargeting to find out.
@@ -69,7 +70,8 @@ pub struct BvhJoint {
     pub parent: Option<usize>,
     /// Position in the parent's frame where no position channel says otherwise, file units.
     pub offset: [f64; 3],
-    /// Channels in the order of the file; rotations are applied in this order, each about the axes the one before has turned.
+    /// Channels in the order of the file; rotations are applied in this order, each about the axes the one before has
+    /// turned.
     pub channels: Vec<BvhChannel>,
     /// Offset of the End Site, if there is one (it may be zero), file units.
     pub end_site: Option<[f64; 3]>,
@@ -171,9 +173,9 @@ pub enum BvhError {
 impl Bvh {
     /// Reads a file.
     ///
-    /// Accepted beyond the letter of the format: any channel order and number per joint, a rotation order of its own at each
-    /// joint, joints without End Site or with an empty one, names with blanks, keywords in any case, one frame more or
-    /// fewer than declared. Such things are noted in [`Bvh::warnings`] where they may matter.
+    /// Accepted beyond the letter of the format: any channel order and number per joint, a rotation order of its own at
+    /// each joint, joints without End Site or with an empty one, names with blanks, keywords in any case, one frame
+    /// more or fewer than declared. Such things are noted in [`Bvh::warnings`] where they may matter.
     ///
     /// # Errors
     /// The first thing that cannot be read, with its line and, in the motion part, its frame and column.
@@ -224,7 +226,8 @@ impl Bvh {
         self.channel_count
     }
 
-    /// The same motion as a mirror shows it, x against −x of the file. Names stay: what is called left is on the right then.
+    /// The same motion as a mirror shows it, x against −x of the file. Names stay: what is called left is on the right
+    /// then.
     pub fn mirrored(&self) -> Self {
         let mut out = self.clone();
         for joint in &mut out.joints {
@@ -306,8 +309,8 @@ impl Bvh {
         Some(pose.position + pose.rotation.rotate(vec3(end[0], end[1], end[2])))
     }
 
-    /// Finds inner joints whose position channels are increments on the offset: all frames stay closer to zero than to the offset
-    /// and below half its length, which no bone does that is given whole.
+    /// Finds inner joints whose position channels are increments on the offset: all frames stay closer to zero than to
+    /// the offset and below half its length, which no bone does that is given whole.
     fn find_relative_positions(&mut self, warnings: &mut Warnings) {
         for (j, joint) in self.joints.iter().enumerate() {
             let positions = joint.channels.iter().filter(|c| c.is_position()).count();

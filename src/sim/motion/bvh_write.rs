@@ -1,7 +1,7 @@
 //! Writing postures as BVH: the body's own 18 segments, in the axes most tools expect.
 //!
-//! y up, z forward, x left; centimetres and degrees; joints named like VRM bones. The root has position and rotation channels, every
-//! other joint three rotations, in the order Z, X, Y.
+//! y up, z forward, x left; centimetres and degrees; joints named like VRM bones. The root has position and rotation
+//! channels, every other joint three rotations, in the order Z, X, Y.
 
 use crate::sim::body::topology::{BONE_NAMES, PARENT, SEGMENT_COUNT};
 use crate::sim::body::{Body, Posture};
@@ -36,8 +36,8 @@ fn zxy_angles(q: Quat) -> [f64; 3] {
 
 /// Text of a BVH file that shows `postures` of `body`, `1/rate_hz` seconds apart.
 ///
-/// Positions carry six decimals of a centimetre and angles seven of a degree, so reading it back gives every joint to well below a
-/// micrometre. Angles run on over ±180° from frame to frame. O(postures); the postures must be finite.
+/// Positions carry six decimals of a centimetre and angles seven of a degree, so reading it back gives every joint to
+/// well below a micrometre. Angles run on over ±180° from frame to frame. O(postures); the postures must be finite.
 pub fn write_bvh(body: &Body, postures: &[Posture], rate_hz: f64) -> String {
     let mut out = String::with_capacity(4096 + postures.len() * 57 * 12);
     write_all(&mut out, body, postures, rate_hz).expect("a String takes any text");

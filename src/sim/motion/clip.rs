@@ -1,9 +1,9 @@
 //! A motion at a uniform rate, and sampling it at any time.
 //!
-//! Between two samples every coordinate is a quintic in the exponential chart of the earlier one, so that position, velocity and
-//! acceleration are continuous and the sampled velocity and acceleration are exact derivatives of the sampled posture. The
-//! derivatives at the samples are finite differences of their neighbours. Sampling allocates nothing and rounds alike
-//! everywhere, since it feeds the tick.
+//! Between two samples every coordinate is a quintic in the exponential chart of the earlier one, so that position,
+//! velocity and acceleration are continuous and the sampled velocity and acceleration are exact derivatives of the
+//! sampled posture. The derivatives at the samples are finite differences of their neighbours. Sampling allocates
+//! nothing and rounds alike everywhere, since it feeds the tick.
 
 mod planar;
 mod seam;
@@ -96,8 +96,8 @@ impl Clip {
     ///
     /// * `planted`: which feet (left, right) the motion keeps on the floor, one entry per posture.
     ///
-    /// Velocities and accelerations at the samples are differences over five neighbours (fourth order; second order at the
-    /// ends) in the exponential chart.
+    /// Velocities and accelerations at the samples are differences over five neighbours (fourth order; second order at
+    /// the ends) in the exponential chart.
     ///
     /// # Errors
     /// Rate or number of samples out of range, `planted` of another length, a number that is not finite, a quaternion
@@ -144,8 +144,9 @@ impl Clip {
         Ok(clip)
     }
 
-    /// Declares the first `lead_in` and the last `lead_out` samples to be the way into the motion and out of it ([`crate::sim::plan::stop`]): times count
-    /// from the first sample between them, and repetition leaves them out. At least one sample stays between.
+    /// Declares the first `lead_in` and the last `lead_out` samples to be the way into the motion and out of it
+    /// ([`crate::sim::plan::stop`]): times count from the first sample between them, and repetition leaves them out. At
+    /// least one sample stays between.
     pub fn with_ends(mut self, lead_in: usize, lead_out: usize) -> Self {
         let most = self.knots.len() - 1;
         self.lead_in = lead_in.min(most);
@@ -187,7 +188,8 @@ impl Clip {
     pub fn planted(&self, i: usize) -> [bool; 2] {
         self.knots[self.lead_in + i].planted
     }
-    /// All samples with lead-in and lead-out, in order: posture and planted feet. The first one is that of time −[`Self::lead_in`].
+    /// All samples with lead-in and lead-out, in order: posture and planted feet. The first one is that of time
+    /// −[`Self::lead_in`].
     pub fn samples(&self) -> impl ExactSizeIterator<Item = (&Posture, [bool; 2])> {
         self.knots.iter().map(|k| (&k.posture, k.planted))
     }
@@ -201,9 +203,9 @@ impl Clip {
 
     /// The motion at time `t` (s).
     ///
-    /// Lead-in and lead-out included; before them and after them it stands still in the first or last posture (also for a time that is no
-    /// number). In between, posture, velocity and acceleration are continuous. A recording without them that starts or ends in
-    /// full motion has its true velocity up to its ends, so there it stops at once.
+    /// Lead-in and lead-out included; before them and after them it stands still in the first or last posture (also for
+    /// a time that is no number). In between, posture, velocity and acceleration are continuous. A recording without
+    /// them that starts or ends in full motion has its true velocity up to its ends, so there it stops at once.
     pub fn sample(&self, t: f64) -> Target {
         let last = self.knots.len() - 1;
         if t >= self.duration() + self.lead_out() {
@@ -217,9 +219,10 @@ impl Clip {
 
     /// The motion at time `t` (s) when it repeats for ever, in both directions.
     ///
-    /// Each round starts where the last one ended: displacement along the ground and change of heading are carried over. Towards the end
-    /// of a round the remaining difference to the start (posture, velocity, acceleration) is blended in, so that the seam is as
-    /// smooth as the clip. A time that is no number counts as 0. A clip with a lead-in comes from there instead of from earlier rounds.
+    /// Each round starts where the last one ended: displacement along the ground and change of heading are carried
+    /// over. Towards the end of a round the remaining difference to the start (posture, velocity, acceleration) is
+    /// blended in, so that the seam is as smooth as the clip. A time that is no number counts as 0. A clip with a
+    /// lead-in comes from there instead of from earlier rounds.
     pub fn sample_looped(&self, t: f64) -> Target {
         let Some(seam) = &self.seam else {
             return self.rest(self.lead_in);

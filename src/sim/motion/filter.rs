@@ -1,8 +1,8 @@
 //! Zero-phase smoothing and resampling of recorded trajectories (offline).
 //!
-//! A second-order Butterworth low-pass runs forwards and backwards, so that nothing is delayed; the signal is extended at both ends
-//! by its point reflection, and each pass starts in the steady state of its first sample. Amplitude at the cut-off is 1/2 (twice
-//! −3 dB). Rotations are filtered as sign-aligned quaternions and normalised again.
+//! A second-order Butterworth low-pass runs forwards and backwards, so that nothing is delayed; the signal is extended
+//! at both ends by its point reflection, and each pass starts in the steady state of its first sample. Amplitude at the
+//! cut-off is 1/2 (twice −3 dB). Rotations are filtered as sign-aligned quaternions and normalised again.
 
 use crate::sim::math::{Quat, Vec3};
 
@@ -124,8 +124,8 @@ pub fn low_pass_rotations(rotations: &mut [Quat], cutoff_hz: f64, rate_hz: f64) 
 
 /// A natural cubic spline through equally spaced samples, evaluated at another rate.
 ///
-/// * `signal`: samples at `rate_hz`; the result has `count` samples at `to_hz`, starting at the same instant; instants past the end
-///   give the last sample.
+/// * `signal`: samples at `rate_hz`; the result has `count` samples at `to_hz`, starting at the same instant; instants
+///   past the end give the last sample.
 ///
 /// O(n + count).
 pub fn resample(signal: &[f64], rate_hz: f64, to_hz: f64, count: usize) -> Vec<f64> {
@@ -206,8 +206,8 @@ pub fn speeds(points: &[Vec3], rate_hz: f64) -> Vec<f64> {
         .collect()
 }
 
-/// Smallest value within `half` samples either side, then a moving average of the same width: a smooth curve that never exceeds
-/// the signal.
+/// Smallest value within `half` samples either side, then a moving average of the same width: a smooth curve that never
+/// exceeds the signal.
 pub fn smooth_minimum(signal: &[f64], half: usize) -> Vec<f64> {
     let n = signal.len();
     let window = |i: usize| i.saturating_sub(half)..(i + half + 1).min(n);
@@ -219,7 +219,8 @@ pub fn smooth_minimum(signal: &[f64], half: usize) -> Vec<f64> {
                 .fold(f64::INFINITY, f64::min)
         })
         .collect();
-    // Two averages of half the width each give a curve with continuous slope; both stay within the window of the minimum.
+    // Two averages of half the width each give a curve with continuous slope; both stay within the window of the
+    // minimum.
     let quarter = half / 2;
     let average = |s: &[f64]| -> Vec<f64> {
         (0..n)

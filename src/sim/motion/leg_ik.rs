@@ -1,9 +1,9 @@
 //! Plain forward kinematics of a posture, and the analytic inverse of a leg.
 //!
-//! A leg is a ball hip, a hinge knee and a ball ankle: the knee angle follows from the distance between hip and ankle (law of
-//! cosines, for any offsets between the joints), the hip points the leg at the ankle and turns the knee's hinge axis as near as it
-//! can to a given direction, the ankle does the rest. Every step is closed form, so the foot pose is met to rounding.
-//! Rounds alike everywhere: live streams are prepared within the tick.
+//! A leg is a ball hip, a hinge knee and a ball ankle: the knee angle follows from the distance between hip and ankle
+//! (law of cosines, for any offsets between the joints), the hip points the leg at the ankle and turns the knee's hinge
+//! axis as near as it can to a given direction, the ankle does the rest. Every step is closed form, so the foot pose is
+//! met to rounding. Rounds alike everywhere: live streams are prepared within the tick.
 
 use crate::sim::body::topology::{
     DOF_AXIS, DOF_LEN, DOF_START, JOINT, Joint, L_FOOT, L_SHANK, L_THIGH, L_TOES, PARENT, R_FOOT,
@@ -100,8 +100,9 @@ pub fn solve_leg(
 /// * `toe`: toe extension, rad; clamped to the body's limits.
 ///
 /// The knee flexes between its limits and never backwards. A target out of reach leaves the leg stretched (or fully
-/// bent) towards it, with the foot's orientation as wanted, and the distance missed in [`LegResult::shortfall`]. Hip and ankle
-/// angles are not held to their limits: whether they must be, and what gives way, is for the caller to say. O(1), no allocation.
+/// bent) towards it, with the foot's orientation as wanted, and the distance missed in [`LegResult::shortfall`]. Hip
+/// and ankle angles are not held to their limits: whether they must be, and what gives way, is for the caller to say.
+/// O(1), no allocation.
 pub fn solve_leg_in_plane(
     body: &Body,
     posture: &mut Posture,
@@ -152,8 +153,8 @@ pub fn solve_leg_in_plane(
     }
 }
 
-/// Angle of the hinge with axis `n` at the end of `a` that brings the end of `b` to `distance` from the start of `a`; the flexed of
-/// the two solutions, stretched or folded where there is none.
+/// Angle of the hinge with axis `n` at the end of `a` that brings the end of `b` to `distance` from the start of `a`;
+/// the flexed of the two solutions, stretched or folded where there is none.
 ///
 /// Start to end is `r(θ) = a + R(θ) b`. With the parts of a and b across n,
 /// `|r|² = |a|² + |b|² + 2 (a·n)(b·n) + 2 C cos(θ − φ)`, `C = |a⊥||b⊥|`: longest at θ = φ, shorter on both sides.
@@ -169,8 +170,8 @@ pub(crate) fn hinge_for_distance(a: Vec3, b: Vec3, n: Vec3, distance: f64) -> f6
     stretched + trig::atan2((1.0 - cosine * cosine).sqrt(), cosine)
 }
 
-/// Rotation that takes `reach` to the unit vector `direction` and turns `n` as near to `axis` as that leaves open (`spare` where
-/// `axis` does not say).
+/// Rotation that takes `reach` to the unit vector `direction` and turns `n` as near to `axis` as that leaves open
+/// (`spare` where `axis` does not say).
 pub(crate) fn point_and_roll(
     reach: Vec3,
     n: Vec3,
@@ -183,8 +184,8 @@ pub(crate) fn point_and_roll(
     Quat::from_mat3(&(to * from.transpose()))
 }
 
-/// Right-handed frame whose first axis is `first` (unit) and whose second lies in the half plane of `second`; where the two are
-/// parallel, `spare` takes the place of `second`.
+/// Right-handed frame whose first axis is `first` (unit) and whose second lies in the half plane of `second`; where the
+/// two are parallel, `spare` takes the place of `second`.
 fn frame(first: Vec3, second: Vec3, spare: Vec3) -> Mat3 {
     let across = |v: Vec3| v - first * v.dot(first);
     let mut y = across(second);
@@ -254,7 +255,8 @@ mod tests {
 
     #[test]
     fn reachable_foot_poses_are_met_and_the_leg_is_found_again() {
-        // Method: a random leg within limits gives the target; another random leg of the same pelvis is then sent there.
+        // Method: a random leg within limits gives the target; another random leg of the same pelvis is then sent
+        // there.
         let body = Body::adult_man();
         let mut random = Pcg64::seed_from_u64(2);
         for left in [true, false] {
@@ -275,7 +277,8 @@ mod tests {
                 assert!((found.0 - target.0).norm() < 1e-9);
                 assert!(angle_between(found.1, target.1) < 1e-9);
                 assert_eq!(other.hinge[t], truth.hinge[t]);
-                // Given the true knee axis the whole leg comes back; near full stretch the knee angle is ill-conditioned.
+                // Given the true knee axis the whole leg comes back; near full stretch the knee angle is
+                // ill-conditioned.
                 let mut again = other;
                 let axis = knee_axis(&truth, left);
                 let result =

@@ -1,9 +1,10 @@
 //! Which bone of a recorded skeleton is which segment of the body.
 //!
-//! Names come first: every common dialect (CMU, LAFAN, Mixamo, VRM and Unity, Daz and Poser, 3ds Max Biped, MotionBuilder, generic
-//! `upper_arm.L` and `left_hip`) writes a side and a part, with differing separators, case and prefixes. Only limbs and head are
-//! read from names; pelvis and chest follow from the tree (where the legs meet, where the arms meet), so spine names never matter.
-//! When names fail, the shape of the tree decides: two legs, and a trunk that splits into two arms and a head.
+//! Names come first: every common dialect (CMU, LAFAN, Mixamo, VRM and Unity, Daz and Poser, 3ds Max Biped,
+//! MotionBuilder, generic `upper_arm.L` and `left_hip`) writes a side and a part, with differing separators, case and
+//! prefixes. Only limbs and head are read from names; pelvis and chest follow from the tree (where the legs meet, where
+//! the arms meet), so spine names never matter. When names fail, the shape of the tree decides: two legs, and a trunk
+//! that splits into two arms and a head.
 
 use super::bvh::BvhJoint;
 use crate::sim::math::Vec3;
@@ -44,7 +45,8 @@ pub struct SkeletonMap {
     pub by_structure: bool,
 }
 
-/// Most joints of a skeleton that is read; rigs with full faces have about 300. Bounds the quadratic searches of the tree.
+/// Most joints of a skeleton that is read; rigs with full faces have about 300. Bounds the quadratic searches of the
+/// tree.
 pub const MAX_JOINTS: usize = 1024;
 
 /// Why a skeleton cannot be mapped.
@@ -304,7 +306,8 @@ impl<'a> Tree<'a> {
 /// O(joints · depth) time. A map is returned only if every limb chain runs downwards in the tree.
 ///
 /// # Errors
-/// [`MapError::Missing`] names the segments without a bone, [`MapError::Ambiguous`] a name that several joints share where names decide.
+/// [`MapError::Missing`] names the segments without a bone, [`MapError::Ambiguous`] a name that several joints share
+/// where names decide.
 pub fn map_skeleton(joints: &[BvhJoint]) -> Result<SkeletonMap, MapError> {
     if joints.len() > MAX_JOINTS {
         return Err(MapError::TooManyJoints(joints.len()));
@@ -467,7 +470,8 @@ fn finish(
         }
         Some(at)
     });
-    // Two of our joints bend the trunk. The abdomen follows the first bone; where the first has no length (CMU's lower back), the next.
+    // Two of our joints bend the trunk. The abdomen follows the first bone; where the first has no length (CMU's lower
+    // back), the next.
     let lengthless = |i: usize| length(tree.joints[trunk[i]].offset) < 1e-6;
     let abdomen = if trunk.len() >= 3
         && trunk
@@ -491,7 +495,8 @@ fn finish(
     })
 }
 
-/// The limb below `start`: its two longest consecutive bones (upper and lower), then the next joint and the one after it.
+/// The limb below `start`: its two longest consecutive bones (upper and lower), then the next joint and the one after
+/// it.
 fn limb(tree: &Tree<'_>, start: usize) -> Option<(usize, usize, Option<usize>, Option<usize>)> {
     let mut chain = vec![start];
     let mut at = start;
@@ -559,7 +564,8 @@ fn by_structure(tree: &Tree<'_>) -> Option<SkeletonMap> {
     if legs.len() < 2 || arms.len() < 2 {
         return None;
     }
-    // Which is left is settled by position later (the caller swaps); here +x of the file's rest pose counts as left, the usual case.
+    // Which is left is settled by position later (the caller swaps); here +x of the file's rest pose counts as left,
+    // the usual case.
     let x = |start: usize| {
         let mut at = start;
         let mut sum = 0.0;

@@ -4,8 +4,8 @@ use crate::sim::body::{NV, Posture, State};
 
 /// Desired positions, velocities and accelerations at one instant.
 ///
-/// Velocities and accelerations have the layout and axes of [`State::velocity`](crate::sim::body::State::velocity): pelvis angular
-/// and linear part in world axes, then joint rates along the signed child axes.
+/// Velocities and accelerations have the layout and axes of [`State::velocity`](crate::sim::body::State::velocity):
+/// pelvis angular and linear part in world axes, then joint rates along the signed child axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
     /// Desired posture.
@@ -48,8 +48,9 @@ pub struct TargetPair {
 }
 
 impl TargetPair {
-    /// Sets the velocities back by `share` of the tick. A body that is stepped by semi-implicit Euler has at time t the velocity of half a substep
-    /// earlier: that is the one its error has to be measured from, or limbs lag behind by their acceleration.
+    /// Sets the velocities back by `share` of the tick. A body that is stepped by semi-implicit Euler has at time t the
+    /// velocity of half a substep earlier: that is the one its error has to be measured from, or limbs lag behind by
+    /// their acceleration.
     pub fn set_velocities_back(&mut self, share: f64) {
         for (now, next) in self.now.velocity.iter_mut().zip(&mut self.next.velocity) {
             let change = share * (*next - *now);

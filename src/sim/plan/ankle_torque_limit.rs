@@ -1,7 +1,8 @@
 //! What one foot can hold alone: the zero-moment points that its ankle is strong enough for.
 //!
-//! Soles reach farther than the muscles over them: in an adult man the toes end 20 cm before the ankle, but his calf holds his weight no
-//! farther than 14 cm before it. A motion planned up to the edge of the sole leaves no torque for the body to correct anything with.
+//! Soles reach farther than the muscles over them: in an adult man the toes end 20 cm before the ankle, but his calf
+//! holds his weight no farther than 14 cm before it. A motion planned up to the edge of the sole leaves no torque for
+//! the body to correct anything with.
 
 use super::foot_lock::{Anchor, Sole};
 use crate::sim::body::Body;
@@ -11,15 +12,16 @@ use crate::sim::strength::{MuscleScale, Strength};
 
 /// Share of its strength that an ankle gives at the edge of the support.
 const FIRM: f64 = 0.87;
-/// A body slower than the first, m/s, stays over the foot until an error has grown; one faster than the second is past it before: its support
-/// is longer by so much.
+/// A body slower than the first, m/s, stays over the foot until an error has grown; one faster than the second is past
+/// it before: its support is longer by so much.
 const SLOW: f64 = 0.8;
 const FAST: f64 = 1.2;
 const LONGER: f64 = 0.4;
-/// Nobody is planned on less than this share of his sole before the ankle: whose calf is weaker than that is weak in knees and hips too, and falls by those
-/// when he is kept farther back. At speed he gets as much again as he lacked.
+/// Nobody is planned on less than this share of his sole before the ankle: whose calf is weaker than that is weak in
+/// knees and hips too, and falls by those when he is kept farther back. At speed he gets as much again as he lacked.
 const LEAST: f64 = 0.61;
-/// Who stands on the ball of his foot has nothing behind his toe joint to stand on: he is planned on this much before it, m, whatever his calf holds.
+/// Who stands on the ball of his foot has nothing behind his toe joint to stand on: he is planned on this much before
+/// it, m, whatever his calf holds.
 const BALL: f64 = 0.015;
 /// A runner's foot that carries less than this share of his weight is as strong as one that carries so much.
 const LEAST_LOAD: f64 = 0.5;
@@ -42,7 +44,8 @@ pub struct Over {
 /// Limits of the support of one foot that carries a whole body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AnkleTorqueLimit {
-    /// Distance before the ankle at which the weight of the body takes [`FIRM`] of the strength of the ankle, or [`LEAST`] of the sole, m.
+    /// Distance before the ankle at which the weight of the body takes [`FIRM`] of the strength of the ankle, or
+    /// [`LEAST`] of the sole, m.
     front: f64,
     /// How much farther that is than what the ankle holds, m.
     lacks: f64,
@@ -76,7 +79,8 @@ impl AnkleTorqueLimit {
 
     /// Visits the corners (x, y) of the support of a foot that stands alone at `at`.
     ///
-    /// The ankle feels the line of force where it passes the height of the ankle, a little from the zero-moment point towards the centre of mass.
+    /// The ankle feels the line of force where it passes the height of the ankle, a little from the zero-moment point
+    /// towards the centre of mass.
     pub fn each_corner(
         &self,
         sole: &Sole,

@@ -1,7 +1,8 @@
 //! Which foot stands when, from trajectories of points of the feet.
 //!
-//! A captured foot slides a little in stance, and its floor is off by centimetres. So a foot counts as planted while one of its
-//! points moves slowly near its *own* lowest level; hysteresis, short gaps and short touches are cleaned up afterwards.
+//! A captured foot slides a little in stance, and its floor is off by centimetres. So a foot counts as planted while
+//! one of its points moves slowly near its *own* lowest level; hysteresis, short gaps and short touches are cleaned up
+//! afterwards.
 
 use crate::sim::math::Vec3;
 use crate::sim::motion::filter::{low_pass_points, percentile, speeds};
@@ -59,7 +60,8 @@ pub fn runs<T: PartialEq + Copy>(flags: &[T]) -> Vec<(usize, usize, T)> {
 
 /// Labels both feet.
 ///
-/// * `points`: for each foot the trajectories of its points (ankle, toe joint, toe tip; those the file has), m, z up, all of one length.
+/// * `points`: for each foot the trajectories of its points (ankle, toe joint, toe tip; those the file has), m, z up,
+///   all of one length.
 /// * `rate_hz`: samples per second.
 ///
 /// Returns left and right label per sample. O(n log n).
@@ -126,7 +128,8 @@ pub fn phases(planted: &[[bool; 2]], rate_hz: f64) -> Vec<ContactPhase> {
 mod tests {
     use super::*;
 
-    /// A point that stands at height `z` for half a second, moves 0.6 m in an arc during half a second, and stands again.
+    /// A point that stands at height `z` for half a second, moves 0.6 m in an arc during half a second, and stands
+    /// again.
     fn step(z: f64) -> Vec<Vec3> {
         (0..180)
             .map(|i| {

@@ -1,4 +1,5 @@
-//! A stretch of a motion that can repeat: where its end looks most like its beginning, closed so that nothing jumps and no foot slides.
+//! A stretch of a motion that can repeat: where its end looks most like its beginning, closed so that nothing jumps and
+//! no foot slides.
 
 use super::foot_lock::Sole;
 use super::prepare::{Draft, HELD, PrepareOptions, prepare};
@@ -112,9 +113,9 @@ fn find(clip: &Clip) -> Repeat {
     }
 }
 
-/// The motion such that it repeats well; `None` if it does so as it is. A stretch of it that is close to a cycle is closed, with all that comes
-/// before it as the lead-in; a motion without one stands still between its rounds. Offline: allocates, about a tenth of a second for
-/// some seconds of motion.
+/// The motion such that it repeats well; `None` if it does so as it is. A stretch of it that is close to a cycle is
+/// closed, with all that comes before it as the lead-in; a motion without one stands still between its rounds. Offline:
+/// allocates, about a tenth of a second for some seconds of motion.
 pub fn cycle(body: &Body, clip: &Clip) -> Option<Clip> {
     match find(clip) {
         Repeat::Whole => None,
@@ -134,7 +135,8 @@ const HOW: PrepareOptions = PrepareOptions {
 const LOW: f64 = 0.015;
 const SLOW: f64 = 0.3;
 
-/// Feet on the floor: the planted ones, and those that a former preparation set free because the leg could not hold them exactly.
+/// Feet on the floor: the planted ones, and those that a former preparation set free because the leg could not hold
+/// them exactly.
 pub(crate) fn label(
     body: &Body,
     rate: f64,
@@ -187,8 +189,8 @@ fn closed(body: &Body, clip: &Clip, i: usize, j: usize) -> Option<Clip> {
     let (postures, planted): (Vec<_>, Vec<_>) =
         samples[lead..=lead + j - i].iter().copied().unzip();
     let piece = Clip::from_postures(clip.name(), rate, postures, planted).ok()?;
-    // Several rounds, prepared as one motion: the one that is kept has others around it for as long as balance looks ahead and back, and
-    // those before it lead in.
+    // Several rounds, prepared as one motion: the one that is kept has others around it for as long as balance looks
+    // ahead and back, and those before it lead in.
     let round = j - i;
     let around = (AHEAD * rate / round as f64).ceil().max(1.0) as usize;
     let (mut postures, mut planted): (Vec<_>, Vec<_>) = samples[..lead].iter().copied().unzip();

@@ -1,7 +1,8 @@
 //! The smoothest curve under a ceiling (offline).
 //!
-//! A pelvis must come down where a leg does not reach. How it comes down decides what the legs have to bear: a dip of 4 cm in a tenth of a
-//! second takes the whole weight off the floor and then doubles it. So the dip is the one that costs the least acceleration.
+//! A pelvis must come down where a leg does not reach. How it comes down decides what the legs have to bear: a dip of 4
+//! cm in a tenth of a second takes the whole weight off the floor and then doubles it. So the dip is the one that costs
+//! the least acceleration.
 
 use crate::sim::math::banded::Pentadiagonal;
 
@@ -10,14 +11,15 @@ const STIFFNESS: f64 = 1e4;
 /// Most rounds of finding the samples that the ceiling holds down; 5 to 20 are typical.
 const ROUNDS: usize = 60;
 
-/// The curve `d ≤ ceiling` that minimises `Σ d² + τ⁴ d̈²`: it leaves 0 as little, and bends as little, as the ceiling allows.
+/// The curve `d ≤ ceiling` that minimises `Σ d² + τ⁴ d̈²`: it leaves 0 as little, and bends as little, as the ceiling
+/// allows.
 ///
 /// * `ceiling`: largest value per sample; only where it is below 0 does the curve leave 0.
 /// * `tau`: time over which it may bend, s: a dip of depth `z` takes about this long and accelerates by about `z/τ²`.
 /// * `rate_hz`: samples per second.
 ///
-/// The ceiling is a stiff spring, so the curve may pass it by a fraction of a millimetre per metre of depth. Newton's method on the samples that are
-/// held; each round is one banded solve, O(n).
+/// The ceiling is a stiff spring, so the curve may pass it by a fraction of a millimetre per metre of depth. Newton's
+/// method on the samples that are held; each round is one banded solve, O(n).
 pub fn smoothest_below(ceiling: &[f64], tau: f64, rate_hz: f64) -> Vec<f64> {
     let n = ceiling.len();
     let mut d = vec![0.0; n];

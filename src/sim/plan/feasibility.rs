@@ -1,8 +1,9 @@
-//! Can a body do this motion on its feet? What inverse dynamics asks of the ground against what the ground can give (WALKING §1).
+//! Can a body do this motion on its feet? What inverse dynamics asks of the ground against what the ground can give
+//! (WALKING §1).
 //!
-//! A recording is consistent with the dynamics of a body if its zero-moment point stays inside the support polygon and the wrench that
-//! its acceleration needs lies in the friction cones of the feet that stand. How far it is from that says, before anything is simulated,
-//! how hard it will be to follow. Pure, offline; nothing here changes a motion.
+//! A recording is consistent with the dynamics of a body if its zero-moment point stays inside the support polygon and
+//! the wrench that its acceleration needs lies in the friction cones of the feet that stand. How far it is from that
+//! says, before anything is simulated, how hard it will be to follow. Pure, offline; nothing here changes a motion.
 
 use super::contact_labels::runs;
 use super::foot_lock::{Anchor, Sole};
@@ -167,8 +168,8 @@ impl Standing {
     }
 }
 
-/// What is left of a wrench (force, moment about `com`) after the best forces in the friction cones at the corners of `polygon`:
-/// lengths of force and moment, in the units given.
+/// What is left of a wrench (force, moment about `com`) after the best forces in the friction cones at the corners of
+/// `polygon`: lengths of force and moment, in the units given.
 fn lacking(polygon: &[[f64; 2]], com: Vec3, force: Vec3, moment: Vec3) -> (f64, f64) {
     let mut columns = Vec::with_capacity(polygon.len() * EDGES);
     for p in polygon {
@@ -224,7 +225,8 @@ mod tests {
 
     #[test]
     fn a_lean_beyond_the_soles_is_found_again() {
-        // Method: the trunk of a standing man is moved forward so that his centre of mass lies a known distance before the soles.
+        // Method: the trunk of a standing man is moved forward so that his centre of mass lies a known distance before
+        // the soles.
         let body = Body::adult_man();
         let mut posture = at_ease(&body);
         let feet = forward(&body, &posture);

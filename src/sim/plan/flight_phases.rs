@@ -1,8 +1,8 @@
 //! Runs as they were recorded: when their feet stand, how their mass moves, and how their feet roll off.
 //!
-//! A runner's foot is on the floor for two tenths of a second. It touches while it still moves at 1 m/s and leaves the same way, heel first: labels by
-//! the speed of the foot see the middle half of that. What does tell stance from flight is the body, whose mass falls freely in flight; a
-//! motion that is to be followed has to let it.
+//! A runner's foot is on the floor for two tenths of a second. It touches while it still moves at 1 m/s and leaves the
+//! same way, heel first: labels by the speed of the foot see the middle half of that. What does tell stance from flight
+//! is the body, whose mass falls freely in flight; a motion that is to be followed has to let it.
 
 use super::contact_labels::runs;
 use super::foot_lock::{Anchor, LockedFoot, STEEPEST, Sole, Stance};
@@ -15,7 +15,8 @@ use crate::sim::motion::GRAVITY;
 use crate::sim::motion::filter::low_pass;
 use crate::sim::motion::leg_ik::forward;
 
-/// Least cut-off of a run, Hz: its steps come three to five times a second, and a body that is smoothed below twice that never leaves the floor.
+/// Least cut-off of a run, Hz: its steps come three to five times a second, and a body that is smoothed below twice
+/// that never leaves the floor.
 pub(crate) const CUTOFF: f64 = 10.0;
 /// Who flies and is faster than this runs, m/s, over so long before and after, s.
 const FAST: f64 = 2.0;
@@ -51,7 +52,8 @@ fn steady(on: &mut [bool], rate_hz: f64) {
 
 /// Labels the feet where the body of `postures` runs, by what the floor carries.
 ///
-/// * `postures`: as recorded, in body scale, feet not locked; `label`: left and right foot on the floor, per sample; `rate_hz`: samples per second.
+/// * `postures`: as recorded, in body scale, feet not locked; `label`: left and right foot on the floor, per sample;
+///   `rate_hz`: samples per second.
 ///
 /// O(n).
 pub(crate) fn label_runs(body: &Body, postures: &[Posture], label: &mut [[bool; 2]], rate_hz: f64) {
@@ -108,15 +110,16 @@ fn sole_points(body: &Body, soles: &[Sole; 2], posture: &Posture) -> [Vec<Vec3>;
     })
 }
 
-/// Shares of a stance in which a leg takes up its load and from which on it gives it up, and what is left of it at the end: an ankle that turns as fast
-/// as a runner's has no strength left for the last push.
+/// Shares of a stance in which a leg takes up its load and from which on it gives it up, and what is left of it at the
+/// end: an ankle that turns as fast as a runner's has no strength left for the last push.
 const RISES: f64 = 0.15;
 const FALLS: f64 = 0.5;
 const LAST: f64 = 0.15;
 /// A stance that is longer than this is none of a run, s.
 const LONGEST: f64 = 0.4;
-/// Time below which the height of the pelvis is not to change, s; price of an acceleration that is not that of gravity in the air, against another one's;
-/// stiffness of what holds the pelvis down, and most rounds of finding where it does.
+/// Time below which the height of the pelvis is not to change, s; price of an acceleration that is not that of gravity
+/// in the air, against another one's; stiffness of what holds the pelvis down, and most rounds of finding where it
+/// does.
 const BEND: f64 = 0.15;
 const FREE: f64 = 1e3;
 const STIFFNESS: f64 = 1e4;
@@ -169,8 +172,9 @@ impl FlightPhases {
         }
     }
 
-    /// What the pelvis is raised by, per sample, at most `most` (m): as little as lets the mass fall freely where nobody stands, and be pushed evenly
-    /// where a foot does. Newton's method on the samples that are held down; each round is one banded solve, O(n).
+    /// What the pelvis is raised by, per sample, at most `most` (m): as little as lets the mass fall freely where
+    /// nobody stands, and be pushed evenly where a foot does. Newton's method on the samples that are held down; each
+    /// round is one banded solve, O(n).
     pub(crate) fn heights(&self, most: &[f64]) -> Vec<f64> {
         let n = most.len();
         let bend = (BEND * self.rate_hz).powi(4);
@@ -209,7 +213,8 @@ pub(crate) fn falls(air: &[bool], i: usize) -> bool {
     air[i - 1] && air[i] && air[i + 1]
 }
 
-/// Vertical acceleration of the centre of mass in stances between two flights: what gravity takes all the time the floor gives in the meantime.
+/// Vertical acceleration of the centre of mass in stances between two flights: what gravity takes all the time the
+/// floor gives in the meantime.
 fn pushes(air: &[bool], rate_hz: f64) -> Vec<Option<f64>> {
     let mut out = vec![None; air.len()];
     let share = |u: f64| {
@@ -246,8 +251,9 @@ const BENDS: f64 = 0.01;
 /// Cut-off of the roll, Hz.
 const ROLL_CUTOFF: f64 = 12.0;
 
-/// How far a foot rolls up onto its toes, and onto their tip, so that its ankle is where it was recorded: a runner's foot that is held flat on its toes
-/// to the last has its ankle 5 cm behind and 5 cm below that, and its leg is too short for it.
+/// How far a foot rolls up onto its toes, and onto their tip, so that its ankle is where it was recorded: a runner's
+/// foot that is held flat on its toes to the last has its ankle 5 cm behind and 5 cm below that, and its leg is too
+/// short for it.
 ///
 /// * `heel_up`, `tip`: per sample, rad; both are changed in the `stances` of the `locked` foot.
 ///

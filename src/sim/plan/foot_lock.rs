@@ -1,8 +1,9 @@
 //! Planted feet that do not slide, and swinging feet that clear the floor.
 //!
-//! Each stance gets one anchor (place and heading); the whole pose of the foot follows from the anchor and the pitch: flat, rolled up
-//! about the heel edge, or heel up about the toe joint with flat toes. Between stances the foot follows the recording plus an offset
-//! that fades from the one lock and grows into the next with continuous velocity and acceleration, raised where it would scrape.
+//! Each stance gets one anchor (place and heading); the whole pose of the foot follows from the anchor and the pitch:
+//! flat, rolled up about the heel edge, or heel up about the toe joint with flat toes. Between stances the foot follows
+//! the recording plus an offset that fades from the one lock and grows into the next with continuous velocity and
+//! acceleration, raised where it would scrape.
 
 mod sole;
 mod stances;
@@ -45,9 +46,9 @@ const CLEARANCE: f64 = 0.045;
 const RISE: (f64, f64) = (0.45, 0.4);
 /// Longest time over which a swing departs from a lock, s.
 const FADE: f64 = 0.3;
-/// A foot that leaves for a flight, or comes from one, is pulled off its lock fast: the offset would first grow, by its speed times this share of the time
-/// over which it fades. There it grows by this much at most, m, and fades over this time at least, s: a leg that trails its foot by more stretches, and
-/// spins up in the air.
+/// A foot that leaves for a flight, or comes from one, is pulled off its lock fast: the offset would first grow, by its
+/// speed times this share of the time over which it fades. There it grows by this much at most, m, and fades over this
+/// time at least, s: a leg that trails its foot by more stretches, and spins up in the air.
 const GROWS: f64 = 0.2;
 const MOST_GROWTH: f64 = 0.015;
 const LEAST_FADE: f64 = 0.05;
@@ -82,12 +83,14 @@ fn offset(locked: &FootPose, ankle: Vec3, rotation: Quat, toe: f64) -> Channels 
 ///
 /// * `ankles`, `rotations`: recorded ankle (m) and `world_from_foot` per sample, floor at z = 0, body scale.
 /// * `stances`, `other`: when it stands, and when the other one does (from [`stances`]).
-/// * `heel_up`, `toe_out`: by how much more the heel is raised and the foot turned outwards in stance than recorded, rad per sample.
+/// * `heel_up`, `toe_out`: by how much more the heel is raised and the foot turned outwards in stance than recorded,
+///   rad per sample.
 /// * `side`: 0 left, 1 right.
 /// * `rate_hz`: samples per second.
 ///
-/// The result is continuous in position, velocity and acceleration up to the recording's own smoothness; a planted foot's pivot
-/// (heel edge or toe joint) does not move, and no point of the sole is below the floor in stance. O(n log n) per stance.
+/// The result is continuous in position, velocity and acceleration up to the recording's own smoothness; a planted
+/// foot's pivot (heel edge or toe joint) does not move, and no point of the sole is below the floor in stance. O(n log
+/// n) per stance.
 pub fn lock_foot(
     sole: &Sole,
     ankles: &[Vec3],
@@ -156,8 +159,8 @@ pub fn lock_foot(
     out
 }
 
-/// Pitch profile of a stance: a dead band makes the foot flat; a walking foot rolls one way only before its flat middle and one way only
-/// after it: toe-up first and heel-up then, unless it comes down on its toes or leaves from its heel.
+/// Pitch profile of a stance: a dead band makes the foot flat; a walking foot rolls one way only before its flat middle
+/// and one way only after it: toe-up first and heel-up then, unless it comes down on its toes or leaves from its heel.
 fn stance_pitch(raw: &[f64], rate_hz: f64) -> Vec<f64> {
     let n = raw.len();
     let long = n as f64 > LONG_STANCE * rate_hz;
@@ -204,7 +207,8 @@ struct End {
     offset: [Channels; 3],
 }
 
-/// Fills the samples `i..j` of a swing between the locks on either side; `flies`: at its beginning and at its end the other foot is in the air as well.
+/// Fills the samples `i..j` of a swing between the locks on either side; `flies`: at its beginning and at its end the
+/// other foot is in the air as well.
 fn swing(
     sole: &Sole,
     out: &mut LockedFoot,

@@ -1,10 +1,11 @@
 //! From step to step: out of a motion into a clip without standing in between.
 //!
-//! As in motion graphs (Kovar, Gleicher & Pighin 2002) the coming part of the one is searched for moments that are like the beginning of the
-//! other; what makes them like is said in terms of the body that has to go over: the capture point over the foot that stands, where the other
-//! foot is, and the joints ([`search`]). At such a moment the second motion is put on the standing foot, the difference between the two fades,
-//! and both are prepared together as one draft, so that no planted foot slides and the zero-moment point stays in the support ([`way`]). Who stands when it
-//! begins, but not as the clip begins, is led into it from there ([`stand`]).
+//! As in motion graphs (Kovar, Gleicher & Pighin 2002) the coming part of the one is searched for moments that are like
+//! the beginning of the other; what makes them like is said in terms of the body that has to go over: the capture point
+//! over the foot that stands, where the other foot is, and the joints ([`search`]). At such a moment the second motion
+//! is put on the standing foot, the difference between the two fades, and both are prepared together as one draft, so
+//! that no planted foot slides and the zero-moment point stays in the support ([`way`]). Who stands when it begins, but
+//! not as the clip begins, is led into it from there ([`stand`]).
 
 mod candidates;
 mod from_stand;
@@ -72,14 +73,16 @@ impl Next {
     }
 }
 
-/// The way from a motion or a stand into a clip, in the place and time of the clip: it plays instead of what the clip has before `until`.
+/// The way from a motion or a stand into a clip, in the place and time of the clip: it plays instead of what the clip
+/// has before `until`.
 #[derive(Clone, Debug)]
 pub struct WayIn {
     /// The motion: first the one that is left, at last the clip itself.
     pub clip: Clip,
     /// Clip time of its first sample, s.
     pub begin: f64,
-    /// Clip time at which the one turns into the other, s; from a stand it is on its way into the clip from its first sample on.
+    /// Clip time at which the one turns into the other, s; from a stand it is on its way into the clip from its first
+    /// sample on.
     pub enters: f64,
     /// Clip time from which on it is the clip, s.
     pub until: f64,
@@ -92,7 +95,8 @@ impl WayIn {
     }
 }
 
-/// The ways from a motion into a clip, at the moments that are most alike. Each can be worked out on its own; the first one that a body can go is taken.
+/// The ways from a motion into a clip, at the moments that are most alike. Each can be worked out on its own; the first
+/// one that a body can go is taken.
 pub struct Ways {
     body: Arc<Body>,
     known: Vec<Sample>,
@@ -104,7 +108,8 @@ pub struct Ways {
 }
 
 impl Ways {
-    /// * `known`: the motion from at least [`RUN_UP`] ago to [`AHEAD`] and [`BEYOND`] ahead, samples at [`RATE`]; it goes on at least up to sample `now`.
+    /// * `known`: the motion from at least [`RUN_UP`] ago to [`AHEAD`] and [`BEYOND`] ahead, samples at [`RATE`]; it
+    ///   goes on at least up to sample `now`.
     /// * `from`: the first sample at which it may be left.
     pub fn new(
         body: &Arc<Body>,
@@ -137,8 +142,8 @@ impl Ways {
         moment.entered as f64 * self.next.speed / RATE
     }
 
-    /// The way at the `k`-th moment, and where it puts the origin of the clip; `None` if a body cannot go it, or if one before it
-    /// is found already.
+    /// The way at the `k`-th moment, and where it puts the origin of the clip; `None` if a body cannot go it, or if one
+    /// before it is found already.
     pub fn way(&self, k: usize) -> Option<(WayIn, crate::sim::motion::PlanarTransform)> {
         let moment = self.moments.get(k)?;
         if k > self.found.load(Ordering::Relaxed) {

@@ -1,8 +1,9 @@
 //! Does a motion keep its balance on the feet it stands on, and what shift of the trunk makes it do so?
 //!
-//! From the postures alone: centre of mass, zero-moment point (with the change of angular momentum), support polygon of the planted
-//! feet. Where the zero-moment point leaves the polygon, the pelvis is shifted by as little as brings it back; it answers to a shift Δ of the
-//! centre of mass by `Δ − Δ̈/ω²`, `ω² = (g + c̈_z)/c_z` (cart-table model of Kajita et al. 2003).
+//! From the postures alone: centre of mass, zero-moment point (with the change of angular momentum), support polygon of
+//! the planted feet. Where the zero-moment point leaves the polygon, the pelvis is shifted by as little as brings it
+//! back; it answers to a shift Δ of the centre of mass by `Δ − Δ̈/ω²`, `ω² = (g + c̈_z)/c_z` (cart-table model of
+//! Kajita et al. 2003).
 
 use super::flight_phases::falls;
 use crate::sim::body::topology::SEGMENT_COUNT;
@@ -34,7 +35,8 @@ pub struct MassTrack {
 
 /// Computes [`MassTrack`] by central differences of the postures.
 ///
-/// The zero-moment point is that of [`zero_moment_point`], with the change of angular momentum about the centre of mass.
+/// The zero-moment point is that of [`zero_moment_point`], with the change of angular momentum about the centre of
+/// mass.
 ///
 /// * `rate_hz`: samples per second. The first and last two samples repeat their neighbour. O(n); allocates.
 pub fn mass_track(body: &Body, postures: &[Posture], rate_hz: f64) -> MassTrack {
@@ -98,8 +100,9 @@ pub fn mass_track(body: &Body, postures: &[Posture], rate_hz: f64) -> MassTrack 
 /// Where on the floor (z = 0) the ground force acts without a level moment.
 ///
 /// * `com`: centre of mass, m.
-/// * `wrench`: force of the ground, N, and its moment about the centre of mass, N·m. About the world origin the same would be the small
-///   difference of moments that grow with the distance from it, and differentiation makes them differ by more than the sole is long.
+/// * `wrench`: force of the ground, N, and its moment about the centre of mass, N·m. About the world origin the same
+///   would be the small difference of moments that grow with the distance from it, and differentiation makes them
+///   differ by more than the sole is long.
 pub(crate) fn zero_moment_point(com: Vec3, (force, moment): (Vec3, Vec3)) -> [f64; 2] {
     [
         com.x - (com.z * force.x + moment.y) / force.z,
@@ -141,7 +144,8 @@ const SETTLED: f64 = 1e-6;
 /// Most of a correction of the zero-moment point, m.
 const MOST_OFF: f64 = 0.4;
 
-/// How the zero-moment point answers to a shift of the centre of mass: Δ − Δ̈/ω², tridiagonal, the motion mirrored at both ends.
+/// How the zero-moment point answers to a shift of the centre of mass: Δ − Δ̈/ω², tridiagonal, the motion mirrored at
+/// both ends.
 fn answer(omega2: f64, rate_hz: f64, i: usize, n: usize) -> [f64; 3] {
     let a = rate_hz * rate_hz / omega2;
     let side = |edge: bool, other: bool| match (edge, other) {
@@ -166,7 +170,8 @@ fn answered(rows: &[[f64; 3]], shift: &[[f64; 2]], i: usize) -> [f64; 2] {
 /// Price of a zero-moment point outside, 1/m².
 const PRICE: f64 = 1.0 / (COST * COST);
 
-/// Share of the way into the support that the zero-moment point is brought in each sample: none where something else than feet carries.
+/// Share of the way into the support that the zero-moment point is brought in each sample: none where something else
+/// than feet carries.
 ///
 /// * `plain`: zero-moment point without any shift, m.
 fn how_much_yields(
@@ -218,15 +223,16 @@ fn shift_system(rows: &[[f64; 3]], carriers: &[Carrier], rate_hz: f64) -> Pentad
     matrix
 }
 
-/// Shift of the pelvis, per sample, that brings the zero-moment point `inset` (m) inside the support: the least one, and the smoothest.
+/// Shift of the pelvis, per sample, that brings the zero-moment point `inset` (m) inside the support: the least one,
+/// and the smoothest.
 ///
-/// Minimises `Σ s² + τ⁴ s̈² + Σ (outside/COST)²` where the zero-moment point answers to a shift Δ = s/LEAD of the centre of mass by Δ − Δ̈/ω²
-/// (cart-table model of Kajita et al. 2003), by alternating between the trajectory (a banded solve per axis) and the polygons (alternating
-/// direction method of multipliers).
+/// Minimises `Σ s² + τ⁴ s̈² + Σ (outside/COST)²` where the zero-moment point answers to a shift Δ = s/LEAD of the
+/// centre of mass by Δ − Δ̈/ω² (cart-table model of Kajita et al. 2003), by alternating between the trajectory (a
+/// banded solve per axis) and the polygons (alternating direction method of multipliers).
 ///
 /// * `track`: of the motion as shifted by `so_far`, m.
-/// * `elsewhere`: what else may carry the body. A body on a seat is left alone, as is one in flight; one that may lean on its hands is where its
-///   zero-moment point is outside by more than `reach` (m) for long.
+/// * `elsewhere`: what else may carry the body. A body on a seat is left alone, as is one in flight; one that may lean
+///   on its hands is where its zero-moment point is outside by more than `reach` (m) for long.
 ///
 /// O(n).
 pub fn pelvis_shift(
@@ -241,7 +247,8 @@ pub fn pelvis_shift(
     shift_with(track, so_far, around, (inset, reach), None, rate_hz)
 }
 
-/// The same for a body that runs, which flies where `air` is set: the path of its mass is straight there, whatever it was.
+/// The same for a body that runs, which flies where `air` is set: the path of its mass is straight there, whatever it
+/// was.
 pub(crate) fn pelvis_shift_in_run(
     track: &MassTrack,
     so_far: &[[f64; 2]],

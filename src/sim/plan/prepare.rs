@@ -1,4 +1,5 @@
-//! From a recorded motion in body scale to a reference that a body can follow: feet locked, legs reaching, balance kept.
+//! From a recorded motion in body scale to a reference that a body can follow: feet locked, legs reaching, balance
+//! kept.
 
 mod ankle_unloading;
 mod deep_flexion;

@@ -1,7 +1,9 @@
-//! From one motion into another while it goes on: into a stand, or into a clip at the place where that looks most alike.
+//! From one motion into another while it goes on: into a stand, or into a clip at the place where that looks most
+//! alike.
 //!
-//! The seam is a draft like any other: what was planned so far, then what comes, prepared together so that feet are locked and the
-//! zero-moment point is kept across it. Planned once when a figure is told to do something else; allocates, 10 to 20 ms for each end.
+//! The seam is a draft like any other: what was planned so far, then what comes, prepared together so that feet are
+//! locked and the zero-moment point is kept across it. Planned once when a figure is told to do something else;
+//! allocates, 10 to 20 ms for each end.
 
 use super::cycle::label;
 use super::feasibility::consistency;
@@ -17,7 +19,8 @@ use std::sync::{Arc, OnceLock};
 pub const RATE: f64 = 60.0;
 /// Time of the motion so far that takes part in the seam, s.
 pub const RUN_UP: f64 = 1.4;
-/// Rates count this much against angles, s; moments are alike up to this unlikeness, rad rms; a step is at least so many samples long.
+/// Rates count this much against angles, s; moments are alike up to this unlikeness, rad rms; a step is at least so
+/// many samples long.
 const RATE_SHARE: f64 = 0.05;
 const ALIKE: f64 = 0.3;
 const LEAST_BACK: usize = 48;
@@ -26,8 +29,8 @@ pub(crate) const BLEND: f64 = 0.3;
 /// How far ahead it is looked for a place to stop, s, and samples between the places that are tried.
 const STEP: f64 = 0.55;
 const APART: usize = 14;
-/// An end that asks for no more than this force and moment from nothing, shares of what a body weighs, is not worth bettering. Of
-/// those above 0.6 most fall, of those above 0.05 some.
+/// An end that asks for no more than this force and moment from nothing, shares of what a body weighs, is not worth
+/// bettering. Of those above 0.6 most fall, of those above 0.05 some.
 const EASY: f64 = 0.03;
 /// Rounds of preparation: what is known so far has been prepared, or comes off a window.
 pub(crate) const ROUNDS: usize = 4;
@@ -40,16 +43,17 @@ pub(crate) const HOW: PrepareOptions = PrepareOptions {
     lock_feet: true,
     balance: true,
     runs: true,
-    // A foot that an ankle at its limit moves by millimetres goes on standing: taken off the floor it would step in place, and nobody
-    // who is being stopped has time for that.
+    // A foot that an ankle at its limit moves by millimetres goes on standing: taken off the floor it would step in
+    // place, and nobody who is being stopped has time for that.
     held: 0.01,
 };
 
 /// A sample: posture, and which feet are planted.
 pub type Sample = (Posture, [bool; 2]);
 
-/// The ends of a motion by the steps that bring it to a stand: the moments of the step to come are tried as the beginning of the end, in turn, until one
-/// asks little of the ground; else the one that asks least is taken. Each can be worked out on its own.
+/// The ends of a motion by the steps that bring it to a stand: the moments of the step to come are tried as the
+/// beginning of the end, in turn, until one asks little of the ground; else the one that asks least is taken. Each can
+/// be worked out on its own.
 pub struct Ends {
     body: Arc<Body>,
     known: Vec<Sample>,
@@ -73,8 +77,10 @@ impl Ends {
     /// Most ends that are tried.
     pub const MOST: usize = (STEP * FINE) as usize / APART + 1;
 
-    /// * `known`: the motion so far and as far ahead as it is known, samples at [`RATE`]; it goes on at least up to sample `now`.
-    /// * `how`: how it stands in the end, wherever that is, at ease if not given; and whether the motion is a stream, which is known less well than a clip.
+    /// * `known`: the motion so far and as far ahead as it is known, samples at [`RATE`]; it goes on at least up to
+    ///   sample `now`.
+    /// * `how`: how it stands in the end, wherever that is, at ease if not given; and whether the motion is a stream,
+    ///   which is known less well than a clip.
     pub fn new(
         body: &Arc<Body>,
         known: Vec<Sample>,
@@ -113,8 +119,8 @@ impl Ends {
         self.way.get_or_init(way).as_ref()
     }
 
-    /// The `k`-th end, below [`Self::MOST`], and how much it asks for. Time 0 of the clip is the first sample given. `None` if there is none, if it stands,
-    /// sits or lies anyway, or if an end before it was easy.
+    /// The `k`-th end, below [`Self::MOST`], and how much it asks for. Time 0 of the clip is the first sample given.
+    /// `None` if there is none, if it stands, sits or lies anyway, or if an end before it was easy.
     pub fn end(&self, k: usize) -> Option<(f64, Clip)> {
         if k > self.easy.load(Ordering::Relaxed) {
             return None;
@@ -215,7 +221,8 @@ fn finer(known: &[Sample]) -> Option<Vec<Sample>> {
     )
 }
 
-/// What is played already stays as it was: the difference that preparation makes to the samples `before` up to `now` grows in after that.
+/// What is played already stays as it was: the difference that preparation makes to the samples `before` up to `now`
+/// grows in after that.
 pub(crate) fn hold_on(postures: &mut [Posture], before: &[Sample], now: usize) {
     if now < 1 || now >= postures.len().min(before.len()) {
         return;
@@ -240,8 +247,8 @@ pub(crate) fn hold_on(postures: &mut [Posture], before: &[Sample], now: usize) {
     }
 }
 
-/// Goes on with a motion that breaks off in mid-step as it went on the last time that it was like that, until both feet stand. Does nothing
-/// where it never was.
+/// Goes on with a motion that breaks off in mid-step as it went on the last time that it was like that, until both feet
+/// stand. Does nothing where it never was.
 fn finish_step(postures: &mut Vec<Posture>, label: &mut Vec<[bool; 2]>) {
     let end = postures.len() - 1;
     let rates = |i: usize| postures[i - 1].joint_difference(&postures[i]);

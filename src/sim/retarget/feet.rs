@@ -30,7 +30,8 @@ impl Scene<'_> {
             .collect()
     }
 
-    /// `world_from_foot` per sample: x from ankle to toes made level while the foot stands flat, z up then. `leg`: its length, m.
+    /// `world_from_foot` per sample: x from ankle to toes made level while the foot stands flat, z up then. `leg`: its
+    /// length, m.
     pub(super) fn foot_frames(
         &self,
         map: &SkeletonMap,

@@ -9,13 +9,14 @@ use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::filter::percentile;
 use crate::sim::plan::foot_lock::turn;
 
-/// Largest median wrist deviation and flexion that are believed, rad: hand markers are few, so a hand's rest pose is often off.
+/// Largest median wrist deviation and flexion that are believed, rad: hand markers are few, so a hand's rest pose is
+/// often off.
 const WRIST_BIAS: (f64, f64) = (0.15, 0.6);
 
 /// Pronation, either way, that a forearm keeps to but for one sample in twenty at each end of its range, rad.
 const PRONATION: f64 = 1.5;
-/// A range of pronation that is out of that by more than this, or whose median is further from 0 than the second, has a zero that means nothing,
-/// rad; its middle then goes here, rad: hands that hang or work are a little pronated.
+/// A range of pronation that is out of that by more than this, or whose median is further from 0 than the second, has a
+/// zero that means nothing, rad; its middle then goes here, rad: hands that hang or work are a little pronated.
 const ZERO_OFF: (f64, f64) = (0.5, 1.3);
 pub(super) const PRONATION_MIDDLE: f64 = 0.4;
 /// A hand that is bent further than this has no twist of its own: cosine of the angle.
@@ -46,7 +47,8 @@ fn pronation_shift(angles: &[f64]) -> f64 {
     }
 }
 
-/// Angles about z, x and y that turn a bent forearm to its hand, with continuity: twist of the forearm, then the two of the wrist.
+/// Angles about z, x and y that turn a bent forearm to its hand, with continuity: twist of the forearm, then the two of
+/// the wrist.
 ///
 /// The twist stays within π of its median: what winds further has passed a bent hand, where it is not defined.
 fn split_hand(bent_to_hand: impl Iterator<Item = Quat>) -> Vec<[f64; 3]> {

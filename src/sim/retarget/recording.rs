@@ -10,8 +10,8 @@ use crate::sim::motion::skeleton_map::{SideMap, SkeletonMap};
 const LONGEST_POSE: f64 = 30.0;
 /// Some files start with two such poses.
 const MOST_POSES: usize = 2;
-/// Least root of the sum of squares of all bones' turns (rad) and of the root's way (in units of the figure's size) that is a jump between two frames,
-/// and the most that a held pose may have strayed from its first frame.
+/// Least root of the sum of squares of all bones' turns (rad) and of the root's way (in units of the figure's size)
+/// that is a jump between two frames, and the most that a held pose may have strayed from its first frame.
 const LEAST_JUMP: f64 = 0.15;
 const DRIFT: f64 = 0.3;
 /// A jump is so many times as large as any change within the time after it, s and least number of frames.
@@ -23,7 +23,8 @@ const RUSH: f64 = 0.06;
 const FADES: f64 = 2.0;
 /// And so many times as large as 95 of 100 changes of the clip.
 const USUAL: f64 = 2.5;
-/// Where the pose is held for several frames the fourth largest turn of a bone is more than this, or that of the root, rad.
+/// Where the pose is held for several frames the fourth largest turn of a bone is more than this, or that of the root,
+/// rad.
 const POSE_JUMP: f64 = 0.12;
 /// A bone within this of the file's rest pose is at rest, rad.
 const RESTS: f64 = 0.09;
@@ -241,12 +242,12 @@ impl Recording {
         below.into_iter().all(|(t, _)| angle_of(t[frame]) < RESTS)
     }
 
-    /// Drops a pose that is no part of the motion from the start: one that does not change, or hardly, before it jumps into the motion. Returns
-    /// the number of frames dropped.
+    /// Drops a pose that is no part of the motion from the start: one that does not change, or hardly, before it jumps
+    /// into the motion. Returns the number of frames dropped.
     ///
-    /// A jump is a change between two frames that is several times as large as any in the time after it, and as nearly all of the clip's: motion
-    /// gathers speed over several frames. Where the pose is held for more than a frame, one bone that flips is no jump: four bones must, or the
-    /// root, or the pose must be the rest pose of the file.
+    /// A jump is a change between two frames that is several times as large as any in the time after it, and as nearly
+    /// all of the clip's: motion gathers speed over several frames. Where the pose is held for more than a frame, one
+    /// bone that flips is no jump: four bones must, or the root, or the pose must be the rest pose of the file.
     pub(super) fn skip_pose(&mut self, rate_hz: f64, warnings: &mut Vec<String>) -> usize {
         let size = self.size();
         let mut skipped = 0;
@@ -270,8 +271,8 @@ impl Recording {
         skipped
     }
 
-    /// First frame after a jump to frame `cut`, and the largest change on the way there. Some writers blend the rest pose into the motion over several
-    /// frames: a rush that is fast from its first frame, which no motion is.
+    /// First frame after a jump to frame `cut`, and the largest change on the way there. Some writers blend the rest
+    /// pose into the motion over several frames: a rush that is fast from its first frame, which no motion is.
     fn rush(&self, cut: usize, jump: f64, rate_hz: f64, size: f64) -> (usize, f64) {
         if !self.rests(cut - 1) {
             return (cut, jump);

@@ -118,9 +118,11 @@ pub struct RetargetReport {
     pub elbow_off_axis: [f64; 2],
     /// Constant angle taken out of the left and right wrist, rad: the recording's hands do not continue its forearms.
     pub wrist_bias: [f64; 2],
-    /// Constant angle taken out of the pronation of the left and right forearm, rad: as recorded its range is no forearm's.
+    /// Constant angle taken out of the pronation of the left and right forearm, rad: as recorded its range is no
+    /// forearm's.
     pub pronation_shift: [f64; 2],
-    /// Fraction of foot samples in stance that were declared free because the leg's limits do not let it hold the foot in place.
+    /// Fraction of foot samples in stance that were declared free because the leg's limits do not let it hold the foot
+    /// in place.
     pub freed: f64,
     /// Largest distance of a planted foot from its place, m: as recorded, and prepared.
     pub foot_slide: (f64, f64),

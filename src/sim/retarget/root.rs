@@ -1,7 +1,7 @@
 //! Where a figure is whose file does not say so: the path of its root from the feet that stand.
 //!
-//! A file without root positions has its figure hang at one place, and the feet of a squat rise. The lowest points of a figure are on the floor, and
-//! do not slide on it: that gives the height of the root, and the way it takes.
+//! A file without root positions has its figure hang at one place, and the feet of a squat rise. The lowest points of a
+//! figure are on the floor, and do not slide on it: that gives the height of the root, and the way it takes.
 
 use super::UpAxis;
 use super::recording::Recording;
@@ -9,13 +9,13 @@ use crate::sim::math::Vec3;
 use crate::sim::motion::filter::{low_pass, percentile};
 use crate::sim::motion::skeleton_map::SkeletonMap;
 
-/// Heights of joints over the floor they rest on, in lengths of the leg: ankle, toe joint, tip of the toes, knee, hip, wrist or elbow, shoulder or
-/// head.
+/// Heights of joints over the floor they rest on, in lengths of the leg: ankle, toe joint, tip of the toes, knee, hip,
+/// wrist or elbow, shoulder or head.
 const CLEARANCE: [f64; 7] = [0.095, 0.03, 0.02, 0.07, 0.12, 0.05, 0.1];
 /// A point weighs less by a factor of e for each of these lengths of the leg that it is higher than the lowest one.
 const SOFT: f64 = 0.015;
-/// Nothing touches the floor where the lowest point is higher than this over its usual lowest level, in lengths of the leg; share of the samples below
-/// that level.
+/// Nothing touches the floor where the lowest point is higher than this over its usual lowest level, in lengths of the
+/// leg; share of the samples below that level.
 const OFF_FLOOR: f64 = 0.06;
 const LOW_SHARE: f64 = 0.05;
 /// Differences of speed below this are noise, lengths of the leg per second.
@@ -102,9 +102,11 @@ fn touching(take: &Recording, map: &SkeletonMap, leg: f64) -> Vec<(usize, f64)> 
     out
 }
 
-/// Moves every point so that the lowest ones stand on a level floor. A figure that hardly moves by that stays where it is; false then.
+/// Moves every point so that the lowest ones stand on a level floor. A figure that hardly moves by that stays where it
+/// is; false then.
 ///
-/// * `places`: world positions, `[bone][frame]`, file units and axes; `leg`: length of a leg, file units; `rate_hz`: frames per second.
+/// * `places`: world positions, `[bone][frame]`, file units and axes; `leg`: length of a leg, file units; `rate_hz`:
+///   frames per second.
 ///
 /// O(frames).
 pub(super) fn follow_feet(
@@ -173,8 +175,8 @@ fn path_by_feet(
     way
 }
 
-/// The way along the floor that the points on it have in common from frame `i − 1` to frame `i`: a mean in which what slides less than the others
-/// counts for more.
+/// The way along the floor that the points on it have in common from frame `i − 1` to frame `i`: a mean in which what
+/// slides less than the others counts for more.
 fn slide(
     points: &[(usize, f64)],
     i: usize,

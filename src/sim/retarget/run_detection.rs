@@ -1,8 +1,8 @@
 //! Which fast stretches of a recording are runs: told by gait, not by speed.
 //!
-//! A backflip, a dive and a punch are as fast as a run. A run is an upright body whose feet land in turns, with a flight before each landing, and
-//! which gets somewhere by that. The flights are seen in the mass: where the lead of the feet changes a runner falls freely, and a walker is lifted
-//! by both legs.
+//! A backflip, a dive and a punch are as fast as a run. A run is an upright body whose feet land in turns, with a
+//! flight before each landing, and which gets somewhere by that. The flights are seen in the mass: where the lead of
+//! the feet changes a runner falls freely, and a walker is lifted by both legs.
 
 use super::run_to_walk::{RUNS, WALKS, paces};
 use crate::sim::math::Vec3;
@@ -20,8 +20,8 @@ const TURNS_CUTOFF: f64 = 8.0;
 const LEAST_LEAD: f64 = 0.12;
 /// A running step takes at most so long, s.
 const LONGEST_STEP: f64 = 0.5;
-/// Share of gravity with which a flying body accelerates downwards, and within which share of a step before and after the feet are farthest apart: a
-/// walker's body falls as well, over the foot it stands on.
+/// Share of gravity with which a flying body accelerates downwards, and within which share of a step before and after
+/// the feet are farthest apart: a walker's body falls as well, over the foot it stands on.
 const FALLS: f64 = 0.4;
 const AROUND: f64 = 0.25;
 /// Fewest steps of a run, and share of them that have a flight.
@@ -154,7 +154,8 @@ fn judge(figure: &Figure<'_>, (i, j): (usize, usize), speed: f64, rate_hz: f64) 
     }
 }
 
-/// Samples within `i..j` in which the lead of one foot over the other, along the way, is at its largest and the other foot takes over.
+/// Samples within `i..j` in which the lead of one foot over the other, along the way, is at its largest and the other
+/// foot takes over.
 fn lead_turns(figure: &Figure<'_>, (i, j): (usize, usize), rate_hz: f64) -> Vec<usize> {
     let n = figure.middle.len();
     let mut slow = figure.middle.to_vec();

@@ -1,10 +1,11 @@
 //! Runs that are walked: a run slowed down and shortened until a body whose muscles cannot run takes the same steps.
 //!
-//! A run needs 1.3 to 1.5 times the strength that is measured in people's joints: hip, knee and ankle are at their limits together, and at take-off
-//! the ankle turns so fast that it gives a third of what it holds (docs/adr/0021, 0032). What can be kept of it is its steps, their order, rhythm and headings, and what trunk and arms do. Time
-//! runs as much slower as makes its steps last as long as walked ones, the way is shortened along with them until it is walked at a walk's speed (and
-//! until nobody leans more than such a speed can be braked with), every foot stays down until the other one has landed, and between
-//! its places it swings as a walking foot does.
+//! A run needs 1.3 to 1.5 times the strength that is measured in people's joints: hip, knee and ankle are at their
+//! limits together, and at take-off the ankle turns so fast that it gives a third of what it holds (docs/adr/0021,
+//! 0032). What can be kept of it is its steps, their order, rhythm and headings, and what trunk and arms do. Time runs
+//! as much slower as makes its steps last as long as walked ones, the way is shortened along with them until it is
+//! walked at a walk's speed (and until nobody leans more than such a speed can be braked with), every foot stays down
+//! until the other one has landed, and between its places it swings as a walking foot does.
 
 use crate::sim::math::ease::smootherstep;
 use crate::sim::math::{Quat, Vec3};
@@ -12,7 +13,8 @@ use crate::sim::motion::GRAVITY;
 use crate::sim::motion::filter::{low_pass, low_pass_points, speeds};
 use crate::sim::plan::contact_labels::runs;
 
-/// People run above this speed, m/s (and walk up to it: half of the speed at which a leg of 0.9 m would leave the floor, squared).
+/// People run above this speed, m/s (and walk up to it: half of the speed at which a leg of 0.9 m would leave the
+/// floor, squared).
 pub(crate) const RUNS: f64 = 2.2;
 /// What is faster than this before or after a run belongs to it; and how fast a run is walked, m/s.
 pub(crate) const WALKS: f64 = 1.05;
@@ -76,7 +78,8 @@ fn leans(way: &[Vec3], slow: &[Vec3], feet: [&[Vec3]; 2], rate_hz: f64) -> Vec<f
     out
 }
 
-/// Duration of the step that each sample belongs to, s: from one turning point of the way between the feet to the next, along the `slow` way of the body.
+/// Duration of the step that each sample belongs to, s: from one turning point of the way between the feet to the next,
+/// along the `slow` way of the body.
 fn steps(slow: &[Vec3], [left, right]: [&[Vec3]; 2], rate_hz: f64) -> Vec<f64> {
     let n = slow.len();
     let mut lead: Vec<f64> = (0..n)
@@ -126,8 +129,8 @@ pub(crate) struct RunToWalk {
 impl RunToWalk {
     /// `None` if there is no run.
     ///
-    /// * `way`: of the middle of the body, `feet`: of the left and the right foot, m; `runs`: first sample of each run and one past its last;
-    ///   `rate_hz`: of the recording; `to_hz`: of the motion.
+    /// * `way`: of the middle of the body, `feet`: of the left and the right foot, m; `runs`: first sample of each run
+    ///   and one past its last; `rate_hz`: of the recording; `to_hz`: of the motion.
     pub(crate) fn new(
         way: &[Vec3],
         feet: [&[Vec3]; 2],
@@ -214,7 +217,8 @@ impl RunToWalk {
         runs.map(|(i, j, _)| (i, j)).collect()
     }
 
-    /// Shortens the way: of the pelvis, and of everything in `others` (one path each) with it, so that what stood still does.
+    /// Shortens the way: of the pelvis, and of everything in `others` (one path each) with it, so that what stood still
+    /// does.
     ///
     /// A run that turns keeps its length: only along a line is it plain what lies before what.
     pub(crate) fn shorten<'a>(
@@ -237,8 +241,9 @@ impl RunToWalk {
         }
     }
 
-    /// Calms the heights of the body, m: a runner flies up from each step and sinks into his knees in the next, and knees that bend as far in a walk,
-    /// one leg alone and for longer, take more strength than the walk. What is left of a bounce shrinks with the square of the pace.
+    /// Calms the heights of the body, m: a runner flies up from each step and sinks into his knees in the next, and
+    /// knees that bend as far in a walk, one leg alone and for longer, take more strength than the walk. What is left
+    /// of a bounce shrinks with the square of the pace.
     pub(crate) fn calm(&self, pelvis: &mut [Vec3], rate_hz: f64) {
         let mut middle: Vec<f64> = pelvis.iter().map(|p| p.z).collect();
         low_pass(&mut middle, BOUNCES, rate_hz);
@@ -282,7 +287,8 @@ impl RunToWalk {
                 for (i, j, _) in phases.iter().filter(|r| !r.2) {
                     match (*i > 0, *j < n) {
                         (true, true) => swing(&mut ankle[s], &mut foot[s], *i, *j),
-                        // In these the recording begins or ends: it keeps its way there and is bent to the place at the other end.
+                        // In these the recording begins or ends: it keeps its way there and is bent to the place at the
+                        // other end.
                         (false, true) => {
                             bend(&mut ankle[s], &mut foot[s], &recorded, (0, *j), rate_hz)
                         }
@@ -337,8 +343,9 @@ fn swing(ankle: &mut [Vec3], foot: &mut [Quat], i: usize, j: usize) {
     }
 }
 
-/// Bends the recorded way of a foot, as it is at the sample (or end) `free`, to the place where it stands in sample `stands`. One that lands does so where
-/// the recording still has it in the air, and comes to rest along the floor within the last [`RESTS`].
+/// Bends the recorded way of a foot, as it is at the sample (or end) `free`, to the place where it stands in sample
+/// `stands`. One that lands does so where the recording still has it in the air, and comes to rest along the floor
+/// within the last [`RESTS`].
 fn bend(
     ankle: &mut [Vec3],
     foot: &mut [Quat],

@@ -28,7 +28,8 @@ pub(super) struct Seen {
     pub feet: [Vec<Vec<Vec3>>; 2],
     /// Mean distance, rms, over which smoothing moved the points, m.
     pub smoothing_rms: f64,
-    /// Stretches that are faster than people walk, in samples of the recording, and how its runs are slowed down if they are to be walked.
+    /// Stretches that are faster than people walk, in samples of the recording, and how its runs are slowed down if
+    /// they are to be walked.
     pub fast: Vec<FastStretch>,
     pub slowed: Option<RunToWalk>,
     /// How many times as long as recorded the motion is for that.
@@ -78,7 +79,8 @@ impl Seen {
 }
 
 impl<'a> Scene<'a> {
-    /// World positions and rotations of `take` and its rest pose, file units and axes, in metres with z up, at the output rate, smooth.
+    /// World positions and rotations of `take` and its rest pose, file units and axes, in metres with z up, at the
+    /// output rate, smooth.
     pub(super) fn new(
         take: &'a Recording,
         map: &SkeletonMap,

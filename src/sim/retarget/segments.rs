@@ -16,11 +16,13 @@ const PLANE_LEAST: f64 = 0.30;
 pub(super) struct Calibration {
     /// True if the file's zero pose served, false if samples of the motion did.
     pub from_rest: bool,
-    /// The calibration poses: the sample, `None` for the zero pose, and the figure frame then (x forward, y left, z up).
+    /// The calibration poses: the sample, `None` for the zero pose, and the figure frame then (x forward, y left, z
+    /// up).
     pub poses: Vec<(Option<usize>, Quat)>,
 }
 
-/// Samples that are nearly as upright as the most upright one serve for calibration: least difference of their score, and at most so many.
+/// Samples that are nearly as upright as the most upright one serve for calibration: least difference of their score,
+/// and at most so many.
 const UPRIGHT: f64 = 0.06;
 const MOST_POSES: usize = 400;
 /// A forearm that points down by more than this hangs: cosine.
@@ -169,7 +171,8 @@ impl Scene<'_> {
         pose.map_or(self.basis, |i| self.turn(joint)[i])
     }
 
-    /// A rotation or direction that belongs to each calibration pose, as rotation in the bone `joint`, averaged over the poses.
+    /// A rotation or direction that belongs to each calibration pose, as rotation in the bone `joint`, averaged over
+    /// the poses.
     ///
     /// `figure_from_segment`: of a pose, in the axes of its figure.
     fn bone_from_segment(
@@ -185,7 +188,8 @@ impl Scene<'_> {
         mean_rotation(&calibration.poses.iter().map(of).collect::<Vec<_>>())
     }
 
-    /// Segment frame per sample from a bone's rotation and the segment's frame in a calibration pose, in the axes of the figure.
+    /// Segment frame per sample from a bone's rotation and the segment's frame in a calibration pose, in the axes of
+    /// the figure.
     pub(super) fn follow(
         &self,
         joint: usize,
@@ -217,8 +221,8 @@ impl Scene<'_> {
         figure.conjugate().rotate(d).normalized_or(-Vec3::Z)
     }
 
-    /// Foot in a calibration pose, figure axes: x along the line from ankle to `toe`, level where that line falls as steeply as on a flat foot of a
-    /// `leg` of this length, m. The zero pose of the file has flat feet.
+    /// Foot in a calibration pose, figure axes: x along the line from ankle to `toe`, level where that line falls as
+    /// steeply as on a flat foot of a `leg` of this length, m. The zero pose of the file has flat feet.
     pub(super) fn foot_in_pose(
         &self,
         (foot, toe, is_tip): (usize, usize, bool),
@@ -267,7 +271,8 @@ impl Scene<'_> {
         (centre, turn)
     }
 
-    /// Hinge axis (towards the left, before any twist) of a two-bone limb per sample, and the off-axis angle of the lower bone.
+    /// Hinge axis (towards the left, before any twist) of a two-bone limb per sample, and the off-axis angle of the
+    /// lower bone.
     ///
     /// `sense` is +1 for a knee (flexion about +y) and −1 for an elbow (about −y).
     fn hinge_axis(

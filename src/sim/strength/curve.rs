@@ -1,15 +1,18 @@
-//! How much of its isometric peak a muscle group gives at an angle and at a speed: the factors f_len and f_vel of equation (5).
+//! How much of its isometric peak a muscle group gives at an angle and at a speed: the factors f_len and f_vel of
+//! equation (5).
 //!
-//! Whatever data a curve is made from, it is continuous, positive, and gives less the faster it shortens (ALGORITHM §3). Published
-//! fits that break this are repaired here (Anderson 2007: eccentric branch, plantarflexion, cosine beyond its half wave).
-//! Evaluated within the tick: no allocation and no platform libm.
+//! Whatever data a curve is made from, it is continuous, positive, and gives less the faster it shortens (ALGORITHM
+//! §3). Published fits that break this are repaired here (Anderson 2007: eccentric branch, plantarflexion, cosine
+//! beyond its half wave). Evaluated within the tick: no allocation and no platform libm.
 
 use crate::sim::math::trig;
 
-/// Least angle factor: the groups reach farther than the postures they were measured in, and none goes dead at the end of its range.
+/// Least angle factor: the groups reach farther than the postures they were measured in, and none goes dead at the end
+/// of its range.
 pub const ANGLE_FLOOR: f64 = 0.1;
-/// Least factor of a published cosine: the postures it was fitted in keep it above about one half. Farther out it is extrapolation, and
-/// wrong (it leaves the knee a tenth of its torque in a full squat, from which people rise): half the peak is held there.
+/// Least factor of a published cosine: the postures it was fitted in keep it above about one half. Farther out it is
+/// extrapolation, and wrong (it leaves the knee a tenth of its torque in a full squat, from which people rise): half
+/// the peak is held there.
 pub const COSINE_FLOOR: f64 = 0.5;
 /// Least velocity factor.
 pub const VELOCITY_FLOOR: f64 = 0.05;
@@ -28,7 +31,8 @@ pub enum AngleFactor {
         /// C3, rad.
         peak: f64,
     },
-    /// A bell `1/(1 + y + y²/2)`, `y = ½((θ − peak)·narrowness)²`: a Gaussian to second order whose flanks fall more slowly.
+    /// A bell `1/(1 + y + y²/2)`, `y = ½((θ − peak)·narrowness)²`: a Gaussian to second order whose flanks fall more
+    /// slowly.
     Bell {
         /// Angle of the peak, rad.
         peak: f64,
@@ -89,7 +93,8 @@ enum Shortening {
 }
 
 impl VelocityFactor {
-    /// Hill hyperbola that vanishes at `fastest` (rad/s) and is `at_half` (0.05…0.5) at half that speed; `eccentric` is the plateau.
+    /// Hill hyperbola that vanishes at `fastest` (rad/s) and is `at_half` (0.05…0.5) at half that speed; `eccentric` is
+    /// the plateau.
     pub fn hill(fastest: f64, at_half: f64, eccentric: f64) -> Self {
         let bend = 1.0 / at_half - 2.0;
         let slope = (1.0 + bend) / fastest;
@@ -99,8 +104,9 @@ impl VelocityFactor {
 
     /// The concentric curve of Anderson 2007, which is ¾ at `c4` and ½ at `c5` (rad/s, 0 < c4 < c5).
     ///
-    /// It was measured to about `c5`. Extrapolated, it crosses zero at 6…9 rad/s at the hip, speeds that a brisk step reaches, or never (plantarflexion);
-    /// here it goes on as a hyperbola instead. The eccentric branch, which falls below 1 or even below 0 as published, is replaced.
+    /// It was measured to about `c5`. Extrapolated, it crosses zero at 6…9 rad/s at the hip, speeds that a brisk step
+    /// reaches, or never (plantarflexion); here it goes on as a hyperbola instead. The eccentric branch, which falls
+    /// below 1 or even below 0 as published, is replaced.
     pub fn anderson(c4: f64, c5: f64, eccentric: f64) -> Self {
         let a = (c5 - 3.0 * c4) / (2.0 * c4 * c5);
         let b = (2.0 * c5 - 4.0 * c4) / (2.0 * c4 * c5);
@@ -125,7 +131,8 @@ impl VelocityFactor {
         }
     }
 
-    /// Factor at shortening speed `speed` (rad/s; negative = lengthening), [`VELOCITY_FLOOR`]…[`ECCENTRIC_MOST`], not increasing.
+    /// Factor at shortening speed `speed` (rad/s; negative = lengthening), [`VELOCITY_FLOOR`]…[`ECCENTRIC_MOST`], not
+    /// increasing.
     #[inline]
     pub fn at(&self, speed: f64) -> f64 {
         if speed <= 0.0 {

@@ -1,12 +1,13 @@
-//! Muscle fatigue: the three-compartment model with rest multiplier (Xia & Frey-Law 2008, Looft 2018), per DOF and direction.
+//! Muscle fatigue: the three-compartment model with rest multiplier (Xia & Frey-Law 2008, Looft 2018), per DOF and
+//! direction.
 //!
-//! The fibres that a direction of a DOF can call on are active (MA), resting (MR) or fatigued (MF), MA + MR + MF = 1. The load TL is the
-//! torque given over the torque that rested muscle could give in the same posture at the same speed:
+//! The fibres that a direction of a DOF can call on are active (MA), resting (MR) or fatigued (MF), MA + MR + MF = 1.
+//! The load TL is the torque given over the torque that rested muscle could give in the same posture at the same speed:
 //!
 //! dMA/dt = C − F·MA,  dMR/dt = −C + R'·MF,  dMF/dt = F·MA − R'·MF,
 //!
-//! where C moves fibres to MA = TL with 10 /s and R' is R under load, rising to r·R at rest. What is left of the strength is 1 − MF.
-//! A load TL held from rest fails after −ln(1 − R(1 − TL)/(F·TL))/R.
+//! where C moves fibres to MA = TL with 10 /s and R' is R under load, rising to r·R at rest. What is left of the
+//! strength is 1 − MF. A load TL held from rest fails after −ln(1 − R(1 − TL)/(F·TL))/R.
 
 use super::tables::Origin;
 use crate::sim::body::DOF_COUNT;
@@ -98,7 +99,8 @@ impl FatigueRow {
         self.recovery / (self.fatigue + self.recovery)
     }
 
-    /// R' at a load: R from [`Self::endless`] on, rising linearly to r·R at rest. Loads that fail do not see the rest multiplier.
+    /// R' at a load: R from [`Self::endless`] on, rising linearly to r·R at rest. Loads that fail do not see the rest
+    /// multiplier.
     fn recovery_at(&self, load: f64) -> f64 {
         let rest = (1.0 - load / self.endless()).max(0.0);
         self.recovery * (1.0 + (self.rest - 1.0) * rest)
@@ -115,7 +117,8 @@ pub struct Compartments {
 }
 
 impl Compartments {
-    /// One step of `dt` simulated seconds under `load` (≥ 0), in which fatigue passes `time_scale` times as fast. Stable for any step.
+    /// One step of `dt` simulated seconds under `load` (≥ 0), in which fatigue passes `time_scale` times as fast.
+    /// Stable for any step.
     pub fn step(&mut self, row: &FatigueRow, load: f64, dt: f64, time_scale: f64) {
         let called = load.clamp(0.0, 1.0 - self.fatigued);
         self.active = called + (self.active - called) * exp(-RECRUITMENT * dt);
@@ -157,8 +160,8 @@ impl Fatigue {
             .map(|sides| sides.map(|c| (1.0 - c.fatigued).max(LEAST_REMAINING)))
     }
 
-    /// Goes on by `dt` s in which muscles gave `torque` (N·m); `lower` < 0 < `upper` is what they could have given rested. About 5 µs; no
-    /// allocation.
+    /// Goes on by `dt` s in which muscles gave `torque` (N·m); `lower` < 0 < `upper` is what they could have given
+    /// rested. About 5 µs; no allocation.
     pub fn step(
         &mut self,
         torque: &[f64; DOF_COUNT],
@@ -244,7 +247,8 @@ mod tests {
         }
     }
 
-    /// Item 4 of the acceptance list, and the fit's own error: within 40 % of the measured curves between 20 and 70 % of strength.
+    /// Item 4 of the acceptance list, and the fit's own error: within 40 % of the measured curves between 20 and 70 %
+    /// of strength.
     #[test]
     fn endurance_is_that_of_people() {
         assert!((40.0..70.0).contains(&held(&SHOULDER, 0.5, 1.0)));

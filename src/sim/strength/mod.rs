@@ -1,7 +1,7 @@
 //! Available joint torque, equation (5): isometric level × angle factor × velocity factor, per DOF and direction.
 //!
-//! [`Strength`] is made once per body (sex, age, mass, stature) and read in every tick by [`Strength::range`]. [`tables`] holds the data and their
-//! origin, [`curve`] the shapes.
+//! [`Strength`] is made once per body (sex, age, mass, stature) and read in every tick by [`Strength::range`].
+//! [`tables`] holds the data and their origin, [`curve`] the shapes.
 
 pub mod curve;
 pub mod fatigue;
@@ -23,14 +23,16 @@ pub const LIGAMENT_ZONE: f64 = 4.0 / 180.0 * std::f64::consts::PI;
 const PER_ZONE: f64 = 1.0 / LIGAMENT_ZONE;
 /// At and past a limit, ligaments oppose it with this multiple of the isometric peak that drives into it.
 pub const LIGAMENT_FACTOR: f64 = 3.0;
-/// Passive tissue pushes this share more while it is stretched at [`TISSUE_SPEED`] or faster, and less while it recoils: it rings otherwise.
+/// Passive tissue pushes this share more while it is stretched at [`TISSUE_SPEED`] or faster, and less while it
+/// recoils: it rings otherwise.
 const TISSUE_DAMPING: f64 = 0.1;
 const TISSUE_SPEED: f64 = 10.0;
 /// Torque below which tissue does not act in the simulation, N·m; way over which a slope is no quotient, rad.
 const FELT: f64 = 1e-3;
 const LEAST_WAY: f64 = 1e-6;
-/// Least stiffness over torque, 1/rad. Tissue that is stretched so far that it gives no more would be a constant force, which a row with a
-/// stiffness cannot be; this one changes by 8 % at 10 rad/s and 120 substeps a second, and only ever takes energy. Elsewhere tissue is stiffer.
+/// Least stiffness over torque, 1/rad. Tissue that is stretched so far that it gives no more would be a constant force,
+/// which a row with a stiffness cannot be; this one changes by 8 % at 10 rad/s and 120 substeps a second, and only ever
+/// takes energy. Elsewhere tissue is stiffer.
 const LEAST_RISE: f64 = 1.0;
 /// Below this power of e tissue is slack: it would give less than 1e−13 N·m, and most joints spend their time there.
 const SLACK: f64 = -35.0;
@@ -63,7 +65,8 @@ impl Default for StrengthScale {
 }
 
 impl StrengthScale {
-    /// Factors on the muscles of each direction, with a further factor on all. The percentile is not among them: it shapes [`Strength`].
+    /// Factors on the muscles of each direction, with a further factor on all. The percentile is not among them: it
+    /// shapes [`Strength`].
     pub fn muscles(&self, further: f64) -> MuscleScale {
         let (all, effort) = (self.all * further, self.effort.max(LEAST_EFFORT));
         MuscleScale(std::array::from_fn(|d| [all * self.dof[d] * effort; 2]))
@@ -82,7 +85,8 @@ impl Default for MuscleScale {
 
 pub use crate::sim::body::provenance::Provenance;
 
-/// One side of a DOF's passive tissue: `amplitude · exp(steepness · x)`, x the angle beyond `onset`, up to `cap`, then linear to twice that.
+/// One side of a DOF's passive tissue: `amplitude · exp(steepness · x)`, x the angle beyond `onset`, up to `cap`, then
+/// linear to twice that.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Passive {
     amplitude: f64,
@@ -167,14 +171,16 @@ pub struct Strength {
 }
 
 impl Strength {
-    /// Strength of the average person that `body.profile` describes: the tables, scaled by sex, mass · g · height and age.
+    /// Strength of the average person that `body.profile` describes: the tables, scaled by sex, mass · g · height and
+    /// age.
     ///
     /// Ages beyond 6…90 years count as the nearest of them. Allocates; offline.
     pub fn for_body(body: &Body) -> Self {
         Self::at_percentile(body, 50.0)
     }
 
-    /// Strength of a person as strong as `percentile` of those of that sex, age and size; clamped to 5…95. Allocates; offline.
+    /// Strength of a person as strong as `percentile` of those of that sex, age and size; clamped to 5…95. Allocates;
+    /// offline.
     pub fn at_percentile(body: &Body, percentile: f64) -> Self {
         let person = Person::of(body, percentile);
         let (groups, tissues) = (in_dof_order(&tables::TRUNK, &tables::ARM, &tables::LEG), {
@@ -220,8 +226,9 @@ impl Strength {
 
     /// Torque available at this instant, N·m, equation (5) with ligaments (ALGORITHM §3).
     ///
-    /// τ_max = T⁺ f_len(θ) f_vel(θ̇), τ_min = −T⁻ f_len(θ) f_vel(−θ̇). Within [`LIGAMENT_ZONE`] of a limit the torque that opposes it grows linearly to
-    /// [`LIGAMENT_FACTOR`] times the isometric peak that drives into it; ligaments do not scale with strength.
+    /// τ_max = T⁺ f_len(θ) f_vel(θ̇), τ_min = −T⁻ f_len(θ) f_vel(−θ̇). Within [`LIGAMENT_ZONE`] of a limit the torque
+    /// that opposes it grows linearly to [`LIGAMENT_FACTOR`] times the isometric peak that drives into it; ligaments do
+    /// not scale with strength.
     ///
     /// * `angles`: anatomical angles, rad; `rates`: joint rates, rad/s; both in DOF order.
     /// * `scale`: factors on the muscles, > 0.
@@ -249,7 +256,8 @@ impl Strength {
         }
     }
 
-    /// Torque of stretched tissue, N·m, in DOF order: elastic, with 10 % of internal damping; at most 2.2 isometric peaks.
+    /// Torque of stretched tissue, N·m, in DOF order: elastic, with 10 % of internal damping; at most 2.2 isometric
+    /// peaks.
     ///
     /// * `angles`: anatomical angles, rad; `rates`: joint rates, rad/s.
     ///
@@ -279,7 +287,8 @@ impl Strength {
 
     /// Tissue of DOF `d` (0…38) at its lower (`side` 0) or upper (1) end; `None` where it is slack.
     ///
-    /// * `angle`, `rate`: anatomical angle, rad, and its rate, rad/s. `h`: time ahead over which the stiffness is the mean, s.
+    /// * `angle`, `rate`: anatomical angle, rad, and its rate, rad/s. `h`: time ahead over which the stiffness is the
+    ///   mean, s.
     ///
     /// The torque is that of [`Self::passive`], N·m ≥ 0, at `angle`. No allocation.
     #[inline]
@@ -585,7 +594,8 @@ const FIVE_PERCENT: f64 = 1.644_853_626_951_472_2;
 
 /// Standard deviations from the mean at a percentile of a normal distribution, clamped to 5…95; 0 at 50.
 ///
-/// The series of the inverse error function to the ninth order, with a term that makes it exact at the ends; off by less than 0.01 between.
+/// The series of the inverse error function to the ninth order, with a term that makes it exact at the ends; off by
+/// less than 0.01 between.
 fn deviations(percentile: f64) -> f64 {
     let x = (percentile.clamp(5.0, 95.0) - 50.0) / 45.0;
     let series = |x: f64| {

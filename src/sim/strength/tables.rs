@@ -1,9 +1,10 @@
 //! The numbers behind strength, each with where it comes from.
 //!
-//! Hip, knee and ankle flexion–extension: Anderson, Madigan & Nussbaum 2007, Table 3 (34 people). Everything else: levels of industrial
-//! workers (Stobbe 1982 in Chaffin & Andersson) and single studies, with angle and velocity shapes of the data set compiled for one elite
-//! gymnast, whose levels are not used. Levels refer to the reference man (1.75 m, 75 kg) and woman (1.63 m, 62 kg) and scale
-//! with mass · g · height. Population averages for animation and planning, not for clinical or ergonomic decisions.
+//! Hip, knee and ankle flexion–extension: Anderson, Madigan & Nussbaum 2007, Table 3 (34 people). Everything else:
+//! levels of industrial workers (Stobbe 1982 in Chaffin & Andersson) and single studies, with angle and velocity shapes
+//! of the data set compiled for one elite gymnast, whose levels are not used. Levels refer to the reference man (1.75
+//! m, 75 kg) and woman (1.63 m, 62 kg) and scale with mass · g · height. Population averages for animation and
+//! planning, not for clinical or ergonomic decisions.
 
 use crate::sim::body::Sex;
 use crate::sim::body::age::polyline;
@@ -70,7 +71,8 @@ impl Leg {
         Self::Dorsiflexion,
         Self::Plantarflexion,
     ];
-    /// Angle (rad) at which levels of different ages are compared, within everybody's range: C1 is not, its cosine may peak beyond it.
+    /// Angle (rad) at which levels of different ages are compared, within everybody's range: C1 is not, its cosine may
+    /// peak beyond it.
     pub fn reference_angle(self) -> f64 {
         let degrees: f64 = match self {
             Self::HipFlexion | Self::Dorsiflexion | Self::Plantarflexion => 0.0,
@@ -92,8 +94,8 @@ impl Leg {
     }
 }
 
-/// Standard deviation of C1 between people, `[group][man, woman][18–25, 55–65, >65]`, order of [`ANDERSON`]. The oldest groups are six
-/// people: their spread is an accident.
+/// Standard deviation of C1 between people, `[group][man, woman][18–25, 55–65, >65]`, order of [`ANDERSON`]. The oldest
+/// groups are six people: their spread is an accident.
 pub const ANDERSON_DEVIATION: [[[f64; 3]; 2]; 6] = [
     [[0.025, 0.02, 0.025], [0.033, 0.016, 0.008]],
     [[0.049, 0.043, 0.039], [0.047, 0.032, 0.003]],
@@ -339,7 +341,8 @@ const fn thorax(waist: Group, name: &'static str) -> Group {
     }
 }
 
-/// Lumbar extension peaks far into flexion in the gymnast set; two joints share the bend, and the level is known upright only.
+/// Lumbar extension peaks far into flexion in the gymnast set; two joints share the bend, and the level is known
+/// upright only.
 const TRUNK_FLEXION: Group = spread(
     action(
         "trunk flexion",
@@ -754,7 +757,8 @@ pub const AGE_ORIGIN: Origin = Origin {
 
 /// Strength at `age` (years) relative to a young adult of the same sex.
 ///
-/// Men lose 0.15 % a year from 25 and 1.3 % a year from 52; women hold to 40, then the same slopes with the bend at 47. Never below 0.3.
+/// Men lose 0.15 % a year from 25 and 1.3 % a year from 52; women hold to 40, then the same slopes with the bend at 47.
+/// Never below 0.3.
 pub fn age_factor(sex: Sex, age: f64) -> f64 {
     let (decline, bend) = match sex {
         Sex::Male => (25.0, 52.0),
@@ -770,7 +774,8 @@ pub fn age_factor(sex: Sex, age: f64) -> f64 {
 pub enum Tissue {
     /// Amplitude (N·m), steepness (1/rad), onset (rad): Falisse 2019 after Anderson & Pandy.
     Measured(f64, f64, f64),
-    /// Amplitude (N·m) and steepness (1/rad) as measured, onset 0.1 rad before the limit: the measured trunk bends in one joint, this one in two.
+    /// Amplitude (N·m) and steepness (1/rad) as measured, onset 0.1 rad before the limit: the measured trunk bends in
+    /// one joint, this one in two.
     AtLimit(f64, f64),
     /// 1 % of the antagonist's peak at the first angle, all of it at the second, degrees.
     Between(f64, f64),
@@ -802,7 +807,8 @@ pub const ARM_TISSUE: [[Tissue; 2]; 7] = [
     [Unknown, Unknown],
     [Unknown, Unknown],
 ];
-/// One leg. The measured toe resists flexion from 0 on, at 70/rad; here its steepness is that of extension and it begins at the limit.
+/// One leg. The measured toe resists flexion from 0 on, at 70/rad; here its steepness is that of extension and it
+/// begins at the limit.
 pub const LEG_TISSUE: [[Tissue; 2]; 8] = [
     [Measured(1.51, 21.88, -0.6981), Measured(2.44, 5.05, 1.81)],
     [Measured(0.03, 14.94, -0.5), Measured(0.03, 14.94, 0.5)],

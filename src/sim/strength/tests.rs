@@ -1,5 +1,6 @@
-//! Goal: the strength of whole people against measurements that were not put in, and the properties every controller relies on.
-//! Method: static moments of straight arms and loads from the mass properties of the body, compared with `range`.
+//! Goal: the strength of whole people against measurements that were not put in, and the properties every controller
+//! relies on. Method: static moments of straight arms and loads from the mass properties of the body, compared with
+//! `range`.
 
 use super::curve::{ECCENTRIC_MOST, VELOCITY_FLOOR};
 use super::*;
@@ -44,7 +45,8 @@ fn isometric(body: &Body, dof: usize, degrees: f64) -> f64 {
     range_at(&Strength::for_body(body), &angles, &[0.0; 39]).1[dof]
 }
 
-/// Moment (N·m) about the joint of `first` of the hanging chain from `first` to the hand, turned level, and the distance of the grip, m.
+/// Moment (N·m) about the joint of `first` of the hanging chain from `first` to the hand, turned level, and the
+/// distance of the grip, m.
 fn level_arm(body: &Body, first: SegmentId) -> (f64, f64) {
     let (mut reach, mut moment) = (0.0, 0.0);
     for s in first.index()..=t::L_HAND.index() {
@@ -116,7 +118,8 @@ fn radii_are_human(body: &Body) {
     }
 }
 
-/// Item 7 of the acceptance list: children of 10¾ years measured by Hogrel 2012 bend the knee with 38…46 N·m and the elbow with about 25.
+/// Item 7 of the acceptance list: children of 10¾ years measured by Hogrel 2012 bend the knee with 38…46 N·m and the
+/// elbow with about 25.
 #[test]
 fn children_have_measured_strength() {
     for sex in [Sex::Male, Sex::Female] {
@@ -135,7 +138,8 @@ fn children_have_measured_strength() {
     }
 }
 
-/// The straight-arm limit of a child lies below a woman's; scaled from adults it is about 2 kg (BIOMECHANICS calls 2.7 kg optimistic).
+/// The straight-arm limit of a child lies below a woman's; scaled from adults it is about 2 kg (BIOMECHANICS calls 2.7
+/// kg optimistic).
 #[test]
 fn straight_arm_of_a_child_holds_less_than_a_womans() {
     let limit = |b: &Body| {
@@ -257,7 +261,8 @@ fn every_number_says_where_it_comes_from() {
     }
 }
 
-/// Item 5 of the acceptance list for every combination of sex, stature and mass at the edges: masses, triangle inequality, radii over length.
+/// Item 5 of the acceptance list for every combination of sex, stature and mass at the edges: masses, triangle
+/// inequality, radii over length.
 #[test]
 fn bodies_are_physical_over_the_whole_range() {
     for sex in [Sex::Male, Sex::Female] {
@@ -317,7 +322,8 @@ fn all_36_rows_are_usable_after_repair() {
     }
 }
 
-/// The isometric torques per leg that the published table gives (BIOMECHANICS §1.1, derived there with another program).
+/// The isometric torques per leg that the published table gives (BIOMECHANICS §1.1, derived there with another
+/// program).
 #[test]
 fn legs_have_the_published_strength() {
     let reference = [
@@ -573,7 +579,8 @@ fn passive_tissue_pushes_back_from_both_ends_and_is_bounded() {
     assert!(out.iter().all(|x| x.abs() < 1.0), "{out:?}");
 }
 
-/// What tissue gives is the slope of what it stores, its stiffness that of what it gives, and both agree with the sum over both ends.
+/// What tissue gives is the slope of what it stores, its stiffness that of what it gives, and both agree with the sum
+/// over both ends.
 #[test]
 fn tissue_gives_back_what_it_stores() {
     let body = Body::adult_man();

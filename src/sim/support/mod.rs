@@ -1,4 +1,5 @@
-//! What carries the figure: touching points, support ratios (2), main support, support polygon, zero-moment point (3), tipping.
+//! What carries the figure: touching points, support ratios (2), main support, support polygon, zero-moment point (3),
+//! tipping.
 
 pub mod contact_set;
 pub mod polygon;
@@ -27,7 +28,8 @@ use crate::sim::dynamics::Terms;
 use crate::sim::figure::report::MAX_CONTACTS;
 use crate::sim::math::Vec3;
 
-/// Supports of one figure, computed once per tick and shared by controllers and steppers. Remembers what hysteresis needs.
+/// Supports of one figure, computed once per tick and shared by controllers and steppers. Remembers what hysteresis
+/// needs.
 #[derive(Clone, Debug)]
 pub struct Support {
     contacts: ContactSet,
@@ -64,7 +66,8 @@ impl Support {
         self.contacts.update(terms, body);
         let points = self.contacts.points();
         self.ratio = ratio::support_ratios(points, terms.com, com_acceleration, gravity);
-        // Ratios (2) hardly tell a foot that carries everything from one that carries nothing; S follows statics instead.
+        // Ratios (2) hardly tell a foot that carries everything from one that carries nothing; S follows statics
+        // instead.
         self.load = [0.0; SEGMENT_COUNT];
         let force = (com_acceleration + Vec3::Z * gravity) * terms.mass;
         if self
@@ -88,8 +91,8 @@ impl Support {
         self.polygon.reduce_thin();
     }
 
-    /// Adds what the figure leans on besides the floor. Seats and tables widen the polygon: as far as balance goes, what is over them is
-    /// carried. Call after [`Self::update`]. Allocates nothing for up to [`MAX_TOUCHES`] of them.
+    /// Adds what the figure leans on besides the floor. Seats and tables widen the polygon: as far as balance goes,
+    /// what is over them is carried. Call after [`Self::update`]. Allocates nothing for up to [`MAX_TOUCHES`] of them.
     pub fn rest_on(&mut self, rests: impl Iterator<Item = Rest>) {
         self.rests.extend(rests.take(MAX_TOUCHES));
         if self.rests.iter().any(Rest::is_level) {
@@ -136,8 +139,8 @@ impl Support {
         &self.ratio
     }
 
-    /// Share of the normal force per support that balanced sharing gives the last tick's motion of the centre of mass; 0 where nothing
-    /// touches, slightly negative for a foot that would have to pull.
+    /// Share of the normal force per support that balanced sharing gives the last tick's motion of the centre of mass;
+    /// 0 where nothing touches, slightly negative for a foot that would have to pull.
     pub fn load(&self) -> &[f64; SEGMENT_COUNT] {
         &self.load
     }
@@ -152,7 +155,8 @@ impl Support {
         self.points().iter().any(|p| p.support == segment)
     }
 
-    /// Ground polygon: hull over all supports, those that are not on the ground from above; thin sets are edges and vertices.
+    /// Ground polygon: hull over all supports, those that are not on the ground from above; thin sets are edges and
+    /// vertices.
     pub fn polygon(&self) -> &Polygon {
         &self.polygon
     }

@@ -1,7 +1,8 @@
 //! Convex polygons on the ground plane: hull, margin, closest point, inset.
 //!
-//! The support polygon is often degenerate (a figure on the edge of a shoe or on one corner), so a point and a segment are polygons
-//! here too, and thin sets are reduced to them. Buffers are kept between ticks: nothing allocates once they have grown.
+//! The support polygon is often degenerate (a figure on the edge of a shoe or on one corner), so a point and a segment
+//! are polygons here too, and thin sets are reduced to them. Buffers are kept between ticks: nothing allocates once
+//! they have grown.
 
 /// Distance below which points count as one, m.
 const SAME_POINT: f64 = 1e-7;
@@ -74,7 +75,8 @@ impl Polygon {
         self.corners.len() >= 3
     }
 
-    /// Becomes the convex hull of `points` (monotone chain). Points closer than 0.1 µm are merged; collinear ones are left out.
+    /// Becomes the convex hull of `points` (monotone chain). Points closer than 0.1 µm are merged; collinear ones are
+    /// left out.
     ///
     /// O(k log k) for k points; allocates only while the buffers grow.
     pub fn set_hull(&mut self, points: impl Iterator<Item = [f64; 2]>) {
@@ -221,8 +223,8 @@ impl Polygon {
         [e[0] / l, e[1] / l]
     }
 
-    /// Becomes `of` with every edge moved inwards by `distance` (m). A polygon that would vanish is inset by half as much, and so on;
-    /// a point or a segment, and a polygon too small for any inset, becomes its middle.
+    /// Becomes `of` with every edge moved inwards by `distance` (m). A polygon that would vanish is inset by half as
+    /// much, and so on; a point or a segment, and a polygon too small for any inset, becomes its middle.
     pub fn set_inset(&mut self, of: &Polygon, distance: f64) {
         let mut d = distance;
         for _ in 0..6 {

@@ -12,8 +12,8 @@ const TIE: f64 = 1e-9;
 
 /// Ratios of all supports, Eq. (2), normalised to a sum of 1.
 ///
-/// α_i = max(0, (a_m·l̂_i)(n·l̂_i)), l_i from the contact centroid to the centre of mass. `a_m` includes gravity, `a_m = c̈ − g`: without
-/// it every ratio of a resting figure is zero.
+/// α_i = max(0, (a_m·l̂_i)(n·l̂_i)), l_i from the contact centroid to the centre of mass. `a_m` includes gravity,
+/// `a_m = c̈ − g`: without it every ratio of a resting figure is zero.
 ///
 /// * `com`: world, m. `com_acceleration`: c̈ of the last tick, m/s². `gravity`: magnitude, m/s².
 /// * Returns one number per segment, 0 where it does not support. Equal shares if every α is zero.

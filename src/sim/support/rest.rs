@@ -14,7 +14,8 @@ pub struct Rest {
     pub normal: Vec3,
     /// Reaction that can be counted on, world axes, N: that of the last ticks.
     pub force: Vec3,
-    /// How much farther from the surface the motion has the part, as seen from the pelvis, m: a hand that is to leave the seat.
+    /// How much farther from the surface the motion has the part, as seen from the pelvis, m: a hand that is to leave
+    /// the seat.
     pub lift: f64,
 }
 

@@ -1,9 +1,10 @@
 //! Sharing of the ground reaction between contact points: balanced (S2) and the paper's (ALGORITHM §5).
 //!
-//! Balanced sharing looks, among all point forces with the right total wrench W, for the least ones in a norm weighted by the support
-//! ratios: f = D Aᵀ (A D Aᵀ)⁺ W with A = [… [p_k]×; 1 …]. Only the wrench per segment matters afterwards, so the point forces are never
-//! formed: with the Gram matrix G_s of the points of segment s, that wrench is G_s G⁺ W, G = Σ G_s. Everything is referred to the centroid
-//! of the points, so that it does not matter where in the world the figure stands.
+//! Balanced sharing looks, among all point forces with the right total wrench W, for the least ones in a norm weighted
+//! by the support ratios: f = D Aᵀ (A D Aᵀ)⁺ W with A = [… [p_k]×; 1 …]. Only the wrench per segment matters
+//! afterwards, so the point forces are never formed: with the Gram matrix G_s of the points of segment s, that wrench
+//! is G_s G⁺ W, G = Σ G_s. Everything is referred to the centroid of the points, so that it does not matter where in
+//! the world the figure stands.
 
 use super::contact_set::SupportPoint;
 use crate::sim::body::SEGMENT_COUNT;
@@ -57,7 +58,8 @@ pub fn point_weight(p: &SupportPoint, ratio: &[f64; SEGMENT_COUNT]) -> f64 {
 }
 
 impl Sharing {
-    /// Balanced sharing over the points that are not `excluded` (by index). No allocation. Returns false if none is left.
+    /// Balanced sharing over the points that are not `excluded` (by index). No allocation. Returns false if none is
+    /// left.
     pub fn set_balanced(
         &mut self,
         points: &[SupportPoint],
@@ -121,8 +123,9 @@ impl Sharing {
 
     /// Balanced sharing in which points that would have to pull on the floor carry nothing.
     ///
-    /// The least forces may be negative where the load is near an edge; a foot that is asked for such a wrench rolls over its edge. So the
-    /// worst puller is left out and the rest solved again, as long as the others can still give any wrench that the set could give.
+    /// The least forces may be negative where the load is near an edge; a foot that is asked for such a wrench rolls
+    /// over its edge. So the worst puller is left out and the rest solved again, as long as the others can still give
+    /// any wrench that the set could give.
     ///
     /// * `excluded`: points that carry nothing from the start (by index); those left out are added.
     /// * `total`: wrench (moment, force) to be shared, about the given world point.
@@ -202,7 +205,8 @@ pub(crate) fn mul(m: &Mat6, v: &[f64; 6]) -> [f64; 6] {
     std::array::from_fn(|i| (0..6).map(|j| m[i][j] * v[j]).sum())
 }
 
-/// Pseudo-inverse of a symmetric positive semidefinite matrix, eigenvalues below [`CUT_OFF`] of the largest cut off; and its rank.
+/// Pseudo-inverse of a symmetric positive semidefinite matrix, eigenvalues below [`CUT_OFF`] of the largest cut off;
+/// and its rank.
 ///
 /// Cyclic Jacobi rotations: only square roots, the same bits on every platform.
 fn pseudo_inverse(a: &Mat6) -> (Mat6, usize) {

@@ -231,7 +231,8 @@ pub(crate) fn random_state(body: &Body, rng: &mut Rng, spread: f64, rate: f64) -
     state
 }
 
-/// A random posture near standing whose feet stay flat on the floor: only joints above the hips differ, and the pelvis keeps still.
+/// A random posture near standing whose feet stay flat on the floor: only joints above the hips differ, and the pelvis
+/// keeps still.
 pub(crate) fn random_stance(body: &Body, rng: &mut Rng, spread: f64, rate: f64) -> State {
     let mut state = standing(body);
     let mut step = [0.0; NV];

@@ -239,8 +239,9 @@ fn a_tilted_figure_pivots_on_what_touches() {
 
 #[test]
 fn a_corner_that_would_sink_holds_the_rotation() {
-    // The figure leans far out over the right edge and slightly over the front one. About the corner alone it would turn mostly to the
-    // right, which takes the front-left corner up and the back-right one down or up with the way it leans.
+    // The figure leans far out over the right edge and slightly over the front one. About the corner alone it would
+    // turn mostly to the right, which takes the front-left corner up and the back-right one down or up with the way it
+    // leans.
     let body = mannequin();
     let t = terms(&body, &standing(&body));
     let (f, n) = t.ground_wrench(&[0.0; NV]);
@@ -268,7 +269,8 @@ fn a_corner_that_would_sink_holds_the_rotation() {
 
 #[test]
 fn a_stiff_figure_on_an_edge_turns_like_a_box() {
-    // A stiff body about an edge: ω̇ = m g l sin φ / I, l sin φ the horizontal distance of the centre of mass from the edge.
+    // A stiff body about an edge: ω̇ = m g l sin φ / I, l sin φ the horizontal distance of the centre of mass from the
+    // edge.
     let body = mannequin();
     let t = terms(&body, &standing(&body));
     let (f, n) = t.ground_wrench(&[0.0; NV]);

@@ -54,10 +54,11 @@ impl Pivot {
     }
 }
 
-/// The pivot of a figure whose zero-moment point, evaluated with the support at rest, is `zmp`; `None` if the support holds still.
+/// The pivot of a figure whose zero-moment point, evaluated with the support at rest, is `zmp`; `None` if the support
+/// holds still.
 ///
-/// Outside the polygon the pivot is its closest point (minimum-moment point). On an edge or a vertex the figure is tilted already,
-/// and it pivots on what touches, whichever side the zero-moment point is.
+/// Outside the polygon the pivot is its closest point (minimum-moment point). On an edge or a vertex the figure is
+/// tilted already, and it pivots on what touches, whichever side the zero-moment point is.
 pub fn pivot(polygon: &Polygon, zmp: Vec3) -> Option<Pivot> {
     let c = polygon.closest([zmp.x, zmp.y])?;
     let point = vec3(c.point[0], c.point[1], 0.0);
@@ -71,11 +72,11 @@ pub fn pivot(polygon: &Polygon, zmp: Vec3) -> Option<Pivot> {
     }
 }
 
-/// As [`pivot`], for support `s` of the state in `terms`: a rotation about a vertex that would push a neighbouring corner into the floor is
-/// held by that corner, so that the edge between the two remains.
+/// As [`pivot`], for support `s` of the state in `terms`: a rotation about a vertex that would push a neighbouring
+/// corner into the floor is held by that corner, so that the edge between the two remains.
 ///
-/// * `force`, `moment` (about the world origin): the ground wrench that the accelerations with the support *at rest* would need; its
-///   zero-moment point is `zmp`.
+/// * `force`, `moment` (about the world origin): the ground wrench that the accelerations with the support *at rest*
+///   would need; its zero-moment point is `zmp`.
 /// * `dt`: tick, s.
 pub fn unblocked_pivot(
     terms: &Terms,
@@ -106,7 +107,8 @@ pub fn unblocked_pivot(
 /// Rotational acceleration of a tipping support, rad/s² (world axes): ω̇ = −U (Uᵀ I_p U)⁻¹ Uᵀ n_p.
 ///
 /// * I_p: inertia of all segments about the pivot.
-/// * `force`, `moment` (about the world origin): the ground wrench that the accelerations with the support *at rest* would need.
+/// * `force`, `moment` (about the world origin): the ground wrench that the accelerations with the support *at rest*
+///   would need.
 pub fn tipping_acceleration(terms: &Terms, pivot: &Pivot, force: Vec3, moment: Vec3) -> Vec3 {
     let n = moment - pivot.point.cross(force);
     let (e, u) = (base_directions(terms, pivot), pivot.axes());
@@ -121,8 +123,8 @@ pub fn tipping_acceleration(terms: &Terms, pivot: &Pivot, force: Vec3, moment: V
     u.iter().zip(w).fold(Vec3::zero(), |s, (a, w)| s - *a * w)
 }
 
-/// Pelvis velocity (angular, linear) for unit rotation of the whole stiff body about the pivot along each free axis: the base rows
-/// of `E` (ALGORITHM §4). Unused entries are zero.
+/// Pelvis velocity (angular, linear) for unit rotation of the whole stiff body about the pivot along each free axis:
+/// the base rows of `E` (ALGORITHM §4). Unused entries are zero.
 pub(crate) fn base_directions(terms: &Terms, pivot: &Pivot) -> [[f64; 6]; 2] {
     let arm = terms.segment_position(0) - pivot.point;
     let mut e = [[0.0; 6]; 2];
@@ -133,7 +135,8 @@ pub(crate) fn base_directions(terms: &Terms, pivot: &Pivot) -> [[f64; 6]; 2] {
     e
 }
 
-/// `aᵀ M_bb b` for two pelvis velocities: with those of [`base_directions`], the inertia of all segments about the pivot axes.
+/// `aᵀ M_bb b` for two pelvis velocities: with those of [`base_directions`], the inertia of all segments about the
+/// pivot axes.
 pub(crate) fn base_product(terms: &Terms, a: &[f64; 6], b: &[f64; 6]) -> f64 {
     let mut s = 0.0;
     for i in 0..6 {

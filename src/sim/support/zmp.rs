@@ -36,8 +36,8 @@ pub struct FootLoad {
 
 /// Force and moment about `point` that the ground must give one foot, Eq. (3).
 ///
-/// n₀ = n₁ + l₀₁×f₁ + l_g×f_g is the moment that presses on the ground; what the ground returns is −n₀ plus the foot's own
-/// inertial terms, which the paper leaves out because its foot holds still.
+/// n₀ = n₁ + l₀₁×f₁ + l_g×f_g is the moment that presses on the ground; what the ground returns is −n₀ plus the foot's
+/// own inertial terms, which the paper leaves out because its foot holds still.
 ///
 /// * `gravity`: magnitude, m/s².
 pub fn foot_ground_wrench(foot: &FootLoad, point: Vec3, gravity: f64) -> (Vec3, Vec3) {

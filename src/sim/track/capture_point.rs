@@ -1,4 +1,5 @@
-//! The capture point (divergent component of motion) and where to step so that the error it has is gone when the foot lands (WALKING §4).
+//! The capture point (divergent component of motion) and where to step so that the error it has is gone when the foot
+//! lands (WALKING §4).
 
 use super::leg_collision::{BESIDE, foothold};
 use crate::sim::body::topology::{L_FOOT, R_FOOT};
@@ -18,8 +19,8 @@ const INSET: f64 = 0.01;
 pub(super) const REACH: (f64, f64) = (0.30, 0.60);
 /// Least distance to the side from the stance foot, m, unless the plan itself comes closer or crosses.
 const SEPARATION: f64 = 0.03;
-/// A displacement to the side greater than the first brings the foot closer by this many times what it is greater, even across, by up to
-/// the last, m: most pushes to the side cannot be caught otherwise.
+/// A displacement to the side greater than the first brings the foot closer by this many times what it is greater, even
+/// across, by up to the last, m: most pushes to the side cannot be caught otherwise.
 const ACROSS: (f64, f64, f64) = (0.03, 4.0, 0.5);
 /// Time constant of the foothold, s, and time before touch-down in which it does not change any more.
 const SMOOTHING: f64 = 0.015;
@@ -93,9 +94,10 @@ impl Capture {
         [c.x + v.x / self.omega, c.y + v.y / self.omega]
     }
 
-    /// Takes in what pushes the body, and how it turns while the motion has the angular momentum `spin`, N·m·s, if that is asked for. Blows seldom go through the centre of
-    /// mass, and who gives up the momentum that he got pays with the capture point: about the foot it is kept. Who walks goes with the push; who
-    /// stands gives way with his trunk until it is over.
+    /// Takes in what pushes the body, and how it turns while the motion has the angular momentum `spin`, N·m·s, if that
+    /// is asked for. Blows seldom go through the centre of mass, and who gives up the momentum that he got pays with
+    /// the capture point: about the foot it is kept. Who walks goes with the push; who stands gives way with his trunk
+    /// until it is over.
     pub(super) fn feel(&mut self, terms: &Terms, spin: Option<Vec3>, walks: bool) {
         self.turning = [0.0; 2];
         if let Some(spin) = spin {
@@ -124,7 +126,8 @@ impl Capture {
         self.inner.closest(p).map_or(p, |c| c.point)
     }
 
-    /// The zero-moment point about which the capture point would come to `goal` in `time` seconds, as [`Capture::lands`] has it.
+    /// The zero-moment point about which the capture point would come to `goal` in `time` seconds, as
+    /// [`Capture::lands`] has it.
     pub(super) fn zmp_for(&self, goal: [f64; 2], time: f64) -> [f64; 2] {
         let grows = exp(self.omega * time);
         std::array::from_fn(|k| (goal[k] - self.turning[k] - self.point[k] * grows) / (1.0 - grows))
@@ -223,9 +226,9 @@ impl Capture {
         self.falls(terms, p)
     }
 
-    /// The wanted acceleration `a` of the centre of mass with its zero-moment point brought back into the support: what lies beyond would only
-    /// turn the trunk. A leg that is braked before it lands moves that point by centimetres: `moment` is the rate of the motion's angular
-    /// momentum, N·m. `None` without a support.
+    /// The wanted acceleration `a` of the centre of mass with its zero-moment point brought back into the support: what
+    /// lies beyond would only turn the trunk. A leg that is braked before it lands moves that point by centimetres:
+    /// `moment` is the rate of the motion's angular momentum, N·m. `None` without a support.
     pub(super) fn feasible(
         &self,
         terms: &Terms,
@@ -260,8 +263,8 @@ impl Capture {
     }
 }
 
-/// Limits a displacement `d` (m, world) of a foothold at `home` with heading `yaw` to what a leg can do beside the stance foot; `shorter`: by how much
-/// the step may get shorter along its heading, m.
+/// Limits a displacement `d` (m, world) of a foothold at `home` with heading `yaw` to what a leg can do beside the
+/// stance foot; `shorter`: by how much the step may get shorter along its heading, m.
 pub(super) fn within_reach(
     d: [f64; 2],
     home: Vec3,

@@ -43,7 +43,8 @@ impl StepTracker {
         self.ended.is_some() && !self.is_settled(terms)
     }
 
-    /// The clip is over while its figure may still walk: it turns into standing. The last step is finished, and more are made if it takes them.
+    /// The clip is over while its figure may still walk: it turns into standing. The last step is finished, and more
+    /// are made if it takes them.
     pub(super) fn end(&mut self, terms: &Terms, last: &Posture) {
         let now = self.places(terms);
         let poses = self.capture.feet(&self.ease);

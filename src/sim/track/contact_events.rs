@@ -15,20 +15,23 @@ const LATE: f64 = 0.15;
 const HURRY: f64 = 2.0;
 /// A landing that the plan has within this time is waited for, s.
 const SOON: f64 = 0.03;
-/// Least rate of a motion in the air; feet that leave within this time of each other jump, s; no flight lasts longer than this, s, nor is there any
-/// with less gravity than this, m/s².
+/// Least rate of a motion in the air; feet that leave within this time of each other jump, s; no flight lasts longer
+/// than this, s, nor is there any with less gravity than this, m/s².
 const SLOWS: f64 = 0.5;
 const TOGETHER: f64 = 0.1;
 const LONGEST_FLIGHT: f64 = 1.0;
 const LIGHT: f64 = 1.0;
-/// Rate at which a figure that is behind its stream makes up for it, and how far it may fall behind in a step of its own, s.
+/// Rate at which a figure that is behind its stream makes up for it, and how far it may fall behind in a step of its
+/// own, s.
 const CATCH_UP: f64 = 1.05;
 const MOST_BEHIND: f64 = 0.5;
 
 impl StepTracker {
-    /// Contact by events: lifts feet when planned, plants them when they touch. Returns the rate at which the plan goes on.
+    /// Contact by events: lifts feet when planned, plants them when they touch. Returns the rate at which the plan goes
+    /// on.
     pub(super) fn schedule(&mut self, terms: &Terms, dt: f64, sample: impl Fn() -> Target) -> f64 {
-        // A stream does not wait for its figure: what it is behind it makes up for. Nor can it be ahead of what has come.
+        // A stream does not wait for its figure: what it is behind it makes up for. Nor can it be ahead of what has
+        // come.
         let live = self.is_live();
         let most = |rate: f64| {
             if live {
@@ -122,8 +125,8 @@ impl StepTracker {
         self.wait.pace().map_or(rate, |pace| rate.min(pace))
     }
 
-    /// True if the plan has foot `side`, which landed early, down so soon that to hurry would only jolt the whole body. Who runs has no time to lose
-    /// for the next flight.
+    /// True if the plan has foot `side`, which landed early, down so soon that to hurry would only jolt the whole body.
+    /// Who runs has no time to lose for the next flight.
     fn is_due(&self, side: usize) -> bool {
         let flies_on = |p: &StepPlan, f: &Footfall| p.next_flight(f.on).is_some();
         self.next(side).is_some_and(|f| {
@@ -132,8 +135,9 @@ impl StepTracker {
         })
     }
 
-    /// Rate at which a jump goes on in the air: its feet are ready to land when the body comes down, which is earlier than planned for who left the
-    /// floor too slowly. The legs of a runner swing all the time; hurried, they would turn the trunk.
+    /// Rate at which a jump goes on in the air: its feet are ready to land when the body comes down, which is earlier
+    /// than planned for who left the floor too slowly. The legs of a runner swing all the time; hurried, they would
+    /// turn the trunk.
     fn rate_aloft(&self, terms: &Terms) -> f64 {
         let next = (0..2).filter_map(|side| self.planned(side).or(self.next(side)));
         let on = next.map(|f| f.on).fold(f64::INFINITY, f64::min);

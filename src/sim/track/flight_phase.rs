@@ -23,7 +23,8 @@ impl StepTracker {
         self.feet.iter().all(|foot| !foot.down)
     }
 
-    /// True if the motion is about to jump from where it stands: it falls towards where it lands while its feet still stay.
+    /// True if the motion is about to jump from where it stands: it falls towards where it lands while its feet still
+    /// stay.
     pub(super) fn leans_to_jump(&self) -> bool {
         let stands = self.ended.is_none() && self.step.is_none() && !self.wait.waits();
         stands && self.leaves_in().is_some_and(|after| after < LEANS)

@@ -8,7 +8,8 @@ use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::leg_ik::forward;
 use crate::sim::support::Support;
 
-/// Touching points of the foot that stands while `side` swings, on the floor: the swinging one carries nothing any more, even while it still touches.
+/// Touching points of the foot that stands while `side` swings, on the floor: the swinging one carries nothing any
+/// more, even while it still touches.
 pub(super) fn stance_points(support: &Support, side: usize) -> impl Iterator<Item = [f64; 2]> + '_ {
     let stance = [FOOT[1 - side], TOES[1 - side]];
     let points = support.points().iter();

@@ -1,16 +1,20 @@
-//! Around the leg that stands: where a foot may land beside, before and behind it, and how far from it one swings that is led across.
+//! Around the leg that stands: where a foot may land beside, before and behind it, and how far from it one swings that
+//! is led across.
 //!
-//! Seen from the standing ankle, `x` ahead and `y` to the side of the foot that swings, what must be kept free is a strip: nearer than some distance to that
-//! side, and so to the whole other side, unless far enough before or behind. Legs that cross do so the higher the further, and have to be the further apart along `x`.
+//! Seen from the standing ankle, `x` ahead and `y` to the side of the foot that swings, what must be kept free is a
+//! strip: nearer than some distance to that side, and so to the whole other side, unless far enough before or behind.
+//! Legs that cross do so the higher the further, and have to be the further apart along `x`.
 
 use crate::sim::math::{Quat, Vec3};
 
 /// Least distance of two ankles side by side, m: in a swing, and of a foothold.
 const ABREAST: f64 = 0.09;
 pub(super) const BESIDE: f64 = 0.08;
-/// A foothold across lies before or behind the other ankle by the first, m, and by the second for each metre that it is across.
+/// A foothold across lies before or behind the other ankle by the first, m, and by the second for each metre that it is
+/// across.
 const PASSING: (f64, f64) = (0.16, 0.4);
-/// Strip in which a swinging ankle is not let across: from and to, m. A knee that swings forward is far before its ankle, one that is raised makes room behind it.
+/// Strip in which a swinging ankle is not let across: from and to, m. A knee that swings forward is far before its
+/// ankle, one that is raised makes room behind it.
 const STRIP: (f64, f64) = (-0.6, -0.02);
 /// How far it must go on, or still have to come, for each metre across.
 const SLANT: (f64, f64) = (0.7, 0.15);
@@ -18,9 +22,11 @@ const SLANT: (f64, f64) = (0.7, 0.15);
 const ROUND: f64 = 0.01;
 /// A foot lags behind where it is led, s.
 const LAG: f64 = 0.03;
-/// A foot is led across if its foothold, or where it lifts off, is this much further across than the clip has it: begins to be, and is, m.
+/// A foot is led across if its foothold, or where it lifts off, is this much further across than the clip has it:
+/// begins to be, and is, m.
 const LED: (f64, f64) = (0.06, 0.12);
-/// What a clip's swings come closer to the leg that stands than [`ABREAST`], those led a little aside may, and by this more, m.
+/// What a clip's swings come closer to the leg that stands than [`ABREAST`], those led a little aside may, and by this
+/// more, m.
 const SPARE: f64 = 0.03;
 /// Time in which a foot that lifts off too near to the other leg gets out of its way, s.
 const CLEARS: f64 = 0.2;
@@ -50,8 +56,8 @@ impl Stance {
         }
     }
 
-    /// The same for a foot whose foothold is displaced by `shift`, that lifted off `release` from where the clip, which has it at `clip` now, had it; `None`
-    /// if it is not led across.
+    /// The same for a foot whose foothold is displaced by `shift`, that lifted off `release` from where the clip, which
+    /// has it at `clip` now, had it; `None` if it is not led across.
     pub(super) fn crossed(self, shift: Vec3, release: Vec3, clip: Vec3) -> Option<Self> {
         let inward = |v: Vec3| -self.local(self.ankle + v).1;
         let across = inward(shift).max(inward(release));
@@ -87,7 +93,8 @@ impl Stance {
     }
 }
 
-/// The foothold nearest to `(x, y)` from which a leg does not go through the other one: `beside` it, or else before or behind it, where it already is.
+/// The foothold nearest to `(x, y)` from which a leg does not go through the other one: `beside` it, or else before or
+/// behind it, where it already is.
 pub(super) fn foothold((x, y): (f64, f64), beside: f64) -> (f64, f64) {
     let (least, slant) = PASSING;
     let ahead = if x > 0.0 { 1.0 } else { -1.0 };

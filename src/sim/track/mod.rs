@@ -1,7 +1,8 @@
 //! Steps: a played clip becomes a plan of footholds that follows what the feet really do (WALKING §2–4).
 //!
-//! The motion layer decides *when* (contact by events, not by the clock) and *where* (re-anchoring, step adaptation); the controller only
-//! sees targets and which feet are planted. A clip whose feet never leave the floor passes through unchanged, bit for bit.
+//! The motion layer decides *when* (contact by events, not by the clock) and *where* (re-anchoring, step adaptation);
+//! the controller only sees targets and which feet are planted. A clip whose feet never leave the floor passes through
+//! unchanged, bit for bit.
 
 pub mod capture_point;
 mod clip_end;
@@ -192,8 +193,8 @@ impl StepTracker {
         }
     }
 
-    /// Follows another motion from the next tick on: a clip with its plan, speed (clip seconds per second) and origin, or, without, one whose
-    /// feet stay where they are.
+    /// Follows another motion from the next tick on: a clip with its plan, speed (clip seconds per second) and origin,
+    /// or, without, one whose feet stay where they are.
     pub fn follow(&mut self, plan: Option<(StepPlan, f64, PlanarTransform)>) {
         self.plan = None;
         if let Some((plan, speed, origin)) = plan.filter(|(p, ..)| p.steps()) {
@@ -204,8 +205,8 @@ impl StepTracker {
         self.reset();
     }
 
-    /// Goes on with another plan, with its speed and origin, in the middle of a motion: feet, places and lag stay. The new plan's time 0 is time `begin`
-    /// (s) of the present one; both origins are in the same coordinates.
+    /// Goes on with another plan, with its speed and origin, in the middle of a motion: feet, places and lag stay. The
+    /// new plan's time 0 is time `begin` (s) of the present one; both origins are in the same coordinates.
     pub fn go_on(&mut self, (plan, speed, origin): (StepPlan, f64, PlanarTransform), begin: f64) {
         let speed = speed.max(STILL);
         for foot in &mut self.feet {
@@ -261,8 +262,8 @@ impl StepTracker {
         &self.capture
     }
 
-    /// Distance of the capture point from where a motion that steps has it, or from where that will be with the foothold to which a foot is led, m;
-    /// `None` while the figure follows no such motion.
+    /// Distance of the capture point from where a motion that steps has it, or from where that will be with the
+    /// foothold to which a foot is led, m; `None` while the figure follows no such motion.
     pub fn off_plan(&self) -> Option<f64> {
         let [x, y] = self.capture.error;
         let swings = self.feet.iter().filter(|foot| !foot.down);
@@ -270,8 +271,8 @@ impl StepTracker {
         (self.walks() || self.leans_to_jump()).then(|| led.fold(self.capture.off(), f64::min))
     }
 
-    /// True if it stands: no step is under way, none is to come, its feet are where they should be, and the body is slow enough and near enough to where it
-    /// should be to begin something else.
+    /// True if it stands: no step is under way, none is to come, its feet are where they should be, and the body is
+    /// slow enough and near enough to where it should be to begin something else.
     pub fn is_settled(&self, terms: &Terms) -> bool {
         let v = terms.com_velocity;
         let to_come = |side: usize| {
@@ -286,8 +287,8 @@ impl StepTracker {
             && self.capture.off() < SETTLED.1
     }
 
-    /// True while steps are made that a plan has: not while a stream stands, nor while the feet of a clip stay for a while, nor until a step
-    /// that nobody planned is finished.
+    /// True while steps are made that a plan has: not while a stream stands, nor while the feet of a clip stay for a
+    /// while, nor until a step that nobody planned is finished.
     fn walks(&self) -> bool {
         let down = self.feet[0].down && self.feet[1].down;
         let stands = |p: &StepPlan| {
@@ -313,7 +314,8 @@ impl StepTracker {
 
     /// Desired motion of the tick that starts at world time `time`.
     ///
-    /// * `terms`: those of the present state; `clip_time`: clip time at a world time; `pair(now, next)`: the motion as planned, at two world times.
+    /// * `terms`: those of the present state; `clip_time`: clip time at a world time; `pair(now, next)`: the motion as
+    ///   planned, at two world times.
     pub fn targets(
         &mut self,
         time: f64,
@@ -367,8 +369,8 @@ impl StepTracker {
         out
     }
 
-    /// Leads the swinging feet to footholds that catch the body, clear of the floor (step adaptation, WALKING §4), and decides on steps that
-    /// no clip planned. Returns what balance asks of the centre of mass.
+    /// Leads the swinging feet to footholds that catch the body, clear of the floor (step adaptation, WALKING §4), and
+    /// decides on steps that no clip planned. Returns what balance asks of the centre of mass.
     pub fn lead(
         &mut self,
         terms: &Terms,
@@ -379,8 +381,8 @@ impl StepTracker {
     ) -> Option<Balance> {
         self.wait.lean(tasks.com, self.capture.omega(), dt);
         if self.is_live() {
-            // Balance is kept where the motion goes, not where it still is: limbs take time to get there, and what that looks off by is none to be driven
-            // out over the foot that has just landed.
+            // Balance is kept where the motion goes, not where it still is: limbs take time to get there, and what that
+            // looks off by is none to be driven out over the foot that has just landed.
             let rest = self.anchor.rest();
             tasks.com.now += rest;
             tasks.com.next += rest;
@@ -435,8 +437,8 @@ impl StepTracker {
         Some(Balance { acceleration })
     }
 
-    /// True if feet come down where a plan has had them all along: that of a stream is made while it is followed, and a step that nobody planned
-    /// has none.
+    /// True if feet come down where a plan has had them all along: that of a stream is made while it is followed, and a
+    /// step that nobody planned has none.
     pub fn lands_as_planned(&self) -> bool {
         self.step.is_none() && self.plan.as_ref().is_some_and(|p| !p.is_live())
     }

@@ -1,4 +1,5 @@
-//! Where the motion lies in the world: a planar transform that follows the places where the feet really landed (WALKING §2).
+//! Where the motion lies in the world: a planar transform that follows the places where the feet really landed (WALKING
+//! §2).
 
 use crate::sim::math::exp::exp;
 use crate::sim::math::{Quat, Vec3, trig};
@@ -6,11 +7,13 @@ use crate::sim::motion::PlanarTransform;
 
 /// Time constant with which the motion moves to a new anchor, s.
 const SETTLE: f64 = 0.04;
-/// Share of the heading error of a landed foot that the motion takes over, and share of its heading that is given back per step.
+/// Share of the heading error of a landed foot that the motion takes over, and share of its heading that is given back
+/// per step.
 const HEADING_GAIN: f64 = 0.3;
 const HEADING_HOME: f64 = 0.2;
 
-/// Maps the motion as planned to the world. Pivots on the last foothold, so that a change of heading moves nothing far away.
+/// Maps the motion as planned to the world. Pivots on the last foothold, so that a change of heading moves nothing far
+/// away.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Anchor {
     /// Foothold as planned, m.
@@ -79,7 +82,8 @@ impl Anchor {
         }
     }
 
-    /// A foot planned at `planned`, heading `planned_yaw`, stands at `actual`, heading `actual_yaw`: the motion goes there.
+    /// A foot planned at `planned`, heading `planned_yaw`, stands at `actual`, heading `actual_yaw`: the motion goes
+    /// there.
     pub fn land(&mut self, planned: Vec3, planned_yaw: f64, actual: Vec3, actual_yaw: f64) {
         self.at = self.point(Vec3 { z: 0.0, ..planned });
         self.planned = Vec3 { z: 0.0, ..planned };

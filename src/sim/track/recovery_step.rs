@@ -1,7 +1,9 @@
-//! Steps that no clip plans: to catch a body that its feet can no longer stop (the paper's future work), and to bring the feet back together.
+//! Steps that no clip plans: to catch a body that its feet can no longer stop (the paper's future work), and to bring
+//! the feet back together.
 //!
-//! Where the capture point will be when the foot lands is where the foot goes; the unloaded foot swings, across the other one if the body
-//! falls to the side it would have to come from. Pure functions of the state plus a few numbers of memory; nothing allocates.
+//! Where the capture point will be when the foot lands is where the foot goes; the unloaded foot swings, across the
+//! other one if the body falls to the side it would have to come from. Pure functions of the state plus a few numbers
+//! of memory; nothing allocates.
 
 use crate::sim::control::{PointTarget, RotationTarget};
 use crate::sim::math::ease::smootherstep;
@@ -13,8 +15,8 @@ use crate::sim::plan::foot_lock::Sole;
 pub(super) const LOST: f64 = 0.02;
 /// Beyond this distance no step helps, m.
 pub(super) const HOPELESS: f64 = 0.6;
-/// Length of a swing that catches, and of one that only tidies up, s. People who are pushed take 0.15–0.3 s; at 0.35 s a push to the side is
-/// lost before the foot is there.
+/// Length of a swing that catches, and of one that only tidies up, s. People who are pushed take 0.15–0.3 s; at 0.35 s
+/// a push to the side is lost before the foot is there.
 const CATCH_TIME: f64 = 0.25;
 const TIDY_TIME: f64 = 0.5;
 const ALONE_TIME: f64 = 0.35;
@@ -30,8 +32,8 @@ const FARTHEST: (f64, f64, f64, f64) = (0.75, 0.65, 0.6, 0.35);
 const CROSS_ROOM: f64 = 0.18;
 /// Closer than this to the stance foot counts as crossing, m.
 pub(super) const BESIDE: f64 = 0.1;
-/// A capture point this far on the other side of the stance foot is beyond its sole, m; who crosses it lands this much beyond that, m; who does
-/// not stands this wide, leg lengths.
+/// A capture point this far on the other side of the stance foot is beyond its sole, m; who crosses it lands this much
+/// beyond that, m; who does not stands this wide, leg lengths.
 const UNDER: f64 = 0.03;
 const BEYOND: f64 = 0.12;
 pub(super) const WIDTH: f64 = 0.18;

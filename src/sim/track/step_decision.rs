@@ -12,7 +12,8 @@ use crate::sim::support::Support;
 pub(super) const ASTRAY: f64 = 0.06;
 
 impl StepTracker {
-    /// Steps that no clip planned: catches a body whose capture point has left its feet, then brings the feet back together.
+    /// Steps that no clip planned: catches a body whose capture point has left its feet, then brings the feet back
+    /// together.
     pub(super) fn catch(
         &mut self,
         terms: &Terms,

@@ -38,7 +38,8 @@ pub struct StepPlan {
     seen: f64,
     /// Displacement of one round, if the clip repeats.
     round: Option<PlanarTransform>,
-    /// What holds instead before some time: the way into a clip that repeats, with its first round, or the one out of another motion.
+    /// What holds instead before some time: the way into a clip that repeats, with its first round, or the one out of
+    /// another motion.
     lead: Option<Box<Lead>>,
 }
 
@@ -50,7 +51,8 @@ struct Lead {
     knows: f64,
 }
 
-/// Feet pause that have stood together for so long, s, and will for so long: that leaves time for a step that nobody planned.
+/// Feet pause that have stood together for so long, s, and will for so long: that leaves time for a step that nobody
+/// planned.
 const PAUSE: (f64, f64) = (0.2, 0.1);
 /// A foot this close to the floor carries the body if no other does, m.
 const NEAR_FLOOR: f64 = 0.03;
@@ -76,8 +78,8 @@ fn falling(body: &Body, samples: &[(&Posture, [bool; 2])], rate_hz: f64) -> Vec<
     falls
 }
 
-/// Which feet carry the body in each sample: the planted ones, or, where none is and one stays near the floor, that one. (The preparation
-/// declares a foot free that its leg cannot hold in place exactly; that is no flight.)
+/// Which feet carry the body in each sample: the planted ones, or, where none is and one stays near the floor, that
+/// one. (The preparation declares a foot free that its leg cannot hold in place exactly; that is no flight.)
 fn carried(body: &Body, samples: &[(&Posture, [bool; 2])], rate_hz: f64) -> Vec<[bool; 2]> {
     let falls = falling(body, samples, rate_hz);
     let soles = [Sole::new(body, 0), Sole::new(body, 1)];
@@ -193,7 +195,8 @@ impl StepPlan {
         }
     }
 
-    /// The same for a figure that comes into the clip by a way of its own; one into its lead-in leaves what is left of that.
+    /// The same for a figure that comes into the clip by a way of its own; one into its lead-in leaves what is left of
+    /// that.
     pub fn entered_by(mut self, body: &Body, way: &WayIn) -> Self {
         if let Some(mut lead) = self.lead.take_if(|l| way.until < l.until) {
             lead.plan = lead.plan.entered_by(body, way);
@@ -254,7 +257,8 @@ impl StepPlan {
         }
     }
 
-    /// True if it is the plan of a stream that stands on both feet at time `t` (s), has done so for a while and goes on doing so as far as is known.
+    /// True if it is the plan of a stream that stands on both feet at time `t` (s), has done so for a while and goes on
+    /// doing so as far as is known.
     pub fn rests(&self, t: f64) -> bool {
         const BEFORE: f64 = 0.5;
         const AFTER: f64 = 0.25;
@@ -265,7 +269,8 @@ impl StepPlan {
             })
     }
 
-    /// True if both feet have stood at time `t` (s) for longer than in any stride, and go on standing for a moment, or for good.
+    /// True if both feet have stood at time `t` (s) for longer than in any stride, and go on standing for a moment, or
+    /// for good.
     pub fn pauses(&self, t: f64) -> bool {
         let stays = |f: &Footfall| f.off > t + PAUSE.1 || self.is_over(f.off);
         let stands = |f: Footfall| f.on < t - PAUSE.0 && stays(&f);
@@ -364,8 +369,8 @@ impl StepPlan {
         Some(self.unrolled(*f, round))
     }
 
-    /// The next time in which no foot stands after time `t`, at which one does: from and to, s, of a stream as far as it is seen; `None` if a foot lands
-    /// before the others have left.
+    /// The next time in which no foot stands after time `t`, at which one does: from and to, s, of a stream as far as
+    /// it is seen; `None` if a foot lands before the others have left.
     pub fn next_flight(&self, t: f64) -> Option<(f64, f64)> {
         let stands_until = |side: usize| {
             let now = self.current(side, t)?;

@@ -1,10 +1,10 @@
-//! Steps that come sooner than the clip has them. An error of the capture point grows nearly threefold in a third of a second, and a clip's own step
-//! takes half a second: who is pushed hard puts the swinging foot down at once, and takes the next step quickly too (Hof, Vermerris & Gjaltema
-//! 2010; Vlutters et al. 2016).
+//! Steps that come sooner than the clip has them. An error of the capture point grows nearly threefold in a third of a
+//! second, and a clip's own step takes half a second: who is pushed hard puts the swinging foot down at once, and takes
+//! the next step quickly too (Hof, Vermerris & Gjaltema 2010; Vlutters et al. 2016).
 //!
-//! The motion is played faster until the foot lands. Time and place of the landing are chosen together, such that the capture point then
-//! lies from the foot as the motion has it (Koolen et al. 2012). The centre of mass meanwhile follows the pendulum, not the motion: that would
-//! run away from the body.
+//! The motion is played faster until the foot lands. Time and place of the landing are chosen together, such that the
+//! capture point then lies from the foot as the motion has it (Koolen et al. 2012). The centre of mass meanwhile
+//! follows the pendulum, not the motion: that would run away from the body.
 
 use super::step_plan::Footfall;
 use super::{FOOT, StepTracker, capture_point, level, stance_points};
@@ -13,12 +13,14 @@ use crate::sim::math::Vec3;
 use crate::sim::motion::Target;
 use crate::sim::support::Support;
 
-/// A capture point nearer to the motion's than this is left to the step as planned, m: those of clips that nobody disturbs are.
+/// A capture point nearer to the motion's than this is left to the step as planned, m: those of clips that nobody
+/// disturbs are.
 const HURRIES: f64 = 0.15;
 /// Rates at which a motion may be played: up to the first, in so many steps.
 const FASTEST: f64 = 2.0;
 const RATES: u32 = 8;
-/// Times to a landing that are decided about, s: in less nothing changes any more, and over more the pendulum foretells nothing.
+/// Times to a landing that are decided about, s: in less nothing changes any more, and over more the pendulum foretells
+/// nothing.
 const AHEAD: (f64, f64) = (0.08, 0.7);
 /// Mean speed at which a foot gets to another place, m/s.
 const FOOT_SPEED: f64 = 5.0;
@@ -53,7 +55,8 @@ pub(super) struct HastenedStep {
 }
 
 impl StepTracker {
-    /// The next touch-down: its foot, and what is planned. A stream cannot be played faster than it comes, and who flies before he lands is no pendulum.
+    /// The next touch-down: its foot, and what is planned. A stream cannot be played faster than it comes, and who
+    /// flies before he lands is no pendulum.
     fn coming_step(&self) -> Option<(usize, Footfall)> {
         let plan = self.plan.as_ref()?;
         let flies = self.flies() || plan.next_flight(self.phase).is_some();
@@ -67,7 +70,8 @@ impl StepTracker {
             .min_by(|a, b| a.1.on.total_cmp(&b.1.on))
     }
 
-    /// Looks ahead to where the motion has its capture point at the next touch-down; `sample`: the motion so many seconds from now.
+    /// Looks ahead to where the motion has its capture point at the next touch-down; `sample`: the motion so many
+    /// seconds from now.
     pub(super) fn foresee(&mut self, sample: impl Fn(f64) -> Target) {
         let known = self.arrival.take();
         if !self.walks() || (self.quick.is_none() && self.capture.off() < HURRIES) {

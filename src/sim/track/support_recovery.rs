@@ -1,5 +1,6 @@
-//! Who stands on one foot for long and loses his balance there puts the raised foot down, early and where it catches him, and lifts it again
-//! when he stands over the other one as the motion has it. The motion waits for him; a stream goes on without him.
+//! Who stands on one foot for long and loses his balance there puts the raised foot down, early and where it catches
+//! him, and lifts it again when he stands over the other one as the motion has it. The motion waits for him; a stream
+//! goes on without him.
 
 use super::recovery_step;
 use super::recovery_step::{Places, RecoveryStep};
@@ -16,8 +17,8 @@ use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::TargetPair;
 use crate::sim::support::Support;
 
-/// Who stands alone is not where the motion has him, and cannot come back, if his capture point is this far from its place and this far outside
-/// the sole, m. Both grow threefold while the raised foot comes down.
+/// Who stands alone is not where the motion has him, and cannot come back, if his capture point is this far from its
+/// place and this far outside the sole, m. Both grow threefold while the raised foot comes down.
 const AWAY: f64 = 0.045;
 const OUTSIDE: f64 = 0.005;
 /// What passes within this time is a jolt, s: a heel that comes down, a leg that is braked.
@@ -112,7 +113,8 @@ impl SupportRecovery {
         self.pace.0 = (self.pace.0 + change).clamp(0.0, 1.0);
     }
 
-    /// A motion that is played at this pace: its velocities, and the leg that it has raised, which stands as at `ease` while it waits.
+    /// A motion that is played at this pace: its velocities, and the leg that it has raised, which stands as at `ease`
+    /// while it waits.
     pub(super) fn slow(&self, out: &mut TargetPair, ease: &Posture, dt: f64) {
         if self.pace == (1.0, 1.0) {
             return;
@@ -179,7 +181,8 @@ impl SupportRecovery {
 }
 
 impl StepTracker {
-    /// Puts the raised foot down if the other one cannot keep the body, and the planned step comes too late or cannot reach far enough.
+    /// Puts the raised foot down if the other one cannot keep the body, and the planned step comes too late or cannot
+    /// reach far enough.
     pub(super) fn fall_alone(&mut self, terms: &Terms, support: &Support, now: &Places, dt: f64) {
         let falls = self.falls_alone(terms);
         let Some(side) = falls.filter(|_| support.rests().is_empty()) else {
@@ -332,7 +335,8 @@ mod tests {
         }
     }
 
-    /// The capture point of a motion that waits, or has waited, is where it is at full pace: there it can go on at any time.
+    /// The capture point of a motion that waits, or has waited, is where it is at full pace: there it can go on at any
+    /// time.
     #[test]
     fn a_motion_that_slows_down_keeps_its_capture_point() {
         let point = |com: &PointTarget| com.now + com.now_velocity * (1.0 / OMEGA);

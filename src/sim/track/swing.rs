@@ -1,4 +1,5 @@
-//! Where swinging feet are led: to footholds that catch the body, clear of the floor, in the air about the centre of mass (WALKING §4).
+//! Where swinging feet are led: to footholds that catch the body, clear of the floor, in the air about the centre of
+//! mass (WALKING §4).
 
 use super::leg_collision::Stance;
 use super::step_plan::Footfall;
@@ -17,8 +18,9 @@ const SWING_SHARE: f64 = 0.9;
 /// Least height of a swinging sole, m, and how fast it must come up and may come down, m/s.
 const CLEARANCE: f64 = 0.03;
 const CLEARANCE_RATE: f64 = 0.35;
-/// Share of its distance from home by which a foothold is pulled there, and the most, m. A foothold that is pulled is that far from where it would
-/// catch the body, and one foot holds no more than this against it to its side: with 4 cm a body that was moved drifted on.
+/// Share of its distance from home by which a foothold is pulled there, and the most, m. A foothold that is pulled is
+/// that far from where it would catch the body, and one foot holds no more than this against it to its side: with 4 cm
+/// a body that was moved drifted on.
 const HOME: (f64, f64) = (0.3, 0.015);
 
 impl StepTracker {
@@ -105,7 +107,8 @@ impl StepTracker {
         }
     }
 
-    /// Leads a swinging foot that is to cross, or has crossed, around the leg that stands; `clip`: where the clip has it.
+    /// Leads a swinging foot that is to cross, or has crossed, around the leg that stands; `clip`: where the clip has
+    /// it.
     fn lead_around(
         &mut self,
         terms: &Terms,
@@ -171,8 +174,8 @@ impl StepTracker {
     }
 }
 
-/// Leads the feet of who flies about his centre of mass, whose way nothing changes: led to where the motion has them they would pull the legs up
-/// or stretch them, and turn the trunk.
+/// Leads the feet of who flies about his centre of mass, whose way nothing changes: led to where the motion has them
+/// they would pull the legs up or stretch them, and turn the trunk.
 pub(super) fn follow_mass(terms: &Terms, dt: f64, tasks: &mut TaskTargets<'_>) {
     let off = terms.com - tasks.com.now;
     let drift = terms.com_velocity - tasks.com.now_velocity;

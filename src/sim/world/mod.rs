@@ -128,10 +128,11 @@ impl World {
 
     /// Advances every figure by one tick; afterwards reports and events are those of this tick.
     ///
-    /// Stages of one figure: commands (desired motion, loads, pushes) → dynamics, supports, strength → control → motors, limits and
-    /// contact → report; see [`Figure`]. Up to control figures do not see each other. Then those that are near nothing move on alone, and
-    /// the others in clusters that are near each other (docs/adr/0009-collisions.md). Neither order nor number of threads matters to the
-    /// result. With one thread nothing is allocated once buffers have grown.
+    /// Stages of one figure: commands (desired motion, loads, pushes) → dynamics, supports, strength → control →
+    /// motors, limits and contact → report; see [`Figure`]. Up to control figures do not see each other. Then those
+    /// that are near nothing move on alone, and the others in clusters that are near each other
+    /// (docs/adr/0009-collisions.md). Neither order nor number of threads matters to the result. With one thread
+    /// nothing is allocated once buffers have grown.
     pub fn step(&mut self) {
         let context = TickContext {
             tick: self.tick,
@@ -340,8 +341,8 @@ impl World {
         Ok(())
     }
 
-    /// Replaces the constraints of a figure from the next tick on. One on a part that was constrained before goes on from there; the others come into force and
-    /// fade within their `ease`.
+    /// Replaces the constraints of a figure from the next tick on. One on a part that was constrained before goes on
+    /// from there; the others come into force and fade within their `ease`.
     ///
     /// # Errors
     /// Unknown figure, a number out of range, more than [`MAX_CONSTRAINTS`], or a constraint that says nothing.

@@ -29,7 +29,8 @@ pub fn by_name(field: &str, name: &str) -> Result<BodyRef, Fault> {
     by_id(id).ok_or_else(|| Fault::not_found("body", shortened(name)))
 }
 
-/// Body of a request: by name, by profile, or the adult man. Whether the tables cover the profile is found when it is built.
+/// Body of a request: by name, by profile, or the adult man. Whether the tables cover the profile is found when it is
+/// built.
 pub fn reference(
     field: &str,
     name: &str,

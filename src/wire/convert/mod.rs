@@ -1,4 +1,5 @@
-//! Requests to domain types and domain types to responses. Everything is checked here, once: finite, in range, counted, named.
+//! Requests to domain types and domain types to responses. Everything is checked here, once: finite, in range, counted,
+//! named.
 
 pub mod body;
 pub mod constraint;

@@ -47,7 +47,8 @@ fn balancing_and_locking_make_a_walk_consistent() {
     }
 }
 
-/// Goal: preparation brings recordings of people on their feet close to what a body can do (WALKING §1, last row of the table).
+/// Goal: preparation brings recordings of people on their feet close to what a body can do (WALKING §1, last row of the
+/// table).
 #[test]
 fn preparation_makes_motions_consistent_with_the_dynamics() {
     let body = Body::adult_man();
@@ -57,8 +58,8 @@ fn preparation_makes_motions_consistent_with_the_dynamics() {
         ends: false,
         ..RetargetOptions::default()
     };
-    // Share of the weight that the ground lacks (rms) and distance of the zero-moment point from the soles (rms, m); measured 0.012 and 0.024
-    // for walk, 0.013 and 0.023 for turn, below 0.004 and 0.003 for the others.
+    // Share of the weight that the ground lacks (rms) and distance of the zero-moment point from the soles (rms, m);
+    // measured 0.012 and 0.024 for walk, 0.013 and 0.023 for turn, below 0.004 and 0.003 for the others.
     for (name, lacks, outside) in [
         ("walk", 0.015, 0.03),
         ("turn", 0.016, 0.03),

@@ -7,7 +7,8 @@ use sinew::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use sinew::sim::motion::leg_ik::forward;
 use sinew::sim::retarget::{RetargetOptions, UpAxis};
 
-/// Names of the CMU skeleton's limbs in other dialects. CMU's `LeftHand` only twists the forearm; its `LeftFingerBase` is the wrist.
+/// Names of the CMU skeleton's limbs in other dialects. CMU's `LeftHand` only twists the forearm; its `LeftFingerBase`
+/// is the wrist.
 const DIALECTS: [(&str, [&str; 11]); 9] = [
     (
         "cmu",
@@ -200,7 +201,8 @@ fn generic_suffix_names_and_no_names_at_all_are_understood() {
         "suffixes",
     );
 
-    // Without names the structure decides; CMU's split forearm then ends at the twist joint, so only legs and trunk are compared.
+    // Without names the structure decides; CMU's split forearm then ends at the twist joint, so only legs and trunk are
+    // compared.
     let mut count = 0;
     let nameless = {
         let mut s = source.clone();

@@ -45,8 +45,8 @@ fn planted_feet_neither_slide_nor_sink() {
     for body in [Body::adult_man(), Body::adult_woman()] {
         for name in CLIPS {
             let r = take(&text(name), &body, &RetargetOptions::default()).unwrap();
-            // A planted foot is held by its heel, by its toe joint or, of a runner, by the tip of its toes; while one holds, the others may lift off
-            // and come down elsewhere.
+            // A planted foot is held by its heel, by its toe joint or, of a runner, by the tip of its toes; while one
+            // holds, the others may lift off and come down elsewhere.
             let mut held: [Option<[Vec3; 3]>; 2] = [None; 2];
             for i in 0..r.clip.len() {
                 let now = soles(&body, r.clip.posture(i));
@@ -137,7 +137,8 @@ fn contact_phases_agree_with_the_statistics() {
                 // The recorded body leaves the floor at 0.6 m/s, which is 0.12 s of free fall.
                 (0.1..0.16).contains(&(p.end - p.start))
             } else {
-                // The statistics call a foot planted while it is slow, which loses landing and roll-off (ADR 0032): theirs is the middle of each stance.
+                // The statistics call a foot planted while it is slow, which loses landing and roll-off (ADR 0032):
+                // theirs is the middle of each stance.
                 p.start < k.0 + 0.03 && p.end > k.1 - 0.03
             };
             assert!(

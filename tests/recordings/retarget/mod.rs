@@ -1,7 +1,7 @@
-//! Goal: real recordings become motions that a body can follow, whatever dialect they are written in.
-//! Method: all 18 clips on two bodies, checked against the statistics that come with the clips and against forward kinematics of the
-//! result (`feet`, `balance`); and one clip rewritten (`source`) into other dialects and with faults, which must give the same motion
-//! (`dialects`, `faults`).
+//! Goal: real recordings become motions that a body can follow, whatever dialect they are written in. Method: all 18
+//! clips on two bodies, checked against the statistics that come with the clips and against forward kinematics of the
+//! result (`feet`, `balance`); and one clip rewritten (`source`) into other dialects and with faults, which must give
+//! the same motion (`dialects`, `faults`).
 
 mod balance;
 mod dialects;
@@ -116,7 +116,8 @@ fn every_clip_becomes_a_motion_of_every_body() {
                 pelvis.y.abs() < 0.02 && pelvis.x > 0.0 || pelvis.z.abs() > 0.9,
                 "{name}: faces {pelvis:?}"
             );
-            // Balance moves it by up to 12 cm; a runner's mass stays farther back, over what the ankle holds of 2.7 weights (ADR 0032).
+            // Balance moves it by up to 12 cm; a runner's mass stays farther back, over what the ankle holds of 2.7
+            // weights (ADR 0032).
             let moved = if name == "run" { 0.2 } else { 0.13 };
             assert!(
                 first.root_position.x.hypot(first.root_position.y) < moved,

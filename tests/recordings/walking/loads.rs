@@ -1,5 +1,5 @@
-//! Goal: loads of up to 15 kg in one hand or in both are carried while walking, and what an arm cannot hold the trunk does not pay for.
-//! Method: loads on the hands from the beginning on.
+//! Goal: loads of up to 15 kg in one hand or in both are carried while walking, and what an arm cannot hold the trunk
+//! does not pay for. Method: loads on the hands from the beginning on.
 
 use super::{playing, run};
 use crate::common::{man, recorded};

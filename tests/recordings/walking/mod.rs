@@ -1,6 +1,6 @@
-//! Goal: recorded walks start from standing, go on for as long as they repeat, and come to a stand, in torque simulation at the strength of a
-//! person and without any help.
-//! Method: clips from the motion capture folder, retargeted as they come, 60 Hz with two substeps, the modern controller.
+//! Goal: recorded walks start from standing, go on for as long as they repeat, and come to a stand, in torque
+//! simulation at the strength of a person and without any help. Method: clips from the motion capture folder,
+//! retargeted as they come, 60 Hz with two substeps, the modern controller.
 //!
 //! * here: from standing to standing, again and again, with noise, by other people.
 //! * `pushes`: steps that nobody planned.
@@ -113,7 +113,8 @@ fn walks_start_from_standing_and_stop() {
     }
 }
 
-/// Turning a whole round in 1.2 s on both balls of his feet, by dancers of other sizes, slower and faster, and on other floors.
+/// Turning a whole round in 1.2 s on both balls of his feet, by dancers of other sizes, slower and faster, and on other
+/// floors.
 #[test]
 fn who_dances_turns_by_steps_and_stays_on_his_feet() {
     let size = |height, mass| Profile {
@@ -196,8 +197,8 @@ fn feet_stay_where_they_land_and_come_down_softly() {
         walk_runs: true,
         ..RetargetOptions::default()
     };
-    // Furthest slide in a stance, m, by the load on each point, and largest push of the floor, weights: what the recordings themselves ask of
-    // it is 1.5 (salsa-a) to 1.95 (walk-around).
+    // Furthest slide in a stance, m, by the load on each point, and largest push of the floor, weights: what the
+    // recordings themselves ask of it is 1.5 (salsa-a) to 1.95 (walk-around).
     for (name, slides, pushes) in [
         ("walk", 0.002, 2.0),
         ("turn", 0.002, 2.0),
@@ -240,7 +241,8 @@ fn a_walk_repeats_for_a_minute() {
 #[test]
 fn a_motion_without_a_cycle_comes_back_to_its_beginning() {
     let body = man();
-    // `hit` begins with its feet 0.7 m apart: the last foot is stepped onto, not put there by a body that crouches over the other.
+    // `hit` begins with its feet 0.7 m apart: the last foot is stepped onto, not put there by a body that crouches over
+    // the other.
     for (name, furthest) in [("wave", 0.04), ("hit", 0.06)] {
         let repeats =
             cycle(&body, &recorded(&body, name)).expect("it ends otherwise than it begins");
@@ -277,7 +279,8 @@ fn copies(body: &Body, name: &str, seeds: Range<u64>) -> Vec<(u64, Clip)> {
     seeds.map(copy).collect()
 }
 
-/// What hangs on the last millimetre of a recording is luck: copies with 1 mm and 0.2° of noise, repeated for half a minute.
+/// What hangs on the last millimetre of a recording is luck: copies with 1 mm and 0.2° of noise, repeated for half a
+/// minute.
 #[test]
 fn who_turns_on_the_balls_of_his_feet_does_so_again_and_again_whatever_the_noise() {
     let body = man();
@@ -345,7 +348,8 @@ fn who_stands_but_moves_at_the_end_comes_to_rest_as_he_stands() {
     assert!(rms < 0.6 && capture < 0.03, "{rms} deg, {capture} m");
 }
 
-/// Noise lifts a foot of the last sample off the floor by a fraction of a millimetre now and then. Held so, nobody stands on it.
+/// Noise lifts a foot of the last sample off the floor by a fraction of a millimetre now and then. Held so, nobody
+/// stands on it.
 #[test]
 fn who_ends_on_both_feet_stands_on_both_whatever_the_noise() {
     let body = man();

@@ -1,5 +1,5 @@
-//! Goal: who is pushed while he walks, stands on one foot or has come to a stand steps, keeps his legs apart as he does, and goes on.
-//! Method: pushes of 0.1 s at the chest at several phases and in all directions.
+//! Goal: who is pushed while he walks, stands on one foot or has come to a stand steps, keeps his legs apart as he
+//! does, and goes on. Method: pushes of 0.1 s at the chest at several phases and in all directions.
 
 use super::{RATE, playing};
 use crate::common::{man, recorded};
@@ -65,8 +65,8 @@ fn pushes_while_walking_are_caught_by_steps() {
     }
 }
 
-/// People who are pushed hard to the side put the swinging foot down at once and take the next step quickly too; and the trunk comes along instead of
-/// giving way.
+/// People who are pushed hard to the side put the swinging foot down at once and take the next step quickly too; and
+/// the trunk comes along instead of giving way.
 #[test]
 fn hard_pushes_to_the_side_are_caught_by_quick_steps() {
     let body = man();
@@ -109,7 +109,8 @@ fn hard_pushes_to_the_side_are_caught_by_quick_steps() {
     assert!(most_lean < 70.0, "the trunk leans by {most_lean:.0} deg");
 }
 
-/// How far thighs, shanks and feet of both legs are inside each other, m: segments with radii of 6.5, 5 and 3.5 cm, thighs from the middle down.
+/// How far thighs, shanks and feet of both legs are inside each other, m: segments with radii of 6.5, 5 and 3.5 cm,
+/// thighs from the middle down.
 fn legs_within(figure: &Figure) -> f64 {
     let mut kin = Kinematics::default();
     kin.set_posture(figure.links(), &figure.state().posture);
@@ -177,8 +178,8 @@ fn feet_that_cross_go_around_the_other_leg() {
     assert!(survived >= 47 && through <= 12, "{survived}, {through}");
 }
 
-/// Plays `clip` until `seconds` and does not fall; returns how often a raised foot was put down because the other one alone could not keep the body.
-/// `push`: with that impulse at the chest after a second on one foot, N·s.
+/// Plays `clip` until `seconds` and does not fall; returns how often a raised foot was put down because the other one
+/// alone could not keep the body. `push`: with that impulse at the chest after a second on one foot, N·s.
 fn puts_down(body: &Arc<Body>, clip: &Arc<Clip>, looped: bool, seconds: f64, push: Vec3) -> usize {
     const PUSHED: f64 = 0.1;
     let lead = clip.lead_in();

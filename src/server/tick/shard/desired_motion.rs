@@ -38,8 +38,8 @@ impl Shard {
             .place
             .unwrap_or_else(|| engine::place_of(&f.state().posture));
         let state = engine::first_state(&clip, place);
-        // A figure that is put into the clip is in motion at once; one that stands comes into it by the clip's lead-in, and one that moves
-        // comes to a stand before that.
+        // A figure that is put into the clip is in motion at once; one that stands comes into it by the clip's lead-in,
+        // and one that moves comes to a stand before that.
         let playback = engine::playback(clip, begin, p.speed, p.looped, (place, !p.reset));
         let mut start = playback.start;
         if p.reset {

@@ -25,7 +25,8 @@ impl Shard {
 
     pub(super) fn figure_info(&self, m: &Member) -> FigureInfo {
         let f = self.world.figure(m.key).expect("members are in the world");
-        // Of two clips the one that was asked for last is known by name: it plays, or the figure comes to a stand for it.
+        // Of two clips the one that was asked for last is known by name: it plays, or the figure comes to a stand for
+        // it.
         let (next_clip, clip) = match f.next_clip() {
             Some(_) => (m.clip.clone(), None),
             None => (None, m.clip.clone()),

@@ -28,7 +28,8 @@ pub(super) struct Table {
     pub(super) mass: MassFractions,
 }
 
-/// Trunk, limb lengths and masses: de Leva 1996. Neck and ankle heights close the stature; shoulder and hip widths are ours.
+/// Trunk, limb lengths and masses: de Leva 1996. Neck and ankle heights close the stature; shoulder and hip widths are
+/// ours.
 pub(super) const MAN: Table = Table {
     stature: 1741.0,
     trunk: [145.7, 215.5, 170.7],
@@ -127,8 +128,9 @@ impl Table {
 
 /// Limits in degrees, DOF order: trunk and neck, arm, leg; the sides are equal because angles are anatomically signed.
 ///
-/// After the goniometric tables (Boone & Azen, AAOS, Soucie 2011), with room for captured motion: spine motion of a whole trunk falls on
-/// two joints here, and flexion and abduction are the components of one swing (`angles`), up to 172° together.
+/// After the goniometric tables (Boone & Azen, AAOS, Soucie 2011), with room for captured motion: spine motion of a
+/// whole trunk falls on two joints here, and flexion and abduction are the components of one swing (`angles`), up to
+/// 172° together.
 const TRUNK_LIMITS: [[f64; 2]; 9] = [
     [-25.0, 65.0],
     [-35.0, 35.0],

@@ -1,5 +1,5 @@
-//! Goal: bodies of all ages and sizes agree with what was measured of people; adults with de Leva's table. The invariants hold that the
-//! kernels and the viewer rely on.
+//! Goal: bodies of all ages and sizes agree with what was measured of people; adults with de Leva's table. The
+//! invariants hold that the kernels and the viewer rely on.
 
 use super::super::geometry::{check, volume};
 use super::super::topology::{SEGMENT_NAMES, SegmentId};
@@ -17,8 +17,9 @@ fn origins(b: &Body) -> [Vec3; SEGMENT_COUNT] {
     o
 }
 
-/// Length (mm), centre of mass (% from the first endpoint) and radii of gyration (%, about x, y, z) after de Leva 1996 at the
-/// reference stature. `up`: where the first endpoint lies over the segment origin, mm (0 for limbs, which hang down).
+/// Length (mm), centre of mass (% from the first endpoint) and radii of gyration (%, about x, y, z) after de Leva 1996
+/// at the reference stature. `up`: where the first endpoint lies over the segment origin, mm (0 for limbs, which hang
+/// down).
 struct Reference {
     segment: SegmentId,
     up: f64,
@@ -149,9 +150,9 @@ fn centre_of_mass_is_where_people_have_it() {
     assert!((0.53..0.58).contains(&woman), "{woman}");
 }
 
-/// Tolerances: centre of mass 15 % of the length (parts of the trunk are cut along oblique planes that overlap here), transverse radii
-/// 17 %. Radii about the long axis (z; of the limbs) 32 %: the table's exceed what tissue of plausible density gives a solid of
-/// the measured length, and the armature is larger than the difference.
+/// Tolerances: centre of mass 15 % of the length (parts of the trunk are cut along oblique planes that overlap here),
+/// transverse radii 17 %. Radii about the long axis (z; of the limbs) 32 %: the table's exceed what tissue of plausible
+/// density gives a solid of the measured length, and the armature is larger than the difference.
 #[test]
 fn centres_of_mass_and_radii_are_near_de_leva() {
     for (body, table) in [

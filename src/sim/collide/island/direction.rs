@@ -15,9 +15,9 @@ use multiversion::multiversion;
 impl Island {
     /// Newton's direction of the whole island; false if there is none.
     ///
-    /// Bodies that touch each other couple their matrices. The coupling is taken in where it takes less: by the Woodbury identity in as many
-    /// unknowns as the touching contacts have directions, or, with many contacts, in one matrix of all velocities. Either way the work of an
-    /// iteration grows with the cube of the smaller number.
+    /// Bodies that touch each other couple their matrices. The coupling is taken in where it takes less: by the
+    /// Woodbury identity in as many unknowns as the touching contacts have directions, or, with many contacts, in one
+    /// matrix of all velocities. Either way the work of an iteration grows with the cube of the smaller number.
     ///
     /// `inside`: with the slopes of the interior-point method instead of those at the present velocities.
     pub(super) fn direction<F: Articulated>(&mut self, figures: &mut [F], inside: bool) -> bool {
@@ -154,7 +154,8 @@ impl Island {
         true
     }
 
-    /// In the `n` velocities of all bodies: one matrix with the blocks on its diagonal and the contacts between them off it.
+    /// In the `n` velocities of all bodies: one matrix with the blocks on its diagonal and the contacts between them
+    /// off it.
     fn by_velocities<F: Articulated>(&mut self, figures: &mut [F], n: usize) -> bool {
         self.matrix.clear();
         self.matrix.resize(n * n, 0.0);
@@ -380,8 +381,8 @@ fn solve_block<F: Articulated>(b: &Block, figures: &mut [F], x: &mut [f64; NV]) 
     }
 }
 
-/// Solves the symmetric positive definite system `m x = b` in place; `m[j n + i]`, i ≥ j, is its lower triangle, `x` holds b. False if it is not
-/// positive definite.
+/// Solves the symmetric positive definite system `m x = b` in place; `m[j n + i]`, i ≥ j, is its lower triangle, `x`
+/// holds b. False if it is not positive definite.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 fn cholesky_solve(m: &mut [f64], x: &mut [f64]) -> bool {
     let n = x.len();

@@ -1,8 +1,10 @@
-//! A way on for islands at which Newton's method jams: the interior-point method of [`crate::sim::contact::interior`], for all bodies at once.
+//! A way on for islands at which Newton's method jams: the interior-point method of [`crate::sim::contact::interior`],
+//! for all bodies at once.
 //!
-//! Motor values, joint limits, contacts with the ground and contacts between bodies are unknowns of their own, strictly inside what they may be.
-//! Eliminating them leaves Newton's matrix of the island with other slopes, so that it is built and solved by the same code (`direction`); the number of
-//! iterations does not depend on how many corners lie on the way.
+//! Motor values, joint limits, contacts with the ground and contacts between bodies are unknowns of their own, strictly
+//! inside what they may be. Eliminating them leaves Newton's matrix of the island with other slopes, so that it is
+//! built and solved by the same code (`direction`); the number of iterations does not depend on how many corners lie on
+//! the way.
 
 use super::{Articulated, Island, Kind, Parts, relative};
 use crate::sim::body::topology::{DOF_COUNT, NV};
@@ -12,16 +14,18 @@ use crate::sim::contact::projection::Region;
 use crate::sim::contact::{ContactRows, Motors};
 use crate::sim::math::Vec3;
 
-/// Forces at the start, in units of the largest one at present; multipliers are as large as the largest velocity. Started with less, bodies that are
-/// thrown into walls crawl along the boundary; with much more a few iterations are lost.
+/// Forces at the start, in units of the largest one at present; multipliers are as large as the largest velocity.
+/// Started with less, bodies that are thrown into walls crawl along the boundary; with much more a few iterations are
+/// lost.
 const FIRST_FORCE: f64 = 3.0;
-/// Complementarity, as a share of that at the start, from which on it is judged whether the velocities solve the island. Handing over to Newton's method
-/// without judging does not do: bodies start with the force of the largest blow, and a millionth of a millionth of that may still be as much as the
-/// smallest limbs have.
+/// Complementarity, as a share of that at the start, from which on it is judged whether the velocities solve the
+/// island. Handing over to Newton's method without judging does not do: bodies start with the force of the largest
+/// blow, and a millionth of a millionth of that may still be as much as the smallest limbs have.
 const NEARLY: f64 = 1e-12;
 /// A motor whose range is less than this share of the widest, or that has no gain, gives what it gives.
 const NARROW: f64 = 1e-9;
-/// Friction coefficient below which a cone is too narrow to be seen from inside; Newton's method takes the true one again.
+/// Friction coefficient below which a cone is too narrow to be seen from inside; Newton's method takes the true one
+/// again.
 const LEAST_FRICTION: f64 = 1e-3;
 
 /// What takes part: sum and number of products of multiplier and distance.
@@ -61,7 +65,8 @@ fn ground(contacts: &ContactRows, k: usize, v: Vec3) -> Vec3 {
 }
 
 impl Island {
-    /// Leads the velocities to the solution, wherever they were, in at most `iterations` iterations; returns how many there were. Bounded work.
+    /// Leads the velocities to the solution, wherever they were, in at most `iterations` iterations; returns how many
+    /// there were. Bounded work.
     pub(super) fn approach<F: Articulated>(&mut self, figures: &mut [F], iterations: u32) -> u32 {
         self.enter(figures);
         let (mut start, mut last_step, mut done) = (0.0, 1.0f64, 0);
@@ -180,7 +185,8 @@ impl Island {
                     linearise_figure(&mut p, &b.x, most, aim, &mut b.slope, &mut b.grad);
                 }
                 Kind::Free(_) => {
-                    // All of it: what an interior point that has left its cone wrote behind the sixth entry would stay there.
+                    // All of it: what an interior point that has left its cone wrote behind the sixth entry would stay
+                    // there.
                     b.grad = [0.0; NV];
                     for k in 0..6 {
                         b.grad[k] = b.ax[k] - b.b[k];

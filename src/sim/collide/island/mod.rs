@@ -1,10 +1,12 @@
-//! One convex problem for all bodies of an island: figures with their motors, limits and ground, free obstacles, and the contacts between.
+//! One convex problem for all bodies of an island: figures with their motors, limits and ground, free obstacles, and
+//! the contacts between.
 //!
-//! The problem of a figure's substep ([`crate::sim::contact::minimise`]) is a sum of convex terms on its own velocity. A contact between two
-//! bodies adds one more on the relative velocity of its two points. Newton's matrix (`direction`) is then block-diagonal plus a term of low
-//! rank: contacts with fixed things stay in the blocks' own pattern, those between two moving bodies are taken in apart. One line search
-//! (`newton`) along the common direction keeps the descent of the whole sum, so that the method is as safe as the one for one figure. Where it
-//! jams, an interior-point method on the same matrix leads it on (`interior`).
+//! The problem of a figure's substep ([`crate::sim::contact::minimise`]) is a sum of convex terms on its own velocity.
+//! A contact between two bodies adds one more on the relative velocity of its two points. Newton's matrix (`direction`)
+//! is then block-diagonal plus a term of low rank: contacts with fixed things stay in the blocks' own pattern, those
+//! between two moving bodies are taken in apart. One line search (`newton`) along the common direction keeps the
+//! descent of the whole sum, so that the method is as safe as the one for one figure. Where it jams, an interior-point
+//! method on the same matrix leads it on (`interior`).
 //!
 //! Each contact's impulse acts on both bodies at one and the same point: momentum is kept whatever residual is left.
 
@@ -200,8 +202,8 @@ impl Island {
         self.add_block(Kind::Figure(index))
     }
 
-    /// A free body: mass, columns of the inertia about its centre, momentum (moment, then linear) at the end of the substep if nothing
-    /// touched it, and its velocity (angular, then linear) as the first guess.
+    /// A free body: mass, columns of the inertia about its centre, momentum (moment, then linear) at the end of the
+    /// substep if nothing touched it, and its velocity (angular, then linear) as the first guess.
     pub fn add_free(
         &mut self,
         index: usize,
@@ -226,9 +228,9 @@ impl Island {
         k
     }
 
-    /// A contact that pushes where the two approach faster than `approach` (m/s); `firm` is the velocity of a second side without block.
-    /// `visit` is called for each side that has a block and gives the velocity of the contact's point, world axes, for a unit of
-    /// each velocity component of that body, each once.
+    /// A contact that pushes where the two approach faster than `approach` (m/s); `firm` is the velocity of a second
+    /// side without block. `visit` is called for each side that has a block and gives the velocity of the contact's
+    /// point, world axes, for a unit of each velocity component of that body, each once.
     pub fn add_contact(
         &mut self,
         block: [Option<usize>; 2],
@@ -287,7 +289,8 @@ impl Island {
         &self.contacts
     }
 
-    /// True if any contact pushes at the velocities of the first guess. If none does, everybody's own solution solves the island.
+    /// True if any contact pushes at the velocities of the first guess. If none does, everybody's own solution solves
+    /// the island.
     pub fn is_active<F: Articulated>(&mut self, figures: &mut [F]) -> bool {
         for b in &mut self.blocks {
             if let Kind::Figure(i) = b.kind {
@@ -331,7 +334,8 @@ impl Island {
         Some(x)
     }
 
-    /// Impulse (linear) and moment impulse about the centre of all contacts on free body `index`; `None` if it takes no part.
+    /// Impulse (linear) and moment impulse about the centre of all contacts on free body `index`; `None` if it takes no
+    /// part.
     pub fn free_impulse(&self, index: usize) -> Option<(Vec3, Vec3)> {
         let k = self
             .blocks

@@ -68,7 +68,8 @@ impl Island {
         self.velocities();
     }
 
-    /// The largest gradient at the present velocities, and whether it is none: below the tolerance, or what rounding leaves.
+    /// The largest gradient at the present velocities, and whether it is none: below the tolerance, or what rounding
+    /// leaves.
     pub(super) fn judge<F: Articulated>(&mut self, figures: &mut [F]) -> (f64, bool) {
         self.gradients(figures);
         let largest = |m: f64, b: &Block| m.max(largest(&b.grad));
@@ -78,9 +79,9 @@ impl Island {
         (residual, none)
     }
 
-    /// What rounding may leave of a gradient, N·m·s: the last digit of what it is a sum of. Stiffness times velocity counts most: a led plane that
-    /// turns moves by 9 km/s at 500 m from its centre, where contacts of 10⁴ kg have an arm of 500 m; and the angles of a raised arm change by 300 rad
-    /// per rad that it turns.
+    /// What rounding may leave of a gradient, N·m·s: the last digit of what it is a sum of. Stiffness times velocity
+    /// counts most: a led plane that turns moves by 9 km/s at 500 m from its centre, where contacts of 10⁴ kg have an
+    /// arm of 500 m; and the angles of a raised arm change by 300 rad per rad that it turns.
     fn rounding<F: Articulated>(&self, figures: &mut [F]) -> f64 {
         let mut sum = 0.0;
         for b in &self.blocks {
@@ -145,7 +146,8 @@ impl Island {
                         .add_transposed(&p.newton.force, -1.0, &mut b.grad);
                 }
                 Kind::Free(_) => {
-                    // All of it: what an interior point that has left its cone wrote behind the sixth entry would stay there.
+                    // All of it: what an interior point that has left its cone wrote behind the sixth entry would stay
+                    // there.
                     b.grad = [0.0; NV];
                     for k in 0..6 {
                         b.grad[k] = b.ax[k] - b.b[k];

@@ -1,5 +1,5 @@
-//! What the plan may push against: the points of planted feet, of a body that works on the floor, and of what rests on seats and tables, each with
-//! the acceleration that keeps it where it is.
+//! What the plan may push against: the points of planted feet, of a body that works on the floor, and of what rests on
+//! seats and tables, each with the acceleration that keeps it where it is.
 
 use super::{Hold, MEANT_FADE, Modern, POINTS, blend, soft, weight};
 use crate::sim::body::topology::{L_FOOT, L_HAND, L_TOES, R_FOOT, R_HAND, R_TOES, SEGMENT_COUNT};
@@ -12,12 +12,15 @@ use crate::sim::support::Rest;
 
 /// Time constant that brings a planted point to rest, s.
 const HOLD_TIME: f64 = 0.05;
-/// The same along the floor for a foot that still turns: friction stops its points before its hip does, and they slide until then, s.
+/// The same along the floor for a foot that still turns: friction stops its points before its hip does, and they slide
+/// until then, s.
 const TURN_HOLD_TIME: f64 = 0.03;
-/// A foot turns that does so about the vertical faster than the first, rad/s, and its points slide faster than the first, m/s; fully from the second on.
+/// A foot turns that does so about the vertical faster than the first, rad/s, and its points slide faster than the
+/// first, m/s; fully from the second on.
 const TURNS: (f64, f64) = (0.4, 0.6);
 const SLIDES: (f64, f64) = (0.05, 0.07);
-/// A point that comes down faster than the first beyond what its height leaves room for begins to strike, from the second on it does, m/s.
+/// A point that comes down faster than the first beyond what its height leaves room for begins to strike, from the
+/// second on it does, m/s.
 const STRIKES: (f64, f64) = (0.1, 0.3);
 /// Hardest stop of a planted point that is planned, m/s².
 const STOP: f64 = 150.0;
@@ -27,19 +30,20 @@ const HOLD_SPEED: f64 = 0.3;
 const FADE: (f64, f64) = (0.004, 0.010);
 /// The same of what touches while the whole body works on the floor, m.
 const FLOOR_FADE: (f64, f64) = (0.006, 0.020);
-/// There knees bear weight more easily than feet, and hands less, for what they cost the program: a knee has one contact point where a palm has
-/// four, and hands that carry what knees could cannot be lifted.
+/// There knees bear weight more easily than feet, and hands less, for what they cost the program: a knee has one
+/// contact point where a palm has four, and hands that carry what knees could cannot be lifted.
 const EASE: (f64, f64, f64) = (5.0, 0.5, 0.2);
 /// What is kept of the last tick's contact force.
 pub(super) const FORCE_MEMORY: f64 = 0.98;
-/// Weight with which a part that rests on a seat is held there when it carries all it may count for, and that share of the weight. Little while
-/// the motion does not need the seat: who is nailed to it topples with it. Else as much along the surface and across it as in the second: a
-/// plan in which the body sinks into its seat, or slides over it, lets the feet push with forces that the floor does not give, and they creep.
+/// Weight with which a part that rests on a seat is held there when it carries all it may count for, and that share of
+/// the weight. Little while the motion does not need the seat: who is nailed to it topples with it. Else as much along
+/// the surface and across it as in the second: a plan in which the body sinks into its seat, or slides over it, lets
+/// the feet push with forces that the floor does not give, and they creep.
 const REST_HOLD: f64 = 5.0;
 const NEEDED_HOLD: (f64, f64) = (50.0, 500.0);
 const REST_FULL: f64 = 0.2;
-/// A part is held where it rests while the motion has it no higher than the first above that, not at all from the second on, m: a hand
-/// that is to leave the seat is not nailed to it.
+/// A part is held where it rests while the motion has it no higher than the first above that, not at all from the
+/// second on, m: a hand that is to leave the seat is not nailed to it.
 const LIFTED: (f64, f64) = (0.02, 0.06);
 /// Share of hold and force that segments other than feet get.
 const OTHER_SEGMENT: f64 = 1e-3;
@@ -148,7 +152,8 @@ impl Modern {
 /// Acceleration that brings a planted point to rest on the floor, m/s².
 ///
 /// * `(z, v)`: its height, m, and velocity, m/s.
-/// * `spin`: angular velocity of its foot about the vertical, rad/s, where a foot that lands turning is held sooner; else 0.
+/// * `spin`: angular velocity of its foot about the vertical, rad/s, where a foot that lands turning is held sooner;
+///   else 0.
 /// * `dt`: length of the tick, s.
 fn stop((z, v): (f64, Vec3), spin: f64, dt: f64) -> Vec3 {
     let rise = (-0.2 * z / dt).clamp(-HOLD_SPEED, HOLD_SPEED);

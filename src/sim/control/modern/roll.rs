@@ -1,4 +1,5 @@
-//! Which points of a planted foot the plan keeps on the floor while the motion rolls it off: the heel goes first, the toes with the whole foot.
+//! Which points of a planted foot the plan keeps on the floor while the motion rolls it off: the heel goes first, the
+//! toes with the whole foot.
 
 use super::{Modern, POINTS};
 use crate::sim::body::Body;
@@ -8,17 +9,19 @@ use crate::sim::math::ease::fall;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::Target;
 
-/// A point of a planted foot is planned down fully where the motion has it below the first height, not at all above the second, m.
+/// A point of a planted foot is planned down fully where the motion has it below the first height, not at all above the
+/// second, m.
 const PLANNED_FADE: (f64, f64) = (0.001, 0.006);
 /// The same of toes that roll over their tip.
 const TIP_FADE: (f64, f64) = (0.003, 0.010);
-/// A point that the motion lifts faster than the first leaves the floor, m/s. All of these bounds are narrow on purpose: a point that is half let
-/// go is turned up with its force still there.
+/// A point that the motion lifts faster than the first leaves the floor, m/s. All of these bounds are narrow on
+/// purpose: a point that is half let go is turned up with its force still there.
 const RISES: (f64, f64) = (0.035, 0.045);
-/// A heel is needed where the zero-moment point is wanted less than this far from it, as a share of the way to the toe joint: who brakes stands
-/// on it still.
+/// A heel is needed where the zero-moment point is wanted less than this far from it, as a share of the way to the toe
+/// joint: who brakes stands on it still.
 const NEEDED: (f64, f64) = (0.45, 0.55);
-/// An ankle that needs more than this share of its strength to carry the foot's load on the toe joint does not lift the heel.
+/// An ankle that needs more than this share of its strength to carry the foot's load on the toe joint does not lift the
+/// heel.
 const STRAINED: (f64, f64) = (0.85, 0.90);
 /// Toes that carry more than this share of the weight are kept to the end of the stance.
 const CARRIES: (f64, f64) = (0.10, 0.15);
@@ -74,7 +77,8 @@ impl Modern {
         points.iter().fold(Vec3::zero(), |sum, f| sum + *f)
     }
 
-    /// Torque that the ankle of foot `s` needs if its toe joint carries what the whole foot did in the last plan, as a share of its strength.
+    /// Torque that the ankle of foot `s` needs if its toe joint carries what the whole foot did in the last plan, as a
+    /// share of its strength.
     fn strain(&self, input: &ControlInput<'_>, s: usize) -> f64 {
         let t = input.terms;
         let ball = Vec3 {
@@ -109,8 +113,9 @@ fn wanted(input: &ControlInput<'_>, s: usize) -> f64 {
 }
 
 impl Roll {
-    /// How far the plan keeps a point of segment `s` down. What the motion lifts the floor does not push: contacts of the plan have no
-    /// complementarity, and a heel that is turned up with its force still there turns by that force, with the whole weight on it.
+    /// How far the plan keeps a point of segment `s` down. What the motion lifts the floor does not push: contacts of
+    /// the plan have no complementarity, and a heel that is turned up with its force still there turns by that force,
+    /// with the whole weight on it.
     pub(super) fn kept(&self, input: &ControlInput<'_>, s: usize, point: Vec3) -> f64 {
         let toes = s == L_TOES.index() || s == R_TOES.index();
         let local = |foot_from_toes: Quat| {
@@ -135,7 +140,8 @@ impl Roll {
     }
 }
 
-/// Heights over the floor at which the motion has a point of the foot of segment `s`, foot frame, at the beginning and at the end of the tick, m.
+/// Heights over the floor at which the motion has a point of the foot of segment `s`, foot frame, at the beginning and
+/// at the end of the tick, m.
 fn heights(input: &ControlInput<'_>, s: usize, point: [Vec3; 2]) -> [f64; 2] {
     let (position, rotation) = &input.feet[usize::from(s >= R_FOOT.index())];
     let [now, next] = point;

@@ -1,8 +1,9 @@
 //! What a body takes along into the air.
 //!
-//! Nothing changes the angular momentum of who flies: a little too much of it at take-off turns the trunk by tens of degrees until he lands. And the
-//! motion asks for too much: a foot that is held on the floor to the last, while the pelvis already goes its way, makes the legs of the motion spin
-//! up and stop again within a few samples. So for the last moments on the floor the momentum itself is a task, ahead of what joints are to do.
+//! Nothing changes the angular momentum of who flies: a little too much of it at take-off turns the trunk by tens of
+//! degrees until he lands. And the motion asks for too much: a foot that is held on the floor to the last, while the
+//! pelvis already goes its way, makes the legs of the motion spin up and stop again within a few samples. So for the
+//! last moments on the floor the momentum itself is a task, ahead of what joints are to do.
 
 use super::{Modern, TaskRow};
 use crate::sim::control::ControlInput;
@@ -15,7 +16,8 @@ const LEAST: f64 = 0.03;
 const WEIGHT: f64 = 10.0;
 
 impl Modern {
-    /// Rows of the angular momentum with which the body is to leave the floor: `L̇ = (L_flight − L)/t`, t the time that is left.
+    /// Rows of the angular momentum with which the body is to leave the floor: `L̇ = (L_flight − L)/t`, t the time that
+    /// is left.
     pub(super) fn take_off_task(&mut self, input: &ControlInput<'_>) {
         let Some(flight) = input.take_off.filter(|f| f.after < BEFORE) else {
             return;

@@ -33,10 +33,11 @@ const DANGER_FACTOR: f64 = 10.0;
 /// Share of the weight on a seat from which the centre of mass counts least, and its factor then.
 const SEATED_FULL: f64 = 0.3;
 const SEATED_LEAST: f64 = 0.05;
-/// The motion needs the seat where its capture point is less than the first inside the soles; from the second on it is about to get up, m.
+/// The motion needs the seat where its capture point is less than the first inside the soles; from the second on it is
+/// about to get up, m.
 const NEEDS_SEAT: (f64, f64) = (-0.02, 0.03);
-/// A motion sits down that has its centre of mass over neither of two planted feet: wholly where it is farther inside than the first (outside,
-/// being negative), not yet from the second on, m.
+/// A motion sits down that has its centre of mass over neither of two planted feet: wholly where it is farther inside
+/// than the first (outside, being negative), not yet from the second on, m.
 const SITS_DOWN: (f64, f64) = (-0.05, -0.01);
 /// What one sits on. Hands that lean on a seat do not make it one.
 const SEATED_ON: [SegmentId; 3] = [PELVIS, L_THIGH, R_THIGH];
@@ -100,8 +101,8 @@ impl Modern {
         let next = &input.target.next;
         for (side, foot) in [(0, L_FOOT.index()), (1, R_FOOT.index())] {
             let (position, rotation) = &input.feet[side];
-            // A planted foot is held where it touches; a swinging one is led. Both are turned as the motion turns them: a heel that
-            // has come up is out of reach of the contact rows.
+            // A planted foot is held where it touches; a swinging one is led. Both are turned as the motion turns them:
+            // a heel that has come up is out of reach of the contact rows.
             let turn = if next.planted[side] {
                 weight::PLANTED_ROTATION
             } else {
@@ -135,9 +136,10 @@ impl Modern {
         }
     }
 
-    /// Factor on the weight of the centre of mass. Who cannot step and is about to fall lets the posture go rather than the balance. Who
-    /// sits has no balance to keep, and would bend to put its centre of mass where another seat would have had it; not so while
-    /// the motion is getting up, which takes a centre of mass over the feet. Who sits down lets himself fall onto the seat as the motion does.
+    /// Factor on the weight of the centre of mass. Who cannot step and is about to fall lets the posture go rather than
+    /// the balance. Who sits has no balance to keep, and would bend to put its centre of mass where another seat would
+    /// have had it; not so while the motion is getting up, which takes a centre of mass over the feet. Who sits down
+    /// lets himself fall onto the seat as the motion does.
     fn urgency(&mut self, input: &ControlInput<'_>) -> f64 {
         let planted = [input.target.now.planted, input.target.next.planted];
         if let Some(floor) = input.on_floor {
@@ -196,8 +198,9 @@ impl Modern {
             .map_or(f64::NEG_INFINITY, |c| c.margin)
     }
 
-    /// A constraint from outside. Its weight grows with the cube of how far it is in force: that spreads the passage from the posture's hold to its
-    /// own over the time in which it comes or goes. Several share what one may pull with, or together they would pull a figure off its feet.
+    /// A constraint from outside. Its weight grows with the cube of how far it is in force: that spreads the passage
+    /// from the posture's hold to its own over the time in which it comes or goes. Several share what one may pull
+    /// with, or together they would pull a figure off its feet.
     fn goal_task(&mut self, t: &Terms, goal: &Goal, share: f64) {
         let s = goal.segment.index();
         let level = share * goal.weight * goal.weight * goal.weight;

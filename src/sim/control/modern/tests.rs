@@ -1,5 +1,6 @@
-//! Goal: the kernel solves the problem that it is meant to solve. Method: the same problem in its primal form (accelerations, torques, contact forces,
-//! assist), put together from M, h and Jacobians of [`Terms`], and solved by an interior-point method with second-order cones (clarabel).
+//! Goal: the kernel solves the problem that it is meant to solve. Method: the same problem in its primal form
+//! (accelerations, torques, contact forces, assist), put together from M, h and Jacobians of [`Terms`], and solved by
+//! an interior-point method with second-order cones (clarabel).
 
 use super::contacts::FORCE_MEMORY;
 use super::*;
@@ -52,7 +53,8 @@ struct Primal {
 }
 
 impl Primal {
-    /// Of the problem that `c` has just solved for `s`; `torques` and `forces` are those of the tick before, by DOF and by contact point.
+    /// Of the problem that `c` has just solved for `s`; `torques` and `forces` are those of the tick before, by DOF and
+    /// by contact point.
     fn new(
         c: &Modern,
         s: &Scene,

@@ -1,4 +1,5 @@
-//! What stands on the floor in a pass: which feet carry, how several of them share the reaction, how a second one is kept where it is.
+//! What stands on the floor in a pass: which feet carry, how several of them share the reaction, how a second one is
+//! kept where it is.
 
 use super::{Mode, Paper};
 use crate::sim::body::SegmentId;
@@ -126,8 +127,8 @@ impl Paper {
         }
     }
 
-    /// Kinematic loops (ALGORITHM §5): a second planted foot stays where it was put down. Its leg takes θ̈_initial there, and its rows may
-    /// not change afterwards.
+    /// Kinematic loops (ALGORITHM §5): a second planted foot stays where it was put down. Its leg takes θ̈_initial
+    /// there, and its rows may not change afterwards.
     pub(super) fn hold_planted_feet(
         &mut self,
         input: &ControlInput<'_>,

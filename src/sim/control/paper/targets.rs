@@ -1,4 +1,5 @@
-//! Secondary constraints, (12)–(15): what centre of mass, hands and constraints from outside lack, as rows, and the wish x that serves them.
+//! Secondary constraints, (12)–(15): what centre of mass, hands and constraints from outside lack, as rows, and the
+//! wish x that serves them.
 
 use super::{Mode, Paper};
 use crate::sim::body::NV;
@@ -24,13 +25,15 @@ const GOAL_PACE: Pace = Pace {
     most_trunk: 2.0,
     most_turn: 10.0,
 };
-/// A capture point nearer to the edge than the first lets go of constraints on the whole body, one farther inside than the second does not, m.
+/// A capture point nearer to the edge than the first lets go of constraints on the whole body, one farther inside than
+/// the second does not, m.
 const SURE: (f64, f64) = (0.02, 0.045);
 /// Constraints from outside that (12) takes.
 const MOST_GOALS: usize = 8;
 
 impl Paper {
-    /// Rows and wanted changes of centre of mass and end-effectors (14), (15), at joint accelerations `qdd`, and the wish x of (12).
+    /// Rows and wanted changes of centre of mass and end-effectors (14), (15), at joint accelerations `qdd`, and the
+    /// wish x of (12).
     pub(super) fn wish(
         &mut self,
         input: &ControlInput<'_>,
@@ -162,7 +165,8 @@ impl Paper {
         }
     }
 
-    /// How surely it stands, 0…1: what moves the whole body from outside is let go of where the capture point nears the edge of the support.
+    /// How surely it stands, 0…1: what moves the whole body from outside is let go of where the capture point nears the
+    /// edge of the support.
     fn sure(input: &ControlInput<'_>) -> f64 {
         let t = input.terms;
         let rise = (t.com.z.max(0.1) / input.gravity.max(1.0)).sqrt();

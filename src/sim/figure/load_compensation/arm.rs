@@ -1,8 +1,8 @@
 //! What an arm does of a motion with a load in its hand.
 //!
-//! The motion was made by an empty hand. The same path with 10 kg would take several times the force, which a shoulder does not have, and the body would have
-//! to stand against it. So the arm moves the load about with the force of the motion: what it does slowly stays as it is, what it does quickly becomes the
-//! less the more it carries.
+//! The motion was made by an empty hand. The same path with 10 kg would take several times the force, which a shoulder
+//! does not have, and the body would have to stand against it. So the arm moves the load about with the force of the
+//! motion: what it does slowly stays as it is, what it does quickly becomes the less the more it carries.
 
 use crate::sim::body::topology::{
     JOINT, Joint, L_FOREARM, L_HAND, L_UPPER_ARM, PARENT, R_FOREARM, R_HAND, R_UPPER_ARM,
@@ -18,13 +18,14 @@ use crate::sim::motion::leg_ik::forward;
 const HALF_SWING: f64 = 4.0;
 /// What an arm does within this time it does quickly, s.
 const QUICKLY: f64 = 0.7;
-/// An arm hangs whose hand is less than the first angle before or behind its shoulder, and whose elbow is bent by less than the first of these;
-/// from the second on it does not, rad. (Forearms that are held level carry something in front of the body.) What an arm had less of
-/// its swing comes back while it is raised from the one to the other: the farther apart they are, the less it has to hurry.
+/// An arm hangs whose hand is less than the first angle before or behind its shoulder, and whose elbow is bent by less
+/// than the first of these; from the second on it does not, rad. (Forearms that are held level carry something in front
+/// of the body.) What an arm had less of its swing comes back while it is raised from the one to the other: the farther
+/// apart they are, the less it has to hurry.
 const HANGS: (f64, f64) = (0.7, 1.6);
 const STRETCHED: (f64, f64) = (0.9, 1.5);
-/// Time constant with which an arm gets used to hanging, or to something else, s: one that comes down between two movements goes on as the motion
-/// has it.
+/// Time constant with which an arm gets used to hanging, or to something else, s: one that comes down between two
+/// movements goes on as the motion has it.
 const GETS_USED: f64 = 0.7;
 
 /// Upper arm, forearm and hand, left and right.
@@ -120,7 +121,8 @@ pub(super) fn slow(posture: &mut Posture, arm: [SegmentId; 3], load: f64, habit:
     held.hold(posture, arm);
 }
 
-/// Lets an arm that hangs in the motion, and is used to it, hang straighter and swing less, by what its hand carries, kg.
+/// Lets an arm that hangs in the motion, and is used to it, hang straighter and swing less, by what its hand carries,
+/// kg.
 pub(super) fn hang(
     body: &Body,
     posture: &mut Posture,
@@ -180,7 +182,8 @@ mod tests {
         poses[RIGHT[2].index()].0 - poses[RIGHT[0].index()].0
     }
 
-    /// How far the hand of an arm with 5 kg is from where the motion has it as the arm comes down once more after `raised` seconds, m.
+    /// How far the hand of an arm with 5 kg is from where the motion has it as the arm comes down once more after
+    /// `raised` seconds, m.
     fn let_down(raised: f64) -> f64 {
         let body = Body::adult_man();
         let up = Habit::of(&body, &swung(&body, 2.0), RIGHT);
@@ -208,7 +211,8 @@ mod tests {
         assert!(busy < 0.03 * used, "{busy} of {used}");
     }
 
-    /// Furthest that the hand gets up from where it is with the arm level when the arm swings by ±`most` rad about there in `period` seconds, m.
+    /// Furthest that the hand gets up from where it is with the arm level when the arm swings by ±`most` rad about
+    /// there in `period` seconds, m.
     fn swings(load: f64, most: f64, period: f64) -> f64 {
         let body = Body::adult_man();
         let at = |t: f64| {
@@ -236,7 +240,8 @@ mod tests {
         let empty = swings(0.0, 0.4, 1.0);
         assert!(empty > 0.2, "{empty}");
         for load in [4.0, 12.0] {
-            // 1 − less · iωτ/(1 + iωτ): what is left of a swing whose quick part, a high-pass of the first order, becomes less.
+            // 1 − less · iωτ/(1 + iωτ): what is left of a swing whose quick part, a high-pass of the first order,
+            // becomes less.
             let less = load / (load + HALF_SWING);
             let x = std::f64::consts::TAU * QUICKLY;
             let quick = [x * x, x].map(|part| part / (1.0 + x * x));

@@ -94,7 +94,8 @@ impl Figure {
     pub fn drive(&self) -> &Drive {
         &self.drive
     }
-    /// Replaces the source of the desired motion from the next tick on, whatever the figure does. What waits is forgotten.
+    /// Replaces the source of the desired motion from the next tick on, whatever the figure does. What waits is
+    /// forgotten.
     pub fn set_drive(&mut self, drive: Drive) {
         self.tracker.follow(match &drive {
             Drive::Clip(play) => {

@@ -44,8 +44,8 @@ impl Figure {
             })
     }
 
-    /// True if steps follow events: the modern controller, and a figure that is up. Full assist pins the pelvis to its path, so the motion
-    /// keeps its clock and its place there.
+    /// True if steps follow events: the modern controller, and a figure that is up. Full assist pins the pelvis to its
+    /// path, so the motion keeps its clock and its place there.
     pub(super) fn steps(&self) -> bool {
         !self.fallen
             && !self.balance.lost()
@@ -53,7 +53,8 @@ impl Figure {
             && self.setup.options.assist < 1.0
     }
 
-    /// The flight that the motion has next, with the angular momentum that the motion has in it; `None` where that is not known.
+    /// The flight that the motion has next, with the angular momentum that the motion has in it; `None` where that is
+    /// not known.
     pub(super) fn take_off(&mut self) -> Option<TakeOff> {
         let flight = self.tracker.coming_flight()?;
         let spin = match &self.drive {

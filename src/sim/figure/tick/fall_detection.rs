@@ -10,17 +10,20 @@ use crate::sim::figure::kinematic_step::{SPEED_CAP, other_part_arrives};
 use crate::sim::figure::report::Flags;
 use crate::sim::figure::setup::{ControllerKind, StepperKind};
 
-/// A figure has fallen when its CoM is below this share of its standing height and something other than a foot carries it.
+/// A figure has fallen when its CoM is below this share of its standing height and something other than a foot carries
+/// it.
 const FALLEN_HEIGHT: f64 = 0.45;
 /// It stands again when its CoM is above this share of the standing height.
 const RISEN_HEIGHT: f64 = 0.6;
-/// Torques give back to prescribed accelerations after the figure has stood this long on flat feet with strength to spare, s.
+/// Torques give back to prescribed accelerations after the figure has stood this long on flat feet with strength to
+/// spare, s.
 const CALM_TIME: f64 = 0.5;
 /// Parts that a figure stands on.
 pub(super) const FEET: [SegmentId; 4] = [L_FOOT, L_TOES, R_FOOT, R_TOES];
 
 impl Figure {
-    /// Is balance lost? Full assist holds the pelvis, so there is none to lose; and prescribed accelerations fall by themselves.
+    /// Is balance lost? Full assist holds the pelvis, so there is none to lose; and prescribed accelerations fall by
+    /// themselves.
     pub(super) fn watch_balance(&mut self, world: &TickContext) {
         let s = &self.setup;
         let falls = s.stepper == StepperKind::Kinematic && self.handed_over.is_none();
@@ -72,7 +75,8 @@ impl Figure {
         }
     }
 
-    /// True if accelerations are to be applied as they are. A load held in two hands and the assist act by forces, which need torques.
+    /// True if accelerations are to be applied as they are. A load held in two hands and the assist act by forces,
+    /// which need torques.
     pub(super) fn prescribes(&self) -> bool {
         self.setup.stepper == StepperKind::Kinematic
             && self.setup.options.assist == 0.0
@@ -82,8 +86,9 @@ impl Figure {
             && !self.rising.is_rising()
     }
 
-    /// Prescribed accelerations on a tilting support create energy once joints saturate, and they know nothing of parts other than feet:
-    /// there torques take over (ALGORITHM §6), until the figure has stood calmly for a while. The state is the same for both.
+    /// Prescribed accelerations on a tilting support create energy once joints saturate, and they know nothing of parts
+    /// other than feet: there torques take over (ALGORITHM §6), until the figure has stood calmly for a while. The
+    /// state is the same for both.
     pub(super) fn judge_hand_over(&mut self, dt: f64) {
         let r = &self.report;
         if self.prescribed && self.setup.params.hand_over {

@@ -1,5 +1,5 @@
-//! How what is under way is left: over to another clip from step to step, or by the steps that bring it to a stand. Both are worked out aside, and taken
-//! in a tick that is fixed when they are asked for.
+//! How what is under way is left: over to another clip from step to step, or by the steps that bring it to a stand.
+//! Both are worked out aside, and taken in a tick that is fixed when they are asked for.
 
 use super::{Figure, TickContext};
 use crate::sim::body::{Body, Posture};
@@ -17,7 +17,8 @@ use std::sync::Arc;
 const STOP_AHEAD: f64 = 0.8;
 /// Samples (of joins) that still play before a motion is left: the time that there is to work out how.
 pub(super) const ASIDE: usize = 4;
-/// A body slower than this is led into the posture in which the next clip begins; a faster one comes to its ease first, m/s.
+/// A body slower than this is led into the posture in which the next clip begins; a faster one comes to its ease first,
+/// m/s.
 const SLOW: f64 = 0.2;
 /// Time that the steps to a stand take, as is expected before they are worked out, s.
 const STANDS_AFTER: f64 = 2.2;
@@ -92,9 +93,10 @@ impl MotionSwitch {
 }
 
 impl Figure {
-    /// Begins to work out how the motion is left for a clip that is to play from world time `from` on: over to it, unless its place is `fixed`, or to a
-    /// stand at ease, or like `goal` if it hardly moves or stands in another way. A motion that ends already does not end anew. Returns when it should
-    /// stand and, if it is expected to go over, when the clip's time 0 plays, s.
+    /// Begins to work out how the motion is left for a clip that is to play from world time `from` on: over to it,
+    /// unless its place is `fixed`, or to a stand at ease, or like `goal` if it hardly moves or stands in another way.
+    /// A motion that ends already does not end anew. Returns when it should stand and, if it is expected to go over,
+    /// when the clip's time 0 plays, s.
     pub(super) fn leave(
         &mut self,
         play: &ClipPlayback,
@@ -143,8 +145,8 @@ impl Figure {
         (stands, entered)
     }
 
-    /// The ways from the clip that plays into another one that begins in full stride, at world time `due` or `from` or later, if there are moments at
-    /// which they are alike.
+    /// The ways from the clip that plays into another one that begins in full stride, at world time `due` or `from` or
+    /// later, if there are moments at which they are alike.
     fn ways_over(
         &self,
         play: &ClipPlayback,
@@ -222,7 +224,8 @@ impl Figure {
         }
     }
 
-    /// A stream that breaks off in the middle of a step, its last posture held, is left by the steps to a stand. Allocates.
+    /// A stream that breaks off in the middle of a step, its last posture held, is left by the steps to a stand.
+    /// Allocates.
     pub(super) fn leave_broken_stream(&mut self, time: f64) {
         let broken = |live: &LivePlayback| live.motion.breaks_off();
         let streams =
@@ -232,7 +235,8 @@ impl Figure {
         }
     }
 
-    /// Leaves the motion in the last tick that begins before the way out differs from it. Always in that one, however long that took to work out.
+    /// Leaves the motion in the last tick that begins before the way out differs from it. Always in that one, however
+    /// long that took to work out.
     pub(super) fn begin_to_leave(&mut self, world: &TickContext) {
         let due = |l: &MotionSwitch| world.time() + world.dt > l.due + 1e-9;
         if self.leaving.as_deref().is_some_and(due) {
@@ -291,8 +295,8 @@ impl Figure {
         self.ending = false;
     }
 
-    /// Turns to a clip that begins at world time `begin`, s, which is `before` of the present motion. Without one holds the motion as it is: a stand takes no
-    /// movement, or is not possible.
+    /// Turns to a clip that begins at world time `begin`, s, which is `before` of the present motion. Without one holds
+    /// the motion as it is: a stand takes no movement, or is not possible.
     fn follow_end(&mut self, clip: Option<Clip>, begin: f64, before: f64) {
         let Some(clip) = clip else {
             let (queued, posture) = (self.queued.take(), self.target.next.posture);
@@ -307,8 +311,8 @@ impl Figure {
         self.ending = true;
     }
 
-    /// The motion under way, by the rate of joins, from the run-up that planning a stop at world time `time` needs to as far ahead as it is known. It
-    /// still plays for `after` samples.
+    /// The motion under way, by the rate of joins, from the run-up that planning a stop at world time `time` needs to
+    /// as far ahead as it is known. It still plays for `after` samples.
     fn motion_until_stop(&mut self, time: f64, after: usize) -> (Given, Vec<Sample>) {
         let from = time - self.tracker.lag();
         let (begin, so_far) = self.motion_around(from, after as f64 / splice::RATE);

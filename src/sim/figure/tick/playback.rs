@@ -1,4 +1,5 @@
-//! From one motion to another while the figure moves: from step to step where they fit, else by a stand for which what was asked for waits.
+//! From one motion to another while the figure moves: from step to step where they fit, else by a stand for which what
+//! was asked for waits.
 
 use super::Figure;
 use super::fall_detection::FEET;
@@ -38,13 +39,15 @@ struct Beginning {
 }
 
 impl Figure {
-    /// Plays a clip from world time `time` on. A figure that walks, or is in the middle of another clip, goes over to it from step to step where the one
-    /// is like the beginning of the other; else it finishes its step and stands first, as the clip begins. Then the clip begins where its feet are, unless
-    /// `fixed` says that its origin is meant: by a way of its own, if it begins neither as the figure stands nor with steps from there. One that stands already
-    /// as the clip begins, has fallen, or makes no steps begins at once.
+    /// Plays a clip from world time `time` on. A figure that walks, or is in the middle of another clip, goes over to
+    /// it from step to step where the one is like the beginning of the other; else it finishes its step and stands
+    /// first, as the clip begins. Then the clip begins where its feet are, unless `fixed` says that its origin is
+    /// meant: by a way of its own, if it begins neither as the figure stands nor with steps from there. One that stands
+    /// already as the clip begins, has fallen, or makes no steps begins at once.
     ///
-    /// Returns the world time at which the clip's time 0 plays, s. If the figure goes over, has to stand first, or needs a way into the clip, that is
-    /// expected: ways are worked out aside, and taken in a tick that is fixed now. Allocates.
+    /// Returns the world time at which the clip's time 0 plays, s. If the figure goes over, has to stand first, or
+    /// needs a way into the clip, that is expected: ways are worked out aside, and taken in a tick that is fixed now.
+    /// Allocates.
     pub fn play(&mut self, play: ClipPlayback, fixed: bool, time: f64) -> f64 {
         let begin = self.beginning(&play, time);
         let first = begin.first;
@@ -214,7 +217,8 @@ impl Figure {
         }
     }
 
-    /// A fallen figure gets up when its motion, which lay down, does: in its own way, after which it stands. What it is asked to do meanwhile waits.
+    /// A fallen figure gets up when its motion, which lay down, does: in its own way, after which it stands. What it is
+    /// asked to do meanwhile waits.
     pub(super) fn get_up(&mut self, time: f64) {
         let able = self.setup.controller == ControllerKind::Modern;
         if !self.fallen || !able || self.setup.options.assist >= 1.0 {
@@ -254,8 +258,8 @@ impl Figure {
             && self.support.rests().is_empty()
     }
 
-    /// Comes to a stand from world time `time` on: a walk is ended by the steps that takes, everything else is held as it is. The steps are worked out
-    /// aside, while the motion goes on. Allocates.
+    /// Comes to a stand from world time `time` on: a walk is ended by the steps that takes, everything else is held as
+    /// it is. The steps are worked out aside, while the motion goes on. Allocates.
     pub fn stop(&mut self, time: f64) {
         self.queued = None;
         // Ends may have been left out for a way over.

@@ -1,9 +1,9 @@
 //! Stepping: footsteps, a path of the zero moment point over them, and the centre of mass that follows from it.
 //!
-//! The centre of mass obeys the linear inverted pendulum `ẍ = ω² (x − p)` with `ω² = g / height` and p the planned zero moment
-//! point; the one solution that stays bounded is found as a boundary value problem over the whole motion. What swinging limbs add is
-//! measured on the result and taken off the plan, a few times over (Kajita et al. 2003, §5). The feet are a smooth
-//! function of time: flat, rolling over the ball before they lift, swinging, landing on the heel.
+//! The centre of mass obeys the linear inverted pendulum `ẍ = ω² (x − p)` with `ω² = g / height` and p the planned zero
+//! moment point; the one solution that stays bounded is found as a boundary value problem over the whole motion. What
+//! swinging limbs add is measured on the result and taken off the plan, a few times over (Kajita et al. 2003, §5). The
+//! feet are a smooth function of time: flat, rolling over the ball before they lift, swinging, landing on the heel.
 
 use super::RATE;
 use super::shape::{COM_AHEAD, Foot, Measures, Plan, posture, ramp};
@@ -18,10 +18,12 @@ use crate::sim::motion::GRAVITY;
 
 /// Time the zero moment point takes from between the feet under the first to stand on, and back after the last step, s.
 const TRANSFER: f64 = 0.5;
-/// Time at both ends over which what is left of the pendulum's approach is faded out, so that the figure starts and ends at rest, s.
+/// Time at both ends over which what is left of the pendulum's approach is faded out, so that the figure starts and
+/// ends at rest, s.
 const FADE: f64 = 0.6;
 
-/// Rounds in which the zero moment point of the whole figure (swinging limbs and all) is measured and the path corrected for it.
+/// Rounds in which the zero moment point of the whole figure (swinging limbs and all) is measured and the path
+/// corrected for it.
 const CORRECTIONS: usize = 4;
 
 /// One footstep.
@@ -218,8 +220,8 @@ fn zmp(m: &Measures, style: &Style, steps: &[Step], t: f64) -> [f64; 2] {
     at
 }
 
-/// The bounded path of a linear pendulum over the points `p`, at rest over the first and last: second differences, solved by
-/// elimination (Thomas).
+/// The bounded path of a linear pendulum over the points `p`, at rest over the first and last: second differences,
+/// solved by elimination (Thomas).
 fn pendulum(p: &[f64], omega: f64) -> Vec<f64> {
     let k = (omega / RATE).powi(2);
     let n = p.len();
@@ -236,7 +238,8 @@ fn pendulum(p: &[f64], omega: f64) -> Vec<f64> {
     x
 }
 
-/// Zero moment point of segments taken as point masses, over every posture but the first and last, where it is that of standing.
+/// Zero moment point of segments taken as point masses, over every posture but the first and last, where it is that of
+/// standing.
 fn measured_zmp(body: &Body, postures: &[Posture]) -> Vec<[f64; 2]> {
     let centers: Vec<[Vec3; SEGMENT_COUNT]> = postures
         .iter()

@@ -140,8 +140,8 @@ pub fn grip(body: &Body) -> Vec3 {
     body.segments[R_HAND.index()].tip * 0.45
 }
 
-/// Changes the right shoulder and elbow of `plan` so that the balanced posture grips `target` (world, m), with the elbow's hinge axis
-/// near `axis`. Balance and reach depend on each other and are solved in turn.
+/// Changes the right shoulder and elbow of `plan` so that the balanced posture grips `target` (world, m), with the
+/// elbow's hinge axis near `axis`. Balance and reach depend on each other and are solved in turn.
 pub fn reach_right(body: &Body, plan: &mut Plan, target: Vec3, axis: Vec3) {
     let (upper, fore, hand) = (R_UPPER_ARM.index(), R_FOREARM.index(), R_HAND.index());
     debug_assert_eq!(PARENT[upper], CHEST.index());

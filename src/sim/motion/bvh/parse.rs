@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 
 /// Most warnings that are kept.
 const MAX_WARNINGS: usize = 32;
-/// Largest number that is read: far beyond any unit a figure is measured in, small enough that no sum of them overflows.
+/// Largest number that is read: far beyond any unit a figure is measured in, small enough that no sum of them
+/// overflows.
 const LARGEST: f64 = 1e12;
 /// Longest excerpt of the file that an error quotes, bytes.
 const QUOTE: usize = 40;

@@ -1,4 +1,5 @@
-//! The sole of a foot: its points, where it stands flat or rolled about heel edge or toe joint, and how far a foot is from that.
+//! The sole of a foot: its points, where it stands flat or rolled about heel edge or toe joint, and how far a foot is
+//! from that.
 
 use crate::sim::body::Body;
 use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
@@ -135,7 +136,8 @@ impl Sole {
             .fold(0.0, f64::max)
     }
 
-    /// Pose of a foot that stands at `anchor` with heading `yaw`, pitched about heel edge (toe-up) or toe joint (heel-up).
+    /// Pose of a foot that stands at `anchor` with heading `yaw`, pitched about heel edge (toe-up) or toe joint
+    /// (heel-up).
     pub fn stand(&self, anchor: Vec3, yaw: f64, pitch: f64) -> FootPose {
         let pitched = Quat::exp(Vec3::Y * -pitch);
         let toe = self.flat_toe(pitch);
@@ -168,8 +170,8 @@ impl Sole {
         pose
     }
 
-    /// Where a foot at `ankle` with `world_from_foot` stands, or would: rolled about its heel edge or its toe joint, as it is pitched. The
-    /// same bits on every machine, since ticks use it.
+    /// Where a foot at `ankle` with `world_from_foot` stands, or would: rolled about its heel edge or its toe joint, as
+    /// it is pitched. The same bits on every machine, since ticks use it.
     pub fn footing(&self, (ankle, rotation): (Vec3, Quat)) -> Anchor {
         let x = rotation.rotate(Vec3::X);
         let level = (x.x * x.x + x.y * x.y).sqrt();
@@ -200,7 +202,8 @@ impl Sole {
         [self.ankle_height, joint, joint + self.toe_tip().z]
     }
 
-    /// Visits the floor polygon corners (x, y) that carry a foot standing at `at`: heel while not heel-up, toes while not toe-up.
+    /// Visits the floor polygon corners (x, y) that carry a foot standing at `at`: heel while not heel-up, toes while
+    /// not toe-up.
     pub fn each_corner(&self, at: &Anchor, mut visit: impl FnMut([f64; 2])) {
         let Anchor {
             place: anchor,

@@ -1,4 +1,5 @@
-//! When feet stand: labels of what is near the floor made into stances, by splitting what shuffles or turns, and by giving swings the time they need.
+//! When feet stand: labels of what is near the floor made into stances, by splitting what shuffles or turns, and by
+//! giving swings the time they need.
 
 use super::sole::{Sole, turn, yaw_pitch};
 use super::{STEEPEST, median};
@@ -22,15 +23,17 @@ const HALF_SHUFFLE: [f64; 3] = [0.14, 0.11, 0.08];
 const SHUFFLES: f64 = 0.25;
 /// A foot that drags on after the other one has landed stands for so long beside it, s: nobody changes feet in no time.
 const DRAGS: f64 = 0.04;
-/// In so much of a stance at each end, one part in so many and at most so long, s, a foot may be astray without having stepped or pivoted; where
-/// it is then, it is further from its anchor than the first, in units of [`STRAY`], and everywhere else nearer than the second.
+/// In so much of a stance at each end, one part in so many and at most so long, s, a foot may be astray without having
+/// stepped or pivoted; where it is then, it is further from its anchor than the first, in units of [`STRAY`], and
+/// everywhere else nearer than the second.
 const EDGE: (usize, f64) = (8, 0.15);
 const ASTRAY: f64 = 0.4;
 const STEADY: f64 = 0.6;
 /// Shortest stance that is made by taking samples from another, s.
 const SHORTEST_STANCE: f64 = 0.15;
-/// A swing takes at least √(way over this), m/s², where the way counts a turn by a radian as the second, m. That is what recorded steps of people
-/// take, with few exceptions, whether they walk, dance or shuffle; a leg is on time with it, and would be late and short by a third at twice as much.
+/// A swing takes at least √(way over this), m/s², where the way counts a turn by a radian as the second, m. That is
+/// what recorded steps of people take, with few exceptions, whether they walk, dance or shuffle; a leg is on time with
+/// it, and would be late and short by a third at twice as much.
 pub(super) const HASTE: f64 = 8.0;
 const TURN_ARM: f64 = 0.25;
 
@@ -87,8 +90,8 @@ impl Track {
         ((self.point[i] - anchor).norm() / STRAY.0).max((self.yaw[i] - yaw).abs() / STRAY.1)
     }
 
-    /// Splits a stance in which the foot visibly shuffles or pivots into stances joined by short steps, or begins it after, or ends it before it
-    /// does, while the `other` foot is on the floor: a foot that shuffles alone stays.
+    /// Splits a stance in which the foot visibly shuffles or pivots into stances joined by short steps, or begins it
+    /// after, or ends it before it does, while the `other` foot is on the floor: a foot that shuffles alone stays.
     fn split(&self, (start, end): (usize, usize), other: &[bool], rate_hz: f64, out: &mut Pieces) {
         let shortest = (SHORTEST_STANCE * rate_hz) as usize;
         let (anchor, yaw) = self.anchor(start, end);
@@ -118,7 +121,8 @@ impl Track {
                 return;
             }
         }
-        // A foot that drags on after the other has landed is lifted there; one that slides on while the other still stands comes down later.
+        // A foot that drags on after the other has landed is lifted there; one that slides on while the other still
+        // stands comes down later.
         let alone_until = (start..end)
             .rev()
             .find(|i| !other[*i])
@@ -139,8 +143,8 @@ impl Track {
 }
 
 impl Track {
-    /// Takes from the ends of a stance what only there is astray, while the other foot stands too: a foot that begins to turn away, or that is
-    /// still coming, does not stand, and what stands does not pivot because of it.
+    /// Takes from the ends of a stance what only there is astray, while the other foot stands too: a foot that begins
+    /// to turn away, or that is still coming, does not stand, and what stands does not pivot because of it.
     fn trim(&self, (start, end): (usize, usize), other: &[bool], rate_hz: f64) -> (usize, usize) {
         let (anchor, yaw) = self.anchor(start, end);
         let edge = ((end - start) / EDGE.0).min((EDGE.1 * rate_hz) as usize);
@@ -161,9 +165,10 @@ impl Track {
 }
 
 impl Track {
-    /// Gives swings that are shorter than their way takes what they lack, of the time in which both feet are on the floor: from the stance
-    /// before and from the one after, wherever the recorded foot is further from its anchor, and no more than half of what there is, since the
-    /// other foot may need some as well. Labels see the fastest part of a low step only.
+    /// Gives swings that are shorter than their way takes what they lack, of the time in which both feet are on the
+    /// floor: from the stance before and from the one after, wherever the recorded foot is further from its anchor, and
+    /// no more than half of what there is, since the other foot may need some as well. Labels see the fastest part of a
+    /// low step only.
     fn unhurry(&self, pieces: &mut [(usize, usize)], other: &[bool], rate_hz: f64) {
         let shortest = (SHORTEST_STANCE * rate_hz) as usize;
         let anchors: Vec<_> = pieces.iter().map(|&(i, j)| self.anchor(i, j)).collect();
@@ -204,7 +209,8 @@ impl Track {
         pieces
     }
 
-    /// How far the recorded foot is from where it would stand, squared and summed over its stances, in units of [`STRAY`].
+    /// How far the recorded foot is from where it would stand, squared and summed over its stances, in units of
+    /// [`STRAY`].
     fn strays(&self, pieces: &[(usize, usize)]) -> f64 {
         let of = |&(i, j): &(usize, usize)| {
             let (anchor, yaw) = self.anchor(i, j);
@@ -216,8 +222,8 @@ impl Track {
     }
 }
 
-/// When both feet stand: where their labels say so and they neither shuffle nor turn away. Which one gives way to the other first is decided by how far
-/// they stand from where the recording has them.
+/// When both feet stand: where their labels say so and they neither shuffle nor turn away. Which one gives way to the
+/// other first is decided by how far they stand from where the recording has them.
 ///
 /// * `ankles`, `rotations`: recorded ankle (m) and `world_from_foot` per sample, floor at z = 0, body scale.
 /// * `labels`: where the feet are on the floor (from [`super::contacts`]).
@@ -248,8 +254,8 @@ pub fn stances(
 /// Stances of one foot as half-open ranges of samples, in order.
 pub(super) type Pieces = Vec<(usize, usize)>;
 
-/// The stances of both feet if foot `order[0]` gives way first: the other one relies on where that one really stands, not on where it is on the
-/// floor. Feet that both turn on the floor would each leave the body to the other one.
+/// The stances of both feet if foot `order[0]` gives way first: the other one relies on where that one really stands,
+/// not on where it is on the floor. Feet that both turn on the floor would each leave the body to the other one.
 fn sequence(
     tracks: &[Track; 2],
     labels: [&[bool]; 2],

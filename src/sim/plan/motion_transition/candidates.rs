@@ -12,8 +12,9 @@ use crate::sim::plan::splice::Sample;
 
 /// Samples between those that are compared.
 const STRIDE: usize = 2;
-/// Furthest that capture points may be apart, seen from the foot that stands, m. A push that moves it by as much, 30 N·s, is caught by a walking man 59 of 64
-/// times; here it is known beforehand. Whether a body can go over is seen when the way is worked out: this and what follows choose what is tried.
+/// Furthest that capture points may be apart, seen from the foot that stands, m. A push that moves it by as much, 30
+/// N·s, is caught by a walking man 59 of 64 times; here it is known beforehand. Whether a body can go over is seen when
+/// the way is worked out: this and what follows choose what is tried.
 const CAPTURE: f64 = 0.13;
 /// Most unlike that postures may be, rad rms over trunk and legs.
 const UNLIKE: f64 = 0.35;
@@ -87,8 +88,8 @@ impl<'a> Looks<'a> {
         way.map(|w| 0.5 * RATE * w)
     }
 
-    /// What the turn between two motions is found from, seen from foot `side`: centre of mass, what its velocity adds to the capture point, the other
-    /// foot, and the headings of pelvis and foot.
+    /// What the turn between two motions is found from, seen from foot `side`: centre of mass, what its velocity adds
+    /// to the capture point, the other foot, and the headings of pelvis and foot.
     fn points(&self, i: usize, side: usize, omega: f64) -> [[f64; 2]; 5] {
         let at = self.feet[i][side].place;
         let from = |p: Vec3| [p.x - at.x, p.y - at.y];
@@ -109,7 +110,8 @@ impl<'a> Looks<'a> {
     }
 }
 
-/// The turn that brings points `b` nearest to points `a`, rad (Kovar, Gleicher & Pighin 2002, without the shift: both are seen from the standing foot).
+/// The turn that brings points `b` nearest to points `a`, rad (Kovar, Gleicher & Pighin 2002, without the shift: both
+/// are seen from the standing foot).
 fn nearest_turn(a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
     let (mut dot, mut cross) = (0.0, 0.0);
     for (p, q) in a.iter().zip(b) {
@@ -149,7 +151,8 @@ fn unlike((a, i): (&Looks<'_>, usize), (b, j): (&Looks<'_>, usize)) -> f64 {
     (sum / (DOF_COUNT - arms.len()) as f64).sqrt()
 }
 
-/// Compares sample `i` of one motion with sample `j` of another: how they are like, and how much; `None` if they are not.
+/// Compares sample `i` of one motion with sample `j` of another: how they are like, and how much; `None` if they are
+/// not.
 fn compare(left: &Looks<'_>, i: usize, entered: &Looks<'_>, j: usize) -> Option<(f64, Moment)> {
     let planted = left.planted(i)?;
     if entered.planted(j)? != planted {
@@ -201,8 +204,8 @@ fn compare(left: &Looks<'_>, i: usize, entered: &Looks<'_>, j: usize) -> Option<
     Some((parts.iter().map(|p| p * p).sum::<f64>() + wait, moment))
 }
 
-/// The moments from sample `from` of `left` on at which that is like the beginning of `entered`, most alike first. The first sample of `entered` is the one
-/// before its beginning.
+/// The moments from sample `from` of `left` on at which that is like the beginning of `entered`, most alike first. The
+/// first sample of `entered` is the one before its beginning.
 pub(super) fn moments(left: &Looks<'_>, from: usize, entered: &Looks<'_>) -> Vec<Moment> {
     let mut found: Vec<(f64, Moment)> = Vec::new();
     for i in (from.max(1)..left.samples.len().saturating_sub(1)).step_by(STRIDE) {

@@ -1,8 +1,8 @@
 //! From a stand into a clip that does not begin like it: with other feet, in another posture, or in motion.
 //!
-//! It is an end of the beginning of the clip, backwards ([`crate::sim::plan::stop`]): the steps that would bring the reversed motion to that very stand, prepared
-//! together with what comes after them. A clip that begins at once instead throws arms and trunk about, drags feet that are elsewhere, and asks for a velocity
-//! that nobody has who stands.
+//! It is an end of the beginning of the clip, backwards ([`crate::sim::plan::stop`]): the steps that would bring the
+//! reversed motion to that very stand, prepared together with what comes after them. A clip that begins at once instead
+//! throws arms and trunk about, drags feet that are elsewhere, and asks for a velocity that nobody has who stands.
 
 use super::candidates::{Looks, far, turned};
 use super::{Next, WayIn};
@@ -15,13 +15,13 @@ use crate::sim::plan::foot_lock::Anchor;
 use crate::sim::plan::prepare::{Draft, prepare_in};
 use crate::sim::plan::splice::{BLEND, FINE, HOW, ROUNDS, Sample, TAKES_PART, hold_on};
 
-/// A clip begins as a figure stands if no foot is farther from where it has it than this, m and rad, the capture point no farther, m, and no joint, rad; and if
-/// no joint is faster, rad/s.
+/// A clip begins as a figure stands if no foot is farther from where it has it than this, m and rad, the capture point
+/// no farther, m, and no joint, rad; and if no joint is faster, rad/s.
 const ALIKE: (f64, f64, f64, f64, f64) = (0.04, 0.2, 0.05, 0.25, 1.0);
 
 impl Next {
-    /// True if nobody who stands like `stand` need do anything before the clip begins at clip time `first`, s. No platform-dependent rounding, since it
-    /// is asked in the tick.
+    /// True if nobody who stands like `stand` need do anything before the clip begins at clip time `first`, s. No
+    /// platform-dependent rounding, since it is asked in the tick.
     pub fn begins_as(&self, body: &Body, first: f64, stand: &Posture) -> bool {
         let sample = |t: f64| (self.sample(t).posture, [true; 2]);
         let later = self.speed / FINE;

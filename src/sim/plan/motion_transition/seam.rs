@@ -1,8 +1,9 @@
 //! The way from one motion into another at a moment at which they are alike.
 //!
-//! Both are as a body can follow them already, so what is like stays as it is: where there is no difference, there is no change. The difference that there
-//! is fades from the seam on; a foot that stands stays in its place until it leaves the floor, legs follow the feet, and the pelvis is shifted where
-//! the zero-moment point would leave the support.
+//! Both are as a body can follow them already, so what is like stays as it is: where there is no difference, there is
+//! no change. The difference that there is fades from the seam on; a foot that stands stays in its place until it
+//! leaves the floor, legs follow the feet, and the pelvis is shifted where the zero-moment point would leave the
+//! support.
 
 use super::candidates::Moment;
 use super::{Next, RATE, WayIn};
@@ -26,8 +27,8 @@ use crate::sim::plan::prepare::{
 };
 use crate::sim::plan::splice::Sample;
 
-/// Force and moment that a way may ask for from nothing, shares of what a body weighs. Of 35 ways of 17 pairs of recordings that asked for less nobody fell; of
-/// 29 that asked for more six did.
+/// Force and moment that a way may ask for from nothing, shares of what a body weighs. Of 35 ways of 17 pairs of
+/// recordings that asked for less nobody fell; of 29 that asked for more six did.
 pub(super) const MOST_ASKED: f64 = 0.05;
 /// Time in which trunk and legs turn from one motion to the other, and arms, s.
 const BLEND: f64 = 0.4;
@@ -183,7 +184,8 @@ impl Seam {
         change.unwrap_or(self.label.len())
     }
 
-    /// Poses of a foot from the seam on. One that stands stays where it is until it leaves the floor; one that swings is led over.
+    /// Poses of a foot from the seam on. One that stands stays where it is until it leaves the floor; one that swings
+    /// is led over.
     fn lead(&self, side: usize) -> Vec<FootPose> {
         let sole = &self.soles[side];
         let change = self.first_change(side);
@@ -219,7 +221,8 @@ impl Seam {
         out
     }
 
-    /// Samples after the seam from which on foot `side` is where the second motion has it: once it has come down anew. `None` if it does not.
+    /// Samples after the seam from which on foot `side` is where the second motion has it: once it has come down anew.
+    /// `None` if it does not.
     fn is_led(&self, side: usize) -> Option<usize> {
         let change = self.first_change(side);
         if !self.label[0][side] {
@@ -348,7 +351,8 @@ impl Draft<'_> {
     }
 }
 
-/// The way out of a motion at a moment, and how much it asks of the ground that the ground cannot give, in shares of the weight.
+/// The way out of a motion at a moment, and how much it asks of the ground that the ground cannot give, in shares of
+/// the weight.
 ///
 /// * `known`: the motion; it plays as it is up to sample `now`.
 /// * `enters`: clip time at which `next` is entered at that moment, s.

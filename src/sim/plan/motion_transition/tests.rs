@@ -1,5 +1,6 @@
-//! Goal: a way from one motion into another begins and ends as they are, changes little where they do not differ, and lets no standing foot slide.
-//! Method: the built-in walk into itself, as it is and faster, and into standing; from a stand into the middle of the built-in lift.
+//! Goal: a way from one motion into another begins and ends as they are, changes little where they do not differ, and
+//! lets no standing foot slide. Method: the built-in walk into itself, as it is and faster, and into standing; from a
+//! stand into the middle of the built-in lift.
 
 use super::*;
 use crate::sim::body::Posture;
@@ -11,7 +12,8 @@ use crate::sim::plan::foot_lock::Sole;
 
 const NOW: usize = 70;
 
-/// The built-in walk with all but its last strides as the lead-in, and what there is of it from clip time `from` on, as ways know it.
+/// The built-in walk with all but its last strides as the lead-in, and what there is of it from clip time `from` on, as
+/// ways know it.
 fn walked(body: &Body, from: f64) -> (Arc<Clip>, Vec<Sample>) {
     let clip = builtin(body, "walk").unwrap();
     let lead = (2.4 * clip.rate_hz()) as usize;

@@ -9,7 +9,8 @@ use crate::sim::plan::foot_lock::{ON_TIP, Stance};
 
 /// Ankles and hips of planted feet are kept this far from their limits, rad.
 pub(super) const MARGIN: f64 = 0.03;
-/// What is bent for an ankle's sake is so this long before and after, s: of who walks and of who runs, whose whole stance takes 0.2 s.
+/// What is bent for an ankle's sake is so this long before and after, s: of who walks and of who runs, whose whole
+/// stance takes 0.2 s.
 const AROUND: (f64, f64) = (0.1, 0.025);
 /// A leg is turned at most this far for its ankle's sake, rad.
 const MOST_TURN: f64 = 0.6;
@@ -39,8 +40,9 @@ impl AnkleUnloading {
         }
     }
 
-    /// Adds what the ankles of planted feet lack: too much dorsiflexion raises the heel, too much rotation turns the leg along.
-    /// Hips that give way in turn set the foot down with another heading, and turn the pelvis where that is not enough.
+    /// Adds what the ankles of planted feet lack: too much dorsiflexion raises the heel, too much rotation turns the
+    /// leg along. Hips that give way in turn set the foot down with another heading, and turn the pelvis where that is
+    /// not enough.
     pub fn add(
         &mut self,
         body: &Body,

@@ -1,8 +1,9 @@
 //! Legs that fold further than a body's: the pelvis gives way where limits would put feet into the floor.
 //!
-//! Hips flex by 125°, spines bend by more: a person who squats that deep tilts the pelvis back and rounds the back. So does this: where a hip lacks
-//! flexion the pelvis is tilted back about the line of the hips, and the spine brings the chest forward again as far as it goes. What is then left,
-//! of knees and ankles, raises the pelvis. Both come and go smoothly, and the legs are solved again.
+//! Hips flex by 125°, spines bend by more: a person who squats that deep tilts the pelvis back and rounds the back. So
+//! does this: where a hip lacks flexion the pelvis is tilted back about the line of the hips, and the spine brings the
+//! chest forward again as far as it goes. What is then left, of knees and ankles, raises the pelvis. Both come and go
+//! smoothly, and the legs are solved again.
 
 use super::joint_limits::{DEEP, LIMIT_MARGIN, toe_hinge};
 use super::whole_body::DROP_TIME;
@@ -45,7 +46,8 @@ fn ball(segment: SegmentId) -> usize {
     }
 }
 
-/// How deep each foot is in the floor when a posture is within its limits, m; 0 for a leg that would have to reach further back, which the knee lifts.
+/// How deep each foot is in the floor when a posture is within its limits, m; 0 for a leg that would have to reach
+/// further back, which the knee lifts.
 fn depths(body: &Body, posture: &Posture, soles: &[Sole; 2]) -> [f64; 2] {
     let mut within = *posture;
     let off = clamp_to_limits(body, &mut within, LIMIT_MARGIN * 0.5);
@@ -103,9 +105,11 @@ fn give_way(
     posture
 }
 
-/// Tilts back and raises the pelvis where the limits of folded legs would put feet into the floor by more than [`DEEP`].
+/// Tilts back and raises the pelvis where the limits of folded legs would put feet into the floor by more than
+/// [`DEEP`].
 ///
-/// * `postures`: legs solved, not yet within their limits; `planted`: of each sample; `soles`, `locked`: where planted feet are to be.
+/// * `postures`: legs solved, not yet within their limits; `planted`: of each sample; `soles`, `locked`: where planted
+///   feet are to be.
 ///
 /// O(n).
 pub(super) fn unfold(

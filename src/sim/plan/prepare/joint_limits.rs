@@ -16,8 +16,8 @@ const TOES: [SegmentId; 2] = [L_TOES, R_TOES];
 /// Angles are kept this far from their limits, rad.
 pub(super) const LIMIT_MARGIN: f64 = 0.01;
 
-/// An ankle may be lower than it should by this much, m. Least height that bending the knee gives, m/rad; most that it is bent by at a time, rad, and how
-/// often.
+/// An ankle may be lower than it should by this much, m. Least height that bending the knee gives, m/rad; most that it
+/// is bent by at a time, rad, and how often.
 const KNEE_SLACK: f64 = 1e-3;
 
 const LEAST_RISE: f64 = 0.05;
@@ -84,8 +84,8 @@ pub(super) fn into_limits(
     held
 }
 
-/// A swinging leg whose hip does not reach as far back as it should is bent at the knee until its ankle is as high as `wanted`: its foot would
-/// be in the floor.
+/// A swinging leg whose hip does not reach as far back as it should is bent at the knee until its ankle is as high as
+/// `wanted`: its foot would be in the floor.
 fn lift_by_knee(body: &Body, posture: &mut Posture, side: usize, wanted: (Vec3, Quat)) {
     let shank = [L_SHANK, R_SHANK][side].index();
     let foot = FOOT[side].index();

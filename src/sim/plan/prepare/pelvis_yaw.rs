@@ -1,4 +1,5 @@
-//! A pelvis that turns ahead of its recording, or after it: where one stance asks for more rotation than a hip has, in both directions.
+//! A pelvis that turns ahead of its recording, or after it: where one stance asks for more rotation than a hip has, in
+//! both directions.
 
 use super::LIMIT_MARGIN;
 use super::ankle_unloading::MARGIN;
@@ -9,11 +10,13 @@ use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::filter::smooth_minimum;
 use crate::sim::plan::foot_lock::Stance;
 
-/// What the pelvis is turned by for a hip's sake it is so this long before and after, s: the foot that lands needs it as well.
+/// What the pelvis is turned by for a hip's sake it is so this long before and after, s: the foot that lands needs it
+/// as well.
 const AROUND: f64 = 0.15;
 /// The pelvis is turned at most this far, rad.
 const MOST: f64 = 0.35;
-/// Which way the hip of a foot that stays turns when the pelvis turns anticlockwise: the left one inwards, the right one outwards.
+/// Which way the hip of a foot that stays turns when the pelvis turns anticlockwise: the left one inwards, the right
+/// one outwards.
 const WAY: [f64; 2] = [1.0, -1.0];
 const THIGH: [SegmentId; 2] = [L_THIGH, R_THIGH];
 
@@ -26,8 +29,8 @@ fn ball(segment: SegmentId) -> usize {
 
 /// Adds to `yaw` (rad per sample, anticlockwise seen from above) what the hips of planted feet lack in rotation.
 ///
-/// Only in stances in which a hip turns further than from limit to limit: elsewhere another heading of the foot is enough. The hip of the other foot, if
-/// that is planted as well, is not turned beyond its limits. O(n · window).
+/// Only in stances in which a hip turns further than from limit to limit: elsewhere another heading of the foot is
+/// enough. The hip of the other foot, if that is planted as well, is not turned beyond its limits. O(n · window).
 pub(super) fn add(
     body: &Body,
     postures: &[Posture],
@@ -86,7 +89,8 @@ pub(super) fn add(
     }
 }
 
-/// Turns the pelvis by `yaw`, rad, about the vertical. Waist and thorax turn back by half of it each, so that the chest stays as far as their limits let it.
+/// Turns the pelvis by `yaw`, rad, about the vertical. Waist and thorax turn back by half of it each, so that the chest
+/// stays as far as their limits let it.
 pub(super) fn turn(body: &Body, posture: &mut Posture, yaw: f64) {
     if yaw == 0.0 {
         return;
@@ -106,7 +110,8 @@ pub(super) fn turn(body: &Body, posture: &mut Posture, yaw: f64) {
 mod tests {
     use super::*;
 
-    /// A right leg that turns from one end to the other while its foot stays, beside a left one that is or is not planted with `spare` rad left; 60 Hz.
+    /// A right leg that turns from one end to the other while its foot stays, beside a left one that is or is not
+    /// planted with `spare` rad left; 60 Hz.
     fn turned(ends: f64, left: Option<f64>) -> Vec<f64> {
         let body = Body::adult_man();
         let n = 60;

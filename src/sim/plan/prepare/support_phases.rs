@@ -44,8 +44,8 @@ pub(in crate::sim::plan) fn planted_of(locked: &[LockedFoot; 2]) -> Vec<[bool; 2
     both.map(|(l, r)| [*l, *r]).collect()
 }
 
-/// Which planted feet carry the body: not those that their legs, within their limits, hold far from their places while the other one stands. Declared free in the
-/// end they would leave a body alone on one foot that is balanced on two.
+/// Which planted feet carry the body: not those that their legs, within their limits, hold far from their places while
+/// the other one stands. Declared free in the end they would leave a body alone on one foot that is balanced on two.
 pub(super) fn within_reach(
     body: &Body,
     postures: &[Posture],
@@ -151,7 +151,8 @@ pub(super) fn held_in_gait(
     carriers.iter().enumerate().map(held).collect()
 }
 
-/// What else than the feet may carry the body: a seat where the pelvis is low, hands where both feet stay for a while. Who steps walks on his feet.
+/// What else than the feet may carry the body: a seat where the pelvis is low, hands where both feet stay for a while.
+/// Who steps walks on his feet.
 pub(in crate::sim::plan) fn may_rest(
     body: &Body,
     upper: &[Posture],

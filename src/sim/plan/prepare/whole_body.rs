@@ -156,7 +156,8 @@ fn in_flight(locked: &[LockedFoot; 2], rate_hz: f64) -> Vec<f64> {
     share
 }
 
-/// Low-pass of the joints of a leg while it swings: a knee that comes near to straight makes inverse kinematics jump. Planted legs stay.
+/// Low-pass of the joints of a leg while it swings: a knee that comes near to straight makes inverse kinematics jump.
+/// Planted legs stay.
 fn smooth_swings(postures: &mut [Posture], side: usize, planted: &[bool], rate_hz: f64) {
     let leg = [
         [L_THIGH, L_SHANK, L_FOOT, L_TOES],

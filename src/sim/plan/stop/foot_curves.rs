@@ -11,7 +11,8 @@ use crate::sim::plan::foot_lock::{Sole, yaw_pitch};
 const ARC: f64 = 0.05;
 /// A foot is over its place so long before it comes down on it, s: one that is late would slide there.
 const OVER: f64 = 0.03;
-/// The heel of a foot that is left behind by more than this, m, rises by so much per m, up to the last, rad, within this time, s.
+/// The heel of a foot that is left behind by more than this, m, rises by so much per m, up to the last, rad, within
+/// this time, s.
 const ROLL_FROM: f64 = 0.15;
 const ROLL_GAIN: f64 = 1.0;
 const MOST_ROLL: f64 = 0.5;

@@ -1,7 +1,7 @@
 //! The steps that bring a body to a stand, on a linear inverted pendulum.
 //!
-//! The capture point ξ = c + ċ/ω says where the next foot has to land (Pratt et al. 2006); once it lies between the feet they are brought
-//! side by side. Several ways are tried; the one is taken that asks least of a body.
+//! The capture point ξ = c + ċ/ω says where the next foot has to land (Pratt et al. 2006); once it lies between the
+//! feet they are brought side by side. Several ways are tried; the one is taken that asks least of a body.
 
 use super::initial_state::Start;
 use super::{FOOT, SWING, flat, ground, level, turned};
@@ -15,8 +15,8 @@ use crate::sim::plan::foot_lock::{Anchor, Sole, turn, yaw_pitch};
 
 /// Length of a step that only closes the feet, s.
 const CLOSING: f64 = 0.5;
-/// A swing that is under way already lasts at least this long, s, and a swinging foot gets no faster than this on the average, m/s: the
-/// ways that are tried, the first one also where both feet are down.
+/// A swing that is under way already lasts at least this long, s, and a swinging foot gets no faster than this on the
+/// average, m/s: the ways that are tried, the first one also where both feet are down.
 const SWINGS: [(f64, f64); 4] = [(0.12, 2.2), (0.12, 3.2), (0.24, 2.2), (0.4, 2.2)];
 /// Double support after a step and before the first one, s.
 const BOTH: f64 = 0.1;
@@ -31,10 +31,11 @@ const INSET: f64 = 0.01;
 const INNER: f64 = 0.035;
 /// The capture point counts as caught this far inside the soles, m.
 const CAUGHT: f64 = 0.015;
-/// A foot that catches a body of 1 m/s lands this far beyond the capture point, m, so that it comes to rest between the feet.
+/// A foot that catches a body of 1 m/s lands this far beyond the capture point, m, so that it comes to rest between the
+/// feet.
 const BEYOND: f64 = 0.1;
-/// Prices against falling beside the zero-moment point, m⁴ s: of a foot faster than the first, m/s, per its square, with so many m for each rad
-/// that it turns; of a foot that steps twice; worth of having something in hand, per s.
+/// Prices against falling beside the zero-moment point, m⁴ s: of a foot faster than the first, m/s, per its square,
+/// with so many m for each rad that it turns; of a foot that steps twice; worth of having something in hand, per s.
 const UNHURRIED: f64 = 1.5;
 const TURNING: f64 = 0.3;
 const PRICE_OF_HURRY: f64 = 1e-3;
@@ -42,14 +43,16 @@ const PRICE_OF_HOP: f64 = 1e-3;
 const WORTH_OF_SPARE: f64 = 0.1;
 /// Gain of the zero-moment point on the way to a place, how close counts as there, m, and when patience ends, s.
 const LEAN: (f64, f64, f64) = (2.0, 0.015, 0.9);
-/// A foot this far from under the mass, leg lengths, is about to be out of the leg's reach: the hip does not extend further.
+/// A foot this far from under the mass, leg lengths, is about to be out of the leg's reach: the hip does not extend
+/// further.
 const STRETCHED: f64 = 0.5;
-/// A foot that belongs farther than the first from the other one, m, is not put there by a body that stays over that one, deep in its knee; from the
-/// second on the capture point is half-way when it lands.
+/// A foot that belongs farther than the first from the other one, m, is not put there by a body that stays over that
+/// one, deep in its knee; from the second on the capture point is half-way when it lands.
 const STRIDES: (f64, f64) = (0.35, 0.6);
 /// A foot this close to where it belongs stays, m and rad.
 const HOME: (f64, f64) = (0.04, 0.15);
-/// Turns of the whole, as shares of the way to where the body moves, tried in turn until steps are found; and how far aside that may be, rad.
+/// Turns of the whole, as shares of the way to where the body moves, tried in turn until steps are found; and how far
+/// aside that may be, rad.
 const TURNS: [f64; 4] = [0.0, 0.5, 1.0, 1.5];
 const MOST_ASIDE: f64 = 1.2;
 /// Most steps of an end.
@@ -206,7 +209,8 @@ pub(super) fn frequency(from: &Start, stand: &Stand) -> f64 {
 
 /// The steps that ask least of a body. `None` if none are found that stop it.
 ///
-/// * `leg`: from hip to ankle, m; `rate_hz`: samples per second of the path; `spare`: the most that should be in hand beyond [`CAUGHT`], s.
+/// * `leg`: from hip to ankle, m; `rate_hz`: samples per second of the path; `spare`: the most that should be in hand
+///   beyond [`CAUGHT`], s.
 pub(super) fn footsteps(
     from: &Start,
     stand: &Stand,
@@ -313,8 +317,8 @@ impl Stop<'_> {
         }
     }
 
-    /// Brings the capture point to `goal` with both feet on the floor. Foot `next`, if any, steps after that, and sooner if the leg gets no further
-    /// and the other foot has the capture point.
+    /// Brings the capture point to `goal` with both feet on the floor. Foot `next`, if any, steps after that, and
+    /// sooner if the leg gets no further and the other foot has the capture point.
     fn lean(&mut self, goal: Vec3, next: Option<usize>) {
         let support = Support::of(&self.feet, [true; 2]);
         let other = next.map(|side| {
@@ -339,7 +343,8 @@ impl Stop<'_> {
         }
     }
 
-    /// Foot `side` swings for `time` s while the other one carries the body, with the capture point at `goal` when it lands if there is one.
+    /// Foot `side` swings for `time` s while the other one carries the body, with the capture point at `goal` when it
+    /// lands if there is one.
     fn swing(&mut self, side: usize, time: f64, place: Vec3, goal: Option<Vec3>) {
         let off = self.now();
         let mut down = [true; 2];
@@ -408,7 +413,8 @@ impl Stop<'_> {
         (time, place, inside)
     }
 
-    /// Place of foot `side` with the middle of its sole at `wanted`, or as near as the leg allows beside the other foot.
+    /// Place of foot `side` with the middle of its sole at `wanted`, or as near as the leg allows beside the other
+    /// foot.
     fn reachable(&self, side: usize, wanted: Vec3) -> Vec3 {
         let heading = self.heading();
         let stance = self.feet.place[1 - side];
@@ -521,8 +527,8 @@ impl Stop<'_> {
         self.both(BOTH);
     }
 
-    /// Steps until the capture point is between the feet, or for as long as there is hope. With both feet down the one goes first that catches
-    /// better.
+    /// Steps until the capture point is between the feet, or for as long as there is hope. With both feet down the one
+    /// goes first that catches better.
     fn catch(&mut self) {
         let mut ankle = self.from.ankle;
         let mut first = self.way.first;

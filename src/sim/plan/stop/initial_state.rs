@@ -13,7 +13,8 @@ use crate::sim::plan::prepare::Draft;
 
 /// Slower than this, m/s, and with the capture point this far inside the soles, m, it stands.
 const STANDS: (f64, f64) = (0.35, 0.02);
-/// A pelvis faster than this over the floor has to be stopped, m/s; who controls balance stops slower ones as well himself.
+/// A pelvis faster than this over the floor has to be stopped, m/s; who controls balance stops slower ones as well
+/// himself.
 const MOVES: f64 = 0.08;
 /// Time over which the velocity at the end is measured, s.
 const MEASURED: f64 = 0.08;

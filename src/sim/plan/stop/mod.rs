@@ -1,9 +1,9 @@
 //! From standing into a motion and out of it again: what comes before the first and after the last recorded sample.
 //!
-//! A recording that ends in full stride has no last posture that a body could hold. Here it gets the steps that bring it to a stand: planned on
-//! a pendulum that starts where the recording stops ([`pendulum`]), walked by feet that roll and swing ([`feet`]), while trunk and arms come
-//! to ease. The beginning is the same thing backwards. What comes out is a draft like any other; [`super::prepare`] locks its feet and makes
-//! the whole body keep its balance.
+//! A recording that ends in full stride has no last posture that a body could hold. Here it gets the steps that bring
+//! it to a stand: planned on a pendulum that starts where the recording stops ([`pendulum`]), walked by feet that roll
+//! and swing ([`feet`]), while trunk and arms come to ease. The beginning is the same thing backwards. What comes out
+//! is a draft like any other; [`super::prepare`] locks its feet and makes the whole body keep its balance.
 
 mod foot_curves;
 mod footsteps;
@@ -27,7 +27,8 @@ const UPRIGHT: f64 = 0.75;
 const JUST_LIFTED: f64 = 0.04;
 /// Shortest and longest swing of a step that catches the body, s.
 const SWING: (f64, f64) = (0.26, 0.46);
-/// What a body of 1 m/s should have in hand, s, where the moment is given and not chosen: it stops less well than a pendulum.
+/// What a body of 1 m/s should have in hand, s, where the moment is given and not chosen: it stops less well than a
+/// pendulum.
 const SPARE: f64 = 0.03;
 /// Time constant with which the rates of the joints die away, s.
 const DECAY: f64 = 0.2;
@@ -38,7 +39,8 @@ const ALIKE: f64 = 0.03;
 
 const FOOT: [usize; 2] = [L_FOOT.index(), R_FOOT.index()];
 
-/// Value at `t` of the quintic from `x0`, with slope `v0`, to rest at `x1` after time `end`; no curvature at either end.
+/// Value at `t` of the quintic from `x0`, with slope `v0`, to rest at `x1` after time `end`; no curvature at either
+/// end.
 fn min_jerk(x0: f64, v0: f64, x1: f64, end: f64, t: f64) -> f64 {
     let u = (t / end).clamp(0.0, 1.0);
     let (d, w) = (x1 - x0, v0 * end);
@@ -87,8 +89,8 @@ enum Goal<'a> {
     Rest(&'a Posture),
 }
 
-/// Samples after the last one of `draft`, from its motion to its goal. `None` if it is there already, if it does not walk, or if no steps are found that
-/// stop it.
+/// Samples after the last one of `draft`, from its motion to its goal. `None` if it is there already, if it does not
+/// walk, or if no steps are found that stop it.
 fn tail(body: &Body, draft: &Draft, goal: Goal<'_>, spare: f64) -> Option<Draft> {
     if draft.postures.len() < 3 {
         return None;
@@ -127,7 +129,8 @@ fn tail(body: &Body, draft: &Draft, goal: Goal<'_>, spare: f64) -> Option<Draft>
 
 /// The motion along footsteps: the pelvis with the pendulum's mass, feet from hold to hold, everything else to ease.
 ///
-/// * `axis`: knee axes that it starts with; `rate`: samples per second; `lands`: what comes down in it does so in the world, as time runs there.
+/// * `axis`: knee axes that it starts with; `rate`: samples per second; `lands`: what comes down in it does so in the
+///   world, as time runs there.
 fn walk(
     from: &Start,
     stand: &Stand,
@@ -275,7 +278,8 @@ impl Draft {
         }
     }
 
-    /// Continues a draft of whole postures so that it ends standing like `goal`, wherever that is. Returns how many samples it took.
+    /// Continues a draft of whole postures so that it ends standing like `goal`, wherever that is. Returns how many
+    /// samples it took.
     pub fn end_like(&mut self, body: &Body, goal: &Posture) -> usize {
         self.put_down();
         let after = tail(body, self, Goal::Like(goal), 0.0);
@@ -289,17 +293,19 @@ impl Draft {
         self.go_on(after)
     }
 
-    /// Continues a draft of whole postures to a stand, wherever that is. Returns how many samples it took; none if it stands, sits or lies.
+    /// Continues a draft of whole postures to a stand, wherever that is. Returns how many samples it took; none if it
+    /// stands, sits or lies.
     ///
-    /// * `given`: the moment is given, or the motion poorly known: more is kept in hand than for a moment that was chosen for being easy.
+    /// * `given`: the moment is given, or the motion poorly known: more is kept in hand than for a moment that was
+    ///   chosen for being easy.
     pub fn end_standing(&mut self, body: &Body, given: bool) -> usize {
         self.put_down();
         let after = tail(body, self, Goal::Stand, if given { SPARE } else { 0.0 });
         self.go_on(after)
     }
 
-    /// Continues a draft of whole postures to a stand and lets it begin from one, where it does not stand, sit or lie anyway. Returns how
-    /// many samples came before and after.
+    /// Continues a draft of whole postures to a stand and lets it begin from one, where it does not stand, sit or lie
+    /// anyway. Returns how many samples came before and after.
     pub fn add_ends(&mut self, body: &Body) -> (usize, usize) {
         self.put_down();
         let after = tail(body, self, Goal::Still, SPARE);

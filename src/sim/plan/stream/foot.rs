@@ -13,35 +13,39 @@ const HEIGHT: (f64, f64) = (0.05, 0.07);
 /// Speed at which the lowest level is forgotten, m/s, and how far it may be from that of the body's own sole, m.
 const FORGET: f64 = 0.01;
 const UNEVEN: f64 = 0.06;
-/// A standing foot whose recording strays further than this has moved, m and rad; it is given so many samples to get there.
+/// A standing foot whose recording strays further than this has moved, m and rad; it is given so many samples to get
+/// there.
 const STRAY: (f64, f64) = (0.06, 0.40);
 const SHUFFLE: i64 = 12;
 /// A foot that has stood for less than this is not taken off the floor again, samples.
 const SHORTEST: i64 = 9;
-/// A foot is not taken off the floor sooner than that, samples, unless the recording does so: the body has to come over the other one.
+/// A foot is not taken off the floor sooner than that, samples, unless the recording does so: the body has to come over
+/// the other one.
 const NOTICE: i64 = 18;
 /// Nor before the other one has stood for so long, samples: nobody changes feet in no time.
 const DRAGS: i64 = 4;
-/// Pitch below which a foot in a stride is flat, rad, and one that stays: a standing person's soles are flat unless clearly raised. It stays when it has
-/// stood for longer than the first, s, and for certain after the second.
+/// Pitch below which a foot in a stride is flat, rad, and one that stays: a standing person's soles are flat unless
+/// clearly raised. It stays when it has stood for longer than the first, s, and for certain after the second.
 const FLAT: (f64, f64) = (0.07, 0.16);
 const STAYS: (f64, f64) = (0.7, 1.5);
-/// Who lands on his heel begins to come down to his sole after the first, and has after the second, s: a heel alone keeps nobody's balance. Recordings
-/// with a foot pitched up by some degrees throughout would have it so.
+/// Who lands on his heel begins to come down to his sole after the first, and has after the second, s: a heel alone
+/// keeps nobody's balance. Recordings with a foot pitched up by some degrees throughout would have it so.
 const HEEL: (f64, f64) = (0.1, 0.2);
 /// Largest pitch of a standing foot, rad.
 const STEEPEST: (f64, f64) = (-1.05, 0.6);
-/// Sine of the roll beyond which a foot does not stand on its sole. A foot that comes down is flatter than steepest by this much; one that leaves the
-/// floor may be steeper for so many samples.
+/// Sine of the roll beyond which a foot does not stand on its sole. A foot that comes down is flatter than steepest by
+/// this much; one that leaves the floor may be steeper for so many samples.
 const ROLLED: f64 = 0.56;
 const LANDS: f64 = 0.8;
 const LEAVING: i64 = 12;
-/// Most by which a standing foot rises on its toes so that its leg reaches, rad, and halvings on the way to what it takes.
+/// Most by which a standing foot rises on its toes so that its leg reaches, rad, and halvings on the way to what it
+/// takes.
 const MOST_RISE: f64 = 0.7;
 const HALVINGS: usize = 12;
 /// Time over which a swing departs from a lock while its next place is not known, s.
 const FADE: f64 = 0.4;
-/// Height of a swinging sole, m, share of the step that it is, least height; how fast a sole rises and sinks at least, m/s.
+/// Height of a swinging sole, m, share of the step that it is, least height; how fast a sole rises and sinks at least,
+/// m/s.
 const CLEARANCE: f64 = 0.045;
 const CLEARANCE_SHARE: f64 = 0.12;
 const CLEARANCE_LEAST: f64 = 0.015;
@@ -133,7 +137,8 @@ pub fn steepness(rotation: Quat, pitch: f64) -> f64 {
     roll.max(pitch / STEEPEST.0).max(pitch / STEEPEST.1)
 }
 
-/// Pitch of a standing foot: flat within a band, with a smooth beginning, and toe-up for a moment only. `age`: for how long it has stood, samples.
+/// Pitch of a standing foot: flat within a band, with a smooth beginning, and toe-up for a moment only. `age`: for how
+/// long it has stood, samples.
 fn stance_pitch(raw: f64, age: i64, rolled: bool) -> f64 {
     let stood = age as f64 * H;
     let u = ((stood - STAYS.0) / (STAYS.1 - STAYS.0)).clamp(0.0, 1.0);
@@ -236,7 +241,8 @@ impl Foot {
         (0..self.count).find(|k| (self.stances[*k].start..self.stances[*k].end).contains(&i))
     }
 
-    /// Notes whether it touches in sample `i`: any of its `points`, by height over its own level and by speed (`None`: unknown, as before).
+    /// Notes whether it touches in sample `i`: any of its `points`, by height over its own level and by speed (`None`:
+    /// unknown, as before).
     pub fn touch(
         &mut self,
         i: i64,
@@ -263,8 +269,8 @@ impl Foot {
         }
     }
 
-    /// Settles whether it stands in sample `j`; `last` is the newest sample that [`Self::touch`] has seen. Returns from which earlier sample on it does not
-    /// stand any more, if that has changed.
+    /// Settles whether it stands in sample `j`; `last` is the newest sample that [`Self::touch`] has seen. Returns from
+    /// which earlier sample on it does not stand any more, if that has changed.
     pub fn label(
         &mut self,
         j: i64,
@@ -315,8 +321,9 @@ impl Foot {
         given_up
     }
 
-    /// Takes a foot that has moved while it stood off the floor, to set it down anew: returns from which sample on. One foot gives way where the other one
-    /// really stands, and where there is time enough the body is given some to come over that one.
+    /// Takes a foot that has moved while it stood off the floor, to set it down anew: returns from which sample on. One
+    /// foot gives way where the other one really stands, and where there is time enough the body is given some to come
+    /// over that one.
     fn give_up(
         &mut self,
         j: i64,
@@ -392,7 +399,8 @@ impl Foot {
         })
     }
 
-    /// First sample after `f` in which it stands, with that stance: settled up to sample `labelled`, as it seems up to `seen`.
+    /// First sample after `f` in which it stands, with that stance: settled up to sample `labelled`, as it seems up to
+    /// `seen`.
     fn landing(
         &self,
         f: i64,
@@ -411,7 +419,8 @@ impl Foot {
         comes.then(|| self.estimate(start, seen, standing))
     }
 
-    /// Poses it in sample `f`, the one after the last posed; `lacks` says how far an ankle is out of the leg's reach, m.
+    /// Poses it in sample `f`, the one after the last posed; `lacks` says how far an ankle is out of the leg's reach,
+    /// m.
     pub fn pose(
         &mut self,
         sole: &Sole,

@@ -1,12 +1,13 @@
 //! A stream made into a motion that a body can follow, while it comes (WALKING §1, sliding window).
 //!
-//! What [`prepare`](super::prepare) does with a whole clip happens here sample by sample, a window behind the newest one: smoothing,
-//! labels of planted feet, foot lock, swings that clear the floor and meet the next foothold, a pelvis that both legs reach, and the
-//! shift of the trunk that keeps the zero-moment point over the feet, solved over the window again with every sample. Memory is a ring,
-//! time per sample is bounded, nothing allocates. Rounds alike everywhere: it is part of the tick.
+//! What [`prepare`](super::prepare) does with a whole clip happens here sample by sample, a window behind the newest
+//! one: smoothing, labels of planted feet, foot lock, swings that clear the floor and meet the next foothold, a pelvis
+//! that both legs reach, and the shift of the trunk that keeps the zero-moment point over the feet, solved over the
+//! window again with every sample. Memory is a ring, time per sample is bounded, nothing allocates. Rounds alike
+//! everywhere: it is part of the tick.
 //!
-//! Places of a sample on its way, in samples behind the newest: smoothed (`SMOOTH`), labelled and balanced (`LABEL`), feet posed and balanced again as the
-//! body is to be (up to `FORESEEN` before the output), put out (the window).
+//! Places of a sample on its way, in samples behind the newest: smoothed (`SMOOTH`), labelled and balanced (`LABEL`),
+//! feet posed and balanced again as the body is to be (up to `FORESEEN` before the output), put out (the window).
 
 mod foot;
 mod momentum;
@@ -51,8 +52,9 @@ const SIGMA: f64 = 1.6;
 pub(super) const STEADY: i64 = 3;
 /// Samples between the newest one and the one that is labelled.
 const LABEL: i64 = SMOOTH + 1 + STEADY;
-/// Samples between the one whose feet are posed and the one that is put together: clearance and pelvis height are smooth over them. The latter is the
-/// output with the shortest window, and up to so many samples before it with longer ones: its balance is known better then.
+/// Samples between the one whose feet are posed and the one that is put together: clearance and pelvis height are
+/// smooth over them. The latter is the output with the shortest window, and up to so many samples before it with longer
+/// ones: its balance is known better then.
 const POSED: i64 = 2;
 const FORESEEN: i64 = 16;
 /// Samples behind the output that balance looks back on, and that a figure which is late may still ask for.
@@ -175,7 +177,8 @@ pub struct StreamPlan {
 }
 
 impl StreamPlan {
-    /// A stream without samples, prepared `window` seconds behind its newest one (within [`WINDOW`]). Allocates all it will ever need.
+    /// A stream without samples, prepared `window` seconds behind its newest one (within [`WINDOW`]). Allocates all it
+    /// will ever need.
     pub fn new(body: Arc<Body>, window: f64) -> Self {
         let window = (window.clamp(WINDOW.0, WINDOW.1) * RATE).floor() as i64;
         let length = (PAST + window + 8) as usize;
@@ -235,7 +238,8 @@ impl StreamPlan {
         self.fed() - repeated
     }
 
-    /// True if its samples have repeated one in the middle of a movement for so long that it is over: no body stops like that.
+    /// True if its samples have repeated one in the middle of a movement for so long that it is over: no body stops
+    /// like that.
     pub fn breaks_off(&self) -> bool {
         self.newest.breaks_off()
     }
@@ -262,7 +266,8 @@ impl StreamPlan {
         self.pending.push_back(raw);
     }
 
-    /// Prepares what has come, up to time `t` (s) of the motion. Where the stream has not come that far it stands still in its last posture.
+    /// Prepares what has come, up to time `t` (s) of the motion. Where the stream has not come that far it stands still
+    /// in its last posture.
     pub fn advance(&mut self, t: f64) {
         let needed = ((t * RATE - 1e-6).ceil() as i64).saturating_add(self.window);
         // Time jumps of hostile clocks are not made up for sample by sample.
@@ -545,8 +550,8 @@ impl StreamPlan {
         between(knot(i), knot(i + 1), H, (x - i as f64).clamp(0.0, 1.0))
     }
 
-    /// Centroidal angular momentum of the recording at time `t`, s, also of what is not put out yet, N·m·s, axes of the stream; `None` where
-    /// that is not known. In flight a recorded body keeps it, whatever is made of its legs.
+    /// Centroidal angular momentum of the recording at time `t`, s, also of what is not put out yet, N·m·s, axes of the
+    /// stream; `None` where that is not known. In flight a recorded body keeps it, whatever is made of its legs.
     pub fn spin_at(&self, t: f64) -> Option<Vec3> {
         let i = (t * RATE).round() as i64;
         let newest = self.count - SMOOTH - 2;
@@ -569,9 +574,9 @@ impl StreamPlan {
         self.feet[side].stances()
     }
 
-    /// The motion from time `from` (s) on as far as it has come, with its feet: what was put out, then what is still in the window as it came,
-    /// led over from there. Samples are 1/[`RATE`] s apart; the first is at the time returned with them. `came`: how many samples have come, if the
-    /// motion has been prepared beyond them.
+    /// The motion from time `from` (s) on as far as it has come, with its feet: what was put out, then what is still in
+    /// the window as it came, led over from there. Samples are 1/[`RATE`] s apart; the first is at the time returned
+    /// with them. `came`: how many samples have come, if the motion has been prepared beyond them.
     pub fn known(&self, from: f64, came: i64) -> (f64, Vec<(Posture, [bool; 2])>) {
         let n = self.knots.len() as i64;
         let last = self.count.min(came) - 1;

@@ -82,8 +82,8 @@ impl Polygon {
         out
     }
 
-    /// The part of the hull of the points that is at least `inset` inside; its middle if it is too narrow for that; `None` for fewer than three
-    /// points.
+    /// The part of the hull of the points that is at least `inset` inside; its middle if it is too narrow for that;
+    /// `None` for fewer than three points.
     pub fn inner(&self, inset: f64) -> Option<Self> {
         let hull = self.hull();
         let n = hull.len;

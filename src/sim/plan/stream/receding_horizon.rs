@@ -1,4 +1,5 @@
-//! The shift of the trunk that keeps the balance of a stream: a small optimal control problem over the window, solved on with every sample.
+//! The shift of the trunk that keeps the balance of a stream: a small optimal control problem over the window, solved
+//! on with every sample.
 
 use super::polygon::Polygon;
 use super::{H, RATE};
@@ -16,7 +17,8 @@ const BEND: f64 = 0.08;
 const HELD: f64 = 1e15;
 /// Alternations between trajectory and supports per sample, and for the first one, which nothing went before.
 const ALTERNATIONS: (usize, usize) = (8, 200);
-/// Times over which it is averaged what zero-moment points lack: lately and now, s; and how much of what comes is like now.
+/// Times over which it is averaged what zero-moment points lack: lately and now, s; and how much of what comes is like
+/// now.
 const LATELY: f64 = 1.0;
 const NOW: f64 = 0.05;
 const LIKE_NOW: f64 = 0.3;
@@ -176,14 +178,15 @@ impl Balance {
 
     /// The shift of the centre of mass in the next sample that is put out, m.
     ///
-    /// Minimises `Σ Δ² + τ⁴ Δ̈² + Σ (outside/COST)²` over the samples that are known, where the zero-moment point answers to a shift Δ by Δ − Δ̈/ω², as
-    /// the preparation of clips does ([`pelvis_shift`](crate::sim::plan::pelvis_shift::pelvis_shift)); but Δ goes on from where it is, and beyond the
-    /// window it falls, as a pendulum at rest does, to what zero-moment points lack on average: bodies that are built otherwise than the recorded one, or carry
-    /// nothing where he does, are off in the same way all the time. A few alternations are enough, since every sample takes part in as many problems as the
-    /// window is long.
+    /// Minimises `Σ Δ² + τ⁴ Δ̈² + Σ (outside/COST)²` over the samples that are known, where the zero-moment point
+    /// answers to a shift Δ by Δ − Δ̈/ω², as the preparation of clips does
+    /// ([`pelvis_shift`](crate::sim::plan::pelvis_shift::pelvis_shift)); but Δ goes on from where it is, and beyond the
+    /// window it falls, as a pendulum at rest does, to what zero-moment points lack on average: bodies that are built
+    /// otherwise than the recorded one, or carry nothing where he does, are off in the same way all the time. A few
+    /// alternations are enough, since every sample takes part in as many problems as the window is long.
     ///
-    /// * `so_far`: Δ of the last two samples that were put out, the newer one last, m; `None` in the beginning, where it is free. The newer one is the first
-    ///   of the samples that take part: those before it are forgotten.
+    /// * `so_far`: Δ of the last two samples that were put out, the newer one last, m; `None` in the beginning, where
+    ///   it is free. The newer one is the first of the samples that take part: those before it are forgotten.
     ///
     /// O(samples); allocates nothing.
     pub fn next(&mut self, so_far: Option<[[f64; 2]; 2]>) -> [f64; 2] {
@@ -195,7 +198,8 @@ impl Balance {
         let factor = self.factor(n, so_far.is_some());
         let last = n - 2;
         let (a, dies) = self.last_answer();
-        // The last shift leads on to the one beyond: what that adds to the last zero-moment point, and to the last bend.
+        // The last shift leads on to the one beyond: what that adds to the last zero-moment point, and to the last
+        // bend.
         let looks = self.samples.back().map_or(0.0, |s| s.heading);
         let beyond = self.lacking.expected(looks).map(|m| (1.0 - dies) * m);
         let bend = (BEND * RATE).powi(4);
@@ -246,14 +250,15 @@ impl Balance {
         next
     }
 
-    /// How the last zero-moment point answers to the shift beyond, and what is left of a shift after a sample when it dies away.
+    /// How the last zero-moment point answers to the shift beyond, and what is left of a shift after a sample when it
+    /// dies away.
     fn last_answer(&self) -> (f64, f64) {
         let omega2 = self.samples.back().map_or(10.0, |s| s.omega2);
         (RATE * RATE / omega2, exp(-omega2.sqrt() * H))
     }
 
-    /// How each of the samples' zero-moment points answers to the shifts of its neighbours and its own (`rows`), and the problem of the `n`
-    /// shifts with the first two `held`, or at rest.
+    /// How each of the samples' zero-moment points answers to the shifts of its neighbours and its own (`rows`), and
+    /// the problem of the `n` shifts with the first two `held`, or at rest.
     fn factor(&mut self, n: usize, held: bool) -> Factor {
         let dies = self.last_answer().1;
         let mut matrix = std::mem::take(&mut self.matrix);
@@ -334,7 +339,8 @@ mod tests {
 
     #[test]
     fn what_lasts_is_expected_to_go_on() {
-        // 8 cm off all the time, in a window of a tenth of a second: nothing that is seen tells when that ends, so it is not taken to end.
+        // 8 cm off all the time, in a window of a tenth of a second: nothing that is seen tells when that ends, so it
+        // is not taken to end.
         let lasting = |_: usize| recorded(100);
         let shift = shifts(10, lasting);
         for s in &shift[60..] {

@@ -3,7 +3,8 @@
 use super::RATE;
 use crate::sim::body::Posture;
 
-/// A coordinate that changes by less than this from sample to sample does not change, rad or m. Nobody is ever as quiet as that; only software is.
+/// A coordinate that changes by less than this from sample to sample does not change, rad or m. Nobody is ever as quiet
+/// as that; only software is.
 pub const SAME: f64 = 1e-6;
 /// Samples of a stream that repeat one for so long break it off, s: as long as a velocity is continued in a silence.
 const REPEATS: f64 = 0.1;

@@ -214,7 +214,8 @@ fn the_momentum_of_the_stream_is_known_ahead_of_what_is_put_out() {
     }
 }
 
-/// A standing man whose feet are moved: by how much each is raised, m, turned about the vertical and pitched, toes up, rad.
+/// A standing man whose feet are moved: by how much each is raised, m, turned about the vertical and pitched, toes up,
+/// rad.
 fn standing_with(body: &Body, feet: [(f64, f64, f64); 2]) -> Posture {
     let mut p = at_ease(body);
     p.root_position.z -= 0.03;

@@ -1,4 +1,5 @@
-//! The whole posture of a sample: feet where they stand or swing, a pelvis that both legs reach, a trunk that is shifted.
+//! The whole posture of a sample: feet where they stand or swing, a pelvis that both legs reach, a trunk that is
+//! shifted.
 
 use super::foot::{self, Foot};
 use super::{H, Sample, StreamPlan};
@@ -15,8 +16,8 @@ const MOST_SHIFT: f64 = 0.12;
 /// A leg reaches this share of its length; for a swinging one the pelvis is lowered by no more than this, m.
 const REACH: f64 = 0.98;
 const SWING_DROP: f64 = 0.04;
-/// A foot that the hip is less than the first ahead of does not rise on its toes for its leg to reach, m; from the second on it does. What its leg
-/// lacks then is the pelvis's to give, up to so much, m.
+/// A foot that the hip is less than the first ahead of does not rise on its toes for its leg to reach, m; from the
+/// second on it does. What its leg lacks then is the pelvis's to give, up to so much, m.
 const BEHIND: (f64, f64) = (0.0, 0.15);
 const SPARED: f64 = 0.1;
 /// How many samples ahead the pelvis looks for what it needs.
@@ -27,7 +28,8 @@ const STIFF: f64 = 8.0;
 /// Angles are kept this far from their limits, rad.
 const LIMIT_MARGIN: f64 = 0.005;
 
-/// Lowering of the pelvis: as low as was needed in the last seconds, so that it does not add to the ups and downs of the gait.
+/// Lowering of the pelvis: as low as was needed in the last seconds, so that it does not add to the ups and downs of
+/// the gait.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Lowering {
     /// What is needed, forgotten slowly, m.

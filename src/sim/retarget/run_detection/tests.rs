@@ -13,7 +13,8 @@ struct Points {
     trunk: [Vec<Vec3>; 2],
 }
 
-/// Two seconds. `at(t)`: the middle of the body, the lead of the left foot over the right one and the direction of the trunk.
+/// Two seconds. `at(t)`: the middle of the body, the lead of the left foot over the right one and the direction of the
+/// trunk.
 fn points(at: impl Fn(f64) -> (Vec3, f64, Vec3)) -> Points {
     let samples: Vec<_> = (0..240).map(|i| at(f64::from(i) / RATE)).collect();
     let of = |f: &dyn Fn(&(Vec3, f64, Vec3)) -> Vec3| samples.iter().map(f).collect::<Vec<_>>();

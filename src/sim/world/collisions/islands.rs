@@ -17,8 +17,8 @@ const COMPLIANCE: f64 = 1e-4;
 const RETURN_SHARE: f64 = 0.1;
 /// Penetration that is left alone, m.
 const SLOP: f64 = 1e-4;
-/// The same where a figure takes part, m: flesh gives. Round parts that slide past each other sink in by a millimetre or two, and lifting
-/// a body that lies on them back out would give it energy.
+/// The same where a figure takes part, m: flesh gives. Round parts that slide past each other sink in by a millimetre
+/// or two, and lifting a body that lies on them back out would give it energy.
 const FLESH: f64 = 4e-3;
 /// Fastest push-out, m/s: slow, because it gives energy to what presses on the contact.
 const RETURN_SPEED: f64 = 0.05;

@@ -1,4 +1,5 @@
-//! Stage 6 of a tick for everything that is near something else: who is near whom, what touches, and one solve for all that touch.
+//! Stage 6 of a tick for everything that is near something else: who is near whom, what touches, and one solve for all
+//! that touch.
 //!
 //! * [`neighbourhood`]: who is near whom, and the clusters that follow.
 //! * [`cast`]: the bodies of one cluster and where they are.
@@ -33,11 +34,12 @@ pub struct CollisionReport {
     pub unfinished: u64,
     /// Deepest overlap of any two bodies at the start of any substep, m.
     pub depth: f64,
-    /// Work of contacts between bodies, J: impulse times the mean of the relative velocities before and after; never positive but for
-    /// the return from overlaps, the work of led obstacles, and muscles that turn a motion around within one substep.
+    /// Work of contacts between bodies, J: impulse times the mean of the relative velocities before and after; never
+    /// positive but for the return from overlaps, the work of led obstacles, and muscles that turn a motion around
+    /// within one substep.
     pub work: f64,
-    /// The part of it along the motion that contacts leave behind, J: what they drive instead of stopping it. Zero but for the return from
-    /// overlaps and led obstacles.
+    /// The part of it along the motion that contacts leave behind, J: what they drive instead of stopping it. Zero but
+    /// for the return from overlaps and led obstacles.
     pub driven: f64,
 }
 
@@ -134,8 +136,8 @@ impl Cluster {
         }
     }
 
-    /// Contact acts by forces. Figures whose accelerations are prescribed and that may meet something in this tick or the next are
-    /// moved by torques from here on; the others move on alone.
+    /// Contact acts by forces. Figures whose accelerations are prescribed and that may meet something in this tick or
+    /// the next are moved by torques from here on; the others move on alone.
     fn hand_over(&mut self, world: &TickContext, cast: &mut Cast<'_>) {
         if cast.figures.iter().all(|(_, f)| !f.is_prescribed()) {
             return;

@@ -1,5 +1,5 @@
-//! Goal: the direction does not depend on the space in which the coupling is taken in. Method: random figures and free bodies, random contacts
-//! between them and with fixed things; both ways, and the equation that they solve.
+//! Goal: the direction does not depend on the space in which the coupling is taken in. Method: random figures and free
+//! bodies, random contacts between them and with fixed things; both ways, and the equation that they solve.
 
 use super::*;
 use crate::sim::contact::{ContactRows, LimitRows, Motors, NewtonWorkspace};

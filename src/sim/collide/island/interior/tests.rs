@@ -1,6 +1,7 @@
-//! Goal: islands are solved within their bound, and to the solution. Method: figures and free bodies at random with weak motors, joint limits, ground and
-//! up to a hundred contacts, thrown at each other; the same problem in its dual form (velocities, motor values, limits, forces), put together from
-//! inertia and rows alone, and solved by another interior-point method (clarabel).
+//! Goal: islands are solved within their bound, and to the solution. Method: figures and free bodies at random with
+//! weak motors, joint limits, ground and up to a hundred contacts, thrown at each other; the same problem in its dual
+//! form (velocities, motor values, limits, forces), put together from inertia and rows alone, and solved by another
+//! interior-point method (clarabel).
 
 use super::super::direction::tests::{Puppet, numbers, scene};
 use super::super::newton::MAX_ITERATIONS;
@@ -237,8 +238,8 @@ fn islands_are_solved_within_their_bound() {
     );
 }
 
-/// A free body has six velocities in a block with room for those of a figure. Gradients that are no numbers behind them, as an interior point that has
-/// left its cone writes them, are not Newton's.
+/// A free body has six velocities in a block with room for those of a figure. Gradients that are no numbers behind
+/// them, as an interior point that has left its cone writes them, are not Newton's.
 #[test]
 fn what_an_interior_point_left_behind_does_not_stop_newton() {
     let (mut island, mut figures) = hard(&mut Rng::new(3), 10, 30.0);
