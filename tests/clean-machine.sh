@@ -26,8 +26,9 @@ mkdir -p "$machine/root/.rustup/toolchains" "$machine/root/.cargo/bin"
 toolchain=$(rustc --print sysroot)
 [ -d "$machine/root/.rustup/toolchains/$(basename "$toolchain")" ] || cp -a "$toolchain" "$machine/root/.rustup/toolchains/"
 cp "$rustup/settings.toml" "$machine/root/.rustup/"
-cp -P "$cargo/bin/rustup" "$cargo/bin/cargo" "$cargo/bin/rustc" "$cargo/bin/rustfmt" "$cargo/bin/cargo-fmt" "$cargo/bin/cargo-clippy" \
-    "$cargo/bin/clippy-driver" "$machine/root/.cargo/bin/"
+for proxy in rustup cargo rustc rustdoc rustfmt cargo-fmt cargo-clippy clippy-driver; do
+    cp -P "$cargo/bin/$proxy" "$machine/root/.cargo/bin/"
+done
 certificates=""
 if [ -n "${CLEAN_CA:-}" ]; then
     cp -L "$CLEAN_CA" "$machine/root/ca.crt"
