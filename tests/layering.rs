@@ -45,7 +45,7 @@ const SIM: &[&[&str]] = &[
     &["collide::touch"],
     &["motion::target"],
     &["body"],
-    &["math"],
+    &["math", "params"],
 ];
 
 /// Layers of the server, likewise.

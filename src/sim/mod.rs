@@ -12,6 +12,7 @@ pub mod figure;
 pub mod get_up;
 pub mod math;
 pub mod motion;
+pub mod params;
 pub mod plan;
 pub mod retarget;
 pub mod strength;
