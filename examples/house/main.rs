@@ -1,0 +1,108 @@
+//! Measures the house: `cargo run --example house [-- FOLDER]` prints sizes, tunable numbers and duplicates of the source.
+//!
+//! `FOLDER` is another checkout, to compare with. `tests/house.rs` holds the numbers to their limits.
+
+mod measure;
+
+use measure::{FIELDS, Item, PARAMETERS, Source, files, sources, wide_lines};
+use std::path::PathBuf;
+
+/// Functions that decide from positions or forces which foot stands, under their names of now and before.
+const CLASSIFIERS: &[&str] = &[
+    "label_feet",
+    "label_runs",
+    "label",
+    "carried",
+    "steady",
+    "touch",
+    "classify",
+    "contact_plan",
+];
+
+fn list(title: &str, items: &[&Item]) {
+    println!("{title}: {}", items.len());
+    for item in items {
+        println!("    {} {} ({})", item.place, item.name, item.count);
+    }
+}
+
+fn main() {
+    let root = std::env::args()
+        .nth(1)
+        .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")), PathBuf::from);
+    let all = sources(&root);
+    let locomotion: Vec<&Source> = all.iter().filter(|s| s.is_locomotion()).collect();
+    let house: Vec<&Source> = all.iter().filter(|s| s.is_of_the_house()).collect();
+    let sim: Vec<&Source> = all
+        .iter()
+        .filter(|s| s.module.starts_with("/sim") || s.module.starts_with("sim"))
+        .collect();
+
+    println!(
+        "lines of code in src: {}",
+        all.iter().map(|s| s.lines).sum::<usize>()
+    );
+    println!(
+        "lines of code of locomotion: {}",
+        locomotion.iter().map(|s| s.lines).sum::<usize>()
+    );
+    let numbers = |s: &Source| s.constants.iter().map(|c| c.count).sum::<usize>();
+    println!(
+        "tunable numbers of locomotion: {}",
+        locomotion.iter().map(|s| numbers(s)).sum::<usize>()
+    );
+    let outside = locomotion
+        .iter()
+        .filter(|s| !s.has_params())
+        .map(|s| numbers(s))
+        .sum::<usize>();
+    println!("    of these outside a params module: {outside}");
+    println!(
+        "    other numbers in its code: {}",
+        locomotion.iter().map(|s| s.literals).sum::<usize>()
+    );
+
+    let named = |sources: &[&Source], wanted: &dyn Fn(&str) -> bool| -> Vec<Item> {
+        let functions = sources.iter().flat_map(|s| &s.functions);
+        functions.filter(|f| wanted(&f.name)).cloned().collect()
+    };
+    let show = |title: &str, items: &[Item]| list(title, &items.iter().collect::<Vec<_>>());
+    show(
+        "classifiers of contacts",
+        &named(&locomotion, &|n| CLASSIFIERS.contains(&n)),
+    );
+    show("convex hulls", &named(&sim, &|n| n.contains("hull")));
+    show(
+        "linear solvers",
+        &named(&sim, &|n| {
+            n == "solve"
+                || ["factor", "cholesky", "ldl", "eliminate"]
+                    .iter()
+                    .any(|w| n.starts_with(w))
+        }),
+    );
+    let types: Vec<&Item> = house
+        .iter()
+        .flat_map(|s| &s.types)
+        .filter(|t| t.count > FIELDS)
+        .collect();
+    list(&format!("types with more than {FIELDS} fields"), &types);
+    let functions: Vec<&Item> = all
+        .iter()
+        .flat_map(|s| &s.functions)
+        .filter(|f| f.count > PARAMETERS)
+        .collect();
+    list(
+        &format!("functions with more than {PARAMETERS} parameters"),
+        &functions,
+    );
+    println!(
+        "decision records: {}",
+        files(&root.join("docs/adr"), &[".md"]).len()
+    );
+    println!(
+        "lines wider than {} columns: {}",
+        measure::COLUMNS,
+        wide_lines(&root).len()
+    );
+}
