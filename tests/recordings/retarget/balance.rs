@@ -47,8 +47,8 @@ fn balancing_and_locking_make_a_walk_consistent() {
     }
 }
 
-/// Goal: preparation brings recordings of people on their feet close to what a body can do (WALKING §1, last row of the
-/// table).
+/// Goal: preparation brings recordings of people on their feet close to what a body can do
+/// (docs/locomotion.md#balance).
 #[test]
 fn preparation_makes_motions_consistent_with_the_dynamics() {
     let body = Body::adult_man();

@@ -137,8 +137,8 @@ fn contact_phases_agree_with_the_statistics() {
                 // The recorded body leaves the floor at 0.6 m/s, which is 0.12 s of free fall.
                 (0.1..0.16).contains(&(p.end - p.start))
             } else {
-                // The statistics call a foot planted while it is slow, which loses landing and roll-off (ADR 0032):
-                // theirs is the middle of each stance.
+                // The statistics call a foot planted while it is slow, which loses landing and roll-off
+                // (docs/locomotion.md#runs): theirs is the middle of each stance.
                 p.start < k.0 + 0.03 && p.end > k.1 - 0.03
             };
             assert!(

@@ -117,7 +117,7 @@ fn every_clip_becomes_a_motion_of_every_body() {
                 "{name}: faces {pelvis:?}"
             );
             // Balance moves it by up to 12 cm; a runner's mass stays farther back, over what the ankle holds of 2.7
-            // weights (ADR 0032).
+            // weights (docs/locomotion.md#runs).
             let moved = if name == "run" { 0.2 } else { 0.13 };
             assert!(
                 first.root_position.x.hypot(first.root_position.y) < moved,
