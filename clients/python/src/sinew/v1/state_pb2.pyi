@@ -150,8 +150,8 @@ class View(_message.Message):
 
     @_builtins.property
     def fields(self) -> _field_mask_pb2.FieldMask:
-        """Fields of `FigureFrame`, for example `root_pose`, `joint_angles`, `torque`, or `*` for all. Absent or empty: `root_pose`,
-        `joint_angles`, `torque`, `status`.
+        """Fields of `FigureFrame`, for example `root_pose`, `joint_angles`, `torque`, or `*` for all. Absent or empty:
+        `root_pose`, `joint_angles`, `torque`, `status`.
         """
 
     def __init__(
@@ -312,8 +312,8 @@ class WatchWorldRequest(_message.Message):
     world: _builtins.str
     """World: resource name `worlds/{world}`."""
     resume_tick: _builtins.int
-    """Continues after this tick: frames that are still held come first. OUT_OF_RANGE (`RESUME_EXPIRED`) when the next one is no
-    longer held. Absent: from now.
+    """Continues after this tick: frames that are still held come first. OUT_OF_RANGE (`RESUME_EXPIRED`) when the next one
+    is no longer held. Absent: from now.
     """
     @_builtins.property
     def view(self) -> Global___View:

@@ -57,8 +57,8 @@ export const BodyProfileSchema: GenMessage<BodyProfile> = /*@__PURE__*/
   messageDesc(file_sinew_v1_body, 0);
 
 /**
- * One rigid part. Its frame sits at the joint that joins it to its parent; in the zero pose (upright, arms hanging, palms to the
- * thighs) it is parallel to the world.
+ * One rigid part. Its frame sits at the joint that joins it to its parent; in the zero pose (upright, arms hanging,
+ * palms to the thighs) it is parallel to the world.
  *
  * @generated from message sinew.v1.Segment
  */
@@ -197,7 +197,8 @@ export const JointSchema: GenMessage<Joint> = /*@__PURE__*/
  */
 export type Dof = Message<"sinew.v1.Dof"> & {
   /**
-   * Name, for example `l_knee_flexion`. Angles are anatomically signed: flexion, abduction, internal rotation positive on both sides.
+   * Name, for example `l_knee_flexion`. Angles are anatomically signed: flexion, abduction, internal rotation positive
+   * on both sides.
    *
    * @generated from field: string name = 1;
    */
@@ -295,7 +296,8 @@ export type Body = Message<"sinew.v1.Body"> & {
   standingRootHeightM: number;
 
   /**
-   * Where its numbers come from: masses and lengths of segments, limits and strength of DOFs, fatigue. Only with `include_provenance`.
+   * Where its numbers come from: masses and lengths of segments, limits and strength of DOFs, fatigue. Only with
+   * `include_provenance`.
    *
    * @generated from field: repeated sinew.v1.Provenance provenance = 7;
    */
@@ -358,8 +360,8 @@ export type Provenance = Message<"sinew.v1.Provenance"> & {
   source: string;
 
   /**
-   * How far to trust it. S1: read in data that cite the publication. S2: read in the publication. S3: cross-check only. D: derived.
-   * R: estimate.
+   * How far to trust it. S1: read in data that cite the publication. S2: read in the publication. S3: cross-check only.
+   * D: derived. R: estimate.
    *
    * @generated from field: string tag = 7;
    */
@@ -658,8 +660,9 @@ export const ExportFormatSchema: GenEnum<ExportFormat> = /*@__PURE__*/
   enumDesc(file_sinew_v1_body, 2);
 
 /**
- * Describes bodies. A body is immutable and follows from its profile, so its name says everything:
- * `bodies/adult-man`, `bodies/adult-woman`, `bodies/child`, `bodies/older-man`, `bodies/older-woman`, or `bodies/{sex}-{age}y-{height}mm-{mass}g`, for example `bodies/female-25y-1680mm-61500g`.
+ * Describes bodies. A body is immutable and follows from its profile, so its name says everything: `bodies/adult-man`,
+ * `bodies/adult-woman`, `bodies/child`, `bodies/older-man`, `bodies/older-woman`, or
+ * `bodies/{sex}-{age}y-{height}mm-{mass}g`, for example `bodies/female-25y-1680mm-61500g`.
  *
  * @generated from service sinew.v1.BodyService
  */

@@ -32,8 +32,8 @@ export type View = Message<"sinew.v1.View"> & {
   figures: string[];
 
   /**
-   * Fields of `FigureFrame`, for example `root_pose`, `joint_angles`, `torque`, or `*` for all. Absent or empty: `root_pose`,
-   * `joint_angles`, `torque`, `status`.
+   * Fields of `FigureFrame`, for example `root_pose`, `joint_angles`, `torque`, or `*` for all. Absent or empty:
+   * `root_pose`, `joint_angles`, `torque`, `status`.
    *
    * @generated from field: google.protobuf.FieldMask fields = 2;
    */
@@ -222,8 +222,8 @@ export type WatchWorldRequest = Message<"sinew.v1.WatchWorldRequest"> & {
   view?: View | undefined;
 
   /**
-   * Continues after this tick: frames that are still held come first. OUT_OF_RANGE (`RESUME_EXPIRED`) when the next one is no
-   * longer held. Absent: from now.
+   * Continues after this tick: frames that are still held come first. OUT_OF_RANGE (`RESUME_EXPIRED`) when the next one
+   * is no longer held. Absent: from now.
    *
    * @generated from field: optional int64 resume_tick = 3;
    */
