@@ -100,7 +100,9 @@ class Stream(Generic[Request, Response]):
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
+    ) -> None:
         self.close()
 
     def close(self) -> None:
@@ -117,9 +119,7 @@ class Stream(Generic[Request, Response]):
         self._call.cancel()
 
 
-def _pump(
-    call: Iterator[Response], came: queue.Queue[Response | BaseException], closed: threading.Event
-) -> None:
+def _pump(call: Iterator[Response], came: queue.Queue[Response | BaseException], closed: threading.Event) -> None:
     """Hands on the messages of a call, then what ended it, until the stream is closed."""
     while not closed.is_set():
         message: Response | BaseException

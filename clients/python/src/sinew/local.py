@@ -31,7 +31,8 @@ def binary() -> str:
 def serve(*, arguments: Sequence[str] = ()) -> Iterator[Client]:
     """Starts a server on a free port of this machine and gives a client; both end with the block.
 
-    If `$SINEW_SERVER` names the address of a server, that one is used and left running. `arguments` are added to `sinew serve`.
+    If `$SINEW_SERVER` names the address of a server, that one is used and left running. `arguments` are added to
+    `sinew serve`.
     """
     there = os.environ.get("SINEW_SERVER")
     if there:
