@@ -153,8 +153,8 @@ fn typed(text: &str) -> toml::Value {
 settings! {
     /// Address and port of gRPC, gRPC-Web, the status page and the metrics.
     listen: addr = "127.0.0.1:7463", (), ();
-    /// Allows an address that other machines can reach. There is no authentication: whoever reaches the port may do
-    /// everything.
+    /// Allows an address that other machines can reach. There is no authentication: any client that reaches the port
+    /// may do everything.
     insecure_bind_any: flag = false, (), ();
     /// Serves the viewer at `/`; without it the status page is there.
     viewer: flag = true, (), ();

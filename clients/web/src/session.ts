@@ -1,4 +1,4 @@
-// One world as it is on the server: who is in it, its frames and events; connects again by itself.
+// One world as it is on the server: its figures, frames and events; connects again by itself.
 import { Code, ConnectError } from "@connectrpc/connect";
 import { isConnectionLoss, message, numbers, type Sinew } from "./client.js";
 import type { Body } from "./gen/sinew/v1/body_pb.js";

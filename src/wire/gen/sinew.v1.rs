@@ -202,7 +202,7 @@ impl Encoding {
         }
     }
 }
-/// Who a body stands for.
+/// Person that a body represents.
 #[derive(Clone, Copy, PartialEq, ::prost::Message)]
 pub struct BodyProfile {
     /// Tables to use. Required. Up to 10 years both give the same body.
@@ -301,7 +301,7 @@ pub struct Body {
     /// Resource name `bodies/{body}`.
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
-    /// Who it stands for.
+    /// Person that it represents.
     #[prost(message, optional, tag = "2")]
     pub profile: ::core::option::Option<BodyProfile>,
     /// Segments in frame order, pelvis first.
@@ -1259,7 +1259,7 @@ pub struct ResetFigureResponse {
     #[prost(message, optional, tag = "1")]
     pub figure: ::core::option::Option<Figure>,
 }
-/// Who computes accelerations and torques.
+/// Controller: computes accelerations and torques.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
 #[repr(i32)]
 pub enum Controller {
@@ -1296,7 +1296,7 @@ impl Controller {
         }
     }
 }
-/// Who moves the body.
+/// Stepper: moves the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
 #[repr(i32)]
 pub enum Stepper {
@@ -2471,7 +2471,7 @@ pub struct Clip {
     /// When it was stored; absent for built-in clips.
     #[prost(message, optional, tag = "9")]
     pub create_time: ::core::option::Option<::prost_types::Timestamp>,
-    /// What will come of it when that body follows it by its own strength, without loads; absent for built-in clips, and
+    /// Forecast for that body following it by its own strength, without loads; absent for built-in clips, and
     /// in lists.
     #[prost(message, optional, tag = "10")]
     pub forecast: ::core::option::Option<Forecast>,
@@ -2480,7 +2480,7 @@ pub struct Clip {
 /// clip, negative on the way into it.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Forecast {
-    /// What will come of it.
+    /// Verdict of the forecast.
     #[prost(enumeration = "ForecastVerdict", tag = "1")]
     pub verdict: i32,
     /// The demand that decided, as a sentence without its beginning, for example `needs 1.8 times the strength of the
@@ -2763,8 +2763,8 @@ pub struct DriveHeader {
     /// Figures that are driven: last parts of their names. At least one.
     #[prost(string, repeated, tag = "2")]
     pub figures: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
-    /// Who drives, at most 64 bytes of printable ASCII. The same driver may come back after a lost connection. Empty: the
-    /// server chooses, and `PushMotion` takes it as `push`.
+    /// Name of the driver, at most 64 bytes of printable ASCII. The same driver may come back after a lost connection.
+    /// Empty: the server chooses, and `PushMotion` takes it as `push`.
     #[prost(string, tag = "3")]
     pub driver_id: ::prost::alloc::string::String,
     /// Frames per second that will come, 1…1000. 0 or absent: 60. Used for the first estimates only.
@@ -2923,7 +2923,7 @@ pub struct FigureFeedback {
     #[prost(double, tag = "16")]
     pub preparation_window_ms: f64,
 }
-/// What will come of a clip.
+/// Forecast of how a figure follows a clip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
 #[repr(i32)]
 pub enum ForecastVerdict {
@@ -4041,8 +4041,8 @@ pub struct ApplyPerturbationsRequest {
     /// World: resource name `worlds/{world}`.
     #[prost(string, tag = "1")]
     pub world: ::prost::alloc::string::String,
-    /// Who asks, at most 64 bytes. Requests that meet in one tick act in the order of (client, sequence). Empty: the
-    /// connection.
+    /// Name of the client, at most 64 bytes. Requests that meet in one tick act in the order of (client, sequence). Empty:
+    /// the connection.
     #[prost(string, tag = "2")]
     pub client_id: ::prost::alloc::string::String,
     /// Number of the request at this client. Default: 0.
@@ -4973,7 +4973,7 @@ pub struct View {
     #[prost(int32, tag = "4")]
     pub rate_divisor: i32,
 }
-/// Who is who in the frames that follow.
+/// Names of the figures, by their index in the frames that follow.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Roster {
     /// World: resource name.
@@ -5018,7 +5018,7 @@ pub struct GetWorldFrameRequest {
 /// A frame.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct GetWorldFrameResponse {
-    /// Who is who.
+    /// Names of the figures by index.
     #[prost(message, optional, tag = "1")]
     pub roster: ::core::option::Option<Roster>,
     /// The frame.
@@ -5741,7 +5741,7 @@ pub mod simulate_clip_request {
         Bvh(super::BvhSource),
     }
 }
-/// What came of it.
+/// Result of a simulation.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct SimulateClipResponse {
     /// Figures of merit.

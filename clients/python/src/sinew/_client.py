@@ -467,7 +467,7 @@ class Clip:
 
     @property
     def forecast(self) -> motion_pb2.Forecast | None:
-        """What will come of it when its body follows it: verdict, reason and figures; `None` for built-in clips."""
+        """Forecast for its body following it: verdict, reason and figures; `None` for built-in clips."""
         return self.message.forecast if self.message.HasField("forecast") else None
 
     def motion(self, *, body: str | Profile = "adult-man", rate_hz: float = 60.0) -> Motion:

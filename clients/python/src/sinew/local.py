@@ -55,7 +55,7 @@ def serve(*, arguments: Sequence[str] = ()) -> Iterator[Client]:
                 break
         if not address:
             raise RuntimeError(f"the server ended with status {process.wait()} before it served")
-        # Whoever does not read what a program prints stops it one day.
+        # A program whose output is not read stops when the pipe is full.
         reader = threading.Thread(target=process.stdout.read, name="sinew-serve", daemon=True)
         reader.start()
         with Client(address) as client:

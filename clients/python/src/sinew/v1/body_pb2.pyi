@@ -98,7 +98,7 @@ Global___ExportFormat: _TypeAlias = ExportFormat  # noqa: Y015
 
 @_typing.final
 class BodyProfile(_message.Message):
-    """Who a body stands for."""
+    """Person that a body represents."""
 
     DESCRIPTOR: _descriptor.Descriptor
 
@@ -307,7 +307,7 @@ class Body(_message.Message):
     """Height of the pelvis origin (midpoint of the hip centres) over the soles in the zero pose, m."""
     @_builtins.property
     def profile(self) -> Global___BodyProfile:
-        """Who it stands for."""
+        """Person that it represents."""
 
     @_builtins.property
     def segments(self) -> _containers.RepeatedCompositeFieldContainer[Global___Segment]:

@@ -38,7 +38,7 @@ class _ControllerEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_Controller
     """Strength-limited motors alone; they do not balance."""
 
 class Controller(_Controller, metaclass=_ControllerEnumTypeWrapper):
-    """Who computes accelerations and torques."""
+    """Controller: computes accelerations and torques."""
 
 CONTROLLER_UNSPECIFIED: Controller.ValueType  # 0
 """The default: CONTROLLER_MODERN."""
@@ -64,7 +64,7 @@ class _StepperEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_Stepper.Value
     """Accelerations are applied as they are; torques take over while that cannot go on (frame flag HANDED_OVER)."""
 
 class Stepper(_Stepper, metaclass=_StepperEnumTypeWrapper):
-    """Who moves the body."""
+    """Stepper: moves the body."""
 
 STEPPER_UNSPECIFIED: Stepper.ValueType  # 0
 """The default: STEPPER_TORQUE."""

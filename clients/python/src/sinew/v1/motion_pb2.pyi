@@ -37,7 +37,7 @@ class _ForecastVerdictEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_Forec
     """No help short of carrying it will do."""
 
 class ForecastVerdict(_ForecastVerdict, metaclass=_ForecastVerdictEnumTypeWrapper):
-    """What will come of a clip."""
+    """Forecast of how a figure follows a clip."""
 
 FORECAST_VERDICT_UNSPECIFIED: ForecastVerdict.ValueType  # 0
 """Not told."""
@@ -177,7 +177,7 @@ class Clip(_message.Message):
 
     @_builtins.property
     def forecast(self) -> Global___Forecast:
-        """What will come of it when that body follows it by its own strength, without loads; absent for built-in clips, and
+        """Forecast for that body following it by its own strength, without loads; absent for built-in clips, and
         in lists.
         """
 
@@ -228,7 +228,7 @@ class Forecast(_message.Message):
     FLOOR_CONTACT_S_FIELD_NUMBER: _builtins.int
     INVERTED_S_FIELD_NUMBER: _builtins.int
     verdict: Global___ForecastVerdict.ValueType
-    """What will come of it."""
+    """Verdict of the forecast."""
     reason: _builtins.str
     """The demand that decided, as a sentence without its beginning, for example `needs 1.8 times the strength of the
     right knee (flexion) at 1.2 s`.
@@ -885,8 +885,8 @@ class DriveHeader(_message.Message):
     world: _builtins.str
     """World: resource name `worlds/{world}`."""
     driver_id: _builtins.str
-    """Who drives, at most 64 bytes of printable ASCII. The same driver may come back after a lost connection. Empty: the
-    server chooses, and `PushMotion` takes it as `push`.
+    """Name of the driver, at most 64 bytes of printable ASCII. The same driver may come back after a lost connection.
+    Empty: the server chooses, and `PushMotion` takes it as `push`.
     """
     nominal_rate_hz: _builtins.float
     """Frames per second that will come, 1…1000. 0 or absent: 60. Used for the first estimates only."""

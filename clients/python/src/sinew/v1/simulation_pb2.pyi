@@ -118,7 +118,7 @@ Global___SimulateClipRequest: _TypeAlias = SimulateClipRequest  # noqa: Y015
 
 @_typing.final
 class SimulateClipResponse(_message.Message):
-    """What came of it."""
+    """Result of a simulation."""
 
     DESCRIPTOR: _descriptor.Descriptor
 

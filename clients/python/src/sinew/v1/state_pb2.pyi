@@ -172,7 +172,7 @@ Global___View: _TypeAlias = View  # noqa: Y015
 
 @_typing.final
 class Roster(_message.Message):
-    """Who is who in the frames that follow."""
+    """Names of the figures, by their index in the frames that follow."""
 
     DESCRIPTOR: _descriptor.Descriptor
 
@@ -280,7 +280,7 @@ class GetWorldFrameResponse(_message.Message):
     FRAME_FIELD_NUMBER: _builtins.int
     @_builtins.property
     def roster(self) -> Global___Roster:
-        """Who is who."""
+        """Names of the figures by index."""
 
     @_builtins.property
     def frame(self) -> _frame_pb2.WorldFrame:
@@ -346,7 +346,7 @@ class WatchWorldResponse(_message.Message):
     FRAME_FIELD_NUMBER: _builtins.int
     @_builtins.property
     def roster(self) -> Global___Roster:
-        """Who is who from now on."""
+        """Names of the figures by index, from now on."""
 
     @_builtins.property
     def frame(self) -> _frame_pb2.WorldFrame:

@@ -746,7 +746,7 @@ export const ResetFigureResponseSchema: GenMessage<ResetFigureResponse> = /*@__P
   messageDesc(file_sinew_v1_figure, 17);
 
 /**
- * Who computes accelerations and torques.
+ * Controller: computes accelerations and torques.
  *
  * @generated from enum sinew.v1.Controller
  */
@@ -787,7 +787,7 @@ export const ControllerSchema: GenEnum<Controller> = /*@__PURE__*/
   enumDesc(file_sinew_v1_figure, 0);
 
 /**
- * Who moves the body.
+ * Stepper: moves the body.
  *
  * @generated from enum sinew.v1.Stepper
  */

@@ -86,7 +86,7 @@ export type Clip = Message<"sinew.v1.Clip"> & {
   createTime?: Timestamp | undefined;
 
   /**
-   * What will come of it when that body follows it by its own strength, without loads; absent for built-in clips, and
+   * Forecast for that body following it by its own strength, without loads; absent for built-in clips, and
    * in lists.
    *
    * @generated from field: sinew.v1.Forecast forecast = 10;
@@ -109,7 +109,7 @@ export const ClipSchema: GenMessage<Clip> = /*@__PURE__*/
  */
 export type Forecast = Message<"sinew.v1.Forecast"> & {
   /**
-   * What will come of it.
+   * Verdict of the forecast.
    *
    * @generated from field: sinew.v1.ForecastVerdict verdict = 1;
    */
@@ -837,8 +837,8 @@ export type DriveHeader = Message<"sinew.v1.DriveHeader"> & {
   figures: string[];
 
   /**
-   * Who drives, at most 64 bytes of printable ASCII. The same driver may come back after a lost connection. Empty: the
-   * server chooses, and `PushMotion` takes it as `push`.
+   * Name of the driver, at most 64 bytes of printable ASCII. The same driver may come back after a lost connection.
+   * Empty: the server chooses, and `PushMotion` takes it as `push`.
    *
    * @generated from field: string driver_id = 3;
    */
@@ -1225,7 +1225,7 @@ export const FigureFeedbackSchema: GenMessage<FigureFeedback> = /*@__PURE__*/
   messageDesc(file_sinew_v1_motion, 27);
 
 /**
- * What will come of a clip.
+ * Forecast of how a figure follows a clip.
  *
  * @generated from enum sinew.v1.ForecastVerdict
  */

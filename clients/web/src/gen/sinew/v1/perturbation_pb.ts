@@ -243,8 +243,8 @@ export type ApplyPerturbationsRequest = Message<"sinew.v1.ApplyPerturbationsRequ
   world: string;
 
   /**
-   * Who asks, at most 64 bytes. Requests that meet in one tick act in the order of (client, sequence). Empty: the
-   * connection.
+   * Name of the client, at most 64 bytes. Requests that meet in one tick act in the order of (client, sequence). Empty:
+   * the connection.
    *
    * @generated from field: string client_id = 2;
    */

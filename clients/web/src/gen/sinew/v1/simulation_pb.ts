@@ -139,7 +139,7 @@ export const SimulateClipRequestSchema: GenMessage<SimulateClipRequest> = /*@__P
   messageDesc(file_sinew_v1_simulation, 1);
 
 /**
- * What came of it.
+ * Result of a simulation.
  *
  * @generated from message sinew.v1.SimulateClipResponse
  */

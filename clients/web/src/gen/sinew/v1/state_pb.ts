@@ -62,7 +62,7 @@ export const ViewSchema: GenMessage<View> = /*@__PURE__*/
   messageDesc(file_sinew_v1_state, 0);
 
 /**
- * Who is who in the frames that follow.
+ * Names of the figures, by their index in the frames that follow.
  *
  * @generated from message sinew.v1.Roster
  */
@@ -180,7 +180,7 @@ export const GetWorldFrameRequestSchema: GenMessage<GetWorldFrameRequest> = /*@_
  */
 export type GetWorldFrameResponse = Message<"sinew.v1.GetWorldFrameResponse"> & {
   /**
-   * Who is who.
+   * Names of the figures by index.
    *
    * @generated from field: sinew.v1.Roster roster = 1;
    */
@@ -250,7 +250,7 @@ export type WatchWorldResponse = Message<"sinew.v1.WatchWorldResponse"> & {
    */
   message: {
     /**
-     * Who is who from now on.
+     * Names of the figures by index, from now on.
      *
      * @generated from field: sinew.v1.Roster roster = 1;
      */
