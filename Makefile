@@ -5,8 +5,9 @@ ROOT := $(abspath $(dir $(lastword $(MAKEFILE_LIST))))
 CARGO ?= cargo
 PYTHON ?= python3
 export PYTHON
+RUFF := .venv/bin/ruff format --quiet --config clients/python/pyproject.toml clients tests
 # Node and Go of .venv, where the system has none that is recent enough (tests/setup.sh).
-oracle load python viewer generate: export PATH := $(ROOT)/.venv/bin:$(PATH)
+oracle load python viewer generate fmt: export PATH := $(ROOT)/.venv/bin:$(PATH)
 
 .DEFAULT_GOAL := help
 .PHONY: help run test recordings ci setup lint physics rust release oracle python viewer load soak generate fmt
@@ -35,7 +36,8 @@ setup: ## Python environment of the tests; Node, Chromium and npm packages of th
 	$(ROOT)/tests/setup.sh
 	$(ROOT)/clients/web/setup.sh
 
-lint: ## format and lints, warnings denied
+lint: ## format, lints with warnings denied, width of lines
+	$(ROOT)/tests/width.sh
 	cd $(ROOT) && $(CARGO) fmt --check
 	cd $(ROOT) && $(CARGO) clippy --locked --all-targets -- -D warnings
 
@@ -52,7 +54,8 @@ load: setup ## ghz against a live server
 	$(ROOT)/tests/load/run.sh
 
 soak: ## a million figure-ticks of everything that can be asked for; about twenty minutes
-	cd $(ROOT) && SINEW_SOAK_TICKS=1000000 $(CARGO) test --release --locked --no-default-features --test soak -- --nocapture
+	cd $(ROOT) && SINEW_SOAK_TICKS=1000000 \
+		$(CARGO) test --release --locked --no-default-features --test soak -- --nocapture
 
 oracle: setup ## comparison with Pinocchio and MuJoCo, and the server seen from Python
 	cd $(ROOT) && $(CARGO) build --locked --bins --examples
@@ -60,17 +63,21 @@ oracle: setup ## comparison with Pinocchio and MuJoCo, and the server seen from 
 
 viewer: setup ## the viewer in a real browser, the TypeScript client, and that the bundle is what its source builds
 	cd $(ROOT) && $(CARGO) build --locked --bins --example client
-	cd $(ROOT)/clients/web && npm run --silent typecheck && npm run --silent lint && npm run --silent check && npm test --silent
+	cd $(ROOT)/clients/web && npm run --silent typecheck && npm run --silent lint && npm run --silent check
+	cd $(ROOT)/clients/web && npm test --silent
 
 python: setup ## the Python package: types, tests, examples, wheel; vectors of tests/conformance
 	cd $(ROOT) && $(CARGO) build --locked --bins --example client
+	cd $(ROOT) && $(RUFF) --check --diff
 	cd $(ROOT)/clients/python && $(ROOT)/.venv/bin/python -m pytest
 
-generate: setup ## what is made from proto/, in all three languages, and the plain Python client; tests compare what is checked in
+generate: setup ## what is made from proto/ in three languages, and the plain Python client
 	cd $(ROOT) && SINEW_REWRITE=1 $(CARGO) test --locked --no-default-features --test proto_bootstrap
 	$(ROOT)/.venv/bin/python $(ROOT)/clients/python/tools/generate.py
 	$(ROOT)/.venv/bin/python $(ROOT)/clients/python/tools/unasync.py
 	cd $(ROOT)/clients/web && npm run --silent generate
 
-fmt: ## format everything
+fmt: ## format Rust; after `make setup`, Python and TypeScript too
 	cd $(ROOT) && $(CARGO) fmt
+	cd $(ROOT) && [ ! -x .venv/bin/ruff ] || $(RUFF)
+	cd $(ROOT)/clients/web && [ ! -d node_modules/prettier ] || npm run --silent format

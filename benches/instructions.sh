@@ -10,7 +10,8 @@ binary=${CARGO_TARGET_DIR:-target}/release/examples/instructions
 [ $# -gt 0 ] || set -- kinematics rnea rnea_x8 crba_factor_solve terms paper_tick modern_tick
 
 count() { # instructions of the whole program for WORK N
-    valgrind --tool=callgrind --callgrind-out-file=/dev/null "$binary" "$1" "$2" 2>&1 | sed -n 's/.*Collected : \([0-9]*\).*/\1/p'
+    valgrind --tool=callgrind --callgrind-out-file=/dev/null "$binary" "$1" "$2" 2>&1 |
+        sed -n 's/.*Collected : \([0-9]*\).*/\1/p'
 }
 
 printf '%-20s %14s\n' work instructions

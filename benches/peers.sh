@@ -36,7 +36,8 @@ cd "$root"
 target=${CARGO_TARGET_DIR:-$root/target}
 cargo bench --no-default-features --bench dynamics --bench control --bench world_step --no-run
 run_ours() {
-    taskset -c "$core" cargo bench --quiet --no-default-features --bench "$1" -- --noplot --warm-up-time 0.5 --measurement-time 2 "$2"
+    taskset -c "$core" cargo bench --quiet --no-default-features --bench "$1" -- \
+        --noplot --warm-up-time 0.5 --measurement-time 2 "$2"
 }
 round=1
 while [ $round -le $rounds ]; do
@@ -75,9 +76,12 @@ pairs = [
     ("forward dynamics", "one/aba", 1, "pin/aba_local", "kinematics and ABA"),
     ("inverse dynamics", "one/rnea", 1, "mj/inverse_free", "MuJoCo, no contact"),
     ("paper control tick", "control/tick/paper", 1, "pin/paper_tick_limits_x1", "without stepping, as the peer"),
-    ("modern decision", "control/decide/modern", 1, "pin/paper_tick_limits_x1", "the paper's tick of the peer, for scale"),
-    ("world step, modern", "world_step/modern/1", 1, "mj/step_PD_stand dt=1/240", "one tick of 1/60 s against one PD step of 1/240 s"),
-    ("world step, paper", "world_step/paper/1", 1, "pin/paper_tick_limits_x1", "ours with contact solver, integration and report"),
+    ("modern decision", "control/decide/modern", 1, "pin/paper_tick_limits_x1",
+     "the paper's tick of the peer, for scale"),
+    ("world step, modern", "world_step/modern/1", 1, "mj/step_PD_stand dt=1/240",
+     "one tick of 1/60 s against one PD step of 1/240 s"),
+    ("world step, paper", "world_step/paper/1", 1, "pin/paper_tick_limits_x1",
+     "ours with contact solver, integration and report"),
 ]
 print(f"{'what':28} {'ours us':>9} {'peer us':>9} {'ratio':>7}  (ratios of the rounds)")
 for what, path, figures, peer, note in pairs:
@@ -88,5 +92,6 @@ for what, path, figures, peer, note in pairs:
     theirs = [peer_us(peer, n) for n in rounds]
     ratios = [a / b for a, b in zip(mine, theirs)]
     spread = " ".join(f"{r:.3f}" for r in ratios)
-    print(f"{what:28} {statistics.median(mine):9.3f} {statistics.median(theirs):9.3f} {statistics.median(ratios):7.3f}  ({spread}) {note}")
+    medians = " ".join(f"{statistics.median(v):{w}.3f}" for v, w in ((mine, 9), (theirs, 9), (ratios, 7)))
+    print(f"{what:28} {medians}  ({spread}) {note}")
 PY

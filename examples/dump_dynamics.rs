@@ -276,7 +276,11 @@ fn main() -> Result<(), Box<dyn Error>> {
                 "strongest": strongest(&m.body),
                 "range": (0..DOF_COUNT).map(|d| [m.body.lower[d], m.body.upper[d]]).collect::<Vec<_>>(),
                 "segments": (0..SEGMENT_COUNT).map(segment).collect::<Vec<_>>(),
-                "loads": m.loads.iter().map(|(s, p, mass)| serde_json::json!([s.index(), p.to_array(), mass])).collect::<Vec<_>>(),
+                "loads": m
+                    .loads
+                    .iter()
+                    .map(|(s, p, mass)| serde_json::json!([s.index(), p.to_array(), mass]))
+                    .collect::<Vec<_>>(),
             })
         }).collect::<Vec<_>>(),
     });

@@ -3,7 +3,8 @@
 //! * [`sim`]: physics and control; pure, synchronous, no I/O. The loop of one tick is `sim::world::World::step`.
 #![cfg_attr(
     feature = "net",
-    doc = "* `wire`: protobuf to domain types and back. * `server`: everything that touches the network or the clock; the rate keeper is `server::tick::run`. * `client`: a thin Rust client."
+    doc = "* `wire`: protobuf to domain types and back. * `server`: everything that touches the network or the clock; \
+        the rate keeper is `server::tick::run`. * `client`: a thin Rust client."
 )]
 
 #[cfg(feature = "net")]

@@ -24,7 +24,8 @@ fi
 cp /etc/resolv.conf /etc/hosts "$machine/etc/"
 mkdir -p "$machine/root/.rustup/toolchains" "$machine/root/.cargo/bin"
 toolchain=$(rustc --print sysroot)
-[ -d "$machine/root/.rustup/toolchains/$(basename "$toolchain")" ] || cp -a "$toolchain" "$machine/root/.rustup/toolchains/"
+toolchains=$machine/root/.rustup/toolchains
+[ -d "$toolchains/$(basename "$toolchain")" ] || cp -a "$toolchain" "$toolchains/"
 cp "$rustup/settings.toml" "$machine/root/.rustup/"
 for proxy in rustup cargo rustc rustdoc rustfmt cargo-fmt cargo-clippy clippy-driver; do
     cp -P "$cargo/bin/$proxy" "$machine/root/.cargo/bin/"
@@ -32,7 +33,9 @@ done
 certificates=""
 if [ -n "${CLEAN_CA:-}" ]; then
     cp -L "$CLEAN_CA" "$machine/root/ca.crt"
-    certificates="SSL_CERT_FILE=/root/ca.crt NODE_EXTRA_CA_CERTS=/root/ca.crt PIP_CERT=/root/ca.crt CARGO_HTTP_CAINFO=/root/ca.crt"
+    for name in SSL_CERT_FILE NODE_EXTRA_CA_CERTS PIP_CERT CARGO_HTTP_CAINFO; do
+        certificates="$certificates $name=/root/ca.crt"
+    done
 fi
 
 mounted() { grep -q " $machine/$1 " /proc/mounts; }
@@ -46,23 +49,27 @@ trap finish EXIT INT TERM
 inside() {
     # $certificates is a list of words.
     # shellcheck disable=SC2086
-    chroot "$machine" /usr/bin/env -i HOME=/root LANG=C.UTF-8 PATH=/root/.cargo/bin:/usr/bin:/bin:/usr/sbin:/sbin RUSTUP_AUTO_INSTALL=0 \
-        $certificates "$@"
+    chroot "$machine" /usr/bin/env -i HOME=/root LANG=C.UTF-8 RUSTUP_AUTO_INSTALL=0 \
+        PATH=/root/.cargo/bin:/usr/bin:/bin:/usr/sbin:/sbin $certificates "$@"
 }
 
 inside apt-get update -qq
-inside env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends make git gcc libc6-dev >/dev/null 2>&1
+inside env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y -qq --no-install-recommends make git gcc libc6-dev >/dev/null 2>&1
 rm -rf "$machine/sinew"
 git clone -q "$root" "$machine/sinew"
 for name in python3 node npm go protoc; do
     inside sh -c "command -v $name" && echo "clean-machine: $name is on the path"
 done
-echo "clean-machine: $(inside cat /etc/debian_version), $(inside rustc --version), commit $(git -C "$root" rev-parse --short HEAD)"
+commit=$(git -C "$root" rev-parse --short HEAD)
+echo "clean-machine: $(inside cat /etc/debian_version), $(inside rustc --version), commit $commit"
 
 started=$(date +%s)
-inside sh -c 'cd /sinew && cargo build --release --locked' >"$machine.release.log" 2>&1 || { tail -n 30 "$machine.release.log" >&2; exit 1; }
+inside sh -c 'cd /sinew && cargo build --release --locked' >"$machine.release.log" 2>&1 ||
+    { tail -n 30 "$machine.release.log" >&2; exit 1; }
 # What `cargo run --release` would print first; then the page.
-inside sh -c 'cd /sinew && exec timeout 5 cargo run --release --locked -- serve --listen 127.0.0.1:0' >"$machine.serve.log" 2>&1 || true
+serve='cd /sinew && exec timeout 5 cargo run --release --locked -- serve --listen 127.0.0.1:0'
+inside sh -c "$serve" >"$machine.serve.log" 2>&1 || true
 grep -q 'http://127.0.0.1:' "$machine.serve.log" || { cat "$machine.serve.log" >&2; exit 1; }
 built=$(date +%s)
 echo "clean-machine: cargo run --release serves after $((built - started)) s"

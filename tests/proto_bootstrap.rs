@@ -65,7 +65,8 @@ fn generated_code_matches_the_protos() {
         let checked_in = std::fs::read(dir.join(name)).unwrap_or_default();
         assert!(
             checked_in == *bytes,
-            "src/wire/gen/{name} is out of date: run `SINEW_REWRITE=1 cargo test --no-default-features --test proto_bootstrap`"
+            "src/wire/gen/{name} is out of date: run `SINEW_REWRITE=1 cargo test --no-default-features --test \
+             proto_bootstrap`"
         );
     }
 }

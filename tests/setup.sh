@@ -21,7 +21,7 @@ wanted=""
 command -v cc >/dev/null 2>&1 || wanted="$wanted gcc libc6-dev"
 command -v git >/dev/null 2>&1 || wanted="$wanted git"
 command -v ps >/dev/null 2>&1 || wanted="$wanted procps"
-command -v "$python" >/dev/null 2>&1 && "$python" -c 'import ensurepip, venv' >/dev/null 2>&1 || wanted="$wanted python3 python3-venv"
+"$python" -c 'import ensurepip, venv' >/dev/null 2>&1 || wanted="$wanted python3 python3-venv"
 if [ -n "$wanted" ]; then
     # $wanted is a list of words.
     # shellcheck disable=SC2086
@@ -37,7 +37,9 @@ fi
 recent() {
     name=$1 major=$2 minor=$3
     shift 3
-    version=$(PATH=$(printf %s "$PATH" | sed "s|$venv/bin:||") "$name" "$@" 2>/dev/null | sed -n 's/[^0-9]*\([0-9]*\)\.\([0-9]*\).*/\1 \2/p' | head -n 1)
+    outside=$(printf %s "$PATH" | sed "s|$venv/bin:||")
+    version=$(PATH=$outside "$name" "$@" 2>/dev/null |
+        sed -n 's/[^0-9]*\([0-9]*\)\.\([0-9]*\).*/\1 \2/p' | head -n 1)
     [ -n "$version" ] || return 1
     [ "${version% *}" -gt "$major" ] || { [ "${version% *}" -eq "$major" ] && [ "${version#* }" -ge "$minor" ]; }
 }

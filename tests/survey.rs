@@ -242,7 +242,8 @@ fn tables_are_put_into_a_page_with_their_command() {
     ];
     good(&given);
     let once = f.text("limits.md");
-    let begin = "# Limits\n\n<!-- survey quick begin: sinew survey builtin:idle --out s.json --page limits.md#quick --markdown s.md -->";
+    let begin = "# Limits\n\n<!-- survey quick begin: sinew survey builtin:idle --out s.json --page limits.md#quick \
+        --markdown s.md -->";
     assert!(once.starts_with(begin), "{once}");
     assert!(once.ends_with("<!-- survey quick end -->\n\nEnd.\n"));
     assert!(

@@ -1,4 +1,4 @@
-// Bundles the viewer into dist, the folder that the server embeds. `--check` builds beside it and compares byte by byte.
+// Bundles the viewer into dist, the folder that the server embeds. `--check` builds beside it and compares all bytes.
 import { build } from "esbuild";
 import { mkdirSync, mkdtempSync, readFileSync, readdirSync, copyFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -44,4 +44,5 @@ for (const name of readdirSync(out).sort()) {
 if (check) rmSync(out, { recursive: true });
 console.log(`bundle: ${total} bytes`);
 if (total > LARGEST) throw new Error(`the bundle has ${total} bytes, more than ${LARGEST}`);
-if (differs.length) throw new Error(`dist is not what the source builds: ${differs.join(", ")}; run npm run build and commit it`);
+if (differs.length)
+  throw new Error(`dist is not what the source builds: ${differs.join(", ")}; run npm run build and commit it`);

@@ -154,8 +154,9 @@ pub fn section(page: &mut Page, body: &Arc<Body>, motions: &[Motion], pushed: &[
     let mut against = Against::default();
     page.say("### Motions and loads");
     page.say(
-        "Each motion is played once, and one second more in its last posture. The load is in the right hand, or half in each hand, from the first \
-         tick; the motion is not adapted to it. Cells: joint error (rms) and centre of mass error (rms) over the run.",
+        "Each motion is played once, and one second more in its last posture. The load is in the right hand, or half \
+         in each hand, from the first tick; the motion is not adapted to it. Cells: joint error (rms) and centre of \
+         mass error (rms) over the run.",
     );
     let mut sums = vec![Sum::default(); pairs.len()];
     let mut rows = Vec::new();
@@ -177,7 +178,8 @@ pub fn section(page: &mut Page, body: &Arc<Body>, motions: &[Motion], pushed: &[
     page.table(&head(&["motion", "load"], &pairs), &rows);
     summary(page, &pairs, &sums, Pair::modern().name);
     page.say(
-        "Errors are counted up to a fall, so an early fall lowers the mean error. The torque changes include those of falls.",
+        "Errors are counted up to a fall, so an early fall lowers the mean error. The torque changes include those of \
+         falls.",
     );
 
     pushes(page, body, motions, pushed, &pairs, &mut against);
@@ -197,8 +199,8 @@ fn pushes(
     }
     page.say("### Motions and pushes");
     page.say(
-        "A push of 0.1 s at the chest, one second into the motion. Protective steps are off, except in the last column, which is the default \
-         configuration.",
+        "A push of 0.1 s at the chest, one second into the motion. Protective steps are off, except in the last \
+         column, which is the default configuration.",
     );
     let fixed = pairs.clone().map(|mut p| {
         p.params.protective_steps = false;
@@ -261,10 +263,11 @@ fn conclusion(page: &mut Page, pairs: &[Pair], against: &Against) {
         )
     };
     page.say(&format!(
-        "Number of scenes, of {}, in which *modern, torque* stands and the other falls: {}. {losses} Smallest joint error among the pairs that \
-         stand, number of scenes: {}. *Motors alone* hold the posture without balance control: this is enough where the motion is balanced \
-         and the disturbance small, but the centre of mass drifts. *Modern* gives up posture for balance when pushed. Decision: \
-         [ADR 0004](../adr/0004-modern-mode-by-default.md).",
+        "Number of scenes, of {}, in which *modern, torque* stands and the other falls: {}. {losses} Smallest joint \
+         error among the pairs that stand, number of scenes: {}. *Motors alone* hold the posture without balance \
+         control: this is enough where the motion is balanced and the disturbance small, but the centre of mass \
+         drifts. *Modern* gives up posture for balance when pushed. Decision: [ADR \
+         0004](../adr/0004-modern-mode-by-default.md).",
         against.scenes,
         wins.join(", "),
         closest.join(", ")

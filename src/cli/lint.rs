@@ -6,6 +6,7 @@ use super::source::{Source, load};
 use super::terminal::{print, print_line};
 use crate::sim::body::Body;
 use crate::sim::plan::feasibility::{Consistency, Spread, consistency};
+use crate::sim::plan::prepare::ZmpOutside;
 use crate::sim::retarget::{RetargetOptions, RetargetReport, UpAxis};
 use anyhow::{Context, Result};
 use serde_json::{Value, json};
@@ -149,8 +150,8 @@ fn describe_consistency(name: &str, c: &Consistency) -> String {
             1e3 * c.distance.max
         ),
         format!(
-            "residual wrench that the ground cannot provide: force {:.3} body weights rms, {:.2} max; moment {:.3} body weights × m \
-             rms, {:.2} max",
+            "residual wrench that the ground cannot provide: force {:.3} body weights rms, {:.2} max; moment {:.3} \
+             body weights × m rms, {:.2} max",
             c.force.rms, c.force.max, c.moment.rms, c.moment.max
         ),
         format!(
@@ -176,7 +177,11 @@ fn describe_consistency(name: &str, c: &Consistency) -> String {
 
 /// The report as JSON; lengths in mm where they are errors, in m otherwise; angles in degrees.
 pub fn to_json(r: &RetargetReport) -> Value {
-    let outside = |z: &crate::sim::plan::prepare::ZmpOutside| json!({ "share": z.fraction, "mean_mm": 1e3 * z.mean, "p95_mm": 1e3 * z.p95, "max_mm": 1e3 * z.max });
+    let outside = |z: &ZmpOutside| {
+        json!({
+            "share": z.fraction, "mean_mm": 1e3 * z.mean, "p95_mm": 1e3 * z.p95, "max_mm": 1e3 * z.max,
+        })
+    };
     json!({
         "mapped": r.mapped.iter().map(|m| json!({ "segment": m.segment, "bones": m.bones })).collect::<Vec<_>>(),
         "missing": r.missing,
@@ -317,7 +322,8 @@ fn preparation(r: &RetargetReport) -> Vec<Line> {
         (
             "balance",
             format!(
-                "zero-moment point outside the support polygon: {:.0} % of the clip recorded (95th percentile {:.0} mm), {:.0} % prepared ({:.0} mm)",
+                "zero-moment point outside the support polygon: {:.0} % of the clip recorded (95th percentile {:.0} \
+                 mm), {:.0} % prepared ({:.0} mm)",
                 100.0 * z0.fraction,
                 1e3 * z0.p95,
                 100.0 * z1.fraction,

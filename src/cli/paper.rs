@@ -96,10 +96,10 @@ fn recorded(args: &PaperArgs, mut page: Page) -> Result<()> {
         .collect();
     page.say("# Controllers compared on recordings");
     page.say(&format!(
-        "The comparison of [the main page](README.md#the-controllers-compared) on recorded motion, written by `sinew paper --recordings` with {}. \
-         The recordings are fitted to the same body without adjustments per clip. `sit-stand` is given a stool of 0.34 × 0.34 × 0.35 m and \
-         ends when the person starts to walk away. Recordings end in mid-motion: the errors include the abrupt stop and one second in the \
-         last posture.",
+        "The comparison of [the main page](README.md#the-controllers-compared) on recorded motion, written by `sinew \
+         paper --recordings` with {}. The recordings are fitted to the same body without adjustments per clip. \
+         `sit-stand` is given a stool of 0.34 × 0.34 × 0.35 m and ends when the person starts to walk away. Recordings \
+         end in mid-motion: the errors include the abrupt stop and one second in the last posture.",
         names.join(", ")
     ));
     compare::section(&mut page, &body, &motions, &pushed);
@@ -109,9 +109,9 @@ fn recorded(args: &PaperArgs, mut page: Page) -> Result<()> {
 fn comparison(page: &mut Page, body: &Arc<Body>) -> Result<()> {
     page.say("## The controllers compared");
     page.say(
-        "Every applicable pair of controller and stepper on the built-in motions that keep both feet in place. The same comparison on recorded \
-         motion is in [recorded.md](recorded.md). *Modern, kinematic* is not included: the kinematic stepper ignores the contact forces that \
-         the modern controller computes.",
+        "Every applicable pair of controller and stepper on the built-in motions that keep both feet in place. The \
+         same comparison on recorded motion is in [recorded.md](recorded.md). *Modern, kinematic* is not included: the \
+         kinematic stepper ignores the contact forces that the modern controller computes.",
     );
     let motions: Vec<Motion> = COMPARED
         .iter()
@@ -126,23 +126,25 @@ fn comparison(page: &mut Page, body: &Arc<Body>) -> Result<()> {
 
 fn introduction(page: &mut Page) {
     page.say("# The experiments of the paper, repeated");
+    page.say(
+        "The experiments of *Motion Tracking with Dynamic Simulation* (Oshita & Makinouchi, 2000), repeated with this \
+         build. `sinew paper` wrote this page; nothing on it is edited by hand. [equations.md](../equations.md) lists \
+         where each equation is implemented. The body is `adult-man` (30 years, 1.75 m, 75 kg) unless stated \
+         otherwise.",
+    );
     page.say(concat!(
-        "The experiments of *Motion Tracking with Dynamic Simulation* (Oshita & Makinouchi, 2000), repeated with this build. ",
-        "`sinew paper` wrote this page; nothing on it is edited by hand. [equations.md](../equations.md) lists where each equation is ",
-        "implemented. The body is `adult-man` (30 years, 1.75 m, 75 kg) unless stated otherwise."
-    ));
-    page.say(concat!(
-        "- **paper, kinematic**: the paper's controller with the paper's stepper: accelerations are integrated directly, and the support ",
-        "foot stays, tips about the minimum-moment point, or is in flight. When joints saturate on a tipping support, torques take over.\n",
+        "- **paper, kinematic**: the paper's controller with the paper's stepper: accelerations are integrated \
+         directly, and the support foot stays, tips about the minimum-moment point, or is in flight. When joints \
+         saturate on a tipping support, torques take over.\n",
         "- **paper, torque**: the same controller with full rigid-body dynamics and contact.\n",
         "- **modern, torque**: one convex optimisation per tick; the default of Sinew.\n",
         "- **motors alone**: strength-limited joint motors that hold the posture, without balance control.\n",
         "- **paper2000**: the equations as published, 30 ticks per second, without the safeguards of Sinew."
     ));
-    page.say(concat!(
-        "In the motion strips a ring marks a joint at its torque limit (red) or near it (amber). The pale figure is the target motion, ",
-        "arrows are contact forces, and the cross on the floor is the zero-moment point."
-    ));
+    page.say(
+        "In the motion strips a ring marks a joint at its torque limit (red) or near it (amber). The pale figure is \
+         the target motion, arrows are contact forces, and the cross on the floor is the zero-moment point.",
+    );
 }
 
 /// A number with this many decimals, or a dash.
@@ -232,10 +234,11 @@ fn lifts(page: &mut Page, body: &Arc<Body>) -> Result<()> {
     let arm = weak_arm(body, &clip, 3.0);
     page.say("## Lifting with a weak arm");
     page.say(&format!(
-        "From a semi-squat, the right hand grasps an object and raises it to shoulder height. The right arm has {:.0} % of measured strength: \
-         98 % of the strength needed to hold 3 kg in the most demanding posture of the motion. The text of the paper lifts 1, 3 and 4 kg, the \
-         caption of its figure 1, 3 and 5 kg; all four are shown. Result in the paper: 1 kg is lifted as desired; at 3 kg the shoulder \
-         reaches its torque limit, and back and legs assist; the heaviest load bends the back, and the figure falls.",
+        "From a semi-squat, the right hand grasps an object and raises it to shoulder height. The right arm has {:.0} \
+         % of measured strength: 98 % of the strength needed to hold 3 kg in the most demanding posture of the motion. \
+         The text of the paper lifts 1, 3 and 4 kg, the caption of its figure 1, 3 and 5 kg; all four are shown. \
+         Result in the paper: 1 kg is lifted as desired; at 3 kg the shoulder reaches its torque limit, and back and \
+         legs assist; the heaviest load bends the back, and the figure falls.",
         100.0 * arm
     ));
     let pairs = [
@@ -317,8 +320,8 @@ fn crowd() -> Vec<Arc<Body>> {
 fn people(page: &mut Page, _: &Arc<Body>) -> Result<()> {
     page.say("## The same loads with measured strength");
     page.say(
-        "Largest load that can be held still in one hand, computed from measured strength without simulation, and the lift with the default \
-         controller: largest fraction of the available right shoulder torque, and the result.",
+        "Largest load that can be held still in one hand, computed from measured strength without simulation, and the \
+         lift with the default controller: largest fraction of the available right shoulder torque, and the result.",
     );
     let masses = [1.0, 3.0, 5.0, 8.0];
     let mut rows = Vec::new();
@@ -379,8 +382,9 @@ fn fall_row(direction: &str, pair: &Pair, strength: f64, f: &Fall) -> Vec<String
 fn falls(page: &mut Page, body: &Arc<Body>) -> Result<()> {
     page.say("## Falling in four directions");
     page.say(&format!(
-        "The figure stands, is tilted as a rigid body until its centre of mass is 3° beyond an edge of the support polygon, and is released. A \
-         stiff figure is a physical pendulum about that edge. Times are from release until the centre of mass is at a height of {LOW} m."
+        "The figure stands, is tilted as a rigid body until its centre of mass is 3° beyond an edge of the support \
+         polygon, and is released. A stiff figure is a physical pendulum about that edge. Times are from release until \
+         the centre of mass is at a height of {LOW} m."
     ));
     let cases = [
         (Pair::paper_kinematic(), 20.0),
@@ -443,8 +447,8 @@ fn falls(page: &mut Page, body: &Arc<Body>) -> Result<()> {
         &rows,
     );
     page.say(
-        "One tick is 0.017 s. At human strength, toes and ankles cannot hold a body that leans over its toes or heels: the figure bends and is \
-         no longer a pendulum, and its muscles may add energy.",
+        "One tick is 0.017 s. At human strength, toes and ankles cannot hold a body that leans over its toes or heels: \
+         the figure bends and is no longer a pendulum, and its muscles may add energy.",
     );
     toes(page, body);
     Ok(())
@@ -458,9 +462,10 @@ fn toes(page: &mut Page, body: &Arc<Body>) {
     let balls = pendulum_about_the_balls(body, &start);
     page.say(&format!("### Why the {name} fall is early"));
     page.say(&format!(
-        "The front edge of the support polygon is at the tips of the toes. A fall about this edge requires that the toes carry the whole body. \
-         If they yield, the body tips about the balls of the feet, which are further back, and so starts further beyond balance. For a rigid \
-         body this takes {balls:.3} s instead of {tips:.3} s. The same fall with stronger toes, everything else at human strength:"
+        "The front edge of the support polygon is at the tips of the toes. A fall about this edge requires that the \
+         toes carry the whole body. If they yield, the body tips about the balls of the feet, which are further back, \
+         and so starts further beyond balance. For a rigid body this takes {balls:.3} s instead of {tips:.3} s. The \
+         same fall with stronger toes, everything else at human strength:"
     ));
     let mut rows = Vec::new();
     for factor in [0.5, 1.0, 2.0, 4.0, 8.0] {
@@ -491,8 +496,9 @@ fn toes(page: &mut Page, body: &Arc<Body>) {
 fn pushes(page: &mut Page, body: &Arc<Body>) -> Result<()> {
     page.say("## Pushes");
     page.say(
-        "A push of 0.1 s at the chest of a standing figure that takes no steps. The bound m ω d is the largest impulse that a linear inverted \
-         pendulum can absorb. The table gives the largest impulse, in steps of 5 % of the bound, up to which the figure does not fall.",
+        "A push of 0.1 s at the chest of a standing figure that takes no steps. The bound m ω d is the largest impulse \
+         that a linear inverted pendulum can absorb. The table gives the largest impulse, in steps of 5 % of the \
+         bound, up to which the figure does not fall.",
     );
     let pairs = [
         Pair::paper_kinematic(),
@@ -589,7 +595,8 @@ fn step_size(page: &mut Page, body: &Arc<Body>) -> Result<()> {
         &rows,
     );
     page.say(
-        "The modern controller keeps the soles flat as long as it can, so the figure is not expected to fall like a pendulum.",
+        "The modern controller keeps the soles flat as long as it can, so the figure is not expected to fall like a \
+         pendulum.",
     );
     Ok(())
 }
@@ -597,9 +604,10 @@ fn step_size(page: &mut Page, body: &Arc<Body>) -> Result<()> {
 fn hands(page: &mut Page, body: &Arc<Body>) -> Result<()> {
     page.say("## Hand support on a table and a wall");
     page.say(&format!(
-        "The figure leans 9° forward from the ankles, further than its feet alone can balance, with the right hand on a table, on a desk with a \
-         slope of 20°, or against a wall (coefficient of friction {FRICTION}). It takes no steps. Forces are means over the last of four \
-         seconds; friction used is the largest of any tick, relative to the friction cone. *Weak*: 3 % of the strength in that arm."
+        "The figure leans 9° forward from the ankles, further than its feet alone can balance, with the right hand on \
+         a table, on a desk with a slope of 20°, or against a wall (coefficient of friction {FRICTION}). It takes no \
+         steps. Forces are means over the last of four seconds; friction used is the largest of any tick, relative to \
+         the friction cone. *Weak*: 3 % of the strength in that arm."
     ));
     let props = [
         (Prop::None, "none"),
@@ -666,8 +674,9 @@ fn hands(page: &mut Page, body: &Arc<Body>) -> Result<()> {
 fn bumps(page: &mut Page, body: &Arc<Body>) -> Result<()> {
     page.say("## Collision of two figures");
     page.say(
-        "Two figures face each other at a distance of 0.75 m; the left one is pushed in the back for 0.2 s. The contact forces on both are equal \
-         and opposite up to rounding. The largest force is taken before either figure has fallen.",
+        "Two figures face each other at a distance of 0.75 m; the left one is pushed in the back for 0.2 s. The \
+         contact forces on both are equal and opposite up to rounding. The largest force is taken before either figure \
+         has fallen.",
     );
     let mut rows = Vec::new();
     let mut strips = Vec::new();
@@ -711,9 +720,10 @@ fn bumps(page: &mut Page, body: &Arc<Body>) -> Result<()> {
 fn as_printed(page: &mut Page, body: &Arc<Body>) -> Result<()> {
     page.say("## The equations as published");
     page.say(
-        "Preset `paper2000`: dead-beat demand of equation (4), W = I, equations (12) and (2) as published, no support tilt in the torques, no \
-         armature, no safeguards. Tracking is exact while strength suffices. Once a joint saturates, the smallest change of acceleration does \
-         not relieve a static load: the demand grows from step to step until all joints saturate.",
+        "Preset `paper2000`: dead-beat demand of equation (4), W = I, equations (12) and (2) as published, no support \
+         tilt in the torques, no armature, no safeguards. Tracking is exact while strength suffices. Once a joint \
+         saturates, the smallest change of acceleration does not relieve a static load: the demand grows from step to \
+         step until all joints saturate.",
     );
     let clip = builtin(body, "lift").expect("there is a lift");
     let arm = weak_arm(body, &clip, 3.0);
@@ -751,9 +761,9 @@ fn as_printed(page: &mut Page, body: &Arc<Body>) -> Result<()> {
 fn time(page: &mut Page, body: &Arc<Body>) -> Result<()> {
     page.say("## Computing time per step");
     page.say(
-        "The paper reports 10 frames per second for one figure on two Pentium III processors at 600 MHz, with steps of 1/30 s. This build: one \
-         complete tick of the 3 kg lift on one core of the machine that wrote this page, including motion sampling, dynamics, control, \
-         simulation and report.",
+        "The paper reports 10 frames per second for one figure on two Pentium III processors at 600 MHz, with steps of \
+         1/30 s. This build: one complete tick of the 3 kg lift on one core of the machine that wrote this page, \
+         including motion sampling, dynamics, control, simulation and report.",
     );
     let clip = builtin(body, "lift").expect("there is a lift");
     let arm = weak_arm(body, &clip, 3.0);

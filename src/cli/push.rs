@@ -377,7 +377,8 @@ fn describe(f: &pb::DriveFeedback) -> String {
     };
     let used = g.present_count + g.interpolated_count;
     format!(
-        "playout delay {:.0} ms (window {:.0} ms), jitter {:.0} ms; ticks: {used} with motion, {} extrapolated, {} held; {} late frames",
+        "playout delay {:.0} ms (window {:.0} ms), jitter {:.0} ms; ticks: {used} with motion, {} extrapolated, {} \
+         held; {} late frames",
         g.playout_delay_ms,
         g.preparation_window_ms,
         g.jitter_ms,

@@ -106,7 +106,10 @@ pub struct RunArgs {
     #[arg(long, value_enum, default_value_t)]
     pub stepper: StepperArg,
     /// Take a protective step when the capture point leaves the support polygon (modern controller).
-    #[arg(long, value_name = "BOOL", default_value_t = true, num_args = 0..=1, require_equals = true, default_missing_value = "true", action = clap::ArgAction::Set)]
+    #[arg(
+        long, value_name = "BOOL", default_value_t = true, num_args = 0..=1, require_equals = true,
+        default_missing_value = "true", action = clap::ArgAction::Set
+    )]
     pub protective_steps: bool,
     /// Ticks per second; 60 unless the preset sets another rate.
     #[arg(long, value_name = "HZ")]

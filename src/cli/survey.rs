@@ -36,7 +36,7 @@ pub struct SurveyArgs {
     /// Writes the survey as JSON. An interrupted run is continued from FILE.json.partial.
     #[arg(long, value_name = "FILE.json")]
     pub out: PathBuf,
-    /// Runs every recording also with so many copies of it that have noise.
+    /// Also runs this many noisy copies of every recording.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub copies: u32,
     /// Noise of the copies, evenly distributed up to: positions, then angles.
@@ -48,7 +48,7 @@ pub struct SurveyArgs {
     /// Settings that may differ from those of the earlier survey, besides build and gravity_mps2 (repeatable).
     #[arg(long, value_name = "SETTING", requires = "compare")]
     pub across: Vec<String>,
-    /// Who the figure stands for.
+    /// Body of the figure.
     #[command(flatten)]
     pub body: BodyArgs,
     /// Factor on the strength of every joint, 0.01 to 100.

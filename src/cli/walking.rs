@@ -145,8 +145,9 @@ fn introduction(page: &mut Page, study: &Study) {
     let plain = study.clips.iter().filter(|m| m.options.walk_runs);
     let names: Vec<&str> = plain.map(|m| m.name.as_str()).collect();
     page.say(&format!(
-        "Recorded motion in torque simulation with the body `adult-man` (30 years, 1.75 m, 75 kg) at measured strength, without assist, at 60 \
-         ticks per second with two substeps each, unless stated otherwise. `sinew walking {}` wrote this page; nothing on it is edited by hand.",
+        "Recorded motion in torque simulation with the body `adult-man` (30 years, 1.75 m, 75 kg) at measured \
+         strength, without assist, at 60 ticks per second with two substeps each, unless stated otherwise. `sinew \
+         walking {}` wrote this page; nothing on it is edited by hand.",
         names.join(" ")
     ));
 }
@@ -193,11 +194,12 @@ const HEAD: [&str; 11] = [
 fn clips_once(page: &mut Page, study: &Study) {
     page.say("## Clips");
     page.say(
-        "Each clip starts and ends standing, with planned steps into and out of it. Errors are counted up to a fall. *Tracking errors* are \
-         distances from the target, which is moved along with the feet after each step; errors against the fixed recording are those of \
-         `sinew survey`. *Foot skate* is the distance that the contact points of a foot travel over the floor in one stance, weighted by their \
-         load; *touch-down error* is the deviation from the planned time. Runs are turned into walks, slower and with shorter steps, unless \
-         they are kept (`--keep-runs`).",
+        "Each clip starts and ends standing, with planned steps into and out of it. Errors are counted up to a fall. \
+         *Tracking errors* are distances from the target, which is moved along with the feet after each step; errors \
+         against the fixed recording are those of `sinew survey`. *Foot skate* is the distance that the contact points \
+         of a foot travel over the floor in one stance, weighted by their load; *touch-down error* is the deviation \
+         from the planned time. Runs are turned into walks, slower and with shorter steps, unless they are kept \
+         (`--keep-runs`).",
     );
     let walker = Walker::new(&study.body);
     let mut rows: Vec<Vec<String>> = study
@@ -271,9 +273,9 @@ fn show(page: &mut Page, name: &str, map: &SurvivalMap) -> Result<()> {
 fn pushes_standing(page: &mut Page, study: &Study) -> Result<()> {
     page.say("## Pushes while standing");
     page.say(&format!(
-        "Pushes at the chest for 0.1 s, at {PHASES} times during quiet standing, 0.25 s apart. Cells count pushes after which the figure is still \
-         standing {AFTER} s later. Protective steps are allowed. Without steps, a linear inverted pendulum can absorb 35, 22 and 37 N·s \
-         forward, backward and sideways."
+        "Pushes at the chest for 0.1 s, at {PHASES} times during quiet standing, 0.25 s apart. Cells count pushes \
+         after which the figure is still standing {AFTER} s later. Protective steps are allowed. Without steps, a \
+         linear inverted pendulum can absorb 35, 22 and 37 N·s forward, backward and sideways."
     ));
     let idle = builtin(&study.body, "idle").context("there is a built-in idle")?;
     let moments: Vec<f64> = (0..PHASES).map(|k| 0.5 + 0.25 * f64::from(k)).collect();
@@ -291,7 +293,8 @@ fn pushes_standing(page: &mut Page, study: &Study) -> Result<()> {
 fn pushes_walking(page: &mut Page, study: &Study, name: &str, clip: &Arc<Clip>) -> Result<()> {
     page.say("## Pushes while walking");
     page.say(&format!(
-        "The same pushes while `{name}` is repeated, at {PHASES} phases of its third cycle; directions are relative to the direction of walking."
+        "The same pushes while `{name}` is repeated, at {PHASES} phases of its third cycle; directions are relative to \
+         the direction of walking."
     ));
     let advance = clip.advance();
     let moments: Vec<f64> = (0..PHASES)
@@ -402,8 +405,8 @@ fn sensitivity(page: &mut Page, study: &Study) -> Result<()> {
     let (metres, degrees) = NOISE;
     page.say("## Noise");
     page.say(&format!(
-        "{COPIES} copies of each recording in which every value is changed at random by up to {} mm or {degrees}°, prepared and simulated like \
-         the recording itself. A clip that is tracked only by chance falls in some copies.",
+        "{COPIES} copies of each recording in which every value is changed at random by up to {} mm or {degrees}°, \
+         prepared and simulated like the recording itself. A clip that is tracked only by chance falls in some copies.",
         1e3 * metres
     ));
     let walker = Walker::new(&study.body);

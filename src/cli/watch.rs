@@ -123,7 +123,7 @@ fn line(frame: &pb::WorldFrame, names: &Names) -> String {
             let _ = write!(
                 out,
                 ", tracking error {:.2}° rms",
-                s.joint_rms_rad.to_degrees()
+                s.tracking_joint_rms_rad.to_degrees()
             );
             for (bit, flag) in crate::sim::figure::Flags::NAMES.iter().enumerate() {
                 if s.flags >> bit & 1 == 1 {
@@ -187,7 +187,7 @@ fn json(frame: &pb::WorldFrame, names: &Names) -> serde_json::Value {
                     "status".into(),
                     json!({
                         "flags": s.flags, "saturated": s.saturated, "over_limit": s.over_limit,
-                        "joint_rms_rad": s.joint_rms_rad, "penetration_m": s.penetration_m,
+                        "tracking_joint_rms_rad": s.tracking_joint_rms_rad, "penetration_m": s.penetration_m,
                         "control_iterations": s.control_iterations, "step_iterations": s.step_iterations,
                     }),
                 );

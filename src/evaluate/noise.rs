@@ -46,7 +46,11 @@ mod tests {
     use rand::{Rng, SeedableRng};
     use rand_pcg::Pcg64Mcg;
 
-    const FILE: &[u8] = b"HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\nEnd Site\n{\nOFFSET 0 1 0\n}\n}\nMOTION\nFrames: 2\nFrame Time: 0.1\n1 2 3 40 50 60\n1 2 3 41 51 61\n";
+    const FILE: &[u8] =
+        b"HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 6 Xposition Yposition Zposition Zrotation \
+        Xrotation Yrotation\n\
+        End Site\n{\nOFFSET 0 1 0\n}\n}\nMOTION\nFrames: 2\nFrame Time: 0.1\n1 2 3 40 50 60\n\
+        1 2 3 41 51 61\n";
 
     #[test]
     fn noise_is_small_repeatable_and_keeps_the_form() {

@@ -49,8 +49,17 @@ impl SurvivalMap {
         let height = TOP + ROW * self.rows.len() as f64 + BOTTOM;
         writeln!(
             out,
-            r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}" font-family="system-ui, sans-serif" font-size="11" fill="#33373d"><rect width="100%" height="100%" fill="#fbfbf9"/><text x="10" y="15" font-size="13" font-weight="600">{}</text><text x="{LEFT}" y="{}">{}</text><text x="10" y="{}">{}</text>"##,
+            concat!(
+                r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {} {}" width="{0}" height="{1}" "#,
+                r##"font-family="system-ui, sans-serif" font-size="11" fill="#33373d">"##,
+                r##"<rect width="100%" height="100%" fill="#fbfbf9"/>"##,
+                r#"<text x="10" y="15" font-size="13" font-weight="600">{}</text>"#,
+                r#"<text x="{}" y="{}">{}</text><text x="10" y="{}">{}</text>"#
+            ),
+            width,
+            height,
             escaped(&self.title),
+            LEFT,
             height - 6.0,
             escaped(&self.axes[1]),
             TOP - 6.0,
@@ -80,12 +89,20 @@ impl SurvivalMap {
                 let ink = if share > 0.6 { "#ffffff" } else { "#33373d" };
                 writeln!(
                     out,
-                    r#"<rect x="{x}" y="{y}" width="{}" height="{}" fill="{}"/><text x="{}" y="{}" text-anchor="middle" fill="{ink}">{survived}/{tried}</text>"#,
+                    concat!(
+                        r#"<rect x="{}" y="{}" width="{}" height="{}" fill="{}"/>"#,
+                        r#"<text x="{}" y="{}" text-anchor="middle" fill="{}">{}/{}</text>"#
+                    ),
+                    x,
+                    y,
                     CELL - 2.0,
                     ROW - 2.0,
                     colour(share),
                     x + 0.5 * CELL - 1.0,
                     y + 17.0,
+                    ink,
+                    survived,
+                    tried,
                 )?;
             }
         }

@@ -47,7 +47,8 @@ pub enum ConfigError {
     },
     /// The address is not loopback and that was not allowed.
     #[error(
-        "listen is {0}, which other machines can reach, and there is no authentication: use a loopback address or give --insecure-bind-any"
+        "listen is {0}, which other machines can reach, and there is no authentication: use a loopback address or give \
+         --insecure-bind-any"
     )]
     NotLoopback(SocketAddr),
 }
@@ -108,13 +109,19 @@ macro_rules! settings {
 
         const NAMES: &[&str] = &[$(stringify!($name)),*];
     };
-    (@type int) => { u64 }; (@type float) => { f64 }; (@type flag) => { bool }; (@type addr) => { SocketAddr }; (@type text) => { String };
+    (@type int) => { u64 };
+    (@type float) => { f64 };
+    (@type flag) => { bool };
+    (@type addr) => { SocketAddr };
+    (@type text) => { String };
     (@default addr, $d:expr) => { $d.parse().expect("the default is an address") };
     (@default text, $d:expr) => { $d.to_owned() };
     (@default $kind:tt, $d:expr) => { $d };
     (@limit int, $name:expr, $value:expr) => { Some(($name, $value as i64)) };
     (@limit $kind:tt, $name:expr, $value:expr) => { None };
-    (@parse int, $v:ident, $least:expr, $most:expr) => { $v.as_integer().and_then(|n| u64::try_from(n).ok()).filter(|n| ($least..=$most).contains(n)) };
+    (@parse int, $v:ident, $least:expr, $most:expr) => {
+        $v.as_integer().and_then(|n| u64::try_from(n).ok()).filter(|n| ($least..=$most).contains(n))
+    };
     (@parse float, $v:ident, $least:expr, $most:expr) => {
         $v.as_float().or_else(|| $v.as_integer().map(|n| n as f64)).filter(|n| ($least..=$most).contains(n))
     };
@@ -146,8 +153,8 @@ fn typed(text: &str) -> toml::Value {
 settings! {
     /// Address and port of gRPC, gRPC-Web, the status page and the metrics.
     listen: addr = "127.0.0.1:7463", (), ();
-    /// Allows an address that other machines can reach. There is no authentication: whoever reaches the port may do
-    /// everything.
+    /// Allows an address that other machines can reach. There is no authentication: any client that reaches the port
+    /// may do everything.
     insecure_bind_any: flag = false, (), ();
     /// Serves the viewer at `/`; without it the status page is there.
     viewer: flag = true, (), ();

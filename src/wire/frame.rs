@@ -185,7 +185,7 @@ fn status(r: &TickReport, carried: &[(SegmentId, Vec3, f64)]) -> pb::Status {
         saturated: r.saturated as i64,
         saturated_secondary: r.saturated_secondary as i64,
         over_limit: r.over_limit,
-        joint_rms_rad: (square / DOF_COUNT as f64).sqrt(),
+        tracking_joint_rms_rad: (square / DOF_COUNT as f64).sqrt(),
         penetration_m: r.penetration,
         control_iterations: r.control_iterations as i32,
         step_iterations: r.step_iterations as i32,

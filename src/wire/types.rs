@@ -731,10 +731,10 @@ pub struct SimulationSummary {
     pub rate_hz: f64,
     /// When the figure fell, s.
     pub fell_at: Option<f64>,
-    /// Root mean square of the joint errors, rad.
-    pub joint_rms: f64,
-    /// Largest joint error, rad.
-    pub joint_max: f64,
+    /// Root mean square of the joint angle errors against the target that moves along with the feet, rad.
+    pub tracking_joint_rms: f64,
+    /// Largest joint angle error against that target, rad.
+    pub tracking_joint_max: f64,
     /// Largest torque relative to the torque available.
     pub utilisation: f64,
     /// Largest violation of the strength.

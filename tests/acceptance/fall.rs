@@ -96,7 +96,8 @@ fn falls_like_a_pendulum(strength: f64, toes: f64) {
         let fell = fell.expect("it falls");
         let gain = (energy - start.energy) / start.energy;
         let text = format!(
-            "×{strength} {name}: {fell:.4} s, pendulum {want:.4} s, bent {:.2}°, energy {gain:+.2e}, moved {:.2} {:.2} m, edge {slipped:+.3} m",
+            "×{strength} {name}: {fell:.4} s, pendulum {want:.4} s, bent {:.2}°, energy {gain:+.2e}, moved {:.2} {:.2} \
+             m, edge {slipped:+.3} m",
             bent.to_degrees(),
             moved.x,
             moved.y
@@ -211,7 +212,8 @@ fn fall(
     let along = moved.dot(direction);
     let across = (moved - direction * along - Vec3::Z * moved.z).norm();
     let text = format!(
-        "{kind:?} {stepper:?} ×{strength} {rate_hz} Hz {name}: {time:.3} s, pendulum {pendulum:.3} s, bent {:.2}°, energy {:+.2e}…{:+.2e}, moved {along:.2} {across:.3}, handed over {handed:?}, residual {residual:.1e}",
+        "{kind:?} {stepper:?} ×{strength} {rate_hz} Hz {name}: {time:.3} s, pendulum {pendulum:.3} s, bent {:.2}°, \
+         energy {:+.2e}…{:+.2e}, moved {along:.2} {across:.3}, handed over {handed:?}, residual {residual:.1e}",
         bent.to_degrees(),
         energy.0,
         energy.1,

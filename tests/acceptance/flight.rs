@@ -206,7 +206,8 @@ fn a_limp_figure_gains_no_energy() {
                 .map(|w| w[1] - w[0])
                 .fold(f64::MIN, f64::max);
             let text = format!(
-                "{name} at {rate_hz} Hz: {first:.1} J → {last:.1} J, largest rise of a tick {rise:.2e} J, pushed in {pushed:.2e} J, {returned:.2} J for penetrations, on the ground {touched} ticks"
+                "{name} at {rate_hz} Hz: {first:.1} J → {last:.1} J, largest rise of a tick {rise:.2e} J, pushed in \
+                 {pushed:.2e} J, {returned:.2} J for penetrations, on the ground {touched} ticks"
             );
             println!("{text}");
             assert!(energy[1..].iter().all(|e| *e < first), "{text}");

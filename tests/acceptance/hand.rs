@@ -13,7 +13,8 @@ fn pairs() -> [Pair; 3] {
 
 fn say(what: &str, s: &Support) -> String {
     let text = format!(
-        "{what}: {}; hand {:.0} {:.0} {:.0} N, {:.0} N into the face, floor {:.0} + {:.0} of {:.0} N, touching {:.2}, cone {:.4}",
+        "{what}: {}; hand {:.0} {:.0} {:.0} N, {:.0} N into the face, floor {:.0} + {:.0} of {:.0} N, touching {:.2}, \
+         cone {:.4}",
         s.record.result(),
         s.force.x,
         s.force.y,

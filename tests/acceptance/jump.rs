@@ -170,7 +170,8 @@ fn leaps(kind: ControllerKind, stepper: StepperKind, allowed: f64) -> bool {
     });
     let landed = landed.expect("it comes down");
     let text = format!(
-        "{kind:?} {stepper:?}: {air:.3} s in the air, {top:.3} m up, path {:.2} mm, spin {spun:.1e} kg·m²/s, energy {landed:+.2} J on landing, fell {fell}",
+        "{kind:?} {stepper:?}: {air:.3} s in the air, {top:.3} m up, path {:.2} mm, spin {spun:.1e} kg·m²/s, energy \
+         {landed:+.2} J on landing, fell {fell}",
         1e3 * path
     );
     println!("{text}");

@@ -116,7 +116,8 @@ fn lift(mass: f64, kind: ControllerKind, stepper: StepperKind, rate_hz: f64) -> 
     out.rms = (out.rms / n).sqrt().to_degrees();
     out.chatter /= n;
     out.text = format!(
-        "{kind:?} {stepper:?} {rate_hz} Hz {mass} kg: fell {:?}, rms {:.2}°, arm {:.1}° at its limit for {:.2} s, others {:.1}°, margin {:.3} m, speed {:.1} rad/s, chatter {:.4}, over {:.1e}",
+        "{kind:?} {stepper:?} {rate_hz} Hz {mass} kg: fell {:?}, rms {:.2}°, arm {:.1}° at its limit for {:.2} s, \
+         others {:.1}°, margin {:.3} m, speed {:.1} rad/s, chatter {:.4}, over {:.1e}",
         out.fell,
         out.rms,
         out.arm,

@@ -105,7 +105,8 @@ fn what_slides_does_so_on_the_floor() {
     gaps.sort_by(f64::total_cmp);
     let of = |share: f64| 1e3 * gaps[(share * (gaps.len() - 1) as f64) as usize];
     let text = format!(
-        "{pushes} pushes, {slid} of them on what slides; above the floor after the step, mm: 1 % {:.2}, median {:.2}, 99 % {:.2}, most {:.2}; off the cone by {far:.1e}, off the way by {along:.1e}",
+        "{pushes} pushes, {slid} of them on what slides; above the floor after the step, mm: 1 % {:.2}, median {:.2}, \
+         99 % {:.2}, most {:.2}; off the cone by {far:.1e}, off the way by {along:.1e}",
         of(0.01),
         of(0.5),
         of(0.99),

@@ -49,7 +49,8 @@ fn stands_with(
     let weight = body.profile.mass * GRAVITY;
     let (drift, off, force) = (drift.to_degrees(), 1e3 * off / ticks, force / ticks);
     let text = format!(
-        "{kind:?} {stepper:?} at {rate_hz} Hz × {substeps}: drift {drift:.4}°, ZMP off {off:.3} mm, force {force:.3} N ({least:.2}…{most:.2}) of {weight:.3} N"
+        "{kind:?} {stepper:?} at {rate_hz} Hz × {substeps}: drift {drift:.4}°, ZMP off {off:.3} mm, force {force:.3} N \
+         ({least:.2}…{most:.2}) of {weight:.3} N"
     );
     println!("{text}");
     assert!(!scene.figure().is_fallen(), "{text}");

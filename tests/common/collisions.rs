@@ -50,8 +50,9 @@ impl Meter {
     /// What every scene must keep, and what it came to, on one line.
     pub fn judge(&self, what: &str, rate: f64) {
         let text = format!(
-            "{what}: touched {} ticks, {:.1} switches/s, unbalanced {:.1e}, equations {:.1e}, overlap {:.2} mm, after 0.2 s {:.2} mm, work of \
-             contacts {:.1} J, driven at most {:.4} J, {} of {} islands cut short, {:.1} iterations each, top joint speed {:.0} rad/s",
+            "{what}: touched {} ticks, {:.1} switches/s, unbalanced {:.1e}, equations {:.1e}, overlap {:.2} mm, after \
+             0.2 s {:.2} mm, work of contacts {:.1} J, driven at most {:.4} J, {} of {} islands cut short, {:.1} \
+             iterations each, top joint speed {:.0} rad/s",
             self.touched,
             self.switches as f64 * rate / self.ticks as f64,
             self.unbalanced,

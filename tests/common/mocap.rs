@@ -33,8 +33,8 @@ pub fn read(file: &str) -> Vec<u8> {
         .find_map(|folder| std::fs::read(folder.join(file)).ok())
         .unwrap_or_else(|| {
             panic!(
-                "{file} is in none of the folders of SINEW_MOCAP_DIR ({folders:?}): this test needs recordings that are not part of the \
-                 repository; docs/corpus.md says which and where they come from"
+                "{file} is in none of the folders of SINEW_MOCAP_DIR ({folders:?}): this test needs recordings that \
+                 are not part of the repository; docs/corpus.md says which and where they come from"
             )
         })
 }

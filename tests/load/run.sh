@@ -77,7 +77,8 @@ path, name, total = sys.argv[1], sys.argv[2], int(sys.argv[3])
 report = json.load(open(path))
 codes = report["statusCodeDistribution"]
 at = {p["percentage"]: p["latency"] / 1e6 for p in report.get("latencyDistribution") or []}
-print(f"{name:16} {report['count']:6} calls  {report['rps']:9.0f} /s  p50 {at.get(50, 0):8.2f} ms  p99 {at.get(99, 0):8.2f} ms  {codes}")
+p50, p99 = at.get(50, 0), at.get(99, 0)
+print(f"{name:16} {report['count']:6} calls  {report['rps']:9.0f} /s  p50 {p50:8.2f} ms  p99 {p99:8.2f} ms  {codes}")
 if codes != {"OK": total}:
     print(f"load: {name}: not every answer was OK: {codes} {report.get('errorDistribution')}", file=sys.stderr)
     sys.exit(1)

@@ -1,14 +1,15 @@
 """Pinocchio and MuJoCo behind one interface that speaks Sinew's conventions.
 
-Sinew's velocity (45) is: angular velocity of the pelvis and velocity of its origin, both in world axes, then 39 joint rates; the three
-rates of a ball joint are the child's angular velocity relative to its parent along the signed child axes of the DOFs. Generalised
-forces are dual to it; accelerations are its time derivative.
+Sinew's velocity (45) is: angular velocity of the pelvis and velocity of its origin, both in world axes, then 39 joint
+rates; the three rates of a ball joint are the child's angular velocity relative to its parent along the signed child
+axes of the DOFs. Generalised forces are dual to it; accelerations are its time derivative.
 
 Each engine has velocities of its own, u = T(q) v:
 
 * Pinocchio: linear then angular velocity of the pelvis, both in pelvis axes; balls along child x, y, z.
 * MuJoCo: velocity of the pelvis origin in world axes, then angular velocity in pelvis axes; balls along child x, y, z.
-* Pinocchio on the URDF: hinges in place of balls, so that T holds the inverse of the map from hinge rates to angular velocity.
+* Pinocchio on the URDF: hinges in place of balls, so that T holds the inverse of the map from hinge rates to angular
+  velocity.
 
 Hence M = Tᵀ M' T, tau = Tᵀ tau', J = J' T, and what depends on acceleration takes u' = T v' + dT/dt v.
 """
@@ -78,7 +79,10 @@ def skew(v: np.ndarray) -> np.ndarray:
 
 
 class Posture:
-    """The 55 numbers of a posture: pelvis position (3) and rotation (4), then a quaternion x, y, z, w or angles per joint."""
+    """The 55 numbers of a posture.
+
+    Pelvis position (3) and rotation (4), then a quaternion x, y, z, w or angles per joint.
+    """
 
     def __init__(self, positions: np.ndarray):
         positions = np.asarray(positions, float)

@@ -1,11 +1,11 @@
-"""Makes `data/dynamics_vectors.json`: states of several bodies with what Pinocchio says about them, in Sinew's conventions.
+"""Makes `data/dynamics_vectors.json`: states of several bodies and what Pinocchio says, in Sinew's conventions.
 
     cargo build --example dump_dynamics
     target/debug/examples/dump_dynamics DIR 2
     .venv/bin/python tests/oracle/make_vectors.py DIR
 
-Inputs (bodies, loads, states, accelerations) come from the dump; every expected number comes from Pinocchio, and is written only if MuJoCo
-agrees on it to 1e-12. `vectors.rs` reproduces the file without Python.
+Inputs (bodies, loads, states, accelerations) come from the dump; every expected number comes from Pinocchio, and is
+written only if MuJoCo agrees on it to 1e-12. `vectors.rs` reproduces the file without Python.
 """
 
 from __future__ import annotations
@@ -56,7 +56,9 @@ def main(directory: Path) -> None:
                         "segment": k,
                         "position": agreed(where, where2),
                         "rotation": agreed(R, R2),
-                        "jacobian_times_acceleration": agreed(jacobian @ s["acceleration"], jacobian2 @ s["acceleration"]),
+                        "jacobian_times_acceleration": agreed(
+                            jacobian @ s["acceleration"], jacobian2 @ s["acceleration"]
+                        ),
                         "bias": agreed(drift, drift2),
                     }
                 )
@@ -85,7 +87,9 @@ def main(directory: Path) -> None:
         "gravity": dump.manifest["gravity"],
         "models": models,
     }
-    text = json.dumps(out, separators=(",", ":")).replace('{"name"', '\n{"name"').replace('{"positions"', '\n{"positions"')
+    text = (
+        json.dumps(out, separators=(",", ":")).replace('{"name"', '\n{"name"').replace('{"positions"', '\n{"positions"')
+    )
     (Path(__file__).parent / "data" / "dynamics_vectors.json").write_text(text + "\n")
 
 

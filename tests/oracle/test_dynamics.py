@@ -1,8 +1,8 @@
 """Our dynamics against Pinocchio and MuJoCo, on the bodies that Sinew exports.
 
-More than a thousand random states of human and random bodies, with and without loads: inverse dynamics, inertia matrix, bias forces, forward
-dynamics, centre of mass, momentum, poses, Jacobians and their bias terms. Each quantity is compared as largest difference over
-largest magnitude, per state.
+More than a thousand random states of human and random bodies, with and without loads: inverse dynamics, inertia matrix,
+bias forces, forward dynamics, centre of mass, momentum, poses, Jacobians and their bias terms. Each quantity is
+compared as largest difference over largest magnitude, per state.
 """
 
 from __future__ import annotations
@@ -11,7 +11,19 @@ from collections import defaultdict
 
 import numpy as np
 import pytest
-from engines import SEGMENTS, Mujoco, Pinocchio, PinocchioUrdf, Posture, JOINTS, hinge_angles, is_ball, relative, rotation, skew
+from engines import (
+    SEGMENTS,
+    Mujoco,
+    Pinocchio,
+    PinocchioUrdf,
+    Posture,
+    JOINTS,
+    hinge_angles,
+    is_ball,
+    relative,
+    rotation,
+    skew,
+)
 
 # Two right answers differ by rounding only.
 ROUNDING = 1e-12
@@ -109,9 +121,7 @@ def test_mujoco_agrees_on_ball_joints(dump):
 def clear(s) -> bool:
     """No ball joint near the singularity of its hinge chain."""
     p = Posture(s["positions"])
-    return all(
-        abs(hinge_angles(j, rotation(p.joints[j]))[1]) < np.pi / 2 - CLEARANCE for j in JOINTS[1:] if is_ball(j)
-    )
+    return all(abs(hinge_angles(j, rotation(p.joints[j]))[1]) < np.pi / 2 - CLEARANCE for j in JOINTS[1:] if is_ball(j))
 
 
 def test_pinocchio_agrees_on_the_hinge_chains_of_the_urdf(dump):

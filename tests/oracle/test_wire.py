@@ -1,5 +1,7 @@
-"""The main job seen from outside: `sinew serve` runs, `sinew push` streams real motion capture into it, `sinew watch` and a Python client made
-from the protos receive sixty frames a second, and what they receive satisfies the equations of motion of the exported body.
+"""The main job seen from outside.
+
+`sinew serve` runs, `sinew push` streams real motion capture into it, `sinew watch` and a Python client made from the
+protos receive sixty frames a second, and what they receive satisfies the equations of motion of the exported body.
 """
 
 from __future__ import annotations
@@ -120,16 +122,14 @@ def rate(times: list[float]) -> float:
 
 @pytest.fixture(scope="module")
 def watched(pushed, stubs):
-    """What both watchers saw at the same time: the Python client, and the times of the lines of `sinew watch --json`."""
+    """What both watchers saw at the same time: the Python client, and when lines of `sinew watch --json` came."""
     python = PythonWatch(pushed, stubs)
     python.start()
     deadline = time.monotonic() + 25
     while not python.frames and python.is_alive() and time.monotonic() < deadline:
         time.sleep(0.05)
     assert python.frames, f"no frame: {python.error}"
-    watch = subprocess.Popen(
-        [target() / "sinew", "watch", pushed, "demo", "--json"], stdout=subprocess.PIPE, text=True
-    )
+    watch = subprocess.Popen([target() / "sinew", "watch", pushed, "demo", "--json"], stdout=subprocess.PIPE, text=True)
     lines = []
     try:
         for line in watch.stdout:

@@ -4,15 +4,20 @@ set -eu
 
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
 explain() {
-    echo "recordings: $1" >&2
-    echo "recordings: set SINEW_MOCAP_DIR to the folder of the 18 motion capture files that these tests read (or to several, separated by ':')." >&2
-    echo "recordings: most are trials of the CMU Graphics Lab Motion Capture Database (mocap.cs.cmu.edu), the others come from DeepMimic, ReActIdle and assimp;" >&2
-    echo "recordings: docs/corpus.md lists source, trial number and licence of each. \`make test\` needs none of them." >&2
+    cat >&2 <<EOF
+recordings: $1
+recordings: set SINEW_MOCAP_DIR to the folder of the 18 motion capture files that these tests read
+recordings: (or to several, separated by ':').
+recordings: most are trials of the CMU Graphics Lab Motion Capture Database (mocap.cs.cmu.edu),
+recordings: the others come from DeepMimic, ReActIdle and assimp;
+recordings: docs/corpus.md lists source, trial number and licence of each. \`make test\` needs none of them.
+EOF
     exit 1
 }
 [ -n "${SINEW_MOCAP_DIR:-}" ] || explain "SINEW_MOCAP_DIR is not set."
 missing=""
-for file in $(sed -n '/^pub const CLIPS/,/^];/s/^ *"\(.*\)",$/\1.bvh/p' "$here/../common/mocap.rs") expected.json stats.json; do
+clips=$(sed -n '/^pub const CLIPS/,/^];/s/^ *"\(.*\)",$/\1.bvh/p' "$here/../common/mocap.rs")
+for file in $clips expected.json stats.json; do
     found=""
     old=$IFS
     IFS=:

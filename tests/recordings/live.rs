@@ -180,7 +180,8 @@ fn apart(a: &[Posture], b: &[Posture]) -> (f64, f64) {
 fn windows_compared_with_the_whole_recording() {
     let body = man();
     println!(
-        "| clip | window, s | joints from offline, deg rms | pelvis from offline, mm rms | outside as it came, % | outside, % | offline, % | outside, mm rms | stands, s of | joints, deg rms | capture point, mm |"
+        "| clip | window, s | joints from offline, deg rms | pelvis from offline, mm rms | outside as it came, % | \
+         outside, % | offline, % | outside, mm rms | stands, s of | joints, deg rms | capture point, mm |"
     );
     let names = [
         "walk",
@@ -211,7 +212,8 @@ fn windows_compared_with_the_whole_recording() {
             let goal = consistency(&body, &offline, &whole_label, RATE);
             let f = follow(&body, |t| Some(raw.sample(t).posture), seconds, window);
             println!(
-                "| {name} | {window} | {joints:.1} | {:.0} | {:.0} | {:.0} | {:.0} | {:.0} | {} of {seconds:.1} | {:.1} | {:.0} |",
+                "| {name} | {window} | {joints:.1} | {:.0} | {:.0} | {:.0} | {:.0} | {:.0} | {} of {seconds:.1} | \
+                 {:.1} | {:.0} |",
                 1e3 * root,
                 100.0 * before.outside,
                 100.0 * after.outside,
@@ -429,7 +431,8 @@ fn a_clip_that_is_stopped_ends_in_a_stand() {
         });
         let stands = f.fell.is_none() && f.speed < 0.1 && f.apart < 0.5;
         println!(
-            "stopped at {stop:.2} s: fell {:?}, {:.2} m/s, feet {:.2} m apart, joints {:.1} deg, capture point within {:.0} mm",
+            "stopped at {stop:.2} s: fell {:?}, {:.2} m/s, feet {:.2} m apart, joints {:.1} deg, capture point within \
+             {:.0} mm",
             f.fell,
             f.speed,
             f.apart,

@@ -28,7 +28,8 @@ fn run(body: &Arc<Body>, controller: ControllerKind, clip: &Arc<Clip>) -> RunRep
 
 fn line(name: &str, r: &RunReport) -> String {
     format!(
-        "{name:>14}: fell {:?}, rms {:.3}°, max {:.2}°, over {:.1e}, residual {:.1e}, root {:.1e} N {:.1e} N·m, depth {:.2} mm, slip {:.2} mm/s, use {:.2}",
+        "{name:>14}: fell {:?}, rms {:.3}°, max {:.2}°, over {:.1e}, residual {:.1e}, root {:.1e} N {:.1e} N·m, depth \
+         {:.2} mm, slip {:.2} mm/s, use {:.2}",
         r.fell_at_s,
         r.tracking_joint_rms_deg,
         r.tracking_joint_max_deg,

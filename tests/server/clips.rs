@@ -64,7 +64,12 @@ async fn a_recording_is_uploaded_played_and_deleted() {
     server.step(&world, 120).await;
     let frame = server.frame(&world, &["status"]).await;
     for f in &frame.figures {
-        let error = f.status.as_ref().unwrap().joint_rms_rad.to_degrees();
+        let error = f
+            .status
+            .as_ref()
+            .unwrap()
+            .tracking_joint_rms_rad
+            .to_degrees();
         assert!(error < 3.0, "figure {} is off by {error}°", f.figure_index);
     }
 
@@ -155,7 +160,7 @@ async fn a_recording_is_played_faster_and_slower() {
             ticks = until;
             let frame = server.frame(&world, &["status", "desired"]).await;
             let status = frame.figures[0].status.as_ref().unwrap();
-            let error = status.joint_rms_rad.to_degrees();
+            let error = status.tracking_joint_rms_rad.to_degrees();
             let fell = status.flags & FALLEN != 0;
             assert!(!stands || (!fell && error < 4.0), "at {speed}: {error}°");
             at.push(place(&frame));
@@ -232,7 +237,11 @@ async fn a_recording_is_simulated_without_a_world() {
     let summary = simulated.summary.unwrap();
     assert_eq!((summary.tick_count, simulated.frames.len()), (60, 30));
     assert!(summary.fell_at_s.is_none());
-    assert!(summary.joint_rms_deg < 3.0, "{}", summary.joint_rms_deg);
+    assert!(
+        summary.tracking_joint_rms_deg < 3.0,
+        "{}",
+        summary.tracking_joint_rms_deg
+    );
     assert!(simulated.report.is_some());
     server.stop().await;
 }

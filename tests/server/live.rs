@@ -157,7 +157,8 @@ async fn a_walk_comes_through_jitter_and_loss() {
         )
         .await;
         println!(
-            "window {window} ms: fell {:?}, capture to use {:.0} ms mean, {:.0} ms at most, {} interpolated, {} extrapolated, {} late, {:.1} m, {:.2} m/s in the end",
+            "window {window} ms: fell {:?}, capture to use {:.0} ms mean, {:.0} ms at most, {} interpolated, {} \
+             extrapolated, {} late, {:.1} m, {:.2} m/s in the end",
             s.fell,
             1e3 * s.delay.0,
             1e3 * s.delay.1,

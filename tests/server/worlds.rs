@@ -378,7 +378,8 @@ async fn one_port_has_pages_metrics_health_reflection_and_grpc_web() {
 
     // gRPC-Web: an empty message to GetServerInfo.
     let request = "POST /sinew.v1.ServerService/GetServerInfo HTTP/1.1\r\nhost: x\r\nconnection: close\r\n\
-        content-type: application/grpc-web+proto\r\nx-grpc-web: 1\r\norigin: http://localhost:5173\r\ncontent-length: 5\r\n\r\n\0\0\0\0\0";
+        content-type: application/grpc-web+proto\r\nx-grpc-web: 1\r\norigin: http://localhost:5173\r\n\
+        content-length: 5\r\n\r\n\0\0\0\0\0";
     let answer = http(server.address, request).await;
     assert!(answer.contains("grpc-status:0"), "{answer}");
     assert!(answer.contains("access-control-allow-origin: http://localhost:5173"));

@@ -1,4 +1,7 @@
-"""A small client: a man lifts 6 kg, and we see what that asks of his shoulder. `python client.py [ADDRESS]`, with a server running."""
+"""A small client: a man lifts 6 kg, and we see what that asks of his shoulder.
+
+`python client.py [ADDRESS]`, with a server running.
+"""
 
 import sys
 

@@ -19,4 +19,8 @@ for (const { timeS, figures } of frames) {
   const most = numbers(figures[0].torqueLimits)[dofs.length + shoulder];
   console.log(`${timeS.toFixed(2)} s  right shoulder ${torque.toFixed(1)} of ${most.toFixed(1)} N·m`);
 }
-console.log(`state ${BigInt.asUintN(64, summary?.stateHash ?? 0n).toString(16).padStart(16, "0")}`);
+console.log(
+  `state ${BigInt.asUintN(64, summary?.stateHash ?? 0n)
+    .toString(16)
+    .padStart(16, "0")}`,
+);

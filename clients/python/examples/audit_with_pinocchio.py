@@ -87,7 +87,8 @@ def residual(audit):
 
 # %%
 residuals = np.array([residual(m.audit) for m in recording.messages])
-print(f"{len(residuals)} ticks; largest residual {residuals.max():.1e} of the largest term; {'stands' if recording.fell_at_s is None else 'fell'}")
+outcome = "stands" if recording.fell_at_s is None else "fell"
+print(f"{len(residuals)} ticks; largest residual {residuals.max():.1e} of the largest term; {outcome}")
 assert residuals.max() < 1e-9
 
 # %% [markdown]

@@ -47,4 +47,5 @@ plot = recordings.plot_torques(
 for name, r in recordings.items():
     at_limit = sum(s.end_s - s.start_s for s in r.saturations())
     fate = "stands" if r.fell_at_s is None else f"falls at {r.fell_at_s:.1f} s"
-    print(f"{name:6} {r.body.mass_kg:5.1f} kg: {fate}; joints at their limit for {at_limit:.1f} s in all; hardest: {', '.join(r.hardest(3))}")
+    hardest = ", ".join(r.hardest(3))
+    print(f"{name:6} {r.body.mass_kg:5.1f} kg: {fate}; joints at their limit for {at_limit:.1f} s; hardest: {hardest}")

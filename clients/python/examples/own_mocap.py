@@ -24,11 +24,14 @@ with sinew.serve() as client:
 
 report = recording.report
 assert report is not None and recording.summary is not None
-print(f"{len(report.mapped)} bones found; 1 unit is {report.unit_m:.4g} m; {report.up_axis} is up; {report.source_rate_hz:.4g} Hz")
-print(f"a person of {report.stature_m:.2f} m, scaled by {report.scale:.3f}; feet slid {report.foot_slide_before_m * 1e3:.0f} mm, now {report.foot_slide_after_m * 1e3:.0f} mm")
+print(f"{len(report.mapped)} bones found; 1 unit is {report.unit_m:.4g} m; {report.up_axis} is up")
+print(f"{report.source_rate_hz:.4g} Hz; a person of {report.stature_m:.2f} m, scaled by {report.scale:.3f}")
+before_mm, after_mm = report.foot_slide_before_m * 1e3, report.foot_slide_after_m * 1e3
+print(f"feet slid {before_mm:.0f} mm, now {after_mm:.0f} mm")
 for warning in report.warnings:
     print("note:", warning)
-print(f"joint error {recording.summary.joint_rms_deg:.2f}° RMS; " + ("fell" if recording.fell_at_s else "stood"))
+outcome = "fell" if recording.fell_at_s else "stood"
+print(f"tracking error {recording.summary.tracking_joint_rms_deg:.2f}° RMS; {outcome}")
 
 # %%
 strip = recording.strip(6, title=path.stem)
@@ -50,4 +53,5 @@ with sinew.serve() as client, client.create_world(paused=False) as world:
     few = int(min(SECONDS, 2.0) * motion.rate_hz)
     feedback = anna.stream(sinew.Motion(motion.angles[:few], motion.root[:few], motion.rate_hz))
     buffer = feedback.figures[0]
-    print(f"{feedback.received_sequence + 1} frames arrived; delay {buffer.playout_delay_ms:.0f} ms, jitter {buffer.jitter_ms:.1f} ms, {buffer.late_count} late")
+    print(f"{feedback.received_sequence + 1} frames arrived; {buffer.late_count} late")
+    print(f"delay {buffer.playout_delay_ms:.0f} ms, jitter {buffer.jitter_ms:.1f} ms")

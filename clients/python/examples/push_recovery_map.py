@@ -18,6 +18,7 @@ DIRECTIONS = int(os.environ.get("SINEW_EXAMPLE_DIRECTIONS", "12"))
 TRIES = 5
 MOST_NS = 100.0
 
+
 # %%
 def survives(client: sinew.Client, body: str, angle: float, impulse_ns: float) -> bool:
     """Whether a standing figure that is pushed towards `angle` still stands three seconds later."""

@@ -135,7 +135,9 @@ def test_errors_carry_what_was_wrong(server: sinew.Client) -> None:
 
 def test_the_paper_and_its_stepper_are_chosen(server: sinew.Client) -> None:
     as_printed = sinew.Paper(preset="2000", alpha=0.5, metric="inertia", hand_over=True)
-    kinematic = server.simulate("idle", controller="paper", stepper="kinematic", paper=as_printed, rate_hz=30.0, duration_s=0.5)
+    kinematic = server.simulate(
+        "idle", controller="paper", stepper="kinematic", paper=as_printed, rate_hz=30.0, duration_s=0.5
+    )
     usual = server.simulate("idle", controller="paper", rate_hz=30.0, duration_s=0.5)
     assert kinematic.summary.state_hash != usual.summary.state_hash
     with server.create_world() as world:
@@ -236,7 +238,10 @@ def test_mocap_becomes_a_clip_and_arrays(server: sinew.Client, corpus: Path) -> 
 
 
 def test_bodies_are_people(server: sinew.Client) -> None:
-    child, given = server.body("child"), server.simulate("idle", body=sinew.Profile(sex="female", age_years=10), duration_s=0.1)
+    child, given = (
+        server.body("child"),
+        server.simulate("idle", body=sinew.Profile(sex="female", age_years=10), duration_s=0.1),
+    )
     assert child.mass_kg < 50 and len(child.meshes[0].vertices) > 20
     assert given.body.message.profile.age_years == 10
     assert "<mujoco" in server.export_body("child")
@@ -265,7 +270,9 @@ def test_asyncio_does_the_same(server: sinew.Client, recording: sinew.Recording)
                     async with a.drive() as drive:
                         await drive.send(np.zeros(7))
                 assert wrong.value.field == "batch.frames[0].figures[0].joint_angles_rad"
-            both = await asyncio.gather(client.simulate("idle", duration_s=0.2), client.simulate("wave", duration_s=0.2))
+            both = await asyncio.gather(
+                client.simulate("idle", duration_s=0.2), client.simulate("wave", duration_s=0.2)
+            )
             assert [r.figure for r in both] == ["idle", "wave"]
 
     asyncio.run(everything())

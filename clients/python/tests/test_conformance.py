@@ -16,7 +16,16 @@ from google.protobuf import json_format
 
 import sinew
 from sinew.errors import from_rpc
-from sinew.v1 import body_pb2, figure_pb2, motion_pb2, perturbation_pb2, server_pb2, simulation_pb2, state_pb2, world_pb2
+from sinew.v1 import (
+    body_pb2,
+    figure_pb2,
+    motion_pb2,
+    perturbation_pb2,
+    server_pb2,
+    simulation_pb2,
+    state_pb2,
+    world_pb2,
+)
 
 FILES = sorted((ROOT / "tests" / "conformance").glob("*.json"))
 MODULES = (body_pb2, figure_pb2, motion_pb2, perturbation_pb2, server_pb2, simulation_pb2, state_pb2, world_pb2)
@@ -94,7 +103,9 @@ def test_every_vector_has_the_outcome_it_names(path: Path, channel: grpc.Channel
                 answer = next(call)
                 call.cancel()
             else:
-                answer = channel.unary_unary(name, type(request).SerializeToString, kind.FromString)(request, timeout=60)
+                answer = channel.unary_unary(name, type(request).SerializeToString, kind.FromString)(
+                    request, timeout=60
+                )
             got, wrong = {"code": "OK"}, differences(response, json_format.MessageToDict(answer), "response")
         except grpc.RpcError as e:
             got, wrong = outcome(e), []

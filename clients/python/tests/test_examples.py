@@ -1,4 +1,4 @@
-"""Every example runs, as a notebook and as a script (they are the same cells), and so do the small clients of each language."""
+"""Every example runs, as a notebook and as a script of the same cells; so do the small clients of each language."""
 
 from __future__ import annotations
 
@@ -48,7 +48,12 @@ def test_notebook(name: str, small: None, tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", NAMES)
 def test_script(name: str, small: None, tmp_path: Path) -> None:
     done = subprocess.run(
-        [sys.executable, EXAMPLES / f"{name}.py"], cwd=tmp_path, capture_output=True, text=True, check=False, timeout=120
+        [sys.executable, EXAMPLES / f"{name}.py"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=120,
     )
     assert done.returncode == 0, done.stderr
     assert done.stdout.strip()
@@ -69,7 +74,9 @@ def test_the_small_clients_say_the_same(server: sinew.Client) -> None:
     assert rust.is_file(), "run `cargo build --example client`"
     python = [sys.executable, ROOT / "clients" / "examples" / "python" / "client.py"]
     said = [
-        subprocess.run([*command, server.address], capture_output=True, text=True, check=True, timeout=60, env=dict(os.environ)).stdout
+        subprocess.run(
+            [*command, server.address], capture_output=True, text=True, check=True, timeout=60, env=dict(os.environ)
+        ).stdout
         for command in ([rust], python)
     ]
     assert said[0] == said[1] and said[0].count("right shoulder") == 8 and "state " in said[0]

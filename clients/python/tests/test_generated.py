@@ -21,7 +21,9 @@ def test_the_stubs_are_those_of_the_protos(tmp_path: Path) -> None:
     there = sorted(p.relative_to(PACKAGE) for p in PACKAGE.glob("sinew/v1/*_pb2*") if p.suffix in (".py", ".pyi"))
     assert made == there, "run clients/python/tools/generate.py"
     for path in made:
-        assert (tmp_path / path).read_text() == (PACKAGE / path).read_text(), f"{path}: run clients/python/tools/generate.py"
+        assert (tmp_path / path).read_text() == (PACKAGE / path).read_text(), (
+            f"{path}: run clients/python/tools/generate.py"
+        )
 
 
 def test_the_plain_client_is_the_other_one_without_waiting() -> None:
@@ -42,8 +44,12 @@ def test_the_notebooks_are_the_examples() -> None:
 
 def test_nothing_names_a_machine() -> None:
     strange = re.compile(r"/(home|root|tmp|work|Users)/|https?://(?!127\.0\.0\.1|\(|protobuf\.dev|github\.com)")
-    files = [p for p in HERE.rglob("*") if p.suffix in (".py", ".pyi", ".ipynb", ".toml", ".md", ".txt") and p.is_file()]
-    kept = subprocess.run(["git", "ls-files", "--", str(HERE)], cwd=ROOT, capture_output=True, text=True, check=False).stdout
+    files = [
+        p for p in HERE.rglob("*") if p.suffix in (".py", ".pyi", ".ipynb", ".toml", ".md", ".txt") and p.is_file()
+    ]
+    kept = subprocess.run(
+        ["git", "ls-files", "--", str(HERE)], cwd=ROOT, capture_output=True, text=True, check=False
+    ).stdout
     tracked = {ROOT / line for line in kept.splitlines()}
     for path in files:
         if path in tracked and path.name != "test_generated.py":

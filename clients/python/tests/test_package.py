@@ -41,7 +41,17 @@ def test_it_works_in_an_environment_of_its_own(wheel: Path, server: sinew.Client
     venv.create(tmp_path / "venv", with_pip=False)
     python = tmp_path / "venv" / ("Scripts/python.exe" if sys.platform == "win32" else "bin/python")
     # From the registry as a user would, so that a forgotten dependency is seen.
-    install = [sys.executable, "-m", "pip", "--python", str(python), "install", "--quiet", "--disable-pip-version-check", str(wheel)]
+    install = [
+        sys.executable,
+        "-m",
+        "pip",
+        "--python",
+        str(python),
+        "install",
+        "--quiet",
+        "--disable-pip-version-check",
+        str(wheel),
+    ]
     subprocess.run(install, check=True, timeout=300)
     code = (
         "import sys, matplotlib; matplotlib.use('Agg'); import sinew\n"
@@ -49,6 +59,8 @@ def test_it_works_in_an_environment_of_its_own(wheel: Path, server: sinew.Client
         "r.plot_torques(); r.strip(2); print(r)\n"
     )
     clean = {k: v for k, v in os.environ.items() if k != "PYTHONPATH"}
-    done = subprocess.run([python, "-c", code, server.address], cwd=tmp_path, env=clean, capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        [python, "-c", code, server.address], cwd=tmp_path, env=clean, capture_output=True, text=True, check=False
+    )
     assert done.returncode == 0, done.stderr
     assert "30 ticks" in done.stdout

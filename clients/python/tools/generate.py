@@ -20,7 +20,11 @@ def generate(out: Path) -> list[Path]:
     services = [p for p in protos if "\nservice " in p.read_text()]
     programs = Path(sys.executable).parent
     include = [f"-I{ROOT / 'proto'}", f"-I{Path(protoc.__file__).parent / '_proto'}"]
-    messages = [f"--plugin=protoc-gen-mypy={programs / 'protoc-gen-mypy'}", f"--python_out={out}", f"--mypy_out=quiet:{out}"]
+    messages = [
+        f"--plugin=protoc-gen-mypy={programs / 'protoc-gen-mypy'}",
+        f"--python_out={out}",
+        f"--mypy_out=quiet:{out}",
+    ]
     stubs = [
         f"--plugin=protoc-gen-mypy_grpc={programs / 'protoc-gen-mypy_grpc'}",
         f"--grpc_python_out={out}",

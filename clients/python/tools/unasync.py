@@ -6,7 +6,9 @@ import re
 from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parents[1] / "src" / "sinew"
-DOCSTRING = '"""The client for plain calls, made from `_async_client.py` by `clients/python/tools/unasync.py`: do not edit."""'
+DOCSTRING = (
+    '"""The client for plain calls, made from `_async_client.py` by `clients/python/tools/unasync.py`: do not edit."""'
+)
 REPLACED = [
     (r'^""".*?"""', DOCSTRING),
     (r"\basync (def|with|for)\b", r"\1"),

@@ -66,13 +66,22 @@ export class Captions {
         told.set(pair, { sides: [...caption.sides, name], seconds: Math.max(caption.seconds, seconds) });
       }
       for (const [pair, { sides, seconds }] of told) {
-        const what = sides.length > 1 ? `both ${jointWords(pair)}s at their torque limit` : `${jointWords(sides[0])} at its torque limit`;
-        this.shown.set(`${p.name} ${pair}`, { text: `${p.name}: ${what} for\u00a0${seconds.toFixed(1)}\u00a0s`, grave: false, until: now + STAYS_S });
+        const what =
+          sides.length > 1
+            ? `both ${jointWords(pair)}s at their torque limit`
+            : `${jointWords(sides[0])} at its torque limit`;
+        this.shown.set(`${p.name} ${pair}`, {
+          text: `${p.name}: ${what} for\u00a0${seconds.toFixed(1)}\u00a0s`,
+          grave: false,
+          until: now + STAYS_S,
+        });
       }
     }
     for (const [key, c] of this.shown) if (c.until < now) this.shown.delete(key);
     // What is grave comes first, then what is newest.
-    const lines = [...this.shown.values()].sort((a, b) => Number(b.grave) - Number(a.grave) || b.until - a.until).slice(0, MOST);
+    const lines = [...this.shown.values()]
+      .sort((a, b) => Number(b.grave) - Number(a.grave) || b.until - a.until)
+      .slice(0, MOST);
     const text = lines.map((l) => `${l.grave ? "!" : ""}${l.text}`).join("\n");
     if (text === this.last) return;
     this.last = text;

@@ -48,7 +48,9 @@ export function numbers(packed: Numbers | undefined): ArrayLike<number> {
 /** Whether trying again may help: the server is away, starting or shutting down. */
 export function isConnectionLoss(error: unknown): boolean {
   if (!(error instanceof ConnectError)) return error instanceof TypeError;
-  return [Code.Unavailable, Code.Unknown, Code.Aborted, Code.Internal, Code.Canceled, Code.DeadlineExceeded].includes(error.code);
+  return [Code.Unavailable, Code.Unknown, Code.Aborted, Code.Internal, Code.Canceled, Code.DeadlineExceeded].includes(
+    error.code,
+  );
 }
 
 /** What a person should read about an error. */

@@ -4,7 +4,7 @@ import type { Person } from "./model.js";
 
 /** Messages at a time; the other figures are counted. */
 const MOST = 3;
-/** The desired pelvis is higher than the simulated one by this much (m): the motion does not lie on the floor itself. */
+/** If the desired pelvis is higher than the simulated one by this much (m), the motion itself does not lie down. */
 const ABOVE_M = 0.2;
 
 export class Fallen {
@@ -42,8 +42,15 @@ export class Fallen {
     for (const name of names) if (!this.rows.has(name)) this.add(name);
     for (const [name, row] of this.rows) row.classList.toggle("chosen", name === chosen?.name);
     const more = lying.size - names.length;
-    const alone = lying.size === 1 ? "It gets up by itself only if its motion gets up." : "They get up by themselves only if their motions get up.";
-    const note = more > 0 ? `${more} more ${more === 1 ? "figure has" : "figures have"} fallen. Reset puts all of them back on their feet.` : alone;
+    const alone =
+      lying.size === 1
+        ? "It gets up by itself only if its motion gets up."
+        : "They get up by themselves only if their motions get up.";
+    const note =
+      more > 0
+        ? `${more} more ${more === 1 ? "figure has" : "figures have"} fallen. ` +
+          "Reset puts all of them back on their feet."
+        : alone;
     if (this.note.textContent !== note) this.note.textContent = note;
     this.root.hidden = !lying.size;
   }

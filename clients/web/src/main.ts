@@ -19,9 +19,17 @@ function get<T extends HTMLElement>(id: string, kind: new () => T): T {
 }
 
 const [bar, stage, canvas] = [get("bar", HTMLElement), get("stage", HTMLElement), get("view", HTMLCanvasElement)];
-const [pauseButton, stepButton, speed] = [get("pause", HTMLButtonElement), get("step", HTMLButtonElement), get("speed", HTMLSelectElement)];
+const [pauseButton, stepButton, speed] = [
+  get("pause", HTMLButtonElement),
+  get("step", HTMLButtonElement),
+  get("speed", HTMLSelectElement),
+];
 const [slider, sliderValue] = [get("load-slider", HTMLInputElement), get("load-value", HTMLOutputElement)];
-const [state, dialog, labels] = [get("state", HTMLElement), get("dialog", HTMLDialogElement), get("labels", HTMLElement)];
+const [state, dialog, labels] = [
+  get("state", HTMLElement),
+  get("dialog", HTMLDialogElement),
+  get("labels", HTMLElement),
+];
 const worldChoice = get("world", HTMLSelectElement);
 const panelToggle = get("panel-toggle", HTMLButtonElement);
 const [resetButton, followButton] = [get("reset", HTMLButtonElement), get("follow", HTMLButtonElement)];
@@ -94,7 +102,15 @@ try {
             perturbations: [
               {
                 figure: person.name,
-                kind: { case: "impulse", value: { segment, pointM: { x: local.x, y: local.y, z: local.z }, impulseNs: { x: impulse.x, y: impulse.y, z: impulse.z }, durationS: 0.1 } },
+                kind: {
+                  case: "impulse",
+                  value: {
+                    segment,
+                    pointM: { x: local.x, y: local.y, z: local.z },
+                    impulseNs: { x: impulse.x, y: impulse.y, z: impulse.z },
+                    durationS: 0.1,
+                  },
+                },
               },
             ],
           })
@@ -110,7 +126,14 @@ try {
 } catch {
   // The panel, the readouts and the controls work without a picture.
   canvas.hidden = get("view-tools", HTMLElement).hidden = true;
-  stage.append(el("section", { class: "plain" }, el("h2", {}, "No 3D view"), el("p", {}, "This browser does not provide WebGL. The controls and readouts in the panel still work.")));
+  stage.append(
+    el(
+      "section",
+      { class: "plain" },
+      el("h2", {}, "No 3D view"),
+      el("p", {}, "This browser does not provide WebGL. The controls and readouts in the panel still work."),
+    ),
+  );
 }
 
 const panel = new Panel(
@@ -175,12 +198,20 @@ function showPhase(phase: Phase): void {
   const words: Record<Phase["kind"], [string, string]> = {
     connecting: ["Connecting", "Waiting for the first frame."],
     live: ["", ""],
-    empty: session.world ? ["No figures yet", "This world is empty. Add a figure, or drop a BVH file on the page."] : ["No world yet", "The server is running but has no world. Create one here or from a client; it will appear by itself."],
+    empty: session.world
+      ? ["No figures yet", "This world is empty. Add a figure, or drop a BVH file on the page."]
+      : [
+          "No world yet",
+          "The server is running but has no world. Create one here or from a client; it will appear by itself.",
+        ],
     reconnecting: ["Connection lost", "The viewer reconnects by itself as soon as the server is back."],
     error: ["Something went wrong", phase.kind === "error" ? phase.text : ""],
   };
   const [title, text] = words[phase.kind];
-  for (const [id, words] of [["state-title", title], ["state-text", text]] as const) {
+  for (const [id, words] of [
+    ["state-title", title],
+    ["state-text", text],
+  ] as const) {
     const at = get(id, HTMLElement);
     if (at.textContent !== words) at.textContent = words;
   }
@@ -204,7 +235,8 @@ function showPhase(phase: Phase): void {
   const place = get("state-actions", HTMLElement);
   const same = (list: Iterable<Element>): string => [...list].map((b) => b.textContent).join("\n");
   if (same(place.children) !== same(actions)) place.replaceChildren(...actions);
-  for (const b of [pauseButton, stepButton, speed, resetButton]) b.disabled = phase.kind !== "live" && !(phase.kind === "empty" && session.world);
+  for (const b of [pauseButton, stepButton, speed, resetButton])
+    b.disabled = phase.kind !== "live" && !(phase.kind === "empty" && session.world);
   if (phase.kind === "live") reproduce();
 }
 
@@ -212,8 +244,13 @@ async function makeWorld(from?: Address): Promise<void> {
   const { world } = await session.api.worlds.createWorld({ worldId: from?.world ?? "" });
   if (!world) return;
   for (const c of from?.figures ?? []) {
-    const { figure } = await session.api.figures.createFigure({ parent: world.name, figureId: c.id, figure: settingsOf(c) });
-    if (figure && c.clip) await session.api.motion.playClip({ figure: figure.name, clip: `clips/${c.clip}`, loop: true, reset: true });
+    const { figure } = await session.api.figures.createFigure({
+      parent: world.name,
+      figureId: c.id,
+      figure: settingsOf(c),
+    });
+    if (figure && c.clip)
+      await session.api.motion.playClip({ figure: figure.name, clip: `clips/${c.clip}`, loop: true, reset: true });
   }
   session.show(world.name.slice("worlds/".length));
 }
@@ -312,7 +349,12 @@ async function takeAgain(p: Person): Promise<void> {
 
 /** A valid last part of a name that is not taken. */
 function fresh(base: string, taken: string[]): string {
-  const clean = base.toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^[^a-z]+|-+$/g, "").slice(0, 48) || "motion";
+  const clean =
+    base
+      .toLowerCase()
+      .replace(/[^a-z0-9]+/g, "-")
+      .replace(/^[^a-z]+|-+$/g, "")
+      .slice(0, 48) || "motion";
   if (!taken.includes(clean)) return clean;
   for (let n = 2; ; n++) if (!taken.includes(`${clean}-${n}`)) return `${clean}-${n}`;
 }
@@ -325,7 +367,12 @@ async function openFile(file: File): Promise<void> {
   try {
     const clipId = fresh(file.name.replace(/\.bvh$/i, ""), session.clips);
     const data = new Uint8Array(await file.arrayBuffer());
-    const { clip } = await session.api.motion.createClip({ clipId, displayName: file.name.slice(0, 100), body: p.body.name, source: { case: "bvh", value: { data } } });
+    const { clip } = await session.api.motion.createClip({
+      clipId,
+      displayName: file.name.slice(0, 100),
+      body: p.body.name,
+      source: { case: "bvh", value: { data } },
+    });
     await session.lists();
     await session.api.motion.playClip({ figure: p.figure.name, clip: clip?.name ?? "", loop: true, reset: true });
     await session.refresh();
@@ -365,9 +412,16 @@ async function addFigure(): Promise<void> {
   const people = [...session.people.values()];
   if (!session.world) return makeWorld();
   const y = people.length ? Math.min(...people.map((p) => p.figure.placement?.yM ?? 0)) - 1.2 : 0;
-  const id = fresh("figure", people.map((p) => p.name));
+  const id = fresh(
+    "figure",
+    people.map((p) => p.name),
+  );
   wantedFigure = id;
-  const { figure } = await session.api.figures.createFigure({ parent: session.world.name, figureId: id, figure: { body: chosen?.body.name ?? "bodies/adult-man", placement: { yM: y } } });
+  const { figure } = await session.api.figures.createFigure({
+    parent: session.world.name,
+    figureId: id,
+    figure: { body: chosen?.body.name ?? "bodies/adult-man", placement: { yM: y } },
+  });
   if (figure) await session.api.motion.playClip({ figure: figure.name, clip: "clips/idle", loop: true, reset: true });
   await until(() => chosen?.name === id);
   await session.refresh();
@@ -390,8 +444,22 @@ async function makeAnew(p: Person, change: Anew): Promise<void> {
   const parent = f.name.slice(0, f.name.indexOf("/figures/"));
   const { clip } = p;
   await session.api.figures.deleteFigure({ name: f.name });
-  const same = { body: p.body.name, stepper: f.stepper, controller: f.controller, strength: f.strength, assist: f.assist, fatigueTimeScale: f.fatigueTimeScale, paper: f.paper, placement: f.placement };
-  const figure = { ...same, ...(change.body && { body: `bodies/${change.body}` }), ...(change.profile && { body: "", profile: change.profile }), ...(change.stepper && { stepper: change.stepper }) };
+  const same = {
+    body: p.body.name,
+    stepper: f.stepper,
+    controller: f.controller,
+    strength: f.strength,
+    assist: f.assist,
+    fatigueTimeScale: f.fatigueTimeScale,
+    paper: f.paper,
+    placement: f.placement,
+  };
+  const figure = {
+    ...same,
+    ...(change.body && { body: `bodies/${change.body}` }),
+    ...(change.profile && { body: "", profile: change.profile }),
+    ...(change.stepper && { stepper: change.stepper }),
+  };
   let made;
   try {
     made = (await session.api.figures.createFigure({ parent, figureId: p.name, figure })).figure;
@@ -524,8 +592,19 @@ const KEYS: [string, string][] = [
 ];
 get("help", HTMLButtonElement).addEventListener("click", help);
 function help(): void {
-  const table = el("table", {}, ...KEYS.map(([key, text]) => el("tr", {}, el("td", {}, ...key.split("  ").flatMap((k) => [el("kbd", {}, k), " "])), el("td", {}, text))));
-  const pointer = el("p", {}, "Drag a figure to push it. Drag beside the figures to turn the view, with the right button to pan, and use the wheel or two fingers to zoom. Drop a BVH file anywhere on the page to play it.");
+  const table = el(
+    "table",
+    {},
+    ...KEYS.map(([key, text]) =>
+      el("tr", {}, el("td", {}, ...key.split("  ").flatMap((k) => [el("kbd", {}, k), " "])), el("td", {}, text)),
+    ),
+  );
+  const pointer = el(
+    "p",
+    {},
+    "Drag a figure to push it. Drag beside the figures to turn the view, with the right button to pan, and use the " +
+      "wheel or two fingers to zoom. Drop a BVH file anywhere on the page to play it.",
+  );
   show("Help", pointer, table);
 }
 
@@ -570,7 +649,8 @@ addEventListener("keydown", (e) => {
     e.preventDefault();
     what();
   };
-  if (e.key === " " && !at.matches("button, summary, a, input:not([type=range])")) return done(() => pauseButton.click());
+  if (e.key === " " && !at.matches("button, summary, a, input:not([type=range])"))
+    return done(() => pauseButton.click());
   if (inScene) {
     const turns: Record<string, [number, number, number]> = {
       ArrowLeft: [-0.12, 0, 1],
@@ -645,7 +725,8 @@ function tag(key: string, text: string, kind: string, place: { x: number; y: num
 /** Names above heads: of all figures when there are few, else of the chosen one only. */
 const FEW = 6;
 function label(): void {
-  const people = session.phase.kind === "live" || session.phase.kind === "reconnecting" ? [...session.people.values()] : [];
+  const people =
+    session.phase.kind === "live" || session.phase.kind === "reconnecting" ? [...session.people.values()] : [];
   const present = new Set(people.map((p) => p.name));
   for (const [key, span] of tags)
     if (key !== "\u0000push" && !present.has(key)) {
@@ -673,7 +754,11 @@ function picture(): void {
   const t = now();
   if (t < notBefore) return;
   const pair = session.playhead.at(t, session.paused ? 1 : (session.world?.speed ?? 1));
-  scene?.prepare(pair && { before: indexed(pair.before), after: indexed(pair.after), share: pair.share }, shown, chosen);
+  scene?.prepare(
+    pair && { before: indexed(pair.before), after: indexed(pair.after), share: pair.share },
+    shown,
+    chosen,
+  );
   if (pair) obstacles.place(pair.before, pair.after, pair.share);
   if (pair && reframed !== session.people.size) {
     reframed = session.people.size;

@@ -90,9 +90,19 @@ export class Person {
 
   /** What it carries: loads of equal mass at both hands are one crate. */
   loads(): { massKg: number; segments: string[] }[] {
-    const loads = (this.frame?.status?.loads ?? []).map((l) => ({ massKg: l.massKg, segments: [this.body.segments[l.segment].name] }));
+    const loads = (this.frame?.status?.loads ?? []).map((l) => ({
+      massKg: l.massKg,
+      segments: [this.body.segments[l.segment].name],
+    }));
     const [l, r] = ["l_hand", "r_hand"].map((hand) => loads.filter((x) => x.segments[0] === hand));
-    if (!this.holdsCrate() || loads.length !== 2 || l.length !== 1 || r.length !== 1 || Math.abs(l[0].massKg - r[0].massKg) > 1e-9) return loads;
+    if (
+      !this.holdsCrate() ||
+      loads.length !== 2 ||
+      l.length !== 1 ||
+      r.length !== 1 ||
+      Math.abs(l[0].massKg - r[0].massKg) > 1e-9
+    )
+      return loads;
     return [{ massKg: l[0].massKg + r[0].massKg, segments: ["l_hand", "r_hand"] }];
   }
 
@@ -191,15 +201,18 @@ export function forward(body: Body, root: ArrayLike<number>, rotations: ArrayLik
 /** Displacement of a segment below which the desired motion is not drawn, and from which it is drawn in full, m. */
 const GHOST_FADE = { from: 0.015, full: 0.08 };
 
-/** How strongly to draw a segment of the desired motion that is this far from the simulated one (m): 0 where both agree, up to 1. */
+/**
+ * How strongly to draw a segment of the desired motion that is this far from the simulated one (m): 0 where both agree,
+ * up to 1.
+ */
 export function ghostOpacity(displacement: number): number {
   const u = Math.min(1, Math.max(0, (displacement - GHOST_FADE.from) / (GHOST_FADE.full - GHOST_FADE.from)));
   return u * u * (3 - 2 * u);
 }
 
 /**
- * A bound on how far any point of a segment is from where it should be, m: `POSE` numbers of both sets from `at` on, and the largest
- * distance of a point of the segment from its origin, m.
+ * A bound on how far any point of a segment is from where it should be, m: `POSE` numbers of both sets from `at` on,
+ * and the largest distance of a point of the segment from its origin, m.
  */
 export function displacement(a: ArrayLike<number>, b: ArrayLike<number>, at: number, reach: number): number {
   const shift = Math.hypot(a[at] - b[at], a[at + 1] - b[at + 1], a[at + 2] - b[at + 2]);

@@ -18,7 +18,9 @@ function geometry(o: Obstacle): THREE.BufferGeometry {
       return new THREE.SphereGeometry(o.shape.value.radiusM, 32, 20);
     case "capsule":
       // Along z, where three.js has it along y.
-      return new THREE.CapsuleGeometry(o.shape.value.radiusM, 2 * o.shape.value.halfLengthM, 12, 24).rotateX(Math.PI / 2);
+      return new THREE.CapsuleGeometry(o.shape.value.radiusM, 2 * o.shape.value.halfLengthM, 12, 24).rotateX(
+        Math.PI / 2,
+      );
     case "box": {
       const h = o.shape.value.halfM;
       return new THREE.BoxGeometry(2 * (h?.x ?? 0), 2 * (h?.y ?? 0), 2 * (h?.z ?? 0));

@@ -41,7 +41,9 @@ export class Touchable {
       if (!part.corners.length) return;
       const o = segment * POSE;
       inverse.set(poses[o + 3], poses[o + 4], poses[o + 5], poses[o + 6]).conjugate();
-      local.origin.set(ray.origin.x - poses[o], ray.origin.y - poses[o + 1], ray.origin.z - poses[o + 2]).applyQuaternion(inverse);
+      local.origin
+        .set(ray.origin.x - poses[o], ray.origin.y - poses[o + 1], ray.origin.z - poses[o + 2])
+        .applyQuaternion(inverse);
       local.direction.copy(ray.direction).applyQuaternion(inverse);
       const away = local.origin.distanceTo(part.bound.center);
       if (local.distanceToPoint(part.bound.center) > part.bound.radius + away * slack) return;
@@ -58,7 +60,8 @@ export class Touchable {
       for (let i = 0; i + 2 < corners.length; i += 3) {
         a.fromArray(corners, i);
         const off = b.subVectors(a, local.origin).angleTo(local.direction);
-        if (off <= slack && (!beside || off < beside.off)) beside = { segment, local: a.clone(), distance: b.length(), off };
+        if (off <= slack && (!beside || off < beside.off))
+          beside = { segment, local: a.clone(), distance: b.length(), off };
       }
     });
     return met ?? beside;

@@ -36,7 +36,10 @@ export function settled(inUse: Axis | undefined, low: number, high: number): Axi
   return axis(low, high);
 }
 
-/** Share of the time in which limits decide on the axis: a muscle that is stretched fast, as in a fall, resists with far more for a moment. */
+/**
+ * Share of the time in which limits decide on the axis: a muscle that is stretched fast, as in a fall, resists with far
+ * more for a moment.
+ */
 const USUAL = 0.95;
 
 /** The value below which this share of the values lies. */
@@ -99,8 +102,22 @@ export class Plot {
     const count = person.body.dofs.length;
     const { history } = person;
     const torques = history.map((s) => s.torque[dof]);
-    const low = Math.min(0, ...torques, usual(history.map((s) => s.limits[dof]), 1 - USUAL));
-    const high = Math.max(0, ...torques, usual(history.map((s) => s.limits[count + dof]), USUAL));
+    const low = Math.min(
+      0,
+      ...torques,
+      usual(
+        history.map((s) => s.limits[dof]),
+        1 - USUAL,
+      ),
+    );
+    const high = Math.max(
+      0,
+      ...torques,
+      usual(
+        history.map((s) => s.limits[count + dof]),
+        USUAL,
+      ),
+    );
     const scale = settled(this.axis, low, high);
     if (scale !== this.axis) {
       this.axis = scale;
@@ -116,12 +133,13 @@ export class Plot {
     draw(this.canvas, person, dof, scale);
     if (!words) return;
     this.name.textContent = dofWords(person.body.dofs[dof].name);
-    this.value.textContent = `${signed(newest.torque[dof])} N·m (${signed(newest.limits[dof])} to ${signed(newest.limits[count + dof])})`;
+    const range = `${signed(newest.limits[dof])} to ${signed(newest.limits[count + dof])}`;
+    this.value.textContent = `${signed(newest.torque[dof])} N·m (${range})`;
     this.canvas.setAttribute("aria-label", plotText(person, dof));
   }
 }
 
-/** Draws torque (line), the available range (band), the torque limit where it is reached (thick) and lines at the marks. */
+/** Draws torque (line), available range (band), torque limit where it is reached (thick) and lines at the marks. */
 function draw(canvas: HTMLCanvasElement, person: Person, dof: number, scale: Axis): void {
   const density = Math.min(2, devicePixelRatio);
   const [w, h] = [canvas.clientWidth, canvas.clientHeight];
@@ -221,5 +239,6 @@ export function plotText(person: Person, dof: number): string {
   const s = person.history.at(-1);
   const name = dofWords(person.body.dofs[dof].name);
   if (!s) return name;
-  return `${name}: ${signed(s.torque[dof])} N·m, available range ${signed(s.limits[dof])} to ${signed(s.limits[person.body.dofs.length + dof])} N·m, last ${HISTORY_S} s`;
+  const range = `${signed(s.limits[dof])} to ${signed(s.limits[person.body.dofs.length + dof])} N·m`;
+  return `${name}: ${signed(s.torque[dof])} N·m, available range ${range}, last ${HISTORY_S} s`;
 }

@@ -101,20 +101,34 @@ outgoingLight += uChosen * rim * vec3(0.15, 0.5, 0.7);
 const GHOST_OPACITY = 0.34;
 
 /**
- * The desired motion: each segment has its own opacity, and none is drawn where it is 0. The offset puts the surface behind the body's
- * where both nearly coincide, so that depths that differ by rounding cannot flicker.
+ * The desired motion: each segment has its own opacity, and none is drawn where it is 0. The offset puts the surface
+ * behind the body's where both nearly coincide, so that depths that differ by rounding cannot flicker.
  */
 function ghostMaterial(colour: number): { material: THREE.MeshBasicMaterial; fade: { value: Float32Array } } {
   const fade = { value: new Float32Array(MOST_SEGMENTS) };
-  const material = new THREE.MeshBasicMaterial({ color: colour, transparent: true, opacity: GHOST_OPACITY, depthWrite: false, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4 });
+  const material = new THREE.MeshBasicMaterial({
+    color: colour,
+    transparent: true,
+    opacity: GHOST_OPACITY,
+    depthWrite: false,
+    polygonOffset: true,
+    polygonOffsetFactor: 1,
+    polygonOffsetUnits: 4,
+  });
   material.onBeforeCompile = (shader) => {
     shader.uniforms.uFade = fade;
     shader.vertexShader = shader.vertexShader
-      .replace("#include <common>", `#include <common>\nattribute float segment;\nuniform float uFade[${MOST_SEGMENTS}];\nvarying float vFade;`)
+      .replace(
+        "#include <common>",
+        `#include <common>\nattribute float segment;\nuniform float uFade[${MOST_SEGMENTS}];\nvarying float vFade;`,
+      )
       .replace("#include <begin_vertex>", "#include <begin_vertex>\nvFade = uFade[int(segment + 0.5)];");
     shader.fragmentShader = shader.fragmentShader
       .replace("#include <common>", "#include <common>\nvarying float vFade;")
-      .replace("#include <color_fragment>", "#include <color_fragment>\nif (vFade <= 0.0) discard;\ndiffuseColor.a *= vFade;");
+      .replace(
+        "#include <color_fragment>",
+        "#include <color_fragment>\nif (vFade <= 0.0) discard;\ndiffuseColor.a *= vFade;",
+      );
   };
   return { material, fade };
 }
@@ -163,7 +177,13 @@ class Solid {
     this.poses = new Float32Array(segments * POSE);
     this.mesh = new THREE.SkinnedMesh(geometry, material);
     this.mesh.frustumCulled = false;
-    this.mesh.bind(new THREE.Skeleton(this.bones, this.bones.map(() => new THREE.Matrix4())), new THREE.Matrix4());
+    this.mesh.bind(
+      new THREE.Skeleton(
+        this.bones,
+        this.bones.map(() => new THREE.Matrix4()),
+      ),
+      new THREE.Matrix4(),
+    );
   }
 
   place(): void {
@@ -228,12 +248,27 @@ class Actor {
   private readonly weights: THREE.Mesh[] = [];
   private readonly polygon = new THREE.Mesh(
     new THREE.BufferGeometry(),
-    new THREE.MeshBasicMaterial({ color: HUES.support, transparent: true, opacity: 0.35, depthWrite: false, side: THREE.DoubleSide }),
+    new THREE.MeshBasicMaterial({
+      color: HUES.support,
+      transparent: true,
+      opacity: 0.35,
+      depthWrite: false,
+      side: THREE.DoubleSide,
+    }),
   );
-  private readonly outline = new THREE.LineLoop(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: HUES.support, transparent: true }));
+  private readonly outline = new THREE.LineLoop(
+    new THREE.BufferGeometry(),
+    new THREE.LineBasicMaterial({ color: HUES.support, transparent: true }),
+  );
   private readonly com = new THREE.Mesh(comShape, new THREE.MeshBasicMaterial({ color: HUES.com }));
-  private readonly plumb = new THREE.Line(new THREE.BufferGeometry().setFromPoints([new THREE.Vector3(), new THREE.Vector3()]), new THREE.LineBasicMaterial({ color: HUES.com, transparent: true, opacity: 0.6 }));
-  private readonly zmp = new THREE.Mesh(zmpShape, new THREE.MeshBasicMaterial({ color: HUES.zmp, transparent: true, depthWrite: false, side: THREE.DoubleSide }));
+  private readonly plumb = new THREE.Line(
+    new THREE.BufferGeometry().setFromPoints([new THREE.Vector3(), new THREE.Vector3()]),
+    new THREE.LineBasicMaterial({ color: HUES.com, transparent: true, opacity: 0.6 }),
+  );
+  private readonly zmp = new THREE.Mesh(
+    zmpShape,
+    new THREE.MeshBasicMaterial({ color: HUES.zmp, transparent: true, depthWrite: false, side: THREE.DoubleSide }),
+  );
   private readonly arrows: THREE.Group[] = [];
   private readonly hands: [number, number];
   private readonly touchable: Touchable;
@@ -272,7 +307,18 @@ class Actor {
     this.com.renderOrder = 4;
     (this.com.material as THREE.Material).depthTest = false;
     for (let i = 0; i < MOST_ARROWS; i++) this.arrows.push(arrow(HUES.force));
-    this.group.add(this.solid.mesh, this.ghost.mesh, this.crate, ...this.weights, this.polygon, this.outline, this.com, this.plumb, this.zmp, ...this.arrows);
+    this.group.add(
+      this.solid.mesh,
+      this.ghost.mesh,
+      this.crate,
+      ...this.weights,
+      this.polygon,
+      this.outline,
+      this.com,
+      this.plumb,
+      this.zmp,
+      ...this.arrows,
+    );
     // Nothing is seen of it before the first frame that tells where it is.
     this.group.visible = false;
     this.group.traverse((o) => {
@@ -355,7 +401,9 @@ class Actor {
     const up = new THREE.Vector3(0, 0, 1).addScaledVector(across, -across.z);
     if (up.lengthSq() < 0.01) up.set(1, 0, 0).addScaledVector(across, -across.x);
     up.normalize();
-    this.crate.quaternion.setFromRotationMatrix(new THREE.Matrix4().makeBasis(new THREE.Vector3().crossVectors(across, up), across, up));
+    this.crate.quaternion.setFromRotationMatrix(
+      new THREE.Matrix4().makeBasis(new THREE.Vector3().crossVectors(across, up), across, up),
+    );
     this.crate.scale.set(1, Math.max(0.4, width / CRATE[1]), 1);
   }
 
@@ -438,7 +486,10 @@ class Actor {
   /** World position of a place on a segment. */
   world(segment: number, local: THREE.Vector3, out: THREE.Vector3): THREE.Vector3 {
     const o = segment * POSE;
-    return out.copy(local).applyQuaternion(scratchQ.fromArray(this.solid.poses, o + 3)).add(scratchC.fromArray(this.solid.poses, o));
+    return out
+      .copy(local)
+      .applyQuaternion(scratchQ.fromArray(this.solid.poses, o + 3))
+      .add(scratchC.fromArray(this.solid.poses, o));
   }
 
   /** Above the head, world. */
@@ -518,7 +569,8 @@ export class Scene {
   private readonly pushArrow = arrow(HUES.push);
   private look = LOOKS.light;
   /** The push being drawn: where it takes hold, where the pointer went down and where it is, pixels of the window. */
-  private push: { actor: Actor; segment: number; drawn: Push; start: THREE.Vector2; pointer: THREE.Vector2 } | undefined;
+  private push:
+    { actor: Actor; segment: number; drawn: Push; start: THREE.Vector2; pointer: THREE.Vector2 } | undefined;
   /** Where the pointer hovers, since that was last looked at. */
   private hovered: PointerEvent | undefined;
   private readonly ray = new THREE.Raycaster();
@@ -532,7 +584,12 @@ export class Scene {
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
-    private readonly on: { choose: (person: Person | undefined) => void; pushing: (push: Push | undefined, x: number, y: number) => void; push: (push: Push) => void; following: (on: boolean) => void },
+    private readonly on: {
+      choose: (person: Person | undefined) => void;
+      pushing: (push: Push | undefined, x: number, y: number) => void;
+      push: (push: Push) => void;
+      following: (on: boolean) => void;
+    },
   ) {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
     this.renderer.shadowMap.enabled = true;
@@ -646,7 +703,10 @@ export class Scene {
     const sphere = box.getBoundingSphere(new THREE.Sphere());
     const height = this.canvas.clientHeight || 1;
     const angle = Math.atan(Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2)) * Math.max(0.5, 1 - BAR / height));
-    const narrow = Math.min(angle, Math.atan(Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2)) * this.camera.aspect));
+    const narrow = Math.min(
+      angle,
+      Math.atan(Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2)) * this.camera.aspect),
+    );
     const distance = (sphere.radius * 0.76) / Math.sin(narrow);
     this.orbit.target.copy(sphere.center).setZ(0.86);
     this.camera.position.copy(this.orbit.target).addScaledVector(scratchA.set(0.9, -0.36, 0.2).normalize(), distance);
@@ -710,7 +770,9 @@ export class Scene {
 
   /** Camera as six numbers for the address. */
   get place(): number[] | undefined {
-    return this.moved ? [...this.camera.position.toArray(), ...this.orbit.target.toArray()].map((v) => Number(v.toFixed(2))) : undefined;
+    return this.moved
+      ? [...this.camera.position.toArray(), ...this.orbit.target.toArray()].map((v) => Number(v.toFixed(2)))
+      : undefined;
   }
 
   set place(six: number[] | undefined) {
@@ -722,7 +784,11 @@ export class Scene {
   }
 
   /** Puts everything where one picture has it. */
-  prepare(frames: { before: Map<number, FigureFrame>; after: Map<number, FigureFrame>; share: number } | undefined, shown: Shown, chosen: Person | undefined): void {
+  prepare(
+    frames: { before: Map<number, FigureFrame>; after: Map<number, FigureFrame>; share: number } | undefined,
+    shown: Shown,
+    chosen: Person | undefined,
+  ): void {
     const centre = scratchB.set(0, 0, 0);
     let reach = 2;
     if (frames) {
@@ -779,7 +845,10 @@ export class Scene {
 
   private aim(x: number, y: number): void {
     const box = this.canvas.getBoundingClientRect();
-    this.ray.setFromCamera(new THREE.Vector2(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2), this.camera);
+    this.ray.setFromCamera(
+      new THREE.Vector2(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2),
+      this.camera,
+    );
   }
 
   /** The figure under a pointer, and where on it. What is met goes before what is only near. */
@@ -790,7 +859,11 @@ export class Scene {
     let best: { actor: Actor; touch: Touch } | undefined;
     for (const actor of this.actors.values()) {
       const touch = actor.group.visible ? actor.touch(this.ray, slack) : undefined;
-      if (touch && (!best || touch.off < best.touch.off || (touch.off === best.touch.off && touch.distance < best.touch.distance))) best = { actor, touch };
+      if (
+        touch &&
+        (!best || touch.off < best.touch.off || (touch.off === best.touch.off && touch.distance < best.touch.distance))
+      )
+        best = { actor, touch };
     }
     return best;
   }
@@ -805,7 +878,12 @@ export class Scene {
     this.push = {
       actor,
       segment: touch.segment,
-      drawn: { person, segment: person.body.segments[touch.segment].name, local: touch.local, impulse: new THREE.Vector3() },
+      drawn: {
+        person,
+        segment: person.body.segments[touch.segment].name,
+        local: touch.local,
+        impulse: new THREE.Vector3(),
+      },
       start: pointer.clone(),
       pointer,
     };
@@ -828,9 +906,15 @@ export class Scene {
     if (this.actors.get(actor.person.index) !== actor) return this.release(false);
     const from = actor.world(segment, drawn.local, new THREE.Vector3());
     this.aim(pointer.x, pointer.y);
-    const to = this.ray.ray.intersectPlane(scratchPlane.setFromNormalAndCoplanarPoint(this.camera.getWorldDirection(scratchA), from), scratchB);
+    const to = this.ray.ray.intersectPlane(
+      scratchPlane.setFromNormalAndCoplanarPoint(this.camera.getWorldDirection(scratchA), from),
+      scratchB,
+    );
     if (!to) return;
-    const along = to.clone().sub(from).clampLength(0, MOST_IMPULSE / IMPULSE_PER_METRE);
+    const along = to
+      .clone()
+      .sub(from)
+      .clampLength(0, MOST_IMPULSE / IMPULSE_PER_METRE);
     if (start.distanceTo(pointer) < LEAST_DRAWN) along.setScalar(0);
     drawn.impulse.copy(along).multiplyScalar(IMPULSE_PER_METRE);
     point(this.pushArrow, from, along);

@@ -1,4 +1,4 @@
-// One world as it is on the server: who is in it, its frames and events; connects again by itself.
+// One world as it is on the server: its figures, frames and events; connects again by itself.
 import { Code, ConnectError } from "@connectrpc/connect";
 import { isConnectionLoss, message, numbers, type Sinew } from "./client.js";
 import type { Body } from "./gen/sinew/v1/body_pb.js";
@@ -72,7 +72,9 @@ export class Session {
     while (generation === this.generation) {
       try {
         await this.lists();
-        const name = this.worlds.find((w) => w.name === `worlds/${wanted || "demo"}`)?.name ?? (wanted ? undefined : this.worlds[0]?.name);
+        const name =
+          this.worlds.find((w) => w.name === `worlds/${wanted || "demo"}`)?.name ??
+          (wanted ? undefined : this.worlds[0]?.name);
         if (generation !== this.generation) return;
         if (name) {
           await this.watch(name, signal, () => (attempt = 0));
@@ -152,7 +154,8 @@ export class Session {
 
   private async listen(world: string, signal: AbortSignal): Promise<void> {
     try {
-      for await (const { events } of this.api.state.watchEvents({ world }, { signal })) for (const e of events) this.happened(e);
+      for await (const { events } of this.api.state.watchEvents({ world }, { signal }))
+        for (const e of events) this.happened(e);
     } catch {
       // The watch of frames ends with the same cause and says so.
     }
@@ -236,7 +239,7 @@ export class Session {
     return bit >= 0 && ((p.flags >>> bit) & 1) === 1;
   }
 
-  /** Gives each figure this mass in place of what it carries: as a crate if it lifts one, else half of it in each hand. */
+  /** Gives each figure this mass in place of its load: as a crate if it lifts one, else half of it in each hand. */
   async carry(people: Person[], massKg: number): Promise<void> {
     if (!this.world) return;
     const world = this.world.name;
@@ -244,7 +247,10 @@ export class Session {
       people.map(async (p) => {
         await this.api.perturbations.clearPerturbations({ figure: p.figure.name });
         if (massKg <= 0) return;
-        const load = (value: { segment: string; secondSegment?: string; massKg: number }): object => ({ figure: p.name, kind: { case: "load" as const, value } });
+        const load = (value: { segment: string; secondSegment?: string; massKg: number }): object => ({
+          figure: p.name,
+          kind: { case: "load" as const, value },
+        });
         const perturbations = p.holdsCrate()
           ? [load({ segment: "l_hand", secondSegment: "r_hand", massKg })]
           : [load({ segment: "l_hand", massKg: massKg / 2 }), load({ segment: "r_hand", massKg: massKg / 2 })];
@@ -257,7 +263,14 @@ export class Session {
   private async restart(p: Person): Promise<void> {
     const { clip } = p;
     await this.api.figures.resetFigure({ name: p.figure.name });
-    if (clip) await this.api.motion.playClip({ figure: p.figure.name, clip, loop: true, reset: true, placement: p.figure.placement });
+    if (clip)
+      await this.api.motion.playClip({
+        figure: p.figure.name,
+        clip,
+        loop: true,
+        reset: true,
+        placement: p.figure.placement,
+      });
   }
 
   /** Stands a figure up again at its place: its clip starts again, with the same load. */
@@ -280,8 +293,8 @@ export class Session {
   }
 
   /**
-   * Puts every figure back to its place and starts all clips again, in the same tick; loads and pushes are gone. Settings, obstacles and
-   * the clock go on as they are. Gives the figures that could not be reset, with the reason.
+   * Puts every figure back to its place and starts all clips again, in the same tick; loads and pushes are gone.
+   * Settings, obstacles and the clock go on as they are. Gives the figures that could not be reset, with the reason.
    */
   async reset(): Promise<string[]> {
     if (!this.world) return [];

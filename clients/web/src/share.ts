@@ -1,6 +1,15 @@
 // A scene as an address, as Python and as a command line.
 import type { MessageInitShape } from "@bufbuild/protobuf";
-import { Controller, PaperMetric, PaperPreset, PaperPriority, PaperShare, Stepper, type Figure, type FigureSchema } from "./gen/sinew/v1/figure_pb.js";
+import {
+  Controller,
+  PaperMetric,
+  PaperPreset,
+  PaperPriority,
+  PaperShare,
+  Stepper,
+  type Figure,
+  type FigureSchema,
+} from "./gen/sinew/v1/figure_pb.js";
 import type { Clip } from "./gen/sinew/v1/motion_pb.js";
 import type { Person } from "./model.js";
 
@@ -63,7 +72,13 @@ export function write(a: Address): string {
   if (a.hide.length) q.set("hide", a.hide.join("."));
   if (a.camera) q.set("camera", a.camera.join("_"));
   if (a.follow) q.set("follow", "1");
-  for (const c of a.figures) q.append("f", [c.id, c.body, c.controller, c.strength, c.clip, c.x, c.y, c.stepper, c.assist || "", c.preset, c.fatigue || ""].join("~").replace(/~+$/, ""));
+  for (const c of a.figures)
+    q.append(
+      "f",
+      [c.id, c.body, c.controller, c.strength, c.clip, c.x, c.y, c.stepper, c.assist || "", c.preset, c.fatigue || ""]
+        .join("~")
+        .replace(/~+$/, ""),
+    );
   return q.toString();
 }
 
@@ -77,12 +92,35 @@ export function read(text: string): Address {
   };
   const load = q.has("load") ? Number(q.get("load")) : undefined;
   const camera = q.get("camera")?.split("_").map(Number);
-  const figures = q.getAll("f").slice(0, 64).flatMap((text): Cast[] => {
-    const [id, body, controller, strength, clip, x, y, stepper, assist, preset, fatigue] = text.split("~");
-    const [s, px, py, help, tires] = [Number(strength), Number(x), Number(y), Number(assist || 0), Number(fatigue || 0)];
-    if (!NAME.test(id) || !body || ![s, px, py, help, tires].every(Number.isFinite)) return [];
-    return [{ id, body, controller: controller ?? "", strength: s, clip: clip ?? "", x: px, y: py, stepper: stepper ?? "", assist: help, preset: preset ?? "", fatigue: tires }];
-  });
+  const figures = q
+    .getAll("f")
+    .slice(0, 64)
+    .flatMap((text): Cast[] => {
+      const [id, body, controller, strength, clip, x, y, stepper, assist, preset, fatigue] = text.split("~");
+      const [s, px, py, help, tires] = [
+        Number(strength),
+        Number(x),
+        Number(y),
+        Number(assist || 0),
+        Number(fatigue || 0),
+      ];
+      if (!NAME.test(id) || !body || ![s, px, py, help, tires].every(Number.isFinite)) return [];
+      return [
+        {
+          id,
+          body,
+          controller: controller ?? "",
+          strength: s,
+          clip: clip ?? "",
+          x: px,
+          y: py,
+          stepper: stepper ?? "",
+          assist: help,
+          preset: preset ?? "",
+          fatigue: tires,
+        },
+      ];
+    });
   return {
     world: name("world"),
     figure: name("figure"),
@@ -125,9 +163,19 @@ function paperArguments(o: Figure["paper"]): string {
   const metric = o.metric === PaperMetric.TORQUE ? "H2" : o.metric === PaperMetric.INERTIA ? "H" : "I";
   const priority = o.priority === PaperPriority.NESTED ? "nested" : "paper";
   const share = o.share === PaperShare.BALANCED ? "balanced" : "paper";
-  const switches = { "to-limit": o.toLimit, tilt: o.tilt, "zmp-feasible": o.zmpFeasible, "track-hands": o.trackHands, "track-com": o.trackCom, "hand-over": o.handOver };
+  const switches = {
+    "to-limit": o.toLimit,
+    tilt: o.tilt,
+    "zmp-feasible": o.zmpFeasible,
+    "track-hands": o.trackHands,
+    "track-com": o.trackCom,
+    "hand-over": o.handOver,
+  };
   const words = Object.entries(switches).map(([name, on]) => `--${name}=${Boolean(on)}`);
-  return [`--alpha ${o.alpha ?? 0} --horizon ${o.horizonS ?? 0} --metric ${metric} --priority ${priority} --share ${share}`, ...words].join(" ");
+  return [
+    `--alpha ${o.alpha ?? 0} --horizon ${o.horizonS ?? 0} --metric ${metric} --priority ${priority} --share ${share}`,
+    ...words,
+  ].join(" ");
 }
 
 /** The motion as the command line names it: a built-in one, or the file that was dropped here. */
@@ -154,7 +202,11 @@ export function asCommand(p: Person, clips: Clip[]): string {
 /** The Python script that makes the scene in a new world and plots the torques of one figure. */
 export function asPython(address: string, people: Person[], chosen: Person | undefined, clips: Clip[]): string {
   const text = JSON.stringify;
-  const lines = ["import sinew", "", `with sinew.Client(${text(address)}) as client, client.create_world(paused=True) as world:`];
+  const lines = [
+    "import sinew",
+    "",
+    `with sinew.Client(${text(address)}) as client, client.create_world(paused=True) as world:`,
+  ];
   for (const p of people) {
     const c = cast(p);
     const name = c.id.replaceAll("-", "_");
@@ -166,7 +218,8 @@ export function asPython(address: string, people: Person[], chosen: Person | und
     if (c.fatigue) settings.push(`fatigue_time_scale=${c.fatigue}`);
     lines.push(`    ${name} = world.add_figure(${text(c.id)}, ${settings.join(", ")})`);
     if (c.clip) lines.push(`    ${name}.play(${text(c.clip)}, loop=True, reset=True, position=(${c.x}, ${c.y}))`);
-    for (const l of p.loads()) lines.push(`    ${name}.carry(${[rounded(l.massKg), ...l.segments.map((s) => text(s))].join(", ")})`);
+    for (const l of p.loads())
+      lines.push(`    ${name}.carry(${[rounded(l.massKg), ...l.segments.map((s) => text(s))].join(", ")})`);
   }
   const longest = Math.max(4, ...people.map((p) => clips.find((k) => k.name === p.clip)?.durationS ?? 0));
   lines.push(`    recordings = world.record(${Math.min(60, Math.ceil(longest))}.0)`);

@@ -20,11 +20,15 @@ export function dof(name: string): string {
 /** What will come of a clip, and why, in a line. */
 export function forecast(f: Forecast): string {
   const follows = f.verdict === ForecastVerdict.FOLLOWS;
-  const word = follows ? "should be followed" : f.verdict === ForecastVerdict.NEEDS_HELP ? "will need help" : "cannot be followed";
+  const word = follows
+    ? "should be followed"
+    : f.verdict === ForecastVerdict.NEEDS_HELP
+      ? "will need help"
+      : "cannot be followed";
   return `Forecast: ${word}: ${f.reason}`;
 }
 
-/** What is worth a caption of its own, or nothing. Torque limits and falls are shown elsewhere for as long as they last. */
+/** What is worth a caption of its own, or nothing. Torque limits and falls are shown elsewhere while they last. */
 export function event(e: Event): { text: string; grave: boolean } | undefined {
   const { figure } = e;
   switch (e.type) {
@@ -51,7 +55,15 @@ export function event(e: Event): { text: string; grave: boolean } | undefined {
 
 /** What a figure does, from its flags. */
 export function state(has: (flag: string) => boolean): string {
-  const base = has("QUARANTINED") ? "frozen" : has("FALLEN") ? "fallen" : has("BALANCE_LOST") ? "off balance" : has("FLIGHT") ? "in the air" : "standing";
+  const base = has("QUARANTINED")
+    ? "frozen"
+    : has("FALLEN")
+      ? "fallen"
+      : has("BALANCE_LOST")
+        ? "off balance"
+        : has("FLIGHT")
+          ? "in the air"
+          : "standing";
   return has("HANDED_OVER") ? `${base}, torque-driven for now` : base;
 }
 

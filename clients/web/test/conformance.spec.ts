@@ -1,6 +1,17 @@
 // The vectors of tests/conformance, and the small client, over gRPC-Web from Node. The same files are read in Rust and
 // Python.
-import { createRegistry, fromBinary, fromJson, toBinary, toJson, type DescMessage, type DescMethodStreaming, type DescMethodUnary, type JsonValue, type Message } from "@bufbuild/protobuf";
+import {
+  createRegistry,
+  fromBinary,
+  fromJson,
+  toBinary,
+  toJson,
+  type DescMessage,
+  type DescMethodStreaming,
+  type DescMethodUnary,
+  type JsonValue,
+  type Message,
+} from "@bufbuild/protobuf";
 import { Code, ConnectError } from "@connectrpc/connect";
 import { createGrpcWebTransport } from "@connectrpc/connect-web";
 import { execFile } from "node:child_process";
@@ -53,7 +64,8 @@ function missing(wanted: JsonValue, given: JsonValue | undefined, place: string)
     return undefined;
   }
   if (wanted !== null && typeof wanted === "object") {
-    if (given === null || typeof given !== "object" || Array.isArray(given)) return `${place}: ${JSON.stringify(given)}`;
+    if (given === null || typeof given !== "object" || Array.isArray(given))
+      return `${place}: ${JSON.stringify(given)}`;
     for (const [key, w] of Object.entries(wanted)) {
       const found = missing(w, given[key], `${place}.${key}`);
       if (found) return found;
@@ -62,7 +74,11 @@ function missing(wanted: JsonValue, given: JsonValue | undefined, place: string)
   }
   const defaults: unknown[] = [0, "0", "", false, null];
   const same =
-    given === undefined ? defaults.includes(wanted) : typeof wanted === "number" && typeof given === "number" ? Math.abs(wanted - given) <= 1e-9 * Math.abs(wanted) : wanted === given;
+    given === undefined
+      ? defaults.includes(wanted)
+      : typeof wanted === "number" && typeof given === "number"
+        ? Math.abs(wanted - given) <= 1e-9 * Math.abs(wanted)
+        : wanted === given;
   return same ? undefined : `${place}: ${JSON.stringify(given)} instead of ${JSON.stringify(wanted)}`;
 }
 
@@ -75,7 +91,11 @@ async function call(address: string, method: string, input: Message): Promise<{ 
   const desc = registry.getService(service)?.methods.find((m) => m.name === name);
   if (!desc) throw new Error(`no method ${method}`);
   const transport = createGrpcWebTransport({ baseUrl: address });
-  if (desc.methodKind === "unary") return { desc: desc.output, message: (await transport.unary(desc as DescMethodUnary, undefined, undefined, undefined, input)).message };
+  if (desc.methodKind === "unary")
+    return {
+      desc: desc.output,
+      message: (await transport.unary(desc as DescMethodUnary, undefined, undefined, undefined, input)).message,
+    };
   if (desc.methodKind !== "server_streaming") throw new Error(`${method} takes a stream`);
   const stop = new AbortController();
   const one = async function* (): AsyncIterable<Message> {
@@ -105,18 +125,27 @@ test.describe("conformance", () => {
         if (!input) throw new Error(`${name}: no method ${method}`);
         const message = fromJson(input, request, { registry });
         if (hex(toBinary(input, message)) !== wire) wrong.push(`${name}: written as ${hex(toBinary(input, message))}`);
-        if (hex(toBinary(input, fromBinary(input, Buffer.from(wire, "hex")))) !== wire) wrong.push(`${name}: not written as it was read`);
+        if (hex(toBinary(input, fromBinary(input, Buffer.from(wire, "hex")))) !== wire)
+          wrong.push(`${name}: not written as it was read`);
         try {
           const answer = await call(`http://${server.address}`, method, message);
           if (outcome.code !== "OK") wrong.push(`${name}: OK instead of ${outcome.code}`);
-          const difference = outcome.response && missing(outcome.response, toJson(answer.desc, answer.message, { registry }), "response");
+          const difference =
+            outcome.response &&
+            missing(outcome.response, toJson(answer.desc, answer.message, { registry }), "response");
           if (difference) wrong.push(`${name}: ${difference}`);
         } catch (error) {
           if (!(error instanceof ConnectError)) throw error;
           const { reason, field, resource } = details(error);
           const told = { code: codeName(error.code), reason, field, resource };
-          const wanted = { code: outcome.code, reason: outcome.reason, field: outcome.field, resource: outcome.resource ?? resource };
-          if (JSON.stringify(told) !== JSON.stringify(wanted)) wrong.push(`${name}: ${JSON.stringify(told)} instead of ${JSON.stringify(wanted)} (${error.rawMessage})`);
+          const wanted = {
+            code: outcome.code,
+            reason: outcome.reason,
+            field: outcome.field,
+            resource: outcome.resource ?? resource,
+          };
+          if (JSON.stringify(told) !== JSON.stringify(wanted))
+            wrong.push(`${name}: ${JSON.stringify(told)} instead of ${JSON.stringify(wanted)} (${error.rawMessage})`);
         }
       }
       expect(wrong).toEqual([]);
@@ -125,9 +154,13 @@ test.describe("conformance", () => {
   test("the small client says what the one in Rust says", async () => {
     const run = promisify(execFile);
     const address = `http://${server.address}`;
-    const typescript = await run(process.execPath, ["run.mjs", "../examples/typescript/client.ts", address], { cwd: join(here, "..") });
+    const typescript = await run(process.execPath, ["run.mjs", "../examples/typescript/client.ts", address], {
+      cwd: join(here, ".."),
+    });
     const rust = await run(join(dirname(program), "examples/client"), [address]);
     expect(typescript.stdout).toBe(rust.stdout);
-    expect(typescript.stdout).toMatch(/^(\d\.\d\d s {2}right shoulder -?[\d.]+ of [\d.]+ N·m\n){8}state [0-9a-f]{16}\n$/);
+    expect(typescript.stdout).toMatch(
+      /^(\d\.\d\d s {2}right shoulder -?[\d.]+ of [\d.]+ N·m\n){8}state [0-9a-f]{16}\n$/,
+    );
   });
 });

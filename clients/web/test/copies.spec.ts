@@ -17,7 +17,9 @@ test("copies reproduce the scene", async ({ page, server, context }) => {
   await expect.poll(() => page.url()).toContain("0.5");
 
   await page.locator("#copy-cli").click();
-  await expect.poll(copied).toBe("sinew run builtin:crate --body adult-man --controller modern --assist 0.5 --load 6@l_hand+r_hand");
+  await expect
+    .poll(copied)
+    .toBe("sinew run builtin:crate --body adult-man --controller modern --assist 0.5 --load 6@l_hand+r_hand");
   const [, ...words] = (await copied()).split(" ");
   const { stdout } = await run(program, [...words, "--duration", "0.5"]);
   expect(stdout).not.toBe("");

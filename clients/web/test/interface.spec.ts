@@ -15,8 +15,18 @@ async function world(address: string, id: string, clips: string[]): Promise<Sine
   const api = new Sinew(`http://${address}`);
   await api.worlds.createWorld({ worldId: id });
   for (const [i, clip] of clips.entries()) {
-    const { figure } = await api.figures.createFigure({ parent: `worlds/${id}`, figureId: `f${i}`, figure: { body: "bodies/adult-man", placement: { yM: -6 * i } } });
-    await api.motion.playClip({ figure: figure?.name ?? "", clip: `clips/${clip}`, loop: true, reset: true, placement: { yM: -6 * i } });
+    const { figure } = await api.figures.createFigure({
+      parent: `worlds/${id}`,
+      figureId: `f${i}`,
+      figure: { body: "bodies/adult-man", placement: { yM: -6 * i } },
+    });
+    await api.motion.playClip({
+      figure: figure?.name ?? "",
+      clip: `clips/${clip}`,
+      loop: true,
+      reset: true,
+      placement: { yM: -6 * i },
+    });
   }
   return api;
 }
@@ -35,19 +45,33 @@ async function ghostPixels(page: Page): Promise<number> {
 
 /** Fells a figure with a push from behind. */
 async function fell(api: Sinew, world: string, figure: string): Promise<void> {
-  await api.perturbations.applyPerturbations({ world, perturbations: [{ figure, kind: { case: "impulse", value: { segment: "chest", impulseNs: { x: 300, y: 0, z: 0 }, durationS: 0.1 } } }] });
+  await api.perturbations.applyPerturbations({
+    world,
+    perturbations: [
+      {
+        figure,
+        kind: { case: "impulse", value: { segment: "chest", impulseNs: { x: 300, y: 0, z: 0 }, durationS: 0.1 } },
+      },
+    ],
+  });
 }
 
 /** Pelvis of every figure in the newest frame, and what it carries, kg. */
 async function places(api: Sinew, world: string): Promise<{ x: number; y: number; z: number; loadKg: number }[]> {
-  const { frame } = await api.state.getWorldFrame({ world, view: { fields: { paths: ["segment_transforms", "status"] } } });
+  const { frame } = await api.state.getWorldFrame({
+    world,
+    view: { fields: { paths: ["segment_transforms", "status"] } },
+  });
   return (frame?.figures ?? []).map((f) => {
     const [x, y, z] = Array.from(numbers(f.segmentTransforms));
     return { x, y, z, loadKg: (f.status?.loads ?? []).reduce((sum, l) => sum + l.massKg, 0) };
   });
 }
 
-test("the desired motion is drawn where it differs from the body, and not where both agree", async ({ page, server }) => {
+test("the desired motion is drawn where it differs from the body, and not where both agree", async ({
+  page,
+  server,
+}) => {
   expect(ghostOpacity(0)).toBe(0);
   expect(ghostOpacity(0.01)).toBe(0);
   expect(ghostOpacity(0.2)).toBe(1);
@@ -74,7 +98,11 @@ test("the first screen says what to try, beside the scene, until it is dismissed
   await server.start();
   await live(page, server.url);
   const hint = page.locator("#hint");
-  for (const size of [{ width: 1280, height: 720 }, { width: 1000, height: 700 }, { width: 390, height: 844 }]) {
+  for (const size of [
+    { width: 1280, height: 720 },
+    { width: 1000, height: 700 },
+    { width: 390, height: 844 },
+  ]) {
     await page.setViewportSize(size);
     await page.reload();
     await expect(page.locator("body")).toHaveAttribute("data-phase", "live");
@@ -117,7 +145,10 @@ test("a fallen figure has a message with a button that stands it up again, and n
   expect(f1.x, "the other one walks on").toBeGreaterThan(1.2);
 });
 
-test("reset puts all figures back, without loads, and starts their clips in the same tick", async ({ page, server }) => {
+test("reset puts all figures back, without loads, and starts their clips in the same tick", async ({
+  page,
+  server,
+}) => {
   await server.start("--no-demo");
   const api = await world(server.address, "again", ["walk", "walk", "idle"]);
   await live(page, `${server.url}#world=again`);
@@ -155,8 +186,16 @@ test("nothing in the panel moves while the page fills and numbers change", async
   await server.start();
   const layout = (): Promise<string> =>
     page.evaluate(() => {
-      const parts = document.querySelectorAll("#controls, #controls section, #controls section > *, .plot > *, .row > *, #summary dd, #bar > *, #bar .group > *");
-      return [...parts].map((e) => `${e.tagName} ${e.id} ${e.className}: ${[e.getBoundingClientRect().x, e.getBoundingClientRect().y, e.getBoundingClientRect().width, e.getBoundingClientRect().height].map((v) => v.toFixed(1)).join(" ")}`).join("\n");
+      const parts = document.querySelectorAll(
+        "#controls, #controls section, #controls section > *, .plot > *, .row > *, #summary dd, " +
+          "#bar > *, #bar .group > *",
+      );
+      return [...parts]
+        .map((e) => {
+          const { x, y, width, height } = e.getBoundingClientRect();
+          return `${e.tagName} ${e.id} ${e.className}: ${[x, y, width, height].map((v) => v.toFixed(1)).join(" ")}`;
+        })
+        .join("\n");
     });
   // The server's answers wait until the empty page has been measured.
   let release: () => void = () => undefined;
@@ -189,9 +228,17 @@ test("nothing in the panel moves while the page fills and numbers change", async
 test("torque plots have axes with units, a legend and the range of strength", async ({ page, server }) => {
   expect(axis(-32, 45)).toEqual({ low: -40, high: 60, step: 20 });
   expect(marks({ low: -40, high: 60, step: 20 })).toEqual([-40, -20, 0, 20, 40, 60]);
-  for (const [low, high] of [[-3, 0.2], [0, 0], [-812, 95], [-1, 1.5e4]]) {
+  for (const [low, high] of [
+    [-3, 0.2],
+    [0, 0],
+    [-812, 95],
+    [-1, 1.5e4],
+  ]) {
     const a = axis(low, high);
-    expect(a.low <= low && a.high >= high && marks(a).length >= 2 && marks(a).length <= 7, `${low} to ${high}: ${JSON.stringify(a)}`).toBe(true);
+    expect(
+      a.low <= low && a.high >= high && marks(a).length >= 2 && marks(a).length <= 7,
+      `${low} to ${high}: ${JSON.stringify(a)}`,
+    ).toBe(true);
   }
   const inUse = axis(-32, 45);
   expect(settled(inUse, -30, 41), "a small change keeps the axis").toBe(inUse);
@@ -212,13 +259,22 @@ test("torque plots have axes with units, a legend and the range of strength", as
   expect(labels).toContain(0);
   const readout = await plot.locator("figcaption span").last().innerText();
   const [, torque, low, high] = (/^(−?\d+) N·m \((−?\d+) to (−?\d+)\)$/.exec(readout) ?? []).map(number);
-  for (const v of [torque, low, high]) expect(v >= Math.min(...labels) && v <= Math.max(...labels), `${v} lies on the axis ${labels.join(", ")}`).toBe(true);
+  for (const v of [torque, low, high])
+    expect(v >= Math.min(...labels) && v <= Math.max(...labels), `${v} lies on the axis ${labels.join(", ")}`).toBe(
+      true,
+    );
   // Marks stand where their values are: the same distance between any two of them.
-  const heights = await plot.locator(".torques span").evaluateAll((spans) => spans.map((s) => s.getBoundingClientRect().y));
+  const heights = await plot
+    .locator(".torques span")
+    .evaluateAll((spans) => spans.map((s) => s.getBoundingClientRect().y));
   const gaps = heights.slice(1).map((y, i) => Math.abs(y - heights[i]));
   expect(Math.max(...gaps) - Math.min(...gaps)).toBeLessThan(1);
   expect(Math.min(...gaps), "labels do not overlap").toBeGreaterThan(10);
-  await expect(page.getByRole("list", { name: "Curves" }).locator("li")).toHaveText(["torque", "available range", "at its limit"]);
+  await expect(page.getByRole("list", { name: "Curves" }).locator("li")).toHaveText([
+    "torque",
+    "available range",
+    "at its limit",
+  ]);
 });
 
 test("the view follows the chosen figure until it is panned", async ({ page, server }) => {
@@ -227,7 +283,10 @@ test("the view follows the chosen figure until it is panned", async ({ page, ser
   await live(page, `${server.url}#world=far&figure=f1`);
   const view = page.locator("#view");
   const fromMiddle = async (): Promise<number> => {
-    const [label, box] = [await page.locator("#labels span.chosen:not([hidden])").boundingBox(), await view.boundingBox()];
+    const [label, box] = [
+      await page.locator("#labels span.chosen:not([hidden])").boundingBox(),
+      await view.boundingBox(),
+    ];
     return label && box ? Math.abs(label.x + label.width / 2 - box.x - box.width / 2) / box.width : Infinity;
   };
   expect(await fromMiddle(), "it stands aside at first").toBeGreaterThan(0.15);
@@ -269,7 +328,8 @@ test("a report lists every warning about a recording and every limited angle", a
     { dof: "waist_flexion", fraction: 0.2, maxExcessRad: 0.2 },
     { dof: "r_knee_flexion", fraction: 0.001, maxExcessRad: 0.5 },
   ];
-  const told = (...sentences: string[]): string[] => warnings(create(RetargetReportSchema, { clamped, warnings: sentences }));
+  const told = (...sentences: string[]): string[] =>
+    warnings(create(RetargetReportSchema, { clamped, warnings: sentences }));
   const waist = "Waist flexion exceeds the body's limits by up to 11° in 20 % of the frames";
   // Each angle is told once, whether the server names it as the protocol does or in words; a short clamp is no warning.
   expect(told()).toEqual(["Left elbow flexion exceeds the body's limits by up to 29° in 30 % of the frames", waist]);
@@ -280,7 +340,9 @@ test("a report lists every warning about a recording and every limited angle", a
   await dropFile(page, "folded.bvh", recording(178));
   const report = page.locator("#report");
   await expect(report).toContainText("folded.bvh is playing");
-  await expect(report.locator("ul.warnings li").filter({ hasText: /^Left elbow:? flexion/ })).toContainText(/\d+°.*\d+ %/);
+  await expect(report.locator("ul.warnings li").filter({ hasText: /^Left elbow:? flexion/ })).toContainText(
+    /\d+°.*\d+ %/,
+  );
   await expect(report, "no name of the protocol").not.toContainText("_");
   const limited = report.locator("details").filter({ hasText: "limited to the body’s range" });
   await limited.locator("summary").click();
@@ -296,9 +358,25 @@ test("readouts use the terms of the field", async ({ page, server }) => {
   expect([kilograms(19.5), kilograms(20), kilograms(0.25)]).toEqual(["19.5 kg", "20 kg", "0.25 kg"]);
   await server.start();
   await live(page, server.url);
-  await expect(page.locator("#summary dt")).toHaveText(["State", "Balance margin", "Load", "Tracking error", "Highest effort"]);
+  await expect(page.locator("#summary dt")).toHaveText([
+    "State",
+    "Balance margin",
+    "Load",
+    "Tracking error",
+    "Highest effort",
+  ]);
   await expect(fact(page, "margin")).toHaveText(/^\d+ cm( outside support)?$/);
   await expect(fact(page, "error")).toHaveText(/^\d+\.\d° rms$/);
   const text = await page.locator("body").innerText();
-  for (const phrase of ["inside its support", "Nobody", "Go on", "Take it with you", "How hard", "Tires", "hardest working", "Off the desired"]) expect(text).not.toContain(phrase);
+  for (const phrase of [
+    "inside its support",
+    "Nobody",
+    "Go on",
+    "Take it with you",
+    "How hard",
+    "Tires",
+    "hardest working",
+    "Off the desired",
+  ])
+    expect(text).not.toContain(phrase);
 });

@@ -18,7 +18,9 @@ export class Server {
 
   async start(...args: string[]): Promise<void> {
     const port = this.address ? this.address.split(":")[1] : "0";
-    const child = spawn(program, ["serve", "--listen", `127.0.0.1:${port}`, "--log", "warn", ...args], { stdio: ["ignore", "pipe", "inherit"] });
+    const child = spawn(program, ["serve", "--listen", `127.0.0.1:${port}`, "--log", "warn", ...args], {
+      stdio: ["ignore", "pipe", "inherit"],
+    });
     this.process = child;
     this.address = await new Promise<string>((done, failed) => {
       let said = "";
@@ -45,7 +47,7 @@ export class Server {
   }
 }
 
-/** Serves the page from this folder instead of from the server: for work on the page without building the server anew. */
+/** Serves the page from this folder instead of from the server: to work on the page without building the server. */
 const pageFolder = process.env.SINEW_PAGE;
 
 /** Every request that leaves for another host, and every error of the page, fails the test. */
@@ -53,10 +55,18 @@ export const test = base.extend<{ server: Server }>({
   server: async ({ page, context }, use) => {
     const server = new Server();
     if (pageFolder)
-      for (const [path, name] of [["/", "index.html"], ["/viewer.js", "viewer.js"], ["/viewer.css", "viewer.css"]])
+      for (const [path, name] of [
+        ["/", "index.html"],
+        ["/viewer.js", "viewer.js"],
+        ["/viewer.css", "viewer.css"],
+      ])
         await context.route(
           (url) => url.pathname === path,
-          async (r) => r.fulfill({ response: await r.fetch({ headers: { ...r.request().headers(), "accept-encoding": "identity" } }), path: join(pageFolder, name) }),
+          async (r) =>
+            r.fulfill({
+              response: await r.fetch({ headers: { ...r.request().headers(), "accept-encoding": "identity" } }),
+              path: join(pageFolder, name),
+            }),
         );
     const foreign: string[] = [];
     const errors: string[] = [];
@@ -125,7 +135,8 @@ export async function differing(page: Page, a: Buffer, b: Buffer, threshold = 6)
       };
       const [x, y] = [await pixels(a), await pixels(b)];
       let count = 0;
-      for (let i = 0; i < x.length; i += 4) if ([0, 1, 2].some((k) => Math.abs(x[i + k] - y[i + k]) > threshold)) count++;
+      for (let i = 0; i < x.length; i += 4)
+        if ([0, 1, 2].some((k) => Math.abs(x[i + k] - y[i + k]) > threshold)) count++;
       return count;
     },
     [a.toString("base64"), b.toString("base64"), threshold] as const,

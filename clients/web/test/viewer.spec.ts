@@ -217,7 +217,29 @@ test("everything can be done with the keyboard alone", async ({ page, server }) 
     await page.keyboard.press("Tab");
     reached.add(await page.evaluate(() => document.activeElement?.id ?? ""));
   }
-  for (const id of ["load-slider", "pause", "step", "speed", "clip", "body", "controller", "stepper", "strength", "fatigue", "impulse", "push", "open", "copy-python", "copy-cli", "copy-link", "view", "reset", "follow", "fit", "hint-close"])
+  for (const id of [
+    "load-slider",
+    "pause",
+    "step",
+    "speed",
+    "clip",
+    "body",
+    "controller",
+    "stepper",
+    "strength",
+    "fatigue",
+    "impulse",
+    "push",
+    "open",
+    "copy-python",
+    "copy-cli",
+    "copy-link",
+    "view",
+    "reset",
+    "follow",
+    "fit",
+    "hint-close",
+  ])
     expect(reached, id).toContain(id);
 });
 
@@ -248,7 +270,10 @@ test("twenty figures", async ({ page, server }) => {
     const { figure } = await api.figures.createFigure({
       parent: "worlds/crowd",
       figureId: `p${i}`,
-      figure: { body: `bodies/adult-${i % 2 ? "woman" : "man"}`, placement: { xM: Math.floor(i / 5) * 1.5, yM: (i % 5) * 1.3 } },
+      figure: {
+        body: `bodies/adult-${i % 2 ? "woman" : "man"}`,
+        placement: { xM: Math.floor(i / 5) * 1.5, yM: (i % 5) * 1.3 },
+      },
     });
     await api.motion.playClip({ figure: figure?.name ?? "", clip: `clips/${clips[i % 5]}`, loop: true, reset: true });
   }
@@ -259,6 +284,7 @@ test("twenty figures", async ({ page, server }) => {
   // second. It is a mean over the last pictures; when the machine does other things, one of the next means counts.
   const script = (): Promise<number> => page.evaluate(() => Number(document.body.dataset.script));
   await expect.poll(script).toBeLessThan(12);
-  console.log(`twenty figures: ${await script()} ms of script per picture, ${await page.evaluate(() => document.body.dataset.cost)} ms with the software renderer`);
+  const cost = await page.evaluate(() => document.body.dataset.cost);
+  console.log(`twenty figures: ${await script()} ms of script per picture, ${cost} ms with the software renderer`);
   await shot(page, "twenty");
 });

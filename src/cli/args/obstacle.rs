@@ -11,8 +11,8 @@ use std::str::FromStr;
 pub struct ObstacleSpec(pub ObstacleSetup);
 
 impl ObstacleSpec {
-    const FORM: &'static str = "SHAPE:SIZE@x,y,z[,yaw°][:KGkg][:vx,vy,vz] with SHAPE:SIZE one of box:LX,LY,LZ (edges, m), sphere:R, \
-                                capsule:R,L (upright; L between the centres of its ends), plane:nx,ny,nz (normal)";
+    const FORM: &'static str = "SHAPE:SIZE@x,y,z[,yaw°][:KGkg][:vx,vy,vz] with SHAPE:SIZE one of box:LX,LY,LZ (edges, \
+        m), sphere:R, capsule:R,L (upright; L between the centres of its ends), plane:nx,ny,nz (normal)";
     /// Coefficient of friction of wood or cloth on skin and cloth.
     const FRICTION: f64 = 0.6;
 }

@@ -103,8 +103,10 @@ const HEADING: [(&str, &str); 2] = [
 /// What the columns of [`line`] mean.
 const LEGEND: &str = "
 joint error     target minus actual joint angle over all degrees of freedom: root mean square and maximum, degrees
-tracking error  mean distance of the segment origins from those of the target, mm: local = relative to the pelvis, global = in the world.
-                The target is moved along with the feet after each step. `sinew survey` measures errors against the fixed recording.
+tracking error  mean distance of the segment origins from those of the target, mm:
+                local = relative to the pelvis, global = in the world.
+                The target is moved along with the feet after each step.
+                `sinew survey` measures errors against the fixed recording.
 strength used   largest muscle torque relative to the available torque, %; 100 = at the limit
 balance margin  least distance of the zero-moment point from the edge of the support polygon, cm; negative = outside
 foot skate      mean horizontal speed of the loaded contact points of the feet, mm/s

@@ -113,14 +113,16 @@ fn replaced(text: &str, section: &str, command: &str, tables: &str) -> Result<St
 mod tests {
     use super::*;
 
-    const PAGE: &str = "# Limits\n\n<!-- survey wide-2 begin: x -->\nkept\n<!-- survey wide-2 end -->\n<!-- survey wide begin: old command -->\nold\ntable\n<!-- survey wide end -->\nafter\n";
+    const PAGE: &str = "# Limits\n\n<!-- survey wide-2 begin: x -->\nkept\n<!-- survey wide-2 end -->\n\
+        <!-- survey wide begin: old command -->\nold\ntable\n<!-- survey wide end -->\nafter\n";
 
     #[test]
     fn only_the_section_is_replaced_and_again() {
         let once = replaced(PAGE, "wide", "sinew survey a", "| t |\n").unwrap();
         assert!(once.starts_with("# Limits\n\n<!-- survey wide-2 begin: x -->\nkept\n"));
         assert!(once.ends_with(
-            "<!-- survey wide begin: sinew survey a -->\n\n```sh\nsinew survey a\n```\n\n| t |\n\n<!-- survey wide end -->\nafter\n"
+            "<!-- survey wide begin: sinew survey a -->\n\n```sh\nsinew survey a\n```\n\n| t |\n\n\
+             <!-- survey wide end -->\nafter\n"
         ));
         assert_eq!(
             replaced(&once, "wide", "sinew survey a", "| t |\n").unwrap(),

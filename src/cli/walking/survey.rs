@@ -116,8 +116,9 @@ pub(super) fn survey(page: &mut Page, study: &Study) -> Result<()> {
     }
     page.say("## Variations of every clip");
     page.say(
-        "From standing to standing, with one condition changed at a time. Cells: joint tracking error, ° rms, or time of the fall. Clips at another \
-         speed are prepared for it, as `PlayClip` does; the man of 70 has the strength of his age; loads are held from the start.",
+        "From standing to standing, with one condition changed at a time. Cells: joint tracking error, ° rms, or time \
+         of the fall. Clips at another speed are prepared for it, as `PlayClip` does; the man of 70 has the strength \
+         of his age; loads are held from the start.",
     );
     let all = rows.len();
     let counts = stood.iter().map(|n| format!("{n} of {all}"));

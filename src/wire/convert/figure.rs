@@ -212,7 +212,8 @@ pub fn update(
                 return Err(Fault::invalid(
                     format!("update_mask.paths[{i}]"),
                     format!(
-                        "must be display_name, strength, controller, paper, fatigue_time_scale, assist, constraints or protective_steps, got {:?}",
+                        "must be display_name, strength, controller, paper, fatigue_time_scale, assist, constraints or \
+                         protective_steps, got {:?}",
                         shortened(other)
                     ),
                 ));

@@ -51,8 +51,8 @@ pub struct Placement {
     #[prost(double, tag = "3")]
     pub yaw_rad: f64,
 }
-/// A packed array of numbers. At most one of the representations is filled, as `Encoding` says; all are empty for an empty array.
-/// Count, order, unit and frame are those of the field that uses it.
+/// A packed array of numbers. At most one of the representations is filled, as `Encoding` says; all are empty for an
+/// empty array. Count, order, unit and frame are those of the field that uses it.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Numbers {
     /// Values of ENCODING_FLOAT.
@@ -202,7 +202,7 @@ impl Encoding {
         }
     }
 }
-/// Who a body stands for.
+/// Person that a body represents.
 #[derive(Clone, Copy, PartialEq, ::prost::Message)]
 pub struct BodyProfile {
     /// Tables to use. Required. Up to 10 years both give the same body.
@@ -218,8 +218,8 @@ pub struct BodyProfile {
     #[prost(double, tag = "4")]
     pub mass_kg: f64,
 }
-/// One rigid part. Its frame sits at the joint that joins it to its parent; in the zero pose (upright, arms hanging, palms to the
-/// thighs) it is parallel to the world.
+/// One rigid part. Its frame sits at the joint that joins it to its parent; in the zero pose (upright, arms hanging,
+/// palms to the thighs) it is parallel to the world.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Segment {
     /// Name, for example `r_hand`. Segments are referred to by this name in requests and by index in frames.
@@ -275,7 +275,8 @@ pub struct Joint {
 /// One joint degree of freedom.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Dof {
-    /// Name, for example `l_knee_flexion`. Angles are anatomically signed: flexion, abduction, internal rotation positive on both sides.
+    /// Name, for example `l_knee_flexion`. Angles are anatomically signed: flexion, abduction, internal rotation positive
+    /// on both sides.
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
     /// Index of the joint (and segment) that owns it.
@@ -300,7 +301,7 @@ pub struct Body {
     /// Resource name `bodies/{body}`.
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
-    /// Who it stands for.
+    /// Person that it represents.
     #[prost(message, optional, tag = "2")]
     pub profile: ::core::option::Option<BodyProfile>,
     /// Segments in frame order, pelvis first.
@@ -315,7 +316,8 @@ pub struct Body {
     /// Height of the pelvis origin (midpoint of the hip centres) over the soles in the zero pose, m.
     #[prost(double, tag = "6")]
     pub standing_root_height_m: f64,
-    /// Where its numbers come from: masses and lengths of segments, limits and strength of DOFs, fatigue. Only with `include_provenance`.
+    /// Where its numbers come from: masses and lengths of segments, limits and strength of DOFs, fatigue. Only with
+    /// `include_provenance`.
     #[prost(message, repeated, tag = "7")]
     pub provenance: ::prost::alloc::vec::Vec<Provenance>,
 }
@@ -340,8 +342,8 @@ pub struct Provenance {
     /// Publication or reason.
     #[prost(string, tag = "6")]
     pub source: ::prost::alloc::string::String,
-    /// How far to trust it. S1: read in data that cite the publication. S2: read in the publication. S3: cross-check only. D: derived.
-    /// R: estimate.
+    /// How far to trust it. S1: read in data that cite the publication. S2: read in the publication. S3: cross-check only.
+    /// D: derived. R: estimate.
     #[prost(string, tag = "7")]
     pub tag: ::prost::alloc::string::String,
     /// What was done with it.
@@ -522,8 +524,9 @@ pub mod body_service_client {
     )]
     use tonic::codegen::*;
     use tonic::codegen::http::Uri;
-    /// Describes bodies. A body is immutable and follows from its profile, so its name says everything:
-    /// `bodies/adult-man`, `bodies/adult-woman`, `bodies/child`, `bodies/older-man`, `bodies/older-woman`, or `bodies/{sex}-{age}y-{height}mm-{mass}g`, for example `bodies/female-25y-1680mm-61500g`.
+    /// Describes bodies. A body is immutable and follows from its profile, so its name says everything: `bodies/adult-man`,
+    /// `bodies/adult-woman`, `bodies/child`, `bodies/older-man`, `bodies/older-woman`, or
+    /// `bodies/{sex}-{age}y-{height}mm-{mass}g`, for example `bodies/female-25y-1680mm-61500g`.
     #[derive(Debug, Clone)]
     pub struct BodyServiceClient<T> {
         inner: tonic::client::Grpc<T>,
@@ -716,8 +719,9 @@ pub mod body_service_server {
             tonic::Status,
         >;
     }
-    /// Describes bodies. A body is immutable and follows from its profile, so its name says everything:
-    /// `bodies/adult-man`, `bodies/adult-woman`, `bodies/child`, `bodies/older-man`, `bodies/older-woman`, or `bodies/{sex}-{age}y-{height}mm-{mass}g`, for example `bodies/female-25y-1680mm-61500g`.
+    /// Describes bodies. A body is immutable and follows from its profile, so its name says everything: `bodies/adult-man`,
+    /// `bodies/adult-woman`, `bodies/child`, `bodies/older-man`, `bodies/older-woman`, or
+    /// `bodies/{sex}-{age}y-{height}mm-{mass}g`, for example `bodies/female-25y-1680mm-61500g`.
     #[derive(Debug)]
     pub struct BodyServiceServer<T> {
         inner: Arc<T>,
@@ -1087,31 +1091,35 @@ pub struct Figure {
     /// Seconds of muscle fatigue per simulated second, 0…1000. 0: muscles never tire.
     #[prost(double, tag = "14")]
     pub fatigue_time_scale: f64,
-    /// Help towards the desired pose of the pelvis, 0…1: a bounded wrench that no body has, reported in every frame (`assist`). 1 holds the
-    /// pelvis on its path. 0: none.
+    /// Help towards the desired pose of the pelvis, 0…1: a bounded wrench that no body has, reported in every frame
+    /// (`assist`). 1 holds the pelvis on its path. 0: none.
     #[prost(double, tag = "15")]
     pub assist: f64,
     /// Choices of the paper's controller. Absent: its defaults.
     #[prost(message, optional, tag = "16")]
     pub paper: ::core::option::Option<PaperOptions>,
-    /// Where parts of the body are wanted, at most 8, no two on the same part. An update replaces all: one on a part that was constrained before
-    /// goes on from there, the others ease in, and those that are missing fade out. In responses those that have ended are gone.
+    /// Where parts of the body are wanted, at most 8, no two on the same part. An update replaces all: one on a part that
+    /// was constrained before goes on from there, the others ease in, and those that are missing fade out. In responses
+    /// those that have ended are gone.
     #[prost(message, repeated, tag = "17")]
     pub constraints: ::prost::alloc::vec::Vec<Constraint>,
     /// Step when the capture point has left the feet (CONTROLLER_MODERN). Absent: true.
     #[prost(bool, optional, tag = "18")]
     pub protective_steps: ::core::option::Option<bool>,
-    /// Clip that begins as soon as the figure stands or has gone over to it, `clips/{clip}`; empty if none waits. Output only.
+    /// Clip that begins as soon as the figure stands or has gone over to it, `clips/{clip}`; empty if none waits. Output
+    /// only.
     #[prost(string, tag = "19")]
     pub next_clip: ::prost::alloc::string::String,
 }
-/// Where the centre of mass or a point of a segment is wanted, and how the segment is wanted to be turned, while the rest of the body follows
-/// its motion. At least one of `position_m` and `rotation` must be given. The part moves there from wherever it is; an arm reaches as far as
-/// its length, trunk, head and legs up to 0.15 m from where the motion has them, and the centre of mass stays 0.03 m inside what the feet
-/// cover from heel to ball. A foot that stands is not lifted. Fallen figures and CONTROLLER_MOTORS ignore constraints.
+/// Where the centre of mass or a point of a segment is wanted, and how the segment is wanted to be turned, while the
+/// rest of the body follows its motion. At least one of `position_m` and `rotation` must be given. The part moves there
+/// from wherever it is; an arm reaches as far as its length, trunk, head and legs up to 0.15 m from where the motion has
+/// them, and the centre of mass stays 0.03 m inside what the feet cover from heel to ball. A foot that stands is not
+/// lifted. Fallen figures and CONTROLLER_MOTORS ignore constraints.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Constraint {
-    /// Point of the segment, segment frame, m, each component within ±2. Absent: the middle of a hand, else the segment's centre of mass.
+    /// Point of the segment, segment frame, m, each component within ±2. Absent: the middle of a hand, else the segment's
+    /// centre of mass.
     #[prost(message, optional, tag = "3")]
     pub point_m: ::core::option::Option<Vector3>,
     /// Wanted position, world, m, each component within ±10000. Absent: the position is free.
@@ -1212,8 +1220,8 @@ pub struct UpdateFigureRequest {
     /// The figure, by `name`, with new values.
     #[prost(message, optional, tag = "1")]
     pub figure: ::core::option::Option<Figure>,
-    /// Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper`, `constraints`, `protective_steps` to take. Must
-    /// not be empty.
+    /// Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper`, `constraints`,
+    /// `protective_steps` to take. Must not be empty.
     #[prost(message, optional, tag = "2")]
     pub update_mask: ::core::option::Option<::prost_types::FieldMask>,
 }
@@ -1251,7 +1259,7 @@ pub struct ResetFigureResponse {
     #[prost(message, optional, tag = "1")]
     pub figure: ::core::option::Option<Figure>,
 }
-/// Who computes accelerations and torques.
+/// Controller: computes accelerations and torques.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
 #[repr(i32)]
 pub enum Controller {
@@ -1288,7 +1296,7 @@ impl Controller {
         }
     }
 }
-/// Who moves the body.
+/// Stepper: moves the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
 #[repr(i32)]
 pub enum Stepper {
@@ -2194,8 +2202,8 @@ pub struct ObstacleFrame {
     #[prost(message, optional, tag = "4")]
     pub force: ::core::option::Option<Numbers>,
 }
-/// One figure after one tick. The view's field mask chooses among the fields from `root_pose` on; fields that were not chosen are
-/// absent. Torques and contact forces are means over the tick.
+/// One figure after one tick. The view's field mask chooses among the fields from `root_pose` on; fields that were not
+/// chosen are absent. Torques and contact forces are means over the tick.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct FigureFrame {
     /// Position in the roster.
@@ -2219,9 +2227,9 @@ pub struct FigureFrame {
     /// World pose of each of the 18 segments, 7 numbers each as in `root_pose`: 126 numbers.
     #[prost(message, optional, tag = "7")]
     pub segment_transforms: ::core::option::Option<Numbers>,
-    /// Velocity, 45 numbers: pelvis angular velocity (rad/s) and velocity of the pelvis origin (m/s), both in world axes, then the 39
-    /// joint rates (rad/s). For ball joints these are the components of the angular velocity of child relative to parent along the signed
-    /// child axes of the DOFs, not derivatives of the anatomical angles.
+    /// Velocity, 45 numbers: pelvis angular velocity (rad/s) and velocity of the pelvis origin (m/s), both in world axes,
+    /// then the 39 joint rates (rad/s). For ball joints these are the components of the angular velocity of child relative
+    /// to parent along the signed child axes of the DOFs, not derivatives of the anatomical angles.
     #[prost(message, optional, tag = "8")]
     pub velocity: ::core::option::Option<Numbers>,
     /// Mean time derivative of `velocity` over the tick, 45 numbers.
@@ -2233,7 +2241,8 @@ pub struct FigureFrame {
     /// Torque that no muscle gives: joint limits and stretched tissue, 39 numbers, N·m. `torque` does not hold it.
     #[prost(message, optional, tag = "11")]
     pub ligament_torque: ::core::option::Option<Numbers>,
-    /// Least and largest torque that the muscles could give at the start of the tick: 39 lower (negative), then 39 upper, N·m.
+    /// Least and largest torque that the muscles could give at the start of the tick: 39 lower (negative), then 39 upper,
+    /// N·m.
     #[prost(message, optional, tag = "12")]
     pub torque_limits: ::core::option::Option<Numbers>,
     /// Touching points with their forces.
@@ -2251,20 +2260,23 @@ pub struct FigureFrame {
     /// One substep as it was solved; satisfies the equations of motion to rounding.
     #[prost(message, optional, tag = "17")]
     pub audit: ::core::option::Option<Audit>,
-    /// Pelvis position (3, m) and rotation (4), then per segment 1…17 its joint position: a quaternion for a ball joint, angles (rad) for
-    /// hinges: 55 numbers, the state's own coordinates.
+    /// Pelvis position (3, m) and rotation (4), then per segment 1…17 its joint position: a quaternion for a ball joint,
+    /// angles (rad) for hinges: 55 numbers, the state's own coordinates.
     #[prost(message, optional, tag = "18")]
     pub positions: ::core::option::Option<Numbers>,
-    /// What fatigue has left of the strength, 0.01…1: 39 for the positive, then 39 for the negative direction. 1 while fatigue is off.
+    /// What fatigue has left of the strength, 0.01…1: 39 for the positive, then 39 for the negative direction. 1 while
+    /// fatigue is off.
     #[prost(message, optional, tag = "21")]
     pub fatigue: ::core::option::Option<Numbers>,
-    /// Mean assist on the pelvis over the tick, world axes: moment about the pelvis origin (3, N·m), then force (3, N). Zero while it is off.
+    /// Mean assist on the pelvis over the tick, world axes: moment about the pelvis origin (3, N·m), then force (3, N).
+    /// Zero while it is off.
     #[prost(message, optional, tag = "22")]
     pub assist: ::core::option::Option<Numbers>,
     /// What it touches besides the ground.
     #[prost(message, optional, tag = "23")]
     pub touches: ::core::option::Option<Touches>,
-    /// What is missing of each constraint, in the order of `Figure.constraints`: distance along the axes that count (m), angle (rad).
+    /// What is missing of each constraint, in the order of `Figure.constraints`: distance along the axes that count (m),
+    /// angle (rad).
     #[prost(message, optional, tag = "24")]
     pub constraint_error: ::core::option::Option<Numbers>,
 }
@@ -2350,8 +2362,8 @@ pub struct DesiredPosture {
 /// What state a figure is in.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Status {
-    /// Set of flags by bit; `GetServerInfo` lists their names: FLIGHT, TIPPING, OVERLOAD, DAMPED, CONTROL_BOUND, STEP_BOUND, FALLEN,
-    /// QUARANTINED, BALANCE_LOST, HANDED_OVER, SPEED_BOUND.
+    /// Set of flags by bit; `GetServerInfo` lists their names: FLIGHT, TIPPING, OVERLOAD, DAMPED, CONTROL_BOUND,
+    /// STEP_BOUND, FALLEN, QUARANTINED, BALANCE_LOST, HANDED_OVER, SPEED_BOUND.
     #[prost(int32, tag = "1")]
     pub flags: i32,
     /// Set of DOFs at the limit of their strength, by bit.
@@ -2363,9 +2375,10 @@ pub struct Status {
     /// Largest violation of the strength in any substep, relative to the limit; 0 when none.
     #[prost(double, tag = "4")]
     pub over_limit: f64,
-    /// Joint error, desired minus actual at the start of the tick, root mean square over the 39 DOFs, rad.
+    /// Tracking error of the joint angles, target minus actual at the start of the tick: root mean square over the 39
+    /// DOFs, rad. The target is the prepared motion, moved along with the feet after each step.
     #[prost(double, tag = "5")]
-    pub joint_rms_rad: f64,
+    pub tracking_joint_rms_rad: f64,
     /// Largest depth of a contact point below the ground, m.
     #[prost(double, tag = "6")]
     pub penetration_m: f64,
@@ -2379,8 +2392,8 @@ pub struct Status {
     #[prost(message, repeated, tag = "9")]
     pub loads: ::prost::alloc::vec::Vec<CarriedLoad>,
 }
-/// The last substep of the tick as it was solved: `M v̇ + h = Sᵀ (torque + ligament_torque) + Σ Jᵀ f + assist`, with M and h of the body with
-/// its loads and gravity along −z, holds to rounding in ENCODING_DOUBLE.
+/// The last substep of the tick as it was solved: `M v̇ + h = Sᵀ (torque + ligament_torque) + Σ Jᵀ f + assist`, with M
+/// and h of the body with its loads and gravity along −z, holds to rounding in ENCODING_DOUBLE.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Audit {
     /// State at the start of the substep, as `FigureFrame.positions`: 55 numbers.
@@ -2410,7 +2423,8 @@ pub struct Audit {
     /// Gravity, m/s², along −z.
     #[prost(double, tag = "9")]
     pub gravity_mps2: f64,
-    /// Assist, dual to the first six numbers of `velocity`: moment about the pelvis origin (N·m), then force (N). Absent when it is off.
+    /// Assist, dual to the first six numbers of `velocity`: moment about the pelvis origin (N·m), then force (N). Absent
+    /// when it is off.
     #[prost(message, optional, tag = "12")]
     pub assist: ::core::option::Option<Numbers>,
 }
@@ -2457,18 +2471,20 @@ pub struct Clip {
     /// When it was stored; absent for built-in clips.
     #[prost(message, optional, tag = "9")]
     pub create_time: ::core::option::Option<::prost_types::Timestamp>,
-    /// What will come of it when that body follows it by its own strength, without loads; absent for built-in clips, and in lists.
+    /// Forecast for that body following it by its own strength, without loads; absent for built-in clips, and
+    /// in lists.
     #[prost(message, optional, tag = "10")]
     pub forecast: ::core::option::Option<Forecast>,
 }
-/// How hard a clip is, from inverse dynamics of the prepared motion. Peaks are means over 0.1 s; times are those of the clip, negative on the way
-/// into it.
+/// How hard a clip is, from inverse dynamics of the prepared motion. Peaks are means over 0.1 s; times are those of the
+/// clip, negative on the way into it.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Forecast {
-    /// What will come of it.
+    /// Verdict of the forecast.
     #[prost(enumeration = "ForecastVerdict", tag = "1")]
     pub verdict: i32,
-    /// The demand that decided, as a sentence without its beginning, for example `needs 1.8 times the strength of the right knee (flexion) at 1.2 s`.
+    /// The demand that decided, as a sentence without its beginning, for example `needs 1.8 times the strength of the
+    /// right knee (flexion) at 1.2 s`.
     #[prost(string, tag = "2")]
     pub reason: ::prost::alloc::string::String,
     /// How large that demand is: up to 1 motions are believed to be followed, from 2 on not even with a little help.
@@ -2492,7 +2508,8 @@ pub struct Forecast {
     /// Largest torque of `strength_dof` over the strength at those angles and speeds.
     #[prost(double, tag = "9")]
     pub strength_peak_ratio: f64,
-    /// DOF among hips, knees, waist and thorax that is closest to its strength, for example `r_knee_flexion`; empty if none is needed.
+    /// DOF among hips, knees, waist and thorax that is closest to its strength, for example `r_knee_flexion`; empty if
+    /// none is needed.
     #[prost(string, tag = "10")]
     pub strength_dof: ::prost::alloc::string::String,
     /// When, s.
@@ -2535,8 +2552,8 @@ pub struct BvhOptions {
     /// Corner frequency of the zero-phase low-pass, Hz, 0.5…60. Absent: 6.
     #[prost(double, optional, tag = "6")]
     pub cutoff_hz: ::core::option::Option<f64>,
-    /// Walks what the recording runs: slower and with shorter steps, so that the clip gets longer. The strength that is measured in people's
-    /// joints does not run: left as recorded, a run fells its figure. Absent: true.
+    /// Walks what the recording runs: slower and with shorter steps, so that the clip gets longer. The strength that is
+    /// measured in people's joints does not run: left as recorded, a run fells its figure. Absent: true.
     #[prost(bool, optional, tag = "7")]
     pub walk_runs: ::core::option::Option<bool>,
 }
@@ -2649,31 +2666,33 @@ pub struct PlayClipRequest {
     /// Clip: resource name `clips/{clip}`.
     #[prost(string, tag = "2")]
     pub clip: ::prost::alloc::string::String,
-    /// Playback speed, 0.1…4. 0 or absent: 1. A recording (BVH) is prepared for it, from 0.5 to 2 in steps of 1/50: steps and balance are those of that
-    /// pace. The first time for a body and a speed takes as long as an upload does.
+    /// Playback speed, 0.1…4. 0 or absent: 1. A recording (BVH) is prepared for it, from 0.5 to 2 in steps of 1/50: steps
+    /// and balance are those of that pace. The first time for a body and a speed takes as long as an upload does.
     #[prost(double, tag = "3")]
     pub speed: f64,
-    /// Repeats, carrying the displacement of the root over. A walk repeats its best cycle; a motion whose end is not like its beginning is
-    /// led back to it by steps. Default: false.
+    /// Repeats, carrying the displacement of the root over. A walk repeats its best cycle; a motion whose end is not like
+    /// its beginning is led back to it by steps. Default: false.
     #[prost(bool, tag = "4")]
     pub r#loop: bool,
     /// World time at which the clip starts, s, or later if the figure does not stand by then. Absent: at the next tick.
     #[prost(double, optional, tag = "5")]
     pub start_time_s: ::core::option::Option<f64>,
-    /// Puts the figure into the clip's first posture and velocity at once. Default: false, it comes into it from standing, by steps of its own if
-    /// the recording begins in motion. Without `loop` it ends standing in the same way.
+    /// Puts the figure into the clip's first posture and velocity at once. Default: false, it comes into it from standing,
+    /// by steps of its own if the recording begins in motion. Without `loop` it ends standing in the same way.
     #[prost(bool, tag = "6")]
     pub reset: bool,
-    /// Where the clip begins, with the steps that lead into it. Absent: where the figure is, or where its feet are once it stands.
+    /// Where the clip begins, with the steps that lead into it. Absent: where the figure is, or where its feet are once it
+    /// stands.
     #[prost(message, optional, tag = "7")]
     pub placement: ::core::option::Option<Placement>,
 }
 /// The clip plays, or waits until the figure stands.
 #[derive(Clone, Copy, PartialEq, ::prost::Message)]
 pub struct PlayClipResponse {
-    /// World time at which its first frame plays, s: later than asked for by the length of the steps that lead into it. Gone over to from step to
-    /// step, up to 0.4 s of a clip are left out, and up to a stride of one that repeats: then this may be before the request. If the figure has
-    /// to stand first, or is led into it, it is what is expected; the clip begins when the figure has settled, up to 2 s sooner or 3 s later.
+    /// World time at which its first frame plays, s: later than asked for by the length of the steps that lead into it.
+    /// Gone over to from step to step, up to 0.4 s of a clip are left out, and up to a stride of one that repeats: then
+    /// this may be before the request. If the figure has to stand first, or is led into it, it is what is expected; the
+    /// clip begins when the figure has settled, up to 2 s sooner or 3 s later.
     #[prost(double, tag = "1")]
     pub start_time_s: f64,
 }
@@ -2744,8 +2763,8 @@ pub struct DriveHeader {
     /// Figures that are driven: last parts of their names. At least one.
     #[prost(string, repeated, tag = "2")]
     pub figures: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
-    /// Who drives, at most 64 bytes of printable ASCII. The same driver may come back after a lost connection. Empty: the server
-    /// chooses, and `PushMotion` takes it as `push`.
+    /// Name of the driver, at most 64 bytes of printable ASCII. The same driver may come back after a lost connection.
+    /// Empty: the server chooses, and `PushMotion` takes it as `push`.
     #[prost(string, tag = "3")]
     pub driver_id: ::prost::alloc::string::String,
     /// Frames per second that will come, 1…1000. 0 or absent: 60. Used for the first estimates only.
@@ -2767,15 +2786,17 @@ pub struct DriveHeader {
     /// How long the last posture is held before the figure relaxes into quiet standing, ms, 0…600000. Absent: 5000.
     #[prost(double, optional, tag = "9")]
     pub hold_limit_ms: ::core::option::Option<f64>,
-    /// How long the figures are kept for this driver after its connection is lost or after its last push, ms, 0…60000. Absent: 5000.
+    /// How long the figures are kept for this driver after its connection is lost or after its last push, ms, 0…60000.
+    /// Absent: 5000.
     #[prost(double, optional, tag = "10")]
     pub grace_ms: ::core::option::Option<f64>,
     /// Puts each figure into its first desired posture when the drive begins. Default: false, it moves there by itself.
     #[prost(bool, tag = "11")]
     pub reset: bool,
-    /// How far behind the newest frame motion is prepared for the body, ms: 0, or 300…1000. Within this window planted feet are locked, swings
-    /// clear the floor and the zero-moment point is brought over the feet, so that a stream may walk; steps then follow events. It is added to
-    /// the playout delay. 0 uses frames as they come, without that delay, for streams that stand. Absent: the server's `live_window_ms`.
+    /// How far behind the newest frame motion is prepared for the body, ms: 0, or 300…1000. Within this window planted
+    /// feet are locked, swings clear the floor and the zero-moment point is brought over the feet, so that a stream may
+    /// walk; steps then follow events. It is added to the playout delay. 0 uses frames as they come, without that delay,
+    /// for streams that stand. Absent: the server's `live_window_ms`.
     #[prost(double, optional, tag = "12")]
     pub preparation_window_ms: ::core::option::Option<f64>,
 }
@@ -2897,11 +2918,12 @@ pub struct FigureFeedback {
     /// Frames dropped because the buffer was full.
     #[prost(int64, tag = "15")]
     pub overflow_count: i64,
-    /// Length of the window in which motion is prepared, ms; contained in `playout_delay_ms`. 0: frames are used as they come.
+    /// Length of the window in which motion is prepared, ms; contained in `playout_delay_ms`. 0: frames are used as they
+    /// come.
     #[prost(double, tag = "16")]
     pub preparation_window_ms: f64,
 }
-/// What will come of a clip.
+/// Forecast of how a figure follows a clip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
 #[repr(i32)]
 pub enum ForecastVerdict {
@@ -3245,9 +3267,10 @@ pub mod motion_service_client {
                 .insert(GrpcMethod::new("sinew.v1.MotionService", "DeleteClip"));
             self.inner.unary(req, path, codec).await
         }
-        /// Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else it finishes its step and
-        /// stands first, as does one in the middle of another clip. Until then the clip is `Figure.next_clip`, and a further call puts another one in
-        /// its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it live.
+        /// Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else
+        /// it finishes its step and stands first, as does one in the middle of another clip. Until then the clip is
+        /// `Figure.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`)
+        /// while someone drives it live.
         pub async fn play_clip(
             &mut self,
             request: impl tonic::IntoRequest<super::PlayClipRequest>,
@@ -3272,8 +3295,8 @@ pub mod motion_service_client {
                 .insert(GrpcMethod::new("sinew.v1.MotionService", "PlayClip"));
             self.inner.unary(req, path, codec).await
         }
-        /// Ends a clip, and takes back the one that waits: a figure that walks finishes its step and comes to a stand, any other holds the posture
-        /// that is asked of it now.
+        /// Ends a clip, and takes back the one that waits: a figure that walks finishes its step and comes to a stand, any
+        /// other holds the posture that is asked of it now.
         pub async fn stop_clip(
             &mut self,
             request: impl tonic::IntoRequest<super::StopClipRequest>,
@@ -3323,8 +3346,9 @@ pub mod motion_service_client {
                 .insert(GrpcMethod::new("sinew.v1.MotionService", "PushMotion"));
             self.inner.unary(req, path, codec).await
         }
-        /// Drives figures live. The first message is the header, all others are batches. Feedback comes at once, then about ten times
-        /// a second, and when something goes wrong. Ending the stream gives the figures back; losing it keeps them for the grace time.
+        /// Drives figures live. The first message is the header, all others are batches. Feedback comes at once, then about
+        /// ten times a second, and when something goes wrong. Ending the stream gives the figures back; losing it keeps them
+        /// for the grace time.
         pub async fn drive_figures(
             &mut self,
             request: impl tonic::IntoStreamingRequest<
@@ -3395,9 +3419,10 @@ pub mod motion_service_server {
             tonic::Response<super::DeleteClipResponse>,
             tonic::Status,
         >;
-        /// Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else it finishes its step and
-        /// stands first, as does one in the middle of another clip. Until then the clip is `Figure.next_clip`, and a further call puts another one in
-        /// its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it live.
+        /// Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else
+        /// it finishes its step and stands first, as does one in the middle of another clip. Until then the clip is
+        /// `Figure.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`)
+        /// while someone drives it live.
         async fn play_clip(
             &self,
             request: tonic::Request<super::PlayClipRequest>,
@@ -3405,8 +3430,8 @@ pub mod motion_service_server {
             tonic::Response<super::PlayClipResponse>,
             tonic::Status,
         >;
-        /// Ends a clip, and takes back the one that waits: a figure that walks finishes its step and comes to a stand, any other holds the posture
-        /// that is asked of it now.
+        /// Ends a clip, and takes back the one that waits: a figure that walks finishes its step and comes to a stand, any
+        /// other holds the posture that is asked of it now.
         async fn stop_clip(
             &self,
             request: tonic::Request<super::StopClipRequest>,
@@ -3428,8 +3453,9 @@ pub mod motion_service_server {
             >
             + std::marker::Send
             + 'static;
-        /// Drives figures live. The first message is the header, all others are batches. Feedback comes at once, then about ten times
-        /// a second, and when something goes wrong. Ending the stream gives the figures back; losing it keeps them for the grace time.
+        /// Drives figures live. The first message is the header, all others are batches. Feedback comes at once, then about
+        /// ten times a second, and when something goes wrong. Ending the stream gives the figures back; losing it keeps them
+        /// for the grace time.
         async fn drive_figures(
             &self,
             request: tonic::Request<tonic::Streaming<super::DriveFiguresRequest>>,
@@ -3933,12 +3959,12 @@ pub struct Load {
     /// How long it is carried, s, 0…86400. 0 or absent: until it is cleared.
     #[prost(double, tag = "4")]
     pub duration_s: f64,
-    /// Velocity of the load before it is taken, world axes, m/s, each component within ±100. Absent: at rest. Taking it is perfectly
-    /// inelastic: momentum is kept and the figure feels the jerk.
+    /// Velocity of the load before it is taken, world axes, m/s, each component within ±100. Absent: at rest. Taking it is
+    /// perfectly inelastic: momentum is kept and the figure feels the jerk.
     #[prost(message, optional, tag = "5")]
     pub velocity_mps: ::core::option::Option<Vector3>,
-    /// Second carrying segment, for example `l_hand` when `segment` is `r_hand`. Each then carries half of the mass, and the two points keep
-    /// the distance they have when the load is taken. Empty: one hand.
+    /// Second carrying segment, for example `l_hand` when `segment` is `r_hand`. Each then carries half of the mass, and
+    /// the two points keep the distance they have when the load is taken. Empty: one hand.
     #[prost(string, tag = "6")]
     pub second_segment: ::prost::alloc::string::String,
     /// Where at the second segment, as `point_m`.
@@ -4015,7 +4041,8 @@ pub struct ApplyPerturbationsRequest {
     /// World: resource name `worlds/{world}`.
     #[prost(string, tag = "1")]
     pub world: ::prost::alloc::string::String,
-    /// Who asks, at most 64 bytes. Requests that meet in one tick act in the order of (client, sequence). Empty: the connection.
+    /// Name of the client, at most 64 bytes. Requests that meet in one tick act in the order of (client, sequence). Empty:
+    /// the connection.
     #[prost(string, tag = "2")]
     pub client_id: ::prost::alloc::string::String,
     /// Number of the request at this client. Default: 0.
@@ -4935,8 +4962,8 @@ pub struct View {
     /// Figures by the last parts of their names. Empty: all.
     #[prost(string, repeated, tag = "1")]
     pub figures: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
-    /// Fields of `FigureFrame`, for example `root_pose`, `joint_angles`, `torque`, or `*` for all. Absent or empty: `root_pose`,
-    /// `joint_angles`, `torque`, `status`.
+    /// Fields of `FigureFrame`, for example `root_pose`, `joint_angles`, `torque`, or `*` for all. Absent or empty:
+    /// `root_pose`, `joint_angles`, `torque`, `status`.
     #[prost(message, optional, tag = "2")]
     pub fields: ::core::option::Option<::prost_types::FieldMask>,
     /// How numbers are written.
@@ -4946,7 +4973,7 @@ pub struct View {
     #[prost(int32, tag = "4")]
     pub rate_divisor: i32,
 }
-/// Who is who in the frames that follow.
+/// Names of the figures, by their index in the frames that follow.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Roster {
     /// World: resource name.
@@ -4991,7 +5018,7 @@ pub struct GetWorldFrameRequest {
 /// A frame.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct GetWorldFrameResponse {
-    /// Who is who.
+    /// Names of the figures by index.
     #[prost(message, optional, tag = "1")]
     pub roster: ::core::option::Option<Roster>,
     /// The frame.
@@ -5007,8 +5034,8 @@ pub struct WatchWorldRequest {
     /// What is sent.
     #[prost(message, optional, tag = "2")]
     pub view: ::core::option::Option<View>,
-    /// Continues after this tick: frames that are still held come first. OUT_OF_RANGE (`RESUME_EXPIRED`) when the next one is no
-    /// longer held. Absent: from now.
+    /// Continues after this tick: frames that are still held come first. OUT_OF_RANGE (`RESUME_EXPIRED`) when the next one
+    /// is no longer held. Absent: from now.
     #[prost(int64, optional, tag = "3")]
     pub resume_tick: ::core::option::Option<i64>,
 }
@@ -5714,7 +5741,7 @@ pub mod simulate_clip_request {
         Bvh(super::BvhSource),
     }
 }
-/// What came of it.
+/// Result of a simulation.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct SimulateClipResponse {
     /// Figures of merit.
@@ -5742,12 +5769,13 @@ pub struct SimulationSummary {
     /// When the figure fell, s; absent if it did not.
     #[prost(double, optional, tag = "3")]
     pub fell_at_s: ::core::option::Option<f64>,
-    /// Root mean square of the joint errors over DOFs and ticks, degrees.
+    /// Tracking error of the joint angles, target minus actual at the start of a tick: root mean square over DOFs and
+    /// ticks, degrees. The target is the prepared motion, moved along with the feet after each step.
     #[prost(double, tag = "4")]
-    pub joint_rms_deg: f64,
-    /// Largest joint error, degrees.
+    pub tracking_joint_rms_deg: f64,
+    /// Largest tracking error of a joint angle, degrees.
     #[prost(double, tag = "5")]
-    pub joint_max_deg: f64,
+    pub tracking_joint_max_deg: f64,
     /// Largest torque relative to the torque available.
     #[prost(double, tag = "6")]
     pub max_utilisation: f64,
@@ -6128,7 +6156,8 @@ pub struct World {
     /// Why the world failed; empty otherwise. Output only.
     #[prost(string, tag = "16")]
     pub failure: ::prost::alloc::string::String,
-    /// Figures and obstacles touch each other. Absent: true. False: figures touch nothing but the ground. Fixed at creation.
+    /// Figures and obstacles touch each other. Absent: true. False: figures touch nothing but the ground. Fixed at
+    /// creation.
     #[prost(bool, optional, tag = "17")]
     pub collisions: ::core::option::Option<bool>,
 }
@@ -6842,7 +6871,8 @@ pub mod world_service_client {
                 .insert(GrpcMethod::new("sinew.v1.WorldService", "SetWorldSpeed"));
             self.inner.unary(req, path, codec).await
         }
-        /// Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256 (RESOURCE_EXHAUSTED).
+        /// Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256
+        /// (RESOURCE_EXHAUSTED).
         pub async fn add_obstacle(
             &mut self,
             request: impl tonic::IntoRequest<super::AddObstacleRequest>,
@@ -7030,7 +7060,8 @@ pub mod world_service_server {
             tonic::Response<super::SetWorldSpeedResponse>,
             tonic::Status,
         >;
-        /// Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256 (RESOURCE_EXHAUSTED).
+        /// Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256
+        /// (RESOURCE_EXHAUSTED).
         async fn add_obstacle(
             &self,
             request: tonic::Request<super::AddObstacleRequest>,

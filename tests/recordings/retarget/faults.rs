@@ -122,7 +122,9 @@ fn errors_name_what_is_missing() {
     let mut one = source.clone();
     one.rows.truncate(1);
     assert!(matches!(go(&one, &auto), RetargetError::TooShort(1)));
-    let stick = "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nJOINT LeftArm\n{\nOFFSET 0 1 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{\nOFFSET 0 1 0\n}\n}\n}\nMOTION\nFrames: 2\nFrame Time: 0.01\n0 0 0 0 0 0\n0 0 0 0 0 0\n";
+    let stick = "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nJOINT LeftArm\n{\n\
+        OFFSET 0 1 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{\nOFFSET 0 1 0\n}\n}\n}\nMOTION\nFrames: 2\n\
+        Frame Time: 0.01\n0 0 0 0 0 0\n0 0 0 0 0 0\n";
     let e = take(stick, &body, &auto).map(|_| ()).unwrap_err();
     assert!(
         e.to_string().contains("l_forearm") && e.to_string().contains("r_foot"),

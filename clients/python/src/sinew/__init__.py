@@ -9,8 +9,8 @@
         recording = anna.record(4.0)
     recording.plot_torques().savefig("torques.png")
 
-`sinew.aio` has the same for asyncio, `sinew.v1` the messages and stubs as they are. SI units throughout; x forward, y left, z up;
-quaternions x, y, z, w.
+`sinew.aio` has the same for asyncio, `sinew.v1` the messages and stubs as they are. SI units throughout; x forward,
+y left, z up; quaternions x, y, z, w.
 """
 
 from sinew import aio

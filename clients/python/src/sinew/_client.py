@@ -98,8 +98,8 @@ class ServerInfo:
 class Client:
     """A connection to one server. Use it in a `with` block, or `close` it.
 
-    `address` is host and port, or the URL that the server prints. Calls raise `sinew.SinewError`; unary calls give up after
-    `timeout_s` (s). A `NotFoundError` lists the names that there are.
+    `address` is host and port, or the URL that the server prints. Calls raise `sinew.SinewError`; unary calls give up
+    after `timeout_s` (s). A `NotFoundError` lists the names that there are.
     """
 
     def __init__(self, address: str = f"127.0.0.1:{requests.PORT}", *, timeout_s: float = 60.0) -> None:
@@ -122,7 +122,9 @@ class Client:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
+    ) -> None:
         self.close()
 
     def close(self) -> None:
@@ -465,7 +467,7 @@ class Clip:
 
     @property
     def forecast(self) -> motion_pb2.Forecast | None:
-        """What will come of it when its body follows it: verdict, reason and figures; `None` for built-in clips."""
+        """Forecast for its body following it: verdict, reason and figures; `None` for built-in clips."""
         return self.message.forecast if self.message.HasField("forecast") else None
 
     def motion(self, *, body: str | Profile = "adult-man", rate_hz: float = 60.0) -> Motion:
@@ -505,7 +507,9 @@ class World:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
+    ) -> None:
         try:
             self.delete()
         except NotFoundError:
@@ -946,9 +950,7 @@ class Figure:
         """Puts it back: standing still, without loads; where it was created unless `position` (world x, y, m) and `yaw`
         (rad) are given.
         """
-        request = figure_pb2.ResetFigureRequest(
-            name=self.message.name, placement=requests.placement(position, yaw)
-        )
+        request = figure_pb2.ResetFigureRequest(name=self.message.name, placement=requests.placement(position, yaw))
         self._client._ask(self._client.figures_stub.ResetFigure, request)
 
     def update(
@@ -1031,7 +1033,10 @@ class Figure:
         return (self._client._ask(self._client.motions_stub.PlayClip, request)).start_time_s
 
     def stop(self) -> None:
-        """Ends its clip, and takes back one that waits: it finishes its step and stands, or holds the posture that is asked of it now."""
+        """Ends its clip and takes back one that waits.
+
+        A figure that walks finishes its step and stands; any other holds the posture that is asked of it now.
+        """
         request = motion_pb2.StopClipRequest(figure=self.message.name)
         self._client._ask(self._client.motions_stub.StopClip, request)
 
@@ -1170,9 +1175,7 @@ class Figure:
 
         Returns the tick at whose start the request was taken.
         """
-        return self.apply(
-            Push(impulse_ns=impulse_ns, segment=segment, start_s=start_s, duration_s=duration_s)
-        )
+        return self.apply(Push(impulse_ns=impulse_ns, segment=segment, start_s=start_s, duration_s=duration_s))
 
     def pull(
         self, force_n: Vector, segment: str = "pelvis", *, start_s: float = 0.0, duration_s: float = 0.0
@@ -1270,7 +1273,9 @@ class Frames:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
+    ) -> None:
         self.close()
 
     def close(self) -> None:
@@ -1308,7 +1313,9 @@ class Events:
             self._more()
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
+    ) -> None:
         self.close()
 
     def close(self) -> None:
@@ -1336,7 +1343,9 @@ class Drive:
         self._began = time.monotonic()
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
+    ) -> None:
         self.close()
 
     def send(self, pose: Pose | ArrayLike, *, time_s: float | None = None) -> None:

@@ -64,7 +64,7 @@ class Stream(Generic[Request, Response]):
         request: Request,
     ) -> None:
         self._call = method(request)
-        # Holds one message: whoever reads slowly gets the latest, as the server sees that nothing is taken.
+        # Holds one message: a slow reader gets the latest, because the server sees that nothing is taken.
         self._came: queue.Queue[Response | BaseException] = queue.Queue(maxsize=1)
         self._closed = threading.Event()
         self._reader: threading.Thread | None = None
@@ -100,7 +100,9 @@ class Stream(Generic[Request, Response]):
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
+    ) -> None:
         self.close()
 
     def close(self) -> None:
@@ -117,15 +119,13 @@ class Stream(Generic[Request, Response]):
         self._call.cancel()
 
 
-def _pump(
-    call: Iterator[Response], came: queue.Queue[Response | BaseException], closed: threading.Event
-) -> None:
+def _pump(call: Iterator[Response], came: queue.Queue[Response | BaseException], closed: threading.Event) -> None:
     """Hands on the messages of a call, then what ended it, until the stream is closed."""
     while not closed.is_set():
         message: Response | BaseException
         try:
             message = next(call)
-        except Exception as e:  # how the call ended, for whoever reads
+        except Exception as e:  # how the call ended, for the reader
             message = e
         while not closed.is_set():
             try:
@@ -135,7 +135,7 @@ def _pump(
                 continue
         if isinstance(message, BaseException):
             return
-    # Whoever waits for a message in another thread learns that none will come.
+    # A reader in another thread that waits for a message learns that none will come.
     try:
         came.put_nowait(StopIteration())
     except queue.Full:

@@ -4,6 +4,8 @@
         anna = await world.add_figure("anna")
         await anna.play("wave")
         async with world.frames() as frames: ...
+
+The arguments are the same, too.
 """
 
 from sinew._async_client import Client, Clip, Drive, Events, Figure, Frames, Obstacle, ServerInfo, World

@@ -19,7 +19,10 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Mesh:
-    """Closed surface of a segment in the segment frame: vertices (n, 3) in m, triangles (m, 3) counter-clockwise from outside."""
+    """Closed surface of a segment in the segment frame.
+
+    Vertices (n, 3) in m; triangles (m, 3) are counter-clockwise seen from outside.
+    """
 
     vertices: Floats
     triangles: NDArray[np.int32]

@@ -31,8 +31,8 @@ __all__ = [
 class SinewError(Exception):
     """The server refused or failed.
 
-    `code` is the gRPC code, `reason` the server's word for it in UPPER_SNAKE (empty if the answer did not come from Sinew),
-    `facts` what else it said by name, for example `oldest_tick`.
+    `code` is the gRPC code, `reason` the server's word for it in UPPER_SNAKE (empty if the answer did not come from
+    Sinew), `facts` what else it said by name, for example `oldest_tick`.
     """
 
     code: grpc.StatusCode
@@ -86,15 +86,14 @@ class PreconditionError(SinewError):
 
 
 class WorldPausedError(PreconditionError):
-    """The clock of the world stands still, so that no frame comes: `world` is its name, `tick` the tick it stands at.
-    """
+    """The clock of the world is paused, so that no frame comes: `world` is its name, `tick` its current tick."""
 
     world: str = ""
     tick: int = 0
 
 
 class LimitError(SinewError):
-    """A limit of the server is reached: `limit` is its name, `retry_after_s` when trying again may help (else `None`)."""
+    """A limit of the server is reached: `limit` is its name, `retry_after_s` (or `None`) when to try again."""
 
     limit: str = ""
     retry_after_s: float | None = None
@@ -151,7 +150,10 @@ def _details(error: grpc.RpcError) -> list[any_pb2.Any]:
 
 
 def from_rpc(error: grpc.RpcError) -> SinewError:
-    """The exception for a failed call; both kinds of channel raise errors with `code`, `details` and `trailing_metadata`."""
+    """The exception for a failed call.
+
+    Both kinds of channel raise errors with `code`, `details` and `trailing_metadata`.
+    """
     code = error.code()
     out = _BY_CODE.get(code, SinewError)(error.details() or code.name, code=code)
     for detail in _details(error):

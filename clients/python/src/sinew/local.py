@@ -31,7 +31,8 @@ def binary() -> str:
 def serve(*, arguments: Sequence[str] = ()) -> Iterator[Client]:
     """Starts a server on a free port of this machine and gives a client; both end with the block.
 
-    If `$SINEW_SERVER` names the address of a server, that one is used and left running. `arguments` are added to `sinew serve`.
+    If `$SINEW_SERVER` names the address of a server, that one is used and left running. `arguments` are added to
+    `sinew serve`.
     """
     there = os.environ.get("SINEW_SERVER")
     if there:
@@ -54,7 +55,7 @@ def serve(*, arguments: Sequence[str] = ()) -> Iterator[Client]:
                 break
         if not address:
             raise RuntimeError(f"the server ended with status {process.wait()} before it served")
-        # Whoever does not read what a program prints stops it one day.
+        # A program whose output is not read stops when the pipe is full.
         reader = threading.Thread(target=process.stdout.read, name="sinew-serve", daemon=True)
         reader.start()
         with Client(address) as client:

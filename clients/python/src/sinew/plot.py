@@ -71,7 +71,9 @@ def plot_torques(recordings: Mapping[str, Recording], dofs: Sequence[str] | None
                 color=INK,
             )
     one = next(iter(recordings.values()))
-    heading = title if title is not None else (f"Joint torques of {one.figure} ({one.body.name})" if columns == 1 else "Joint torques")
+    heading = f"Joint torques of {one.figure} ({one.body.name})" if columns == 1 else "Joint torques"
+    if title is not None:
+        heading = title
     inch = 1.0 / height
     drawing.text(0.02, 1 - 0.12 * inch, heading, fontsize=13, color=INK, fontweight="bold", va="top")
     drawing.legend(
@@ -135,7 +137,15 @@ def _panel(ax: Axes, r: Recording, dof: str) -> None:
         share = at.mean()
         if at.any():
             ax.fill_between(
-                t, 0, 1, where=_widened(at), transform=ax.get_xaxis_transform(), color=LIMIT, alpha=0.10, lw=0, zorder=1.2
+                t,
+                0,
+                1,
+                where=_widened(at),
+                transform=ax.get_xaxis_transform(),
+                color=LIMIT,
+                alpha=0.10,
+                lw=0,
+                zorder=1.2,
             )
         ax.plot(t, torque, color=TORQUE, lw=1.6, zorder=3)
         ax.plot(t, np.where(_widened(at), torque, np.nan), color=LIMIT, lw=3.2, zorder=4, solid_capstyle="round")

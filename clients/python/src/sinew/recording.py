@@ -131,13 +131,15 @@ class Recording:
 
     @property
     def segment_transforms(self) -> Floats:
-        """World pose of each segment in the order of `body.segments`: position (m), quaternion x, y, z, w; (n, 18, 7).
-        """
+        """World pose of each segment, as in `body.segments`: position (m), quaternion x, y, z, w; (n, 18, 7)."""
         return self._column("segment_transforms").reshape(len(self), -1, 7)
 
     @property
     def velocity(self) -> Floats:
-        """Pelvis angular velocity (rad/s), velocity of its origin (m/s), world axes, then joint rates (rad/s); (n, 45)."""
+        """Velocity of the pelvis, then joint rates (rad/s), (n, 45).
+
+        The first six: angular velocity (rad/s) and velocity of the pelvis origin (m/s), both in world axes.
+        """
         return self._column("velocity")
 
     @property
@@ -184,9 +186,12 @@ class Recording:
         return float(self.time_s[down[0]]) if len(down) else None
 
     @property
-    def joint_error_deg(self) -> Floats:
-        """Root mean square of the joint errors at the start of each tick, degrees, (n,)."""
-        return np.array([np.degrees(s.joint_rms_rad) for s in self._status()], dtype=np.float64)
+    def tracking_joint_rms_deg(self) -> Floats:
+        """Root mean square of the joint angle errors at the start of each tick, degrees, (n,).
+
+        Measured against the target, which is moved along with the feet after each step.
+        """
+        return np.array([np.degrees(s.tracking_joint_rms_rad) for s in self._status()], dtype=np.float64)
 
     @property
     def com(self) -> Floats:
@@ -221,8 +226,7 @@ class Recording:
 
     @property
     def desired_joint_rotations(self) -> Floats:
-        """Joint rotations that were asked for: quaternions x, y, z, w of segments 1 to 17 in their parents, (n, 17, 4).
-        """
+        """Joint rotations asked for: quaternions x, y, z, w of segments 1 to 17 in their parents, (n, 17, 4)."""
         return self._inner("desired", "joint_rotations", 68).reshape(len(self), -1, 4)
 
     def contacts(self, row: int) -> list[Contact]:
@@ -255,7 +259,10 @@ class Recording:
         return sorted(out, key=lambda s: (s.start_s, s.dof))
 
     def hardest(self, count: int = 4) -> list[str]:
-        """The degrees of freedom that came closest to their limits, hardest first: by time at the limit, then by share of it."""
+        """The degrees of freedom that came closest to their limits, hardest first.
+
+        Ordered by time at the limit, then by share of it.
+        """
         stand = np.ones(len(self), dtype=np.bool_)
         score = np.zeros(len(self.body.dofs))
         if self.has("status"):
@@ -267,25 +274,27 @@ class Recording:
         return [self.body.dofs[i] for i in np.argsort(-score, kind="stable")[:count]]
 
     def plot_torques(self, dofs: Sequence[str] | None = None, *, title: str | None = None) -> Drawing:
-        """Torque over time within its limits, one panel per degree of freedom; the four hardest unless `dofs` names others.
+        """Torque over time within its limits, one panel per degree of freedom.
 
-        The range that the muscles could give is shaded; ticks at the limit are marked. Returns a matplotlib figure.
+        The four hardest unless `dofs` names others. The range that the muscles could give is shaded; ticks at the limit
+        are marked. Returns a matplotlib figure.
         """
         with needed("matplotlib", "plot", "plotting"):
             from sinew.plot import plot_torques
         return plot_torques({self.figure: self}, dofs, title=title)
 
     def strip(self, count: int = 7, *, view: str = "three-quarter", title: str | None = None) -> Drawing:
-        """Evenly spaced instants side by side: solid body, desired posture as a ghost, contact forces, joints at their limits.
+        """Evenly spaced instants side by side.
 
-        `view` is `three-quarter`, `side` or `front`. Returns a matplotlib figure.
+        Solid body, desired posture as a ghost, contact forces, joints at their limits. `view` is `three-quarter`,
+        `side` or `front`. Returns a matplotlib figure.
         """
         with needed("matplotlib", "plot", "a strip"):
             from sinew.strip import strip
         return strip({self.figure: self}, count, view=view, title=title)
 
     def to_pandas(self) -> pandas.DataFrame:
-        """A table indexed by time: columns (quantity, part), for example `df["torque"]["r_elbow_flexion"]`. Needs pandas."""
+        """A table indexed by time: columns (quantity, part), as `df["torque"]["r_elbow_flexion"]`. Needs pandas."""
         with needed("pandas", "pandas", "a table"):
             import pandas as pd
         parts: dict[tuple[str, str], Any] = {("tick", ""): self.tick}
@@ -314,7 +323,7 @@ class Recording:
             add("contact_force", ("x", "y", "z"), self.contact_force)
         if self.has("status"):
             add("saturated", dofs, self.saturated)
-            parts["joint_error_deg", ""] = self.joint_error_deg
+            parts["tracking_joint_rms_deg", ""] = self.tracking_joint_rms_deg
             parts["fallen", ""] = self.fallen
         table = pd.DataFrame(parts, index=pd.Index(self.time_s, name="time_s"))
         table.columns = pd.MultiIndex.from_tuples(list(parts), names=("quantity", "part"))

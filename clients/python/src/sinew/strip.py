@@ -205,7 +205,14 @@ class _Row:
             ax.add_patch(Polygon(_hull(flat(points)), facecolor=SHADOW, edgecolor="none", zorder=1))
 
     def _solid(
-        self, ax: Axes, poses: Floats, flat: _Flat, centre: Floats, loads: list[tuple[int, Floats, float]], *, ghost: bool
+        self,
+        ax: Axes,
+        poses: Floats,
+        flat: _Flat,
+        centre: Floats,
+        loads: list[tuple[int, Floats, float]],
+        *,
+        ghost: bool,
     ) -> None:
         corners, depth, colours = [], [], []
         near = self.camera.axes[2]
@@ -262,7 +269,14 @@ class _Row:
                 "",
                 xy=tuple(end),
                 xytext=tuple(start),
-                arrowprops={"arrowstyle": "-|>", "color": FORCE, "lw": 1.8, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 8},
+                arrowprops={
+                    "arrowstyle": "-|>",
+                    "color": FORCE,
+                    "lw": 1.8,
+                    "shrinkA": 0,
+                    "shrinkB": 0,
+                    "mutation_scale": 8,
+                },
                 zorder=5,
             )
 

@@ -1,4 +1,4 @@
-"""The small values that calls take: who a body is, how strong, where, what disturbs it."""
+"""The small values that calls take: profile of a body, its strength, its place, what disturbs it."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ __all__ = [
 Vector: TypeAlias = Sequence[float]
 """Three numbers x, y, z: forward, left, up. In world axes unless it is said otherwise."""
 Controller: TypeAlias = Literal["modern", "paper", "motors"]
-"""Who computes the torques."""
+"""Controllers: what computes the torques."""
 Stepper: TypeAlias = Literal["torque", "kinematic"]
 """How a figure is moved: by its torques, or by its accelerations as they are demanded."""
 Encoding: TypeAlias = Literal["float", "double", "fixed16"]
@@ -69,8 +69,9 @@ def last(name: str) -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class Profile:
-    """Who a body stands for: `age_years` 6 to 90, stature `height_m` (m) and body mass `mass_kg` (kg); 0: ordinary for
-    sex and age.
+    """Person that a body represents: `age_years` 6 to 90, stature `height_m` (m) and body mass `mass_kg` (kg).
+
+    A stature or mass of 0 is the ordinary one for sex and age.
     """
 
     sex: Literal["male", "female"]

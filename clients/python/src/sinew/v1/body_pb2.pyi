@@ -98,7 +98,7 @@ Global___ExportFormat: _TypeAlias = ExportFormat  # noqa: Y015
 
 @_typing.final
 class BodyProfile(_message.Message):
-    """Who a body stands for."""
+    """Person that a body represents."""
 
     DESCRIPTOR: _descriptor.Descriptor
 
@@ -132,8 +132,8 @@ Global___BodyProfile: _TypeAlias = BodyProfile  # noqa: Y015
 
 @_typing.final
 class Segment(_message.Message):
-    """One rigid part. Its frame sits at the joint that joins it to its parent; in the zero pose (upright, arms hanging, palms to the
-    thighs) it is parallel to the world.
+    """One rigid part. Its frame sits at the joint that joins it to its parent; in the zero pose (upright, arms hanging,
+    palms to the thighs) it is parallel to the world.
     """
 
     DESCRIPTOR: _descriptor.Descriptor
@@ -255,7 +255,9 @@ class Dof(_message.Message):
     UPPER_RAD_FIELD_NUMBER: _builtins.int
     ARMATURE_KGM2_FIELD_NUMBER: _builtins.int
     name: _builtins.str
-    """Name, for example `l_knee_flexion`. Angles are anatomically signed: flexion, abduction, internal rotation positive on both sides."""
+    """Name, for example `l_knee_flexion`. Angles are anatomically signed: flexion, abduction, internal rotation positive
+    on both sides.
+    """
     joint: _builtins.int
     """Index of the joint (and segment) that owns it."""
     lower_rad: _builtins.float
@@ -305,7 +307,7 @@ class Body(_message.Message):
     """Height of the pelvis origin (midpoint of the hip centres) over the soles in the zero pose, m."""
     @_builtins.property
     def profile(self) -> Global___BodyProfile:
-        """Who it stands for."""
+        """Person that it represents."""
 
     @_builtins.property
     def segments(self) -> _containers.RepeatedCompositeFieldContainer[Global___Segment]:
@@ -321,7 +323,9 @@ class Body(_message.Message):
 
     @_builtins.property
     def provenance(self) -> _containers.RepeatedCompositeFieldContainer[Global___Provenance]:
-        """Where its numbers come from: masses and lengths of segments, limits and strength of DOFs, fatigue. Only with `include_provenance`."""
+        """Where its numbers come from: masses and lengths of segments, limits and strength of DOFs, fatigue. Only with
+        `include_provenance`.
+        """
 
     def __init__(
         self,
@@ -369,8 +373,8 @@ class Provenance(_message.Message):
     source: _builtins.str
     """Publication or reason."""
     tag: _builtins.str
-    """How far to trust it. S1: read in data that cite the publication. S2: read in the publication. S3: cross-check only. D: derived.
-    R: estimate.
+    """How far to trust it. S1: read in data that cite the publication. S2: read in the publication. S3: cross-check only.
+    D: derived. R: estimate.
     """
     note: _builtins.str
     """What was done with it."""

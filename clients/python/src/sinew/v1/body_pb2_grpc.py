@@ -26,8 +26,9 @@ if _version_not_supported:
 
 
 class BodyServiceStub:
-    """Describes bodies. A body is immutable and follows from its profile, so its name says everything:
-    `bodies/adult-man`, `bodies/adult-woman`, `bodies/child`, `bodies/older-man`, `bodies/older-woman`, or `bodies/{sex}-{age}y-{height}mm-{mass}g`, for example `bodies/female-25y-1680mm-61500g`.
+    """Describes bodies. A body is immutable and follows from its profile, so its name says everything: `bodies/adult-man`,
+    `bodies/adult-woman`, `bodies/child`, `bodies/older-man`, `bodies/older-woman`, or
+    `bodies/{sex}-{age}y-{height}mm-{mass}g`, for example `bodies/female-25y-1680mm-61500g`.
     """
 
     def __init__(self, channel):
@@ -54,8 +55,9 @@ class BodyServiceStub:
 
 
 class BodyServiceServicer:
-    """Describes bodies. A body is immutable and follows from its profile, so its name says everything:
-    `bodies/adult-man`, `bodies/adult-woman`, `bodies/child`, `bodies/older-man`, `bodies/older-woman`, or `bodies/{sex}-{age}y-{height}mm-{mass}g`, for example `bodies/female-25y-1680mm-61500g`.
+    """Describes bodies. A body is immutable and follows from its profile, so its name says everything: `bodies/adult-man`,
+    `bodies/adult-woman`, `bodies/child`, `bodies/older-man`, `bodies/older-woman`, or
+    `bodies/{sex}-{age}y-{height}mm-{mass}g`, for example `bodies/female-25y-1680mm-61500g`.
     """
 
     def ListBodies(self, request, context):
@@ -106,8 +108,9 @@ def add_BodyServiceServicer_to_server(servicer, server):
 
  # This class is part of an EXPERIMENTAL API.
 class BodyService:
-    """Describes bodies. A body is immutable and follows from its profile, so its name says everything:
-    `bodies/adult-man`, `bodies/adult-woman`, `bodies/child`, `bodies/older-man`, `bodies/older-woman`, or `bodies/{sex}-{age}y-{height}mm-{mass}g`, for example `bodies/female-25y-1680mm-61500g`.
+    """Describes bodies. A body is immutable and follows from its profile, so its name says everything: `bodies/adult-man`,
+    `bodies/adult-woman`, `bodies/child`, `bodies/older-man`, `bodies/older-woman`, or
+    `bodies/{sex}-{age}y-{height}mm-{mass}g`, for example `bodies/female-25y-1680mm-61500g`.
     """
 
     @staticmethod

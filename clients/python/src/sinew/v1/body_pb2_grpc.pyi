@@ -27,8 +27,9 @@ GRPC_GENERATED_VERSION: str
 GRPC_VERSION: str
 
 class BodyServiceStub:
-    """Describes bodies. A body is immutable and follows from its profile, so its name says everything:
-    `bodies/adult-man`, `bodies/adult-woman`, `bodies/child`, `bodies/older-man`, `bodies/older-woman`, or `bodies/{sex}-{age}y-{height}mm-{mass}g`, for example `bodies/female-25y-1680mm-61500g`.
+    """Describes bodies. A body is immutable and follows from its profile, so its name says everything: `bodies/adult-man`,
+    `bodies/adult-woman`, `bodies/child`, `bodies/older-man`, `bodies/older-woman`, or
+    `bodies/{sex}-{age}y-{height}mm-{mass}g`, for example `bodies/female-25y-1680mm-61500g`.
     """
 
     @_typing.overload
@@ -44,8 +45,9 @@ class BodyServiceStub:
 
 @_typing.type_check_only
 class BodyServiceAsyncStub(BodyServiceStub):
-    """Describes bodies. A body is immutable and follows from its profile, so its name says everything:
-    `bodies/adult-man`, `bodies/adult-woman`, `bodies/child`, `bodies/older-man`, `bodies/older-woman`, or `bodies/{sex}-{age}y-{height}mm-{mass}g`, for example `bodies/female-25y-1680mm-61500g`.
+    """Describes bodies. A body is immutable and follows from its profile, so its name says everything: `bodies/adult-man`,
+    `bodies/adult-woman`, `bodies/child`, `bodies/older-man`, `bodies/older-woman`, or
+    `bodies/{sex}-{age}y-{height}mm-{mass}g`, for example `bodies/female-25y-1680mm-61500g`.
     """
 
     def __init__(self, channel: _aio.Channel) -> None: ...
@@ -57,8 +59,9 @@ class BodyServiceAsyncStub(BodyServiceStub):
     """One body as text for another simulator."""
 
 class BodyServiceServicer(metaclass=_abc_1.ABCMeta):
-    """Describes bodies. A body is immutable and follows from its profile, so its name says everything:
-    `bodies/adult-man`, `bodies/adult-woman`, `bodies/child`, `bodies/older-man`, `bodies/older-woman`, or `bodies/{sex}-{age}y-{height}mm-{mass}g`, for example `bodies/female-25y-1680mm-61500g`.
+    """Describes bodies. A body is immutable and follows from its profile, so its name says everything: `bodies/adult-man`,
+    `bodies/adult-woman`, `bodies/child`, `bodies/older-man`, `bodies/older-woman`, or
+    `bodies/{sex}-{age}y-{height}mm-{mass}g`, for example `bodies/female-25y-1680mm-61500g`.
     """
 
     @_abc_1.abstractmethod

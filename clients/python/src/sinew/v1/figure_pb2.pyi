@@ -38,7 +38,7 @@ class _ControllerEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_Controller
     """Strength-limited motors alone; they do not balance."""
 
 class Controller(_Controller, metaclass=_ControllerEnumTypeWrapper):
-    """Who computes accelerations and torques."""
+    """Controller: computes accelerations and torques."""
 
 CONTROLLER_UNSPECIFIED: Controller.ValueType  # 0
 """The default: CONTROLLER_MODERN."""
@@ -64,7 +64,7 @@ class _StepperEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_Stepper.Value
     """Accelerations are applied as they are; torques take over while that cannot go on (frame flag HANDED_OVER)."""
 
 class Stepper(_Stepper, metaclass=_StepperEnumTypeWrapper):
-    """Who moves the body."""
+    """Stepper: moves the body."""
 
 STEPPER_UNSPECIFIED: Stepper.ValueType  # 0
 """The default: STEPPER_TORQUE."""
@@ -409,13 +409,15 @@ class Figure(_message.Message):
     fatigue_time_scale: _builtins.float
     """Seconds of muscle fatigue per simulated second, 0…1000. 0: muscles never tire."""
     assist: _builtins.float
-    """Help towards the desired pose of the pelvis, 0…1: a bounded wrench that no body has, reported in every frame (`assist`). 1 holds the
-    pelvis on its path. 0: none.
+    """Help towards the desired pose of the pelvis, 0…1: a bounded wrench that no body has, reported in every frame
+    (`assist`). 1 holds the pelvis on its path. 0: none.
     """
     protective_steps: _builtins.bool
     """Step when the capture point has left the feet (CONTROLLER_MODERN). Absent: true."""
     next_clip: _builtins.str
-    """Clip that begins as soon as the figure stands or has gone over to it, `clips/{clip}`; empty if none waits. Output only."""
+    """Clip that begins as soon as the figure stands or has gone over to it, `clips/{clip}`; empty if none waits. Output
+    only.
+    """
     @_builtins.property
     def profile(self) -> _body_pb2.BodyProfile:
         """Body by profile; only when `body` is empty. Fixed at creation."""
@@ -434,8 +436,9 @@ class Figure(_message.Message):
 
     @_builtins.property
     def constraints(self) -> _containers.RepeatedCompositeFieldContainer[Global___Constraint]:
-        """Where parts of the body are wanted, at most 8, no two on the same part. An update replaces all: one on a part that was constrained before
-        goes on from there, the others ease in, and those that are missing fade out. In responses those that have ended are gone.
+        """Where parts of the body are wanted, at most 8, no two on the same part. An update replaces all: one on a part that
+        was constrained before goes on from there, the others ease in, and those that are missing fade out. In responses
+        those that have ended are gone.
         """
 
     def __init__(
@@ -471,10 +474,11 @@ Global___Figure: _TypeAlias = Figure  # noqa: Y015
 
 @_typing.final
 class Constraint(_message.Message):
-    """Where the centre of mass or a point of a segment is wanted, and how the segment is wanted to be turned, while the rest of the body follows
-    its motion. At least one of `position_m` and `rotation` must be given. The part moves there from wherever it is; an arm reaches as far as
-    its length, trunk, head and legs up to 0.15 m from where the motion has them, and the centre of mass stays 0.03 m inside what the feet
-    cover from heel to ball. A foot that stands is not lifted. Fallen figures and CONTROLLER_MOTORS ignore constraints.
+    """Where the centre of mass or a point of a segment is wanted, and how the segment is wanted to be turned, while the
+    rest of the body follows its motion. At least one of `position_m` and `rotation` must be given. The part moves there
+    from wherever it is; an arm reaches as far as its length, trunk, head and legs up to 0.15 m from where the motion has
+    them, and the centre of mass stays 0.03 m inside what the feet cover from heel to ball. A foot that stands is not
+    lifted. Fallen figures and CONTROLLER_MOTORS ignore constraints.
     """
 
     DESCRIPTOR: _descriptor.Descriptor
@@ -500,7 +504,9 @@ class Constraint(_message.Message):
     """How long it holds, s, 0…86400; in responses what is left. 0 or absent: until it is taken off."""
     @_builtins.property
     def point_m(self) -> _types_pb2.Vector3:
-        """Point of the segment, segment frame, m, each component within ±2. Absent: the middle of a hand, else the segment's centre of mass."""
+        """Point of the segment, segment frame, m, each component within ±2. Absent: the middle of a hand, else the segment's
+        centre of mass.
+        """
 
     @_builtins.property
     def position_m(self) -> _types_pb2.Vector3:
@@ -720,8 +726,8 @@ class UpdateFigureRequest(_message.Message):
 
     @_builtins.property
     def update_mask(self) -> _field_mask_pb2.FieldMask:
-        """Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper`, `constraints`, `protective_steps` to take. Must
-        not be empty.
+        """Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper`, `constraints`,
+        `protective_steps` to take. Must not be empty.
         """
 
     def __init__(

@@ -116,8 +116,8 @@ Global___ObstacleFrame: _TypeAlias = ObstacleFrame  # noqa: Y015
 
 @_typing.final
 class FigureFrame(_message.Message):
-    """One figure after one tick. The view's field mask chooses among the fields from `root_pose` on; fields that were not chosen are
-    absent. Torques and contact forces are means over the tick.
+    """One figure after one tick. The view's field mask chooses among the fields from `root_pose` on; fields that were not
+    chosen are absent. Torques and contact forces are means over the tick.
     """
 
     DESCRIPTOR: _descriptor.Descriptor
@@ -168,9 +168,9 @@ class FigureFrame(_message.Message):
 
     @_builtins.property
     def velocity(self) -> _types_pb2.Numbers:
-        """Velocity, 45 numbers: pelvis angular velocity (rad/s) and velocity of the pelvis origin (m/s), both in world axes, then the 39
-        joint rates (rad/s). For ball joints these are the components of the angular velocity of child relative to parent along the signed
-        child axes of the DOFs, not derivatives of the anatomical angles.
+        """Velocity, 45 numbers: pelvis angular velocity (rad/s) and velocity of the pelvis origin (m/s), both in world axes,
+        then the 39 joint rates (rad/s). For ball joints these are the components of the angular velocity of child relative
+        to parent along the signed child axes of the DOFs, not derivatives of the anatomical angles.
         """
 
     @_builtins.property
@@ -187,7 +187,9 @@ class FigureFrame(_message.Message):
 
     @_builtins.property
     def torque_limits(self) -> _types_pb2.Numbers:
-        """Least and largest torque that the muscles could give at the start of the tick: 39 lower (negative), then 39 upper, N·m."""
+        """Least and largest torque that the muscles could give at the start of the tick: 39 lower (negative), then 39 upper,
+        N·m.
+        """
 
     @_builtins.property
     def contacts(self) -> Global___Contacts:
@@ -211,17 +213,21 @@ class FigureFrame(_message.Message):
 
     @_builtins.property
     def positions(self) -> _types_pb2.Numbers:
-        """Pelvis position (3, m) and rotation (4), then per segment 1…17 its joint position: a quaternion for a ball joint, angles (rad) for
-        hinges: 55 numbers, the state's own coordinates.
+        """Pelvis position (3, m) and rotation (4), then per segment 1…17 its joint position: a quaternion for a ball joint,
+        angles (rad) for hinges: 55 numbers, the state's own coordinates.
         """
 
     @_builtins.property
     def fatigue(self) -> _types_pb2.Numbers:
-        """What fatigue has left of the strength, 0.01…1: 39 for the positive, then 39 for the negative direction. 1 while fatigue is off."""
+        """What fatigue has left of the strength, 0.01…1: 39 for the positive, then 39 for the negative direction. 1 while
+        fatigue is off.
+        """
 
     @_builtins.property
     def assist(self) -> _types_pb2.Numbers:
-        """Mean assist on the pelvis over the tick, world axes: moment about the pelvis origin (3, N·m), then force (3, N). Zero while it is off."""
+        """Mean assist on the pelvis over the tick, world axes: moment about the pelvis origin (3, N·m), then force (3, N).
+        Zero while it is off.
+        """
 
     @_builtins.property
     def touches(self) -> Global___Touches:
@@ -229,7 +235,9 @@ class FigureFrame(_message.Message):
 
     @_builtins.property
     def constraint_error(self) -> _types_pb2.Numbers:
-        """What is missing of each constraint, in the order of `Figure.constraints`: distance along the axes that count (m), angle (rad)."""
+        """What is missing of each constraint, in the order of `Figure.constraints`: distance along the axes that count (m),
+        angle (rad).
+        """
 
     def __init__(
         self,
@@ -471,14 +479,14 @@ class Status(_message.Message):
     SATURATED_FIELD_NUMBER: _builtins.int
     SATURATED_SECONDARY_FIELD_NUMBER: _builtins.int
     OVER_LIMIT_FIELD_NUMBER: _builtins.int
-    JOINT_RMS_RAD_FIELD_NUMBER: _builtins.int
+    TRACKING_JOINT_RMS_RAD_FIELD_NUMBER: _builtins.int
     PENETRATION_M_FIELD_NUMBER: _builtins.int
     CONTROL_ITERATIONS_FIELD_NUMBER: _builtins.int
     STEP_ITERATIONS_FIELD_NUMBER: _builtins.int
     LOADS_FIELD_NUMBER: _builtins.int
     flags: _builtins.int
-    """Set of flags by bit; `GetServerInfo` lists their names: FLIGHT, TIPPING, OVERLOAD, DAMPED, CONTROL_BOUND, STEP_BOUND, FALLEN,
-    QUARANTINED, BALANCE_LOST, HANDED_OVER, SPEED_BOUND.
+    """Set of flags by bit; `GetServerInfo` lists their names: FLIGHT, TIPPING, OVERLOAD, DAMPED, CONTROL_BOUND,
+    STEP_BOUND, FALLEN, QUARANTINED, BALANCE_LOST, HANDED_OVER, SPEED_BOUND.
     """
     saturated: _builtins.int
     """Set of DOFs at the limit of their strength, by bit."""
@@ -486,8 +494,10 @@ class Status(_message.Message):
     """Set of DOFs at their limit in the secondary constraints, by bit."""
     over_limit: _builtins.float
     """Largest violation of the strength in any substep, relative to the limit; 0 when none."""
-    joint_rms_rad: _builtins.float
-    """Joint error, desired minus actual at the start of the tick, root mean square over the 39 DOFs, rad."""
+    tracking_joint_rms_rad: _builtins.float
+    """Tracking error of the joint angles, target minus actual at the start of the tick: root mean square over the 39
+    DOFs, rad. The target is the prepared motion, moved along with the feet after each step.
+    """
     penetration_m: _builtins.float
     """Largest depth of a contact point below the ground, m."""
     control_iterations: _builtins.int
@@ -505,7 +515,7 @@ class Status(_message.Message):
         saturated: _builtins.int = ...,
         saturated_secondary: _builtins.int = ...,
         over_limit: _builtins.float = ...,
-        joint_rms_rad: _builtins.float = ...,
+        tracking_joint_rms_rad: _builtins.float = ...,
         penetration_m: _builtins.float = ...,
         control_iterations: _builtins.int = ...,
         step_iterations: _builtins.int = ...,
@@ -513,7 +523,7 @@ class Status(_message.Message):
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["control_iterations", b"control_iterations", "flags", b"flags", "joint_rms_rad", b"joint_rms_rad", "loads", b"loads", "over_limit", b"over_limit", "penetration_m", b"penetration_m", "saturated", b"saturated", "saturated_secondary", b"saturated_secondary", "step_iterations", b"step_iterations"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["control_iterations", b"control_iterations", "flags", b"flags", "loads", b"loads", "over_limit", b"over_limit", "penetration_m", b"penetration_m", "saturated", b"saturated", "saturated_secondary", b"saturated_secondary", "step_iterations", b"step_iterations", "tracking_joint_rms_rad", b"tracking_joint_rms_rad"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
@@ -521,8 +531,8 @@ Global___Status: _TypeAlias = Status  # noqa: Y015
 
 @_typing.final
 class Audit(_message.Message):
-    """The last substep of the tick as it was solved: `M v̇ + h = Sᵀ (torque + ligament_torque) + Σ Jᵀ f + assist`, with M and h of the body with
-    its loads and gravity along −z, holds to rounding in ENCODING_DOUBLE.
+    """The last substep of the tick as it was solved: `M v̇ + h = Sᵀ (torque + ligament_torque) + Σ Jᵀ f + assist`, with M
+    and h of the body with its loads and gravity along −z, holds to rounding in ENCODING_DOUBLE.
     """
 
     DESCRIPTOR: _descriptor.Descriptor
@@ -573,7 +583,9 @@ class Audit(_message.Message):
 
     @_builtins.property
     def assist(self) -> _types_pb2.Numbers:
-        """Assist, dual to the first six numbers of `velocity`: moment about the pelvis origin (N·m), then force (N). Absent when it is off."""
+        """Assist, dual to the first six numbers of `velocity`: moment about the pelvis origin (N·m), then force (N). Absent
+        when it is off.
+        """
 
     def __init__(
         self,

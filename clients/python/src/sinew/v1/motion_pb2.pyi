@@ -37,7 +37,7 @@ class _ForecastVerdictEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_Forec
     """No help short of carrying it will do."""
 
 class ForecastVerdict(_ForecastVerdict, metaclass=_ForecastVerdictEnumTypeWrapper):
-    """What will come of a clip."""
+    """Forecast of how a figure follows a clip."""
 
 FORECAST_VERDICT_UNSPECIFIED: ForecastVerdict.ValueType  # 0
 """Not told."""
@@ -177,7 +177,9 @@ class Clip(_message.Message):
 
     @_builtins.property
     def forecast(self) -> Global___Forecast:
-        """What will come of it when that body follows it by its own strength, without loads; absent for built-in clips, and in lists."""
+        """Forecast for that body following it by its own strength, without loads; absent for built-in clips, and
+        in lists.
+        """
 
     def __init__(
         self,
@@ -203,8 +205,8 @@ Global___Clip: _TypeAlias = Clip  # noqa: Y015
 
 @_typing.final
 class Forecast(_message.Message):
-    """How hard a clip is, from inverse dynamics of the prepared motion. Peaks are means over 0.1 s; times are those of the clip, negative on the way
-    into it.
+    """How hard a clip is, from inverse dynamics of the prepared motion. Peaks are means over 0.1 s; times are those of the
+    clip, negative on the way into it.
     """
 
     DESCRIPTOR: _descriptor.Descriptor
@@ -226,9 +228,11 @@ class Forecast(_message.Message):
     FLOOR_CONTACT_S_FIELD_NUMBER: _builtins.int
     INVERTED_S_FIELD_NUMBER: _builtins.int
     verdict: Global___ForecastVerdict.ValueType
-    """What will come of it."""
+    """Verdict of the forecast."""
     reason: _builtins.str
-    """The demand that decided, as a sentence without its beginning, for example `needs 1.8 times the strength of the right knee (flexion) at 1.2 s`."""
+    """The demand that decided, as a sentence without its beginning, for example `needs 1.8 times the strength of the
+    right knee (flexion) at 1.2 s`.
+    """
     demand: _builtins.float
     """How large that demand is: up to 1 motions are believed to be followed, from 2 on not even with a little help."""
     lacking_force_rms_weights: _builtins.float
@@ -244,7 +248,9 @@ class Forecast(_message.Message):
     strength_peak_ratio: _builtins.float
     """Largest torque of `strength_dof` over the strength at those angles and speeds."""
     strength_dof: _builtins.str
-    """DOF among hips, knees, waist and thorax that is closest to its strength, for example `r_knee_flexion`; empty if none is needed."""
+    """DOF among hips, knees, waist and thorax that is closest to its strength, for example `r_knee_flexion`; empty if
+    none is needed.
+    """
     strength_peak_time_s: _builtins.float
     """When, s."""
     strength_p95_ratio: _builtins.float
@@ -311,8 +317,8 @@ class BvhOptions(_message.Message):
     cutoff_hz: _builtins.float
     """Corner frequency of the zero-phase low-pass, Hz, 0.5…60. Absent: 6."""
     walk_runs: _builtins.bool
-    """Walks what the recording runs: slower and with shorter steps, so that the clip gets longer. The strength that is measured in people's
-    joints does not run: left as recorded, a run fells its figure. Absent: true.
+    """Walks what the recording runs: slower and with shorter steps, so that the clip gets longer. The strength that is
+    measured in people's joints does not run: left as recorded, a run fells its figure. Absent: true.
     """
     def __init__(
         self,
@@ -637,22 +643,24 @@ class PlayClipRequest(_message.Message):
     clip: _builtins.str
     """Clip: resource name `clips/{clip}`."""
     speed: _builtins.float
-    """Playback speed, 0.1…4. 0 or absent: 1. A recording (BVH) is prepared for it, from 0.5 to 2 in steps of 1/50: steps and balance are those of that
-    pace. The first time for a body and a speed takes as long as an upload does.
+    """Playback speed, 0.1…4. 0 or absent: 1. A recording (BVH) is prepared for it, from 0.5 to 2 in steps of 1/50: steps
+    and balance are those of that pace. The first time for a body and a speed takes as long as an upload does.
     """
     loop: _builtins.bool
-    """Repeats, carrying the displacement of the root over. A walk repeats its best cycle; a motion whose end is not like its beginning is
-    led back to it by steps. Default: false.
+    """Repeats, carrying the displacement of the root over. A walk repeats its best cycle; a motion whose end is not like
+    its beginning is led back to it by steps. Default: false.
     """
     start_time_s: _builtins.float
     """World time at which the clip starts, s, or later if the figure does not stand by then. Absent: at the next tick."""
     reset: _builtins.bool
-    """Puts the figure into the clip's first posture and velocity at once. Default: false, it comes into it from standing, by steps of its own if
-    the recording begins in motion. Without `loop` it ends standing in the same way.
+    """Puts the figure into the clip's first posture and velocity at once. Default: false, it comes into it from standing,
+    by steps of its own if the recording begins in motion. Without `loop` it ends standing in the same way.
     """
     @_builtins.property
     def placement(self) -> _types_pb2.Placement:
-        """Where the clip begins, with the steps that lead into it. Absent: where the figure is, or where its feet are once it stands."""
+        """Where the clip begins, with the steps that lead into it. Absent: where the figure is, or where its feet are once it
+        stands.
+        """
 
     def __init__(
         self,
@@ -683,9 +691,10 @@ class PlayClipResponse(_message.Message):
 
     START_TIME_S_FIELD_NUMBER: _builtins.int
     start_time_s: _builtins.float
-    """World time at which its first frame plays, s: later than asked for by the length of the steps that lead into it. Gone over to from step to
-    step, up to 0.4 s of a clip are left out, and up to a stride of one that repeats: then this may be before the request. If the figure has
-    to stand first, or is led into it, it is what is expected; the clip begins when the figure has settled, up to 2 s sooner or 3 s later.
+    """World time at which its first frame plays, s: later than asked for by the length of the steps that lead into it.
+    Gone over to from step to step, up to 0.4 s of a clip are left out, and up to a stride of one that repeats: then
+    this may be before the request. If the figure has to stand first, or is led into it, it is what is expected; the
+    clip begins when the figure has settled, up to 2 s sooner or 3 s later.
     """
     def __init__(
         self,
@@ -876,8 +885,8 @@ class DriveHeader(_message.Message):
     world: _builtins.str
     """World: resource name `worlds/{world}`."""
     driver_id: _builtins.str
-    """Who drives, at most 64 bytes of printable ASCII. The same driver may come back after a lost connection. Empty: the server
-    chooses, and `PushMotion` takes it as `push`.
+    """Name of the driver, at most 64 bytes of printable ASCII. The same driver may come back after a lost connection.
+    Empty: the server chooses, and `PushMotion` takes it as `push`.
     """
     nominal_rate_hz: _builtins.float
     """Frames per second that will come, 1…1000. 0 or absent: 60. Used for the first estimates only."""
@@ -894,13 +903,16 @@ class DriveHeader(_message.Message):
     hold_limit_ms: _builtins.float
     """How long the last posture is held before the figure relaxes into quiet standing, ms, 0…600000. Absent: 5000."""
     grace_ms: _builtins.float
-    """How long the figures are kept for this driver after its connection is lost or after its last push, ms, 0…60000. Absent: 5000."""
+    """How long the figures are kept for this driver after its connection is lost or after its last push, ms, 0…60000.
+    Absent: 5000.
+    """
     reset: _builtins.bool
     """Puts each figure into its first desired posture when the drive begins. Default: false, it moves there by itself."""
     preparation_window_ms: _builtins.float
-    """How far behind the newest frame motion is prepared for the body, ms: 0, or 300…1000. Within this window planted feet are locked, swings
-    clear the floor and the zero-moment point is brought over the feet, so that a stream may walk; steps then follow events. It is added to
-    the playout delay. 0 uses frames as they come, without that delay, for streams that stand. Absent: the server's `live_window_ms`.
+    """How far behind the newest frame motion is prepared for the body, ms: 0, or 300…1000. Within this window planted
+    feet are locked, swings clear the floor and the zero-moment point is brought over the feet, so that a stream may
+    walk; steps then follow events. It is added to the playout delay. 0 uses frames as they come, without that delay,
+    for streams that stand. Absent: the server's `live_window_ms`.
     """
     @_builtins.property
     def figures(self) -> _containers.RepeatedScalarFieldContainer[_builtins.str]:
@@ -1176,7 +1188,9 @@ class FigureFeedback(_message.Message):
     overflow_count: _builtins.int
     """Frames dropped because the buffer was full."""
     preparation_window_ms: _builtins.float
-    """Length of the window in which motion is prepared, ms; contained in `playout_delay_ms`. 0: frames are used as they come."""
+    """Length of the window in which motion is prepared, ms; contained in `playout_delay_ms`. 0: frames are used as they
+    come.
+    """
     def __init__(
         self,
         *,

@@ -110,17 +110,18 @@ class MotionServiceServicer:
         raise NotImplementedError('Method not implemented!')
 
     def PlayClip(self, request, context):
-        """Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else it finishes its step and
-        stands first, as does one in the middle of another clip. Until then the clip is `Figure.next_clip`, and a further call puts another one in
-        its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it live.
+        """Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else
+        it finishes its step and stands first, as does one in the middle of another clip. Until then the clip is
+        `Figure.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`)
+        while someone drives it live.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')
         raise NotImplementedError('Method not implemented!')
 
     def StopClip(self, request, context):
-        """Ends a clip, and takes back the one that waits: a figure that walks finishes its step and comes to a stand, any other holds the posture
-        that is asked of it now.
+        """Ends a clip, and takes back the one that waits: a figure that walks finishes its step and comes to a stand, any
+        other holds the posture that is asked of it now.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')
@@ -134,8 +135,9 @@ class MotionServiceServicer:
         raise NotImplementedError('Method not implemented!')
 
     def DriveFigures(self, request_iterator, context):
-        """Drives figures live. The first message is the header, all others are batches. Feedback comes at once, then about ten times
-        a second, and when something goes wrong. Ending the stream gives the figures back; losing it keeps them for the grace time.
+        """Drives figures live. The first message is the header, all others are batches. Feedback comes at once, then about
+        ten times a second, and when something goes wrong. Ending the stream gives the figures back; losing it keeps them
+        for the grace time.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')

@@ -42,19 +42,21 @@ class MotionServiceStub:
     DeleteClip: _grpc.UnaryUnaryMultiCallable[_motion_pb2.DeleteClipRequest, _motion_pb2.DeleteClipResponse]
     """Forgets a clip. Figures that play it go on. Built-in clips cannot be deleted."""
     PlayClip: _grpc.UnaryUnaryMultiCallable[_motion_pb2.PlayClipRequest, _motion_pb2.PlayClipResponse]
-    """Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else it finishes its step and
-    stands first, as does one in the middle of another clip. Until then the clip is `Figure.next_clip`, and a further call puts another one in
-    its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it live.
+    """Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else
+    it finishes its step and stands first, as does one in the middle of another clip. Until then the clip is
+    `Figure.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`)
+    while someone drives it live.
     """
     StopClip: _grpc.UnaryUnaryMultiCallable[_motion_pb2.StopClipRequest, _motion_pb2.StopClipResponse]
-    """Ends a clip, and takes back the one that waits: a figure that walks finishes its step and comes to a stand, any other holds the posture
-    that is asked of it now.
+    """Ends a clip, and takes back the one that waits: a figure that walks finishes its step and comes to a stand, any
+    other holds the posture that is asked of it now.
     """
     PushMotion: _grpc.UnaryUnaryMultiCallable[_motion_pb2.PushMotionRequest, _motion_pb2.PushMotionResponse]
     """A batch of live desired motion: the unary twin of `DriveFigures`."""
     DriveFigures: _grpc.StreamStreamMultiCallable[_motion_pb2.DriveFiguresRequest, _motion_pb2.DriveFiguresResponse]
-    """Drives figures live. The first message is the header, all others are batches. Feedback comes at once, then about ten times
-    a second, and when something goes wrong. Ending the stream gives the figures back; losing it keeps them for the grace time.
+    """Drives figures live. The first message is the header, all others are batches. Feedback comes at once, then about
+    ten times a second, and when something goes wrong. Ending the stream gives the figures back; losing it keeps them
+    for the grace time.
     """
 
 @_typing.type_check_only
@@ -71,19 +73,21 @@ class MotionServiceAsyncStub(MotionServiceStub):
     DeleteClip: _aio.UnaryUnaryMultiCallable[_motion_pb2.DeleteClipRequest, _motion_pb2.DeleteClipResponse]  # type: ignore[assignment]
     """Forgets a clip. Figures that play it go on. Built-in clips cannot be deleted."""
     PlayClip: _aio.UnaryUnaryMultiCallable[_motion_pb2.PlayClipRequest, _motion_pb2.PlayClipResponse]  # type: ignore[assignment]
-    """Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else it finishes its step and
-    stands first, as does one in the middle of another clip. Until then the clip is `Figure.next_clip`, and a further call puts another one in
-    its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it live.
+    """Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else
+    it finishes its step and stands first, as does one in the middle of another clip. Until then the clip is
+    `Figure.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`)
+    while someone drives it live.
     """
     StopClip: _aio.UnaryUnaryMultiCallable[_motion_pb2.StopClipRequest, _motion_pb2.StopClipResponse]  # type: ignore[assignment]
-    """Ends a clip, and takes back the one that waits: a figure that walks finishes its step and comes to a stand, any other holds the posture
-    that is asked of it now.
+    """Ends a clip, and takes back the one that waits: a figure that walks finishes its step and comes to a stand, any
+    other holds the posture that is asked of it now.
     """
     PushMotion: _aio.UnaryUnaryMultiCallable[_motion_pb2.PushMotionRequest, _motion_pb2.PushMotionResponse]  # type: ignore[assignment]
     """A batch of live desired motion: the unary twin of `DriveFigures`."""
     DriveFigures: _aio.StreamStreamMultiCallable[_motion_pb2.DriveFiguresRequest, _motion_pb2.DriveFiguresResponse]  # type: ignore[assignment]
-    """Drives figures live. The first message is the header, all others are batches. Feedback comes at once, then about ten times
-    a second, and when something goes wrong. Ending the stream gives the figures back; losing it keeps them for the grace time.
+    """Drives figures live. The first message is the header, all others are batches. Feedback comes at once, then about
+    ten times a second, and when something goes wrong. Ending the stream gives the figures back; losing it keeps them
+    for the grace time.
     """
 
 class MotionServiceServicer(metaclass=_abc_1.ABCMeta):
@@ -127,9 +131,10 @@ class MotionServiceServicer(metaclass=_abc_1.ABCMeta):
         request: _motion_pb2.PlayClipRequest,
         context: _ServicerContext,
     ) -> _typing.Union[_motion_pb2.PlayClipResponse, _abc.Awaitable[_motion_pb2.PlayClipResponse]]:
-        """Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else it finishes its step and
-        stands first, as does one in the middle of another clip. Until then the clip is `Figure.next_clip`, and a further call puts another one in
-        its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it live.
+        """Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else
+        it finishes its step and stands first, as does one in the middle of another clip. Until then the clip is
+        `Figure.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`)
+        while someone drives it live.
         """
 
     @_abc_1.abstractmethod
@@ -138,8 +143,8 @@ class MotionServiceServicer(metaclass=_abc_1.ABCMeta):
         request: _motion_pb2.StopClipRequest,
         context: _ServicerContext,
     ) -> _typing.Union[_motion_pb2.StopClipResponse, _abc.Awaitable[_motion_pb2.StopClipResponse]]:
-        """Ends a clip, and takes back the one that waits: a figure that walks finishes its step and comes to a stand, any other holds the posture
-        that is asked of it now.
+        """Ends a clip, and takes back the one that waits: a figure that walks finishes its step and comes to a stand, any
+        other holds the posture that is asked of it now.
         """
 
     @_abc_1.abstractmethod
@@ -156,8 +161,9 @@ class MotionServiceServicer(metaclass=_abc_1.ABCMeta):
         request_iterator: _MaybeAsyncIterator[_motion_pb2.DriveFiguresRequest],
         context: _ServicerContext,
     ) -> _typing.Union[_abc.Iterator[_motion_pb2.DriveFiguresResponse], _abc.AsyncIterator[_motion_pb2.DriveFiguresResponse]]:
-        """Drives figures live. The first message is the header, all others are batches. Feedback comes at once, then about ten times
-        a second, and when something goes wrong. Ending the stream gives the figures back; losing it keeps them for the grace time.
+        """Drives figures live. The first message is the header, all others are batches. Feedback comes at once, then about
+        ten times a second, and when something goes wrong. Ending the stream gives the figures back; losing it keeps them
+        for the grace time.
         """
 
 def add_MotionServiceServicer_to_server(servicer: MotionServiceServicer, server: _typing.Union[_grpc.Server, _aio.Server]) -> None: ...

@@ -40,8 +40,8 @@ class Load(_message.Message):
     duration_s: _builtins.float
     """How long it is carried, s, 0…86400. 0 or absent: until it is cleared."""
     second_segment: _builtins.str
-    """Second carrying segment, for example `l_hand` when `segment` is `r_hand`. Each then carries half of the mass, and the two points keep
-    the distance they have when the load is taken. Empty: one hand.
+    """Second carrying segment, for example `l_hand` when `segment` is `r_hand`. Each then carries half of the mass, and
+    the two points keep the distance they have when the load is taken. Empty: one hand.
     """
     grip_n: _builtins.float
     """Force at one hand beyond which the load slips, N, up to 1000000. 0 or absent: never."""
@@ -51,8 +51,8 @@ class Load(_message.Message):
 
     @_builtins.property
     def velocity_mps(self) -> _types_pb2.Vector3:
-        """Velocity of the load before it is taken, world axes, m/s, each component within ±100. Absent: at rest. Taking it is perfectly
-        inelastic: momentum is kept and the figure feels the jerk.
+        """Velocity of the load before it is taken, world axes, m/s, each component within ±100. Absent: at rest. Taking it is
+        perfectly inelastic: momentum is kept and the figure feels the jerk.
         """
 
     @_builtins.property
@@ -219,7 +219,9 @@ class ApplyPerturbationsRequest(_message.Message):
     world: _builtins.str
     """World: resource name `worlds/{world}`."""
     client_id: _builtins.str
-    """Who asks, at most 64 bytes. Requests that meet in one tick act in the order of (client, sequence). Empty: the connection."""
+    """Name of the client, at most 64 bytes. Requests that meet in one tick act in the order of (client, sequence). Empty:
+    the connection.
+    """
     sequence: _builtins.int
     """Number of the request at this client. Default: 0."""
     @_builtins.property

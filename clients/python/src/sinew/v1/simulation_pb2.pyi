@@ -118,7 +118,7 @@ Global___SimulateClipRequest: _TypeAlias = SimulateClipRequest  # noqa: Y015
 
 @_typing.final
 class SimulateClipResponse(_message.Message):
-    """What came of it."""
+    """Result of a simulation."""
 
     DESCRIPTOR: _descriptor.Descriptor
 
@@ -167,8 +167,8 @@ class SimulationSummary(_message.Message):
     TICK_COUNT_FIELD_NUMBER: _builtins.int
     RATE_HZ_FIELD_NUMBER: _builtins.int
     FELL_AT_S_FIELD_NUMBER: _builtins.int
-    JOINT_RMS_DEG_FIELD_NUMBER: _builtins.int
-    JOINT_MAX_DEG_FIELD_NUMBER: _builtins.int
+    TRACKING_JOINT_RMS_DEG_FIELD_NUMBER: _builtins.int
+    TRACKING_JOINT_MAX_DEG_FIELD_NUMBER: _builtins.int
     MAX_UTILISATION_FIELD_NUMBER: _builtins.int
     OVER_LIMIT_MAX_FIELD_NUMBER: _builtins.int
     SATURATED_S_FIELD_NUMBER: _builtins.int
@@ -183,10 +183,12 @@ class SimulationSummary(_message.Message):
     """Ticks per second."""
     fell_at_s: _builtins.float
     """When the figure fell, s; absent if it did not."""
-    joint_rms_deg: _builtins.float
-    """Root mean square of the joint errors over DOFs and ticks, degrees."""
-    joint_max_deg: _builtins.float
-    """Largest joint error, degrees."""
+    tracking_joint_rms_deg: _builtins.float
+    """Tracking error of the joint angles, target minus actual at the start of a tick: root mean square over DOFs and
+    ticks, degrees. The target is the prepared motion, moved along with the feet after each step.
+    """
+    tracking_joint_max_deg: _builtins.float
+    """Largest tracking error of a joint angle, degrees."""
     max_utilisation: _builtins.float
     """Largest torque relative to the torque available."""
     over_limit_max: _builtins.float
@@ -211,8 +213,8 @@ class SimulationSummary(_message.Message):
         tick_count: _builtins.int = ...,
         rate_hz: _builtins.float = ...,
         fell_at_s: _builtins.float | None = ...,
-        joint_rms_deg: _builtins.float = ...,
-        joint_max_deg: _builtins.float = ...,
+        tracking_joint_rms_deg: _builtins.float = ...,
+        tracking_joint_max_deg: _builtins.float = ...,
         max_utilisation: _builtins.float = ...,
         over_limit_max: _builtins.float = ...,
         saturated_s: _abc.Iterable[_builtins.float] | None = ...,
@@ -224,7 +226,7 @@ class SimulationSummary(_message.Message):
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["_fell_at_s", b"_fell_at_s", "_margin_min_m", b"_margin_min_m", "fell_at_s", b"fell_at_s", "margin_min_m", b"margin_min_m"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["_fell_at_s", b"_fell_at_s", "_margin_min_m", b"_margin_min_m", "fell_at_s", b"fell_at_s", "joint_max_deg", b"joint_max_deg", "joint_rms_deg", b"joint_rms_deg", "margin_min_m", b"margin_min_m", "max_utilisation", b"max_utilisation", "over_limit_max", b"over_limit_max", "penetration_max_m", b"penetration_max_m", "rate_hz", b"rate_hz", "saturated_s", b"saturated_s", "state_hash", b"state_hash", "tick_count", b"tick_count", "tick_p50_us", b"tick_p50_us", "tick_p99_us", b"tick_p99_us"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_fell_at_s", b"_fell_at_s", "_margin_min_m", b"_margin_min_m", "fell_at_s", b"fell_at_s", "margin_min_m", b"margin_min_m", "max_utilisation", b"max_utilisation", "over_limit_max", b"over_limit_max", "penetration_max_m", b"penetration_max_m", "rate_hz", b"rate_hz", "saturated_s", b"saturated_s", "state_hash", b"state_hash", "tick_count", b"tick_count", "tick_p50_us", b"tick_p50_us", "tick_p99_us", b"tick_p99_us", "tracking_joint_max_deg", b"tracking_joint_max_deg", "tracking_joint_rms_deg", b"tracking_joint_rms_deg"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     _WhichOneofReturnType__fell_at_s: _TypeAlias = _typing.Literal["fell_at_s"]  # noqa: Y015
     _WhichOneofArgType__fell_at_s: _TypeAlias = _typing.Literal["_fell_at_s", b"_fell_at_s"]  # noqa: Y015

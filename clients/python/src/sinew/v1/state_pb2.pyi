@@ -150,8 +150,8 @@ class View(_message.Message):
 
     @_builtins.property
     def fields(self) -> _field_mask_pb2.FieldMask:
-        """Fields of `FigureFrame`, for example `root_pose`, `joint_angles`, `torque`, or `*` for all. Absent or empty: `root_pose`,
-        `joint_angles`, `torque`, `status`.
+        """Fields of `FigureFrame`, for example `root_pose`, `joint_angles`, `torque`, or `*` for all. Absent or empty:
+        `root_pose`, `joint_angles`, `torque`, `status`.
         """
 
     def __init__(
@@ -172,7 +172,7 @@ Global___View: _TypeAlias = View  # noqa: Y015
 
 @_typing.final
 class Roster(_message.Message):
-    """Who is who in the frames that follow."""
+    """Names of the figures, by their index in the frames that follow."""
 
     DESCRIPTOR: _descriptor.Descriptor
 
@@ -280,7 +280,7 @@ class GetWorldFrameResponse(_message.Message):
     FRAME_FIELD_NUMBER: _builtins.int
     @_builtins.property
     def roster(self) -> Global___Roster:
-        """Who is who."""
+        """Names of the figures by index."""
 
     @_builtins.property
     def frame(self) -> _frame_pb2.WorldFrame:
@@ -312,8 +312,8 @@ class WatchWorldRequest(_message.Message):
     world: _builtins.str
     """World: resource name `worlds/{world}`."""
     resume_tick: _builtins.int
-    """Continues after this tick: frames that are still held come first. OUT_OF_RANGE (`RESUME_EXPIRED`) when the next one is no
-    longer held. Absent: from now.
+    """Continues after this tick: frames that are still held come first. OUT_OF_RANGE (`RESUME_EXPIRED`) when the next one
+    is no longer held. Absent: from now.
     """
     @_builtins.property
     def view(self) -> Global___View:
@@ -346,7 +346,7 @@ class WatchWorldResponse(_message.Message):
     FRAME_FIELD_NUMBER: _builtins.int
     @_builtins.property
     def roster(self) -> Global___Roster:
-        """Who is who from now on."""
+        """Names of the figures by index, from now on."""
 
     @_builtins.property
     def frame(self) -> _frame_pb2.WorldFrame:

@@ -160,7 +160,9 @@ class World(_message.Message):
     failure: _builtins.str
     """Why the world failed; empty otherwise. Output only."""
     collisions: _builtins.bool
-    """Figures and obstacles touch each other. Absent: true. False: figures touch nothing but the ground. Fixed at creation."""
+    """Figures and obstacles touch each other. Absent: true. False: figures touch nothing but the ground. Fixed at
+    creation.
+    """
     @_builtins.property
     def create_time(self) -> _timestamp_pb2.Timestamp:
         """When it was created. Output only."""

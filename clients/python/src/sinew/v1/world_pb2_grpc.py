@@ -171,7 +171,8 @@ class WorldServiceServicer:
         raise NotImplementedError('Method not implemented!')
 
     def AddObstacle(self, request, context):
-        """Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256 (RESOURCE_EXHAUSTED).
+        """Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256
+        (RESOURCE_EXHAUSTED).
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')

@@ -54,7 +54,9 @@ class WorldServiceStub:
     SetWorldSpeed: _grpc.UnaryUnaryMultiCallable[_world_pb2.SetWorldSpeedRequest, _world_pb2.SetWorldSpeedResponse]
     """Sets how fast world time passes."""
     AddObstacle: _grpc.UnaryUnaryMultiCallable[_world_pb2.AddObstacleRequest, _world_pb2.AddObstacleResponse]
-    """Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256 (RESOURCE_EXHAUSTED)."""
+    """Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256
+    (RESOURCE_EXHAUSTED).
+    """
     UpdateObstacle: _grpc.UnaryUnaryMultiCallable[_world_pb2.UpdateObstacleRequest, _world_pb2.UpdateObstacleResponse]
     """Replaces an obstacle by another of the same name: shape, mobility, pose and velocity."""
     RemoveObstacle: _grpc.UnaryUnaryMultiCallable[_world_pb2.RemoveObstacleRequest, _world_pb2.RemoveObstacleResponse]
@@ -88,7 +90,9 @@ class WorldServiceAsyncStub(WorldServiceStub):
     SetWorldSpeed: _aio.UnaryUnaryMultiCallable[_world_pb2.SetWorldSpeedRequest, _world_pb2.SetWorldSpeedResponse]  # type: ignore[assignment]
     """Sets how fast world time passes."""
     AddObstacle: _aio.UnaryUnaryMultiCallable[_world_pb2.AddObstacleRequest, _world_pb2.AddObstacleResponse]  # type: ignore[assignment]
-    """Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256 (RESOURCE_EXHAUSTED)."""
+    """Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256
+    (RESOURCE_EXHAUSTED).
+    """
     UpdateObstacle: _aio.UnaryUnaryMultiCallable[_world_pb2.UpdateObstacleRequest, _world_pb2.UpdateObstacleResponse]  # type: ignore[assignment]
     """Replaces an obstacle by another of the same name: shape, mobility, pose and velocity."""
     RemoveObstacle: _aio.UnaryUnaryMultiCallable[_world_pb2.RemoveObstacleRequest, _world_pb2.RemoveObstacleResponse]  # type: ignore[assignment]
@@ -179,7 +183,9 @@ class WorldServiceServicer(metaclass=_abc_1.ABCMeta):
         request: _world_pb2.AddObstacleRequest,
         context: _ServicerContext,
     ) -> _typing.Union[_world_pb2.AddObstacleResponse, _abc.Awaitable[_world_pb2.AddObstacleResponse]]:
-        """Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256 (RESOURCE_EXHAUSTED)."""
+        """Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256
+        (RESOURCE_EXHAUSTED).
+        """
 
     @_abc_1.abstractmethod
     def UpdateObstacle(

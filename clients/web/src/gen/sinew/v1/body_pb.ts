@@ -15,7 +15,7 @@ export const file_sinew_v1_body: GenFile = /*@__PURE__*/
   fileDesc("ChNzaW5ldy92MS9ib2R5LnByb3RvEghzaW5ldy52MSJfCgtCb2R5UHJvZmlsZRIaCgNzZXgYASABKA4yDS5zaW5ldy52MS5TZXgSEQoJYWdlX3llYXJzGAIgASgBEhAKCGhlaWdodF9tGAMgASgBEg8KB21hc3Nfa2cYBCABKAEi6wEKB1NlZ21lbnQSDAoEbmFtZRgBIAEoCRIMCgRib25lGAIgASgJEg4KBnBhcmVudBgDIAEoBRIPCgdtYXNzX2tnGAQgASgBEiAKBWNvbV9tGAUgASgLMhEuc2luZXcudjEuVmVjdG9yMxIUCgxpbmVydGlhX2tnbTIYBiADKAESIAoFdGlwX20YByABKAsyES5zaW5ldy52MS5WZWN0b3IzEhgKEGNvbnRhY3RfcG9pbnRzX20YCCADKAESFwoPbWVzaF92ZXJ0aWNlc19tGAkgAygBEhYKDm1lc2hfdHJpYW5nbGVzGAogAygFIoMBCgVKb2ludBIMCgRuYW1lGAEgASgJEiEKBHR5cGUYAiABKA4yEy5zaW5ldy52MS5Kb2ludFR5cGUSIwoIb2Zmc2V0X20YAyABKAsyES5zaW5ldy52MS5WZWN0b3IzEhEKCWRvZl9zdGFydBgEIAEoBRIRCglkb2ZfY291bnQYBSABKAUigAEKA0RvZhIMCgRuYW1lGAEgASgJEg0KBWpvaW50GAIgASgFEh8KBGF4aXMYAyABKAsyES5zaW5ldy52MS5WZWN0b3IzEhEKCWxvd2VyX3JhZBgEIAEoARIRCgl1cHBlcl9yYWQYBSABKAESFQoNYXJtYXR1cmVfa2dtMhgGIAEoASLpAQoEQm9keRIMCgRuYW1lGAEgASgJEiYKB3Byb2ZpbGUYAiABKAsyFS5zaW5ldy52MS5Cb2R5UHJvZmlsZRIjCghzZWdtZW50cxgDIAMoCzIRLnNpbmV3LnYxLlNlZ21lbnQSHwoGam9pbnRzGAQgAygLMg8uc2luZXcudjEuSm9pbnQSGwoEZG9mcxgFIAMoCzINLnNpbmV3LnYxLkRvZhIeChZzdGFuZGluZ19yb290X2hlaWdodF9tGAYgASgBEigKCnByb3ZlbmFuY2UYByADKAsyFC5zaW5ldy52MS5Qcm92ZW5hbmNlIoQBCgpQcm92ZW5hbmNlEgwKBHBhcnQYASABKAkSDgoGYWN0aW9uGAIgASgJEhAKCHF1YW50aXR5GAMgASgJEg0KBXZhbHVlGAQgASgBEgwKBHVuaXQYBSABKAkSDgoGc291cmNlGAYgASgJEgsKA3RhZxgHIAEoCRIMCgRub3RlGAggASgJIjoKEUxpc3RCb2RpZXNSZXF1ZXN0EhEKCXBhZ2Vfc2l6ZRgBIAEoBRISCgpwYWdlX3Rva2VuGAIgASgJIk0KEkxpc3RCb2RpZXNSZXNwb25zZRIeCgZib2RpZXMYASADKAsyDi5zaW5ldy52MS5Cb2R5EhcKD25leHRfcGFnZV90b2tlbhgCIAEoCSJUCg5HZXRCb2R5UmVxdWVzdBIMCgRuYW1lGAEgASgJEhgKEGluY2x1ZGVfZ2VvbWV0cnkYAiABKAgSGgoSaW5jbHVkZV9wcm92ZW5hbmNlGAMgASgIIi8KD0dldEJvZHlSZXNwb25zZRIcCgRib2R5GAEgASgLMg4uc2luZXcudjEuQm9keSJJChFFeHBvcnRCb2R5UmVxdWVzdBIMCgRuYW1lGAEgASgJEiYKBmZvcm1hdBgCIAEoDjIWLnNpbmV3LnYxLkV4cG9ydEZvcm1hdCI1ChJFeHBvcnRCb2R5UmVzcG9uc2USDAoEdGV4dBgBIAEoCRIRCglmaWxlX25hbWUYAiABKAkqOAoDU2V4EhMKD1NFWF9VTlNQRUNJRklFRBAAEgwKCFNFWF9NQUxFEAESDgoKU0VYX0ZFTUFMRRACKmcKCUpvaW50VHlwZRIaChZKT0lOVF9UWVBFX1VOU1BFQ0lGSUVEEAASEwoPSk9JTlRfVFlQRV9GUkVFEAESEwoPSk9JTlRfVFlQRV9CQUxMEAISFAoQSk9JTlRfVFlQRV9ISU5HRRADKl0KDEV4cG9ydEZvcm1hdBIdChlFWFBPUlRfRk9STUFUX1VOU1BFQ0lGSUVEEAASFgoSRVhQT1JUX0ZPUk1BVF9NSkNGEAESFgoSRVhQT1JUX0ZPUk1BVF9VUkRGEAIy3wEKC0JvZHlTZXJ2aWNlEkcKCkxpc3RCb2RpZXMSGy5zaW5ldy52MS5MaXN0Qm9kaWVzUmVxdWVzdBocLnNpbmV3LnYxLkxpc3RCb2RpZXNSZXNwb25zZRI+CgdHZXRCb2R5Ehguc2luZXcudjEuR2V0Qm9keVJlcXVlc3QaGS5zaW5ldy52MS5HZXRCb2R5UmVzcG9uc2USRwoKRXhwb3J0Qm9keRIbLnNpbmV3LnYxLkV4cG9ydEJvZHlSZXF1ZXN0Ghwuc2luZXcudjEuRXhwb3J0Qm9keVJlc3BvbnNlYgZwcm90bzM", [file_sinew_v1_types]);
 
 /**
- * Who a body stands for.
+ * Person that a body represents.
  *
  * @generated from message sinew.v1.BodyProfile
  */
@@ -57,8 +57,8 @@ export const BodyProfileSchema: GenMessage<BodyProfile> = /*@__PURE__*/
   messageDesc(file_sinew_v1_body, 0);
 
 /**
- * One rigid part. Its frame sits at the joint that joins it to its parent; in the zero pose (upright, arms hanging, palms to the
- * thighs) it is parallel to the world.
+ * One rigid part. Its frame sits at the joint that joins it to its parent; in the zero pose (upright, arms hanging,
+ * palms to the thighs) it is parallel to the world.
  *
  * @generated from message sinew.v1.Segment
  */
@@ -197,7 +197,8 @@ export const JointSchema: GenMessage<Joint> = /*@__PURE__*/
  */
 export type Dof = Message<"sinew.v1.Dof"> & {
   /**
-   * Name, for example `l_knee_flexion`. Angles are anatomically signed: flexion, abduction, internal rotation positive on both sides.
+   * Name, for example `l_knee_flexion`. Angles are anatomically signed: flexion, abduction, internal rotation positive
+   * on both sides.
    *
    * @generated from field: string name = 1;
    */
@@ -260,7 +261,7 @@ export type Body = Message<"sinew.v1.Body"> & {
   name: string;
 
   /**
-   * Who it stands for.
+   * Person that it represents.
    *
    * @generated from field: sinew.v1.BodyProfile profile = 2;
    */
@@ -295,7 +296,8 @@ export type Body = Message<"sinew.v1.Body"> & {
   standingRootHeightM: number;
 
   /**
-   * Where its numbers come from: masses and lengths of segments, limits and strength of DOFs, fatigue. Only with `include_provenance`.
+   * Where its numbers come from: masses and lengths of segments, limits and strength of DOFs, fatigue. Only with
+   * `include_provenance`.
    *
    * @generated from field: repeated sinew.v1.Provenance provenance = 7;
    */
@@ -358,8 +360,8 @@ export type Provenance = Message<"sinew.v1.Provenance"> & {
   source: string;
 
   /**
-   * How far to trust it. S1: read in data that cite the publication. S2: read in the publication. S3: cross-check only. D: derived.
-   * R: estimate.
+   * How far to trust it. S1: read in data that cite the publication. S2: read in the publication. S3: cross-check only.
+   * D: derived. R: estimate.
    *
    * @generated from field: string tag = 7;
    */
@@ -658,8 +660,9 @@ export const ExportFormatSchema: GenEnum<ExportFormat> = /*@__PURE__*/
   enumDesc(file_sinew_v1_body, 2);
 
 /**
- * Describes bodies. A body is immutable and follows from its profile, so its name says everything:
- * `bodies/adult-man`, `bodies/adult-woman`, `bodies/child`, `bodies/older-man`, `bodies/older-woman`, or `bodies/{sex}-{age}y-{height}mm-{mass}g`, for example `bodies/female-25y-1680mm-61500g`.
+ * Describes bodies. A body is immutable and follows from its profile, so its name says everything: `bodies/adult-man`,
+ * `bodies/adult-woman`, `bodies/child`, `bodies/older-man`, `bodies/older-woman`, or
+ * `bodies/{sex}-{age}y-{height}mm-{mass}g`, for example `bodies/female-25y-1680mm-61500g`.
  *
  * @generated from service sinew.v1.BodyService
  */

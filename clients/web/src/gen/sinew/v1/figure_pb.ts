@@ -312,8 +312,8 @@ export type Figure = Message<"sinew.v1.Figure"> & {
   fatigueTimeScale: number;
 
   /**
-   * Help towards the desired pose of the pelvis, 0…1: a bounded wrench that no body has, reported in every frame (`assist`). 1 holds the
-   * pelvis on its path. 0: none.
+   * Help towards the desired pose of the pelvis, 0…1: a bounded wrench that no body has, reported in every frame
+   * (`assist`). 1 holds the pelvis on its path. 0: none.
    *
    * @generated from field: double assist = 15;
    */
@@ -327,8 +327,9 @@ export type Figure = Message<"sinew.v1.Figure"> & {
   paper?: PaperOptions | undefined;
 
   /**
-   * Where parts of the body are wanted, at most 8, no two on the same part. An update replaces all: one on a part that was constrained before
-   * goes on from there, the others ease in, and those that are missing fade out. In responses those that have ended are gone.
+   * Where parts of the body are wanted, at most 8, no two on the same part. An update replaces all: one on a part that
+   * was constrained before goes on from there, the others ease in, and those that are missing fade out. In responses
+   * those that have ended are gone.
    *
    * @generated from field: repeated sinew.v1.Constraint constraints = 17;
    */
@@ -342,7 +343,8 @@ export type Figure = Message<"sinew.v1.Figure"> & {
   protectiveSteps?: boolean | undefined;
 
   /**
-   * Clip that begins as soon as the figure stands or has gone over to it, `clips/{clip}`; empty if none waits. Output only.
+   * Clip that begins as soon as the figure stands or has gone over to it, `clips/{clip}`; empty if none waits. Output
+   * only.
    *
    * @generated from field: string next_clip = 19;
    */
@@ -357,10 +359,11 @@ export const FigureSchema: GenMessage<Figure> = /*@__PURE__*/
   messageDesc(file_sinew_v1_figure, 4);
 
 /**
- * Where the centre of mass or a point of a segment is wanted, and how the segment is wanted to be turned, while the rest of the body follows
- * its motion. At least one of `position_m` and `rotation` must be given. The part moves there from wherever it is; an arm reaches as far as
- * its length, trunk, head and legs up to 0.15 m from where the motion has them, and the centre of mass stays 0.03 m inside what the feet
- * cover from heel to ball. A foot that stands is not lifted. Fallen figures and CONTROLLER_MOTORS ignore constraints.
+ * Where the centre of mass or a point of a segment is wanted, and how the segment is wanted to be turned, while the
+ * rest of the body follows its motion. At least one of `position_m` and `rotation` must be given. The part moves there
+ * from wherever it is; an arm reaches as far as its length, trunk, head and legs up to 0.15 m from where the motion has
+ * them, and the centre of mass stays 0.03 m inside what the feet cover from heel to ball. A foot that stands is not
+ * lifted. Fallen figures and CONTROLLER_MOTORS ignore constraints.
  *
  * @generated from message sinew.v1.Constraint
  */
@@ -389,7 +392,8 @@ export type Constraint = Message<"sinew.v1.Constraint"> & {
   } | { case: undefined; value?: undefined };
 
   /**
-   * Point of the segment, segment frame, m, each component within ±2. Absent: the middle of a hand, else the segment's centre of mass.
+   * Point of the segment, segment frame, m, each component within ±2. Absent: the middle of a hand, else the segment's
+   * centre of mass.
    *
    * @generated from field: sinew.v1.Vector3 point_m = 3;
    */
@@ -620,8 +624,8 @@ export type UpdateFigureRequest = Message<"sinew.v1.UpdateFigureRequest"> & {
   figure?: Figure | undefined;
 
   /**
-   * Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper`, `constraints`, `protective_steps` to take. Must
-   * not be empty.
+   * Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper`, `constraints`,
+   * `protective_steps` to take. Must not be empty.
    *
    * @generated from field: google.protobuf.FieldMask update_mask = 2;
    */
@@ -742,7 +746,7 @@ export const ResetFigureResponseSchema: GenMessage<ResetFigureResponse> = /*@__P
   messageDesc(file_sinew_v1_figure, 17);
 
 /**
- * Who computes accelerations and torques.
+ * Controller: computes accelerations and torques.
  *
  * @generated from enum sinew.v1.Controller
  */
@@ -783,7 +787,7 @@ export const ControllerSchema: GenEnum<Controller> = /*@__PURE__*/
   enumDesc(file_sinew_v1_figure, 0);
 
 /**
- * Who moves the body.
+ * Stepper: moves the body.
  *
  * @generated from enum sinew.v1.Stepper
  */

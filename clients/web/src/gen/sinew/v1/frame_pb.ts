@@ -14,7 +14,7 @@ import type { Message } from "@bufbuild/protobuf";
  * Describes the file sinew/v1/frame.proto.
  */
 export const file_sinew_v1_frame: GenFile = /*@__PURE__*/
-  fileDesc("ChRzaW5ldy92MS9mcmFtZS5wcm90bxIIc2luZXcudjEi0QEKCldvcmxkRnJhbWUSDAoEdGljaxgBIAEoAxIOCgZ0aW1lX3MYAiABKAESEgoKc3RhdGVfaGFzaBgDIAEoEBINCgVlcG9jaBgEIAEoBRIWCg5zZXJ2ZXJfdGltZV9ucxgFIAEoEBIWCg5yb3N0ZXJfdmVyc2lvbhgGIAEoBRImCgdmaWd1cmVzGAcgAygLMhUuc2luZXcudjEuRmlndXJlRnJhbWUSKgoJb2JzdGFjbGVzGAggAygLMhcuc2luZXcudjEuT2JzdGFjbGVGcmFtZSKJAQoNT2JzdGFjbGVGcmFtZRIQCghvYnN0YWNsZRgBIAEoCRIfCgRwb3NlGAIgASgLMhEuc2luZXcudjEuTnVtYmVycxIjCgh2ZWxvY2l0eRgDIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSIAoFZm9yY2UYBCABKAsyES5zaW5ldy52MS5OdW1iZXJzIsMGCgtGaWd1cmVGcmFtZRIUCgxmaWd1cmVfaW5kZXgYASABKAUSGAoQYXBwbGllZF9zZXF1ZW5jZRgCIAEoAxIeChZhcHBsaWVkX3NvdXJjZV90aW1lX25zGAMgASgQEiQKCXJvb3RfcG9zZRgEIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSJwoMam9pbnRfYW5nbGVzGAUgASgLMhEuc2luZXcudjEuTnVtYmVycxIqCg9qb2ludF9yb3RhdGlvbnMYBiABKAsyES5zaW5ldy52MS5OdW1iZXJzEi0KEnNlZ21lbnRfdHJhbnNmb3JtcxgHIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSIwoIdmVsb2NpdHkYCCABKAsyES5zaW5ldy52MS5OdW1iZXJzEicKDGFjY2VsZXJhdGlvbhgJIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSIQoGdG9ycXVlGAogASgLMhEuc2luZXcudjEuTnVtYmVycxIqCg9saWdhbWVudF90b3JxdWUYCyABKAsyES5zaW5ldy52MS5OdW1iZXJzEigKDXRvcnF1ZV9saW1pdHMYDCABKAsyES5zaW5ldy52MS5OdW1iZXJzEiQKCGNvbnRhY3RzGA0gASgLMhIuc2luZXcudjEuQ29udGFjdHMSIgoHYmFsYW5jZRgOIAEoCzIRLnNpbmV3LnYxLkJhbGFuY2USKQoHZGVzaXJlZBgPIAEoCzIYLnNpbmV3LnYxLkRlc2lyZWRQb3N0dXJlEiAKBnN0YXR1cxgQIAEoCzIQLnNpbmV3LnYxLlN0YXR1cxIeCgVhdWRpdBgRIAEoCzIPLnNpbmV3LnYxLkF1ZGl0EiQKCXBvc2l0aW9ucxgSIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSIgoHZmF0aWd1ZRgVIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSIQoGYXNzaXN0GBYgASgLMhEuc2luZXcudjEuTnVtYmVycxIiCgd0b3VjaGVzGBcgASgLMhEuc2luZXcudjEuVG91Y2hlcxIrChBjb25zdHJhaW50X2Vycm9yGBggASgLMhEuc2luZXcudjEuTnVtYmVycyKpAQoHVG91Y2hlcxIPCgdzZWdtZW50GAEgAygFEg0KBW90aGVyGAIgAygJEhUKDW90aGVyX3NlZ21lbnQYAyADKAUSIwoIcG9zaXRpb24YBCABKAsyES5zaW5ldy52MS5OdW1iZXJzEiAKBWZvcmNlGAUgASgLMhEuc2luZXcudjEuTnVtYmVycxIgCgVkZXB0aBgGIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMicgoIQ29udGFjdHMSDwoHc2VnbWVudBgBIAMoBRIOCgZ2ZXJ0ZXgYAiADKAUSIwoIcG9zaXRpb24YAyABKAsyES5zaW5ldy52MS5OdW1iZXJzEiAKBWZvcmNlGAQgASgLMhEuc2luZXcudjEuTnVtYmVycyKiAgoHQmFsYW5jZRIeCgNjb20YASABKAsyES5zaW5ldy52MS5OdW1iZXJzEicKDGNvbV92ZWxvY2l0eRgCIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSJgoLY29tX2Rlc2lyZWQYAyABKAsyES5zaW5ldy52MS5OdW1iZXJzEh4KA3ptcBgEIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSFQoIbWFyZ2luX20YBSABKAFIAIgBARIiCgdwb2x5Z29uGAYgASgLMhEuc2luZXcudjEuTnVtYmVycxIUCgxtYWluX3N1cHBvcnQYByABKAUSKAoNc3VwcG9ydF9yYXRpbxgIIAEoCzIRLnNpbmV3LnYxLk51bWJlcnNCCwoJX21hcmdpbl9tIosBCg5EZXNpcmVkUG9zdHVyZRIkCglyb290X3Bvc2UYASABKAsyES5zaW5ldy52MS5OdW1iZXJzEicKDGpvaW50X2FuZ2xlcxgCIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSKgoPam9pbnRfcm90YXRpb25zGAMgASgLMhEuc2luZXcudjEuTnVtYmVycyLkAQoGU3RhdHVzEg0KBWZsYWdzGAEgASgFEhEKCXNhdHVyYXRlZBgCIAEoEBIbChNzYXR1cmF0ZWRfc2Vjb25kYXJ5GAMgASgQEhIKCm92ZXJfbGltaXQYBCABKAESFQoNam9pbnRfcm1zX3JhZBgFIAEoARIVCg1wZW5ldHJhdGlvbl9tGAYgASgBEhoKEmNvbnRyb2xfaXRlcmF0aW9ucxgHIAEoBRIXCg9zdGVwX2l0ZXJhdGlvbnMYCCABKAUSJAoFbG9hZHMYCSADKAsyFS5zaW5ldy52MS5DYXJyaWVkTG9hZCL5AgoFQXVkaXQSJAoJcG9zaXRpb25zGAEgASgLMhEuc2luZXcudjEuTnVtYmVycxIjCgh2ZWxvY2l0eRgCIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSJwoMYWNjZWxlcmF0aW9uGAMgASgLMhEuc2luZXcudjEuTnVtYmVycxIhCgZ0b3JxdWUYBCABKAsyES5zaW5ldy52MS5OdW1iZXJzEioKD2xpZ2FtZW50X3RvcnF1ZRgFIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSJAoIY29udGFjdHMYBiABKAsyEi5zaW5ldy52MS5Db250YWN0cxIoCgdhcHBsaWVkGAcgASgLMhcuc2luZXcudjEuQXBwbGllZEZvcmNlcxIkCgVsb2FkcxgIIAMoCzIVLnNpbmV3LnYxLkNhcnJpZWRMb2FkEhQKDGdyYXZpdHlfbXBzMhgJIAEoARIhCgZhc3Npc3QYDCABKAsyES5zaW5ldy52MS5OdW1iZXJzImcKDUFwcGxpZWRGb3JjZXMSDwoHc2VnbWVudBgBIAMoBRIjCghwb3NpdGlvbhgCIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSIAoFZm9yY2UYAyABKAsyES5zaW5ldy52MS5OdW1iZXJzYgZwcm90bzM", [file_sinew_v1_figure, file_sinew_v1_types]);
+  fileDesc("ChRzaW5ldy92MS9mcmFtZS5wcm90bxIIc2luZXcudjEi0QEKCldvcmxkRnJhbWUSDAoEdGljaxgBIAEoAxIOCgZ0aW1lX3MYAiABKAESEgoKc3RhdGVfaGFzaBgDIAEoEBINCgVlcG9jaBgEIAEoBRIWCg5zZXJ2ZXJfdGltZV9ucxgFIAEoEBIWCg5yb3N0ZXJfdmVyc2lvbhgGIAEoBRImCgdmaWd1cmVzGAcgAygLMhUuc2luZXcudjEuRmlndXJlRnJhbWUSKgoJb2JzdGFjbGVzGAggAygLMhcuc2luZXcudjEuT2JzdGFjbGVGcmFtZSKJAQoNT2JzdGFjbGVGcmFtZRIQCghvYnN0YWNsZRgBIAEoCRIfCgRwb3NlGAIgASgLMhEuc2luZXcudjEuTnVtYmVycxIjCgh2ZWxvY2l0eRgDIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSIAoFZm9yY2UYBCABKAsyES5zaW5ldy52MS5OdW1iZXJzIsMGCgtGaWd1cmVGcmFtZRIUCgxmaWd1cmVfaW5kZXgYASABKAUSGAoQYXBwbGllZF9zZXF1ZW5jZRgCIAEoAxIeChZhcHBsaWVkX3NvdXJjZV90aW1lX25zGAMgASgQEiQKCXJvb3RfcG9zZRgEIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSJwoMam9pbnRfYW5nbGVzGAUgASgLMhEuc2luZXcudjEuTnVtYmVycxIqCg9qb2ludF9yb3RhdGlvbnMYBiABKAsyES5zaW5ldy52MS5OdW1iZXJzEi0KEnNlZ21lbnRfdHJhbnNmb3JtcxgHIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSIwoIdmVsb2NpdHkYCCABKAsyES5zaW5ldy52MS5OdW1iZXJzEicKDGFjY2VsZXJhdGlvbhgJIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSIQoGdG9ycXVlGAogASgLMhEuc2luZXcudjEuTnVtYmVycxIqCg9saWdhbWVudF90b3JxdWUYCyABKAsyES5zaW5ldy52MS5OdW1iZXJzEigKDXRvcnF1ZV9saW1pdHMYDCABKAsyES5zaW5ldy52MS5OdW1iZXJzEiQKCGNvbnRhY3RzGA0gASgLMhIuc2luZXcudjEuQ29udGFjdHMSIgoHYmFsYW5jZRgOIAEoCzIRLnNpbmV3LnYxLkJhbGFuY2USKQoHZGVzaXJlZBgPIAEoCzIYLnNpbmV3LnYxLkRlc2lyZWRQb3N0dXJlEiAKBnN0YXR1cxgQIAEoCzIQLnNpbmV3LnYxLlN0YXR1cxIeCgVhdWRpdBgRIAEoCzIPLnNpbmV3LnYxLkF1ZGl0EiQKCXBvc2l0aW9ucxgSIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSIgoHZmF0aWd1ZRgVIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSIQoGYXNzaXN0GBYgASgLMhEuc2luZXcudjEuTnVtYmVycxIiCgd0b3VjaGVzGBcgASgLMhEuc2luZXcudjEuVG91Y2hlcxIrChBjb25zdHJhaW50X2Vycm9yGBggASgLMhEuc2luZXcudjEuTnVtYmVycyKpAQoHVG91Y2hlcxIPCgdzZWdtZW50GAEgAygFEg0KBW90aGVyGAIgAygJEhUKDW90aGVyX3NlZ21lbnQYAyADKAUSIwoIcG9zaXRpb24YBCABKAsyES5zaW5ldy52MS5OdW1iZXJzEiAKBWZvcmNlGAUgASgLMhEuc2luZXcudjEuTnVtYmVycxIgCgVkZXB0aBgGIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMicgoIQ29udGFjdHMSDwoHc2VnbWVudBgBIAMoBRIOCgZ2ZXJ0ZXgYAiADKAUSIwoIcG9zaXRpb24YAyABKAsyES5zaW5ldy52MS5OdW1iZXJzEiAKBWZvcmNlGAQgASgLMhEuc2luZXcudjEuTnVtYmVycyKiAgoHQmFsYW5jZRIeCgNjb20YASABKAsyES5zaW5ldy52MS5OdW1iZXJzEicKDGNvbV92ZWxvY2l0eRgCIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSJgoLY29tX2Rlc2lyZWQYAyABKAsyES5zaW5ldy52MS5OdW1iZXJzEh4KA3ptcBgEIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSFQoIbWFyZ2luX20YBSABKAFIAIgBARIiCgdwb2x5Z29uGAYgASgLMhEuc2luZXcudjEuTnVtYmVycxIUCgxtYWluX3N1cHBvcnQYByABKAUSKAoNc3VwcG9ydF9yYXRpbxgIIAEoCzIRLnNpbmV3LnYxLk51bWJlcnNCCwoJX21hcmdpbl9tIosBCg5EZXNpcmVkUG9zdHVyZRIkCglyb290X3Bvc2UYASABKAsyES5zaW5ldy52MS5OdW1iZXJzEicKDGpvaW50X2FuZ2xlcxgCIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSKgoPam9pbnRfcm90YXRpb25zGAMgASgLMhEuc2luZXcudjEuTnVtYmVycyLtAQoGU3RhdHVzEg0KBWZsYWdzGAEgASgFEhEKCXNhdHVyYXRlZBgCIAEoEBIbChNzYXR1cmF0ZWRfc2Vjb25kYXJ5GAMgASgQEhIKCm92ZXJfbGltaXQYBCABKAESHgoWdHJhY2tpbmdfam9pbnRfcm1zX3JhZBgFIAEoARIVCg1wZW5ldHJhdGlvbl9tGAYgASgBEhoKEmNvbnRyb2xfaXRlcmF0aW9ucxgHIAEoBRIXCg9zdGVwX2l0ZXJhdGlvbnMYCCABKAUSJAoFbG9hZHMYCSADKAsyFS5zaW5ldy52MS5DYXJyaWVkTG9hZCL5AgoFQXVkaXQSJAoJcG9zaXRpb25zGAEgASgLMhEuc2luZXcudjEuTnVtYmVycxIjCgh2ZWxvY2l0eRgCIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSJwoMYWNjZWxlcmF0aW9uGAMgASgLMhEuc2luZXcudjEuTnVtYmVycxIhCgZ0b3JxdWUYBCABKAsyES5zaW5ldy52MS5OdW1iZXJzEioKD2xpZ2FtZW50X3RvcnF1ZRgFIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSJAoIY29udGFjdHMYBiABKAsyEi5zaW5ldy52MS5Db250YWN0cxIoCgdhcHBsaWVkGAcgASgLMhcuc2luZXcudjEuQXBwbGllZEZvcmNlcxIkCgVsb2FkcxgIIAMoCzIVLnNpbmV3LnYxLkNhcnJpZWRMb2FkEhQKDGdyYXZpdHlfbXBzMhgJIAEoARIhCgZhc3Npc3QYDCABKAsyES5zaW5ldy52MS5OdW1iZXJzImcKDUFwcGxpZWRGb3JjZXMSDwoHc2VnbWVudBgBIAMoBRIjCghwb3NpdGlvbhgCIAEoCzIRLnNpbmV3LnYxLk51bWJlcnMSIAoFZm9yY2UYAyABKAsyES5zaW5ldy52MS5OdW1iZXJzYgZwcm90bzM", [file_sinew_v1_figure, file_sinew_v1_types]);
 
 /**
  * What a world looks like after one tick.
@@ -129,8 +129,8 @@ export const ObstacleFrameSchema: GenMessage<ObstacleFrame> = /*@__PURE__*/
   messageDesc(file_sinew_v1_frame, 1);
 
 /**
- * One figure after one tick. The view's field mask chooses among the fields from `root_pose` on; fields that were not chosen are
- * absent. Torques and contact forces are means over the tick.
+ * One figure after one tick. The view's field mask chooses among the fields from `root_pose` on; fields that were not
+ * chosen are absent. Torques and contact forces are means over the tick.
  *
  * @generated from message sinew.v1.FigureFrame
  */
@@ -185,9 +185,9 @@ export type FigureFrame = Message<"sinew.v1.FigureFrame"> & {
   segmentTransforms?: Numbers | undefined;
 
   /**
-   * Velocity, 45 numbers: pelvis angular velocity (rad/s) and velocity of the pelvis origin (m/s), both in world axes, then the 39
-   * joint rates (rad/s). For ball joints these are the components of the angular velocity of child relative to parent along the signed
-   * child axes of the DOFs, not derivatives of the anatomical angles.
+   * Velocity, 45 numbers: pelvis angular velocity (rad/s) and velocity of the pelvis origin (m/s), both in world axes,
+   * then the 39 joint rates (rad/s). For ball joints these are the components of the angular velocity of child relative
+   * to parent along the signed child axes of the DOFs, not derivatives of the anatomical angles.
    *
    * @generated from field: sinew.v1.Numbers velocity = 8;
    */
@@ -215,7 +215,8 @@ export type FigureFrame = Message<"sinew.v1.FigureFrame"> & {
   ligamentTorque?: Numbers | undefined;
 
   /**
-   * Least and largest torque that the muscles could give at the start of the tick: 39 lower (negative), then 39 upper, N·m.
+   * Least and largest torque that the muscles could give at the start of the tick: 39 lower (negative), then 39 upper,
+   * N·m.
    *
    * @generated from field: sinew.v1.Numbers torque_limits = 12;
    */
@@ -257,22 +258,24 @@ export type FigureFrame = Message<"sinew.v1.FigureFrame"> & {
   audit?: Audit | undefined;
 
   /**
-   * Pelvis position (3, m) and rotation (4), then per segment 1…17 its joint position: a quaternion for a ball joint, angles (rad) for
-   * hinges: 55 numbers, the state's own coordinates.
+   * Pelvis position (3, m) and rotation (4), then per segment 1…17 its joint position: a quaternion for a ball joint,
+   * angles (rad) for hinges: 55 numbers, the state's own coordinates.
    *
    * @generated from field: sinew.v1.Numbers positions = 18;
    */
   positions?: Numbers | undefined;
 
   /**
-   * What fatigue has left of the strength, 0.01…1: 39 for the positive, then 39 for the negative direction. 1 while fatigue is off.
+   * What fatigue has left of the strength, 0.01…1: 39 for the positive, then 39 for the negative direction. 1 while
+   * fatigue is off.
    *
    * @generated from field: sinew.v1.Numbers fatigue = 21;
    */
   fatigue?: Numbers | undefined;
 
   /**
-   * Mean assist on the pelvis over the tick, world axes: moment about the pelvis origin (3, N·m), then force (3, N). Zero while it is off.
+   * Mean assist on the pelvis over the tick, world axes: moment about the pelvis origin (3, N·m), then force (3, N).
+   * Zero while it is off.
    *
    * @generated from field: sinew.v1.Numbers assist = 22;
    */
@@ -286,7 +289,8 @@ export type FigureFrame = Message<"sinew.v1.FigureFrame"> & {
   touches?: Touches | undefined;
 
   /**
-   * What is missing of each constraint, in the order of `Figure.constraints`: distance along the axes that count (m), angle (rad).
+   * What is missing of each constraint, in the order of `Figure.constraints`: distance along the axes that count (m),
+   * angle (rad).
    *
    * @generated from field: sinew.v1.Numbers constraint_error = 24;
    */
@@ -510,8 +514,8 @@ export const DesiredPostureSchema: GenMessage<DesiredPosture> = /*@__PURE__*/
  */
 export type Status = Message<"sinew.v1.Status"> & {
   /**
-   * Set of flags by bit; `GetServerInfo` lists their names: FLIGHT, TIPPING, OVERLOAD, DAMPED, CONTROL_BOUND, STEP_BOUND, FALLEN,
-   * QUARANTINED, BALANCE_LOST, HANDED_OVER, SPEED_BOUND.
+   * Set of flags by bit; `GetServerInfo` lists their names: FLIGHT, TIPPING, OVERLOAD, DAMPED, CONTROL_BOUND,
+   * STEP_BOUND, FALLEN, QUARANTINED, BALANCE_LOST, HANDED_OVER, SPEED_BOUND.
    *
    * @generated from field: int32 flags = 1;
    */
@@ -539,11 +543,12 @@ export type Status = Message<"sinew.v1.Status"> & {
   overLimit: number;
 
   /**
-   * Joint error, desired minus actual at the start of the tick, root mean square over the 39 DOFs, rad.
+   * Tracking error of the joint angles, target minus actual at the start of the tick: root mean square over the 39
+   * DOFs, rad. The target is the prepared motion, moved along with the feet after each step.
    *
-   * @generated from field: double joint_rms_rad = 5;
+   * @generated from field: double tracking_joint_rms_rad = 5;
    */
-  jointRmsRad: number;
+  trackingJointRmsRad: number;
 
   /**
    * Largest depth of a contact point below the ground, m.
@@ -582,8 +587,8 @@ export const StatusSchema: GenMessage<Status> = /*@__PURE__*/
   messageDesc(file_sinew_v1_frame, 7);
 
 /**
- * The last substep of the tick as it was solved: `M v̇ + h = Sᵀ (torque + ligament_torque) + Σ Jᵀ f + assist`, with M and h of the body with
- * its loads and gravity along −z, holds to rounding in ENCODING_DOUBLE.
+ * The last substep of the tick as it was solved: `M v̇ + h = Sᵀ (torque + ligament_torque) + Σ Jᵀ f + assist`, with M
+ * and h of the body with its loads and gravity along −z, holds to rounding in ENCODING_DOUBLE.
  *
  * @generated from message sinew.v1.Audit
  */
@@ -652,7 +657,8 @@ export type Audit = Message<"sinew.v1.Audit"> & {
   gravityMps2: number;
 
   /**
-   * Assist, dual to the first six numbers of `velocity`: moment about the pelvis origin (N·m), then force (N). Absent when it is off.
+   * Assist, dual to the first six numbers of `velocity`: moment about the pelvis origin (N·m), then force (N). Absent
+   * when it is off.
    *
    * @generated from field: sinew.v1.Numbers assist = 12;
    */

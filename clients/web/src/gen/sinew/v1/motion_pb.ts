@@ -86,7 +86,8 @@ export type Clip = Message<"sinew.v1.Clip"> & {
   createTime?: Timestamp | undefined;
 
   /**
-   * What will come of it when that body follows it by its own strength, without loads; absent for built-in clips, and in lists.
+   * Forecast for that body following it by its own strength, without loads; absent for built-in clips, and
+   * in lists.
    *
    * @generated from field: sinew.v1.Forecast forecast = 10;
    */
@@ -101,21 +102,22 @@ export const ClipSchema: GenMessage<Clip> = /*@__PURE__*/
   messageDesc(file_sinew_v1_motion, 0);
 
 /**
- * How hard a clip is, from inverse dynamics of the prepared motion. Peaks are means over 0.1 s; times are those of the clip, negative on the way
- * into it.
+ * How hard a clip is, from inverse dynamics of the prepared motion. Peaks are means over 0.1 s; times are those of the
+ * clip, negative on the way into it.
  *
  * @generated from message sinew.v1.Forecast
  */
 export type Forecast = Message<"sinew.v1.Forecast"> & {
   /**
-   * What will come of it.
+   * Verdict of the forecast.
    *
    * @generated from field: sinew.v1.ForecastVerdict verdict = 1;
    */
   verdict: ForecastVerdict;
 
   /**
-   * The demand that decided, as a sentence without its beginning, for example `needs 1.8 times the strength of the right knee (flexion) at 1.2 s`.
+   * The demand that decided, as a sentence without its beginning, for example `needs 1.8 times the strength of the
+   * right knee (flexion) at 1.2 s`.
    *
    * @generated from field: string reason = 2;
    */
@@ -171,7 +173,8 @@ export type Forecast = Message<"sinew.v1.Forecast"> & {
   strengthPeakRatio: number;
 
   /**
-   * DOF among hips, knees, waist and thorax that is closest to its strength, for example `r_knee_flexion`; empty if none is needed.
+   * DOF among hips, knees, waist and thorax that is closest to its strength, for example `r_knee_flexion`; empty if
+   * none is needed.
    *
    * @generated from field: string strength_dof = 10;
    */
@@ -276,8 +279,8 @@ export type BvhOptions = Message<"sinew.v1.BvhOptions"> & {
   cutoffHz?: number | undefined;
 
   /**
-   * Walks what the recording runs: slower and with shorter steps, so that the clip gets longer. The strength that is measured in people's
-   * joints does not run: left as recorded, a run fells its figure. Absent: true.
+   * Walks what the recording runs: slower and with shorter steps, so that the clip gets longer. The strength that is
+   * measured in people's joints does not run: left as recorded, a run fells its figure. Absent: true.
    *
    * @generated from field: optional bool walk_runs = 7;
    */
@@ -581,16 +584,16 @@ export type PlayClipRequest = Message<"sinew.v1.PlayClipRequest"> & {
   clip: string;
 
   /**
-   * Playback speed, 0.1…4. 0 or absent: 1. A recording (BVH) is prepared for it, from 0.5 to 2 in steps of 1/50: steps and balance are those of that
-   * pace. The first time for a body and a speed takes as long as an upload does.
+   * Playback speed, 0.1…4. 0 or absent: 1. A recording (BVH) is prepared for it, from 0.5 to 2 in steps of 1/50: steps
+   * and balance are those of that pace. The first time for a body and a speed takes as long as an upload does.
    *
    * @generated from field: double speed = 3;
    */
   speed: number;
 
   /**
-   * Repeats, carrying the displacement of the root over. A walk repeats its best cycle; a motion whose end is not like its beginning is
-   * led back to it by steps. Default: false.
+   * Repeats, carrying the displacement of the root over. A walk repeats its best cycle; a motion whose end is not like
+   * its beginning is led back to it by steps. Default: false.
    *
    * @generated from field: bool loop = 4;
    */
@@ -604,15 +607,16 @@ export type PlayClipRequest = Message<"sinew.v1.PlayClipRequest"> & {
   startTimeS?: number | undefined;
 
   /**
-   * Puts the figure into the clip's first posture and velocity at once. Default: false, it comes into it from standing, by steps of its own if
-   * the recording begins in motion. Without `loop` it ends standing in the same way.
+   * Puts the figure into the clip's first posture and velocity at once. Default: false, it comes into it from standing,
+   * by steps of its own if the recording begins in motion. Without `loop` it ends standing in the same way.
    *
    * @generated from field: bool reset = 6;
    */
   reset: boolean;
 
   /**
-   * Where the clip begins, with the steps that lead into it. Absent: where the figure is, or where its feet are once it stands.
+   * Where the clip begins, with the steps that lead into it. Absent: where the figure is, or where its feet are once it
+   * stands.
    *
    * @generated from field: sinew.v1.Placement placement = 7;
    */
@@ -633,9 +637,10 @@ export const PlayClipRequestSchema: GenMessage<PlayClipRequest> = /*@__PURE__*/
  */
 export type PlayClipResponse = Message<"sinew.v1.PlayClipResponse"> & {
   /**
-   * World time at which its first frame plays, s: later than asked for by the length of the steps that lead into it. Gone over to from step to
-   * step, up to 0.4 s of a clip are left out, and up to a stride of one that repeats: then this may be before the request. If the figure has
-   * to stand first, or is led into it, it is what is expected; the clip begins when the figure has settled, up to 2 s sooner or 3 s later.
+   * World time at which its first frame plays, s: later than asked for by the length of the steps that lead into it.
+   * Gone over to from step to step, up to 0.4 s of a clip are left out, and up to a stride of one that repeats: then
+   * this may be before the request. If the figure has to stand first, or is led into it, it is what is expected; the
+   * clip begins when the figure has settled, up to 2 s sooner or 3 s later.
    *
    * @generated from field: double start_time_s = 1;
    */
@@ -832,8 +837,8 @@ export type DriveHeader = Message<"sinew.v1.DriveHeader"> & {
   figures: string[];
 
   /**
-   * Who drives, at most 64 bytes of printable ASCII. The same driver may come back after a lost connection. Empty: the server
-   * chooses, and `PushMotion` takes it as `push`.
+   * Name of the driver, at most 64 bytes of printable ASCII. The same driver may come back after a lost connection.
+   * Empty: the server chooses, and `PushMotion` takes it as `push`.
    *
    * @generated from field: string driver_id = 3;
    */
@@ -883,7 +888,8 @@ export type DriveHeader = Message<"sinew.v1.DriveHeader"> & {
   holdLimitMs?: number | undefined;
 
   /**
-   * How long the figures are kept for this driver after its connection is lost or after its last push, ms, 0…60000. Absent: 5000.
+   * How long the figures are kept for this driver after its connection is lost or after its last push, ms, 0…60000.
+   * Absent: 5000.
    *
    * @generated from field: optional double grace_ms = 10;
    */
@@ -897,9 +903,10 @@ export type DriveHeader = Message<"sinew.v1.DriveHeader"> & {
   reset: boolean;
 
   /**
-   * How far behind the newest frame motion is prepared for the body, ms: 0, or 300…1000. Within this window planted feet are locked, swings
-   * clear the floor and the zero-moment point is brought over the feet, so that a stream may walk; steps then follow events. It is added to
-   * the playout delay. 0 uses frames as they come, without that delay, for streams that stand. Absent: the server's `live_window_ms`.
+   * How far behind the newest frame motion is prepared for the body, ms: 0, or 300…1000. Within this window planted
+   * feet are locked, swings clear the floor and the zero-moment point is brought over the feet, so that a stream may
+   * walk; steps then follow events. It is added to the playout delay. 0 uses frames as they come, without that delay,
+   * for streams that stand. Absent: the server's `live_window_ms`.
    *
    * @generated from field: optional double preparation_window_ms = 12;
    */
@@ -1202,7 +1209,8 @@ export type FigureFeedback = Message<"sinew.v1.FigureFeedback"> & {
   overflowCount: bigint;
 
   /**
-   * Length of the window in which motion is prepared, ms; contained in `playout_delay_ms`. 0: frames are used as they come.
+   * Length of the window in which motion is prepared, ms; contained in `playout_delay_ms`. 0: frames are used as they
+   * come.
    *
    * @generated from field: double preparation_window_ms = 16;
    */
@@ -1217,7 +1225,7 @@ export const FigureFeedbackSchema: GenMessage<FigureFeedback> = /*@__PURE__*/
   messageDesc(file_sinew_v1_motion, 27);
 
 /**
- * What will come of a clip.
+ * Forecast of how a figure follows a clip.
  *
  * @generated from enum sinew.v1.ForecastVerdict
  */
@@ -1434,9 +1442,10 @@ export const MotionService: GenService<{
     output: typeof DeleteClipResponseSchema;
   },
   /**
-   * Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else it finishes its step and
-   * stands first, as does one in the middle of another clip. Until then the clip is `Figure.next_clip`, and a further call puts another one in
-   * its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`) while someone drives it live.
+   * Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else
+   * it finishes its step and stands first, as does one in the middle of another clip. Until then the clip is
+   * `Figure.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`)
+   * while someone drives it live.
    *
    * @generated from rpc sinew.v1.MotionService.PlayClip
    */
@@ -1446,8 +1455,8 @@ export const MotionService: GenService<{
     output: typeof PlayClipResponseSchema;
   },
   /**
-   * Ends a clip, and takes back the one that waits: a figure that walks finishes its step and comes to a stand, any other holds the posture
-   * that is asked of it now.
+   * Ends a clip, and takes back the one that waits: a figure that walks finishes its step and comes to a stand, any
+   * other holds the posture that is asked of it now.
    *
    * @generated from rpc sinew.v1.MotionService.StopClip
    */
@@ -1467,8 +1476,9 @@ export const MotionService: GenService<{
     output: typeof PushMotionResponseSchema;
   },
   /**
-   * Drives figures live. The first message is the header, all others are batches. Feedback comes at once, then about ten times
-   * a second, and when something goes wrong. Ending the stream gives the figures back; losing it keeps them for the grace time.
+   * Drives figures live. The first message is the header, all others are batches. Feedback comes at once, then about
+   * ten times a second, and when something goes wrong. Ending the stream gives the figures back; losing it keeps them
+   * for the grace time.
    *
    * @generated from rpc sinew.v1.MotionService.DriveFigures
    */

@@ -49,16 +49,16 @@ export type Load = Message<"sinew.v1.Load"> & {
   durationS: number;
 
   /**
-   * Velocity of the load before it is taken, world axes, m/s, each component within ±100. Absent: at rest. Taking it is perfectly
-   * inelastic: momentum is kept and the figure feels the jerk.
+   * Velocity of the load before it is taken, world axes, m/s, each component within ±100. Absent: at rest. Taking it is
+   * perfectly inelastic: momentum is kept and the figure feels the jerk.
    *
    * @generated from field: sinew.v1.Vector3 velocity_mps = 5;
    */
   velocityMps?: Vector3 | undefined;
 
   /**
-   * Second carrying segment, for example `l_hand` when `segment` is `r_hand`. Each then carries half of the mass, and the two points keep
-   * the distance they have when the load is taken. Empty: one hand.
+   * Second carrying segment, for example `l_hand` when `segment` is `r_hand`. Each then carries half of the mass, and
+   * the two points keep the distance they have when the load is taken. Empty: one hand.
    *
    * @generated from field: string second_segment = 6;
    */
@@ -243,7 +243,8 @@ export type ApplyPerturbationsRequest = Message<"sinew.v1.ApplyPerturbationsRequ
   world: string;
 
   /**
-   * Who asks, at most 64 bytes. Requests that meet in one tick act in the order of (client, sequence). Empty: the connection.
+   * Name of the client, at most 64 bytes. Requests that meet in one tick act in the order of (client, sequence). Empty:
+   * the connection.
    *
    * @generated from field: string client_id = 2;
    */

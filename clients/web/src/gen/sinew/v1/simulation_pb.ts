@@ -22,7 +22,7 @@ import type { Message } from "@bufbuild/protobuf";
  * Describes the file sinew/v1/simulation.proto.
  */
 export const file_sinew_v1_simulation: GenFile = /*@__PURE__*/
-  fileDesc("ChlzaW5ldy92MS9zaW11bGF0aW9uLnByb3RvEghzaW5ldy52MSJSChFUaW1lZFBlcnR1cmJhdGlvbhIPCgdzdGFydF9zGAEgASgBEiwKDHBlcnR1cmJhdGlvbhgCIAEoCzIWLnNpbmV3LnYxLlBlcnR1cmJhdGlvbiKMAgoTU2ltdWxhdGVDbGlwUmVxdWVzdBIOCgRjbGlwGAEgASgJSAASIgoDYnZoGAIgASgLMhMuc2luZXcudjEuQnZoU291cmNlSAASIAoGZmlndXJlGAMgASgLMhAuc2luZXcudjEuRmlndXJlEg8KB3JhdGVfaHoYBCABKAESEAoIc3Vic3RlcHMYBSABKAUSEgoKZHVyYXRpb25fcxgGIAEoARIMCgRsb29wGAcgASgIEjIKDXBlcnR1cmJhdGlvbnMYCCADKAsyGy5zaW5ldy52MS5UaW1lZFBlcnR1cmJhdGlvbhIcCgR2aWV3GAkgASgLMg4uc2luZXcudjEuVmlld0IICgZzb3VyY2UitQEKFFNpbXVsYXRlQ2xpcFJlc3BvbnNlEiwKB3N1bW1hcnkYASABKAsyGy5zaW5ldy52MS5TaW11bGF0aW9uU3VtbWFyeRIkCgZmcmFtZXMYAiADKAsyFC5zaW5ldy52MS5Xb3JsZEZyYW1lEh8KBmV2ZW50cxgDIAMoCzIPLnNpbmV3LnYxLkV2ZW50EigKBnJlcG9ydBgEIAEoCzIYLnNpbmV3LnYxLlJldGFyZ2V0UmVwb3J0ItcCChFTaW11bGF0aW9uU3VtbWFyeRISCgp0aWNrX2NvdW50GAEgASgFEg8KB3JhdGVfaHoYAiABKAESFgoJZmVsbF9hdF9zGAMgASgBSACIAQESFQoNam9pbnRfcm1zX2RlZxgEIAEoARIVCg1qb2ludF9tYXhfZGVnGAUgASgBEhcKD21heF91dGlsaXNhdGlvbhgGIAEoARIWCg5vdmVyX2xpbWl0X21heBgHIAEoARITCgtzYXR1cmF0ZWRfcxgIIAMoARIZCgxtYXJnaW5fbWluX20YCSABKAFIAYgBARIZChFwZW5ldHJhdGlvbl9tYXhfbRgKIAEoARISCgpzdGF0ZV9oYXNoGAsgASgQEhMKC3RpY2tfcDUwX3VzGAwgASgBEhMKC3RpY2tfcDk5X3VzGA0gASgBQgwKCl9mZWxsX2F0X3NCDwoNX21hcmdpbl9taW5fbTJiChFTaW11bGF0aW9uU2VydmljZRJNCgxTaW11bGF0ZUNsaXASHS5zaW5ldy52MS5TaW11bGF0ZUNsaXBSZXF1ZXN0Gh4uc2luZXcudjEuU2ltdWxhdGVDbGlwUmVzcG9uc2ViBnByb3RvMw", [file_sinew_v1_figure, file_sinew_v1_frame, file_sinew_v1_motion, file_sinew_v1_perturbation, file_sinew_v1_state, file_sinew_v1_types]);
+  fileDesc("ChlzaW5ldy92MS9zaW11bGF0aW9uLnByb3RvEghzaW5ldy52MSJSChFUaW1lZFBlcnR1cmJhdGlvbhIPCgdzdGFydF9zGAEgASgBEiwKDHBlcnR1cmJhdGlvbhgCIAEoCzIWLnNpbmV3LnYxLlBlcnR1cmJhdGlvbiKMAgoTU2ltdWxhdGVDbGlwUmVxdWVzdBIOCgRjbGlwGAEgASgJSAASIgoDYnZoGAIgASgLMhMuc2luZXcudjEuQnZoU291cmNlSAASIAoGZmlndXJlGAMgASgLMhAuc2luZXcudjEuRmlndXJlEg8KB3JhdGVfaHoYBCABKAESEAoIc3Vic3RlcHMYBSABKAUSEgoKZHVyYXRpb25fcxgGIAEoARIMCgRsb29wGAcgASgIEjIKDXBlcnR1cmJhdGlvbnMYCCADKAsyGy5zaW5ldy52MS5UaW1lZFBlcnR1cmJhdGlvbhIcCgR2aWV3GAkgASgLMg4uc2luZXcudjEuVmlld0IICgZzb3VyY2UitQEKFFNpbXVsYXRlQ2xpcFJlc3BvbnNlEiwKB3N1bW1hcnkYASABKAsyGy5zaW5ldy52MS5TaW11bGF0aW9uU3VtbWFyeRIkCgZmcmFtZXMYAiADKAsyFC5zaW5ldy52MS5Xb3JsZEZyYW1lEh8KBmV2ZW50cxgDIAMoCzIPLnNpbmV3LnYxLkV2ZW50EigKBnJlcG9ydBgEIAEoCzIYLnNpbmV3LnYxLlJldGFyZ2V0UmVwb3J0IukCChFTaW11bGF0aW9uU3VtbWFyeRISCgp0aWNrX2NvdW50GAEgASgFEg8KB3JhdGVfaHoYAiABKAESFgoJZmVsbF9hdF9zGAMgASgBSACIAQESHgoWdHJhY2tpbmdfam9pbnRfcm1zX2RlZxgEIAEoARIeChZ0cmFja2luZ19qb2ludF9tYXhfZGVnGAUgASgBEhcKD21heF91dGlsaXNhdGlvbhgGIAEoARIWCg5vdmVyX2xpbWl0X21heBgHIAEoARITCgtzYXR1cmF0ZWRfcxgIIAMoARIZCgxtYXJnaW5fbWluX20YCSABKAFIAYgBARIZChFwZW5ldHJhdGlvbl9tYXhfbRgKIAEoARISCgpzdGF0ZV9oYXNoGAsgASgQEhMKC3RpY2tfcDUwX3VzGAwgASgBEhMKC3RpY2tfcDk5X3VzGA0gASgBQgwKCl9mZWxsX2F0X3NCDwoNX21hcmdpbl9taW5fbTJiChFTaW11bGF0aW9uU2VydmljZRJNCgxTaW11bGF0ZUNsaXASHS5zaW5ldy52MS5TaW11bGF0ZUNsaXBSZXF1ZXN0Gh4uc2luZXcudjEuU2ltdWxhdGVDbGlwUmVzcG9uc2ViBnByb3RvMw", [file_sinew_v1_figure, file_sinew_v1_frame, file_sinew_v1_motion, file_sinew_v1_perturbation, file_sinew_v1_state, file_sinew_v1_types]);
 
 /**
  * A disturbance in time of the clip.
@@ -139,7 +139,7 @@ export const SimulateClipRequestSchema: GenMessage<SimulateClipRequest> = /*@__P
   messageDesc(file_sinew_v1_simulation, 1);
 
 /**
- * What came of it.
+ * Result of a simulation.
  *
  * @generated from message sinew.v1.SimulateClipResponse
  */
@@ -208,18 +208,19 @@ export type SimulationSummary = Message<"sinew.v1.SimulationSummary"> & {
   fellAtS?: number | undefined;
 
   /**
-   * Root mean square of the joint errors over DOFs and ticks, degrees.
+   * Tracking error of the joint angles, target minus actual at the start of a tick: root mean square over DOFs and
+   * ticks, degrees. The target is the prepared motion, moved along with the feet after each step.
    *
-   * @generated from field: double joint_rms_deg = 4;
+   * @generated from field: double tracking_joint_rms_deg = 4;
    */
-  jointRmsDeg: number;
+  trackingJointRmsDeg: number;
 
   /**
-   * Largest joint error, degrees.
+   * Largest tracking error of a joint angle, degrees.
    *
-   * @generated from field: double joint_max_deg = 5;
+   * @generated from field: double tracking_joint_max_deg = 5;
    */
-  jointMaxDeg: number;
+  trackingJointMaxDeg: number;
 
   /**
    * Largest torque relative to the torque available.

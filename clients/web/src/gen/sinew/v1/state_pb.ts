@@ -32,8 +32,8 @@ export type View = Message<"sinew.v1.View"> & {
   figures: string[];
 
   /**
-   * Fields of `FigureFrame`, for example `root_pose`, `joint_angles`, `torque`, or `*` for all. Absent or empty: `root_pose`,
-   * `joint_angles`, `torque`, `status`.
+   * Fields of `FigureFrame`, for example `root_pose`, `joint_angles`, `torque`, or `*` for all. Absent or empty:
+   * `root_pose`, `joint_angles`, `torque`, `status`.
    *
    * @generated from field: google.protobuf.FieldMask fields = 2;
    */
@@ -62,7 +62,7 @@ export const ViewSchema: GenMessage<View> = /*@__PURE__*/
   messageDesc(file_sinew_v1_state, 0);
 
 /**
- * Who is who in the frames that follow.
+ * Names of the figures, by their index in the frames that follow.
  *
  * @generated from message sinew.v1.Roster
  */
@@ -180,7 +180,7 @@ export const GetWorldFrameRequestSchema: GenMessage<GetWorldFrameRequest> = /*@_
  */
 export type GetWorldFrameResponse = Message<"sinew.v1.GetWorldFrameResponse"> & {
   /**
-   * Who is who.
+   * Names of the figures by index.
    *
    * @generated from field: sinew.v1.Roster roster = 1;
    */
@@ -222,8 +222,8 @@ export type WatchWorldRequest = Message<"sinew.v1.WatchWorldRequest"> & {
   view?: View | undefined;
 
   /**
-   * Continues after this tick: frames that are still held come first. OUT_OF_RANGE (`RESUME_EXPIRED`) when the next one is no
-   * longer held. Absent: from now.
+   * Continues after this tick: frames that are still held come first. OUT_OF_RANGE (`RESUME_EXPIRED`) when the next one
+   * is no longer held. Absent: from now.
    *
    * @generated from field: optional int64 resume_tick = 3;
    */
@@ -250,7 +250,7 @@ export type WatchWorldResponse = Message<"sinew.v1.WatchWorldResponse"> & {
    */
   message: {
     /**
-     * Who is who from now on.
+     * Names of the figures by index, from now on.
      *
      * @generated from field: sinew.v1.Roster roster = 1;
      */

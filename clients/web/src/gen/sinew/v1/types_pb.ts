@@ -2,9 +2,9 @@
 // @generated from file sinew/v1/types.proto (package sinew.v1, syntax proto3)
 /* eslint-disable */
 
-// Conventions of every file of this package: SI units; right-handed world with x forward, y left, z up; rotations are active and
-// quaternions are stored x, y, z, w; spatial vectors have their angular part first. A number that is not finite is refused
-// with INVALID_ARGUMENT wherever a client sends one.
+// Conventions of every file of this package: SI units; right-handed world with x forward, y left, z up; rotations are
+// active and quaternions are stored x, y, z, w; spatial vectors have their angular part first. A number that is not
+// finite is refused with INVALID_ARGUMENT wherever a client sends one.
 
 import type { GenEnum, GenFile, GenMessage } from "@bufbuild/protobuf/codegenv2";
 import { enumDesc, fileDesc, messageDesc } from "@bufbuild/protobuf/codegenv2";
@@ -157,8 +157,8 @@ export const PlacementSchema: GenMessage<Placement> = /*@__PURE__*/
   messageDesc(file_sinew_v1_types, 3);
 
 /**
- * A packed array of numbers. At most one of the representations is filled, as `Encoding` says; all are empty for an empty array.
- * Count, order, unit and frame are those of the field that uses it.
+ * A packed array of numbers. At most one of the representations is filled, as `Encoding` says; all are empty for an
+ * empty array. Count, order, unit and frame are those of the field that uses it.
  *
  * @generated from message sinew.v1.Numbers
  */

@@ -135,7 +135,8 @@ export type World = Message<"sinew.v1.World"> & {
   failure: string;
 
   /**
-   * Figures and obstacles touch each other. Absent: true. False: figures touch nothing but the ground. Fixed at creation.
+   * Figures and obstacles touch each other. Absent: true. False: figures touch nothing but the ground. Fixed at
+   * creation.
    *
    * @generated from field: optional bool collisions = 17;
    */
@@ -1168,7 +1169,8 @@ export const WorldService: GenService<{
     output: typeof SetWorldSpeedResponseSchema;
   },
   /**
-   * Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256 (RESOURCE_EXHAUSTED).
+   * Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256
+   * (RESOURCE_EXHAUSTED).
    *
    * @generated from rpc sinew.v1.WorldService.AddObstacle
    */
