@@ -1,5 +1,5 @@
-//! World poses of the segments by plain forward kinematics: a second road to the same numbers as `sim::dynamics`,
-//! walked joint by joint.
+//! World poses of the segments by plain forward kinematics, joint by joint: the oracle of `sim::dynamics::Kinematics`
+//! and of `sim::motion::leg_ik::forward`, and so independent of both.
 
 use crate::sim::body::topology::{DOF_AXIS, DOF_LEN, DOF_START, JOINT, Joint, PARENT};
 use crate::sim::body::{Posture, SEGMENT_COUNT};

@@ -18,7 +18,7 @@ use crate::sim::body::topology::{
 };
 use crate::sim::body::{Body, Posture};
 use crate::sim::dynamics::Terms;
-use crate::sim::math::ease::smootherstep;
+use crate::sim::math::curve::{arc, smootherstep};
 use crate::sim::math::exp::exp;
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::{PlanarTransform, Target, TargetPair};
@@ -278,7 +278,7 @@ impl GetUpMotion {
         self.now = self.from.mix(&self.goals(self.stage), share);
         let mut goals = self.now;
         if let Some((side, height)) = stage.step {
-            let rise = height * self.here.scale * 16.0 * u * u * (1.0 - u) * (1.0 - u);
+            let rise = arc(height * self.here.scale, u);
             goals.hands[side][2].at += rise;
             goals.palms[side].at += rise;
         }

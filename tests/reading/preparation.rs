@@ -5,7 +5,7 @@ use crate::file::{File, RATE, bare, lower_soles, motion, range};
 use sinew::sim::body::angles::{anatomical_angles, set_anatomical_angles};
 use sinew::sim::body::topology::{L_FOOT, R_FOOT};
 use sinew::sim::body::{Body, Posture};
-use sinew::sim::math::ease::smoothstep;
+use sinew::sim::math::curve::smoothstep;
 use sinew::sim::math::vec3::vec3;
 use sinew::sim::math::{Quat, Vec3};
 use sinew::sim::motion::leg_ik::{forward, solve_leg};

@@ -1,11 +1,12 @@
 //! Composes a strip: camera, ground tile, shadow, ghost, body and marks of every panel, then the legend.
 
-use super::drawing::{Anchor, Drawing, Item, Rgba, convex_hull};
+use super::drawing::{Anchor, Drawing, Item, Rgba};
 use super::{Frame, Kind, StripOptions, Thing, View};
 use crate::evaluate::pose::{SegmentPose, segment_poses};
 use crate::sim::body::topology::{DOF_COUNT, DOF_SEGMENT, SEGMENT_NAMES};
 use crate::sim::body::{Body, Mesh, Posture, SEGMENT_COUNT};
 use crate::sim::math::Vec3;
+use crate::sim::math::polygon::hull;
 
 const BACKGROUND: Rgba = Rgba::hex(0xfb_fbf9);
 const GROUND: Rgba = Rgba::hex(0xec_ebe6);
@@ -350,7 +351,7 @@ fn panel(
             .map(|v| place.flat(ground_below(pose.point(*v))))
             .collect();
         items.push(Item::Polygon {
-            points: convex_hull(&shadow),
+            points: hull(&shadow),
             fill: SHADOW,
             stroke: None,
         });
@@ -456,7 +457,7 @@ fn ghost(items: &mut Vec<Item>, body: &Body, skins: &[Skin], desired: &Posture, 
             .map(|v| place.flat(pose.point(*v)))
             .collect();
         items.push(Item::Polygon {
-            points: convex_hull(&flat),
+            points: hull(&flat),
             fill: GHOST,
             stroke: Some((GHOST, 2.5)),
         });
@@ -492,7 +493,7 @@ fn solid(skin: &Skin, pose: &SegmentPose, colour: Rgba, place: &Place) -> Item {
         })
         .collect();
     Item::Solid {
-        outline: convex_hull(&flat),
+        outline: hull(&flat),
         vertices,
         light,
         triangles: skin.mesh.triangles.clone(),

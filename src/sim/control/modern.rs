@@ -10,7 +10,7 @@ use super::{Command, ControlInput, Controller};
 use crate::sim::body::topology::{
     DOF_COUNT, DOF_LEN, DOF_START, L_HAND, L_UPPER_ARM, NV, R_HAND, R_UPPER_ARM, SEGMENT_COUNT,
 };
-use crate::sim::contact::dense::{Dense, cholesky, solve_lower, solve_upper};
+use crate::sim::contact::dense::Dense;
 use crate::sim::contact::rows::{CHAIN_WIDTH, add_point_stiffness};
 use crate::sim::contact::{
     ContactRows, DenseSystem, LimitRows, Motors, NewtonWorkspace, Outcome, interior, minimise,
@@ -19,7 +19,8 @@ use crate::sim::dynamics::Terms;
 use crate::sim::dynamics::terms::WIDTH;
 use crate::sim::figure::Flags;
 use crate::sim::figure::report::MAX_CONTACTS;
-use crate::sim::math::ease::fall;
+use crate::sim::math::curve::fall;
+use crate::sim::math::dense::{factor_columns, solve_lower, solve_upper};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::TargetPair;
 use crate::sim::support::Polygon;
@@ -411,7 +412,7 @@ fn kernel(c: &mut Modern, t: &Terms, diagonal: &[f64; NV], linear: &mut [f64; WI
     }
     // 2. Y = L⁻¹ M, A = YᵀY = M P⁻¹ M, b = −(Yᵀ L⁻¹ p + h). P is positive definite: every diagonal entry has its own
     //    weight.
-    let positive = cholesky(&mut c.p);
+    let positive = factor_columns(c.p.as_flattened_mut(), WIDTH, false);
     debug_assert!(positive, "P is positive definite by construction");
     *c.y = *t.m;
     for j in 0..NV {
@@ -447,7 +448,7 @@ fn kernel(c: &mut Modern, t: &Terms, diagonal: &[f64; NV], linear: &mut [f64; WI
         c.a[i][i] += c.assist[i / 3];
     }
     let mut lp = *linear;
-    solve_lower(&c.p, &mut lp);
+    solve_lower(c.p.as_flattened(), &mut lp);
     let mut b = [0.0; NV];
     for i in 0..NV {
         b[i] = -t.h[i];
@@ -505,8 +506,8 @@ fn kernel(c: &mut Modern, t: &Terms, diagonal: &[f64; NV], linear: &mut [f64; WI
             v[i] += row[i] * x;
         }
     }
-    solve_lower(&c.p, &mut v);
-    solve_upper(&c.p, &mut v);
+    solve_lower(c.p.as_flattened(), &mut v);
+    solve_upper(c.p.as_flattened(), &mut v);
     c.command.acceleration.copy_from_slice(&v[..NV]);
     outcome
 }

@@ -9,9 +9,10 @@
 use super::rows::{ROW, Row, Square, dot};
 use crate::sim::body::{DOF_COUNT, NV, SegmentId};
 use crate::sim::dynamics::Terms;
+use crate::sim::math::dense::solve_up_to_2;
 use crate::sim::math::{Vec3, vec3::vec3};
 use crate::sim::support::sharing::Sharing;
-use crate::sim::support::tipping::{base_directions, base_product, solve_up_to_2};
+use crate::sim::support::tipping::{base_directions, base_product};
 use crate::sim::support::{Pivot, SupportPoint};
 
 /// The maps of one tick: `v̇ = N θ̈ + b`, `τ = H θ̈ + c₀`, ground wrench `W = W_θ θ̈ + W₀`.

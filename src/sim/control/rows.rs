@@ -1,7 +1,8 @@
-//! Dense algebra on rows of 39 joint components: what the two active sets need, without allocation and in a fixed order
-//! of sums.
+//! Rows of 39 joint components and their orthogonal factor: what the two active sets need, without allocation and in
+//! a fixed order of sums.
 
 use crate::sim::body::DOF_COUNT;
+use crate::sim::math::dense::cholesky_solve;
 
 /// Joint components padded to a multiple of 8 (with zeros).
 pub const ROW: usize = 40;
@@ -207,77 +208,6 @@ impl RowQr {
     }
 }
 
-/// Solves the leading `n`×`n` block of a symmetric positive definite matrix (lower triangle given, overwritten by its
-/// factor). A pivot that rounding made non-positive is treated as infinitely stiff.
-#[inline(always)]
-pub fn cholesky_solve<const W: usize>(a: &mut [[f64; W]], n: usize, y: &mut [f64]) {
-    for i in 0..n {
-        for j in 0..=i {
-            let mut s = a[i][j];
-            for k in 0..j {
-                s -= a[i][k] * a[j][k];
-            }
-            a[i][j] = if i == j {
-                if s > 0.0 { s.sqrt() } else { f64::INFINITY }
-            } else if a[j][j].is_finite() {
-                s / a[j][j]
-            } else {
-                0.0
-            };
-        }
-        let mut s = y[i];
-        for k in 0..i {
-            s -= a[i][k] * y[k];
-        }
-        y[i] = s / a[i][i];
-    }
-    for i in (0..n).rev() {
-        let mut s = y[i];
-        for k in i + 1..n {
-            s -= a[k][i] * y[k];
-        }
-        y[i] = s / a[i][i];
-    }
-}
-
-/// Solves the leading `n`×`n` system `a x = b` by elimination with row pivoting; `a` and `b` are overwritten, `b`
-/// becomes x. Returns false if the matrix is singular to rounding (then `b` is not a solution).
-#[inline(always)]
-pub fn eliminate(a: &mut Square, n: usize, b: &mut Row) -> bool {
-    let mut largest = 0.0f64;
-    for k in 0..n {
-        let mut p = k;
-        for i in k + 1..n {
-            if a[i][k].abs() > a[p][k].abs() {
-                p = i;
-            }
-        }
-        a.swap(k, p);
-        b.swap(k, p);
-        let pivot = a[k][k].abs();
-        largest = largest.max(pivot);
-        if pivot.is_nan() || pivot <= 1e-14 * largest {
-            return false;
-        }
-        let row = a[k];
-        for i in k + 1..n {
-            let f = a[i][k] / row[k];
-            if f != 0.0 {
-                add_scaled(&mut a[i], -f, &row);
-                b[i] -= f * b[k];
-            }
-        }
-    }
-    for k in (0..n).rev() {
-        let mut s = b[k];
-        for j in k + 1..n {
-            s -= a[k][j] * b[j];
-        }
-        b[k] = s / a[k][k];
-    }
-    true
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -339,25 +269,5 @@ mod tests {
         assert!(qr.is_dependent());
         qr.solve(&[1.0], &mut x);
         assert!(x.iter().all(|v| v.is_finite()));
-    }
-
-    #[test]
-    fn elimination_solves_and_reports_singular() {
-        let mut rng = Rng::new(4);
-        for n in [1, 2, 7, 39] {
-            let mut a = Box::new([[0.0; ROW]; DOF_COUNT]);
-            for i in 0..n {
-                (0..n).for_each(|j| a[i][j] = rng.unit());
-            }
-            let m = DMatrix::from_fn(n, n, |i, j| a[i][j]);
-            let mut b = [0.0; ROW];
-            (0..n).for_each(|i| b[i] = rng.unit());
-            let rhs = DVector::from_fn(n, |i, _| b[i]);
-            assert!(eliminate(&mut a, n, &mut b));
-            let x = DVector::from_fn(n, |i, _| b[i]);
-            assert!((m * x - rhs).norm() < 1e-9);
-        }
-        let mut a = Box::new([[1.0; ROW]; DOF_COUNT]);
-        assert!(!eliminate(&mut a, 3, &mut [1.0; ROW]));
     }
 }

@@ -1,8 +1,9 @@
 //! Primary constraint: available torque, Eqs. (7)–(11), by an active set that only grows (ALGORITHM §8).
 
-use super::rows::{ROW, Row, RowQr, Square, dot, eliminate};
+use super::rows::{ROW, Row, RowQr, Square, dot};
 use crate::sim::body::DOF_COUNT;
 use crate::sim::figure::Metric;
+use crate::sim::math::dense::eliminate;
 
 /// A torque may exceed its limit by this part of it (or of 1 N·m) before it counts as a violation.
 pub const TOLERANCE: f64 = 1e-9;
@@ -142,7 +143,7 @@ impl TorqueLimits {
                 }
                 self.system[i][k..].fill(0.0);
             }
-            if !eliminate(&mut self.system, k, &mut b) {
+            if !eliminate(&mut self.system[..], k, &mut b) {
                 self.qr.clear();
                 (0..k).for_each(|i| self.qr.push(&h[self.order[i]]));
                 self.least_norm(h, k, 0);
@@ -180,7 +181,7 @@ impl TorqueLimits {
                 for j in 0..DOF_COUNT {
                     b[j] = excess[j] - dot(&h[j], &self.change);
                 }
-                if !eliminate(&mut self.system, DOF_COUNT, &mut b) {
+                if !eliminate(&mut self.system[..], DOF_COUNT, &mut b) {
                     out.damped = true;
                     break;
                 }

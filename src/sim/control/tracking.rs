@@ -6,7 +6,8 @@ use crate::sim::body::state::{ball_rate_vector, ball_rates};
 use crate::sim::body::topology::{DOF_AXIS, DOF_LEN, DOF_START, JOINT, Joint};
 use crate::sim::body::{Body, DOF_COUNT, Posture, SEGMENT_COUNT, State};
 use crate::sim::figure::ControlParams;
-use crate::sim::math::{Mat3, Vec3, vec3::vec3};
+use crate::sim::math::dense::solve_3;
+use crate::sim::math::{Vec3, vec3::vec3};
 use crate::sim::motion::{Target, TargetPair};
 
 /// Position gain of the law with a horizon, times T²: critical damping.
@@ -204,24 +205,13 @@ fn clamp_to_limits(body: &Body, state: &State, dt: f64, qdd: &mut Row) {
                     acted |= allowed != u;
                     wanted[i] = allowed;
                 }
-                if acted && let Some(w) = solve3(&st.rate_rows, wanted) {
+                if acted && let Some(w) = solve_3(&st.rate_rows, wanted) {
                     let w = (w - rate) * (1.0 / dt);
                     qdd[d..d + 3].copy_from_slice(&ball_rates(d, w));
                 }
             }
         }
     }
-}
-
-/// Solves three rows; `None` if they are dependent.
-fn solve3(rows: &[Vec3; 3], b: [f64; 3]) -> Option<Vec3> {
-    let m = Mat3 {
-        x: rows[1].cross(rows[2]),
-        y: rows[2].cross(rows[0]),
-        z: rows[0].cross(rows[1]),
-    };
-    let det = rows[0].dot(m.x);
-    (det.abs() > 1e-9).then(|| (m * vec3(b[0], b[1], b[2])) * (1.0 / det))
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use crate::sim::body::{Body, SegmentId};
 use crate::sim::control::goals::MAX_GOALS;
 use crate::sim::control::{Effector, Goal, PointTarget};
 use crate::sim::dynamics::Terms;
-use crate::sim::math::ease::smoothstep;
+use crate::sim::math::curve::smoothstep;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::support::{Polygon, Support};
 

@@ -9,6 +9,7 @@ use crate::sim::body::topology::{
 use crate::sim::body::{Body, Links, Posture, State};
 use crate::sim::dynamics::Terms;
 use crate::sim::dynamics::terms::WIDTH;
+use crate::sim::math::dense::cholesky_solve_summed;
 use crate::sim::math::{Quat, Vec3};
 
 /// Left and right.
@@ -245,25 +246,7 @@ impl Solver {
                 x[6 + d] += LIMIT_WEIGHT * to;
             }
         }
-        for i in 0..NV {
-            let (above, below) = a.split_at_mut(i);
-            let row = &mut below[0];
-            for (j, other) in above.iter().enumerate() {
-                let sum: f64 = row[..j].iter().zip(&other[..j]).map(|(a, b)| a * b).sum();
-                row[j] = (row[j] - sum) / other[j];
-            }
-            let sum: f64 = row[..i].iter().map(|a| a * a).sum();
-            row[i] = (row[i] - sum).sqrt();
-            let sum: f64 = row[..i].iter().zip(&x[..i]).map(|(a, b)| a * b).sum();
-            x[i] = (x[i] - sum) / row[i];
-        }
-        for i in (0..NV).rev() {
-            x[i] /= a[i][i];
-            let xi = x[i];
-            for (x, a) in x[..i].iter_mut().zip(&a[i][..i]) {
-                *x -= a * xi;
-            }
-        }
+        cholesky_solve_summed(a, &mut x);
         x
     }
 

@@ -1,5 +1,5 @@
-//! Least squares along a trajectory (offline): every row couples a sample with its neighbours, so the normal matrix has
-//! two bands.
+//! Equations along a trajectory: every row couples a sample with its neighbours, so a matrix has two bands beside its
+//! diagonal.
 
 /// Symmetric positive definite matrix with two bands above its diagonal, and after [`Self::factor`] its LDLᵀ.
 #[derive(Clone, Debug, Default)]
@@ -19,6 +19,13 @@ impl Pentadiagonal {
             next: vec![0.0; n],
             over: vec![0.0; n],
         }
+    }
+
+    /// A diagonal, and the same element next to it everywhere.
+    pub fn tridiagonal(diagonal: Vec<f64>, next: f64) -> Self {
+        let mut matrix = Self::new(diagonal);
+        matrix.next.fill(next);
+        matrix
     }
 
     /// Begins anew with `n` rows and a multiple of the identity. Allocates only if it has never been so large.

@@ -5,7 +5,8 @@
 //! platform, so a figure gets the same bits alone, in a batch, and on any instruction set.
 
 pub mod banded;
-pub mod ease;
+pub mod curve;
+pub mod dense;
 pub mod exp;
 pub mod hash;
 pub mod lane;

@@ -74,7 +74,8 @@ fn dot<const R: usize>(a: &[f64; R], b: &[f64; R]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
-/// The unconstrained solution over the active columns, by elimination of a positive definite system.
+/// The unconstrained solution over the active columns, by elimination of a positive definite system whose size is only
+/// known here. `dense::cholesky_solve` rounds differently, which the seventh digit of a survey would show.
 fn solve(active: &[usize], gram: &[Vec<f64>], pull: &[f64], ridge: f64) -> Vec<f64> {
     let m = active.len();
     let mut a = vec![0.0; m * (m + 1)];

@@ -110,25 +110,6 @@ pub fn vector_rates(phi: Vec3, omega: Vec3, alpha: Vec3) -> (Vec3, Vec3) {
     (phi_dot, inverse(alpha - drift))
 }
 
-/// The polynomial of fifth degree on `0…h` from value 0 with slope `d0` and curvature `a0`, to value `p1`,
-/// slope `d1`, curvature `a1`: its value, slope and curvature at `x`.
-pub fn quintic(h: f64, x: f64, d0: f64, a0: f64, p1: f64, d1: f64, a1: f64) -> [f64; 3] {
-    let u = x / h;
-    // In units of h: value p(u) = d u + a u²/2 + c3 u³ + c4 u⁴ + c5 u⁵
-    let (d, a) = (d0 * h, a0 * h * h);
-    let p = p1 - d - 0.5 * a;
-    let v = d1 * h - d - a;
-    let w = a1 * h * h - a;
-    let c3 = 10.0 * p - 4.0 * v + 0.5 * w;
-    let c4 = -15.0 * p + 7.0 * v - w;
-    let c5 = 6.0 * p - 3.0 * v + 0.5 * w;
-    [
-        u * (d + u * (0.5 * a + u * (c3 + u * (c4 + u * c5)))),
-        (d + u * (a + u * (3.0 * c3 + u * (4.0 * c4 + u * 5.0 * c5)))) / h,
-        (a + u * (6.0 * c3 + u * (12.0 * c4 + u * 20.0 * c5))) / (h * h),
-    ]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -155,14 +136,5 @@ mod tests {
             let (v2, a2) = vector_rates(p, omega, alpha);
             assert!((v2 - v).norm() < 1e-10 && (a2 - a).norm() < 1e-9);
         }
-    }
-
-    #[test]
-    fn quintic_meets_both_ends() {
-        let ends = (0.3, -2.0, 0.7, 1.1, 4.0);
-        let f = |x| quintic(0.25, x, ends.0, ends.1, ends.2, ends.3, ends.4);
-        let near = |a: [f64; 3], b: [f64; 3]| (0..3).all(|k| (a[k] - b[k]).abs() < 1e-10);
-        assert!(near(f(0.0), [0.0, ends.0, ends.1]));
-        assert!(near(f(0.25), [ends.2, ends.3, ends.4]));
     }
 }

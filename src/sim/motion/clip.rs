@@ -16,6 +16,7 @@ use crate::sim::body::topology::{
     BALL_COUNT, DOF_LEN, DOF_START, JOINT, JOINT_NAMES, Joint, SEGMENT_COUNT,
 };
 use crate::sim::body::{NV, Posture};
+use crate::sim::math::curve;
 use crate::sim::math::rotation_vector;
 use crate::sim::math::{Quat, Vec3, trig};
 use seam::Seam;
@@ -274,7 +275,7 @@ pub(crate) fn between(a: &Knot, b: &Knot, h: f64, u: f64) -> Target {
         planted: if u < 0.5 { a.planted } else { b.planted },
     };
     let fifth = |k: usize, end: [f64; 3]| {
-        rotation_vector::quintic(h, x, a.first[k], a.second[k], end[0], end[1], end[2])
+        curve::quintic(h, x, a.first[k], a.second[k], end[0], end[1], end[2])
     };
     for_each_part(|part| match part {
         Part::Scalar(k) => {
@@ -295,9 +296,8 @@ pub(crate) fn between(a: &Knot, b: &Knot, h: f64, u: f64) -> Target {
                 vector(ball, start, &a.second).to_array(),
             );
             let (phi, d1, a1) = (phi.to_array(), d1.to_array(), a1.to_array());
-            let curve: [[f64; 3]; 3] = std::array::from_fn(|c| {
-                rotation_vector::quintic(h, x, d0[c], a0[c], phi[c], d1[c], a1[c])
-            });
+            let curve: [[f64; 3]; 3] =
+                std::array::from_fn(|c| curve::quintic(h, x, d0[c], a0[c], phi[c], d1[c], a1[c]));
             let row = |r: usize| Vec3 {
                 x: curve[0][r],
                 y: curve[1][r],

@@ -4,6 +4,7 @@
 //! at both ends by its point reflection, and each pass starts in the steady state of its first sample. Amplitude at the
 //! cut-off is 1/2 (twice −3 dB). Rotations are filtered as sign-aligned quaternions and normalised again.
 
+use crate::sim::math::banded::Pentadiagonal;
 use crate::sim::math::{Quat, Vec3};
 
 /// Cut-offs above this fraction of the sample rate leave the signal alone: nothing is left to remove.
@@ -143,17 +144,12 @@ pub fn resample(signal: &[f64], rate_hz: f64, to_hz: f64, count: usize) -> Vec<f
             .collect();
     }
     // Second derivatives (per sample²): m[i−1] + 4 m[i] + m[i+1] = 6 (second difference), zero at both ends.
-    let mut m = vec![0.0; n];
-    let mut c = vec![0.0; n];
+    let bands = Pentadiagonal::tridiagonal(vec![4.0; n - 2], 1.0);
+    let mut m = vec![[0.0]; n];
     for i in 1..n - 1 {
-        let rhs = 6.0 * (signal[i + 1] - 2.0 * signal[i] + signal[i - 1]);
-        let w = 1.0 / (4.0 - c[i - 1]);
-        c[i] = w;
-        m[i] = (rhs - m[i - 1]) * w;
+        m[i] = [6.0 * (signal[i + 1] - 2.0 * signal[i] + signal[i - 1])];
     }
-    for i in (1..n - 1).rev() {
-        m[i] -= c[i] * m[i + 1];
-    }
+    bands.factor().solve(&mut m[1..n - 1]);
     (0..count)
         .map(|i| {
             let t = (i as f64 * rate_hz / to_hz).min((n - 1) as f64);
@@ -161,7 +157,7 @@ pub fn resample(signal: &[f64], rate_hz: f64, to_hz: f64, count: usize) -> Vec<f
             let (u, v) = (t - k as f64, 1.0 - (t - k as f64));
             signal[k] * v
                 + signal[k + 1] * u
-                + ((v * v * v - v) * m[k] + (u * u * u - u) * m[k + 1]) / 6.0
+                + ((v * v * v - v) * m[k][0] + (u * u * u - u) * m[k + 1][0]) / 6.0
         })
         .collect()
 }

@@ -44,6 +44,9 @@ fn joint_rotation(posture: &Posture, segment: usize) -> Quat {
 
 /// World pose of every segment: origin (m) and `world_from_segment`, in segment order.
 ///
+/// Rotations stay quaternions and positions are of the world, as motion is planned in. `dynamics::Kinematics` finds the
+/// same to rounding as matrices relative to the pelvis, and `evaluate::pose` is the oracle of both; their bits differ.
+///
 /// O(segments), no allocation.
 pub fn forward(body: &Body, posture: &Posture) -> [(Vec3, Quat); SEGMENT_COUNT] {
     let mut out = [(posture.root_position, posture.root_rotation); SEGMENT_COUNT];

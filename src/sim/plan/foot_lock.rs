@@ -13,6 +13,7 @@ pub use sole::{Anchor, FootPose, Sole, turn, yaw_pitch};
 pub use stances::{Stance, stances};
 
 use super::contact_labels::runs;
+use crate::sim::math::curve::{fade, smoothstep_to};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::filter::low_pass;
 use stances::Track;
@@ -60,15 +61,6 @@ const SWING_TOE: f64 = 0.6;
 fn median(mut v: Vec<f64>) -> f64 {
     v.sort_by(f64::total_cmp);
     v.get(v.len() / 2).copied().unwrap_or(0.0)
-}
-
-/// A quintic that takes value, slope and curvature to zero over unit time, at `u` in 0…1.
-pub(super) fn fade(value: f64, slope: f64, curvature: f64, u: f64) -> f64 {
-    let v = 1.0 - u;
-    let v3 = v * v * v;
-    v3 * (value * (1.0 + 3.0 * u + 6.0 * u * u)
-        + slope * u * (1.0 + 3.0 * u)
-        + 0.5 * curvature * u * u)
 }
 
 type Channels = [f64; 7];
@@ -309,7 +301,7 @@ fn swing(
         };
         let until = if j < n { (j - k) as f64 / rate_hz } else { 1.0 };
         let w = (since.min(until) / 0.06).min(1.0);
-        out.poses[k].ankle.z += l.max(0.0) * w * w * (3.0 - 2.0 * w);
+        out.poses[k].ankle.z += smoothstep_to(l.max(0.0), w);
     }
 }
 

@@ -10,6 +10,7 @@ use crate::sim::body::topology::SEGMENT_COUNT;
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::Vec3;
 use crate::sim::math::banded::Pentadiagonal;
+use crate::sim::math::curve::smoothstep_to;
 use crate::sim::math::polygon::{Region, margin};
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::filter::low_pass;
@@ -191,7 +192,7 @@ fn how_much_yields(
     let share = |(i, c): (usize, &Carrier)| {
         let u = ((lasting[i] - 0.7 * reach) / (0.6 * reach)).clamp(0.0, 1.0);
         let meant = if matches!(c, Carrier::Feet(_)) {
-            let leans = elsewhere[i].hands * u * u * (3.0 - 2.0 * u);
+            let leans = smoothstep_to(elsewhere[i].hands, u);
             (1.0 - elsewhere[i].seat) * (1.0 - leans)
         } else {
             0.0

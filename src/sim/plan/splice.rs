@@ -7,10 +7,10 @@
 
 use super::cycle::label;
 use super::feasibility::consistency;
-use super::foot_lock::{fade, turn, yaw_pitch};
+use super::foot_lock::{turn, yaw_pitch};
 use super::prepare::{Draft, PrepareOptions, prepare_in};
 use crate::sim::body::{Body, Posture};
-use crate::sim::math::ease::smootherstep;
+use crate::sim::math::curve::{fade, smootherstep};
 use crate::sim::motion::clip::{Clip, PlanarTransform};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};

@@ -7,7 +7,7 @@
 //! walked at a walk's speed (and until nobody leans more than such a speed can be braked with), every foot stays down
 //! until the other one has landed, and between its places it swings as a walking foot does.
 
-use crate::sim::math::ease::smootherstep;
+use crate::sim::math::curve::{arc, smootherstep};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::filter::{low_pass, low_pass_points, speeds};
@@ -337,8 +337,7 @@ fn swing(ankle: &mut [Vec3], foot: &mut [Quat], i: usize, j: usize) {
     for k in i..j {
         let u = (k + 1 - i) as f64 / (j + 1 - i) as f64;
         let s = smootherstep(u);
-        let over = 16.0 * u * u * (1.0 - u) * (1.0 - u);
-        ankle[k] = p.0 + (q.0 - p.0) * s + Vec3::Z * (ARC * over);
+        ankle[k] = p.0 + (q.0 - p.0) * s + Vec3::Z * (ARC * arc(1.0, u));
         foot[k] = (Quat::exp(turn * s) * p.1).normalized();
     }
 }

@@ -2,7 +2,7 @@
 
 use super::joints::PRONATION_MIDDLE;
 use super::scene::Scene;
-use crate::sim::math::ease::rise;
+use crate::sim::math::curve::rise;
 use crate::sim::math::{Mat3, Quat, Vec3};
 use crate::sim::motion::filter::percentile;
 use crate::sim::motion::skeleton_map::SkeletonMap;

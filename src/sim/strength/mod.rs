@@ -13,7 +13,7 @@ mod tests;
 use crate::sim::body::age::{male_share, mix};
 use crate::sim::body::export::Actuation;
 use crate::sim::body::{Body, DOF_COUNT, Sex};
-use crate::sim::math::ease::rise;
+use crate::sim::math::curve::rise;
 use crate::sim::math::exp::{exp, ln};
 use curve::{AngleFactor, Muscle, VelocityFactor};
 use tables::{Action, AndersonRow, Group, Leg, Origin, Tissue};

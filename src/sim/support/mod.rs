@@ -2,7 +2,6 @@
 //! tipping.
 
 pub mod contact_set;
-pub mod polygon;
 pub mod ratio;
 pub mod rest;
 pub mod sharing;
@@ -14,8 +13,8 @@ pub(crate) mod testing;
 #[cfg(test)]
 mod tests;
 
+pub use crate::sim::math::polygon::{Closest, Feature, Polygon};
 pub use contact_set::{ContactSet, SupportPoint};
-pub use polygon::{Closest, Feature, Polygon};
 pub use rest::Rest;
 pub use sharing::Sharing;
 pub use tipping::{Pivot, pivot, tipping_acceleration, unblocked_pivot};

@@ -1,8 +1,9 @@
 //! Minimum-moment point and the axes about which a support tips (ALGORITHM §6).
 
-use super::polygon::{Feature, Polygon};
+use super::{Feature, Polygon};
 use crate::sim::body::SegmentId;
 use crate::sim::dynamics::Terms;
+use crate::sim::math::dense::solve_up_to_2;
 use crate::sim::math::{Vec3, vec3::vec3};
 
 /// A corner that goes down faster than this holds the rotation, m/s.
@@ -145,16 +146,4 @@ pub(crate) fn base_product(terms: &Terms, a: &[f64; 6], b: &[f64; 6]) -> f64 {
         }
     }
     s
-}
-
-/// Solves the leading `n`×`n` block (n = 1 or 2) of a positive definite system.
-pub(crate) fn solve_up_to_2(g: &[[f64; 2]; 2], b: [f64; 2], n: usize) -> [f64; 2] {
-    if n == 1 {
-        return [b[0] / g[0][0], 0.0];
-    }
-    let det = g[0][0] * g[1][1] - g[0][1] * g[1][0];
-    [
-        (b[0] * g[1][1] - b[1] * g[0][1]) / det,
-        (b[1] * g[0][0] - b[0] * g[1][0]) / det,
-    ]
 }

@@ -6,7 +6,7 @@ use super::{FOOT, Purpose, RecoveryStep, StepTracker, recovery_step};
 use crate::sim::body::Posture;
 use crate::sim::body::topology::NV;
 use crate::sim::dynamics::Terms;
-use crate::sim::math::ease::smoothstep;
+use crate::sim::math::curve::smoothstep;
 use crate::sim::motion::{Target, TargetPair};
 
 /// Time in which a motion that ended turns into standing, s.

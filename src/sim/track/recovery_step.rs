@@ -6,7 +6,7 @@
 //! of memory; nothing allocates.
 
 use crate::sim::control::{PointTarget, RotationTarget};
-use crate::sim::math::ease::smootherstep;
+use crate::sim::math::curve::{arc, smootherstep};
 use crate::sim::math::exp::exp;
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::plan::foot_lock::Sole;
@@ -191,7 +191,7 @@ impl RecoveryStep {
         let mut p = self.start + (self.goal - self.start) * s;
         let over = (self.since + ahead - self.duration()).max(0.0);
         let flat = self.start.z + (sole.ankle_height - self.start.z) * s;
-        p.z = flat + ARC * 16.0 * u * u * (1.0 - u) * (1.0 - u) - LOWERING * over;
+        p.z = flat + arc(ARC, u) - LOWERING * over;
         (
             p,
             self.start_yaw + trig::wrapped(self.goal_yaw - self.start_yaw) * s,

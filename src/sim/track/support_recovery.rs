@@ -12,7 +12,7 @@ use crate::sim::body::topology::{
 use crate::sim::body::{Posture, SegmentId};
 use crate::sim::control::{PointTarget, RotationTarget};
 use crate::sim::dynamics::Terms;
-use crate::sim::math::ease::smoothstep;
+use crate::sim::math::curve::smoothstep;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::TargetPair;
 use crate::sim::support::Support;

@@ -6,7 +6,7 @@ use super::step_plan::Footfall;
 use super::{FOOT, StepTracker, TaskTargets, capture_point, level};
 use crate::sim::control::{PointTarget, RotationTarget};
 use crate::sim::dynamics::Terms;
-use crate::sim::math::ease::smootherstep;
+use crate::sim::math::curve::smootherstep;
 use crate::sim::math::{Quat, Vec3, trig};
 
 /// A foot that finds no floor goes down at this speed, m/s.

@@ -10,6 +10,7 @@ use crate::sim::contact::rows::{CHAIN_WIDTH, add_point_stiffness};
 use crate::sim::dynamics::factor::{factor, solve};
 use crate::sim::dynamics::mass_matrix::{CHAIN, DEPTH};
 use crate::sim::math::Vec3;
+use crate::sim::math::dense::{factor_columns, factor_rows, solve_lower, solve_rows, solve_upper};
 use multiversion::multiversion;
 
 impl Island {
@@ -341,43 +342,14 @@ fn own_matrix(p: &mut Parts<'_>, b: &Block, inside: bool) {
 fn factor_block<F: Articulated>(b: &mut Block, figures: &mut [F]) {
     match b.kind {
         Kind::Figure(i) => factor(figures[i].parts().hessian),
-        Kind::Free(_) => {
-            for j in 0..6 {
-                for i in j..6 {
-                    let mut z = b.l[i][j];
-                    for m in 0..j {
-                        z -= b.l[i][m] * b.l[j][m];
-                    }
-                    b.l[i][j] = if i == j {
-                        z.max(1e-300).sqrt()
-                    } else {
-                        z / b.l[j][j]
-                    };
-                }
-            }
-        }
+        Kind::Free(_) => factor_rows(&mut b.l, 6),
     }
 }
 
 fn solve_block<F: Articulated>(b: &Block, figures: &mut [F], x: &mut [f64; NV]) {
     match b.kind {
         Kind::Figure(i) => solve(figures[i].parts().hessian, x),
-        Kind::Free(_) => {
-            for i in 0..6 {
-                let mut z = x[i];
-                for j in 0..i {
-                    z -= b.l[i][j] * x[j];
-                }
-                x[i] = z / b.l[i][i];
-            }
-            for i in (0..6).rev() {
-                let mut z = x[i];
-                for j in i + 1..6 {
-                    z -= b.l[j][i] * x[j];
-                }
-                x[i] = z / b.l[i][i];
-            }
-        }
+        Kind::Free(_) => solve_rows(&b.l, 6, x),
     }
 }
 
@@ -385,46 +357,12 @@ fn solve_block<F: Articulated>(b: &Block, figures: &mut [F], x: &mut [f64; NV]) 
 /// holds b. False if it is not positive definite.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 fn cholesky_solve(m: &mut [f64], x: &mut [f64]) -> bool {
-    let n = x.len();
-    for j in 0..n {
-        let (head, tail) = m.split_at_mut((j + 1) * n);
-        let column = &mut head[j * n..];
-        let d = column[j];
-        if d.is_nan() || d <= 0.0 {
-            return false;
-        }
-        let s = 1.0 / d.sqrt();
-        for z in &mut column[j..] {
-            *z *= s;
-        }
-        for (k, other) in tail.chunks_exact_mut(n).enumerate() {
-            let k = j + 1 + k;
-            let a = column[k];
-            // Bodies that do not touch leave whole stretches empty.
-            if a != 0.0 {
-                for (z, y) in other[k..].iter_mut().zip(&column[k..]) {
-                    *z -= a * y;
-                }
-            }
-        }
+    let positive = factor_columns(m, x.len(), true);
+    if positive {
+        solve_lower(m, x);
+        solve_upper(m, x);
     }
-    for j in 0..n {
-        let column = &m[j * n..(j + 1) * n];
-        let y = x[j] / column[j];
-        x[j] = y;
-        for (z, l) in x[j + 1..].iter_mut().zip(&column[j + 1..]) {
-            *z -= y * l;
-        }
-    }
-    for j in (0..n).rev() {
-        let column = &m[j * n..(j + 1) * n];
-        let mut y = x[j];
-        for (z, l) in x[j + 1..].iter().zip(&column[j + 1..]) {
-            y -= l * z;
-        }
-        x[j] = y / column[j];
-    }
-    true
+    positive
 }
 
 #[cfg(test)]

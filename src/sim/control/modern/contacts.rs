@@ -7,7 +7,7 @@ use crate::sim::contact::rows::PointRow;
 use crate::sim::control::ControlInput;
 use crate::sim::figure::report::MAX_CONTACTS;
 use crate::sim::math::Vec3;
-use crate::sim::math::ease::fall;
+use crate::sim::math::curve::fall;
 use crate::sim::support::Rest;
 
 /// Time constant that brings a planted point to rest, s.

@@ -5,7 +5,7 @@ use super::{Modern, POINTS};
 use crate::sim::body::Body;
 use crate::sim::body::topology::{DOF_START, JOINT, Joint, L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::control::ControlInput;
-use crate::sim::math::ease::fall;
+use crate::sim::math::curve::fall;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::Target;
 

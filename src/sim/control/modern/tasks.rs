@@ -12,7 +12,7 @@ use crate::sim::dynamics::Terms;
 use crate::sim::dynamics::terms::WIDTH;
 use crate::sim::figure::report::MAX_CONTACTS;
 use crate::sim::math::Vec3;
-use crate::sim::math::ease::fall;
+use crate::sim::math::curve::fall;
 
 /// How constraints from outside are approached.
 const GOAL_PACE: Pace = Pace {

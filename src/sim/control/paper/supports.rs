@@ -6,10 +6,11 @@ use crate::sim::body::SegmentId;
 use crate::sim::body::topology::{DOF_START, L_FOOT, L_THIGH, L_TOES, R_FOOT, R_THIGH, R_TOES};
 use crate::sim::control::ControlInput;
 use crate::sim::control::reroot::{only_main, shift};
-use crate::sim::control::rows::{Row, cholesky_solve, dot};
+use crate::sim::control::rows::{Row, dot};
 use crate::sim::dynamics::terms::WIDTH;
 use crate::sim::figure::Share;
 use crate::sim::figure::report::MAX_CONTACTS;
+use crate::sim::math::dense::cholesky_solve;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::support::zmp;
 

@@ -9,7 +9,7 @@ use crate::sim::body::topology::{
     SEGMENT_COUNT,
 };
 use crate::sim::body::{Body, Posture, SegmentId};
-use crate::sim::math::ease::fall;
+use crate::sim::math::curve::fall;
 use crate::sim::math::exp::exp;
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::leg_ik::forward;

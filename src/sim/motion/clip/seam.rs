@@ -78,7 +78,7 @@ impl Seam {
     pub(super) fn blend(&self, into: f64, target: &mut Target) {
         let fifth = |k: usize| {
             let end = [self.end[0][k], self.end[1][k], self.end[2][k]];
-            rotation_vector::quintic(self.length, into, 0.0, 0.0, end[0], end[1], end[2])
+            curve::quintic(self.length, into, 0.0, 0.0, end[0], end[1], end[2])
         };
         let curve: [[f64; 3]; NV] = std::array::from_fn(fifth);
         let row = |r: usize| -> [f64; NV] { std::array::from_fn(|k| curve[k][r]) };

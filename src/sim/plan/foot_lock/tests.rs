@@ -44,16 +44,6 @@ fn standing_turns_about_heel_or_toe_joint_and_is_continuous() {
 }
 
 #[test]
-fn fade_meets_value_slope_and_curvature_and_ends_at_rest() {
-    let f = |u: f64| fade(0.3, -0.7, 1.1, u);
-    let h = 1e-4;
-    assert!((f(0.0) - 0.3).abs() < 1e-12);
-    assert!(((f(h) - f(0.0)) / h + 0.7).abs() < 1e-3);
-    assert!(((f(2.0 * h) - 2.0 * f(h) + f(0.0)) / (h * h) - 1.1).abs() < 1e-2);
-    assert!(f(1.0).abs() < 1e-15 && (f(1.0 - h) / h).abs() < 1e-6);
-}
-
-#[test]
 fn a_shuffled_step_is_locked_without_sliding_or_scraping() {
     let s = sole();
     let n = 360;

@@ -12,7 +12,7 @@ use crate::sim::body::topology::{
     DOF_START, JOINT, Joint, L_FOOT, L_THIGH, L_TOES, L_UPPER_ARM, NV, R_FOOT, R_TOES,
 };
 use crate::sim::body::{Body, Posture};
-use crate::sim::math::ease::smootherstep;
+use crate::sim::math::curve::{fade, smootherstep};
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::clip::Clip;
 use crate::sim::motion::leg_ik::{forward, knee_axis, solve_leg_in_plane};
@@ -20,7 +20,7 @@ use crate::sim::plan::ankle_torque_limit::AnkleTorqueLimit;
 use crate::sim::plan::cycle::label;
 use crate::sim::plan::envelope::smoothest_below;
 use crate::sim::plan::feasibility::consistency;
-use crate::sim::plan::foot_lock::{Anchor, FootPose, LockedFoot, Sole, fade};
+use crate::sim::plan::foot_lock::{Anchor, FootPose, LockedFoot, Sole};
 use crate::sim::plan::pelvis_shift::{mass_track, pelvis_shift};
 use crate::sim::plan::prepare::{
     CARRIED, DROP_TIME, INSET, carriers_of, held_by, leg_geometry, may_rest, planted_of,

@@ -6,7 +6,7 @@ use crate::sim::body::topology::{
     JOINT, Joint, L_FOOT, L_SHANK, L_THIGH, L_TOES, R_FOOT, R_SHANK, R_THIGH, R_TOES,
 };
 use crate::sim::body::{Body, Posture};
-use crate::sim::math::ease::smoothstep;
+use crate::sim::math::curve::smoothstep;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::filter::{low_pass, low_pass_points, low_pass_rotations};
 use crate::sim::motion::leg_ik::solve_leg_in_plane;

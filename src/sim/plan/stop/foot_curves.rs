@@ -2,8 +2,8 @@
 
 use super::footsteps::Step;
 use super::initial_state::Start;
-use super::{SWING, min_jerk_3, turned};
-use crate::sim::math::ease::smootherstep;
+use super::{SWING, turned};
+use crate::sim::math::curve::{self, min_jerk_3, smootherstep};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::plan::foot_lock::{Sole, yaw_pitch};
 
@@ -134,7 +134,7 @@ pub(super) fn pose(
     } else {
         ARC
     };
-    p.z += arc * 16.0 * u * u * (1.0 - u) * (1.0 - u);
+    p.z += curve::arc(arc, u);
     let way = (flat * rotation.conjugate()).log();
     let way = min_jerk_3(Vec3::zero(), spin, way, long, t - step.off);
     (p, Quat::exp(way) * rotation, false)

@@ -7,7 +7,7 @@ use super::initial_state::Start;
 use super::{FOOT, SWING, flat, ground, level, turned};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::Vec3;
-use crate::sim::math::ease::rise;
+use crate::sim::math::curve::rise;
 use crate::sim::math::polygon::{Region, hull, margin};
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::leg_ik::{center_of_mass, forward};

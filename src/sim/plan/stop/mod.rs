@@ -13,7 +13,7 @@ use super::foot_lock::Sole;
 use super::prepare::Draft;
 use crate::sim::body::topology::{L_FOOT, NV, R_FOOT};
 use crate::sim::body::{Body, Posture};
-use crate::sim::math::ease::smootherstep;
+use crate::sim::math::curve::{min_jerk, smootherstep};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::builtin::at_ease;
 use crate::sim::motion::filter::low_pass_points;
@@ -38,20 +38,6 @@ const EASE: f64 = 1.0;
 const ALIKE: f64 = 0.03;
 
 const FOOT: [usize; 2] = [L_FOOT.index(), R_FOOT.index()];
-
-/// Value at `t` of the quintic from `x0`, with slope `v0`, to rest at `x1` after time `end`; no curvature at either
-/// end.
-fn min_jerk(x0: f64, v0: f64, x1: f64, end: f64, t: f64) -> f64 {
-    let u = (t / end).clamp(0.0, 1.0);
-    let (d, w) = (x1 - x0, v0 * end);
-    let (c3, c4, c5) = (10.0 * d - 6.0 * w, 8.0 * w - 15.0 * d, 6.0 * d - 3.0 * w);
-    x0 + u * (w + u * u * (c3 + u * (c4 + u * c5)))
-}
-
-fn min_jerk_3(x0: Vec3, v0: Vec3, x1: Vec3, end: f64, t: f64) -> Vec3 {
-    let (a, v, b) = (x0.to_array(), v0.to_array(), x1.to_array());
-    Vec3::from_array(std::array::from_fn(|k| min_jerk(a[k], v[k], b[k], end, t)))
-}
 
 fn turned(yaw: f64, v: Vec3) -> Vec3 {
     Quat::exp(Vec3::Z * yaw).rotate(v)

@@ -1,8 +1,7 @@
 //! One foot of a stream: when it stands, where, and how it gets from one place to the next.
 
 use super::{H, STEADY};
-use crate::sim::math::ease::fall;
-use crate::sim::math::rotation_vector::quintic;
+use crate::sim::math::curve::{fall, quintic, smoothstep_to};
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::plan::foot_lock::{Anchor, FootPose, Sole};
 
@@ -516,6 +515,6 @@ impl Foot {
             .min(RISE.1 * until);
         let lacks = (need - (pose.ankle.z + sole.lowest(pose.rotation, pose.toe))).max(0.0);
         let w = (since.min(until) / 0.06).min(1.0);
-        lacks * w * w * (3.0 - 2.0 * w)
+        smoothstep_to(lacks, w)
     }
 }

@@ -11,7 +11,6 @@
 
 mod foot;
 mod momentum;
-mod polygon;
 mod receding_horizon;
 mod silence;
 mod whole_body;
@@ -20,7 +19,7 @@ use super::ankle_torque_limit::AnkleTorqueLimit;
 use super::foot_lock::{FootPose, Sole};
 use crate::sim::body::topology::{L_FOOT, L_TOES, NV, R_FOOT, R_TOES, SEGMENT_COUNT};
 use crate::sim::body::{Body, Posture};
-use crate::sim::math::ease::smootherstep;
+use crate::sim::math::curve::smootherstep;
 use crate::sim::math::exp::exp;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::clip::{Knot, PlanarTransform, between};

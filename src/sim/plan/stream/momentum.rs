@@ -1,11 +1,11 @@
 //! What a sample asks of the floor: its angular momentum, its zero-moment point, and whether the feet can have it.
 
-use super::polygon::Polygon;
 use super::receding_horizon::Balanced;
 use super::{H, RATE, Sample, StreamPlan};
 use crate::sim::body::topology::SEGMENT_COUNT;
-use crate::sim::math::ease::smoothstep;
+use crate::sim::math::curve::smoothstep;
 use crate::sim::math::exp::exp;
+use crate::sim::math::polygon::SmallPolygon;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::leg_ik::{center_of_mass, forward};
@@ -46,7 +46,7 @@ impl StreamPlan {
     /// How far the zero-moment point of sample `j` is from where the feet could have it, as it came.
     pub(super) fn balance(&mut self, j: i64) {
         let (mut balanced, load) = self.balanced(j, |s| (s.com, s.momentum));
-        let inside = balanced.support.and_then(|s| s.nearest(balanced.zmp));
+        let inside = balanced.support.map(|s| s.nearest(balanced.zmp));
         let way = inside.map_or([0.0; 2], |p| {
             [p[0] - balanced.zmp[0], p[1] - balanced.zmp[1]]
         });
@@ -87,7 +87,7 @@ impl StreamPlan {
             let anchors: [_; 2] =
                 std::array::from_fn(|side| self.feet[side].anchor(j, |i| self.standing(side, i)));
             let alone = anchors[0].is_some() != anchors[1].is_some();
-            let mut polygon = Polygon::default();
+            let mut polygon = SmallPolygon::default();
             for (sole, anchor) in self.soles.iter().zip(&anchors) {
                 match anchor {
                     Some(at) if alone => {

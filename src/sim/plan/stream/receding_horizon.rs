@@ -1,10 +1,10 @@
 //! The shift of the trunk that keeps the balance of a stream: a small optimal control problem over the window, solved
 //! on with every sample.
 
-use super::polygon::Polygon;
 use super::{H, RATE};
 use crate::sim::math::banded::{Factor, Pentadiagonal};
 use crate::sim::math::exp::exp;
+use crate::sim::math::polygon::SmallPolygon;
 use crate::sim::math::trig;
 use std::collections::VecDeque;
 
@@ -31,7 +31,7 @@ pub struct Balanced {
     /// Zero-moment point as it came, m.
     pub zmp: [f64; 2],
     /// Where it is wanted, if feet carry the body.
-    pub support: Option<Polygon>,
+    pub support: Option<SmallPolygon>,
     /// How much that counts, 0…1.
     pub weight: f64,
     /// Square of the pendulum frequency, 1/s².
@@ -59,7 +59,7 @@ impl Balanced {
 
     /// The way from the zero-moment point as it came into the support, as far as that counts, m.
     fn lacks(&self) -> [f64; 2] {
-        let inside = self.support.as_ref().and_then(|s| s.nearest(self.zmp));
+        let inside = self.support.as_ref().map(|s| s.nearest(self.zmp));
         let way =
             |k: usize| inside.map_or(0.0, |p| (p[k] - self.zmp[k]).clamp(-MOST_OFF, MOST_OFF));
         std::array::from_fn(|k| self.weight * way(k))
@@ -80,11 +80,7 @@ impl Balanced {
     /// Moves a zero-moment point into the support as far as that counts.
     fn take(&mut self, zmp: [f64; 2]) {
         let v: [f64; 2] = std::array::from_fn(|k| zmp[k] + self.debt[k]);
-        let inside = self
-            .support
-            .as_ref()
-            .and_then(|s| s.nearest(v))
-            .unwrap_or(v);
+        let inside = self.support.as_ref().map_or(v, |s| s.nearest(v));
         let share = self.weight / (self.weight + 1.0);
         for k in 0..2 {
             let way = (inside[k] - v[k]).clamp(-MOST_OFF, MOST_OFF);
@@ -295,7 +291,7 @@ mod tests {
     fn recorded(i: usize) -> Balanced {
         let out = (90..110).contains(&i);
         let mut b = Balanced::new([if out { 0.08 } else { 0.0 }, 0.0], OMEGA2, 0.0);
-        let mut square = Polygon::default();
+        let mut square = SmallPolygon::default();
         for corner in [[-0.04, -0.04], [0.04, -0.04], [0.04, 0.04], [-0.04, 0.04]] {
             square.add(corner);
         }
