@@ -27,8 +27,8 @@ use multiversion::multiversion;
 use tasks::pendulum_time;
 
 mod contacts;
+mod momentum;
 mod roll;
-mod take_off;
 mod tasks;
 
 /// Weights in units of force: the cost of a task is about (inertia × acceleration error)², so that a foot's hundred
@@ -36,8 +36,8 @@ mod tasks;
 /// docs/adr/0004.
 mod weight {
     pub(super) const COM: [f64; 3] = [1000.0, 1000.0, 300.0];
-    /// Upwards, of who is about to take off: what is missing then nobody makes up for in the air.
-    pub(super) const COM_TAKES_OFF: f64 = 1000.0;
+    /// Upwards at lift-off: what is missing then cannot be made up for in the air.
+    pub(super) const COM_LIFT_OFF: f64 = 1000.0;
     pub(super) const HAND: f64 = 1.0;
     /// Constraints from outside, fully in force: a bounded pull that moves the centre of mass by 3 cm when it cannot be
     /// met.
@@ -184,7 +184,7 @@ impl Modern {
 
 /// 0 where the capture point is where the motion has it, 1 where it is far off.
 fn danger(input: &ControlInput<'_>) -> f64 {
-    let (t, goal) = (input.terms, input.com);
+    let (t, goal) = (input.terms, input.centroidal.com);
     let time = pendulum_time(input);
     let off = (t.com - goal.now) + (t.com_velocity - goal.now_velocity) * time;
     1.0 - fall((off.x * off.x + off.y * off.y).sqrt(), DANGER)
@@ -244,7 +244,7 @@ fn pelvis_demand(t: &Terms, target: &TargetPair, law: &Law, dt: f64) -> Vec3 {
 
 impl Controller for Modern {
     fn control(&mut self, input: &ControlInput<'_>) -> &Command {
-        let danger = if input.on_floor.is_some() {
+        let danger = if input.contacts.floor.is_some() {
             0.0
         } else {
             danger(input)
@@ -261,7 +261,7 @@ impl Controller for Modern {
         let mut diagonal = [weight::BASE; NV];
         let mut linear = [0.0; WIDTH];
         let w = pelvis_demand(t, input.target, &law, input.dt);
-        let rolls = input.on_floor.is_some_and(|f| f.rolls);
+        let rolls = input.contacts.floor.is_some_and(|f| f.rolls);
         let turns = if rolls {
             weight::ROLLING
         } else {

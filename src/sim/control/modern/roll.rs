@@ -4,7 +4,7 @@
 use super::{Modern, POINTS};
 use crate::sim::body::Body;
 use crate::sim::body::topology::{DOF_START, JOINT, Joint, L_FOOT, L_TOES, R_FOOT, R_TOES};
-use crate::sim::control::ControlInput;
+use crate::sim::control::{ContactPhase, ControlInput};
 use crate::sim::math::ease::fall;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::Target;
@@ -50,7 +50,7 @@ impl Modern {
             z - before
         });
         // Who squats, sits down or steps about lifts his heels too and stands on them meanwhile.
-        let v = input.com.now_velocity;
+        let v = input.centroidal.com.now_velocity;
         let walks = v.x * v.x + v.y * v.y > WALKS * WALKS;
         let strides = |side: usize| walks || !input.target.next.planted[1 - side];
         let mg = input.terms.mass * input.gravity.max(1.0);
@@ -101,10 +101,9 @@ fn heel(body: &Body, s: usize) -> Vec3 {
 /// Where the zero-moment point is wanted along foot `s`: 0 under its heel, 1 under its toe joint.
 fn wanted(input: &ControlInput<'_>, s: usize) -> f64 {
     let t = input.terms;
-    let Some(balance) = input.balance else {
+    let Some([x, y]) = input.centroidal.acceleration else {
         return 0.0;
     };
-    let [x, y] = balance.acceleration;
     let zmp = t.com - Vec3 { x, y, z: 0.0 } * (t.com.z / input.gravity.max(1.0));
     let heel = t.point_world(s, heel(input.body, s));
     let way = t.segment_position(s + 1) - heel;
@@ -131,8 +130,8 @@ impl Roll {
             let gives_way = self.free * (1.0 - stays(z - before));
             return (1.0 - gives_way).min(fall(z, PLANNED_FADE));
         }
-        if input.take_off.is_some() {
-            // Who takes off rolls over the tip of his toes.
+        if input.contacts.phase == ContactPhase::LiftOff {
+            // At lift-off a foot rolls over the tip of its toes.
             return fall(z, TIP_FADE);
         }
         // Toes are turned up about a heel that stays, and carry meanwhile; they leave with it.
@@ -143,10 +142,10 @@ impl Roll {
 /// Heights over the floor at which the motion has a point of the foot of segment `s`, foot frame, at the beginning and
 /// at the end of the tick, m.
 fn heights(input: &ControlInput<'_>, s: usize, point: [Vec3; 2]) -> [f64; 2] {
-    let (position, rotation) = &input.feet[usize::from(s >= R_FOOT.index())];
+    let foot = &input.contacts.feet[usize::from(s >= R_FOOT.index())];
     let [now, next] = point;
     [
-        position.now.z + rotation.now.rotate(now).z,
-        position.next.z + rotation.next.rotate(next).z,
+        foot.ankle.now.z + foot.rotation.now.rotate(now).z,
+        foot.ankle.next.z + foot.rotation.next.rotate(next).z,
     ]
 }
