@@ -74,8 +74,8 @@ const HALF_ARM: f64 = 2.0;
 const ARM_DOFS: usize = 7;
 /// Friction the plan counts on; below the simulator's.
 const FRICTION_MARGIN: f64 = 0.7 / 0.9;
-/// Horizon of joints and rotations as a share of the one that is set (0.1 s): 278/s² and 33/s. Gait needs limbs that
-/// are on time; the continuous program stays free of chatter with them, unlike the paper's active set.
+/// Horizon of joints and rotations as a share of the one that is set (0.1 s): 278/s² and 33/s. Contacts need limbs
+/// that are on time; the continuous program stays free of chatter with them, unlike the paper's active set.
 const SHARPNESS: f64 = 0.3;
 /// That of joints and rotations where the body is about to fall (149/s², 24/s): balance must not have to fight the
 /// posture.
@@ -86,8 +86,8 @@ const ROTATION_FEEDBACK: f64 = 50.0;
 /// m.
 const DANGER: (f64, f64) = (0.04, 0.12);
 /// Iterations after which Newton's method has jammed and the interior-point method leads it on, and most of that. In
-/// gait the median is 3. From prices of an unrelated problem both together, and Newton's last steps, take 52 at most in
-/// 320 cases.
+/// walks the median is 3. From prices of an unrelated problem both together, and Newton's last steps, take 52 at most
+/// in 320 cases.
 const NEWTON_ITERATIONS: u32 = 20;
 const INTERIOR_ITERATIONS: u32 = 30;
 /// Newton's last steps go on to this share of the tolerance: coming from the interior, the first iterate within it has

@@ -6,9 +6,9 @@
 //!
 //! `ξ(t) = p + (ξ − p) e^{ωt}`.
 //!
-//! The error `e = ξ − ξ_ref` against the motion's is driven out by `p = p_ref + (1 + k) e` as far as the support allows.
-//! That takes care of a part `d` of it; `(e − d) e^{ωt} + d` is left at the touch-down in `t` seconds, and the foothold
-//! is displaced by as much.
+//! The error `e = ξ − ξ_ref` against the motion's is driven out by `p = p_ref + (1 + k) e` as far as the support
+//! allows. That takes care of a part `d` of it; `(e − d) e^{ωt} + d` is left at the touch-down in `t` seconds, and the
+//! foothold is displaced by as much.
 
 use super::filter_gain;
 use super::foot_places::{FootPlace, horizontal, level, outward, turn};

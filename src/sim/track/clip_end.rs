@@ -64,11 +64,8 @@ impl StepTracker {
         // The figure comes to stand at the foot that the body moves over, heading where both feet head.
         let xi = self.capture.point();
         let far = |k: usize| level([now[k].at.x - xi[0], now[k].at.y - xi[1]]).norm();
-        let side = match [self.feet[0].down, self.feet[1].down] {
-            [true, false] => 0,
-            [false, true] => 1,
-            _ => usize::from(far(1) < far(0)),
-        };
+        let side = self.only_stance();
+        let side = side.unwrap_or_else(|| usize::from(far(1) < far(0)));
         let before = self.anchor.transform();
         self.anchor = Anchor::between(
             (home[side].at, middle(&home).yaw),

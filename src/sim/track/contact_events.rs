@@ -1,9 +1,9 @@
 //! Contact by events: a foot is down when it touches the floor, not when the clock says so.
 //!
 //! The plan's time goes on at a rate between 0 and [`FASTEST_RATE`]. It waits for a foot that is to be down and finds
-//! no floor, it catches up after a foot that landed early, and in the air it adapts to the time of fall. A stream cannot
-//! wait for its figure, nor run ahead of what has come: its rate is at least 1, and more only while the figure is
-//! behind.
+//! no floor, it catches up after a foot that landed early, and in the air it adapts to the time of fall. A stream
+//! cannot wait for its figure, nor run ahead of what has come: its rate is at least 1, and more only while the figure
+//! is behind.
 
 use super::params::contact::{
     EARLIEST, EARLIEST_AFTER_FLIGHT, FASTEST_RATE, IMMINENT, LATEST, LONGEST_LAG, STREAM_RATE,
@@ -134,8 +134,8 @@ impl StepTracker {
     /// than planned after a take-off that was too slow. The legs of a runner swing all the time; accelerated, they
     /// would turn the trunk, so a plan whose feet leave one after the other keeps its rate.
     ///
-    /// The body falls from its height `h` above the motion's with speed `v`: `v t − g t²/2` is the height of the landing
-    /// at the real time `t`.
+    /// The body falls from its height `h` above the motion's with speed `v`: `v t − g t²/2` is the height of the
+    /// landing at the real time `t`.
     fn rate_in_flight(&self, terms: &Terms) -> f64 {
         let next = (0..2).filter_map(|side| self.planned(side).or(self.next(side)));
         let on = next.map(|f| f.on).fold(f64::INFINITY, f64::min);

@@ -43,6 +43,7 @@ impl StepTracker {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Foot;
     use super::*;
     use crate::sim::body::Body;
     use crate::sim::motion::builtin::at_ease;
@@ -74,7 +75,7 @@ mod tests {
         let mut tracker = StepTracker::new(&body);
         let plan = StepPlan::new(&body, &clip, false);
         tracker.follow(Some((plan, 1.0, PlanarTransform::default())));
-        tracker.feet = [super::super::Foot {
+        tracker.feet = [Foot {
             down: true,
             ..Default::default()
         }; 2];

@@ -481,6 +481,12 @@ impl StepTracker {
         self.recovery_step().is_none() && self.plan().is_some_and(|p| !p.is_live())
     }
 
+    /// The foot that is on the floor, if the other one is not.
+    fn only_stance(&self) -> Option<usize> {
+        let [left, right] = self.feet.map(|foot| foot.down);
+        (left != right).then(|| usize::from(right))
+    }
+
     /// True while it follows a stream.
     fn is_live(&self) -> bool {
         self.plan().is_some_and(StepPlan::is_live)

@@ -4,11 +4,12 @@
 //! second. People who are pushed hard put the swinging foot down at once, and take the next step quickly too (Hof,
 //! Vermerris & Gjaltema 2010; Vlutters et al. 2016). So the plan is played faster until the foot lands.
 //!
-//! For each rate `ρ` the landing comes after `t = t₀/ρ`. The zero-moment point `p`, within the sole, is chosen such that
-//! `ξ(t) = p + (ξ − p) e^{ωt}` comes as near as it can to its place relative to the planned foothold; the foothold `f`
-//! that is as far from `ξ(t)` as the motion has it catches the body. What a foot reaches is within the leg's reach and
-//! its speed. The rate with the least `|f − reached| + w (ρ − 1 + |reached − planned|)` is taken (Koolen et al. 2012).
-//! The centre of mass meanwhile follows the pendulum about `p`, because the motion's would run away from the body.
+//! For each rate `ρ` the landing comes after `t = t₀/ρ`. The zero-moment point `p`, within the sole, is chosen such
+//! that `ξ(t) = p + (ξ − p) e^{ωt}` comes as near as it can to its place relative to the planned foothold; the foothold
+//! `f` that is as far from `ξ(t)` as the motion has it catches the body. What a foot reaches is within the leg's reach
+//! and its speed. The rate with the least `|f − reached| + w (ρ − 1 + |reached − planned|)` is taken (Koolen et al.
+//! 2012). The centre of mass meanwhile follows the pendulum about `p`, because the motion's would run away from the
+//! body.
 
 use super::StepTracker;
 use super::capture_point::within_reach;
@@ -74,8 +75,8 @@ impl StepTracker {
             .min_by(|a, b| a.1.on.total_cmp(&b.1.on))
     }
 
-    /// Looks up where the motion has its capture point at the next touch-down. `sample`: the motion so many seconds from
-    /// now.
+    /// Looks up where the motion has its capture point at the next touch-down. `sample`: the motion so many seconds
+    /// from now.
     pub(super) fn predict_landing(&mut self, sample: impl Fn(f64) -> Target) {
         let known = self.timing.landing.take();
         if !self.is_stepping() || (self.timing.early.is_none() && self.capture.off() < ERROR) {

@@ -2,8 +2,8 @@
 //!
 //! When the stance foot cannot keep the capture point, and the planned step comes too late or cannot reach far enough,
 //! the raised foot is put down early and where it catches the body, and is lifted again when the body is back over the
-//! other one. Meanwhile the plan waits: its pace `r` goes from 1 to 0 and back, and its raised leg turns into a standing
-//! one. A stream does not wait; its foot stands until its own step is due.
+//! other one. Meanwhile the plan waits: its pace `r` goes from 1 to 0 and back, and its raised leg turns into a
+//! standing one. A stream does not wait; its foot stands until its own step is due.
 //!
 //! A motion that stands still has its capture point under its centre of mass, so it stands at `c + (1 − r) ċ/ω`: where
 //! its capture point was, and from where it can go on.
@@ -111,8 +111,8 @@ impl SupportRecovery {
         self.pace = (self.pace + change).clamp(0.0, 1.0);
     }
 
-    /// Turns the motion of a tick into that of a plan with this pace: its velocities, and its raised leg, which stands as
-    /// in `at_ease` while the plan waits.
+    /// Turns the motion of a tick into that of a plan with this pace: its velocities, and its raised leg, which stands
+    /// as in `at_ease` while the plan waits.
     pub(super) fn slow(&self, out: &mut TargetPair, at_ease: &Posture, dt: f64) {
         let (now, next) = (self.last_pace, self.pace);
         if (now, next) == (1.0, 1.0) {
@@ -206,11 +206,8 @@ impl StepTracker {
 
     /// The raised foot, if the other one cannot keep the body and the planned step does not catch it.
     fn foot_to_put_down(&mut self, terms: &Terms) -> Option<usize> {
-        let side = match [self.feet[0].down, self.feet[1].down] {
-            [true, false] => 1,
-            [false, true] => 0,
-            _ => return None,
-        };
+        let stance = self.only_stance()?;
+        let side = 1 - stance;
         let (plan, phase) = (self.plan()?, self.clock.phase);
         if plan.current(side, phase).is_some() || self.capture.off() < ERROR {
             return None;
@@ -221,12 +218,12 @@ impl StepTracker {
         }
         let too_far = self.next(side).is_none_or(|f| {
             let d = self.capture.left_over(remaining);
-            let stance = Self::ankle(terms, 1 - side);
-            let can = within_reach(d, self.mapped(&f), stance, side, REACH_ALONG);
+            let ankle = Self::ankle(terms, stance);
+            let can = within_reach(d, self.mapped(&f), ankle, side, REACH_ALONG);
             level([d[0] - can[0], d[1] - can[1]]).norm() > PLANNED_STEP_ERROR
         });
         // The whole sole counts: a body on its toes can put the heel down.
-        let corners = self.legs.sole_points(terms, 1 - side);
+        let corners = self.legs.sole_points(terms, stance);
         let margin = self.capture.margin(corners.map(|p| [p.x, p.y]))?;
         (too_far && margin < -OUTSIDE).then_some(side)
     }
@@ -307,7 +304,8 @@ mod tests {
         }
     }
 
-    /// The capture point of a plan that waits, or has waited, is where it is at full pace: there it can go on at any time.
+    /// The capture point of a plan that waits, or has waited, is where it is at full pace: there it can go on at any
+    /// time.
     #[test]
     fn a_plan_that_slows_down_keeps_its_capture_point() {
         let point = |com: &PointTarget| com.now + com.now_velocity * (1.0 / OMEGA);

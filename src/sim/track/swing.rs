@@ -156,8 +156,8 @@ fn avoid(leg: &StanceLeg, initial: f64, since: f64, dt: f64, target: &mut PointT
     target.next_velocity += (after - next) * (1.0 / dt);
 }
 
-/// Shifts the feet of a body in flight with its centre of mass, whose path nothing changes. Feet led to where the motion
-/// has them would pull the legs up or stretch them, and turn the trunk.
+/// Shifts the feet of a body in flight with its centre of mass, whose path nothing changes. Feet led to where the
+/// motion has them would pull the legs up or stretch them, and turn the trunk.
 pub(super) fn follow_com(terms: &Terms, dt: f64, tasks: &mut TaskTargets<'_>) {
     let off = terms.com - tasks.com.now;
     let drift = terms.com_velocity - tasks.com.now_velocity;

@@ -1,9 +1,9 @@
 //! Angular momentum that is to be reached, as at lift-off.
 //!
-//! Nothing changes the angular momentum of a body in the air: a little too much of it turns the trunk by tens of degrees
-//! until the landing. And the posture asks for too much: a foot that is held on the floor to the last, while the pelvis
-//! already goes its way, makes the legs of the motion spin up and stop again within a few samples. So for the last
-//! moments the momentum itself is a task, ahead of what joints are to do.
+//! Nothing changes the angular momentum of a body in the air: a little too much of it turns the trunk by tens of
+//! degrees until the landing. And the posture asks for too much: a foot that is held on the floor to the last, while
+//! the pelvis already goes its way, makes the legs of the motion spin up and stop again within a few samples. So for
+//! the last moments the momentum itself is a task, ahead of what joints are to do.
 
 use super::{Modern, TaskRow};
 use crate::sim::control::ControlInput;

@@ -18,15 +18,15 @@ const TIP_FADE: (f64, f64) = (0.003, 0.010);
 /// purpose: a point that is half let go is turned up with its force still there.
 const RISES: (f64, f64) = (0.035, 0.045);
 /// A heel is needed where the zero-moment point is wanted less than this far from it, as a share of the way to the toe
-/// joint: who brakes stands on it still.
+/// joint: a body that brakes stands on it still.
 const NEEDED: (f64, f64) = (0.45, 0.55);
 /// An ankle that needs more than this share of its strength to carry the foot's load on the toe joint does not lift the
 /// heel.
 const STRAINED: (f64, f64) = (0.85, 0.90);
 /// Toes that carry more than this share of the weight are kept to the end of the stance.
 const CARRIES: (f64, f64) = (0.10, 0.15);
-/// Who stands on both feet strides if he moves faster than this, m/s.
-const WALKS: f64 = 0.5;
+/// The weight goes from one planted foot to the other if the centre of mass moves faster than this, m/s.
+const TRANSFER_SPEED: f64 = 0.5;
 
 /// What one planted foot does in this tick.
 #[derive(Clone, Copy, Debug)]
@@ -49,10 +49,10 @@ impl Modern {
             let [before, z] = heights(input, s, [heel(input.body, s); 2]);
             z - before
         });
-        // Who squats, sits down or steps about lifts his heels too and stands on them meanwhile.
+        // In a squat, on the way into a seat and in small steps heels are lifted too, and carry meanwhile.
         let v = input.centroidal.com.now_velocity;
-        let walks = v.x * v.x + v.y * v.y > WALKS * WALKS;
-        let strides = |side: usize| walks || !input.target.next.planted[1 - side];
+        let transfers = v.x * v.x + v.y * v.y > TRANSFER_SPEED * TRANSFER_SPEED;
+        let may_lift = |side: usize| transfers || !input.target.next.planted[1 - side];
         let mg = input.terms.mass * input.gravity.max(1.0);
         std::array::from_fn(|side| {
             let s = FEET[side];
@@ -65,7 +65,7 @@ impl Modern {
             Roll {
                 toes: [bent(&input.target.now), bent(&input.target.next)],
                 heel_rise: heel_rise[side],
-                free: if strides(side) { free } else { 0.0 },
+                free: if may_lift(side) { free } else { 0.0 },
                 idle: fall(self.force(s).z / mg, CARRIES),
             }
         })
