@@ -3,7 +3,9 @@
 use sinew::sim::body::angles::anatomical_angles;
 use sinew::sim::body::topology::DOF_COUNT;
 use sinew::sim::body::{Body, Links, Posture, State};
-use sinew::sim::control::{ControlInput, Controller};
+use sinew::sim::control::{
+    CentroidalTarget, ContactPhase, ContactTargets, ControlInput, Controller,
+};
 use sinew::sim::dynamics::Terms;
 use sinew::sim::figure::ControlParams;
 use sinew::sim::figure::tasks::TaskWorkspace;
@@ -85,14 +87,20 @@ impl Decision {
             body: &self.body,
             support: &self.support,
             target: &self.target,
-            com: &tasks.com,
+            centroidal: CentroidalTarget {
+                com: &tasks.com,
+                acceleration: None,
+                momentum: None,
+            },
+            contacts: ContactTargets {
+                feet: &tasks.feet,
+                phase: ContactPhase::Stance,
+                places_known: false,
+                floor: None,
+            },
             effectors: &tasks.hands,
             goals: &[],
-            feet: &tasks.feet,
-            balance: None,
             carried: [0.0; 2],
-            lands_as_planned: false,
-            take_off: None,
             lower: &self.lower,
             upper: &self.upper,
             params: &self.params,
@@ -100,7 +108,6 @@ impl Decision {
             dt: DT,
             assist: [0.0; 2],
             kinematic: false,
-            on_floor: None,
         });
         command.torque[0]
     }

@@ -85,7 +85,7 @@ fn watch(world: &mut World, seconds: f64, mut each: impl FnMut(&mut World, f64))
         assert!(r.over_limit <= 1e-9 && !r.flags.has(Flags::QUARANTINED));
         // Nobody is ahead of what has come, or knows for good where he is going to land.
         if matches!(f.drive(), Drive::Live(_)) {
-            assert!(f.tracker().lag() > -1e-9 && !f.tracker().lands_as_planned());
+            assert!(f.tracker().lag() > -1e-9 && !f.tracker().has_planned_footholds());
         }
         if f.is_fallen() {
             out.fell = Some(time);

@@ -41,6 +41,17 @@ pub struct PointTarget {
     pub next_velocity: Vec3,
 }
 
+impl PointTarget {
+    /// A point that rests at `p` (world, m).
+    pub fn still(p: Vec3) -> Self {
+        Self {
+            now: p,
+            next: p,
+            ..Self::default()
+        }
+    }
+}
+
 /// How a segment should be turned, at the start and at the end of the tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RotationTarget {
@@ -52,6 +63,26 @@ pub struct RotationTarget {
     pub next: Quat,
     /// Angular velocity at the end, world axes, rad/s.
     pub next_velocity: Vec3,
+}
+
+impl RotationTarget {
+    /// A segment that rests with this rotation, `world_from_segment`.
+    pub fn still(rotation: Quat) -> Self {
+        Self {
+            now: rotation,
+            next: rotation,
+            ..Self::default()
+        }
+    }
+}
+
+/// Where a foot should be.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FootTarget {
+    /// Its ankle.
+    pub ankle: PointTarget,
+    /// Its rotation.
+    pub rotation: RotationTarget,
 }
 
 /// An end-effector: a point of a segment with its target.
@@ -78,23 +109,17 @@ pub struct ControlInput<'a> {
     pub support: &'a Support,
     /// Desired motion at the start and the end of the tick.
     pub target: &'a TargetPair,
-    /// Desired centre of mass, computed with the present loads.
-    pub com: &'a PointTarget,
+    /// Centre of mass and angular momentum.
+    pub centroidal: CentroidalTarget<'a>,
+    /// Feet and other parts on the floor.
+    pub contacts: ContactTargets<'a>,
     /// Hands that follow the desired motion in space, at most two count.
     pub effectors: &'a [Effector],
     /// Constraints from outside, the ones that matter more first: at most [`goals::MAX_GOALS`], of which the paper's
     /// controller takes eight.
     pub goals: &'a [Goal],
-    /// Left and right foot: ankle and rotation of the foot, for feet that the motion swings.
-    pub feet: &'a [(PointTarget, RotationTarget); 2],
     /// What the left and the right hand of a figure that steps carry, kg.
     pub carried: [f64; 2],
-    /// What balance asks of the centre of mass; without it the tracking law's own demand holds.
-    pub balance: Option<Balance>,
-    /// True if feet come down where a plan has had them all along, not where a stream has them by now.
-    pub lands_as_planned: bool,
-    /// The flight that the motion has next, if it begins soon.
-    pub take_off: Option<TakeOff>,
     /// Least available torques, N·m (negative).
     pub lower: &'a [f64; DOF_COUNT],
     /// Largest available torques, N·m.
@@ -112,9 +137,6 @@ pub struct ControlInput<'a> {
     /// overload is answered with accelerations that the clipped torques give; strength-limited motors settle both by
     /// themselves.
     pub kinematic: bool,
-    /// While the whole body works on the floor, as on the way up: whatever touches and is meant to then carries;
-    /// without, feet and seats do.
-    pub on_floor: Option<OnFloor<'a>>,
 }
 
 impl ControlInput<'_> {
@@ -126,6 +148,50 @@ impl ControlInput<'_> {
             _ => 0.0,
         }
     }
+}
+
+/// Desired centre of mass and centroidal angular momentum.
+#[derive(Clone, Copy, Debug)]
+pub struct CentroidalTarget<'a> {
+    /// Centre of mass, computed with the present loads.
+    pub com: &'a PointTarget,
+    /// Its horizontal acceleration, world axes, m/s²; without, that of [`com_law`].
+    pub acceleration: Option<[f64; 2]>,
+    /// Angular momentum that matters more than the posture.
+    pub momentum: Option<MomentumTarget>,
+}
+
+/// Centroidal angular momentum at a coming time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MomentumTarget {
+    /// Angular momentum, world axes, N·m·s.
+    pub value: Vec3,
+    /// Time until it is to be reached, s.
+    pub within: f64,
+}
+
+/// How the body is to touch the floor. Which feet are planted, the posture target says.
+#[derive(Clone, Copy, Debug)]
+pub struct ContactTargets<'a> {
+    /// Left and right foot.
+    pub feet: &'a [FootTarget; 2],
+    /// Phase of the planted feet.
+    pub phase: ContactPhase,
+    /// True if places of feet are known before they touch. A foot that lands turning is then stopped sooner.
+    pub places_known: bool,
+    /// While the whole body works on the floor, as on the way up: whatever touches and is meant to then carries;
+    /// without, feet and seats do.
+    pub floor: Option<OnFloor<'a>>,
+}
+
+/// Phase of the contact of the planted feet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ContactPhase {
+    /// At least one foot stays on the floor.
+    #[default]
+    Stance,
+    /// All of them are about to leave it.
+    LiftOff,
 }
 
 /// How the motion means the body to touch the floor.
@@ -181,22 +247,6 @@ impl Default for Command {
             pivot: None,
         }
     }
-}
-
-/// What balance asks of the centre of mass.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Balance {
-    /// Horizontal acceleration, m/s².
-    pub acceleration: [f64; 2],
-}
-
-/// A flight that is about to begin.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TakeOff {
-    /// Time until no foot is to be on the floor, s.
-    pub after: f64,
-    /// Centroidal angular momentum of the motion in the air, N·m·s.
-    pub spin: Vec3,
 }
 
 /// Gains of the modern controller's law for the centre of mass, 1/s² and 1/s.

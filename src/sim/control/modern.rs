@@ -28,8 +28,8 @@ use multiversion::multiversion;
 use tasks::pendulum_time;
 
 mod contacts;
+mod momentum;
 mod roll;
-mod take_off;
 mod tasks;
 
 /// Weights in units of force: the cost of a task is about (inertia × acceleration error)², so that a foot's hundred
@@ -37,8 +37,8 @@ mod tasks;
 /// docs/adr/0004.
 mod weight {
     pub(super) const COM: [f64; 3] = [1000.0, 1000.0, 300.0];
-    /// Upwards, of who is about to take off: what is missing then nobody makes up for in the air.
-    pub(super) const COM_TAKES_OFF: f64 = 1000.0;
+    /// Upwards at lift-off: what is missing then cannot be made up for in the air.
+    pub(super) const COM_LIFT_OFF: f64 = 1000.0;
     pub(super) const HAND: f64 = 1.0;
     /// Constraints from outside, fully in force: a bounded pull that moves the centre of mass by 3 cm when it cannot be
     /// met.
@@ -75,8 +75,8 @@ const HALF_ARM: f64 = 2.0;
 const ARM_DOFS: usize = 7;
 /// Friction the plan counts on; below the simulator's.
 const FRICTION_MARGIN: f64 = 0.7 / 0.9;
-/// Horizon of joints and rotations as a share of the one that is set (0.1 s): 278/s² and 33/s. Gait needs limbs that
-/// are on time; the continuous program stays free of chatter with them, unlike the paper's active set.
+/// Horizon of joints and rotations as a share of the one that is set (0.1 s): 278/s² and 33/s. Contacts need limbs
+/// that are on time; the continuous program stays free of chatter with them, unlike the paper's active set.
 const SHARPNESS: f64 = 0.3;
 /// That of joints and rotations where the body is about to fall (149/s², 24/s): balance must not have to fight the
 /// posture.
@@ -87,8 +87,8 @@ const ROTATION_FEEDBACK: f64 = 50.0;
 /// m.
 const DANGER: (f64, f64) = (0.04, 0.12);
 /// Iterations after which Newton's method has jammed and the interior-point method leads it on, and most of that. In
-/// gait the median is 3. From prices of an unrelated problem both together, and Newton's last steps, take 52 at most in
-/// 320 cases.
+/// walks the median is 3. From prices of an unrelated problem both together, and Newton's last steps, take 52 at most
+/// in 320 cases.
 const NEWTON_ITERATIONS: u32 = 20;
 const INTERIOR_ITERATIONS: u32 = 30;
 /// Newton's last steps go on to this share of the tolerance: coming from the interior, the first iterate within it has
@@ -185,7 +185,7 @@ impl Modern {
 
 /// 0 where the capture point is where the motion has it, 1 where it is far off.
 fn danger(input: &ControlInput<'_>) -> f64 {
-    let (t, goal) = (input.terms, input.com);
+    let (t, goal) = (input.terms, input.centroidal.com);
     let time = pendulum_time(input);
     let off = (t.com - goal.now) + (t.com_velocity - goal.now_velocity) * time;
     1.0 - fall((off.x * off.x + off.y * off.y).sqrt(), DANGER)
@@ -245,7 +245,7 @@ fn pelvis_demand(t: &Terms, target: &TargetPair, law: &Law, dt: f64) -> Vec3 {
 
 impl Controller for Modern {
     fn control(&mut self, input: &ControlInput<'_>) -> &Command {
-        let danger = if input.on_floor.is_some() {
+        let danger = if input.contacts.floor.is_some() {
             0.0
         } else {
             danger(input)
@@ -262,7 +262,7 @@ impl Controller for Modern {
         let mut diagonal = [weight::BASE; NV];
         let mut linear = [0.0; WIDTH];
         let w = pelvis_demand(t, input.target, &law, input.dt);
-        let rolls = input.on_floor.is_some_and(|f| f.rolls);
+        let rolls = input.contacts.floor.is_some_and(|f| f.rolls);
         let turns = if rolls {
             weight::ROLLING
         } else {

@@ -1,6 +1,9 @@
 //! One tick's input to a controller, for tests.
 
-use super::{ControlInput, Effector, Goal, PointTarget, RotationTarget};
+use super::{
+    CentroidalTarget, ContactPhase, ContactTargets, ControlInput, Effector, FootTarget, Goal,
+    PointTarget, RotationTarget,
+};
 use crate::sim::body::topology::{DOF_COUNT, L_FOOT, L_HAND, R_FOOT, R_HAND};
 use crate::sim::body::{Body, State};
 use crate::sim::dynamics::Terms;
@@ -23,20 +26,12 @@ pub(crate) struct Scene {
     pub(crate) com: PointTarget,
     pub(crate) effectors: Vec<Effector>,
     pub(crate) goals: Vec<Goal>,
-    pub(crate) feet: [(PointTarget, RotationTarget); 2],
+    pub(crate) feet: [FootTarget; 2],
     pub(crate) lower: [f64; DOF_COUNT],
     pub(crate) upper: [f64; DOF_COUNT],
     pub(crate) params: ControlParams,
     pub(crate) assist: [f64; 2],
     pub(crate) kinematic: bool,
-}
-
-fn still(p: Vec3) -> PointTarget {
-    PointTarget {
-        now: p,
-        next: p,
-        ..PointTarget::default()
-    }
 }
 
 impl Scene {
@@ -51,23 +46,21 @@ impl Scene {
             .map(|segment| Effector {
                 segment,
                 point: grip,
-                position: still(d.point_world(segment.index(), grip)),
+                position: PointTarget::still(d.point_world(segment.index(), grip)),
                 rotation: None,
             })
             .to_vec();
         let feet = [L_FOOT, R_FOOT].map(|s| {
             let turn = Quat::from_mat3(&d.segment_rotation(s.index()));
-            let rotation = RotationTarget {
-                now: turn,
-                next: turn,
-                ..RotationTarget::default()
-            };
-            (still(d.segment_position(s.index())), rotation)
+            FootTarget {
+                ankle: PointTarget::still(d.segment_position(s.index())),
+                rotation: RotationTarget::still(turn),
+            }
         });
         let target = Target::still(desired.posture);
         let (lower, upper) = strength(scale);
         Self {
-            com: still(d.com),
+            com: PointTarget::still(d.com),
             body,
             terms: t,
             support,
@@ -99,13 +92,19 @@ impl Scene {
             body: &self.body,
             support: &self.support,
             target: &self.target,
-            com: &self.com,
+            centroidal: CentroidalTarget {
+                com: &self.com,
+                acceleration: None,
+                momentum: None,
+            },
+            contacts: ContactTargets {
+                feet: &self.feet,
+                phase: ContactPhase::Stance,
+                places_known: false,
+                floor: None,
+            },
             effectors: &self.effectors,
             goals: &self.goals,
-            feet: &self.feet,
-            balance: None,
-            lands_as_planned: false,
-            take_off: None,
             lower: &self.lower,
             upper: &self.upper,
             params: &self.params,
@@ -113,7 +112,6 @@ impl Scene {
             dt: DT,
             assist: self.assist,
             kinematic: self.kinematic,
-            on_floor: None,
         }
     }
 }

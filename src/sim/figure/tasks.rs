@@ -2,7 +2,7 @@
 
 use crate::sim::body::topology::{L_FOOT, L_HAND, R_FOOT, R_HAND};
 use crate::sim::body::{Body, Links, NV, SegmentId, State};
-use crate::sim::control::{Effector, PointTarget, RotationTarget};
+use crate::sim::control::{Effector, FootTarget, PointTarget, RotationTarget};
 use crate::sim::dynamics::{Kinematics, center_of_mass, momentum};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::{Target, TargetPair};
@@ -16,25 +16,18 @@ pub struct TaskPoints {
     pub spin: [Vec3; 2],
     /// Left and right hand.
     pub hands: [Effector; 2],
-    /// Left and right foot: position of the ankle and rotation of the foot.
-    pub feet: [(PointTarget, RotationTarget); 2],
+    /// Left and right foot.
+    pub feet: [FootTarget; 2],
 }
 
 impl TaskPoints {
     /// Everything at the world origin, at rest: before the first tick.
     pub fn none() -> Self {
         let o = Vec3::zero();
-        let point = PointTarget {
-            now: o,
-            now_velocity: o,
-            next: o,
-            next_velocity: o,
-        };
-        let turn = RotationTarget {
-            now: Quat::identity(),
-            now_velocity: o,
-            next: Quat::identity(),
-            next_velocity: o,
+        let point = PointTarget::still(o);
+        let foot = FootTarget {
+            ankle: point,
+            rotation: RotationTarget::still(Quat::identity()),
         };
         let hand = |segment| Effector {
             segment,
@@ -46,7 +39,7 @@ impl TaskPoints {
             com: point,
             spin: [o; 2],
             hands: [hand(L_HAND), hand(R_HAND)],
-            feet: [(point, turn); 2],
+            feet: [foot; 2],
         }
     }
 }
@@ -156,18 +149,18 @@ impl TaskWorkspace {
         };
         let foot = |segment: SegmentId| {
             let (a, b) = (now.rotation(segment), next.rotation(segment));
-            (
-                pair(
+            FootTarget {
+                ankle: pair(
                     now.point(segment, Vec3::zero()),
                     next.point(segment, Vec3::zero()),
                 ),
-                RotationTarget {
+                rotation: RotationTarget {
                     now: a.0,
                     now_velocity: a.1,
                     next: b.0,
                     next_velocity: b.1,
                 },
-            )
+            }
         };
         TaskPoints {
             com: pair(c0, c1),

@@ -31,7 +31,7 @@ use crate::sim::body::topology::DOF_COUNT;
 use crate::sim::body::{Body, Links, Posture, State};
 use crate::sim::collide::shape::BodyShape;
 use crate::sim::contact::Tissue;
-use crate::sim::control::{Command, Modern, Paper};
+use crate::sim::control::{CentroidalTarget, Command, Modern, Paper};
 use crate::sim::dynamics::{Kinematics, Terms, center_of_mass};
 use crate::sim::math::Vec3;
 use crate::sim::motion::builtin::at_ease;
@@ -317,27 +317,32 @@ impl Figure {
             self.rising
                 .touch(&body, &self.terms, &self.tasks, &self.target, &tasks.com);
         }
-        let (mut balance, mut take_off) = (None, None);
+        let (mut acceleration, mut momentum) = (None, None);
         if self.steps() {
-            let mut led = TaskTargets {
+            let mut targets = TaskTargets {
                 com: &mut tasks.com,
-                moment: (tasks.spin[1] - tasks.spin[0]) * (1.0 / world.dt),
-                spin: tasks.spin[0],
+                momentum: tasks.spin[0],
+                momentum_rate: (tasks.spin[1] - tasks.spin[0]) * (1.0 / world.dt),
                 feet: &mut tasks.feet,
-                unplanned: self.setup.params.protective_steps,
+                unplanned_steps: self.setup.params.protective_steps,
             };
-            balance = self.tracker.lead(
+            acceleration = self.tracker.update_tasks(
                 &self.terms,
                 &self.support,
                 world.gravity,
                 world.dt,
-                &mut led,
+                &mut targets,
             );
-            take_off = self.take_off();
+            momentum = self.lift_off_momentum();
         }
         self.prescribed = self.prescribes();
         let (lower, upper) = (self.pending.lower, self.pending.upper);
-        self.pending.command = self.control(world, &tasks, (balance, take_off), (&lower, &upper));
+        let centroidal = CentroidalTarget {
+            com: &tasks.com,
+            acceleration,
+            momentum,
+        };
+        self.pending.command = self.control(world, &tasks, centroidal, (&lower, &upper));
         self.judge_hand_over(world.dt);
         self.terms.h = bias;
         if let Some(inertia) = inertia {

@@ -1,19 +1,26 @@
-//! What comes after a motion that ends in mid-stride: its last step is finished, and it turns into standing at ease.
+//! Stop after a clip that ends in motion: its last step is finished, and its last posture turns into standing at ease.
 
-use super::foot_places::{level, middle};
+use super::foot_places::{FootPlaces, level, middle};
+use super::params::common::STOP_TIME;
 use super::planned_to_world::Anchor;
-use super::{FOOT, Purpose, RecoveryStep, StepTracker, recovery_step};
+use super::{Purpose, RecoveryStep, StepTracker};
 use crate::sim::body::Posture;
 use crate::sim::body::topology::NV;
 use crate::sim::dynamics::Terms;
 use crate::sim::math::curve::smoothstep;
 use crate::sim::motion::{Target, TargetPair};
 
-/// Time in which a motion that ended turns into standing, s.
-const EASE: f64 = 0.6;
+/// How a figure comes to a stand.
+#[derive(Clone, Debug)]
+pub(super) struct Stop {
+    /// Last posture of the clip, as the map to the world puts it into place.
+    from: Posture,
+    /// Time since the end of the clip, s.
+    since: f64,
+}
 
 /// From posture `a` to posture `b`. `u` beyond 0…1 is clamped.
-fn eased(a: &Posture, b: &Posture, u: f64) -> Posture {
+fn interpolated(a: &Posture, b: &Posture, u: f64) -> Posture {
     let s = smoothstep(u);
     let spin = (b.root_rotation * a.root_rotation.conjugate()).log() * s;
     let mut rates = [0.0; NV];
@@ -28,64 +35,68 @@ fn eased(a: &Posture, b: &Posture, u: f64) -> Posture {
 }
 
 impl StepTracker {
-    /// How it stands at ease.
-    pub fn ease(&self) -> &Posture {
-        &self.ease
+    /// Posture of a stand at ease.
+    pub fn at_ease(&self) -> &Posture {
+        &self.legs.at_ease
     }
 
-    /// The posture in which it comes to a stand after a clip that ended in motion.
-    pub fn comes_to(&self) -> Option<&Posture> {
-        self.ended.is_some().then_some(&self.ease)
+    /// The posture in which the figure comes to a stand, after a clip that ended in motion.
+    pub fn stop_posture(&self) -> Option<&Posture> {
+        self.is_stopping().then_some(&self.legs.at_ease)
     }
 
-    /// True while it does so.
-    pub fn eases(&self, terms: &Terms) -> bool {
-        self.ended.is_some() && !self.is_settled(terms)
+    /// True from the end of a clip that ended in motion until the figure has settled.
+    pub fn comes_to_stand(&self, terms: &Terms) -> bool {
+        self.is_stopping() && !self.is_settled(terms)
     }
 
-    /// The clip is over while its figure may still walk: it turns into standing. The last step is finished, and more
-    /// are made if it takes them.
-    pub(super) fn end(&mut self, terms: &Terms, last: &Posture) {
+    /// True from the end of a clip that ended in motion until another motion begins.
+    pub(super) fn is_stopping(&self) -> bool {
+        self.followed.as_ref().is_some_and(|f| f.stop.is_some())
+    }
+
+    /// Turns the motion into standing, because the clip is over while the figure still moves. The last step is finished
+    /// as a recovery step; more are made if the capture point asks for them.
+    pub(super) fn begin_stop(&mut self, terms: &Terms, last: &Posture) {
         let now = self.places(terms);
-        let poses = self.capture.feet(&self.ease);
-        let home: recovery_step::Places = std::array::from_fn(|k| self.place_of(k, poses[k]));
-        // It stands where the foot is that the body moves over, and looks where the feet look.
+        let poses = self.capture.feet(&self.legs.at_ease);
+        let home: FootPlaces = std::array::from_fn(|k| self.place_of(k, poses[k]));
+        // The figure comes to stand at the foot that the body moves over, heading where both feet head.
         let xi = self.capture.point();
-        let far = |k: usize| level([now[k].0.x - xi[0], now[k].0.y - xi[1]]).norm();
-        let side = match [self.feet[0].down, self.feet[1].down] {
-            [true, false] => 0,
-            [false, true] => 1,
-            _ => usize::from(far(1) < far(0)),
-        };
-        let (heading, planned) = (middle(&now).1, middle(&home).1);
-        let lay = self.anchor.transform();
-        self.anchor = Anchor::between((home[side].0, planned), (now[side].0, heading));
-        // The same posture in the same place, as the new anchor maps it there.
+        let far = |k: usize| level([now[k].at.x - xi[0], now[k].at.y - xi[1]]).norm();
+        let side = self.only_stance();
+        let side = side.unwrap_or_else(|| usize::from(far(1) < far(0)));
+        let before = self.anchor.transform();
+        self.anchor = Anchor::between(
+            (home[side].at, middle(&home).yaw),
+            (now[side].at, middle(&now).yaw),
+        );
+        // The same posture in the same place of the world, in coordinates of the new anchor.
         let mut from = *last;
-        let lies = self.anchor.transform().power(-1.0).after(lay);
-        lies.apply_posture(&mut from);
-        self.ended = Some((from, 0.0));
+        let change = self.anchor.transform().power(-1.0).after(before);
+        change.apply_posture(&mut from);
+        if let Some(f) = &mut self.followed {
+            f.stop = Some(Stop { from, since: 0.0 });
+        }
         for side in 0..2 {
             if !self.feet[side].down {
-                let pose = terms.segment_position(FOOT[side].index());
-                self.step = Some(RecoveryStep::new(
-                    side,
-                    Purpose::CatchBeside,
-                    pose,
-                    now[side].1,
-                ));
+                let purpose = Purpose::RecoverOnOwnSide;
+                let step =
+                    RecoveryStep::new(side, purpose, Self::ankle(terms, side), now[side].yaw);
+                self.recovery.step.begin(step);
             }
         }
     }
 
-    /// The next tick of `dt` seconds of a motion that has ended; `None` before.
-    pub(super) fn ease_on(&mut self, dt: f64) -> Option<TargetPair> {
-        let (from, since) = self.ended.as_mut()?;
-        *since += dt;
-        let still = |t: f64| Target::still(eased(from, &self.ease, t / EASE));
+    /// The next tick of `dt` seconds of a motion that comes to a stand; `None` before its clip has ended.
+    pub(super) fn advance_stop(&mut self, dt: f64) -> Option<TargetPair> {
+        let stop = self.followed.as_mut()?.stop.as_mut()?;
+        stop.since += dt;
+        let standing = &self.legs.at_ease;
+        let at = |t: f64| Target::still(interpolated(&stop.from, standing, t / STOP_TIME));
         Some(TargetPair {
-            now: still(*since - dt),
-            next: still(*since),
+            now: at(stop.since - dt),
+            next: at(stop.since),
         })
     }
 }

@@ -1,169 +1,168 @@
-//! Contact by events: feet are down when they touch, not when the clock says (WALKING §3).
+//! Contact by events: a foot is down when it touches the floor, not when the clock says so.
+//!
+//! The plan's time goes on at a rate between 0 and [`FASTEST_RATE`]. It waits for a foot that is to be down and finds
+//! no floor, it catches up after a foot that landed early, and in the air it adapts to the time of fall. A stream
+//! cannot wait for its figure, nor run ahead of what has come: its rate is at least 1, and more only while the figure
+//! is behind.
 
+use super::params::contact::{
+    EARLIEST, EARLIEST_AFTER_FLIGHT, FASTEST_RATE, IMMINENT, LATEST, LONGEST_LAG, STREAM_RATE,
+};
+use super::params::flight::{JUMP_INTERVAL, LEAST_FALL_TIME, LEAST_GRAVITY, LONGEST, SLOWEST_RATE};
 use super::step_plan::{Footfall, StepPlan};
-use super::{FOOT, Landing, StepTracker, TOUCH};
+use super::{Landing, StepTracker};
 use crate::sim::dynamics::Terms;
 use crate::sim::motion::Target;
 
-/// A foot may land this long before its time, s; earlier touches are scuffs.
-const EARLY: f64 = 0.06;
-/// Who comes down from a flight may do so this long before, s.
-const EARLY_DOWN: f64 = 0.2;
-/// A foot that finds no floor counts as planted after this time, s.
-const LATE: f64 = 0.15;
-/// Rate at which the plan catches up with a foot that landed early.
-const HURRY: f64 = 2.0;
-/// A landing that the plan has within this time is waited for, s.
-const SOON: f64 = 0.03;
-/// Least rate of a motion in the air; feet that leave within this time of each other jump, s; no flight lasts longer
-/// than this, s, nor is there any with less gravity than this, m/s².
-const SLOWS: f64 = 0.5;
-const TOGETHER: f64 = 0.1;
-const LONGEST_FLIGHT: f64 = 1.0;
-const LIGHT: f64 = 1.0;
-/// Rate at which a figure that is behind its stream makes up for it, and how far it may fall behind in a step of its
-/// own, s.
-const CATCH_UP: f64 = 1.05;
-const MOST_BEHIND: f64 = 0.5;
-
 impl StepTracker {
-    /// Contact by events: lifts feet when planned, plants them when they touch. Returns the rate at which the plan goes
-    /// on.
-    pub(super) fn schedule(&mut self, terms: &Terms, dt: f64, sample: impl Fn() -> Target) -> f64 {
-        // A stream does not wait for its figure: what it is behind it makes up for. Nor can it be ahead of what has
-        // come.
+    /// Lifts feet when planned and plants them when they touch. Returns the rate at which the plan goes on. `sample`:
+    /// the motion now.
+    pub(super) fn update_contacts(
+        &mut self,
+        terms: &Terms,
+        dt: f64,
+        sample: impl Fn() -> Target,
+    ) -> f64 {
         let live = self.is_live();
-        let most = |rate: f64| {
-            if live {
-                (1.0 + self.lag / dt).clamp(1.0, rate)
-            } else {
-                rate
-            }
+        let at_most = |rate: f64| (1.0 + self.clock.lag / dt).clamp(1.0, rate);
+        let (mut rate, catch_up) = if live {
+            (at_most(STREAM_RATE), at_most(FASTEST_RATE))
+        } else {
+            (1.0, FASTEST_RATE)
         };
-        let (mut rate, hurry) = (if live { most(CATCH_UP) } else { 1.0 }, most(HURRY));
-        if live && let Some(side) = self.wait.foot() {
-            // Down before its turn, and still when that has come: the step under way was its own.
-            if self.step.is_none()
+        if live && let Some(side) = self.recovery.support.foot() {
+            // The foot came down before its turn. If that has come and the foot still stands, this was its step.
+            if self.recovery_step().is_none()
                 && let Some(f) = self.planned(side)
             {
                 self.land(terms, side, &f, 0.0);
-                self.wait.end();
+                self.recovery.support.end();
             }
             return rate;
         }
-        self.wait.keep(dt);
-        if let Some(pace) = self.wait.pace().filter(|_| self.wait.waits()) {
+        self.recovery.support.update_pace(dt);
+        let pace = self.recovery.support.pace();
+        if let Some(pace) = pace.filter(|_| self.recovery.support.is_active()) {
             return pace;
         }
-        if self.step.is_some() {
-            return if self.lag < MOST_BEHIND { 0.0 } else { rate };
+        if self.recovery_step().is_some() {
+            return if self.clock.lag < LONGEST_LAG {
+                0.0
+            } else {
+                rate
+            };
         }
-        if !live && self.started && self.flies() {
-            rate = self.rate_aloft(terms);
+        let airborne = self.clock.started && self.is_airborne();
+        if !live && airborne {
+            rate = self.rate_in_flight(terms);
         }
-        if let Some(quick) = &self.quick {
-            rate = quick.rate;
+        if let Some(early) = &self.timing.early {
+            rate = early.rate;
         }
-        let mut lifted = [false; 2];
-        let comes_down = self.started && self.flies() && terms.com_velocity.z < 0.0;
-        let early = if comes_down { EARLY_DOWN } else { EARLY };
-        if !self.started {
-            self.started = true;
+        let earliest = if airborne && terms.com_velocity.z < 0.0 {
+            EARLIEST_AFTER_FLIGHT
+        } else {
+            EARLIEST
+        };
+        if !self.clock.started {
+            self.clock.started = true;
+            let phase = self.clock.phase;
             for side in 0..2 {
                 self.feet[side].down = self.planned(side).is_some();
-                self.feet[side].lifted = self.last_off(side);
+                self.feet[side].lifted = self.plan().map_or(0.0, |p| p.last_off(side, phase));
             }
         }
+        let mut lifted = [false; 2];
         for side in 0..2 {
             let planned = self.planned(side);
-            let touches = self.lowest(terms, side) < TOUCH;
-            let mut foot = self.feet[side];
-            if foot.down {
-                if planned.is_some() {
-                    foot.early = false;
-                } else if foot.early {
+            let (foot, other) = (self.feet[side], 1 - side);
+            match planned {
+                Some(_) if foot.down => self.feet[side].early = false,
+                None if foot.down && foot.early => {
                     if !self.is_due(side) {
-                        rate = hurry;
+                        rate = catch_up;
                     }
-                } else {
-                    let other = 1 - side;
-                    let waits = !self.feet[other].down && self.planned(other).is_some();
-                    if !waits {
-                        foot.lift(self.phase);
+                }
+                None if foot.down => {
+                    // Not before the other foot, which is due, has landed.
+                    if self.feet[other].down || self.planned(other).is_none() {
+                        self.feet[side].lift(self.clock.phase);
                         lifted[side] = true;
                     }
                 }
-                self.feet[side] = foot;
-                continue;
-            }
-            if let Some(f) = planned {
-                if touches || foot.late > LATE {
-                    self.land(terms, side, &f, foot.late);
-                } else {
-                    rate = 0.0;
-                    self.feet[side].late += dt;
+                Some(f) => {
+                    if self.touches(terms, side) || foot.late > LATEST {
+                        self.land(terms, side, &f, foot.late);
+                    } else {
+                        rate = 0.0;
+                        self.feet[side].late += dt;
+                    }
                 }
-            } else if touches
-                && let Some(f) = self.next(side)
-                && (f.on - self.phase) / self.speed < early
-            {
-                self.land(terms, side, &f, (self.phase - f.on) / self.speed);
-                self.feet[side].early = true;
+                None => {
+                    if self.touches(terms, side)
+                        && let Some(f) = self.next(side)
+                        && self.until(f.on) < earliest
+                    {
+                        let late = (self.clock.phase - f.on) / self.speed();
+                        self.land(terms, side, &f, late);
+                        self.feet[side].early = true;
+                    }
+                }
             }
         }
         if lifted != [false; 2] {
             let mut target = sample();
             self.anchor.transform().apply_to(&mut target);
             let poses = self.capture.feet(&target.posture);
-            for side in 0..2 {
-                if lifted[side] {
-                    self.feet[side].release =
-                        terms.segment_position(FOOT[side].index()) - poses[side].0;
-                }
+            for side in (0..2).filter(|side| lifted[*side]) {
+                self.feet[side].release = Self::ankle(terms, side) - poses[side].0;
             }
         }
-        self.wait.pace().map_or(rate, |pace| rate.min(pace))
+        pace.map_or(rate, |pace| rate.min(pace))
     }
 
-    /// True if the plan has foot `side`, which landed early, down so soon that to hurry would only jolt the whole body.
-    /// Who runs has no time to lose for the next flight.
+    /// True if the plan has foot `side`, which landed early, down so soon that catching up would only jolt the body. A
+    /// plan that flies on has no time to lose for its next flight.
     fn is_due(&self, side: usize) -> bool {
         let flies_on = |p: &StepPlan, f: &Footfall| p.next_flight(f.on).is_some();
         self.next(side).is_some_and(|f| {
-            let soon = (f.on - self.phase) / self.speed < SOON;
-            soon && !self.plan.as_ref().is_some_and(|p| flies_on(p, &f))
+            self.until(f.on) < IMMINENT && !self.plan().is_some_and(|p| flies_on(p, &f))
         })
     }
 
-    /// Rate at which a jump goes on in the air: its feet are ready to land when the body comes down, which is earlier
-    /// than planned for who left the floor too slowly. The legs of a runner swing all the time; hurried, they would
-    /// turn the trunk.
-    fn rate_aloft(&self, terms: &Terms) -> f64 {
+    /// Rate at which a jump goes on in the air, so that its feet are ready to land when the body comes down: earlier
+    /// than planned after a take-off that was too slow. The legs of a runner swing all the time; accelerated, they
+    /// would turn the trunk, so a plan whose feet leave one after the other keeps its rate.
+    ///
+    /// The body falls from its height `h` above the motion's with speed `v`: `v t − g t²/2` is the height of the
+    /// landing at the real time `t`.
+    fn rate_in_flight(&self, terms: &Terms) -> f64 {
         let next = (0..2).filter_map(|side| self.planned(side).or(self.next(side)));
         let on = next.map(|f| f.on).fold(f64::INFINITY, f64::min);
-        let planned = (on - self.phase) / self.speed;
-        let g = self.above.gravity;
-        let apart = (self.feet[0].lifted - self.feet[1].lifted).abs() / self.speed;
-        if apart > TOGETHER || !(planned > 0.0 && planned < LONGEST_FLIGHT) || g < LIGHT {
+        let planned = self.until(on);
+        let error = &self.height_error;
+        let g = error.gravity;
+        let apart = (self.feet[0].lifted - self.feet[1].lifted).abs() / self.speed();
+        if apart > JUMP_INTERVAL || !(planned > 0.0 && planned < LONGEST) || g < LEAST_GRAVITY {
             return 1.0;
         }
         let v = terms.com_velocity.z;
-        // Both fall alike: the height at which the motion lands, from here.
-        let drop =
-            self.above.height - (v - self.above.speed) * planned + 0.5 * g * planned * planned;
+        let drop = error.height - (v - error.speed) * planned + 0.5 * g * planned * planned;
         let real = (v + (v * v + 2.0 * g * drop).max(0.0).sqrt()) / g;
-        (planned / real.max(1e-3)).clamp(SLOWS, HURRY)
+        (planned / real.max(LEAST_FALL_TIME)).clamp(SLOWEST_RATE, FASTEST_RATE)
     }
 
+    /// Plants a foot, and anchors the plan where it stands.
     fn land(&mut self, terms: &Terms, side: usize, planned: &Footfall, late: f64) {
         let planned = self.placed(planned);
-        let (actual, yaw) = self.place(terms, side);
-        self.landing = Some(Landing {
+        let actual = self.places(terms)[side];
+        self.events.landing = Some(Landing {
             side,
             late,
-            off: actual - self.anchor.point(planned.place),
+            off: actual.at - self.anchor.point(planned.at),
         });
-        self.anchor.land(planned.place, planned.yaw, actual, yaw);
+        self.anchor
+            .land(planned.at, planned.yaw, actual.at, actual.yaw);
         let foot = &mut self.feet[side];
         foot.down = true;
         foot.early = false;

@@ -1,64 +1,53 @@
-//! The flights of the motion: when no foot is to be on the floor.
+//! Flight phases: times in which the plan has no foot on the floor.
 
-use super::StepTracker;
+use super::params::flight::LEANING_TIME;
+use super::{StepPlan, StepTracker};
 
-/// A flight is looked ahead to for so long, s.
-pub(super) const AHEAD: f64 = 0.2;
-
-/// A flight of the motion that is still to come.
+/// The next flight phase of the plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flight {
     /// Time until no foot is to be on the floor, s.
     pub after: f64,
-    /// World time at which the motion has its middle, if nothing delays it, s.
+    /// World time of its middle, if nothing delays the plan, s.
     pub middle: f64,
 }
 
-/// Who jumps away leans there for so long before he leaves the floor, s.
-const LEANS: f64 = 0.6;
-
 impl StepTracker {
     /// True if no foot is on the floor.
-    pub(super) fn flies(&self) -> bool {
+    pub(super) fn is_airborne(&self) -> bool {
         self.feet.iter().all(|foot| !foot.down)
     }
 
-    /// True if the motion is about to jump from where it stands: it falls towards where it lands while its feet still
-    /// stay.
+    /// True if the plan is about to jump from a stand: the body then falls towards its landing while both feet stay.
     pub(super) fn leans_to_jump(&self) -> bool {
-        let stands = self.ended.is_none() && self.step.is_none() && !self.wait.waits();
-        stands && self.leaves_in().is_some_and(|after| after < LEANS)
+        let next_flight = |plan: &StepPlan| plan.next_flight(self.clock.phase);
+        let stands = !self.is_stopping() && !self.recovers();
+        let take_off = self.plan().filter(|_| stands).and_then(next_flight);
+        take_off.is_some_and(|(off, _)| self.until(off) < LEANING_TIME)
     }
 
-    /// Time until the motion has no foot on the floor, s, while one stands; `None` if it does not fly next.
-    pub(super) fn leaves_in(&self) -> Option<f64> {
-        let (off, _) = self.plan.as_ref()?.next_flight(self.phase)?;
-        Some((off - self.phase) / self.speed)
+    /// The next flight phase, if it is announced by now.
+    pub fn next_flight(&self) -> Option<Flight> {
+        self.events.flight
     }
 
-    /// The flight that the motion has next, if it begins soon.
-    pub fn coming_flight(&self) -> Option<Flight> {
-        self.flight
-    }
-
-    /// The next flight as planned, if a foot stands now; the motion is at world time `now`, s.
-    pub(super) fn coming(&self, now: f64) -> Option<Flight> {
-        let (off, on) = self.plan.as_ref()?.next_flight(self.phase)?;
-        let until = |phase: f64| (phase - self.phase) / self.speed;
-        (!self.flies()).then(|| Flight {
-            after: until(off).max(0.0),
-            middle: now + until(0.5 * (off + on)),
+    /// The next flight phase as planned, if a foot stands now; the plan is at world time `now`, s.
+    pub(super) fn planned_flight(&self, now: f64) -> Option<Flight> {
+        let (off, on) = self.plan()?.next_flight(self.clock.phase)?;
+        (!self.is_airborne()).then(|| Flight {
+            after: self.until(off).max(0.0),
+            middle: now + self.until(0.5 * (off + on)),
         })
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::Foot;
     use super::*;
     use crate::sim::body::Body;
     use crate::sim::motion::builtin::at_ease;
     use crate::sim::motion::{Clip, PlanarTransform};
-    use crate::sim::track::StepPlan;
 
     const RATE: f64 = 120.0;
 
@@ -80,16 +69,16 @@ mod tests {
     }
 
     #[test]
-    fn who_is_about_to_jump_falls_where_his_motion_does_and_has_lost_nothing() {
+    fn a_planned_jump_from_a_stand_is_no_loss_of_balance() {
         let body = Body::adult_man();
         let clip = jumps(&body);
         let mut tracker = StepTracker::new(&body);
         let plan = StepPlan::new(&body, &clip, false);
         tracker.follow(Some((plan, 1.0, PlanarTransform::default())));
-        tracker.feet = [0; 2].map(|_| crate::sim::track::Foot {
+        tracker.feet = [Foot {
             down: true,
             ..Default::default()
-        });
+        }; 2];
         tracker.capture.error = [0.02, 0.0];
         for (phase, leans) in [
             (0.5, false),
@@ -98,7 +87,7 @@ mod tests {
             (1.8, true),
             (3.5, false),
         ] {
-            tracker.phase = phase;
+            tracker.clock.phase = phase;
             assert_eq!(tracker.leans_to_jump(), leans, "at {phase} s");
             assert_eq!(tracker.off_plan(), leans.then_some(0.02), "at {phase} s");
         }

@@ -1,27 +1,46 @@
-//! Where the feet stand, are meant to stand, and what they stand on.
+//! Places of feet: where they stand, where the plan has them, and which points they stand on.
 
-use super::{FOOT, Footfall, StepTracker, TOES, recovery_step};
+use super::params::contact::TOUCH_HEIGHT;
+use super::{FOOT, Footfall, Legs, StepTracker, TOES};
 use crate::sim::body::{Body, Posture};
-use crate::sim::control::{PointTarget, RotationTarget};
+use crate::sim::control::FootTarget;
 use crate::sim::dynamics::Terms;
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::leg_ik::forward;
 use crate::sim::support::Support;
 
-/// Touching points of the foot that stands while `side` swings, on the floor: the swinging one carries nothing any
-/// more, even while it still touches.
-pub(super) fn stance_points(support: &Support, side: usize) -> impl Iterator<Item = [f64; 2]> + '_ {
-    let stance = [FOOT[1 - side], TOES[1 - side]];
-    let points = support.points().iter();
-    points
-        .filter(move |p| stance.contains(&p.segment))
-        .map(|p| [p.position.x, p.position.y])
+/// Point of the floor under the flat ankle of a foot, and the heading of the foot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct FootPlace {
+    /// The point, world axes, m.
+    pub(super) at: Vec3,
+    /// Heading, rad.
+    pub(super) yaw: f64,
 }
 
-/// The middle between two feet, and the mean of their headings, rad.
-pub(super) fn middle(feet: &recovery_step::Places) -> (Vec3, f64) {
-    let yaw = feet[0].1 + 0.5 * trig::wrapped(feet[1].1 - feet[0].1);
-    ((feet[0].0 + feet[1].0) * 0.5, yaw)
+impl FootPlace {
+    /// A world point (m) as seen from the foot: `x` ahead, `y` to the left.
+    pub(super) fn local(&self, p: Vec3) -> Vec3 {
+        turn(-self.yaw).rotate(p - self.at)
+    }
+
+    /// World point at `offset` (m) in the axes of the foot.
+    pub(super) fn offset(&self, offset: Vec3) -> Vec3 {
+        self.at + turn(self.yaw).rotate(offset)
+    }
+}
+
+/// Places of the left and of the right foot.
+pub(super) type FootPlaces = [FootPlace; 2];
+
+/// Sign of the axis `y` of a body towards the side of a foot: 1 left, −1 right.
+pub(super) fn outward(side: usize) -> f64 {
+    if side == 0 { 1.0 } else { -1.0 }
+}
+
+/// Rotation by `yaw` (rad) about the vertical.
+pub(super) fn turn(yaw: f64) -> Quat {
+    Quat::exp(Vec3::Z * yaw)
 }
 
 /// A point of the floor.
@@ -33,65 +52,126 @@ pub(super) fn level(p: [f64; 2]) -> Vec3 {
     }
 }
 
+/// The horizontal part of a vector.
+pub(super) fn horizontal(v: Vec3) -> Vec3 {
+    Vec3 { z: 0.0, ..v }
+}
+
+/// A vector shortened to the length `most`.
+pub(super) fn limited(v: Vec3, most: f64) -> Vec3 {
+    let length = v.norm();
+    if length > most {
+        v * (most / length)
+    } else {
+        v
+    }
+}
+
+/// Touching points, on the floor, of the foot that stands while `side` swings. The swinging foot carries nothing any
+/// more, even while it still touches.
+pub(super) fn stance_points(support: &Support, side: usize) -> impl Iterator<Item = [f64; 2]> + '_ {
+    let stance = [FOOT[1 - side], TOES[1 - side]];
+    let points = support.points().iter();
+    points
+        .filter(move |p| stance.contains(&p.segment))
+        .map(|p| [p.position.x, p.position.y])
+}
+
+/// The middle between two feet with the mean of their headings.
+pub(super) fn middle(feet: &FootPlaces) -> FootPlace {
+    FootPlace {
+        at: (feet[0].at + feet[1].at) * 0.5,
+        yaw: feet[0].yaw + 0.5 * trig::wrapped(feet[1].yaw - feet[0].yaw),
+    }
+}
+
+impl Legs {
+    /// Corners of the sole of a foot, world, m.
+    pub(super) fn sole_points<'a>(
+        &'a self,
+        terms: &'a Terms,
+        side: usize,
+    ) -> impl Iterator<Item = Vec3> + 'a {
+        let sole = &self.soles[side];
+        let parts = [
+            (FOOT[side].index(), sole.foot_points()),
+            (TOES[side].index(), sole.toe_points()),
+        ];
+        let world = move |(s, points): (usize, &'a [Vec3])| {
+            points.iter().map(move |p| terms.point_world(s, *p))
+        };
+        parts.into_iter().flat_map(world)
+    }
+}
+
 impl StepTracker {
-    /// Where the feet stand: the middle between them and the mean of their headings, rad.
+    /// Where the feet stand: the middle between them (world, m) and the mean of their headings, rad.
     pub fn stance(&self, terms: &Terms) -> (Vec3, f64) {
-        middle(&self.places(terms))
+        let FootPlace { at, yaw } = middle(&self.places(terms));
+        (at, yaw)
     }
 
     /// The same of a posture.
     pub fn stance_of(&self, body: &Body, posture: &Posture) -> (Vec3, f64) {
         let poses = forward(body, posture);
-        middle(&std::array::from_fn(|k| {
-            self.place_of(k, poses[FOOT[k].index()])
-        }))
+        let places = std::array::from_fn(|k| self.place_of(k, poses[FOOT[k].index()]));
+        let FootPlace { at, yaw } = middle(&places);
+        (at, yaw)
     }
 
-    /// Point of the floor on which a foot with this pose stands, or would, and its heading.
-    pub(super) fn place_of(&self, side: usize, pose: (Vec3, Quat)) -> (Vec3, f64) {
-        self.soles[side].footing(pose).place_and_yaw()
-    }
-
-    /// Where a foot is.
-    pub(super) fn place(&self, terms: &Terms, side: usize) -> (Vec3, f64) {
-        let s = FOOT[side].index();
-        let rotation = Quat::from_mat3(&terms.segment_rotation(s));
-        self.place_of(side, (terms.segment_position(s), rotation))
+    /// Place of a foot with this pose of the ankle.
+    pub(super) fn place_of(&self, side: usize, pose: (Vec3, Quat)) -> FootPlace {
+        let (at, yaw) = self.legs.soles[side].footing(pose).place_and_yaw();
+        FootPlace { at, yaw }
     }
 
     /// Where the feet are.
-    pub(super) fn places(&self, terms: &Terms) -> recovery_step::Places {
-        [0, 1].map(|k| self.place(terms, k))
+    pub(super) fn places(&self, terms: &Terms) -> FootPlaces {
+        [0, 1].map(|side| {
+            let s = FOOT[side].index();
+            let rotation = Quat::from_mat3(&terms.segment_rotation(s));
+            self.place_of(side, (terms.segment_position(s), rotation))
+        })
     }
 
-    /// Where they are meant to be.
-    pub(super) fn meant(&self, feet: &[(PointTarget, RotationTarget); 2]) -> recovery_step::Places {
-        std::array::from_fn(|k| {
-            let (p, r) = &feet[k];
-            self.place_of(k, (p.now, r.now))
-        })
+    /// Where the desired motion has them.
+    pub(super) fn planned_places(&self, feet: &[FootTarget; 2]) -> FootPlaces {
+        std::array::from_fn(|k| self.place_of(k, (feet[k].ankle.now, feet[k].rotation.now)))
     }
 
     /// Height of the lowest point of a sole, m.
     pub(super) fn lowest(&self, terms: &Terms, side: usize) -> f64 {
-        let mut low = f64::INFINITY;
-        for (s, points) in [
-            (FOOT[side].index(), self.soles[side].foot_points()),
-            (TOES[side].index(), self.soles[side].toe_points()),
-        ] {
-            for p in points {
-                low = low.min(terms.point_world(s, *p).z);
-            }
-        }
-        low
+        self.legs
+            .sole_points(terms, side)
+            .map(|p| p.z)
+            .fold(f64::INFINITY, f64::min)
     }
 
-    /// A foothold of the clip where its origin puts it.
-    pub(super) fn placed(&self, f: &Footfall) -> Footfall {
-        Footfall {
-            place: self.origin.point(f.place),
-            yaw: f.yaw + self.origin.yaw,
-            ..*f
+    /// True if a sole touches the floor.
+    pub(super) fn touches(&self, terms: &Terms, side: usize) -> bool {
+        self.lowest(terms, side) < TOUCH_HEIGHT
+    }
+
+    /// A foothold of the plan where the origin of the plan puts it.
+    pub(super) fn placed(&self, f: &Footfall) -> FootPlace {
+        let origin = self.followed.as_ref().map(|f| f.origin).unwrap_or_default();
+        FootPlace {
+            at: origin.point(f.place),
+            yaw: f.yaw + origin.yaw,
         }
+    }
+
+    /// The same as it lies in the world now.
+    pub(super) fn mapped(&self, f: &Footfall) -> FootPlace {
+        let placed = self.placed(f);
+        FootPlace {
+            at: self.anchor.point(placed.at),
+            yaw: self.anchor.yaw() + placed.yaw,
+        }
+    }
+
+    /// Ankle of a foot, world, m.
+    pub(super) fn ankle(terms: &Terms, side: usize) -> Vec3 {
+        terms.segment_position(FOOT[side].index())
     }
 }

@@ -1,102 +1,82 @@
-//! Around the leg that stands: where a foot may land beside, before and behind it, and how far from it one swings that
-//! is led across.
+//! The stance leg as an obstacle: where a foot may land beside, before and behind it, and how far from it a foot swings
+//! that is led across.
 //!
-//! Seen from the standing ankle, `x` ahead and `y` to the side of the foot that swings, what must be kept free is a
-//! strip: nearer than some distance to that side, and so to the whole other side, unless far enough before or behind.
-//! Legs that cross do so the higher the further, and have to be the further apart along `x`.
+//! Seen from the standing ankle, `x` ahead and `y` to the side of the foot that swings, a strip must be kept free:
+//! nearer than some distance to that side, and so the whole other side, unless far enough before or behind. Legs that
+//! cross do so the higher the further across, so they have to be the further apart along `x`.
 
-use crate::sim::math::{Quat, Vec3};
+use super::foot_places::{FootPlace, outward, turn};
+use super::params::leg_collision::{
+    AVOIDED_FROM, AVOIDED_FULLY, CLEARING_TIME, CROSSED_LENGTH, CROSSED_SLANT, FOOT_LAG, ROUNDING,
+    SLANT_FRONT, SLANT_REAR, SPARE, STRIP_FRONT, STRIP_REAR, SWING_DISTANCE,
+};
+use crate::sim::math::Vec3;
 
-/// Least distance of two ankles side by side, m: in a swing, and of a foothold.
-const ABREAST: f64 = 0.09;
-pub(super) const BESIDE: f64 = 0.08;
-/// A foothold across lies before or behind the other ankle by the first, m, and by the second for each metre that it is
-/// across.
-const PASSING: (f64, f64) = (0.16, 0.4);
-/// Strip in which a swinging ankle is not let across: from and to, m. A knee that swings forward is far before its
-/// ankle, one that is raised makes room behind it.
-const STRIP: (f64, f64) = (-0.6, -0.02);
-/// How far it must go on, or still have to come, for each metre across.
-const SLANT: (f64, f64) = (0.7, 0.15);
-/// The corners are rounded by this, m.
-const ROUND: f64 = 0.01;
-/// A foot lags behind where it is led, s.
-const LAG: f64 = 0.03;
-/// A foot is led across if its foothold, or where it lifts off, is this much further across than the clip has it:
-/// begins to be, and is, m.
-const LED: (f64, f64) = (0.06, 0.12);
-/// What a clip's swings come closer to the leg that stands than [`ABREAST`], those led a little aside may, and by this
-/// more, m.
-const SPARE: f64 = 0.03;
-/// Time in which a foot that lifts off too near to the other leg gets out of its way, s.
-const CLEARS: f64 = 0.2;
-
-/// The leg that stands, as one that swings past it sees it.
+/// The stance leg as seen from a foot that swings past it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Stance {
-    ankle: Vec3,
-    yaw: f64,
-    /// Side of the swinging foot.
+pub(super) struct StanceLeg {
+    /// Ankle of the stance leg, with the heading of the swinging foot.
+    place: FootPlace,
+    /// Side of the swinging foot: 1 left, −1 right.
     outward: f64,
-    /// How near to it a foot may pass, m.
-    abreast: f64,
-    /// To what share the way is corrected.
+    /// Least distance of the ankles side by side, m.
+    distance: f64,
+    /// Share of the avoidance that is done.
     share: f64,
 }
 
-impl Stance {
-    /// Of the leg with this ankle, past which foot `side` swings with heading `yaw`.
-    pub(super) fn new(ankle: Vec3, yaw: f64, side: usize) -> Self {
+impl StanceLeg {
+    /// The leg with this ankle, past which foot `side` swings with the heading of `place`.
+    pub(super) fn new(place: FootPlace, side: usize) -> Self {
         Self {
-            ankle,
-            yaw,
-            outward: if side == 0 { 1.0 } else { -1.0 },
-            abreast: ABREAST,
+            place,
+            outward: outward(side),
+            distance: SWING_DISTANCE,
             share: 1.0,
         }
     }
 
-    /// The same for a foot whose foothold is displaced by `shift`, that lifted off `release` from where the clip, which
-    /// has it at `clip` now, had it; `None` if it is not led across.
+    /// The same for a foot whose foothold is displaced by `shift`, and that was `release` away from the clip at
+    /// lift-off; the clip has it at `clip` now. `None` if it is not led across.
     pub(super) fn crossed(self, shift: Vec3, release: Vec3, clip: Vec3) -> Option<Self> {
-        let inward = |v: Vec3| -self.local(self.ankle + v).1;
+        let inward = |v: Vec3| -self.local(self.place.at + v).1;
         let across = inward(shift).max(inward(release));
-        let share = ((across - LED.0) / (LED.1 - LED.0)).clamp(0.0, 1.0);
-        let low = ABREAST.min(self.local(clip).1 - SPARE);
+        let share = ((across - AVOIDED_FROM) / (AVOIDED_FULLY - AVOIDED_FROM)).clamp(0.0, 1.0);
+        let low = SWING_DISTANCE.min(self.local(clip).1 - SPARE);
         (share > 0.0).then_some(Self {
-            abreast: low + share * (ABREAST - low),
+            distance: low + share * (SWING_DISTANCE - low),
             share,
             ..self
         })
     }
 
     fn local(&self, p: Vec3) -> (f64, f64) {
-        let p = Quat::exp(Vec3::Z * -self.yaw).rotate(p - self.ankle);
+        let p = self.place.local(p);
         (p.x, p.y * self.outward)
     }
 
-    /// How far an ankle at `p` with velocity `v` is inside what the leg needs, m; negative outside.
-    pub(super) fn short(&self, p: Vec3, v: Vec3) -> f64 {
-        let beyond = |d: f64| 0.5 * (d + (d * d + ROUND * ROUND).sqrt());
+    /// Depth of an ankle at `p` with velocity `v` inside the room that the leg needs, m; negative outside.
+    pub(super) fn depth(&self, p: Vec3, v: Vec3) -> f64 {
+        let beyond = |d: f64| 0.5 * (d + (d * d + ROUNDING * ROUNDING).sqrt());
         let (x, y) = self.local(p);
-        let x = x + LAG * self.local(self.ankle + v).0;
-        let behind = beyond(STRIP.0 - x) / SLANT.0;
-        let before = beyond(x - STRIP.1) / SLANT.1;
-        self.abreast - behind - before - y
+        let x = x + FOOT_LAG * self.local(self.place.at + v).0;
+        let behind = beyond(STRIP_REAR - x) / SLANT_REAR;
+        let before = beyond(x - STRIP_FRONT) / SLANT_FRONT;
+        self.distance - behind - before - y
     }
 
-    /// By how much the way of a foot is displaced `since` seconds after it lifted off `tight` inside, m.
-    pub(super) fn aside(&self, p: Vec3, v: Vec3, since: f64, tight: f64) -> Vec3 {
-        let left = (1.0 - since / CLEARS).max(0.0);
-        let by = self.share * (self.short(p, v) - tight * left * left).max(0.0);
-        Quat::exp(Vec3::Z * self.yaw).rotate(Vec3::Y * (by * self.outward))
+    /// Displacement of a foot's path `since` seconds after it lifted off at depth `initial`, m.
+    pub(super) fn aside(&self, p: Vec3, v: Vec3, since: f64, initial: f64) -> Vec3 {
+        let left = (1.0 - since / CLEARING_TIME).max(0.0);
+        let by = self.share * (self.depth(p, v) - initial * left * left).max(0.0);
+        turn(self.place.yaw).rotate(Vec3::Y * (by * self.outward))
     }
 }
 
-/// The foothold nearest to `(x, y)` from which a leg does not go through the other one: `beside` it, or else before or
-/// behind it, where it already is.
+/// The foothold nearest to `(x, y)` from which a leg does not go through the other one: `beside` it (m), or else before
+/// or behind it, where it already is.
 pub(super) fn foothold((x, y): (f64, f64), beside: f64) -> (f64, f64) {
-    let (least, slant) = PASSING;
+    let (least, slant) = (CROSSED_LENGTH, CROSSED_SLANT);
     let ahead = if x > 0.0 { 1.0 } else { -1.0 };
     let short = least + slant * (beside - y) - x * ahead;
     if y >= beside || short <= 0.0 {
@@ -116,27 +96,36 @@ pub(super) fn foothold((x, y): (f64, f64), beside: f64) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::params::leg_collision::FOOTHOLD_DISTANCE;
     use super::*;
 
     #[test]
     fn footholds_lie_beside_before_or_behind() {
         for (x, y) in [(0.05, 0.02), (0.12, -0.2), (-0.1, -0.3), (0.0, -0.02)] {
-            let (fx, fy) = foothold((x, y), BESIDE);
-            let room = PASSING.0 + PASSING.1 * (BESIDE - fy);
+            let (fx, fy) = foothold((x, y), FOOTHOLD_DISTANCE);
+            let room = CROSSED_LENGTH + CROSSED_SLANT * (FOOTHOLD_DISTANCE - fy);
             assert!(
-                fy >= BESIDE || fx.abs() >= room - 1e-12,
+                fy >= FOOTHOLD_DISTANCE || fx.abs() >= room - 1e-12,
                 "{x}, {y} -> {fx}, {fy}"
             );
             assert!(fx * x >= 0.0, "it does not change from before to behind");
-            assert_eq!(foothold((fx, fy + 1e-12), BESIDE).0, fx, "and stays");
+            assert_eq!(
+                foothold((fx, fy + 1e-12), FOOTHOLD_DISTANCE).0,
+                fx,
+                "and stays"
+            );
         }
-        assert_eq!(foothold((0.3, -0.1), BESIDE), (0.3, -0.1));
-        assert_eq!(foothold((0.0, 0.1), BESIDE), (0.0, 0.1));
+        assert_eq!(foothold((0.3, -0.1), FOOTHOLD_DISTANCE), (0.3, -0.1));
+        assert_eq!(foothold((0.0, 0.1), FOOTHOLD_DISTANCE), (0.0, 0.1));
     }
 
     #[test]
-    fn who_crosses_passes_first() {
-        let stance = Stance::new(Vec3::X * 2.0, 0.0, 1);
+    fn a_foot_passes_the_stance_leg_before_it_crosses() {
+        let place = FootPlace {
+            at: Vec3::X * 2.0,
+            yaw: 0.0,
+        };
+        let stance = StanceLeg::new(place, 1);
         let across = Vec3::Y * 0.3;
         assert!(
             stance
@@ -152,10 +141,10 @@ mod tests {
         for x in [-0.3, -0.1, -0.05] {
             let p = at(x);
             let moved = p + stance.aside(p, Vec3::zero(), 1.0, 0.0);
-            assert!((moved.y + ABREAST).abs() < 0.02, "{x}: {moved:?}");
-            // A foot that was in the way when it lifted off gets out of it by and by.
-            let tight = stance.short(p, Vec3::zero());
-            assert!(stance.aside(p, Vec3::zero(), 0.0, tight).norm() < 1e-12);
+            assert!((moved.y + SWING_DISTANCE).abs() < 0.02, "{x}: {moved:?}");
+            // A foot that was in the way when it lifted off gets out of it gradually.
+            let depth = stance.depth(p, Vec3::zero());
+            assert!(stance.aside(p, Vec3::zero(), 0.0, depth).norm() < 1e-12);
         }
         assert_eq!(stance.aside(at(0.2), Vec3::zero(), 1.0, 0.0).norm(), 0.0);
     }

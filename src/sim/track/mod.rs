@@ -1,8 +1,19 @@
-//! Steps: a played clip becomes a plan of footholds that follows what the feet really do (WALKING §2–4).
+//! Footstep tracking: a plan of stances is followed by a body whose feet land early, late and elsewhere.
 //!
-//! The motion layer decides *when* (contact by events, not by the clock) and *where* (re-anchoring, step adaptation);
-//! the controller only sees targets and which feet are planted. A clip whose feet never leave the floor passes through
-//! unchanged, bit for bit.
+//! **Given** are a [`StepPlan`] (when and where feet stand), the motion at any time of the plan, and the state of the
+//! body. **Sought** are, in each tick,
+//!
+//! * the time `φ` of the plan, which follows contact events instead of the clock: it waits for a foot that is late, and
+//!   catches up after one that is early ([`contact_events`]);
+//! * the map from the plan to the world, anchored at the last foothold ([`planned_to_world`]);
+//! * displacements of the next footholds, such that the error `e = ξ − ξ_ref` of the capture point `ξ = c + ċ/ω` is
+//!   gone when the foot lands ([`capture_point`], [`step_timing`], [`swing`]);
+//! * steps that no plan has, when balance is lost or feet are misplaced ([`step_decision`], [`recovery_step`],
+//!   [`support_recovery`]);
+//! * the horizontal acceleration of the centre of mass that keeps the zero-moment point in the support.
+//!
+//! The controller sees targets and contacts only. A clip whose feet never leave the floor passes unchanged, bit for
+//! bit. What was tried, and what it showed: `docs/locomotion.md`.
 
 pub mod capture_point;
 mod clip_end;
@@ -10,6 +21,7 @@ mod contact_events;
 mod flight_phase;
 mod foot_places;
 mod leg_collision;
+pub mod params;
 pub mod planned_to_world;
 pub mod recovery_step;
 mod step_decision;
@@ -27,37 +39,34 @@ use super::plan::StreamPlan;
 use super::plan::foot_lock::Sole;
 use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::body::{Body, Posture, SegmentId};
-use crate::sim::control::{Balance, PointTarget, RotationTarget, com_law};
+use crate::sim::control::{FootTarget, PointTarget, com_law};
 use crate::sim::dynamics::Terms;
-use crate::sim::math::{Quat, Vec3};
+use crate::sim::math::Vec3;
+use crate::sim::math::exp::exp;
 use crate::sim::motion::builtin::at_ease;
 use crate::sim::motion::{PlanarTransform, TargetPair};
 use crate::sim::support::Support;
-use flight_phase::AHEAD;
-use foot_places::{level, stance_points};
+use clip_end::Stop;
+use foot_places::{stance_points, turn};
+use params::common::{LEAST_SPEED, SETTLED_OFFSET, SETTLED_SPEED};
+use params::flight::ANNOUNCED;
 use planned_to_world::Anchor;
-use step_decision::is_untidy;
-use step_timing::{HastenedStep, PlannedLanding};
+use step_decision::{UnplannedStep, is_misplaced};
+use step_timing::StepTiming;
 use support_recovery::SupportRecovery;
-use swing::follow_mass;
+use swing::follow_com;
 
 const FOOT: [SegmentId; 2] = [L_FOOT, R_FOOT];
 const TOES: [SegmentId; 2] = [L_TOES, R_TOES];
-/// A sole lower than this touches, m.
-const TOUCH: f64 = 0.004;
-/// A body slower than this, and a capture point closer to its place than this, is settled: m/s and m.
-const SETTLED: (f64, f64) = (0.1, 0.03);
-/// Slowest clip-time rate that counts as playing at all.
-const STILL: f64 = 1e-9;
 
-/// What one foot is doing.
+/// State of one foot.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Foot {
     /// On the floor, by events.
     down: bool,
     /// Landed before its time; the plan has to catch up.
     early: bool,
-    /// How long it has been looking for the floor, s.
+    /// Time for which it has been looking for the floor, s.
     late: f64,
     /// Clip time of its lift-off, s.
     lifted: f64,
@@ -65,44 +74,33 @@ struct Foot {
     release: Vec3,
     /// Displacement of its next foothold, m.
     shift: [f64; 2],
-    /// How far it was inside what the other leg needs when it lifted off, once it is led past it, m.
-    tight: Option<f64>,
+    /// Depth inside the room of the stance leg at lift-off, m, once it is led around that.
+    initial_depth: Option<f64>,
 }
 
 impl Foot {
-    /// Leaves the floor at clip time `phase`, for the foothold that the plan has next.
+    /// Leaves the floor at clip time `phase` (s) for the next foothold of the plan.
     fn lift(&mut self, phase: f64) {
         *self = Self {
             down: false,
             late: 0.0,
             lifted: phase,
             shift: [0.0; 2],
-            tight: None,
+            initial_depth: None,
             ..*self
         };
     }
 }
 
-/// How a foot came down.
+/// A touch-down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Landing {
     /// 0 left, 1 right.
     pub side: usize,
-    /// Later than planned, s; negative if earlier.
+    /// Time after the planned one, s; negative if earlier.
     pub late: f64,
     /// Distance from the foothold as it was mapped to the world, m.
     pub off: Vec3,
-}
-
-/// By how much the centre of mass was above the motion's in the last tick.
-#[derive(Clone, Copy, Debug, Default)]
-struct Above {
-    /// How much higher it was, m.
-    height: f64,
-    /// How much faster it rose, m/s.
-    speed: f64,
-    /// Gravity, m/s².
-    gravity: f64,
 }
 
 /// What tracking may change in a tick.
@@ -110,130 +108,154 @@ struct Above {
 pub struct TaskTargets<'a> {
     /// Desired centre of mass.
     pub com: &'a mut PointTarget,
-    /// Rate of the desired centroidal angular momentum, N·m.
-    pub moment: Vec3,
-    /// Desired centroidal angular momentum, N·m·s.
-    pub spin: Vec3,
+    /// Desired centroidal angular momentum, world axes, N·m·s.
+    pub momentum: Vec3,
+    /// Its rate, N·m.
+    pub momentum_rate: Vec3,
     /// Desired ankles and rotations of the feet.
-    pub feet: &'a mut [(PointTarget, RotationTarget); 2],
-    /// Steps may be made that no clip planned.
-    pub unplanned: bool,
+    pub feet: &'a mut [FootTarget; 2],
+    /// True if steps may be made that no plan has.
+    pub unplanned_steps: bool,
 }
 
-/// The steps of one figure. Remembers phase and footholds; nothing allocates in a tick.
+/// Dimensions of the legs: constants of the body.
 #[derive(Clone, Debug)]
-pub struct StepTracker {
+struct Legs {
     soles: [Sole; 2],
-    leg: f64,
-    ease: Posture,
-    /// Plan of the clip that plays, if its feet leave the floor.
-    plan: Option<StepPlan>,
+    /// Length of a leg, m.
+    length: f64,
+    /// Posture of a stand at ease.
+    at_ease: Posture,
+}
+
+/// The plan that is followed: it is replaced as a whole.
+#[derive(Clone, Debug)]
+struct FollowedPlan {
+    plan: StepPlan,
+    /// Clip seconds per second.
     speed: f64,
+    /// Where the plan lies in the world before any step.
     origin: PlanarTransform,
-    /// Last posture of a clip that ended in a step, and the time since, s.
-    ended: Option<(Posture, f64)>,
-    /// Speed of the pelvis over the floor as the motion last had it before it was over, m/s.
-    last_speed: f64,
-    anchor: Anchor,
-    feet: [Foot; 2],
-    started: bool,
-    /// World time that the clip is behind its schedule, s.
-    lag: f64,
+    /// How the figure comes to a stand, once the plan has ended in motion.
+    stop: Option<Stop>,
+}
+
+impl FollowedPlan {
+    fn new((plan, speed, origin): (StepPlan, f64, PlanarTransform)) -> Self {
+        Self {
+            plan,
+            speed: speed.max(LEAST_SPEED),
+            origin,
+            stop: None,
+        }
+    }
+}
+
+/// Time of the plan.
+#[derive(Clone, Copy, Debug, Default)]
+struct Clock {
     /// Clip time now, s.
     phase: f64,
-    capture: Capture,
-    flight: Option<Flight>,
-    above: Above,
+    /// World time that the plan is behind its schedule, s.
+    lag: f64,
+    /// True once contacts are known.
+    started: bool,
+    /// Speed of the pelvis over the floor as the motion last had it before its end, m/s.
+    last_speed: f64,
+}
+
+/// What happens in this tick, for the report and the controller.
+#[derive(Clone, Copy, Debug, Default)]
+struct TickEvents {
     landing: Option<Landing>,
-    step: Option<RecoveryStep>,
-    /// Foot that is about to be brought back, or is.
-    tidying: Option<usize>,
-    /// Whether the motion waits for a body that has put its raised foot down.
-    wait: SupportRecovery,
-    /// A foot is not where the motion has it.
-    untidy: bool,
-    /// Displacement of the desired centre of mass while feet are brought back, m.
-    lean: Vec3,
-    /// What the motion has in store for the next touch-down, while that matters.
-    arrival: Option<PlannedLanding>,
-    /// The next step, if it is made in a hurry.
-    quick: Option<HastenedStep>,
+    flight: Option<Flight>,
+}
+
+/// By how much the centre of mass was above the motion's in the last tick: what a fall from a flight starts from.
+#[derive(Clone, Copy, Debug, Default)]
+struct HeightError {
+    /// Height above the motion's, m.
+    height: f64,
+    /// Upward speed beyond the motion's, m/s.
+    speed: f64,
+    /// Gravity, m/s².
+    gravity: f64,
+}
+
+/// What keeps or restores balance and stance beside the plan.
+#[derive(Clone, Copy, Debug, Default)]
+struct Recovery {
+    step: UnplannedStep,
+    /// A raised foot that was put down before its time, for which the plan waits.
+    support: SupportRecovery,
+    /// True if a foot is not where the motion has it.
+    misplaced: bool,
+    /// Displacement of the desired centre of mass while a foot is brought back, m.
+    shift: Vec3,
+}
+
+/// Footstep tracking of one figure. Remembers phase and footholds; nothing allocates in a tick.
+#[derive(Clone, Debug)]
+pub struct StepTracker {
+    legs: Legs,
+    /// `None` for a motion whose feet never leave the floor.
+    followed: Option<FollowedPlan>,
+    clock: Clock,
+    anchor: Anchor,
+    feet: [Foot; 2],
+    capture: Capture,
+    height_error: HeightError,
+    events: TickEvents,
+    recovery: Recovery,
+    timing: StepTiming,
 }
 
 impl StepTracker {
-    /// Steps of figures with this body, standing.
+    /// Tracking for figures with this body, standing.
     pub fn new(body: &Body) -> Self {
-        let leg =
+        let length =
             body.joint_offset[L_FOOT.index()].norm() + body.joint_offset[L_FOOT.index() - 1].norm();
         Self {
-            soles: [Sole::new(body, 0), Sole::new(body, 1)],
-            leg,
-            ease: at_ease(body),
-            plan: None,
-            speed: 1.0,
-            origin: PlanarTransform::default(),
-            ended: None,
-            last_speed: 0.0,
+            legs: Legs {
+                soles: [Sole::new(body, 0), Sole::new(body, 1)],
+                length,
+                at_ease: at_ease(body),
+            },
+            followed: None,
+            clock: Clock::default(),
             anchor: Anchor::default(),
             feet: [Foot::default(); 2],
-            started: false,
-            lag: 0.0,
-            phase: 0.0,
             capture: Capture::new(body),
-            flight: None,
-            above: Above::default(),
-            landing: None,
-            step: None,
-            tidying: None,
-            wait: SupportRecovery::default(),
-            untidy: false,
-            lean: Vec3::zero(),
-            arrival: None,
-            quick: None,
+            height_error: HeightError::default(),
+            events: TickEvents::default(),
+            recovery: Recovery::default(),
+            timing: StepTiming::default(),
         }
     }
 
     /// Follows another motion from the next tick on: a clip with its plan, speed (clip seconds per second) and origin,
     /// or, without, one whose feet stay where they are.
     pub fn follow(&mut self, plan: Option<(StepPlan, f64, PlanarTransform)>) {
-        self.plan = None;
-        if let Some((plan, speed, origin)) = plan.filter(|(p, ..)| p.steps()) {
-            self.plan = Some(plan);
-            self.speed = speed.max(STILL);
-            self.origin = origin;
-        }
+        let steps = plan.filter(|(p, ..)| p.steps());
+        self.followed = steps.map(FollowedPlan::new);
         self.reset();
     }
 
     /// Goes on with another plan, with its speed and origin, in the middle of a motion: feet, places and lag stay. The
     /// new plan's time 0 is time `begin` (s) of the present one; both origins are in the same coordinates.
-    pub fn go_on(&mut self, (plan, speed, origin): (StepPlan, f64, PlanarTransform), begin: f64) {
-        let speed = speed.max(STILL);
+    pub fn continue_with(&mut self, plan: (StepPlan, f64, PlanarTransform), begin: f64) {
+        let (next, speed) = (FollowedPlan::new(plan), self.speed());
         for foot in &mut self.feet {
-            foot.lifted = (foot.lifted - begin) / self.speed * speed;
+            foot.lifted = (foot.lifted - begin) / speed * next.speed;
         }
-        self.plan = Some(plan);
-        self.speed = speed;
-        self.origin = origin;
-        self.ended = None;
-        self.wait.end();
-    }
-
-    /// Time of the motion now, s.
-    pub fn phase(&self) -> f64 {
-        self.phase
-    }
-
-    /// True while it follows a motion that steps, if only later; a stream that stands does not.
-    pub fn is_walking(&self) -> bool {
-        let clip = |p: &StepPlan| self.ended.is_none() && !p.is_live();
-        self.plan.as_ref().is_some_and(clip) || self.walks()
+        self.followed = Some(next);
+        self.recovery.support.end();
     }
 
     /// Takes over what is known now of the stream that is followed.
     pub fn follow_stream(&mut self, motion: &StreamPlan) {
-        if let Some(plan) = &mut self.plan {
-            plan.refresh(motion);
+        if let Some(f) = &mut self.followed {
+            f.plan.refresh(motion);
         }
     }
 
@@ -241,25 +263,49 @@ impl StepTracker {
     pub fn reset(&mut self) {
         self.anchor = Anchor::default();
         self.feet = [Foot::default(); 2];
-        self.started = false;
-        self.lag = 0.0;
-        self.ended = None;
-        self.step = None;
-        self.tidying = None;
-        self.wait = SupportRecovery::default();
-        self.untidy = false;
-        self.lean = Vec3::zero();
-        (self.arrival, self.quick) = (None, None);
+        self.clock.started = false;
+        self.clock.lag = 0.0;
+        if let Some(f) = &mut self.followed {
+            f.stop = None;
+        }
+        self.recovery = Recovery::default();
+        self.timing = StepTiming::default();
+    }
+
+    /// Clip time now, s.
+    pub fn phase(&self) -> f64 {
+        self.clock.phase
     }
 
     /// World time by which the clip is behind its schedule, s.
     pub fn lag(&self) -> f64 {
-        self.lag
+        self.clock.lag
     }
 
     /// Error of the capture point, m.
     pub fn capture(&self) -> &Capture {
         &self.capture
+    }
+
+    /// The foot that came down in this tick.
+    pub fn landing(&self) -> Option<&Landing> {
+        self.events.landing.as_ref()
+    }
+
+    /// The step under way that no plan has.
+    pub fn recovery_step(&self) -> Option<&RecoveryStep> {
+        self.recovery.step.swing()
+    }
+
+    /// A direction of the motion as its origin is turned to where the feet are.
+    pub fn turned(&self, v: Vec3) -> Vec3 {
+        turn(self.anchor.yaw()).rotate(v)
+    }
+
+    /// True while it follows a motion that steps, if only later; a stream that stands does not.
+    pub fn is_walking(&self) -> bool {
+        let clip = |p: &StepPlan| !self.is_stopping() && !p.is_live();
+        self.plan().is_some_and(clip) || self.is_stepping()
     }
 
     /// Distance of the capture point from where a motion that steps has it, or from where that will be with the
@@ -268,48 +314,40 @@ impl StepTracker {
         let [x, y] = self.capture.error;
         let swings = self.feet.iter().filter(|foot| !foot.down);
         let led = swings.map(|foot| (x - foot.shift[0]).hypot(y - foot.shift[1]));
-        (self.walks() || self.leans_to_jump()).then(|| led.fold(self.capture.off(), f64::min))
+        (self.is_stepping() || self.leans_to_jump()).then(|| led.fold(self.capture.off(), f64::min))
     }
 
-    /// True if it stands: no step is under way, none is to come, its feet are where they should be, and the body is
-    /// slow enough and near enough to where it should be to begin something else.
+    /// True if it stands: no step is under way or to come, its feet are where they should be, and the body is slow
+    /// enough and near enough to its place to begin something else.
     pub fn is_settled(&self, terms: &Terms) -> bool {
         let v = terms.com_velocity;
-        let to_come = |side: usize| {
-            let plan = self.plan.as_ref().filter(|_| self.ended.is_none());
-            plan.is_some_and(|_| !self.feet[side].down || self.next(side).is_some())
-        };
-        self.step.is_none()
-            && !self.wait.waits()
-            && !self.untidy
-            && !(0..2).any(to_come)
-            && (v.x * v.x + v.y * v.y).sqrt() < SETTLED.0
-            && self.capture.off() < SETTLED.1
+        let goes_on = self.followed.is_some() && !self.is_stopping();
+        let to_come = |side: usize| !self.feet[side].down || self.next(side).is_some();
+        !self.recovers()
+            && !self.recovery.misplaced
+            && !(goes_on && (0..2).any(to_come))
+            && (v.x * v.x + v.y * v.y).sqrt() < SETTLED_SPEED
+            && self.capture.off() < SETTLED_OFFSET
     }
 
-    /// True while steps are made that a plan has: not while a stream stands, nor while the feet of a clip stay for a
-    /// while, nor until a step that nobody planned is finished.
-    fn walks(&self) -> bool {
-        let down = self.feet[0].down && self.feet[1].down;
+    /// True while planned steps are made: not while a stream stands, nor while the feet of a clip stay for a while, nor
+    /// until an unplanned step is finished.
+    fn is_stepping(&self) -> bool {
+        let (phase, down) = (self.clock.phase, self.feet[0].down && self.feet[1].down);
         let stands = |p: &StepPlan| {
-            let rests = if p.is_live() {
-                p.rests(self.phase)
+            if p.is_live() {
+                p.rests(phase)
             } else {
-                down && p.pauses(self.phase)
-            };
-            self.step.is_some() || self.wait.waits() || rests
+                down && p.pauses(phase)
+            }
         };
-        self.ended.is_none() && self.plan.as_ref().is_some_and(|p| !stands(p))
+        let plan = self.plan().filter(|p| !stands(p));
+        plan.is_some() && !self.is_stopping() && !self.recovers()
     }
 
-    /// The foot that came down in this tick.
-    pub fn landing(&self) -> Option<&Landing> {
-        self.landing.as_ref()
-    }
-
-    /// The step under way that no clip planned.
-    pub fn unplanned(&self) -> Option<&RecoveryStep> {
-        self.step.as_ref()
+    /// True while a step is made that no plan has, or the plan waits for one.
+    fn recovers(&self) -> bool {
+        self.recovery_step().is_some() || self.recovery.support.is_active()
     }
 
     /// Desired motion of the tick that starts at world time `time`.
@@ -324,31 +362,27 @@ impl StepTracker {
         clip_time: impl Fn(f64) -> f64,
         pair: impl Fn(f64, f64) -> TargetPair,
     ) -> TargetPair {
-        (self.landing, self.flight) = (None, None);
+        self.events = TickEvents::default();
         self.anchor.settle(dt);
-        self.phase = clip_time(time - self.lag);
-        let now = time - self.lag;
-        let over = self.plan.as_ref().is_some_and(|p| p.is_over(self.phase));
-        if self.ended.is_none() && over && self.last_speed > SETTLED.0 {
-            self.end(terms, &pair(now, now).now.posture);
+        let now = time - self.clock.lag;
+        self.clock.phase = clip_time(now);
+        let over = self.plan().is_some_and(|p| p.is_over(self.clock.phase));
+        if over && !self.is_stopping() && self.clock.last_speed > SETTLED_SPEED {
+            self.begin_stop(terms, &pair(now, now).now.posture);
         }
-        let mut out;
-        let mut planted;
-        if let Some(standing) = self.ease_on(dt) {
-            out = standing;
-            planted = [true; 2];
-        } else if self.plan.is_some() {
-            let rate = self.schedule(terms, dt, || pair(now, now).now);
-            self.lag += (1.0 - rate) * dt;
-            self.foresee(|ahead| pair(now + ahead, now + ahead).now);
-            out = pair(now, time + dt - self.lag);
-            self.wait.slow(&mut out, &self.ease, dt);
-            self.flight = self.coming(now).filter(|f| f.after < AHEAD);
-            planted = [self.feet[0].down, self.feet[1].down];
+        let (mut out, planted) = if let Some(standing) = self.advance_stop(dt) {
+            (standing, Some([true; 2]))
+        } else if self.followed.is_some() {
+            let rate = self.update_contacts(terms, dt, || pair(now, now).now);
+            self.clock.lag += (1.0 - rate) * dt;
+            self.predict_landing(|ahead| pair(now + ahead, now + ahead).now);
+            let mut out = pair(now, time + dt - self.clock.lag);
+            self.recovery.support.slow(&mut out, &self.legs.at_ease, dt);
+            self.events.flight = self.planned_flight(now).filter(|f| f.after < ANNOUNCED);
+            (out, Some([self.feet[0].down, self.feet[1].down]))
         } else {
-            out = pair(time, time + dt);
-            planted = out.next.planted;
-        }
+            (pair(time, time + dt), None)
+        };
         if self.anchor != Anchor::default() {
             let place = self.anchor.transform();
             place.apply_to(&mut out.now);
@@ -356,114 +390,134 @@ impl StepTracker {
         }
         if !over {
             let v = &out.now.velocity;
-            self.last_speed = (v[3] * v[3] + v[4] * v[4]).sqrt();
+            self.clock.last_speed = (v[3] * v[3] + v[4] * v[4]).sqrt();
         }
-        if let Some(step) = &mut self.step {
+        let mut planted = planted.unwrap_or(out.next.planted);
+        if let Some(step) = self.recovery.step.swing_mut() {
             step.since += dt;
             planted[step.side] = false;
         }
-        if self.ended.is_some() || self.plan.is_some() || self.step.is_some() {
+        if self.followed.is_some() || self.recovery_step().is_some() {
             out.now.planted = planted;
             out.next.planted = planted;
         }
         out
     }
 
-    /// Leads the swinging feet to footholds that catch the body, clear of the floor (step adaptation, WALKING §4), and
-    /// decides on steps that no clip planned. Returns what balance asks of the centre of mass.
-    pub fn lead(
+    /// Updates the targets of feet and centre of mass: swinging feet are led to footholds that catch the body, clear of
+    /// the floor, and unplanned steps are begun and led. Returns the horizontal acceleration of the centre of mass that
+    /// balance asks for, m/s²; `None` without a support.
+    pub fn update_tasks(
         &mut self,
         terms: &Terms,
         support: &Support,
         gravity: f64,
         dt: f64,
         tasks: &mut TaskTargets<'_>,
-    ) -> Option<Balance> {
-        self.wait.lean(tasks.com, self.capture.omega(), dt);
+    ) -> Option<[f64; 2]> {
+        let omega = self.capture.omega();
+        self.recovery.support.shift_com(tasks.com, omega, dt);
         if self.is_live() {
-            // Balance is kept where the motion goes, not where it still is: limbs take time to get there, and what that
-            // looks off by is none to be driven out over the foot that has just landed.
+            // Balance is kept where the motion goes, not where it still is. Limbs take time to get there, and the error
+            // that this makes must not be driven out over the foot that has just landed.
             let rest = self.anchor.rest();
             tasks.com.now += rest;
             tasks.com.next += rest;
         }
         self.capture
             .update(terms, tasks.com, support.polygon(), gravity, dt);
-        // Only a step in a hurry counts it.
-        let spin = self.arrival.map(|_| tasks.spin);
-        self.capture.feel(terms, spin, self.walks());
-        self.above = Above {
+        // Angular momentum counts for the timing of steps only.
+        let momentum = self.timing.landing.map(|_| tasks.momentum);
+        self.capture
+            .update_disturbance(terms, momentum, self.is_stepping());
+        self.height_error = HeightError {
             height: terms.com.z - tasks.com.now.z,
             speed: terms.com_velocity.z - tasks.com.now_velocity.z,
             gravity,
         };
-        let (now, home) = (self.places(terms), self.meant(tasks.feet));
-        self.untidy = (0..2).any(|k| is_untidy(now[k], home[k]));
-        if tasks.unplanned && self.walks() {
-            self.fall_alone(terms, support, &now, dt);
+        let (now, planned) = (self.places(terms), self.planned_places(tasks.feet));
+        self.recovery.misplaced = (0..2).any(|k| is_misplaced(&now[k], &planned[k]));
+        if tasks.unplanned_steps && self.is_stepping() {
+            self.begin_support_recovery(terms, support, &now, dt);
         }
-        if self.walks() {
-            self.quicken(terms, support);
+        if self.is_stepping() {
+            self.update_step_timing(terms, support);
             for side in 0..2 {
-                self.lead_planned(terms, side, dt, &mut tasks.feet[side]);
+                self.update_swing(terms, side, dt, &mut tasks.feet[side]);
             }
-            if self.flies() {
-                follow_mass(terms, dt, tasks);
+            if self.is_airborne() {
+                follow_com(terms, dt, tasks);
             }
         } else {
-            self.quick = None;
-            if tasks.unplanned {
-                let home = self.wait.standing(home, self.leg);
-                self.catch(terms, support, dt, (&now, &home), tasks);
-                self.stand_by((terms, support), &now, dt, tasks.feet);
+            self.timing.early = None;
+            if tasks.unplanned_steps {
+                let home = self.recovery.support.home(planned, self.legs.length);
+                self.update_recovery_step(terms, support, dt, [&now, &home], tasks);
+                self.hold_support(terms, support, &now, dt, tasks.feet);
             }
         }
         self.keep_headings(terms, tasks.feet);
-        if let Some(step) = self.step.filter(|s| s.purpose != Purpose::Tidy) {
-            // The centre of mass goes where the pendulum over the stance foot falls slowest.
-            return Some(Balance {
-                acceleration: self
-                    .capture
-                    .slowest(terms, stance_points(support, step.side)),
-            });
+        let swings = self.recovery.step.swing();
+        if let Some(step) = swings.filter(|s| s.purpose != Purpose::Return) {
+            let stance = stance_points(support, step.side);
+            return Some(self.capture.slowest_fall(terms, stance));
         }
-        if let Some(acceleration) = self.hurries(terms, support) {
-            return Some(Balance { acceleration });
+        if let Some(early) = self.timing.early {
+            return Some(self.capture.fall_about(terms, support.polygon(), early.zmp));
         }
         let wanted = com_law(tasks.com, terms.com, terms.com_velocity, dt);
-        let acceleration =
-            self.capture
-                .feasible(terms, (wanted, tasks.moment), support.polygon(), gravity)?;
-        Some(Balance { acceleration })
+        self.capture.feasible(
+            terms,
+            wanted,
+            tasks.momentum_rate,
+            support.polygon(),
+            gravity,
+        )
     }
 
-    /// True if feet come down where a plan has had them all along: that of a stream is made while it is followed, and a
-    /// step that nobody planned has none.
-    pub fn lands_as_planned(&self) -> bool {
-        self.step.is_none() && self.plan.as_ref().is_some_and(|p| !p.is_live())
+    /// True if footholds are known in advance: those of a stream are found while it is followed, and those of an
+    /// unplanned step while it is made.
+    pub fn has_planned_footholds(&self) -> bool {
+        self.recovery_step().is_none() && self.plan().is_some_and(|p| !p.is_live())
+    }
+
+    /// The foot that is on the floor, if the other one is not.
+    fn only_stance(&self) -> Option<usize> {
+        let [left, right] = self.feet.map(|foot| foot.down);
+        (left != right).then(|| usize::from(right))
     }
 
     /// True while it follows a stream.
     fn is_live(&self) -> bool {
-        self.plan.as_ref().is_some_and(StepPlan::is_live)
+        self.plan().is_some_and(StepPlan::is_live)
     }
 
-    /// A direction of the motion as its origin is turned to where the feet are.
-    pub fn turned(&self, v: Vec3) -> Vec3 {
-        Quat::exp(Vec3::Z * self.anchor.yaw()).rotate(v)
+    fn plan(&self) -> Option<&StepPlan> {
+        self.followed.as_ref().map(|f| &f.plan)
     }
 
+    /// Clip seconds per second.
+    fn speed(&self) -> f64 {
+        self.followed.as_ref().map_or(1.0, |f| f.speed)
+    }
+
+    /// World time until clip time `t` (s) at the plan's speed, s.
+    fn until(&self, t: f64) -> f64 {
+        (t - self.clock.phase) / self.speed()
+    }
+
+    /// The stance of a foot that the plan has now.
     fn planned(&self, side: usize) -> Option<Footfall> {
-        self.plan.as_ref()?.current(side, self.phase)
+        self.plan()?.current(side, self.clock.phase)
     }
 
+    /// The next stance of a foot.
     fn next(&self, side: usize) -> Option<Footfall> {
-        self.plan.as_ref()?.next(side, self.phase)
+        self.plan()?.next(side, self.clock.phase)
     }
+}
 
-    fn last_off(&self, side: usize) -> f64 {
-        self.plan
-            .as_ref()
-            .map_or(0.0, |p| p.last_off(side, self.phase))
-    }
+/// Share of the way to a new value that a first-order filter with time constant `time` (s) goes in `dt` seconds.
+fn filter_gain(dt: f64, time: f64) -> f64 {
+    1.0 - exp(-dt / time)
 }

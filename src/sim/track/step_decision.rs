@@ -1,156 +1,201 @@
-//! When a step is made that no clip planned, and which: to catch the body, to uncross the feet, to bring them home.
+//! When a step is made that no plan has, and which: to catch the body, to uncross the feet, to bring them back.
 
-use super::recovery_step;
-use super::recovery_step::{Purpose, RecoveryStep};
+use super::foot_places::{
+    FootPlace, FootPlaces, horizontal, level, limited, outward, stance_points,
+};
+use super::params::common::{SETTLED_OFFSET, SETTLED_SPEED};
+use super::params::recovery::{
+    ASTRAY, FOOTHOLD_DISTANCE, HOPELESS_MARGIN, LOST_MARGIN, MISPLACED_BY, MISPLACED_TURN,
+    SHIFT_DONE, SHIFT_SPEED, SOLE_MIDDLE,
+};
+use super::recovery_step::{Aim, Purpose, RecoveryStep};
 use super::step_plan::StepPlan;
-use super::{FOOT, Landing, SETTLED, StepTracker, TOES, TOUCH, TaskTargets, level, stance_points};
+use super::{FOOT, Landing, StepTracker, TOES, TaskTargets};
 use crate::sim::dynamics::Terms;
-use crate::sim::math::{Quat, Vec3, trig};
+use crate::sim::math::{Vec3, trig};
 use crate::sim::support::Support;
 
-/// A capture point this far from where the clip has it is not where it is meant to be, m.
-pub(super) const ASTRAY: f64 = 0.06;
+/// The step that no plan has.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) enum UnplannedStep {
+    /// None is made.
+    #[default]
+    None,
+    /// The weight goes off this foot, to the other one, so that it can be brought back.
+    Unloading(usize),
+    /// A foot swings.
+    Swinging {
+        /// Its step.
+        step: RecoveryStep,
+        /// The foot that the weight went off before.
+        unloaded: Option<usize>,
+    },
+}
+
+impl UnplannedStep {
+    /// The step, while the foot swings.
+    pub(super) fn swing(&self) -> Option<&RecoveryStep> {
+        match self {
+            Self::Swinging { step, .. } => Some(step),
+            _ => None,
+        }
+    }
+
+    /// The same to change it.
+    pub(super) fn swing_mut(&mut self) -> Option<&mut RecoveryStep> {
+        match self {
+            Self::Swinging { step, .. } => Some(step),
+            _ => None,
+        }
+    }
+
+    /// The foot that the weight is kept off.
+    fn unloaded(&self) -> Option<usize> {
+        match *self {
+            Self::None => None,
+            Self::Unloading(side) => Some(side),
+            Self::Swinging { unloaded, .. } => unloaded,
+        }
+    }
+
+    /// Begins a step. Weight that went off a foot stays off it.
+    pub(super) fn begin(&mut self, step: RecoveryStep) {
+        *self = Self::Swinging {
+            step,
+            unloaded: self.unloaded(),
+        };
+    }
+}
+
+/// The point of the floor over which a body stands on one foot.
+fn sole_middle(foot: &FootPlace) -> Vec3 {
+    foot.offset(Vec3::X * SOLE_MIDDLE)
+}
 
 impl StepTracker {
-    /// Steps that no clip planned: catches a body whose capture point has left its feet, then brings the feet back
-    /// together.
-    pub(super) fn catch(
+    /// Updates the step that no plan has: one is made when the capture point has left the feet, and then the feet are
+    /// brought back. `places`: where the feet are, and where the motion has them.
+    pub(super) fn update_recovery_step(
         &mut self,
         terms: &Terms,
         support: &Support,
         dt: f64,
-        (now, home): (&recovery_step::Places, &recovery_step::Places),
+        [now, home]: [&FootPlaces; 2],
         tasks: &mut TaskTargets<'_>,
     ) {
         let xi = self.capture.point();
         let Some(nearest) = support.polygon().closest(xi) else {
             return;
         };
-        if self.step.is_none() {
-            self.decide(terms, support, now, home, (xi, nearest.margin));
+        if self.recovery_step().is_none() {
+            self.recovery.step = self.decide_step(terms, support, [now, home], nearest.margin);
         }
-        // Lean over the foot that is going to stand alone, and back.
-        let leaning = self.tidying.map(|side| {
-            let (place, yaw) = now[1 - side];
-            place + Quat::exp(Vec3::Z * yaw).rotate(Vec3::X * recovery_step::SOLE_MIDDLE)
-                - tasks.com.now
-        });
-        let wanted = leaning.unwrap_or_default();
-        let way = Vec3 {
-            z: 0.0,
-            ..wanted - self.lean
-        };
-        let most = recovery_step::LEAN_SPEED * dt;
-        let far = way.norm();
-        self.lean += if far > most { way * (most / far) } else { way };
-        tasks.com.now += self.lean;
-        tasks.com.next += self.lean;
+        // The centre of mass goes over the foot that is to stand alone, and back.
+        let over = self.recovery.step.unloaded().map(|k| &now[1 - k]);
+        let wanted = over.map(|foot| sole_middle(foot) - tasks.com.now);
+        let way = horizontal(wanted.unwrap_or_default() - self.recovery.shift);
+        self.recovery.shift += limited(way, SHIFT_SPEED * dt);
+        tasks.com.now += self.recovery.shift;
+        tasks.com.next += self.recovery.shift;
 
-        let Some(step) = &mut self.step else { return };
-        let zmp = self.capture.hold(stance_points(support, step.side), xi);
-        step.aim(xi, zmp, self.capture.omega(), (home, now), self.leg);
-        step.lead(&self.soles[step.side], dt, &mut tasks.feet[step.side]);
+        let Some(step) = self.recovery.step.swing_mut() else {
+            return;
+        };
+        let side = step.side;
+        let sole = &self.legs.soles[side];
+        step.update_goal(&Aim {
+            xi,
+            zmp: self.capture.holding_zmp(stance_points(support, side)),
+            omega: self.capture.omega(),
+            now,
+            home,
+            leg: self.legs.length,
+        });
+        tasks.feet[side] = step.target(sole, dt);
         let step = *step;
-        let ankle = terms.segment_position(FOOT[step.side].index()).z;
-        if step.overdue()
-            || (step.may_land(self.soles[step.side].ankle_height, ankle)
-                && self.lowest(terms, step.side) < TOUCH)
-        {
-            self.step = None;
-            self.tidying = None;
-            self.feet[step.side].down = true;
-            self.landing = Some(Landing {
-                side: step.side,
+        let height = Self::ankle(terms, side).z;
+        if step.has_landed(sole, height, self.touches(terms, side)) {
+            self.recovery.step = UnplannedStep::None;
+            self.feet[side].down = true;
+            let moved = now[side].at - home[side].at;
+            self.events.landing = Some(Landing {
+                side,
                 late: step.since - step.duration(),
-                off: now[step.side].0 - home[step.side].0,
+                off: moved,
             });
-            let mut off = terms.com - (tasks.com.now - self.wait.shift());
-            if step.purpose != Purpose::Tidy && !self.wait.is_for(step.side) {
-                self.anchor.pin(home[step.side].0, now[step.side].0);
-                off -= now[step.side].0 - home[step.side].0;
+            let waiting = &mut self.recovery.support;
+            let mut off = terms.com - (tasks.com.now - waiting.shift());
+            if step.purpose != Purpose::Return && waiting.foot() != Some(side) {
+                self.anchor.pin(home[side].at, now[side].at);
+                off -= moved;
             }
-            self.wait.begin_at(off);
+            waiting.begin_shift_at(off);
         }
     }
 
-    /// Begins a step if the body needs one.
-    fn decide(
-        &mut self,
+    /// The step that the body needs, while none is under way; `margin`: of the capture point in the support, m.
+    fn decide_step(
+        &self,
         terms: &Terms,
         support: &Support,
-        now: &recovery_step::Places,
-        home: &recovery_step::Places,
-        (xi, margin): ([f64; 2], f64),
-    ) {
-        let points = support.points().iter();
-        let on_feet = support.rests().is_empty()
-            && points
-                .map(|p| p.support)
-                .all(|s| FOOT.contains(&s) || TOES.contains(&s));
-        let start = |side: usize, purpose: Purpose| {
-            let ankle = terms.segment_position(FOOT[side].index());
-            Some(RecoveryStep::new(side, purpose, ankle, now[side].1))
-        };
-        if !on_feet || margin < -recovery_step::HOPELESS {
-            return;
+        [now, home]: [&FootPlaces; 2],
+        margin: f64,
+    ) -> UnplannedStep {
+        let (before, xi) = (self.recovery.step, self.capture.point());
+        let mut supports = support.points().iter().map(|p| p.support);
+        let on_feet =
+            support.rests().is_empty() && supports.all(|s| FOOT.contains(&s) || TOES.contains(&s));
+        if !on_feet || margin < -HOPELESS_MARGIN {
+            return before;
         }
+        let swings = |side: usize, purpose: Purpose, unloaded: Option<usize>| {
+            let step = RecoveryStep::new(side, purpose, Self::ankle(terms, side), now[side].yaw);
+            UnplannedStep::Swinging { step, unloaded }
+        };
         // The foot that carries less swings.
         let carried =
             |side: usize| support.load()[FOOT[side].index()] + support.load()[TOES[side].index()];
-        let uncrosses = self.uncrosses(now, xi);
+        let uncrosses = self.uncrossing_foot(now, xi);
         let side = uncrosses.unwrap_or_else(|| usize::from(carried(1) <= carried(0)));
-        // Places to the own side of the stance foot are positive.
-        let outward = |p: Vec3| {
-            let (at, yaw) = now[1 - side];
-            let y = Quat::exp(Vec3::Z * -yaw).rotate(p - at).y;
-            if side == 0 { y } else { -y }
-        };
+        let beside = now[1 - side].local(now[side].at).y * outward(side);
         // Feet that a clip is about to move again stay where it has them, if they hold the body.
-        let goes_on = |p: &StepPlan| !p.is_live() && !p.is_over(self.phase);
-        let own = self.ended.is_none() && self.plan.as_ref().is_some_and(goes_on);
-        let crossed = !own && outward(now[side].0) < 0.5 * recovery_step::BESIDE;
-        // A body that walks leaves its feet on purpose; one that is off its plan does not.
+        let goes_on = |p: &StepPlan| !p.is_live() && !p.is_over(self.clock.phase);
+        let own = !self.is_stopping() && self.plan().is_some_and(goes_on);
+        let crossed = !own && beside < 0.5 * FOOTHOLD_DISTANCE;
+        // A motion that walks has its capture point leave the feet; a body off its plan does not mean to.
         let meant = own && self.capture.off() < ASTRAY;
         let lost = if uncrosses.is_some() {
             0.0
         } else {
-            -recovery_step::LOST
+            -LOST_MARGIN
         };
-        if (margin < lost && !meant) || crossed {
-            self.tidying = None;
-            self.step = start(
-                side,
-                if crossed {
-                    Purpose::CatchBeside
-                } else {
-                    Purpose::Catch
-                },
-            );
-            return;
+        if crossed {
+            return swings(side, Purpose::RecoverOnOwnSide, None);
+        }
+        if margin < lost && !meant {
+            return swings(side, Purpose::Recover, None);
         }
         if own {
-            return;
+            return before;
         }
-        if let Some(side) = self.tidying {
-            let over = now[1 - side];
-            let stance =
-                over.0 + Quat::exp(Vec3::Z * over.1).rotate(Vec3::X * recovery_step::SOLE_MIDDLE);
-            if (level(xi) - level([stance.x, stance.y])).norm() < SETTLED.1 {
-                self.step = start(side, Purpose::Tidy);
-            }
-            return;
+        if let UnplannedStep::Unloading(side) = before {
+            let way = level(xi) - horizontal(sole_middle(&now[1 - side]));
+            return if way.norm() < SETTLED_OFFSET {
+                swings(side, Purpose::Return, Some(side))
+            } else {
+                before
+            };
         }
-        let settled = terms.com_velocity.norm() < SETTLED.0
-            && self.capture.off() < SETTLED.1
-            && self.lean.norm() < 1e-3;
-        if settled {
-            self.tidying = (0..2).find(|k| is_untidy(now[*k], home[*k]));
-        }
+        let settled = terms.com_velocity.norm() < SETTLED_SPEED
+            && self.capture.off() < SETTLED_OFFSET
+            && self.recovery.shift.norm() < SHIFT_DONE;
+        let misplaced = (0..2).find(|k| settled && is_misplaced(&now[*k], &home[*k]));
+        misplaced.map_or(UnplannedStep::None, UnplannedStep::Unloading)
     }
 }
 
 /// True if a foot is not where it is meant to be.
-pub(super) fn is_untidy(is: (Vec3, f64), meant: (Vec3, f64)) -> bool {
-    (is.0 - meant.0).norm() > recovery_step::UNTIDY.0
-        || trig::wrapped(is.1 - meant.1).abs() > recovery_step::UNTIDY.1
+pub(super) fn is_misplaced(is: &FootPlace, meant: &FootPlace) -> bool {
+    (is.at - meant.at).norm() > MISPLACED_BY
+        || trig::wrapped(is.yaw - meant.yaw).abs() > MISPLACED_TURN
 }

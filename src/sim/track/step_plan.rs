@@ -1,6 +1,10 @@
-//! When and where the feet of a clip stand: the stances of both feet, in order, also over the seam of a loop.
+//! Step plans: when and where the feet of a clip or of a stream stand, in order, also over the seam of a loop.
 
-use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
+use super::params::step_plan::{
+    FALLING_LOAD, LOAD_SAMPLES, NEAR_FLOOR, PAUSE_AFTER, PAUSE_BEFORE, SHORTEST, STREAM_REST_AFTER,
+    STREAM_REST_BEFORE,
+};
+use super::{FOOT, TOES};
 use crate::sim::body::{Body, Posture, SegmentId};
 use crate::sim::math::Vec3;
 use crate::sim::motion::Clip;
@@ -26,15 +30,27 @@ pub struct Footfall {
     pub yaw: f64,
 }
 
+impl Footfall {
+    /// The same `seconds` later.
+    fn later(self, seconds: f64) -> Self {
+        Self {
+            on: self.on + seconds,
+            off: self.off + seconds,
+            ..self
+        }
+    }
+}
+
 /// The stances of a clip. Made when a clip begins to play; queries allocate nothing.
 #[derive(Clone, Debug)]
 pub struct StepPlan {
+    /// Of the left and the right foot.
     stances: [Vec<Footfall>; 2],
     /// When the motion begins to move, s: 0, or before that if it has a lead-in.
     begin: f64,
     /// When it is over, s: with its lead-out.
     duration: f64,
-    /// Up to when touch-downs are known, s: a stream's only as far as it has come.
+    /// Until when touch-downs are known, s: a stream's only as far as it has come.
     seen: f64,
     /// Displacement of one round, if the clip repeats.
     round: Option<PlanarTransform>,
@@ -43,78 +59,61 @@ pub struct StepPlan {
     lead: Option<Box<Lead>>,
 }
 
-/// What holds before time `until`, and tells of touch-downs before time `knows`, s.
+/// A plan that holds before another one.
 #[derive(Clone, Debug)]
 struct Lead {
     plan: StepPlan,
+    /// It holds before this time, s.
     until: f64,
+    /// It knows of touch-downs before this time, s.
     knows: f64,
 }
 
-/// Feet pause that have stood together for so long, s, and will for so long: that leaves time for a step that nobody
-/// planned.
-const PAUSE: (f64, f64) = (0.2, 0.1);
-/// A foot this close to the floor carries the body if no other does, m.
-const NEAR_FLOOR: f64 = 0.03;
-
-/// A body falls while the floor would give less than this share of its weight.
-const FALLS: f64 = 0.5;
-
 /// In which of the samples without a planted foot the body falls.
 fn falling(body: &Body, samples: &[(&Posture, [bool; 2])], rate_hz: f64) -> Vec<bool> {
-    // Second differences over five samples.
-    const AROUND: usize = 3;
     let mut falls = vec![false; samples.len()];
     let off: Vec<bool> = samples.iter().map(|s| s.1 == [false; 2]).collect();
     for (i, j, _) in runs(&off).into_iter().filter(|r| r.2) {
-        let from = i.saturating_sub(AROUND);
-        let near = &samples[from..(j + AROUND).min(samples.len())];
+        let from = i.saturating_sub(LOAD_SAMPLES);
+        let near = &samples[from..(j + LOAD_SAMPLES).min(samples.len())];
         let postures: Vec<Posture> = near.iter().map(|s| *s.0).collect();
         let track = mass_track(body, &postures, rate_hz);
         for k in i..j {
-            falls[k] = track.load[k - from] < FALLS;
+            falls[k] = track.load[k - from] < FALLING_LOAD;
         }
     }
     falls
 }
 
-/// Which feet carry the body in each sample: the planted ones, or, where none is and one stays near the floor, that
-/// one. (The preparation declares a foot free that its leg cannot hold in place exactly; that is no flight.)
-fn carried(body: &Body, samples: &[(&Posture, [bool; 2])], rate_hz: f64) -> Vec<[bool; 2]> {
+/// Which feet carry the body in each sample: the planted ones, or, if there is none and the body does not fall, the
+/// lower one near the floor. The preparation declares a foot free that its leg cannot hold in place exactly; that is no
+/// flight.
+fn supporting_feet(body: &Body, samples: &[(&Posture, [bool; 2])], rate_hz: f64) -> Vec<[bool; 2]> {
     let falls = falling(body, samples, rate_hz);
     let soles = [Sole::new(body, 0), Sole::new(body, 1)];
-    samples
-        .iter()
-        .enumerate()
-        .map(|(i, &(posture, planted))| {
-            if planted != [false; 2] || falls[i] {
-                return planted;
-            }
-            let poses = forward(body, posture);
-            let low = [(L_FOOT, L_TOES), (R_FOOT, R_TOES)].map(|(foot, toes)| {
-                let side = usize::from(foot == R_FOOT);
-                let height = |s: SegmentId, points: &[Vec3]| {
-                    let (at, q) = poses[s.index()];
-                    points
-                        .iter()
-                        .map(|p| at.z + q.rotate(*p).z)
-                        .fold(f64::INFINITY, f64::min)
-                };
-                height(foot, soles[side].foot_points()).min(height(toes, soles[side].toe_points()))
-            });
-            [
-                low[0] < NEAR_FLOOR && low[0] <= low[1],
-                low[1] < NEAR_FLOOR && low[1] < low[0],
-            ]
-        })
-        .collect()
+    let supporting = |(&(posture, planted), falls): (&(&Posture, [bool; 2]), bool)| {
+        if planted != [false; 2] || falls {
+            return planted;
+        }
+        let poses = forward(body, posture);
+        let height = |s: SegmentId, points: &[Vec3]| {
+            let (at, q) = poses[s.index()];
+            let heights = points.iter().map(|p| at.z + q.rotate(*p).z);
+            heights.fold(f64::INFINITY, f64::min)
+        };
+        let [left, right] = [0, 1].map(|k| {
+            height(FOOT[k], soles[k].foot_points()).min(height(TOES[k], soles[k].toe_points()))
+        });
+        [
+            left < NEAR_FLOOR && left <= right,
+            right < NEAR_FLOOR && right < left,
+        ]
+    };
+    samples.iter().zip(falls).map(supporting).collect()
 }
 
-/// A foot that leaves the floor or touches it for less than this does not step, s.
-const SHORTEST: f64 = 0.05;
-
 /// Takes out what is too short for a step: first gaps of a stance, then stances.
-fn steady(planted: &mut [[bool; 2]], side: usize, rate_hz: f64) {
+fn remove_short(planted: &mut [[bool; 2]], side: usize, rate_hz: f64) {
     let shortest = (SHORTEST * rate_hz) as usize;
     for short in [false, true] {
         let label: Vec<bool> = planted.iter().map(|p| p[side]).collect();
@@ -130,7 +129,6 @@ impl StepPlan {
     /// The plan of `clip` on `body`; `looped` if it repeats.
     pub fn new(body: &Body, clip: &Clip, looped: bool) -> Self {
         let rate = clip.rate_hz();
-        let feet = [L_FOOT, R_FOOT];
         // A round of a loop has neither a lead-in nor a lead-out.
         let (skipped, begin, duration) = if looped {
             let lead_in = (clip.lead_in() * rate).round() as usize;
@@ -140,44 +138,26 @@ impl StepPlan {
         };
         let n = ((duration - begin) * rate).round() as usize + 1;
         let samples: Vec<_> = clip.samples().skip(skipped).take(n).collect();
-        let mut planted = carried(body, &samples, rate);
-        for side in 0..2 {
-            steady(&mut planted, side, rate);
-        }
-        let stances = std::array::from_fn(|side| {
+        let mut planted = supporting_feet(body, &samples, rate);
+        let stances = [0, 1].map(|side| {
+            remove_short(&mut planted, side, rate);
             let sole = Sole::new(body, side);
-            let mut out = Vec::new();
-            let mut i = 0;
-            while i < n {
-                if !planted[i][side] {
-                    i += 1;
-                    continue;
-                }
-                let start = i;
-                while i < n && planted[i][side] {
-                    i += 1;
-                }
+            let stance = |(start, end): (usize, usize)| {
                 // The middle of a stance is its flattest part.
-                let (ankle, rotation) =
-                    forward(body, samples[(start + i - 1) / 2].0)[feet[side].index()];
-                let (place, yaw) = sole.footing((ankle, rotation)).place_and_yaw();
+                let poses = forward(body, samples[(start + end - 1) / 2].0);
+                let (place, yaw) = sole.footing(poses[FOOT[side].index()]).place_and_yaw();
                 // A sample speaks for the half-interval on either side of it.
-                out.push(Footfall {
-                    on: if start == 0 {
-                        begin
-                    } else {
-                        begin + (start as f64 - 0.5) / rate
-                    },
-                    off: if i == n {
-                        duration
-                    } else {
-                        begin + (i as f64 - 0.5) / rate
-                    },
+                let time = |sample: usize| begin + (sample as f64 - 0.5) / rate;
+                Footfall {
+                    on: if start == 0 { begin } else { time(start) },
+                    off: if end == n { duration } else { time(end) },
                     place,
                     yaw,
-                });
-            }
-            out
+                }
+            };
+            let label: Vec<bool> = planted.iter().map(|p| p[side]).collect();
+            let stands = runs(&label).into_iter().filter(|run| run.2);
+            stands.map(|(start, end, _)| stance((start, end))).collect()
         });
         Self {
             stances,
@@ -207,18 +187,14 @@ impl StepPlan {
         plan.begin += way.begin;
         plan.duration += way.begin;
         for f in plan.stances.iter_mut().flatten() {
-            f.on += way.begin;
-            f.off += way.begin;
+            *f = f.later(way.begin);
         }
-        let lead = Lead {
+        self.lead = Some(Box::new(Lead {
             plan,
             until: way.until,
             knows: f64::INFINITY,
-        };
-        Self {
-            lead: Some(Box::new(lead)),
-            ..self
-        }
+        }));
+        self
     }
 
     /// The plan of a stream: nothing is known yet.
@@ -260,20 +236,15 @@ impl StepPlan {
     /// True if it is the plan of a stream that stands on both feet at time `t` (s), has done so for a while and goes on
     /// doing so as far as is known.
     pub fn rests(&self, t: f64) -> bool {
-        const BEFORE: f64 = 0.5;
-        const AFTER: f64 = 0.25;
-        self.is_live()
-            && (0..2).all(|side| {
-                self.current(side, t)
-                    .is_some_and(|f| f.on < t - BEFORE && f.off > t + AFTER)
-            })
+        let stands = |f: Footfall| f.on < t - STREAM_REST_BEFORE && f.off > t + STREAM_REST_AFTER;
+        self.is_live() && (0..2).all(|side| self.current(side, t).is_some_and(stands))
     }
 
     /// True if both feet have stood at time `t` (s) for longer than in any stride, and go on standing for a moment, or
     /// for good.
     pub fn pauses(&self, t: f64) -> bool {
-        let stays = |f: &Footfall| f.off > t + PAUSE.1 || self.is_over(f.off);
-        let stands = |f: Footfall| f.on < t - PAUSE.0 && stays(&f);
+        let stays = |f: &Footfall| f.off > t + PAUSE_AFTER || self.is_over(f.off);
+        let stands = |f: Footfall| f.on < t - PAUSE_BEFORE && stays(&f);
         (0..2).all(|side| self.current(side, t).is_some_and(stands))
     }
 
@@ -315,10 +286,9 @@ impl StepPlan {
         let Some(advance) = self.round else { return f };
         let moved = advance.power(round);
         Footfall {
-            on: f.on + round * self.duration,
-            off: f.off + round * self.duration,
             place: moved.point(f.place),
             yaw: f.yaw + moved.yaw,
+            ..f.later(round * self.duration)
         }
     }
 
@@ -466,7 +436,7 @@ mod tests {
     }
 
     #[test]
-    fn who_walks_never_flies_not_even_over_the_seam() {
+    fn a_walk_has_no_flight_not_even_over_the_seam() {
         // The left stance goes on over the seam.
         let walk = plan(&[(0.0, 0.4), (0.8, 1.0)], &[(0.3, 0.9)], true);
         for i in 0..300 {

@@ -1,56 +1,56 @@
-//! Who stands on one foot for long and loses his balance there puts the raised foot down, early and where it catches
-//! him, and lifts it again when he stands over the other one as the motion has it. The motion waits for him; a stream
-//! goes on without him.
+//! Support recovery: balance lost in a long stance on one foot.
+//!
+//! When the stance foot cannot keep the capture point, and the planned step comes too late or cannot reach far enough,
+//! the raised foot is put down early and where it catches the body, and is lifted again when the body is back over the
+//! other one. Meanwhile the plan waits: its pace `r` goes from 1 to 0 and back, and its raised leg turns into a
+//! standing one. A stream does not wait; its foot stands until its own step is due.
+//!
+//! A motion that stands still has its capture point under its centre of mass, so it stands at `c + (1 − r) ċ/ω`: where
+//! its capture point was, and from where it can go on.
 
-use super::recovery_step;
-use super::recovery_step::{Places, RecoveryStep};
-use super::step_decision::ASTRAY;
-use super::{FOOT, SETTLED, StepTracker, TOES, capture_point, level, stance_points};
+use super::StepTracker;
+use super::capture_point::within_reach;
+use super::foot_places::{
+    FootPlace, FootPlaces, horizontal, level, limited, outward, stance_points, turn,
+};
+use super::params::capture::REACH_ALONG;
+use super::params::common::{SETTLED_OFFSET, SETTLED_SPEED};
+use super::params::recovery::{ASTRAY, SHIFT_DONE, SHIFT_SPEED, STANCE_WIDTH};
+use super::params::support_recovery::{
+    ERROR, LONGEST, OBSERVED_PACE, OUTSIDE, PASSING_TIME, PLANNED_STEP_ERROR, PLANNED_STEP_TIME,
+    SLOWING_TIME, STREAM_LIFTS,
+};
+use super::recovery_step::RecoveryStep;
 use crate::sim::body::topology::{
     DOF_LEN, DOF_START, L_FOOT, L_SHANK, L_THIGH, L_TOES, NV, R_FOOT, R_SHANK, R_THIGH, R_TOES,
 };
 use crate::sim::body::{Posture, SegmentId};
-use crate::sim::control::{PointTarget, RotationTarget};
+use crate::sim::control::{FootTarget, PointTarget, RotationTarget};
 use crate::sim::dynamics::Terms;
+use crate::sim::math::Vec3;
 use crate::sim::math::curve::smoothstep;
-use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::TargetPair;
 use crate::sim::support::Support;
-
-/// Who stands alone is not where the motion has him, and cannot come back, if his capture point is this far from its
-/// place and this far outside the sole, m. Both grow threefold while the raised foot comes down.
-const AWAY: f64 = 0.045;
-const OUTSIDE: f64 = 0.005;
-/// What passes within this time is a jolt, s: a heel that comes down, a leg that is braked.
-const PASSES: f64 = 0.09;
-/// A planned step that is nearer than this is made instead, s.
-const NEAR: f64 = 0.6;
-/// A planned step that would leave more than this of the error does not catch the body, m.
-const LEFT: f64 = 0.1;
-/// Time in which a motion that waits slows down, and goes on, s.
-const SLOWING: f64 = 0.2;
-/// The foot is lifted again after this time, whether the body is back or not, s.
-const LONGEST: f64 = 3.0;
-/// A stream, which does not wait, lifts it so long before it lands, s.
-const RETURNS: f64 = 0.4;
 
 const LEG: [[SegmentId; 4]; 2] = [
     [L_THIGH, L_SHANK, L_FOOT, L_TOES],
     [R_THIGH, R_SHANK, R_FOOT, R_TOES],
 ];
 
-/// A motion that waits for its body.
+/// The foot that was put down, and the plan that waits for it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SupportRecovery {
-    /// The foot that was put down out of its turn, or is about to be, and the time since that began, s.
+    /// The foot that was put down before its turn, or is about to be, and the time since that began, s.
     foot: Option<(usize, f64)>,
-    /// For how long the foot that stands alone has not been able to keep the body, s.
+    /// Time for which the stance foot has not been able to keep the body, s.
     lost: f64,
-    /// The last such foot.
+    /// The last foot that was put down.
     leg: usize,
-    /// Pace of the motion in this tick and in the last one.
-    pace: (f64, f64),
-    /// Velocity of its centre of mass at full pace, m/s.
+    /// Pace of the plan in this tick.
+    pace: f64,
+    /// Pace of the plan in the last tick.
+    last_pace: f64,
+    /// Velocity of the motion's centre of mass at full pace, m/s.
     velocity: Vec3,
     /// Displacement of the desired centre of mass, m.
     shift: Vec3,
@@ -62,7 +62,8 @@ impl Default for SupportRecovery {
             foot: None,
             lost: 0.0,
             leg: 0,
-            pace: (1.0, 1.0),
+            pace: 1.0,
+            last_pace: 1.0,
             velocity: Vec3::zero(),
             shift: Vec3::zero(),
         }
@@ -70,61 +71,58 @@ impl Default for SupportRecovery {
 }
 
 impl SupportRecovery {
-    /// True while a foot stands that should not.
-    pub(super) fn waits(&self) -> bool {
+    /// True while a foot stands that the plan has raised.
+    pub(super) fn is_active(&self) -> bool {
         self.foot.is_some()
     }
 
-    /// The motion goes on.
+    /// Ends it: the plan goes on.
     pub(super) fn end(&mut self) {
         self.foot = None;
     }
 
-    /// The foot that stands out of its turn.
+    /// The foot that stands although the plan has raised it.
     pub(super) fn foot(&self) -> Option<usize> {
         self.foot.map(|(side, _)| side)
     }
 
-    /// True for the foot that the motion waits for.
-    pub(super) fn is_for(&self, side: usize) -> bool {
-        self.foot.is_some_and(|(raised, _)| raised == side)
-    }
-
-    /// Where the feet of a body that waits belong: the one that the motion has raised stands beside the other.
-    pub(super) fn standing(&self, mut home: Places, leg: f64) -> Places {
-        if let Some((raised, _)) = self.foot {
-            let (place, yaw) = home[1 - raised];
-            let outward = if raised == 0 { 1.0 } else { -1.0 };
-            let aside = Vec3::Y * (outward * recovery_step::WIDTH * leg);
-            home[raised] = (place + Quat::exp(Vec3::Z * yaw).rotate(aside), yaw);
+    /// Where the feet of a body that waits belong: the raised one beside the other. `leg`: length of a leg, m.
+    pub(super) fn home(&self, mut planned: FootPlaces, leg: f64) -> FootPlaces {
+        if let Some(raised) = self.foot() {
+            let stance = planned[1 - raised];
+            let aside = Vec3::Y * (outward(raised) * STANCE_WIDTH * leg);
+            planned[raised] = FootPlace {
+                at: stance.offset(aside),
+                ..stance
+            };
         }
-        home
+        planned
     }
 
-    /// The pace of a motion that waits or has waited; `None` if nothing holds it up.
+    /// The pace of a plan that waits or has waited; `None` if nothing holds it up.
     pub(super) fn pace(&self) -> Option<f64> {
-        (self.waits() || self.pace.0 < 1.0).then_some(self.pace.0)
+        (self.is_active() || self.pace < 1.0).then_some(self.pace)
     }
 
-    /// Slows down while the motion waits.
-    pub(super) fn keep(&mut self, dt: f64) {
-        self.pace.1 = self.pace.0;
-        let change = if self.waits() { -dt } else { dt } / SLOWING;
-        self.pace.0 = (self.pace.0 + change).clamp(0.0, 1.0);
+    /// Updates the pace over a tick of `dt` seconds.
+    pub(super) fn update_pace(&mut self, dt: f64) {
+        self.last_pace = self.pace;
+        let change = if self.is_active() { -dt } else { dt } / SLOWING_TIME;
+        self.pace = (self.pace + change).clamp(0.0, 1.0);
     }
 
-    /// A motion that is played at this pace: its velocities, and the leg that it has raised, which stands as at `ease`
-    /// while it waits.
-    pub(super) fn slow(&self, out: &mut TargetPair, ease: &Posture, dt: f64) {
-        if self.pace == (1.0, 1.0) {
+    /// Turns the motion of a tick into that of a plan with this pace: its velocities, and its raised leg, which stands
+    /// as in `at_ease` while the plan waits.
+    pub(super) fn slow(&self, out: &mut TargetPair, at_ease: &Posture, dt: f64) {
+        let (now, next) = (self.last_pace, self.pace);
+        if (now, next) == (1.0, 1.0) {
             return;
         }
-        let (next, now) = self.pace;
         out.now.velocity.iter_mut().for_each(|v| *v *= now);
         out.next.velocity.iter_mut().for_each(|v| *v *= next);
         let (from, to) = (smoothstep(1.0 - now), smoothstep(1.0 - next));
         for (target, share) in [(&mut out.now, from), (&mut out.next, to)] {
-            let way = target.posture.joint_difference(ease);
+            let way = target.posture.joint_difference(at_ease);
             let mut turns = [0.0; NV];
             for s in LEG[self.leg] {
                 let dofs = DOF_START[s.index()]..DOF_START[s.index()] + DOF_LEN[s.index()];
@@ -138,18 +136,14 @@ impl SupportRecovery {
         }
     }
 
-    /// A motion that is stopped stands where its capture point was: from there it can go on.
-    pub(super) fn lean(&mut self, com: &mut PointTarget, omega: f64, dt: f64) {
-        const SEEN: f64 = 0.1;
-        if self.pace.1 > SEEN {
-            self.velocity = com.now_velocity * (1.0 / self.pace.1);
+    /// Shifts the desired centre of mass to where the capture point of the motion is at full pace.
+    pub(super) fn shift_com(&mut self, com: &mut PointTarget, omega: f64, dt: f64) {
+        if self.last_pace > OBSERVED_PACE {
+            self.velocity = com.now_velocity * (1.0 / self.last_pace);
         }
-        let wanted = self.wanted(omega);
-        if self.waits() {
-            let way = wanted - self.shift;
-            let far = way.norm();
-            let most = recovery_step::LEAN_SPEED * dt;
-            self.shift += if far > most { way * (most / far) } else { way };
+        let wanted = self.wanted_shift(omega);
+        if self.is_active() {
+            self.shift += limited(wanted - self.shift, SHIFT_SPEED * dt);
         } else {
             self.shift = wanted;
         }
@@ -157,21 +151,20 @@ impl SupportRecovery {
         com.next += self.shift;
     }
 
-    fn wanted(&self, omega: f64) -> Vec3 {
-        let v = self.velocity * ((1.0 - self.pace.0) / omega);
-        Vec3 { z: 0.0, ..v }
+    fn wanted_shift(&self, omega: f64) -> Vec3 {
+        horizontal(self.velocity * ((1.0 - self.pace) / omega))
     }
 
-    /// The body is `off` its place as the motion has it.
-    pub(super) fn begin_at(&mut self, off: Vec3) {
-        if self.waits() {
-            self.shift = Vec3 { z: 0.0, ..off };
+    /// Begins the shift where the body is: `off` its place as the motion has it, m.
+    pub(super) fn begin_shift_at(&mut self, off: Vec3) {
+        if self.is_active() {
+            self.shift = horizontal(off);
         }
     }
 
-    /// How far the body was led back: the rest, m.
+    /// What is left of the shift, m.
     fn rest(&self, omega: f64) -> f64 {
-        (self.wanted(omega) - self.shift).norm()
+        (self.wanted_shift(omega) - self.shift).norm()
     }
 
     /// The displacement now, m.
@@ -181,136 +174,112 @@ impl SupportRecovery {
 }
 
 impl StepTracker {
-    /// Puts the raised foot down if the other one cannot keep the body, and the planned step comes too late or cannot
-    /// reach far enough.
-    pub(super) fn fall_alone(&mut self, terms: &Terms, support: &Support, now: &Places, dt: f64) {
-        let falls = self.falls_alone(terms);
-        let Some(side) = falls.filter(|_| support.rests().is_empty()) else {
-            self.wait.lost = 0.0;
+    /// Begins to put the raised foot down if the stance foot has lost the body for a while. `now`: where the feet are.
+    pub(super) fn begin_support_recovery(
+        &mut self,
+        terms: &Terms,
+        support: &Support,
+        now: &FootPlaces,
+        dt: f64,
+    ) {
+        let lost = self.foot_to_put_down(terms);
+        let Some(side) = lost.filter(|_| support.rests().is_empty()) else {
+            self.recovery.support.lost = 0.0;
             return;
         };
-        self.wait.lost += dt;
-        if self.wait.lost < PASSES {
+        let state = &mut self.recovery.support;
+        state.lost += dt;
+        if state.lost < PASSING_TIME {
             return;
         }
-        self.wait.lost = 0.0;
-        let ankle = terms.segment_position(FOOT[side].index());
-        let (stance, yaw) = now[1 - side];
-        let behind = Quat::exp(Vec3::Z * -yaw).rotate(ankle - stance).x < 0.0;
-        self.step = Some(RecoveryStep::alone(side, ankle, now[side].1, behind));
-        self.wait.foot = Some((side, 0.0));
-        self.wait.leg = side;
+        *state = SupportRecovery {
+            foot: Some((side, 0.0)),
+            lost: 0.0,
+            leg: side,
+            ..*state
+        };
+        let ankle = Self::ankle(terms, side);
+        let behind = now[1 - side].local(ankle).x < 0.0;
+        let step = RecoveryStep::of_raised_foot(side, ankle, now[side].yaw, behind);
+        self.recovery.step.begin(step);
     }
 
-    fn falls_alone(&mut self, terms: &Terms) -> Option<usize> {
-        let side = match [self.feet[0].down, self.feet[1].down] {
-            [true, false] => 1,
-            [false, true] => 0,
-            _ => return None,
-        };
-        let plan = self.plan.as_ref()?;
-        if plan.current(side, self.phase).is_some() || self.capture.off() < AWAY {
+    /// The raised foot, if the other one cannot keep the body and the planned step does not catch it.
+    fn foot_to_put_down(&mut self, terms: &Terms) -> Option<usize> {
+        let stance = self.only_stance()?;
+        let side = 1 - stance;
+        let (plan, phase) = (self.plan()?, self.clock.phase);
+        if plan.current(side, phase).is_some() || self.capture.off() < ERROR {
             return None;
         }
-        let remaining = (plan.earliest(side, self.phase) - self.phase) / self.speed;
-        if remaining < NEAR {
+        let remaining = self.until(plan.earliest(side, phase));
+        if remaining < PLANNED_STEP_TIME {
             return None;
         }
-        let next = self.next(side);
-        let left = next.is_none_or(|f| {
-            let f = self.placed(&f);
-            let home = self.anchor.point(f.place);
+        let too_far = self.next(side).is_none_or(|f| {
             let d = self.capture.left_over(remaining);
-            let heading = self.anchor.yaw() + f.yaw;
-            let stance = terms.segment_position(FOOT[1 - side].index());
-            let can =
-                capture_point::within_reach(d, home, stance, heading, side, capture_point::REACH.0);
-            level([d[0] - can[0], d[1] - can[1]]).norm() > LEFT
+            let ankle = Self::ankle(terms, stance);
+            let can = within_reach(d, self.mapped(&f), ankle, side, REACH_ALONG);
+            level([d[0] - can[0], d[1] - can[1]]).norm() > PLANNED_STEP_ERROR
         });
-        // The whole sole counts: who stands on his toes can put the heel down.
-        let stance = 1 - side;
-        let (foot, toes) = (
-            self.soles[stance].foot_points(),
-            self.soles[stance].toe_points(),
-        );
-        let at = |s: SegmentId, p: &Vec3| {
-            let p = terms.point_world(s.index(), *p);
-            [p.x, p.y]
-        };
-        let corners = foot.iter().map(|p| at(FOOT[stance], p));
-        let corners = corners.chain(toes.iter().map(|p| at(TOES[stance], p)));
-        let margin = self.capture.margin(corners)?;
-        (left && margin < -OUTSIDE).then_some(side)
+        // The whole sole counts: a body on its toes can put the heel down.
+        let corners = self.legs.sole_points(terms, stance);
+        let margin = self.capture.margin(corners.map(|p| [p.x, p.y]))?;
+        (too_far && margin < -OUTSIDE).then_some(side)
     }
 
-    /// The foot that uncrosses legs which a raised foot has crossed, if it lies on the side to which the body falls.
-    pub(super) fn uncrosses(&self, now: &Places, xi: [f64; 2]) -> Option<usize> {
-        let (raised, _) = self.wait.foot?;
+    /// The foot that uncrosses legs which a raised foot has crossed, if it lies on the side to which the body falls:
+    /// the capture point is at `xi`, m.
+    pub(super) fn uncrossing_foot(&self, now: &FootPlaces, xi: [f64; 2]) -> Option<usize> {
+        let raised = self.recovery.support.foot()?;
         let side = 1 - raised;
-        let (at, yaw) = now[side];
-        let outward = |p: Vec3| {
-            let y = Quat::exp(Vec3::Z * -yaw).rotate(p - at).y;
-            if side == 0 { y } else { -y }
-        };
-        let crossed = outward(now[raised].0) > 0.0;
-        let falls = outward(Vec3 {
-            x: xi[0],
-            y: xi[1],
-            z: 0.0,
-        }) > 0.0;
+        let beside = |p: Vec3| now[side].local(p).y * outward(side);
+        let crossed = beside(now[raised].at) > 0.0;
+        let falls = beside(level(xi)) > 0.0;
         (crossed && falls).then_some(side)
     }
 
     /// Keeps the foot that was put down where it stands, and lifts it when the body is back over the other one.
-    pub(super) fn stand_by(
+    pub(super) fn hold_support(
         &mut self,
-        (terms, support): (&Terms, &Support),
-        now: &Places,
+        terms: &Terms,
+        support: &Support,
+        now: &FootPlaces,
         dt: f64,
-        feet: &mut [(PointTarget, RotationTarget); 2],
+        feet: &mut [FootTarget; 2],
     ) {
-        let Some((side, since)) = &mut self.wait.foot else {
+        let Some((side, since)) = &mut self.recovery.support.foot else {
             return;
         };
         *since += dt;
         let (side, since) = (*side, *since);
-        if self.step.is_some_and(|s| s.side == side) {
+        if self.recovery_step().is_some_and(|s| s.side == side) {
             return;
         }
         let xi = self.capture.point();
-        let held = self.capture.hold(stance_points(support, side), xi) == xi;
+        let held = self.capture.holding_zmp(stance_points(support, side)) == xi;
         let off = self.capture.off();
-        let (live, earliest) = self.plan.as_ref().map_or((false, f64::INFINITY), |p| {
-            (p.is_live(), p.earliest(side, self.phase))
+        let phase = self.clock.phase;
+        let (live, earliest) = self.plan().map_or((false, f64::INFINITY), |p| {
+            (p.is_live(), p.earliest(side, phase))
         });
-        let back = self.wait.rest(self.capture.omega()) < 1e-3
-            && (off < SETTLED.1 || (held && off < ASTRAY))
-            && (live || terms.com_velocity.norm() < SETTLED.0);
-        let due = live && (earliest - self.phase) / self.speed < RETURNS;
-        if self.step.is_none() && (back || due || since > LONGEST) {
-            self.wait.end();
+        let state = &self.recovery.support;
+        let back = state.rest(self.capture.omega()) < SHIFT_DONE
+            && (off < SETTLED_OFFSET || (held && off < ASTRAY))
+            && (live || terms.com_velocity.norm() < SETTLED_SPEED);
+        let due = live && self.until(earliest) < STREAM_LIFTS;
+        if self.recovery_step().is_none() && (back || due || since > LONGEST) {
+            self.recovery.support.end();
             let foot = &mut self.feet[side];
-            foot.lift(self.phase);
-            foot.release = terms.segment_position(FOOT[side].index()) - feet[side].0.now;
+            foot.lift(phase);
+            foot.release = Self::ankle(terms, side) - feet[side].ankle.now;
             return;
         }
-        let (place, yaw) = now[side];
-        let at = place + Vec3::Z * self.soles[side].ankle_height;
-        let turn = Quat::exp(Vec3::Z * yaw);
-        feet[side] = (
-            PointTarget {
-                now: at,
-                now_velocity: Vec3::zero(),
-                next: at,
-                next_velocity: Vec3::zero(),
-            },
-            RotationTarget {
-                now: turn,
-                now_velocity: Vec3::zero(),
-                next: turn,
-                next_velocity: Vec3::zero(),
-            },
-        );
+        let FootPlace { at, yaw } = now[side];
+        feet[side] = FootTarget {
+            ankle: PointTarget::still(at + Vec3::Z * self.legs.soles[side].ankle_height),
+            rotation: RotationTarget::still(turn(yaw)),
+        };
     }
 }
 
@@ -335,10 +304,10 @@ mod tests {
         }
     }
 
-    /// The capture point of a motion that waits, or has waited, is where it is at full pace: there it can go on at any
+    /// The capture point of a plan that waits, or has waited, is where it is at full pace: there it can go on at any
     /// time.
     #[test]
-    fn a_motion_that_slows_down_keeps_its_capture_point() {
+    fn a_plan_that_slows_down_keeps_its_capture_point() {
         let point = |com: &PointTarget| com.now + com.now_velocity * (1.0 / OMEGA);
         let meant = point(&moving(1.0));
         let mut wait = SupportRecovery::default();
@@ -349,17 +318,19 @@ mod tests {
                 120 => wait.end(),
                 _ => {}
             }
-            wait.keep(DT);
-            let mut com = moving(wait.pace.1);
-            wait.lean(&mut com, OMEGA, DT);
-            least = least.min(wait.pace.0);
-            stood += usize::from(wait.pace == (0.0, 0.0));
+            wait.update_pace(DT);
+            let mut com = moving(wait.last_pace);
+            wait.shift_com(&mut com, OMEGA, DT);
+            least = least.min(wait.pace);
+            stood += usize::from((wait.pace, wait.last_pace) == (0.0, 0.0));
             let off = point(&com) - meant;
-            // While it slows down it leans no faster than a body does.
+            // While it slows down the shift is no faster than a body.
             let follows = !(10..=60).contains(&tick);
             let most = if follows { 0.02 } else { 0.08 };
             assert!(level([off.x, off.y]).norm() < most, "{tick}: {off:?}");
-            assert!(!follows || wait.pace != (0.0, 0.0) || wait.rest(OMEGA) < 1e-9);
+            assert!(
+                !follows || (wait.pace, wait.last_pace) != (0.0, 0.0) || wait.rest(OMEGA) < 1e-9
+            );
         }
         assert!(least == 0.0 && stood > 60 && wait.pace().is_none());
         assert!(wait.shift().norm() < 1e-12);

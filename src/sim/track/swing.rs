@@ -1,56 +1,50 @@
-//! Where swinging feet are led: to footholds that catch the body, clear of the floor, in the air about the centre of
-//! mass (WALKING §4).
+//! Swinging feet: led to displaced footholds, clear of the floor, around the stance leg, in the air about the centre of
+//! mass.
+//!
+//! With `s(u)` from 0 to 1 (minimum jerk) over the swing, the target of the ankle is that of the clip plus
+//! `r (1 − t/T)²` (the offset `r` at lift-off, given up in `T`) plus `s d` (the displacement `d` of the foothold) plus
+//! what the sole lacks of its clearance.
 
-use super::leg_collision::Stance;
+use super::capture_point::{smoothing, within_reach};
+use super::foot_places::{FootPlace, level, turn};
+use super::leg_collision::StanceLeg;
+use super::params::capture::REACH_ALONG;
+use super::params::common::{FREEZE_TIME, LOWERING_SPEED};
+use super::params::swing::{
+    CLEARANCE, CLEARANCE_SPEED, RELEASE_TIME, RETURN_MOST, RETURN_SHARE, SHIFT_SHARE, SHORTEST,
+};
 use super::step_plan::Footfall;
-use super::{FOOT, StepTracker, TaskTargets, capture_point, level};
-use crate::sim::control::{PointTarget, RotationTarget};
+use super::{FOOT, StepTracker, TaskTargets};
+use crate::sim::control::{FootTarget, PointTarget};
 use crate::sim::dynamics::Terms;
 use crate::sim::math::curve::smootherstep;
 use crate::sim::math::{Quat, Vec3, trig};
 
-/// A foot that finds no floor goes down at this speed, m/s.
-const LOWERING: f64 = 0.5;
-/// Time over which a lifting foot gives up its offset from the plan, s.
-const RELEASE: f64 = 0.25;
-/// Part of a swing in which the foot is led to its displaced foothold.
-const SWING_SHARE: f64 = 0.9;
-/// Least height of a swinging sole, m, and how fast it must come up and may come down, m/s.
-const CLEARANCE: f64 = 0.03;
-const CLEARANCE_RATE: f64 = 0.35;
-/// Share of its distance from home by which a foothold is pulled there, and the most, m. A foothold that is pulled is
-/// that far from where it would catch the body, and one foot holds no more than this against it to its side: with 4 cm
-/// a body that was moved drifted on.
-const HOME: (f64, f64) = (0.3, 0.015);
-
 impl StepTracker {
-    /// A standing foot keeps the heading it landed with: it could only be turned by scraping.
-    pub(super) fn keep_headings(
-        &self,
-        terms: &Terms,
-        feet: &mut [(PointTarget, RotationTarget); 2],
-    ) {
-        for (side, (_, target)) in feet.iter_mut().enumerate() {
-            let swings = self.step.is_some_and(|s| s.side == side)
-                || (self.walks() && !self.feet[side].down);
+    /// Gives planted feet the heading they landed with: they could only be turned by scraping.
+    pub(super) fn keep_headings(&self, terms: &Terms, feet: &mut [FootTarget; 2]) {
+        for (side, foot) in feet.iter_mut().enumerate() {
+            let swings = self.recovery_step().is_some_and(|s| s.side == side)
+                || (self.is_stepping() && !self.feet[side].down);
             if swings {
                 continue;
             }
             let actual = Quat::from_mat3(&terms.kin.rotation[FOOT[side].index()]);
+            let target = &mut foot.rotation;
             let off = actual.heading() - target.now.heading();
-            let turn = Quat::exp(Vec3::Z * trig::wrapped(off));
+            let turn = turn(trig::wrapped(off));
             target.now = turn * target.now;
             target.next = turn * target.next;
         }
     }
 
-    /// Leads a foot that swings as the clip has it.
-    pub(super) fn lead_planned(
+    /// Updates the target of a foot in a planned step.
+    pub(super) fn update_swing(
         &mut self,
         terms: &Terms,
         side: usize,
         dt: f64,
-        target: &mut (PointTarget, RotationTarget),
+        target: &mut FootTarget,
     ) {
         if self.feet[side].down {
             if self.feet[side].early {
@@ -59,36 +53,34 @@ impl StepTracker {
             return;
         }
         let (current, next) = (self.planned(side), self.next(side));
-        if let Some(f) = current.or(next) {
-            self.adapt(terms, side, &f, dt);
+        let coming = current.or(next);
+        if let Some(f) = coming {
+            self.update_foothold(terms, side, &f, dt);
         }
-        let heading = current
-            .or(next)
-            .map(|f| self.anchor.yaw() + self.placed(&f).yaw);
-        let foot = self.feet[side];
-        let since = (self.phase - foot.lifted).max(0.0) / self.speed;
+        let (foot, phase) = (self.feet[side], self.clock.phase);
+        let since = (phase - foot.lifted).max(0.0) / self.speed();
         let on = match (current, next) {
-            (Some(_), _) => self.phase,
+            (Some(_), _) => phase,
             (None, Some(f)) => f.on,
-            (None, None) => self.phase + self.speed,
+            (None, None) => phase + self.speed(),
         };
-        let remaining = (on - self.phase).max(0.0) / self.speed;
-        let whole = (since + remaining).max(0.1) * SWING_SHARE;
+        let remaining = self.until(on).max(0.0);
+        let whole = (since + remaining).max(SHORTEST) * SHIFT_SHARE;
         let share = |t: f64| smootherstep((t / whole).clamp(0.0, 1.0));
         let s = share(since);
-        let kept = (1.0 - since / RELEASE).max(0.0);
+        let kept = (1.0 - since / RELEASE_TIME).max(0.0);
         let mut offset = foot.release * (kept * kept);
         offset.x += s * foot.shift[0];
         offset.y += s * foot.shift[1];
         let wanted = CLEARANCE
-            .min(CLEARANCE_RATE * since)
-            .min(CLEARANCE_RATE * remaining);
+            .min(CLEARANCE_SPEED * since)
+            .min(CLEARANCE_SPEED * remaining);
         offset.z += (wanted - self.lowest(terms, side)).clamp(0.0, CLEARANCE);
-        let target = &mut target.0;
+        let target = &mut target.ankle;
         let clip = target.now;
-        if let Some(quick) = self.quick.filter(|_| remaining > 0.0) {
-            // In a hurry a foot lags by a tenth of a second if it is not told how fast it is led aside.
-            let ahead = |t: f64| share(since + t * quick.rate);
+        if let Some(early) = self.timing.early.filter(|_| remaining > 0.0) {
+            // In an early step a foot lags by a tenth of a second unless its target has the velocity of the shift.
+            let ahead = |t: f64| share(since + t * early.rate);
             let (next, after) = (ahead(dt), ahead(2.0 * dt));
             let way = level(foot.shift);
             target.now_velocity += way * ((next - s) / dt);
@@ -96,77 +88,53 @@ impl StepTracker {
             target.next += way * (next - s);
         }
         if foot.late > 0.0 {
-            offset.z -= LOWERING * foot.late;
-            target.now_velocity = Vec3::Z * -LOWERING;
-            target.next_velocity = Vec3::Z * -LOWERING;
+            offset.z -= LOWERING_SPEED * foot.late;
+            target.now_velocity = Vec3::Z * -LOWERING_SPEED;
+            target.next_velocity = Vec3::Z * -LOWERING_SPEED;
         }
         target.now += offset;
         target.next += offset;
-        if let Some(yaw) = heading.filter(|_| self.feet[1 - side].down) {
-            self.lead_around(terms, (side, yaw), (since, dt), clip, target);
+        if let Some(f) = coming.filter(|_| self.feet[1 - side].down) {
+            let stance = FootPlace {
+                at: Self::ankle(terms, 1 - side),
+                yaw: self.mapped(&f).yaw,
+            };
+            let leg = StanceLeg::new(stance, side);
+            if let Some(leg) = leg.crossed(level(foot.shift), foot.release, clip) {
+                let depth = leg.depth(Self::ankle(terms, side), Vec3::zero());
+                let foot = &mut self.feet[side];
+                let initial = *foot.initial_depth.get_or_insert(depth.max(0.0));
+                avoid(&leg, initial, since, dt, target);
+            }
         }
     }
 
-    /// Leads a swinging foot that is to cross, or has crossed, around the leg that stands; `clip`: where the clip has
-    /// it.
-    fn lead_around(
-        &mut self,
-        terms: &Terms,
-        (side, yaw): (usize, f64),
-        (since, dt): (f64, f64),
-        clip: Vec3,
-        target: &mut PointTarget,
-    ) {
-        let foot = &mut self.feet[side];
-        let ankle = |side: usize| terms.segment_position(FOOT[side].index());
-        let stance = Stance::new(ankle(1 - side), yaw, side);
-        let Some(stance) = stance.crossed(level(foot.shift), foot.release, clip) else {
-            return;
-        };
-        let short = stance.short(ankle(side), Vec3::zero());
-        let tight = *foot.tight.get_or_insert(short.max(0.0));
-        let (v0, v1) = (target.now_velocity, target.next_velocity);
-        let now = stance.aside(target.now, v0, since, tight);
-        let next = stance.aside(target.next, v1, since + dt, tight);
-        let after = (target.next + v1 * dt, v1 * 2.0 - v0);
-        let after = stance.aside(after.0, after.1, since + 2.0 * dt, tight);
-        target.now += now;
-        target.next += next;
-        target.now_velocity += (next - now) * (1.0 / dt);
-        target.next_velocity += (after - next) * (1.0 / dt);
+    /// Lowers the target of a foot that landed before its time, and which the plan still has in the air.
+    fn lower_early(&self, side: usize, target: &mut FootTarget) {
+        let ankle = &mut target.ankle;
+        let low = ankle.next.z + self.legs.soles[side].lowest(target.rotation.next, 0.0);
+        ankle.now.z -= low.max(0.0);
+        ankle.next.z -= low.max(0.0);
     }
 
-    /// A foot that landed before its time stands where the plan still has it in the air.
-    fn lower_early(&self, side: usize, target: &mut (PointTarget, RotationTarget)) {
-        let low = target.0.next.z + self.soles[side].lowest(target.1.next, 0.0);
-        target.0.now.z -= low.max(0.0);
-        target.0.next.z -= low.max(0.0);
-    }
-
-    /// Displacement of the foothold `f` of a swinging foot.
-    fn adapt(&mut self, terms: &Terms, side: usize, f: &Footfall, dt: f64) {
-        let f = self.placed(f);
-        let foot = &self.feet[side];
-        let remaining = (f.on - self.phase).max(0.0) / self.speed;
-        let home = self.anchor.point(f.place);
-        let away = home - f.place;
-        let pull = HOME
-            .0
-            .min(HOME.1 / level([away.x, away.y]).norm().max(1e-9));
-        let mut d = self.capture.left_over(remaining);
-        d[0] -= pull * away.x;
-        d[1] -= pull * away.y;
-        let stance = terms.segment_position(FOOT[1 - side].index());
-        let heading = self.anchor.yaw() + f.yaw;
-        let d = match self.quick.filter(|q| q.side == side) {
-            Some(quick) => [quick.place.x - home.x, quick.place.y - home.y],
+    /// Updates the displacement of the foothold `f` of a swinging foot.
+    fn update_foothold(&mut self, terms: &Terms, side: usize, f: &Footfall, dt: f64) {
+        let remaining = self.until(f.on).max(0.0);
+        let (planned, home) = (self.placed(f).at, self.mapped(f));
+        let d = match self.timing.early.filter(|early| early.side == side) {
+            Some(early) => [early.place.x - home.at.x, early.place.y - home.at.y],
             None => {
-                capture_point::within_reach(d, home, stance, heading, side, capture_point::REACH.0)
+                let away = home.at - planned;
+                let pull = RETURN_SHARE.min(RETURN_MOST / level([away.x, away.y]).norm().max(1e-9));
+                let mut d = self.capture.left_over(remaining);
+                d[0] -= pull * away.x;
+                d[1] -= pull * away.y;
+                within_reach(d, home, Self::ankle(terms, 1 - side), side, REACH_ALONG)
             }
         };
-        if remaining > capture_point::FREEZE || foot.shift == [0.0; 2] {
-            let a = capture_point::smoothing(dt);
-            let foot = &mut self.feet[side];
+        let foot = &mut self.feet[side];
+        if remaining > FREEZE_TIME || foot.shift == [0.0; 2] {
+            let a = smoothing(dt);
             for (x, y) in foot.shift.iter_mut().zip(d) {
                 *x += a * (y - *x);
             }
@@ -174,15 +142,30 @@ impl StepTracker {
     }
 }
 
-/// Leads the feet of who flies about his centre of mass, whose way nothing changes: led to where the motion has them
-/// they would pull the legs up or stretch them, and turn the trunk.
-pub(super) fn follow_mass(terms: &Terms, dt: f64, tasks: &mut TaskTargets<'_>) {
+/// Leads a foot that is to cross, or has crossed, around the stance leg, `since` seconds after it lifted off `initial`
+/// metres inside the room of that.
+fn avoid(leg: &StanceLeg, initial: f64, since: f64, dt: f64, target: &mut PointTarget) {
+    let (v0, v1) = (target.now_velocity, target.next_velocity);
+    let aside = |p: Vec3, v: Vec3, t: f64| leg.aside(p, v, since + t, initial);
+    let now = aside(target.now, v0, 0.0);
+    let next = aside(target.next, v1, dt);
+    let after = aside(target.next + v1 * dt, v1 * 2.0 - v0, 2.0 * dt);
+    target.now += now;
+    target.next += next;
+    target.now_velocity += (next - now) * (1.0 / dt);
+    target.next_velocity += (after - next) * (1.0 / dt);
+}
+
+/// Shifts the feet of a body in flight with its centre of mass, whose path nothing changes. Feet led to where the
+/// motion has them would pull the legs up or stretch them, and turn the trunk.
+pub(super) fn follow_com(terms: &Terms, dt: f64, tasks: &mut TaskTargets<'_>) {
     let off = terms.com - tasks.com.now;
     let drift = terms.com_velocity - tasks.com.now_velocity;
-    for (foot, _) in tasks.feet.iter_mut() {
-        foot.now += off;
-        foot.next += off + drift * dt;
-        foot.now_velocity += drift;
-        foot.next_velocity += drift;
+    for foot in tasks.feet.iter_mut() {
+        let ankle = &mut foot.ankle;
+        ankle.now += off;
+        ankle.next += off + drift * dt;
+        ankle.now_velocity += drift;
+        ankle.next_velocity += drift;
     }
 }

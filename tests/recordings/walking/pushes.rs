@@ -195,9 +195,9 @@ fn puts_down(body: &Arc<Body>, clip: &Arc<Clip>, looped: bool, seconds: f64, pus
             "falls at {now:.2} s, pushed by {push:?}"
         );
         assert!(figure.report().unwrap().over_limit <= 1e-9);
-        let step = figure.tracker().unplanned();
-        assert_eq!(figure.tracker().lands_as_planned(), step.is_none());
-        let alone = step.is_some_and(|step| step.purpose == Purpose::CatchAlone);
+        let step = figure.tracker().recovery_step();
+        assert_eq!(figure.tracker().has_planned_footholds(), step.is_none());
+        let alone = step.is_some_and(|step| step.purpose == Purpose::RecoverWithRaisedFoot);
         count += usize::from(alone && !under_way);
         under_way = alone;
         let [left, right] = figure.target().next.planted;

@@ -89,8 +89,8 @@ impl Modern {
                 || s == L_TOES.index()
                 || s == R_FOOT.index()
                 || s == R_TOES.index();
-            let steps = input.on_floor.is_none();
-            if steps && foot && !planted[usize::from(s >= R_FOOT.index())] {
+            let on_feet = input.contacts.floor.is_none();
+            if on_feet && foot && !planted[usize::from(s >= R_FOOT.index())] {
                 self.last_force[s * POINTS..(s + 1) * POINTS].fill(Vec3::zero());
                 continue;
             }
@@ -104,7 +104,7 @@ impl Modern {
                 let z = t.segment_position(s).z + r.z;
                 let mut fade = fall(z, FADE);
                 let (mut slides, mut held) = (false, 1.0);
-                if let Some(floor) = input.on_floor {
+                if let Some(floor) = input.contacts.floor {
                     slides = floor.slides[s];
                     let meant = fall(floor.heights[s * POINTS + vertex], MEANT_FADE);
                     fade = fall(z, FLOOR_FADE);
@@ -125,10 +125,10 @@ impl Modern {
                     continue;
                 }
                 let v = t.kin.velocity[s] + t.kin.omega[s].cross(r);
-                let turns = steps && foot && input.lands_as_planned;
+                let turns = on_feet && foot && input.contacts.places_known;
                 let spin = if turns { t.kin.omega[s].z } else { 0.0 };
                 let a = stop((z, v), spin, input.dt) - t.point_bias(s, *p);
-                let ease = if steps { 1.0 } else { ease(s, foot) };
+                let ease = if on_feet { 1.0 } else { ease(s, foot) };
                 let inverse_r = ease * fade.max(OTHER_SEGMENT) / weight::FORCE;
                 let c = self.last_force[s * POINTS + vertex] * (-FORCE_MEMORY / inverse_r);
                 let slot = self.contacts.slot(&t.kin, s);

@@ -4,7 +4,7 @@
 use super::{Modern, POINTS};
 use crate::sim::body::Body;
 use crate::sim::body::topology::{DOF_START, JOINT, Joint, L_FOOT, L_TOES, R_FOOT, R_TOES};
-use crate::sim::control::ControlInput;
+use crate::sim::control::{ContactPhase, ControlInput};
 use crate::sim::math::curve::fall;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::Target;
@@ -18,15 +18,15 @@ const TIP_FADE: (f64, f64) = (0.003, 0.010);
 /// purpose: a point that is half let go is turned up with its force still there.
 const RISES: (f64, f64) = (0.035, 0.045);
 /// A heel is needed where the zero-moment point is wanted less than this far from it, as a share of the way to the toe
-/// joint: who brakes stands on it still.
+/// joint: a body that brakes stands on it still.
 const NEEDED: (f64, f64) = (0.45, 0.55);
 /// An ankle that needs more than this share of its strength to carry the foot's load on the toe joint does not lift the
 /// heel.
 const STRAINED: (f64, f64) = (0.85, 0.90);
 /// Toes that carry more than this share of the weight are kept to the end of the stance.
 const CARRIES: (f64, f64) = (0.10, 0.15);
-/// Who stands on both feet strides if he moves faster than this, m/s.
-const WALKS: f64 = 0.5;
+/// The weight goes from one planted foot to the other if the centre of mass moves faster than this, m/s.
+const TRANSFER_SPEED: f64 = 0.5;
 
 /// What one planted foot does in this tick.
 #[derive(Clone, Copy, Debug)]
@@ -49,10 +49,10 @@ impl Modern {
             let [before, z] = heights(input, s, [heel(input.body, s); 2]);
             z - before
         });
-        // Who squats, sits down or steps about lifts his heels too and stands on them meanwhile.
-        let v = input.com.now_velocity;
-        let walks = v.x * v.x + v.y * v.y > WALKS * WALKS;
-        let strides = |side: usize| walks || !input.target.next.planted[1 - side];
+        // In a squat, on the way into a seat and in small steps heels are lifted too, and carry meanwhile.
+        let v = input.centroidal.com.now_velocity;
+        let transfers = v.x * v.x + v.y * v.y > TRANSFER_SPEED * TRANSFER_SPEED;
+        let may_lift = |side: usize| transfers || !input.target.next.planted[1 - side];
         let mg = input.terms.mass * input.gravity.max(1.0);
         std::array::from_fn(|side| {
             let s = FEET[side];
@@ -65,7 +65,7 @@ impl Modern {
             Roll {
                 toes: [bent(&input.target.now), bent(&input.target.next)],
                 heel_rise: heel_rise[side],
-                free: if strides(side) { free } else { 0.0 },
+                free: if may_lift(side) { free } else { 0.0 },
                 idle: fall(self.force(s).z / mg, CARRIES),
             }
         })
@@ -101,10 +101,9 @@ fn heel(body: &Body, s: usize) -> Vec3 {
 /// Where the zero-moment point is wanted along foot `s`: 0 under its heel, 1 under its toe joint.
 fn wanted(input: &ControlInput<'_>, s: usize) -> f64 {
     let t = input.terms;
-    let Some(balance) = input.balance else {
+    let Some([x, y]) = input.centroidal.acceleration else {
         return 0.0;
     };
-    let [x, y] = balance.acceleration;
     let zmp = t.com - Vec3 { x, y, z: 0.0 } * (t.com.z / input.gravity.max(1.0));
     let heel = t.point_world(s, heel(input.body, s));
     let way = t.segment_position(s + 1) - heel;
@@ -131,8 +130,8 @@ impl Roll {
             let gives_way = self.free * (1.0 - stays(z - before));
             return (1.0 - gives_way).min(fall(z, PLANNED_FADE));
         }
-        if input.take_off.is_some() {
-            // Who takes off rolls over the tip of his toes.
+        if input.contacts.phase == ContactPhase::LiftOff {
+            // At lift-off a foot rolls over the tip of its toes.
             return fall(z, TIP_FADE);
         }
         // Toes are turned up about a heel that stays, and carry meanwhile; they leave with it.
@@ -143,10 +142,10 @@ impl Roll {
 /// Heights over the floor at which the motion has a point of the foot of segment `s`, foot frame, at the beginning and
 /// at the end of the tick, m.
 fn heights(input: &ControlInput<'_>, s: usize, point: [Vec3; 2]) -> [f64; 2] {
-    let (position, rotation) = &input.feet[usize::from(s >= R_FOOT.index())];
+    let foot = &input.contacts.feet[usize::from(s >= R_FOOT.index())];
     let [now, next] = point;
     [
-        position.now.z + rotation.now.rotate(now).z,
-        position.next.z + rotation.next.rotate(next).z,
+        foot.ankle.now.z + foot.rotation.now.rotate(now).z,
+        foot.ankle.next.z + foot.rotation.next.rotate(next).z,
     ]
 }

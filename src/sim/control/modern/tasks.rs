@@ -7,7 +7,7 @@ use super::{
 use crate::sim::body::SegmentId;
 use crate::sim::body::topology::{L_FOOT, L_THIGH, L_TOES, PELVIS, R_FOOT, R_THIGH, R_TOES};
 use crate::sim::control::goals::{MAX_GOALS, Pace};
-use crate::sim::control::{ControlInput, Goal, PointTarget, com_law};
+use crate::sim::control::{ContactPhase, ControlInput, FootTarget, Goal, PointTarget, com_law};
 use crate::sim::dynamics::Terms;
 use crate::sim::dynamics::terms::WIDTH;
 use crate::sim::figure::report::MAX_CONTACTS;
@@ -50,15 +50,15 @@ impl Modern {
         let hand_law = Law::new(input.params, input.dt);
         let swing_law = hand_law.sharpened(SWING_SHARPNESS);
         if input.params.track_com {
-            let mut a = com_law(input.com, t.com, t.com_velocity, input.dt);
-            if let Some(balance) = input.balance {
-                [a.x, a.y] = balance.acceleration;
+            let mut a = com_law(input.centroidal.com, t.com, t.com_velocity, input.dt);
+            if let Some(level) = input.centroidal.acceleration {
+                [a.x, a.y] = level;
             }
             let urgency = self.urgency(input);
             let a = a - t.com_bias;
             let mut com = weight::COM;
-            if input.take_off.is_some() {
-                com[2] = weight::COM_TAKES_OFF;
+            if input.contacts.phase == ContactPhase::LiftOff {
+                com[2] = weight::COM_LIFT_OFF;
             }
             for (k, value) in [a.x, a.y, a.z].into_iter().enumerate() {
                 self.rows.push(TaskRow {
@@ -68,11 +68,12 @@ impl Modern {
                 });
             }
         }
-        self.take_off_task(input);
+        self.momentum_task(input);
         if input.params.track_hands {
             for e in input.effectors {
                 if input
-                    .on_floor
+                    .contacts
+                    .floor
                     .is_some_and(|f| is_clear(f.heights, e.segment))
                 {
                     self.point_task(
@@ -100,7 +101,7 @@ impl Modern {
         }
         let next = &input.target.next;
         for (side, foot) in [(0, L_FOOT.index()), (1, R_FOOT.index())] {
-            let (position, rotation) = &input.feet[side];
+            let FootTarget { ankle, rotation } = &input.contacts.feet[side];
             // A planted foot is held where it touches; a swinging one is led. Both are turned as the motion turns them:
             // a heel that has come up is out of reach of the contact rows.
             let turn = if next.planted[side] {
@@ -108,12 +109,12 @@ impl Modern {
             } else {
                 weight::SWING_ROTATION
             };
-            if !next.planted[side] && input.on_floor.is_none() {
+            if !next.planted[side] && input.contacts.floor.is_none() {
                 self.point_task(
                     t,
                     &swing_law,
                     (foot, Vec3::zero()),
-                    position,
+                    ankle,
                     SWING_FEEDBACK,
                     weight::SWING_FOOT,
                 );
@@ -142,12 +143,15 @@ impl Modern {
     /// lets himself fall onto the seat as the motion does.
     fn urgency(&mut self, input: &ControlInput<'_>) -> f64 {
         let planted = [input.target.now.planted, input.target.next.planted];
-        if let Some(floor) = input.on_floor {
+        if let Some(floor) = input.contacts.floor {
             return if floor.lies { LYING } else { 1.0 };
         }
         let mut most = 1.0;
         if planted == [[true; 2]; 2] {
-            let margin = self.margin_on_feet(input, [input.com.now.x, input.com.now.y]);
+            let margin = self.margin_on_feet(
+                input,
+                [input.centroidal.com.now.x, input.centroidal.com.now.y],
+            );
             most -= (1.0 - SEATED_LEAST) * fall(margin, SITS_DOWN);
         }
         if self.seat.carries > 0.0 {
@@ -173,7 +177,8 @@ impl Modern {
         if carries <= 0.0 {
             return Seat::default();
         }
-        let capture = input.com.now + input.com.now_velocity * pendulum_time(input);
+        let capture =
+            input.centroidal.com.now + input.centroidal.com.now_velocity * pendulum_time(input);
         let margin = self.margin_on_feet(input, [capture.x, capture.y]);
         let needed = fall(margin, NEEDS_SEAT);
         Seat { carries, needed }

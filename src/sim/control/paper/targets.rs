@@ -80,7 +80,7 @@ impl Paper {
 
     /// Two rows of (14): what the centre of mass lacks at `qdd`, within what the feet can give if that is asked for.
     pub(super) fn push_com(&mut self, input: &ControlInput<'_>, law: &Law, qdd: &Row) {
-        let (terms, c) = (input.terms, input.com);
+        let (terms, c) = (input.terms, input.centroidal.com);
         let law = if input.params.zmp_feasible {
             let horizon = input.params.horizon.or(Some(COM_HORIZON));
             Law::new(
@@ -141,7 +141,7 @@ impl Paper {
             }
             bias -= terms.com_bias;
             (at, velocity) = (at - terms.com, velocity - terms.com_velocity);
-            let c = input.com;
+            let c = input.centroidal.com;
             (t.now, t.now_velocity) = (t.now - c.now, t.now_velocity - c.now_velocity);
             (t.next, t.next_velocity) = (t.next - c.next, t.next_velocity - c.next_velocity);
         }

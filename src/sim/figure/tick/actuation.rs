@@ -2,7 +2,10 @@
 
 use super::{Figure, TickContext};
 use crate::sim::body::topology::DOF_COUNT;
-use crate::sim::control::{Balance, ControlInput, Controller, Law, TakeOff, tracking};
+use crate::sim::control::{
+    CentroidalTarget, ContactPhase, ContactTargets, ControlInput, Controller, Law, MomentumTarget,
+    tracking,
+};
 use crate::sim::figure::assist::Assist;
 use crate::sim::figure::drive::Drive;
 use crate::sim::figure::setup::{ControlParams, ControllerKind, StrengthScale};
@@ -53,18 +56,18 @@ impl Figure {
             && self.setup.options.assist < 1.0
     }
 
-    /// The flight that the motion has next, with the angular momentum that the motion has in it; `None` where that is
-    /// not known.
-    pub(super) fn take_off(&mut self) -> Option<TakeOff> {
-        let flight = self.tracker.coming_flight()?;
+    /// Angular momentum that the motion has in its next flight, to be reached at lift-off; `None` if no flight begins
+    /// soon, or if its momentum is not known.
+    pub(super) fn lift_off_momentum(&mut self) -> Option<MomentumTarget> {
+        let flight = self.tracker.next_flight()?;
         let spin = match &self.drive {
             Drive::Clip(play) => self.tasks.spin(&self.links, &play.sample(flight.middle)),
             Drive::Live(live) => live.motion.spin_at(live.stream_time(flight.middle))?,
             Drive::Hold(_) | Drive::External(_) => return None,
         };
-        Some(TakeOff {
-            after: flight.after,
-            spin: self.tracker.turned(spin),
+        Some(MomentumTarget {
+            value: self.tracker.turned(spin),
+            within: flight.after,
         })
     }
 
@@ -107,7 +110,7 @@ impl Figure {
         &mut self,
         world: &TickContext,
         tasks: &TaskPoints,
-        (balance, take_off): (Option<Balance>, Option<TakeOff>),
+        centroidal: CentroidalTarget<'_>,
         (lower, upper): (&[f64; DOF_COUNT], &[f64; DOF_COUNT]),
     ) -> MotorCommand {
         let (mut hands, mut free) = (tasks.hands, 0);
@@ -121,13 +124,17 @@ impl Figure {
             body: &self.setup.body,
             support: &self.support,
             target: &self.target,
-            com: &tasks.com,
+            centroidal,
+            contacts: ContactTargets {
+                feet: &tasks.feet,
+                phase: centroidal
+                    .momentum
+                    .map_or(ContactPhase::Stance, |_| ContactPhase::LiftOff),
+                places_known: self.tracker.has_planned_footholds(),
+                floor: self.rising.on_floor(),
+            },
             effectors: &hands[..free],
             goals: self.constraints.goals(),
-            feet: &tasks.feet,
-            balance,
-            lands_as_planned: self.tracker.lands_as_planned(),
-            take_off,
             lower,
             upper,
             params: &self.setup.params,
@@ -136,7 +143,6 @@ impl Figure {
             assist: Assist::new(&self.setup.body, self.setup.options.assist)
                 .map_or([0.0; 2], |a| a.planned()),
             kinematic: self.prescribed,
-            on_floor: self.rising.on_floor(),
         };
         let (command, saturation_speed) = match self.active_controller() {
             ControllerKind::Paper => (self.paper.control(&input), FEED_FORWARD_SPEED),

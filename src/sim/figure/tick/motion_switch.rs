@@ -289,7 +289,8 @@ impl Figure {
         play.origin = place;
         let plan = plan.entered_by(&self.setup.body, &way);
         let before = now.clip_time(play.start);
-        self.tracker.go_on((plan, play.speed, place), before);
+        self.tracker
+            .continue_with((plan, play.speed, place), before);
         play.way_in = Some(Arc::new(way));
         self.drive = Drive::Clip(play);
         self.ending = false;
@@ -306,7 +307,7 @@ impl Figure {
         };
         let plan = StepPlan::new(&self.setup.body, &clip, false);
         let here = PlanarTransform::default();
-        self.tracker.go_on((plan, 1.0, here), before);
+        self.tracker.continue_with((plan, 1.0, here), before);
         self.drive = Drive::Clip(ClipPlayback::new(Arc::new(clip), begin));
         self.ending = true;
     }

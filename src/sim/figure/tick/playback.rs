@@ -54,7 +54,7 @@ impl Figure {
         let led = begin.upright && !fixed;
         let rises = self.rising.is_rising();
         let moves = rises || self.is_busy(time) || led && self.crouches();
-        let stands = !moves && !self.tracker.eases(&self.terms);
+        let stands = !moves && !self.tracker.comes_to_stand(&self.terms);
         let begins_so = |stand: &Posture| {
             let motion = play.motion();
             !led || motion.begins_as(&self.setup.body, first, stand)
@@ -64,7 +64,7 @@ impl Figure {
             self.set_drive(Drive::Clip(play));
             return start;
         }
-        let ease = *self.tracker.ease();
+        let ease = *self.tracker.at_ease();
         let goal = if begin.rests { begin.posture } else { ease };
         let stand = match (moves, self.is_slow()) {
             (false, _) => self.comes_to(),
@@ -121,7 +121,7 @@ impl Figure {
 
     /// The posture in which it stands when its motion is over.
     fn comes_to(&self) -> Posture {
-        if let Some(ease) = self.tracker.comes_to() {
+        if let Some(ease) = self.tracker.stop_posture() {
             return *ease;
         }
         match &self.drive {
@@ -138,7 +138,7 @@ impl Figure {
         };
         let here = end.sample(time - self.tracker.lag()).posture;
         let left = here.joint_difference(&self.comes_to());
-        self.tracker.comes_to().is_some() || left.iter().all(|e| e.abs() < STILL)
+        self.tracker.stop_posture().is_some() || left.iter().all(|e| e.abs() < STILL)
     }
 
     /// Begins to work out the way from the stand that its motion leads to into the clip that waits, if it takes one.
@@ -180,7 +180,7 @@ impl Figure {
             Drive::Live(_) => self.tracker.is_walking(),
             Drive::Hold(_) | Drive::External(_) => false,
         };
-        plays || self.leaving.is_some() || self.tracker.unplanned().is_some()
+        plays || self.leaving.is_some() || self.tracker.recovery_step().is_some()
     }
 
     /// Begins the clip that waits, once the figure stands.
