@@ -9,6 +9,7 @@
 
 mod feet;
 mod joints;
+pub mod params;
 mod recording;
 mod report;
 mod root;
@@ -29,7 +30,8 @@ use super::motion::skeleton_map::map_skeleton;
 use super::plan::contact_labels::{label_feet, phases};
 use super::plan::flight_phases;
 use super::plan::foot_lock::Sole;
-use super::plan::prepare::{Draft, HELD, PrepareOptions, Prepared, prepare};
+use super::plan::params::leg;
+use super::plan::prepare::{Draft, PrepareOptions, Prepared, prepare};
 use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES, L_FOOT, L_SHANK};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::{Quat, Vec3};
@@ -265,7 +267,7 @@ pub fn retarget(
             lock_feet: false,
             balance: false,
             runs: fastest_run.is_some(),
-            held: HELD,
+            held: leg::HELD,
         };
         let recorded = prepare(body, &draft, bare).postures;
         flight_phases::label_runs(body, &recorded, &mut draft.label, rate);
@@ -277,7 +279,7 @@ pub fn retarget(
         lock_feet: options.lock_feet && options.floor,
         balance: options.balance,
         runs: fastest_run.is_some(),
-        held: HELD,
+        held: leg::HELD,
     };
     let prepared = prepare(body, &draft, how);
     let (postures, planted, lead_in, lead_out) = if options.ends && how.lock_feet {

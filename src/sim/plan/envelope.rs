@@ -5,11 +5,7 @@
 //! the least acceleration.
 
 use crate::sim::math::banded::Pentadiagonal;
-
-/// Weight of a sample above the ceiling against one of the curve itself.
-const STIFFNESS: f64 = 1e4;
-/// Most rounds of finding the samples that the ceiling holds down; 5 to 20 are typical.
-const ROUNDS: usize = 60;
+use crate::sim::plan::params::leg;
 
 /// The curve `d ≤ ceiling` that minimises `Σ d² + τ⁴ d̈²`: it leaves 0 as little, and bends as little, as the ceiling
 /// allows.
@@ -28,14 +24,17 @@ pub fn smoothest_below(ceiling: &[f64], tau: f64, rate_hz: f64) -> Vec<f64> {
     }
     let bend = (tau * rate_hz).powi(4);
     let mut held = vec![false; n];
-    for _ in 0..ROUNDS {
+    for _ in 0..leg::CEILING_ROUNDS {
         let now: Vec<bool> = d.iter().zip(ceiling).map(|(d, c)| d > c).collect();
         if now == held {
             break;
         }
         held = now;
-        let spring: Vec<f64> = held.iter().map(|h| f64::from(*h) * STIFFNESS).collect();
-        let pull = |(h, c): (&bool, &f64)| if *h { STIFFNESS * c } else { 0.0 };
+        let spring: Vec<f64> = held
+            .iter()
+            .map(|h| f64::from(*h) * leg::CEILING_STIFFNESS)
+            .collect();
+        let pull = |(h, c): (&bool, &f64)| if *h { leg::CEILING_STIFFNESS * c } else { 0.0 };
         d = held.iter().zip(ceiling).map(pull).collect();
         let mut matrix = Pentadiagonal::new(spring.iter().map(|s| 1.0 + s).collect());
         for i in 0..n - 2 {

@@ -8,13 +8,13 @@
 mod sole;
 mod stances;
 
-pub(in crate::sim::plan) use sole::ON_TIP;
 pub use sole::{Anchor, FootPose, Sole, turn, yaw_pitch};
 pub use stances::{Stance, stances};
 
 use super::contact_labels::runs;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::filter::low_pass;
+use crate::sim::plan::params::{contact, pitch, swing};
 use stances::Track;
 
 /// A foot that stands as the body's sole allows, and how much was changed for that.
@@ -30,33 +30,9 @@ pub struct LockedFoot {
     pub slide_before: f64,
 }
 
-/// Pitch below which a walking foot counts as flat, rad (4°).
-const DEAD_BAND: f64 = 0.07;
-/// The same for a foot that stands for long, rad (9°): a standing person's soles are flat unless clearly raised.
-const DEAD_BAND_LONG: f64 = 0.16;
-/// A foot pitched by less than this is flat at that moment, rad.
-const FLAT: f64 = 0.12;
-/// Stances longer than this are standing, not walking, s.
-const LONG_STANCE: f64 = 1.5;
-/// A foot steeper or more rolled than this does not stand on its sole, rad.
-pub(super) const STEEPEST: (f64, f64, f64) = (-1.05, 0.6, 0.6);
-/// A swinging sole passes at least this high, m, for a step of normal length.
-const CLEARANCE: f64 = 0.045;
-/// How fast a sole rises after lift-off and sinks before touch-down at least, m/s.
-const RISE: (f64, f64) = (0.45, 0.4);
-/// Longest time over which a swing departs from a lock, s.
-const FADE: f64 = 0.3;
-/// A foot that leaves for a flight, or comes from one, is pulled off its lock fast: the offset would first grow, by its
-/// speed times this share of the time over which it fades. There it grows by this much at most, m, and fades over this
-/// time at least, s: a leg that trails its foot by more stretches, and spins up in the air.
+/// Largest value of u (1 − u)³ (1 + 3 u), about: an offset that fades grows first, by its speed times this share of the
+/// time over which it fades.
 const GROWS: f64 = 0.2;
-const MOST_GROWTH: f64 = 0.015;
-const LEAST_FADE: f64 = 0.05;
-/// Feet that are both off the floor for this long fly, s.
-const FLIES: f64 = 0.06;
-/// Largest toe extension of a swinging foot, rad.
-const SWING_TOE: f64 = 0.6;
-
 fn median(mut v: Vec<f64>) -> f64 {
     v.sort_by(f64::total_cmp);
     v.get(v.len() / 2).copied().unwrap_or(0.0)
@@ -105,7 +81,7 @@ pub fn lock_foot(
     let toes: Vec<f64> = track
         .pitch
         .iter()
-        .map(|p| (-p).clamp(0.0, SWING_TOE))
+        .map(|p| (-p).clamp(0.0, swing::MOST_TOE))
         .collect();
     let mut out = LockedFoot {
         poses: (0..n)
@@ -134,7 +110,7 @@ pub fn lock_foot(
             let at = Anchor {
                 place: stays - arm(yaw),
                 yaw,
-                pitch: (pitch[k - i] - heel_up[k]).max(STEEPEST.0),
+                pitch: (pitch[k - i] - heel_up[k]).max(contact::LEAST_PITCH),
                 tip: tip[k],
             };
             out.slide_before = out.slide_before.max((track.point[k] - at.place).norm());
@@ -149,7 +125,7 @@ pub fn lock_foot(
         toes: &toes,
     };
     let off = |k: usize| !other.iter().any(|s| (s.start..s.end).contains(&k));
-    let long = (FLIES * rate_hz) as usize;
+    let long = (contact::SHORTEST_FLIGHT * rate_hz) as usize;
     for (i, j, on) in runs(&out.planted.clone()) {
         if !on {
             let flies = [off((i + long).min(n - 1)), off(j.saturating_sub(long))];
@@ -163,18 +139,24 @@ pub fn lock_foot(
 /// and one way only after it: toe-up first and heel-up then, unless it comes down on its toes or leaves from its heel.
 fn stance_pitch(raw: &[f64], rate_hz: f64) -> Vec<f64> {
     let n = raw.len();
-    let long = n as f64 > LONG_STANCE * rate_hz;
-    let band = if long { DEAD_BAND_LONG } else { DEAD_BAND };
+    let long = n as f64 > pitch::LONG_STANCE * rate_hz;
+    let band = if long {
+        pitch::LONG_DEAD_BAND
+    } else {
+        pitch::DEAD_BAND
+    };
     let mut p: Vec<f64> = raw
         .iter()
-        .map(|x| (x - x.clamp(-band, band)).clamp(STEEPEST.0, STEEPEST.1))
+        .map(|x| (x - x.clamp(-band, band)).clamp(contact::LEAST_PITCH, contact::MOST_TILT))
         .collect();
     if !long {
-        let flat: Vec<usize> = (0..n).filter(|k| raw[*k].abs() < FLAT).collect();
+        let flat: Vec<usize> = (0..n)
+            .filter(|k| raw[*k].abs() < pitch::MIDSTANCE)
+            .collect();
         if let Some(&mid) = flat.get(flat.len() / 2) {
             // Who walks backwards, or dances, comes down on the toes and may leave from the heel.
-            let toes_first = raw[0] < -FLAT;
-            let heel_last = raw[n - 1] > FLAT;
+            let toes_first = raw[0] < -pitch::MIDSTANCE;
+            let heel_last = raw[n - 1] > pitch::MIDSTANCE;
             for (k, p) in p.iter_mut().enumerate() {
                 let toe_up = if k < mid { !toes_first } else { heel_last };
                 *p = if toe_up { p.max(0.0) } else { p.min(0.0) };
@@ -187,7 +169,7 @@ fn stance_pitch(raw: &[f64], rate_hz: f64) -> Vec<f64> {
     } else {
         p.iter_mut().for_each(|p| *p = p.min(0.0));
     }
-    low_pass(&mut p, 8.0, rate_hz);
+    low_pass(&mut p, swing::JOINT_CUTOFF, rate_hz);
     p
 }
 
@@ -224,7 +206,7 @@ fn swing(
     let n = ankles.len();
     let at = |k: usize, out: &LockedFoot| offset(&out.poses[k], ankles[k], rotations[k], toes[k]);
     // Between two locks each offset is gone where the other begins; a swing that the recording breaks off has no other.
-    let fade_time = ((FADE * rate_hz) as usize).max(1);
+    let fade_time = ((swing::DEPARTURE * rate_hz) as usize).max(1);
     let span = if i > 0 && j < n {
         fade_time.min(j - i + 1)
     } else {
@@ -255,7 +237,9 @@ fn swing(
             }
             let speed = v[..3].iter().map(|v| v * v).sum::<f64>().sqrt();
             let span = if flies && speed > 0.0 {
-                span.min((MOST_GROWTH / (GROWS * speed)).max(LEAST_FADE * rate_hz))
+                span.min(
+                    (swing::MOST_GROWTH / (GROWS * speed)).max(swing::LEAST_DEPARTURE * rate_hz),
+                )
             } else {
                 span
             };
@@ -286,7 +270,7 @@ fn swing(
     // Clearance, in proportion to the step: a shuffle of some centimetres need not rise like a stride.
     let (a, b) = (i.saturating_sub(1), j.min(n - 1));
     let reach = (out.poses[b].ankle - out.poses[a].ankle).norm();
-    let most = (0.12 * reach).clamp(0.015, CLEARANCE);
+    let most = (swing::CLEARANCE_SHARE * reach).clamp(swing::LEAST_CLEARANCE, swing::CLEARANCE);
     let mut lift: Vec<f64> = (i..j)
         .map(|k| {
             let since = if i > 0 {
@@ -295,12 +279,14 @@ fn swing(
                 1.0
             };
             let until = if j < n { (j - k) as f64 / rate_hz } else { 1.0 };
-            let need = most.min(RISE.0 * since).min(RISE.1 * until);
+            let need = most
+                .min(swing::RISE_SPEED * since)
+                .min(swing::SINK_SPEED * until);
             let p = &out.poses[k];
             (need - (p.ankle.z + sole.lowest(p.rotation, p.toe))).max(0.0)
         })
         .collect();
-    low_pass(&mut lift, 10.0, rate_hz);
+    low_pass(&mut lift, swing::HEIGHT_CUTOFF, rate_hz);
     for (k, l) in (i..j).zip(lift) {
         let since = if i > 0 {
             (k + 1 - i) as f64 / rate_hz
@@ -308,7 +294,7 @@ fn swing(
             1.0
         };
         let until = if j < n { (j - k) as f64 / rate_hz } else { 1.0 };
-        let w = (since.min(until) / 0.06).min(1.0);
+        let w = (since.min(until) / swing::LIFT_TIME).min(1.0);
         out.poses[k].ankle.z += l.max(0.0) * w * w * (3.0 - 2.0 * w);
     }
 }

@@ -8,6 +8,7 @@ pub mod feasibility;
 pub(crate) mod flight_phases;
 pub mod foot_lock;
 pub mod motion_transition;
+pub mod params;
 pub mod pelvis_shift;
 pub mod prepare;
 pub mod splice;

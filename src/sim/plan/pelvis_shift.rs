@@ -14,9 +14,7 @@ use crate::sim::math::polygon::{Region, margin};
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::filter::low_pass;
 use crate::sim::motion::leg_ik::forward;
-
-/// Ground force over weight below which the zero-moment point is meaningless.
-pub const LIGHT: f64 = 0.25;
+use crate::sim::plan::params::balance;
 
 /// Centre of mass and zero-moment point of every sample of a motion.
 #[derive(Clone, Debug)]
@@ -69,7 +67,10 @@ pub fn mass_track(body: &Body, postures: &[Posture], rate_hz: f64) -> MassTrack 
         .collect();
     let mut out = MassTrack {
         zmp: com.iter().map(|c| [c.x, c.y]).collect(),
-        omega2: com.iter().map(|c| GRAVITY / c.z.max(0.2)).collect(),
+        omega2: com
+            .iter()
+            .map(|c| GRAVITY / c.z.max(balance::LEAST_HEIGHT))
+            .collect(),
         load: vec![1.0; n],
         wrench: vec![(Vec3::Z * (mass * GRAVITY), Vec3::zero()); n],
         com,
@@ -83,9 +84,10 @@ pub fn mass_track(body: &Body, postures: &[Posture], rate_hz: f64) -> MassTrack 
         let rate = (momentum[i + 1] - momentum[i - 1]) * (0.5 / h);
         out.load[i] = 1.0 + acc.z / GRAVITY;
         out.wrench[i] = ((acc + Vec3::Z * GRAVITY) * mass, rate);
-        out.omega2[i] = ((GRAVITY + acc.z) / c.z.max(0.2)).clamp(3.0, 40.0);
+        out.omega2[i] = ((GRAVITY + acc.z) / c.z.max(balance::LEAST_HEIGHT))
+            .clamp(balance::LEAST_OMEGA2, balance::MOST_OMEGA2);
         // Near flight there is no zero-moment point to speak of; the centre of mass stands in.
-        if out.load[i] > LIGHT {
+        if out.load[i] > balance::LEAST_LOAD {
             out.zmp[i] = zero_moment_point(c, out.wrench[i]);
         }
     }
@@ -130,20 +132,6 @@ pub enum Carrier {
     Other,
 }
 
-/// Pelvis and trunk move by this much more than the centre of mass, because the feet stay.
-pub(crate) const LEAD: f64 = 1.15;
-/// A zero-moment point this much outside costs as much as a shift of one metre, m.
-const COST: f64 = 0.1;
-/// Time below which a shift is not to change, s.
-const BEND: f64 = 0.08;
-/// Price of bending the path of a body in the air, against that of a zero-moment point outside, s⁴.
-const FREE: f64 = 1.0;
-/// Most alternations between trajectory and polygons, and the change that is none, m.
-const ALTERNATIONS: usize = 150;
-const SETTLED: f64 = 1e-6;
-/// Most of a correction of the zero-moment point, m.
-const MOST_OFF: f64 = 0.4;
-
 /// How the zero-moment point answers to a shift of the centre of mass: Δ − Δ̈/ω², tridiagonal, the motion mirrored at
 /// both ends.
 fn answer(omega2: f64, rate_hz: f64, i: usize, n: usize) -> [f64; 3] {
@@ -168,7 +156,7 @@ fn answered(rows: &[[f64; 3]], shift: &[[f64; 2]], i: usize) -> [f64; 2] {
 }
 
 /// Price of a zero-moment point outside, 1/m².
-const PRICE: f64 = 1.0 / (COST * COST);
+pub(super) const PRICE: f64 = 1.0 / (balance::OUTSIDE_COST * balance::OUTSIDE_COST);
 
 /// Share of the way into the support that the zero-moment point is brought in each sample: none where something else
 /// than feet carries.
@@ -182,14 +170,16 @@ fn how_much_yields(
     (reach, rate_hz): (f64, f64),
 ) -> Vec<f64> {
     let outside = |(i, c): (usize, &Carrier)| match c {
-        Carrier::Feet(p) => (-margin(p, plain[i])).clamp(0.0, MOST_OFF),
+        Carrier::Feet(p) => (-margin(p, plain[i])).clamp(0.0, balance::MOST_OUTSIDE),
         _ => 0.0,
     };
     // How far outside for about a second: peaks of gait are corrected, a chair is not.
     let mut lasting: Vec<f64> = carriers.iter().enumerate().map(outside).collect();
-    low_pass(&mut lasting, 0.5, rate_hz);
+    low_pass(&mut lasting, balance::LASTING_CUTOFF, rate_hz);
     let share = |(i, c): (usize, &Carrier)| {
-        let u = ((lasting[i] - 0.7 * reach) / (0.6 * reach)).clamp(0.0, 1.0);
+        let u = ((lasting[i] - balance::OTHER_SUPPORT_BEGINS * reach)
+            / (balance::OTHER_SUPPORT_RANGE * reach))
+            .clamp(0.0, 1.0);
         let meant = if matches!(c, Carrier::Feet(_)) {
             let leans = elsewhere[i].hands * u * u * (3.0 - 2.0 * u);
             (1.0 - elsewhere[i].seat) * (1.0 - leans)
@@ -213,9 +203,9 @@ fn shift_system(rows: &[[f64; 3]], carriers: &[Carrier], rate_hz: f64) -> Pentad
         if i > 0 && i + 1 < n {
             // Nothing bends the path of a body in the air.
             let weight = if carriers[i] == Carrier::Air {
-                FREE * PRICE * rate_hz.powi(4)
+                balance::FLIGHT_PRICE * PRICE * rate_hz.powi(4)
             } else {
-                (BEND * rate_hz).powi(4)
+                (balance::BEND_TIME * rate_hz).powi(4)
             };
             matrix.add_row(i as isize - 1, [1.0, -2.0, 1.0], weight);
         }
@@ -258,13 +248,14 @@ pub(crate) fn pelvis_shift_in_run(
     rate_hz: f64,
 ) -> Vec<[f64; 2]> {
     let mut straight = vec![[0.0; 2]; air.len()];
-    let plain = |i: usize, k: usize| track.com[i].to_array()[k] - so_far[i][k] / LEAD;
-    let price = FREE * PRICE * rate_hz.powi(4);
+    let plain =
+        |i: usize, k: usize| track.com[i].to_array()[k] - so_far[i][k] / balance::PELVIS_LEAD;
+    let price = balance::FLIGHT_PRICE * PRICE * rate_hz.powi(4);
     for i in (1..air.len() - 1).filter(|i| falls(air, *i)) {
         for k in 0..2 {
             let bend = plain(i - 1, k) - 2.0 * plain(i, k) + plain(i + 1, k);
             for (j, r) in [(i - 1, 1.0), (i, -2.0), (i + 1, 1.0)] {
-                straight[j][k] -= price * r * LEAD * bend;
+                straight[j][k] -= price * r * balance::PELVIS_LEAD * bend;
             }
         }
     }
@@ -282,7 +273,7 @@ fn shift_with(
 ) -> Vec<[f64; 2]> {
     let n = track.com.len();
     let rows: Vec<[f64; 3]> = (0..n)
-        .map(|i| answer(track.omega2[i], rate_hz, i, n).map(|x| x / LEAD))
+        .map(|i| answer(track.omega2[i], rate_hz, i, n).map(|x| x / balance::PELVIS_LEAD))
         .collect();
     // Where the zero-moment point would be without any shift.
     let plain: Vec<[f64; 2]> = (0..n)
@@ -300,7 +291,7 @@ fn shift_with(
     let mut shift = vec![[0.0; 2]; n];
     let mut goal = plain.clone();
     let mut debt = vec![[0.0; 2]; n];
-    for _ in 0..ALTERNATIONS {
+    for _ in 0..balance::ALTERNATIONS {
         // PRICE Aᵀ (goal − debt − plain)
         match pull {
             Some(pull) => shift.copy_from_slice(pull),
@@ -340,7 +331,7 @@ fn shift_with(
                 (goal[i][k], debt[i][k]) = (next, owed);
             }
         }
-        if change < SETTLED {
+        if change < balance::SETTLED {
             break;
         }
     }

@@ -16,31 +16,15 @@ use crate::sim::body::topology::{DOF_COUNT, L_FOOT, R_FOOT, SegmentId};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::polygon::margin;
 use crate::sim::math::{Quat, Vec3};
+use crate::sim::plan::params::{balance, contact};
 use ankle_unloading::AnkleUnloading;
 use deep_flexion::{DeepFlexion, unfold};
-use joint_limits::{LIMIT_MARGIN, clamp_upper, into_limits};
+use joint_limits::{clamp_upper, into_limits};
 pub use support_phases::ZmpOutside;
 pub(super) use support_phases::{carriers_of, held_by, may_rest, planted_of};
 use support_phases::{held_in_gait, within_reach, zmp_outside};
 use whole_body::assemble;
-pub(super) use whole_body::{DROP_TIME, leg_geometry};
-
-/// Rounds of shifting the trunk and solving the legs again.
-const ROUNDS: usize = 8;
-/// The zero-moment point is kept this far inside the support polygon, m.
-pub(crate) const INSET: f64 = 0.04;
-/// The same for runners, whose ankles limit it anyway.
-const RUN_INSET: f64 = 0.02;
-/// A zero-moment point outside by more than this for long means that something other than the feet carries the body, m.
-pub(crate) const CARRIED: f64 = 0.15;
-/// The trunk is never moved further than this for balance, m.
-const MOST_SHIFT: f64 = 0.2;
-/// Below this fraction of standing height the pelvis lies or sits on the floor: feet are not what stands.
-const LYING: f64 = 0.22;
-/// Accuracy to which the feet of a recording hold their places, m.
-pub(crate) const HELD: f64 = 5e-4;
-/// Which planted feet carry is looked at so many rounds before the last.
-const RELIEVED: usize = 5;
+pub(super) use whole_body::leg_geometry;
 
 /// A recorded motion in body scale, floor at z = 0: what the preparation starts from.
 #[derive(Clone, Debug)]
@@ -107,7 +91,7 @@ const FOOT: [SegmentId; 2] = [L_FOOT, R_FOOT];
 ///
 /// Memory and time are linear in the number of samples (times a handful of balancing rounds).
 pub fn prepare(body: &Body, draft: &Draft, options: PrepareOptions) -> Prepared {
-    prepare_in(body, draft, options, ROUNDS)
+    prepare_in(body, draft, options, balance::ROUNDS)
 }
 
 /// The same with another number of rounds in which ankles are relieved and the trunk is shifted.
@@ -121,7 +105,8 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
     let mut clamped = [(0.0f64, 0.0f64); DOF_COUNT];
     clamp_upper(body, &mut upper, rate, &mut clamped);
 
-    let upright = |i: usize| options.lock_feet && upper[i].root_position.z > LYING * standing;
+    let upright =
+        |i: usize| options.lock_feet && upper[i].root_position.z > contact::LYING * standing;
     let label: [Vec<bool>; 2] =
         std::array::from_fn(|s| (0..n).map(|i| draft.label[i][s] && upright(i)).collect());
     let stands = stances(
@@ -212,22 +197,22 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
             );
             shift = match &flights {
                 None => {
-                    let reach = (INSET, CARRIED);
+                    let reach = (balance::INSET, balance::OTHER_SUPPORT);
                     pelvis_shift(&track, &shift, &held, &elsewhere, reach, rate)
                 }
                 Some(f) => pelvis_shift_in_run(
                     &track,
                     &shift,
                     (&held, &elsewhere),
-                    (RUN_INSET, CARRIED),
+                    (balance::RUN_INSET, balance::OTHER_SUPPORT),
                     f.air(),
                     rate,
                 ),
             };
             for s in &mut shift {
                 let far = s[0].hypot(s[1]);
-                if far > MOST_SHIFT {
-                    *s = s.map(|x| x * MOST_SHIFT / far);
+                if far > balance::MOST_SHIFT {
+                    *s = s.map(|x| x * balance::MOST_SHIFT / far);
                 }
             }
         }
@@ -244,7 +229,7 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
             flights.as_ref(),
         );
         track = mass_track(body, &postures, rate);
-        if round + RELIEVED == rounds {
+        if round + balance::REACH_ROUND == rounds {
             let left = within_reach(body, &postures, &planted, (&soles, &locked));
             carries.copy_from_slice(&left);
             carriers = carriers_of(body, &soles, &upper, (&locked, &carries), &draft.label);
@@ -267,7 +252,7 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
     let after = zmp_outside(&track, &carriers);
     let far = (0..n)
         .filter(|i| match &carriers[*i] {
-            Carrier::Feet(p) => margin(p, track.zmp[*i]) < -CARRIED,
+            Carrier::Feet(p) => margin(p, track.zmp[*i]) < -balance::OTHER_SUPPORT,
             Carrier::Other => true,
             Carrier::Air => false,
         })

@@ -12,32 +12,9 @@ use super::prepare::{Draft, PrepareOptions, prepare_in};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::ease::smootherstep;
 use crate::sim::motion::clip::{Clip, PlanarTransform};
+use crate::sim::plan::params::{balance, leg, likeness, stop, stream};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
-
-/// Samples per second of what is planned here.
-pub const RATE: f64 = 60.0;
-/// Time of the motion so far that takes part in the seam, s.
-pub const RUN_UP: f64 = 1.4;
-/// Rates count this much against angles, s; moments are alike up to this unlikeness, rad rms; a step is at least so
-/// many samples long.
-const RATE_SHARE: f64 = 0.05;
-const ALIKE: f64 = 0.3;
-const LEAST_BACK: usize = 48;
-/// Time over which one motion turns into another, s.
-pub(crate) const BLEND: f64 = 0.3;
-/// How far ahead it is looked for a place to stop, s, and samples between the places that are tried.
-const STEP: f64 = 0.55;
-const APART: usize = 14;
-/// An end that asks for no more than this force and moment from nothing, shares of what a body weighs, is not worth
-/// bettering. Of those above 0.6 most fall, of those above 0.05 some.
-const EASY: f64 = 0.03;
-/// Rounds of preparation: what is known so far has been prepared, or comes off a window.
-pub(crate) const ROUNDS: usize = 4;
-/// Time of the motion so far that is prepared with its end, s.
-pub(crate) const TAKES_PART: f64 = 0.4;
-/// Samples per second of what is prepared.
-pub(crate) const FINE: f64 = 2.0 * RATE;
 
 pub(crate) const HOW: PrepareOptions = PrepareOptions {
     lock_feet: true,
@@ -45,8 +22,11 @@ pub(crate) const HOW: PrepareOptions = PrepareOptions {
     runs: true,
     // A foot that an ankle at its limit moves by millimetres goes on standing: taken off the floor it would step in
     // place, and nobody who is being stopped has time for that.
-    held: 0.01,
+    held: leg::SEAM_HELD,
 };
+
+pub(crate) use super::params::stop::RUN_UP;
+pub(crate) use super::params::stream::RATE;
 
 /// A sample: posture, and which feet are planted.
 pub type Sample = (Posture, [bool; 2]);
@@ -65,7 +45,7 @@ pub struct Ends {
     easy: AtomicUsize,
 }
 
-/// What all ends have in common: the motion with samples at [`FINE`], with its step finished, and its labels.
+/// What all ends have in common: the motion with samples at [`stop::RATE`], with its step finished, and its labels.
 struct Way {
     known: Vec<Sample>,
     postures: Vec<Posture>,
@@ -75,9 +55,9 @@ struct Way {
 
 impl Ends {
     /// Most ends that are tried.
-    pub const MOST: usize = (STEP * FINE) as usize / APART + 1;
+    pub const MOST: usize = (stop::SEARCH_TIME * stop::RATE) as usize / stop::SEARCH_STRIDE + 1;
 
-    /// * `known`: the motion so far and as far ahead as it is known, samples at [`RATE`]; it goes on at least up to
+    /// * `known`: the motion so far and as far ahead as it is known, samples at [`stream::RATE`]; it goes on at least up to
     ///   sample `now`.
     /// * `how`: how it stands in the end, wherever that is, at ease if not given; and whether the motion is a stream,
     ///   which is known less well than a clip.
@@ -105,7 +85,7 @@ impl Ends {
             }
             let (known, now) = (finer(&self.known)?, 2 * self.now);
             let (mut postures, planted): (Vec<_>, Vec<_>) = known.iter().copied().unzip();
-            let mut label = label(&self.body, FINE, &postures, &planted);
+            let mut label = label(&self.body, stop::RATE, &postures, &planted);
             if (now..label.len()).all(|i| label[i] != [true; 2]) {
                 finish_step(&mut postures, &mut label);
             }
@@ -128,8 +108,8 @@ impl Ends {
         let way = self.way()?;
         // Where in a step a body can be stopped best shows only when it is worked out.
         let last = way.postures.len() - 1;
-        let latest = (way.now + (STEP * FINE) as usize).min(last);
-        let end = way.now.min(last) + k * APART;
+        let latest = (way.now + (stop::SEARCH_TIME * stop::RATE) as usize).min(last);
+        let end = way.now.min(last) + k * stop::SEARCH_STRIDE;
         if end > latest {
             return None;
         }
@@ -142,7 +122,7 @@ impl Ends {
             (way.now, end),
             how,
         )?;
-        if found.0 < EASY {
+        if found.0 < stop::EASY {
             self.easy.fetch_min(k, Ordering::Relaxed);
         }
         Some(found)
@@ -153,7 +133,7 @@ impl Ends {
         let mut best: Option<(f64, Clip)> = None;
         for found in ends.into_iter().flatten() {
             if best.as_ref().is_none_or(|b| found.0 < b.0) {
-                let easy = found.0 < EASY;
+                let easy = found.0 < stop::EASY;
                 best = Some(found);
                 if easy {
                     break;
@@ -184,9 +164,9 @@ fn ending(
     (goal, streamed): (Option<&Posture>, bool),
 ) -> Option<(f64, Clip)> {
     // What was long ago has no part in it.
-    let cut = now.saturating_sub((TAKES_PART * FINE) as usize);
+    let cut = now.saturating_sub((stop::PREPARED_TIME * stop::RATE) as usize);
     let part = (postures[cut..=end].to_vec(), label[cut..=end].to_vec());
-    let mut draft = Draft::of_postures(body, FINE, part.0, part.1);
+    let mut draft = Draft::of_postures(body, stop::RATE, part.0, part.1);
     let added = match goal {
         Some(goal) => draft.end_like(body, goal),
         None => draft.end_standing(body, streamed),
@@ -194,23 +174,28 @@ fn ending(
     if added == 0 {
         return None;
     }
-    let mut whole = prepare_in(body, &draft, HOW, ROUNDS);
+    let mut whole = prepare_in(body, &draft, HOW, balance::SEAM_ROUNDS);
     hold_on(&mut whole.postures, &known[cut..], now - cut);
     let from = (now - cut).saturating_sub(4);
-    let asks = consistency(body, &whole.postures[from..], &draft.label[from..], FINE);
+    let asks = consistency(
+        body,
+        &whole.postures[from..],
+        &draft.label[from..],
+        stop::RATE,
+    );
     let (mut all, mut planted): (Vec<_>, Vec<_>) = known[..cut].iter().copied().unzip();
     all.extend(whole.postures);
     planted.extend(whole.planted);
-    let clip = Clip::from_postures("stop", FINE, all, planted).ok()?;
+    let clip = Clip::from_postures("stop", stop::RATE, all, planted).ok()?;
     Some((asks.force.rms + asks.moment.rms, clip))
 }
 
 /// The same motion with as many samples again in between.
 fn finer(known: &[Sample]) -> Option<Vec<Sample>> {
     let (postures, planted) = known.iter().copied().unzip();
-    let clip = Clip::from_postures("", RATE, postures, planted).ok()?;
+    let clip = Clip::from_postures("", stream::RATE, postures, planted).ok()?;
     let count = 2 * (known.len() - 1);
-    let at = |i: usize| clip.sample(i as f64 / FINE);
+    let at = |i: usize| clip.sample(i as f64 / stop::RATE);
     Some(
         (0..=count)
             .map(|i| {
@@ -229,7 +214,7 @@ pub(crate) fn hold_on(postures: &mut [Posture], before: &[Sample], now: usize) {
     }
     let off = |i: usize| postures[i].difference(&before[i].0);
     let (last, off) = (off(now - 1), off(now));
-    let span = BLEND * FINE;
+    let span = stop::BLEND_TIME * stop::RATE;
     for (p, b) in postures.iter_mut().zip(before).take(now) {
         *p = b.0;
     }
@@ -257,15 +242,18 @@ fn finish_step(postures: &mut Vec<Posture>, label: &mut Vec<[bool; 2]>) {
         let angles = postures[i].joint_difference(&postures[end]);
         let rates = rates(i);
         let sum: f64 = (0..angles.len())
-            .map(|k| angles[k].powi(2) + (RATE_SHARE * FINE * (rates[k] - last[k])).powi(2))
+            .map(|k| {
+                angles[k].powi(2)
+                    + (likeness::RATE_SHARE * stop::RATE * (rates[k] - last[k])).powi(2)
+            })
             .sum();
         (sum / angles.len() as f64).sqrt()
     };
-    let best = (1..end.saturating_sub(LEAST_BACK))
+    let best = (1..end.saturating_sub(stop::LEAST_STEP))
         .filter(|i| label[*i] == label[end])
         .map(|i| (unlike(i), i))
         .min_by(|a, b| a.0.total_cmp(&b.0));
-    let Some((_, from)) = best.filter(|(u, _)| *u < ALIKE) else {
+    let Some((_, from)) = best.filter(|(u, _)| *u < likeness::SAME_STEP) else {
         return;
     };
     let moved = between(&postures[from], &postures[end]);
@@ -276,7 +264,7 @@ fn finish_step(postures: &mut Vec<Posture>, label: &mut Vec<[bool; 2]>) {
     };
     let off = placed(&postures[from]).difference(&postures[end]);
     for i in from + 1..=end {
-        let u = ((i - from) as f64 / (BLEND * FINE)).min(1.0);
+        let u = ((i - from) as f64 / (stop::BLEND_TIME * stop::RATE)).min(1.0);
         let s = 1.0 - smootherstep(u);
         let mut p = placed(&postures[i]);
         p.integrate(&off.map(|e| e * s), 1.0);

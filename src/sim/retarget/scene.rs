@@ -9,7 +9,7 @@ use crate::sim::motion::filter::{
     low_pass_points, low_pass_rotations, resample_points, resample_rotations,
 };
 use crate::sim::motion::skeleton_map::SkeletonMap;
-use crate::sim::plan::flight_phases;
+use crate::sim::plan::params::run;
 
 /// Per sample: smoothed world positions and rotations, metres, z up.
 pub(super) struct Scene<'a> {
@@ -142,7 +142,7 @@ impl<'a> Scene<'a> {
         let count = slowed.as_ref().map_or(count, RunToWalk::count);
         let mut smoothing = (0.0, 0usize);
         let cutoff_hz = if !runs.is_empty() && slowed.is_none() {
-            options.cutoff_hz.max(flight_phases::CUTOFF)
+            options.cutoff_hz.max(run::CUTOFF)
         } else {
             options.cutoff_hz
         };

@@ -45,7 +45,7 @@ fn the_mass_of_a_runner_falls_freely_in_flight() {
     };
     flights.observe(&track, &vec![0.0; n]);
     let height = flights.heights(&vec![1.0; n]);
-    let z = |i: usize| track.com[i].z + height[i] / LEAD;
+    let z = |i: usize| track.com[i].z + height[i] / balance::PELVIS_LEAD;
     for i in 51..65 {
         let a = (z(i - 1) - 2.0 * z(i) + z(i + 1)) * RATE * RATE;
         assert!((a + GRAVITY).abs() < 0.2, "{i}: {a}");

@@ -4,12 +4,7 @@
 use crate::sim::body::Body;
 use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::math::{Quat, Vec3, trig};
-
-/// Length of the toes' tip, m; toes are on it when they are turned up by more than this, rad.
-const TIP: f64 = 0.02;
-pub(in crate::sim::plan) const ON_TIP: f64 = 0.02;
-/// A foot pitched by less than this stands on its whole sole, rad.
-const PITCHED: f64 = 0.02;
+use crate::sim::plan::params::pitch;
 
 /// Pose of one foot: ankle position, `world_from_foot`, toe extension.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,7 +50,7 @@ impl Anchor {
 
     /// True where the heel is raised: nothing behind the ball of the foot carries.
     pub(in crate::sim::plan) fn is_on_ball(&self) -> bool {
-        self.pitch <= -PITCHED
+        self.pitch <= -pitch::FLAT
     }
 
     /// Direction in which the foot points, x and y.
@@ -219,17 +214,17 @@ impl Sole {
         };
         for p in &self.foot {
             let front = p.x > 0.5 * ball;
-            if (!at.is_on_ball() || front) && (pitch < PITCHED || !front) {
+            if (!at.is_on_ball() || front) && (pitch < pitch::FLAT || !front) {
                 push(*p);
             }
         }
-        if pitch < PITCHED {
+        if pitch < pitch::FLAT {
             // On their tip the toes still carry with a strip of it.
             let front = self.toe_tip().x;
-            let back = if tip < ON_TIP {
+            let back = if tip < pitch::FLAT {
                 f64::NEG_INFINITY
             } else {
-                front - TIP
+                front - pitch::TIP_LENGTH
             };
             for p in &self.toes {
                 push(

@@ -1,4 +1,5 @@
-use super::stances::{HASTE, Pieces};
+use super::stances::Pieces;
+use crate::sim::plan::params::stance;
 use super::*;
 
 fn sole() -> Sole {
@@ -195,7 +196,7 @@ fn a_step_of_which_the_label_saw_only_the_middle_takes_the_time_that_it_needs() 
         assert_eq!(stances.len(), 2);
         (stances[0].end, stances[1].start)
     };
-    let needed = ((0.25f64 / HASTE).sqrt() * 120.0).ceil() as usize;
+    let needed = ((0.25f64 / stance::SWING_ACCELERATION).sqrt() * 120.0).ceil() as usize;
     assert!(needed > last - first);
     let (end, start) = swing(&vec![true; n]);
     assert!(end < first && start > last && start - end == needed);

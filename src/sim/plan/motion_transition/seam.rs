@@ -6,7 +6,7 @@
 //! support.
 
 use super::candidates::Moment;
-use super::{Next, RATE, WayIn};
+use super::{Next, WayIn};
 use crate::sim::body::angles::clamp_to_limits;
 use crate::sim::body::topology::{
     DOF_START, JOINT, Joint, L_FOOT, L_THIGH, L_TOES, L_UPPER_ARM, NV, R_FOOT, R_TOES,
@@ -21,43 +21,15 @@ use crate::sim::plan::cycle::label;
 use crate::sim::plan::envelope::smoothest_below;
 use crate::sim::plan::feasibility::consistency;
 use crate::sim::plan::foot_lock::{Anchor, FootPose, LockedFoot, Sole, fade};
+use crate::sim::plan::params::{balance, leg, stop, transition};
 use crate::sim::plan::pelvis_shift::{mass_track, pelvis_shift};
-use crate::sim::plan::prepare::{
-    CARRIED, DROP_TIME, INSET, carriers_of, held_by, leg_geometry, may_rest, planted_of,
-};
+use crate::sim::plan::prepare::{carriers_of, held_by, leg_geometry, may_rest, planted_of};
 use crate::sim::plan::splice::Sample;
-
-/// Force and moment that a way may ask for from nothing, shares of what a body weighs. Of 35 ways of 17 pairs of
-/// recordings that asked for less nobody fell; of 29 that asked for more six did.
-pub(super) const MOST_ASKED: f64 = 0.05;
-/// Time in which trunk and legs turn from one motion to the other, and arms, s.
-const BLEND: f64 = 0.4;
-const ARMS_BLEND: f64 = 0.6;
-/// A swinging foot has less if it lands sooner, but at least this, s.
-const LEAST_BLEND: f64 = 0.1;
-/// Time before the seam in which the pelvis may be shifted for what comes, s.
-const BEFORE: f64 = 0.5;
-/// Time in which a shift of the pelvis comes in, and goes out, s.
-const EDGE: f64 = 0.25;
-/// What is known before and after that, for accelerations and filters, s.
-const MARGIN: f64 = 0.3;
-/// The feet have stood, or swung, for so long when the clip itself takes over, and go on, samples.
-const STEADY: usize = 6;
-/// Longest time after the seam until it does, s.
-const LONGEST: f64 = 3.0;
-/// A foot that stays where it is may be so far from where the clip has it, m and rad.
-const IN_PLACE: (f64, f64) = (0.002, 0.02);
-/// A planted leg is stretched to at most this share of its length.
-const REACH: f64 = 0.99;
-/// A foot that its leg cannot hold in place to this accuracy makes a way useless, m.
-const STRAY: f64 = 0.003;
-/// Rounds of shifting the pelvis.
-const ROUNDS: usize = 4;
 
 const FOOT: [usize; 2] = [L_FOOT.index(), R_FOOT.index()];
 
 fn samples_in(seconds: f64) -> usize {
-    (seconds * RATE).round() as usize
+    (seconds * stop::RATE).round() as usize
 }
 
 /// A difference before, at and after the seam, that fades from there on.
@@ -141,7 +113,7 @@ impl Seam {
         (moment, enters): (&Moment, f64),
         count: usize,
     ) -> Self {
-        let mut entered = next.samples(enters - next.speed / RATE, count + 1);
+        let mut entered = next.samples(enters - next.speed / stop::RATE, count + 1);
         for (posture, _) in &mut entered {
             moment.place.apply_posture(posture);
         }
@@ -149,7 +121,7 @@ impl Seam {
         let left = [at - 1, at, at + 1].map(|i| known[i].0);
         Self {
             soles: [Sole::new(body, 0), Sole::new(body, 1)],
-            label: label(body, RATE, &postures, &planted).split_off(1),
+            label: label(body, stop::RATE, &postures, &planted).split_off(1),
             feet: postures.iter().map(|p| feet_of(body, p)).collect(),
             from: [0, 1, 2].map(|k: usize| feet_of(body, &left[k])),
             left,
@@ -167,7 +139,14 @@ impl Seam {
         let off = |k: usize| self.entered[k].0.difference(&self.left[k]);
         let off: Off<NV> = Off([off(0), off(1), off(2)]);
         let arms = 6 + DOF_START[L_UPPER_ARM.index()]..6 + DOF_START[L_THIGH.index()];
-        let span = |d: usize| RATE * if arms.contains(&d) { ARMS_BLEND } else { BLEND };
+        let span = |d: usize| {
+            stop::RATE
+                * if arms.contains(&d) {
+                    transition::ARM_BLEND_TIME
+                } else {
+                    transition::BLEND_TIME
+                }
+        };
         let posture = |k: usize| {
             let mut p = *self.to(k);
             p.integrate(&off.left(k, span), 1.0);
@@ -190,7 +169,11 @@ impl Seam {
         let sole = &self.soles[side];
         let change = self.first_change(side);
         let mut out: Vec<_> = self.feet[1..].iter().map(|f| f[side]).collect();
-        let within = |samples: usize| (RATE * BLEND).min(samples as f64).max(RATE * LEAST_BLEND);
+        let within = |samples: usize| {
+            (stop::RATE * transition::BLEND_TIME)
+                .min(samples as f64)
+                .max(stop::RATE * transition::LEAST_BLEND_TIME)
+        };
         if !self.label[0][side] {
             let off = |k: usize| between(&self.feet[k][side], &self.from[k][side]);
             let off = Off([off(0), off(1), off(2)]);
@@ -234,20 +217,21 @@ impl Seam {
         let sole = &self.soles[side];
         let [is, should] = [&self.from[1], &self.feet[1]].map(|f| stood(sole, &f[side]));
         let stays = change == self.label.len();
-        let near = (is.place - should.place).norm() < IN_PLACE.0
-            && trig::wrapped(is.yaw - should.yaw).abs() < IN_PLACE.1;
+        let near = (is.place - should.place).norm() < transition::SAME_PLACE
+            && trig::wrapped(is.yaw - should.yaw).abs() < transition::SAME_HEADING;
         (stays && near).then_some(0)
     }
 
     /// Samples after the seam at which the clip itself can take over.
     fn ends(&self) -> Option<usize> {
         let led = self.is_led(0)?.max(self.is_led(1)?);
-        let earliest = led.max(samples_in(ARMS_BLEND)) + samples_in(EDGE);
+        let earliest =
+            led.max(samples_in(transition::ARM_BLEND_TIME)) + samples_in(transition::SHIFT_EDGE);
         let steady = |k: &usize| {
-            let around = &self.label[k - STEADY..=k + STEADY];
+            let around = &self.label[k - transition::STEADY..=k + transition::STEADY];
             around.iter().all(|l| *l == self.label[*k])
         };
-        let latest = samples_in(LONGEST).min(self.label.len() - STEADY - 1);
+        let latest = samples_in(transition::LONGEST).min(self.label.len() - transition::STEADY - 1);
         (earliest..=latest).find(steady)
     }
 }
@@ -300,12 +284,15 @@ impl Draft<'_> {
                 }
                 let d = p.root_position + p.root_rotation.rotate(*hip) - foot.poses[i].ankle;
                 let level = d.x * d.x + d.y * d.y;
-                (REACH * REACH * length * length - level).max(0.0).sqrt() - d.z
+                (leg::SEAM_REACH * leg::SEAM_REACH * length * length - level)
+                    .max(0.0)
+                    .sqrt()
+                    - d.z
             });
             self.share[i] * needs.fold(0.0, f64::min)
         };
         let lacks: Vec<f64> = (0..self.postures.len()).map(lacks).collect();
-        let drop = smoothest_below(&lacks, DROP_TIME, RATE);
+        let drop = smoothest_below(&lacks, leg::DROP_TIME, stop::RATE);
         drop.iter().zip(&self.share).map(|(d, s)| s * d).collect()
     }
 
@@ -320,15 +307,21 @@ impl Draft<'_> {
             (&self.feet, &planted_of(&self.feet)),
             &self.label,
         );
-        let elsewhere = may_rest(self.body, &self.postures, &self.label, RATE);
+        let elsewhere = may_rest(self.body, &self.postures, &self.label, stop::RATE);
         let drop = self.drop();
         let mut shift = vec![[0.0; 2]; n];
         let mut postures = self.with(&shift, &drop);
-        for _ in 0..ROUNDS {
-            let track = mass_track(self.body, &postures, RATE);
-            let held = held_by(&carriers, self.soles, &self.feet, (&one_foot, &track), RATE);
-            let reach = (INSET, CARRIED);
-            shift = pelvis_shift(&track, &shift, &held, &elsewhere, reach, RATE);
+        for _ in 0..balance::SEAM_ROUNDS {
+            let track = mass_track(self.body, &postures, stop::RATE);
+            let held = held_by(
+                &carriers,
+                self.soles,
+                &self.feet,
+                (&one_foot, &track),
+                stop::RATE,
+            );
+            let reach = (balance::INSET, balance::OTHER_SUPPORT);
+            shift = pelvis_shift(&track, &shift, &held, &elsewhere, reach, stop::RATE);
             for (s, share) in shift.iter_mut().zip(&self.share) {
                 *s = s.map(|x| share * x);
             }
@@ -364,15 +357,15 @@ pub(super) fn lead_over(
     (moment, enters): (&Moment, f64),
 ) -> Option<(f64, WayIn)> {
     let at = moment.left;
-    let count = samples_in(LONGEST) + STEADY + 2;
+    let count = samples_in(transition::LONGEST) + transition::STEADY + 2;
     let seam = Seam::new(body, (known, at), next, (moment, enters), count);
     let ends = seam.ends()?;
-    let count = (ends + samples_in(MARGIN)).min(count);
+    let count = (ends + samples_in(transition::MARGIN)).min(count);
 
-    let held = now.max(at.saturating_sub(samples_in(BEFORE)));
-    let cut = held.saturating_sub(samples_in(MARGIN));
+    let held = now.max(at.saturating_sub(samples_in(transition::SHIFT_AHEAD)));
+    let cut = held.saturating_sub(samples_in(transition::MARGIN));
     let (mut postures, planted): (Vec<_>, Vec<_>) = known[cut..at].iter().copied().unzip();
-    let mut label = label(body, RATE, &postures, &planted);
+    let mut label = label(body, stop::RATE, &postures, &planted);
     let mut poses: Vec<[FootPose; 2]> = postures.iter().map(|p| feet_of(body, p)).collect();
     postures.extend(seam.postures(count));
     label.extend_from_slice(&seam.label[..count]);
@@ -392,7 +385,7 @@ pub(super) fn lead_over(
     let share = |i: usize| {
         let since = (i + cut).saturating_sub(held) as f64;
         let until = ends_at.saturating_sub(i) as f64;
-        smootherstep(since.min(until) / (EDGE * RATE))
+        smootherstep(since.min(until) / (transition::SHIFT_EDGE * stop::RATE))
     };
     let draft = Draft {
         body,
@@ -408,8 +401,8 @@ pub(super) fn lead_over(
         postures[at - cut + k] = *seam.to(k);
     }
     let from = (held - cut).saturating_sub(4);
-    let asks = consistency(body, &postures[from..], &draft.label[from..], RATE);
-    if stray > STRAY {
+    let asks = consistency(body, &postures[from..], &draft.label[from..], stop::RATE);
+    if stray > transition::MOST_STRAY {
         return None;
     }
 
@@ -419,8 +412,8 @@ pub(super) fn lead_over(
     planted.extend(seam.entered[1..=count].iter().map(|s| s.1));
     let back = moment.place.power(-1.0);
     all.iter_mut().for_each(|p| back.apply_posture(p));
-    let clip = Clip::from_postures(next.clip.name(), RATE / next.speed, all, planted).ok()?;
-    let seconds = |samples: usize| samples as f64 * next.speed / RATE;
+    let clip = Clip::from_postures(next.clip.name(), stop::RATE / next.speed, all, planted).ok()?;
+    let seconds = |samples: usize| samples as f64 * next.speed / stop::RATE;
     let way = WayIn {
         clip,
         begin: enters - seconds(at),

@@ -5,15 +5,8 @@ use crate::sim::body::angles::anatomical_angles;
 use crate::sim::body::topology::{DOF_START, L_THIGH, R_THIGH};
 use crate::sim::body::{Body, Posture};
 use crate::sim::motion::filter::{low_pass, smooth_minimum};
-use crate::sim::plan::foot_lock::{ON_TIP, Stance};
-
-/// Ankles and hips of planted feet are kept this far from their limits, rad.
-pub(super) const MARGIN: f64 = 0.03;
-/// What is bent for an ankle's sake is so this long before and after, s: of who walks and of who runs, whose whole
-/// stance takes 0.2 s.
-const AROUND: (f64, f64) = (0.1, 0.025);
-/// A leg is turned at most this far for its ankle's sake, rad.
-const MOST_TURN: f64 = 0.6;
+use crate::sim::plan::foot_lock::Stance;
+use crate::sim::plan::params::{leg, pitch};
 
 /// What is bent so that planted legs stay within their limits, per sample.
 pub(super) struct AnkleUnloading {
@@ -53,7 +46,11 @@ impl AnkleUnloading {
         rate_hz: f64,
     ) {
         let n = postures.len();
-        let around = if runs { AROUND.1 } else { AROUND.0 };
+        let around = if runs {
+            leg::RUN_UNLOAD_TIME
+        } else {
+            leg::UNLOAD_TIME
+        };
         let half = (around * rate_hz) as usize;
         let angles: Vec<_> = postures.iter().map(anatomical_angles).collect();
         for s in 0..2 {
@@ -70,7 +67,7 @@ impl AnkleUnloading {
                         } else {
                             body.lower[dof] - a
                         };
-                        -(e + MARGIN).max(0.0)
+                        -(e + leg::PLANTED_MARGIN).max(0.0)
                     })
                     .collect();
                 smooth_minimum(&raw, half).into_iter().map(|x| -x).collect()
@@ -78,8 +75,8 @@ impl AnkleUnloading {
             let hip = DOF_START[[L_THIGH, R_THIGH][s].index()];
             for (i, (sum, e)) in self.heel_up[s].iter_mut().zip(over(d, true)).enumerate() {
                 // A runner's pelvis is lower in the first rounds than in the last: what was too much is given back.
-                if runs && e == 0.0 && *sum > 0.0 && planted[i][s] && self.tip[s][i] < ON_TIP {
-                    let spare = (body.upper[d] - MARGIN - angles[i][d]).max(0.0);
+                if runs && e == 0.0 && *sum > 0.0 && planted[i][s] && self.tip[s][i] < pitch::FLAT {
+                    let spare = (body.upper[d] - leg::PLANTED_MARGIN - angles[i][d]).max(0.0);
                     *sum = (*sum - spare).max(0.0);
                 }
                 *sum += e;
@@ -89,18 +86,20 @@ impl AnkleUnloading {
             let (abducted, adducted) = (over(hip + 1, true), over(hip + 1, false));
             for (i, sum) in self.turn_in[s].iter_mut().enumerate() {
                 *sum = (*sum + inward[i] - outward[i] + abducted[i] - adducted[i])
-                    .clamp(-MOST_TURN, MOST_TURN);
+                    .clamp(-leg::MOST_TURN, leg::MOST_TURN);
             }
             let (rotated_in, rotated_out) = (over(hip + 2, true), over(hip + 2, false));
             for st in stances[s] {
                 let most = |v: &[f64]| v[st.start..st.end].iter().copied().fold(0.0, f64::max);
-                let e = 1.3 * (most(&rotated_in) - most(&rotated_out));
+                let e = leg::HEADING_GAIN * (most(&rotated_in) - most(&rotated_out));
                 for i in st.start..st.end {
-                    self.toe_out[s][i] = (self.toe_out[s][i] + e).clamp(-MOST_TURN, MOST_TURN);
-                    self.turn_in[s][i] = (self.turn_in[s][i] - e).clamp(-MOST_TURN, MOST_TURN);
+                    self.toe_out[s][i] =
+                        (self.toe_out[s][i] + e).clamp(-leg::MOST_TURN, leg::MOST_TURN);
+                    self.turn_in[s][i] =
+                        (self.turn_in[s][i] - e).clamp(-leg::MOST_TURN, leg::MOST_TURN);
                 }
             }
-            low_pass(&mut self.turn_in[s], 3.0, rate_hz);
+            low_pass(&mut self.turn_in[s], leg::TURN_CUTOFF, rate_hz);
         }
         pelvis_yaw::add(body, postures, planted, stances, &mut self.yaw, rate_hz);
     }

@@ -1,20 +1,14 @@
 //! A pelvis that turns ahead of its recording, or after it: where one stance asks for more rotation than a hip has, in
 //! both directions.
 
-use super::LIMIT_MARGIN;
-use super::ankle_unloading::MARGIN;
 use crate::sim::body::angles::{clamp_to_limits, swing_twist};
 use crate::sim::body::topology::{ABDOMEN, CHEST, DOF_START, JOINT, Joint, L_THIGH, R_THIGH};
 use crate::sim::body::{Body, Posture, SegmentId};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::filter::smooth_minimum;
 use crate::sim::plan::foot_lock::Stance;
+use crate::sim::plan::params::leg;
 
-/// What the pelvis is turned by for a hip's sake it is so this long before and after, s: the foot that lands needs it
-/// as well.
-const AROUND: f64 = 0.15;
-/// The pelvis is turned at most this far, rad.
-const MOST: f64 = 0.35;
 /// Which way the hip of a foot that stays turns when the pelvis turns anticlockwise: the left one inwards, the right
 /// one outwards.
 const WAY: [f64; 2] = [1.0, -1.0];
@@ -63,11 +57,15 @@ pub(super) fn add(
             for i in samples {
                 // The heading of the foot comes to share what is too much between both ends.
                 let a = rotation(side, i) - 0.5 * (least + most);
-                let lack = -WAY[side] * (a - a.clamp(MARGIN - half, half - MARGIN));
+                let lack = -WAY[side]
+                    * (a - a.clamp(leg::PLANTED_MARGIN - half, half - leg::PLANTED_MARGIN));
                 lacks[i] += if planted[i][other] {
                     let a = rotation(other, i);
                     let (lower, upper) = limits[other];
-                    let (down, up) = ((a - lower - MARGIN).max(0.0), (upper - MARGIN - a).max(0.0));
+                    let (down, up) = (
+                        (a - lower - leg::PLANTED_MARGIN).max(0.0),
+                        (upper - leg::PLANTED_MARGIN - a).max(0.0),
+                    );
                     WAY[other] * (WAY[other] * lack).clamp(-down, up)
                 } else {
                     lack
@@ -78,14 +76,14 @@ pub(super) fn add(
     if lacks.iter().all(|l| *l == 0.0) {
         return;
     }
-    let half = (AROUND * rate_hz) as usize;
+    let half = (leg::YAW_TIME * rate_hz) as usize;
     let around = |sign: f64| {
         let part: Vec<f64> = lacks.iter().map(|l| -(sign * l).max(0.0)).collect();
         smooth_minimum(&part, half)
     };
     let both = around(1.0).into_iter().zip(around(-1.0));
     for (yaw, (plus, minus)) in yaw.iter_mut().zip(both) {
-        *yaw = (*yaw + minus - plus).clamp(-MOST, MOST);
+        *yaw = (*yaw + minus - plus).clamp(-leg::MOST_YAW, leg::MOST_YAW);
     }
 }
 
@@ -103,7 +101,7 @@ pub(super) fn turn(body: &Body, posture: &mut Posture, yaw: f64) {
     posture.root_rotation = (about(yaw) * posture.root_rotation).normalized();
     posture.ball[waist] = (posture.root_rotation.conjugate() * abdomen).normalized();
     posture.ball[thorax] = (abdomen.conjugate() * chest).normalized();
-    clamp_to_limits(body, posture, LIMIT_MARGIN);
+    clamp_to_limits(body, posture, leg::LIMIT_MARGIN);
 }
 
 #[cfg(test)]

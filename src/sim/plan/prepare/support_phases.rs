@@ -1,6 +1,6 @@
 //! What carries the body in each sample, and how well what is planned stays over it.
 
-use super::{FOOT, LIMIT_MARGIN};
+use super::FOOT;
 use crate::sim::body::angles::clamp_to_limits;
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::polygon::{hull, margin};
@@ -8,21 +8,8 @@ use crate::sim::motion::filter::{low_pass, percentile};
 use crate::sim::motion::leg_ik::forward;
 use crate::sim::plan::ankle_torque_limit::{AnkleTorqueLimit, Over};
 use crate::sim::plan::foot_lock::{LockedFoot, Sole};
-use crate::sim::plan::pelvis_shift::{Carrier, Elsewhere, LIGHT, MassTrack};
-
-/// A planted foot that is farther off its place than this, m, does not carry while the other one does.
-const NEAR: f64 = 0.01;
-/// A pelvis below the first share of its standing height may sit, one above the second does not.
-const SITS: (f64, f64) = (0.65, 0.8);
-
-/// Feet that stay for so long before and after a moment do not step, s.
-const STAYS: f64 = 0.5;
-
-/// Time over which the speed is taken with which a body passes over its foot, s.
-const PASSING: f64 = 0.2;
-
-/// Cut-off of the lean of a body over its foot, Hz.
-const LEAN_CUTOFF: f64 = 4.0;
+use crate::sim::plan::params::{ankle, balance, contact, leg};
+use crate::sim::plan::pelvis_shift::{Carrier, Elsewhere, MassTrack};
 
 /// How far the zero-moment point is outside the support polygon of planted feet, over the samples that feet carry.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -54,9 +41,11 @@ pub(super) fn within_reach(
 ) -> Vec<[bool; 2]> {
     let carries = |(i, planted): (usize, &[bool; 2])| {
         let mut posture = postures[i];
-        clamp_to_limits(body, &mut posture, LIMIT_MARGIN * 0.5);
+        clamp_to_limits(body, &mut posture, leg::LIMIT_MARGIN * 0.5);
         let poses = forward(body, &posture);
-        let near = |s: usize| soles[s].stray(poses[FOOT[s].index()], &locked[s].poses[i]) <= NEAR;
+        let near = |s: usize| {
+            soles[s].stray(poses[FOOT[s].index()], &locked[s].poses[i]) <= leg::SEAM_HELD
+        };
         match *planted {
             [true, true] if near(0) != near(1) => [near(0), near(1)],
             as_locked => as_locked,
@@ -82,7 +71,7 @@ pub(in crate::sim::plan) fn carriers_of(
             for ((sole, foot), _) in feet.filter(|(_, carries)| *carries) {
                 sole.footprint(&foot.anchors[i], &mut corners);
             }
-            if upper[i].root_position.z < 0.45 * standing {
+            if upper[i].root_position.z < contact::SEATED * standing {
                 Carrier::Other
             } else if corners.len() >= 3 {
                 Carrier::Feet(hull(&corners))
@@ -117,12 +106,12 @@ pub(super) fn held_in_gait(
     runs: bool,
     rate_hz: f64,
 ) -> Vec<Carrier> {
-    let half = (0.5 * PASSING * rate_hz) as usize;
+    let half = (0.5 * ankle::SPEED_TIME * rate_hz) as usize;
     // Without the jumps of touch-downs, from which the rounds would not settle.
     let lean: [Vec<f64>; 2] = std::array::from_fn(|k| {
         let both = track.com.iter().zip(&track.zmp);
         let mut lean: Vec<f64> = both.map(|(c, z)| c.to_array()[k] - z[k]).collect();
-        low_pass(&mut lean, LEAN_CUTOFF, rate_hz);
+        low_pass(&mut lean, ankle::LEAN_CUTOFF, rate_hz);
         lean
     });
     let mut corners = Vec::new();
@@ -161,14 +150,15 @@ pub(in crate::sim::plan) fn may_rest(
 ) -> Vec<Elsewhere> {
     let standing = body.standing_root_height();
     let n = upper.len();
-    let half = (STAYS * rate_hz) as usize;
+    let half = (balance::STAYS * rate_hz) as usize;
     let smooth = |mut x: Vec<f64>| {
-        low_pass(&mut x, 2.0, rate_hz);
+        low_pass(&mut x, balance::OTHER_CUTOFF, rate_hz);
         x
     };
-    let seat = upper
-        .iter()
-        .map(|p| ((SITS.1 - p.root_position.z / standing) / (SITS.1 - SITS.0)).clamp(0.0, 1.0));
+    let seat = upper.iter().map(|p| {
+        ((balance::NO_SEAT - p.root_position.z / standing) / (balance::NO_SEAT - balance::SEAT))
+            .clamp(0.0, 1.0)
+    });
     let stays = |i: usize| {
         let around = i.saturating_sub(half)..(i + half).min(n);
         planted[around].iter().all(|p| *p == [true; 2])
@@ -190,7 +180,7 @@ pub(super) fn zmp_outside(track: &MassTrack, carriers: &[Carrier]) -> ZmpOutside
         .zip(carriers)
         .zip(&track.load)
         .filter_map(|((z, c), load)| match c {
-            Carrier::Feet(p) if *load > LIGHT => Some((-margin(p, *z)).max(0.0)),
+            Carrier::Feet(p) if *load > balance::LEAST_LOAD => Some((-margin(p, *z)).max(0.0)),
             _ => None,
         })
         .collect();

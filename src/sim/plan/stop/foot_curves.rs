@@ -2,21 +2,11 @@
 
 use super::footsteps::Step;
 use super::initial_state::Start;
-use super::{SWING, min_jerk_3, turned};
+use super::{min_jerk_3, turned};
 use crate::sim::math::ease::smootherstep;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::plan::foot_lock::{Sole, yaw_pitch};
-
-/// Height of the ankle's arc, m. Clearance proper is the preparation's business.
-const ARC: f64 = 0.05;
-/// A foot is over its place so long before it comes down on it, s: one that is late would slide there.
-const OVER: f64 = 0.03;
-/// The heel of a foot that is left behind by more than this, m, rises by so much per m, up to the last, rad, within
-/// this time, s.
-const ROLL_FROM: f64 = 0.15;
-const ROLL_GAIN: f64 = 1.0;
-const MOST_ROLL: f64 = 0.5;
-const ROLL: f64 = 0.2;
+use crate::sim::plan::params::stop;
 
 /// Stance of a foot between two of its steps.
 struct Stance {
@@ -30,12 +20,12 @@ struct Stance {
 }
 
 impl Stance {
-    /// Pose `t` seconds into the end. The heel of a foot that is left behind rises before it is lifted, over [`ROLL`].
+    /// Pose `t` seconds into the end. The heel of a foot that is left behind rises before it is lifted, over [`stop::ROLL_TIME`].
     fn pose(&self, sole: &Sole, t: f64) -> (Vec3, Quat) {
         let [first, middle, last] = self.pitch;
         let half = 0.5 * (self.off - self.on);
-        let rise = smootherstep(1.0 - (self.off - t) / ROLL.min(half).max(1e-9));
-        let settle = smootherstep((t - self.on) / ROLL.min(half).max(1e-9));
+        let rise = smootherstep(1.0 - (self.off - t) / stop::ROLL_TIME.min(half).max(1e-9));
+        let settle = smootherstep((t - self.on) / stop::ROLL_TIME.min(half).max(1e-9));
         let pitch = first + (middle - first) * settle + (last - middle) * rise;
         let pose = sole.stand(self.place, self.yaw, pitch);
         (pose.ankle, pose.rotation)
@@ -45,12 +35,12 @@ impl Stance {
 /// Pitch of a foot at `place` that is left behind by the other one at `other`, rad: heel up.
 fn left_behind(place: Vec3, other: Vec3, heading: f64) -> f64 {
     let behind = turned(-heading, other - place).x;
-    -(ROLL_GAIN * (behind - ROLL_FROM)).clamp(0.0, MOST_ROLL)
+    -(stop::ROLL_GAIN * (behind - stop::ROLL_FROM)).clamp(0.0, stop::MOST_ROLL)
 }
 
 /// Ankle and rotation of a foot `t` seconds into the end, and whether it is down.
 ///
-/// * `lands`: see [`OVER`]; not where time runs backwards, and what looks like a landing is a foot that leaves.
+/// * `lands`: see [`stop::OVER_TIME`]; not where time runs backwards, and what looks like a landing is a foot that leaves.
 pub(super) fn pose(
     from: &Start,
     steps: &[Step],
@@ -125,14 +115,14 @@ pub(super) fn pose(
     let long = step.on - step.off;
     let u = (t - step.off) / long;
     let down = min_jerk_3(start, velocity, goal, long, t - step.off);
-    let before = if lands { OVER } else { 0.0 };
+    let before = if lands { stop::OVER_TIME } else { 0.0 };
     let over = min_jerk_3(start, velocity, goal, long - before, t - step.off);
     let mut p = Vec3 { z: down.z, ..over };
     // What is left of a swing rises no more.
     let arc = if in_air {
-        ARC * ((long - SWING.0) / SWING.0).clamp(0.0, 1.0)
+        stop::ARC_HEIGHT * ((long - stop::SHORTEST_SWING) / stop::SHORTEST_SWING).clamp(0.0, 1.0)
     } else {
-        ARC
+        stop::ARC_HEIGHT
     };
     p.z += arc * 16.0 * u * u * (1.0 - u) * (1.0 - u);
     let way = (flat * rotation.conjugate()).log();

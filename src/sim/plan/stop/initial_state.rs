@@ -9,19 +9,8 @@ use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::leg_ik::{center_of_mass, forward};
 use crate::sim::plan::contact_labels::runs;
 use crate::sim::plan::foot_lock::{Sole, turn, yaw_pitch};
+use crate::sim::plan::params::{contact, stop};
 use crate::sim::plan::prepare::Draft;
-
-/// Slower than this, m/s, and with the capture point this far inside the soles, m, it stands.
-const STANDS: (f64, f64) = (0.35, 0.02);
-/// A pelvis faster than this over the floor has to be stopped, m/s; who controls balance stops slower ones as well
-/// himself.
-const MOVES: f64 = 0.08;
-/// Time over which the velocity at the end is measured, s.
-const MEASURED: f64 = 0.08;
-/// Shortest flight that is believed, s.
-const SHORTEST_FLIGHT: f64 = 0.08;
-/// Fastest rate of a joint that is taken over, rad/s.
-const FASTEST: f64 = 4.0;
 
 /// What the end starts from.
 pub(super) struct Start {
@@ -47,7 +36,7 @@ impl Start {
     /// Reads it off the last samples of a draft.
     pub(super) fn of(body: &Body, draft: &Draft, soles: &[Sole; 2]) -> Self {
         let last = draft.postures.len() - 1;
-        let half = ((0.5 * MEASURED * draft.rate_hz) as usize).clamp(1, last / 2);
+        let half = ((0.5 * stop::MEASURED_TIME * draft.rate_hz) as usize).clamp(1, last / 2);
         let b = &draft.postures[last];
         // Slope of the parabola through three samples, at the last one: the mean over that time is half of it old.
         let back = [last - half, last - 2 * half];
@@ -62,7 +51,7 @@ impl Start {
             *r = (4.0 * near - far) * per_s;
         }
         for r in &mut rates {
-            *r = r.clamp(-FASTEST, FASTEST);
+            *r = r.clamp(-stop::MOST_RATE, stop::MOST_RATE);
         }
         let mut place = [Vec3::zero(); 2];
         let mut yaw = [0.0; 2];
@@ -75,7 +64,7 @@ impl Start {
         // A foot that is about to come down, or has just left, may look as if both were in the air.
         let flight = draft.label.iter().rev();
         let flight = flight.take_while(|l| **l == [false; 2]).count();
-        let down = if flight <= last && (flight as f64) < SHORTEST_FLIGHT * draft.rate_hz {
+        let down = if flight <= last && (flight as f64) < contact::SHORTEST * draft.rate_hz {
             draft.label[last - flight]
         } else {
             [false; 2]
@@ -116,7 +105,7 @@ impl Start {
     /// True if it is not at rest: what ends here would end in motion.
     pub(super) fn moves(&self) -> bool {
         let v = self.pelvis_velocity;
-        v.x.hypot(v.y) > MOVES
+        v.x.hypot(v.y) > stop::MOVING_SPEED
     }
 
     /// True if a body could stop here without a step.
@@ -127,8 +116,8 @@ impl Start {
             soles,
         };
         let capture = self.com + self.velocity * (1.0 / omega);
-        self.velocity.x.hypot(self.velocity.y) < STANDS.0
+        self.velocity.x.hypot(self.velocity.y) < stop::STANDING_SPEED
             && self.down == [true; 2]
-            && margin(&feet.support(self.down), flat(capture)) > STANDS.1
+            && margin(&feet.support(self.down), flat(capture)) > stop::STANDING_MARGIN
     }
 }

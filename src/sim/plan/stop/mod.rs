@@ -18,24 +18,9 @@ use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::builtin::at_ease;
 use crate::sim::motion::filter::low_pass_points;
 use crate::sim::motion::leg_ik::{forward, knee_axis};
+use crate::sim::plan::params::{stance, stop};
 use footsteps::{Footsteps, Stand, footsteps, frequency};
 use initial_state::Start;
-
-/// A pelvis below this share of its standing height is not one that walks.
-const UPRIGHT: f64 = 0.75;
-/// A foot that left the floor no longer than this before the end has not left it, s.
-const JUST_LIFTED: f64 = 0.04;
-/// Shortest and longest swing of a step that catches the body, s.
-const SWING: (f64, f64) = (0.26, 0.46);
-/// What a body of 1 m/s should have in hand, s, where the moment is given and not chosen: it stops less well than a
-/// pendulum.
-const SPARE: f64 = 0.03;
-/// Time constant with which the rates of the joints die away, s.
-const DECAY: f64 = 0.2;
-/// Time in which trunk and arms come to ease, s.
-const EASE: f64 = 1.0;
-/// Joints this close to where they shall be are there, rad.
-const ALIKE: f64 = 0.03;
 
 const FOOT: [usize; 2] = [L_FOOT.index(), R_FOOT.index()];
 
@@ -103,7 +88,7 @@ fn tail(body: &Body, draft: &Draft, goal: Goal<'_>, spare: f64) -> Option<Draft>
     };
     // Who sits or lies is not led to a stand; who squats stands on his feet.
     let stands = from.stands(&soles, frequency(&from, &stand));
-    if !stands && from.posture.root_position.z < UPRIGHT * body.standing_root_height() {
+    if !stands && from.posture.root_position.z < stop::UPRIGHT * body.standing_root_height() {
         return None;
     }
     if stands && matches!(goal, Goal::Still) {
@@ -142,18 +127,21 @@ fn walk(
         Quat::exp(Vec3::Z * (found.heading - stand.heading)) * stand.posture.root_rotation;
     // The zero-moment point of the pendulum jumps from foot to foot; a body's does not.
     let mut path = found.path.clone();
-    low_pass_points(&mut path, 4.0, rate);
+    low_pass_points(&mut path, stop::PATH_CUTOFF, rate);
     let offset = ground(from.posture.root_position - from.com);
     let end_offset = turned(found.heading, ground(stand.pelvis - stand.mass));
     let mut out = Draft::empty(rate);
     for i in 1..path.len() {
         let t = i as f64 / rate;
-        let s = smootherstep(t / EASE);
+        let s = smootherstep(t / stop::EASE_TIME);
         let mut p = from.posture;
         // Rates die away while the joints come to ease.
         let mut rates = from.rates;
         rates[3..6].fill(0.0);
-        p.integrate(&rates, DECAY * (1.0 - (-t / DECAY).exp()));
+        p.integrate(
+            &rates,
+            stop::RATE_DECAY * (1.0 - (-t / stop::RATE_DECAY).exp()),
+        );
         let mut way = [0.0; NV];
         let spin = (upright * p.root_rotation.conjugate()).log() * s;
         way[..3].copy_from_slice(&spin.to_array());
@@ -167,7 +155,7 @@ fn walk(
                 from.posture.root_position.z,
                 from.velocity.z,
                 stand.pelvis.z,
-                EASE,
+                stop::EASE_TIME,
                 t,
             ),
             ..at
@@ -196,7 +184,9 @@ fn leg_length(body: &Body) -> f64 {
 
 /// True if nothing worth a movement is between two postures.
 fn alike(a: &Posture, b: &Posture) -> bool {
-    a.joint_difference(b).iter().all(|e| e.abs() < ALIKE)
+    a.joint_difference(b)
+        .iter()
+        .all(|e| e.abs() < stop::SAME_JOINT)
 }
 
 impl Draft {
@@ -246,7 +236,7 @@ impl Draft {
 
     /// Leaves feet on the floor that lift in the very end: those of a body that is going to stop need not.
     fn put_down(&mut self) {
-        let most = (JUST_LIFTED * self.rate_hz) as usize;
+        let most = (stance::OVERLAP * self.rate_hz) as usize;
         for s in 0..2 {
             let on = |l: &[bool; 2]| l[s];
             if let Some(last) = self.label.iter().rposition(on) {
@@ -300,7 +290,12 @@ impl Draft {
     ///   chosen for being easy.
     pub fn end_standing(&mut self, body: &Body, given: bool) -> usize {
         self.put_down();
-        let after = tail(body, self, Goal::Stand, if given { SPARE } else { 0.0 });
+        let after = tail(
+            body,
+            self,
+            Goal::Stand,
+            if given { stop::SPARE_TIME } else { 0.0 },
+        );
         self.go_on(after)
     }
 
@@ -308,10 +303,10 @@ impl Draft {
     /// anyway. Returns how many samples came before and after.
     pub fn add_ends(&mut self, body: &Body) -> (usize, usize) {
         self.put_down();
-        let after = tail(body, self, Goal::Still, SPARE);
+        let after = tail(body, self, Goal::Still, stop::SPARE_TIME);
         self.reverse();
         self.put_down();
-        let before = tail(body, self, Goal::Origin, SPARE);
+        let before = tail(body, self, Goal::Origin, stop::SPARE_TIME);
         let before = self.go_on(before);
         self.reverse();
         (before, self.go_on(after))

@@ -6,8 +6,8 @@
 //! window again with every sample. Memory is a ring, time per sample is bounded, nothing allocates. Rounds alike
 //! everywhere: it is part of the tick.
 //!
-//! Places of a sample on its way, in samples behind the newest: smoothed (`SMOOTH`), labelled and balanced (`LABEL`),
-//! feet posed and balanced again as the body is to be (up to `FORESEEN` before the output), put out (the window).
+//! Places of a sample on its way, in samples behind the newest: smoothed (`stream::SMOOTH`), labelled and balanced (`LABEL`),
+//! feet posed and balanced again as the body is to be (up to `stream::FORESEEN` before the output), put out (the window).
 
 mod foot;
 mod momentum;
@@ -26,6 +26,7 @@ use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::clip::{Knot, PlanarTransform, between};
 use crate::sim::motion::leg_ik::{center_of_mass, forward};
 use crate::sim::motion::target::Target;
+use crate::sim::plan::params::{contact, stream, transition};
 use foot::Foot;
 pub use foot::Stance;
 use receding_horizon::Balance;
@@ -36,37 +37,17 @@ use std::sync::Arc;
 use whole_body::Lowering;
 
 /// Samples per second of the grid that a stream is prepared on.
-pub const RATE: f64 = 60.0;
+pub const RATE: f64 = stream::RATE;
 /// Shortest and longest window, s.
-pub const WINDOW: (f64, f64) = (0.3, 1.0);
+pub const WINDOW: (f64, f64) = (stream::SHORTEST_WINDOW, stream::LONGEST_WINDOW);
 /// Most stances of a foot that are known at a time.
 pub const MOST_STANCES: usize = foot::STANCES + 1;
 const H: f64 = 1.0 / RATE;
 /// The shortest window, samples.
 const SHORTEST_WINDOW: i64 = (WINDOW.0 * RATE) as i64;
 
-/// Half width of the smoothing, samples, and its standard deviation: the amplitude is half at 7 Hz.
-const SMOOTH: i64 = 3;
-const SIGMA: f64 = 1.6;
-/// A foot is labelled as on the floor or off it once it has been so for this many samples.
-pub(super) const STEADY: i64 = 3;
 /// Samples between the newest one and the one that is labelled.
-const LABEL: i64 = SMOOTH + 1 + STEADY;
-/// Samples between the one whose feet are posed and the one that is put together: clearance and pelvis height are
-/// smooth over them. The latter is the output with the shortest window, and up to so many samples before it with longer
-/// ones: its balance is known better then.
-const POSED: i64 = 2;
-const FORESEEN: i64 = 16;
-/// Samples behind the output that balance looks back on, and that a figure which is late may still ask for.
-const PAST: i64 = 90;
-/// A pelvis below this share of standing height is not one that stands on feet.
-const UPRIGHT: f64 = 0.45;
-/// A stream that is this far from where its last samples were leading has jumped: joints and tilt, rad; pelvis, m.
-const JUMP: (f64, f64) = (0.25, 0.06);
-/// So many coordinates of the joints jump together.
-const SEVERAL: usize = 4;
-/// Time over which a jump is spread, s.
-const FADE: f64 = 0.4;
+const LABEL: i64 = stream::SMOOTH + 1 + contact::STREAM_STEADY;
 /// Samples that may wait to be prepared: ten seconds.
 pub const MOST_PENDING: usize = 600;
 
@@ -173,7 +154,7 @@ pub struct StreamPlan {
     frame: PlanarTransform,
     /// What is left of a jump, and the samples since.
     fade: Option<([f64; NV], i64)>,
-    weights: [f64; SMOOTH as usize + 1],
+    weights: [f64; stream::SMOOTH as usize + 1],
 }
 
 impl StreamPlan {
@@ -181,24 +162,25 @@ impl StreamPlan {
     /// will ever need.
     pub fn new(body: Arc<Body>, window: f64) -> Self {
         let window = (window.clamp(WINDOW.0, WINDOW.1) * RATE).floor() as i64;
-        let length = (PAST + window + 8) as usize;
+        let length = (stream::PAST + window + 8) as usize;
         let posture = Posture::default();
         let blank = Sample::new(&posture, forward(&body, &posture));
         let knot = Knot::of(&[posture], 0, H, [true; 2]);
-        let mut weights: [f64; SMOOTH as usize + 1] =
-            std::array::from_fn(|k| exp(-0.5 * (k as f64 / SIGMA) * (k as f64 / SIGMA)));
+        let mut weights: [f64; stream::SMOOTH as usize + 1] = std::array::from_fn(|k| {
+            exp(-0.5 * (k as f64 / stream::SIGMA) * (k as f64 / stream::SIGMA))
+        });
         let sum = weights[0] + 2.0 * weights[1..].iter().sum::<f64>();
         weights.iter_mut().for_each(|w| *w /= sum);
         Self {
             soles: [Sole::new(&body, 0), Sole::new(&body, 1)],
             one_foot: AnkleTorqueLimit::new(&body),
             window,
-            ahead: POSED + (window - SHORTEST_WINDOW).min(FORESEEN),
+            ahead: stream::POSED + (window - SHORTEST_WINDOW).min(stream::FORESEEN),
             pending: VecDeque::with_capacity(MOST_PENDING),
             newest: Newest::default(),
             count: 0,
             ring: vec![blank; length],
-            knots: vec![knot; PAST as usize],
+            knots: vec![knot; stream::PAST as usize],
             recent: [posture; 5],
             out: -1,
             feet: [Foot::new(), Foot::new()],
@@ -271,7 +253,7 @@ impl StreamPlan {
     pub fn advance(&mut self, t: f64) {
         let needed = ((t * RATE - 1e-6).ceil() as i64).saturating_add(self.window);
         // Time jumps of hostile clocks are not made up for sample by sample.
-        let most = self.count + self.window + PAST;
+        let most = self.count + self.window + stream::PAST;
         while self.count < needed.min(most) {
             match self.pending.pop_front() {
                 Some(raw) => self.take(&raw.posture, raw.planted),
@@ -319,11 +301,11 @@ impl StreamPlan {
         let mut faded = self.faded(&p);
         let off = led.difference(&faded);
         let far = (off[3] * off[3] + off[4] * off[4] + off[5] * off[5]).sqrt();
-        let beyond = |e: &&f64| e.abs() > JUMP.0;
+        let beyond = |e: &&f64| e.abs() > stream::JUMP_ANGLE;
         // One joint alone that snaps is a glitch of its own; a stream that jumps takes the body along.
-        let jumped = far > JUMP.1
+        let jumped = far > stream::JUMP_DISTANCE
             || off[..3].iter().any(|e| beyond(&e))
-            || off[6..].iter().filter(beyond).count() >= SEVERAL;
+            || off[6..].iter().filter(beyond).count() >= stream::JUMP_JOINTS;
         if jumped {
             // The place of the pelvis over the floor and its heading go on as they were; the rest is spread.
             let yaw = led.root_rotation.heading() - p.root_rotation.heading();
@@ -345,7 +327,7 @@ impl StreamPlan {
         }
         if let Some((_, since)) = &mut self.fade {
             *since += 1;
-            if *since as f64 * H >= FADE {
+            if *since as f64 * H >= transition::BLEND_TIME {
                 self.fade = None;
             }
         }
@@ -355,7 +337,7 @@ impl StreamPlan {
     fn faded(&self, posture: &Posture) -> Posture {
         let mut p = *posture;
         if let Some((e, since)) = &self.fade {
-            let u = (*since as f64 * H / FADE).min(1.0);
+            let u = (*since as f64 * H / transition::BLEND_TIME).min(1.0);
             let s = 1.0 - smootherstep(u);
             p.integrate(&e.map(|e| e * s), 1.0);
         }
@@ -383,7 +365,7 @@ impl StreamPlan {
         if k == 0 {
             self.measure(0);
         }
-        let s = k - SMOOTH;
+        let s = k - stream::SMOOTH;
         if s < 0 {
             return;
         }
@@ -403,7 +385,7 @@ impl StreamPlan {
                 self.balance.next(None);
             }
             self.pose_feet(f, s - 1, j);
-            let built = f - POSED;
+            let built = f - stream::POSED;
             if built > out && built >= 0 {
                 self.build(built);
             }
@@ -418,7 +400,7 @@ impl StreamPlan {
         let centre = self.at(i).raw;
         let mut e = [0.0; NV];
         // At the beginning the past is taken to mirror what follows.
-        for (k, w) in (1..=SMOOTH.min(i)).zip(&self.weights[1..]) {
+        for (k, w) in (1..=stream::SMOOTH.min(i)).zip(&self.weights[1..]) {
             for j in [i - k, i + k] {
                 let d = centre.difference(&self.at(j).raw);
                 for (e, d) in e.iter_mut().zip(d) {
@@ -476,7 +458,7 @@ impl StreamPlan {
     /// Settles which feet stand in sample `j`; `last` is the newest one that was looked at.
     fn label(&mut self, j: i64, last: i64) {
         let upright =
-            self.at(j).smooth.root_position.z > UPRIGHT * self.body.standing_root_height();
+            self.at(j).smooth.root_position.z > contact::SEATED * self.body.standing_root_height();
         for side in 0..2 {
             let mut foot = std::mem::replace(&mut self.feet[side], Foot::new());
             let other = &self.feet[1 - side];
@@ -554,14 +536,14 @@ impl StreamPlan {
     /// stream; `None` where that is not known. In flight a recorded body keeps it, whatever is made of its legs.
     pub fn spin_at(&self, t: f64) -> Option<Vec3> {
         let i = (t * RATE).round() as i64;
-        let newest = self.count - SMOOTH - 2;
+        let newest = self.count - stream::SMOOTH - 2;
         let held = self.count - self.ring.len() as i64;
         (i > held.max(0) && i <= newest).then(|| self.at(i).momentum)
     }
 
     /// Time up to which touch-downs are seen, s.
     pub fn seen(&self) -> f64 {
-        (self.count - SMOOTH - 2).max(0) as f64 * H
+        (self.count - stream::SMOOTH - 2).max(0) as f64 * H
     }
 
     /// Latest time that can be sampled, s.
@@ -592,7 +574,7 @@ impl StreamPlan {
             return (0.0, all);
         };
         let moved = self.at(done).raw.difference(&end);
-        let (labelled, seen) = (last - LABEL, last - SMOOTH - 1);
+        let (labelled, seen) = (last - LABEL, last - stream::SMOOTH - 1);
         for i in done + 1..=last {
             let mut p = self.at(i).raw;
             p.integrate(&moved, 1.0);

@@ -10,12 +10,8 @@ use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::leg_ik::{center_of_mass, forward};
 use crate::sim::plan::ankle_torque_limit::Over;
-use crate::sim::plan::pelvis_shift::{LIGHT, zero_moment_point};
-
-/// The zero-moment point is kept this far inside the soles, m.
-const INSET: f64 = 0.04;
-/// Outside to the same side by this much for about a second, m: something other than the feet carries the body.
-const CARRIED: f64 = 0.15;
+use crate::sim::plan::params::balance;
+use crate::sim::plan::pelvis_shift::zero_moment_point;
 
 impl StreamPlan {
     /// Angular momentum of sample `i` by central differences.
@@ -56,7 +52,9 @@ impl StreamPlan {
         }
         let [x, y] = self.lasting;
         let far = (x * x + y * y).sqrt();
-        let u = ((far - 0.7 * CARRIED) / (0.6 * CARRIED)).clamp(0.0, 1.0);
+        let u = ((far - balance::OTHER_SUPPORT_BEGINS * balance::OTHER_SUPPORT)
+            / (balance::OTHER_SUPPORT_RANGE * balance::OTHER_SUPPORT))
+            .clamp(0.0, 1.0);
         let trust = 1.0 - smoothstep(u);
         self.at_mut(j).trust = trust;
         balanced.weight = trust * load * load;
@@ -71,10 +69,11 @@ impl StreamPlan {
         let rate = (at(j + 1).1 - at(j - 1).1) * (0.5 * RATE);
         let mass: f64 = self.body.segments.iter().map(|s| s.mass).sum();
         let load = 1.0 + acc.z / GRAVITY;
-        let omega2 = ((GRAVITY + acc.z) / b.z.max(0.2)).clamp(3.0, 40.0);
+        let omega2 = ((GRAVITY + acc.z) / b.z.max(balance::LEAST_HEIGHT))
+            .clamp(balance::LEAST_OMEGA2, balance::MOST_OMEGA2);
         let looks = self.at(j).smooth.root_rotation.heading();
         let mut balanced = Balanced::new([b.x, b.y], omega2, looks);
-        if load > LIGHT && j >= 2 {
+        if load > balance::LEAST_LOAD && j >= 2 {
             let force = (acc + Vec3::Z * GRAVITY) * mass;
             let z = zero_moment_point(b, (force, rate));
             let way = (c - a) * (0.25 * RATE);
@@ -99,7 +98,7 @@ impl StreamPlan {
                 }
             }
             balanced = Balanced::new(z, omega2, looks);
-            balanced.support = polygon.inner(INSET);
+            balanced.support = polygon.inner(balance::INSET);
         }
         (balanced, load.clamp(0.0, 1.0))
     }
