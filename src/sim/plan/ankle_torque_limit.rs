@@ -4,7 +4,7 @@
 //! holds his weight no farther than 14 cm before it. A motion planned up to the edge of the sole leaves no torque for
 //! the body to correct anything with.
 
-use super::foot_lock::{Anchor, Sole};
+use super::foot_lock::{FootPlacement, Sole};
 use crate::sim::body::Body;
 use crate::sim::body::topology::{DOF_COUNT, DOF_START, L_FOOT};
 use crate::sim::motion::GRAVITY;
@@ -67,7 +67,7 @@ impl AnkleTorqueLimit {
     pub fn each_corner(
         &self,
         sole: &Sole,
-        at: &Anchor,
+        at: &FootPlacement,
         over: &Over,
         mut visit: impl FnMut([f64; 2]),
     ) {
@@ -108,7 +108,7 @@ mod tests {
     use crate::sim::math::Vec3;
     use crate::sim::math::polygon::{hull, margin};
 
-    const AT: Anchor = Anchor {
+    const AT: FootPlacement = FootPlacement {
         place: Vec3 {
             x: 0.3,
             y: -0.2,
@@ -150,7 +150,7 @@ mod tests {
     fn nobody_stands_behind_the_ball_of_a_foot_whose_heel_is_up() {
         for body in [Body::adult_man(), Body::adult_woman()] {
             let (one, sole) = (AnkleTorqueLimit::new(&body), Sole::new(&body, 0));
-            let at = Anchor { pitch: -0.3, ..AT };
+            let at = FootPlacement { pitch: -0.3, ..AT };
             for speed in [0.0, 2.0] {
                 let over = Over {
                     height: 1.0,

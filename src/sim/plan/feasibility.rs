@@ -1,12 +1,11 @@
-//! Can a body do this motion on its feet? What inverse dynamics asks of the ground against what the ground can give
-//! (WALKING §1).
+//! Can a body do this motion on its feet? What inverse dynamics asks of the ground against what the ground can give. See `docs/locomotion.md#balance`.
 //!
 //! A recording is consistent with the dynamics of a body if its zero-moment point stays inside the support polygon and
 //! the wrench that its acceleration needs lies in the friction cones of the feet that stand. How far it is from that
 //! says, before anything is simulated, how hard it will be to follow. Pure, offline; nothing here changes a motion.
 
 use super::contact_labels::runs;
-use super::foot_lock::{Anchor, Sole};
+use super::foot_lock::{FootPlacement, Sole};
 use super::pelvis_shift::mass_track;
 use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::body::{Body, Posture};
@@ -133,9 +132,20 @@ pub fn consistency(
     out
 }
 
+/// Force and moment that a motion asks for from nothing, root mean squares over weight (and 1 m) added.
+pub(super) fn infeasibility(
+    body: &Body,
+    postures: &[Posture],
+    label: &[[bool; 2]],
+    rate_hz: f64,
+) -> f64 {
+    let asked = consistency(body, postures, label, rate_hz);
+    asked.force.rms + asked.moment.rms
+}
+
 /// Where a foot is, if it stands.
 struct Standing {
-    at: Anchor,
+    at: FootPlacement,
     /// Height of its lowest point, m.
     low: f64,
 }

@@ -5,12 +5,12 @@
 //! is the body, whose mass falls freely in flight; a motion that is to be followed has to let it.
 
 use super::contact_labels::runs;
-use super::foot_lock::{Anchor, LockedFoot, Sole, Stance};
+use super::envelope::bent_below;
+use super::foot_lock::{FootPlacement, LockedFoot, Sole, Stance, StanceTurns};
 use super::pelvis_shift::{MassTrack, mass_track};
 use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::Vec3;
-use crate::sim::math::banded::Pentadiagonal;
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::filter::low_pass;
 use crate::sim::motion::leg_ik::forward;
@@ -25,7 +25,7 @@ fn pace(at: impl Fn(usize) -> Vec3, (from, to): (usize, usize), n: usize, rate_h
 }
 
 /// Takes out what lasts too short: first gaps, then stances.
-fn steady(on: &mut [bool], rate_hz: f64) {
+fn remove_short(on: &mut [bool], rate_hz: f64) {
     for value in [false, true] {
         for (i, j, v) in runs(on) {
             let short = ((j - i) as f64) < run::SHORTEST * rate_hz;
@@ -49,7 +49,7 @@ pub(crate) fn label_runs(body: &Body, postures: &[Posture], label: &mut [[bool; 
     }
     let track = mass_track(body, postures, rate_hz);
     let mut loaded: Vec<bool> = track.load.iter().map(|l| *l > run::STANCE_LOAD).collect();
-    steady(&mut loaded, rate_hz);
+    remove_short(&mut loaded, rate_hz);
     let soles = [Sole::new(body, 0), Sole::new(body, 1)];
     let points: Vec<[Vec<Vec3>; 2]> = postures
         .iter()
@@ -72,7 +72,7 @@ pub(crate) fn label_runs(body: &Body, postures: &[Posture], label: &mut [[bool; 
         let mut left: Vec<bool> = (i..j)
             .map(|k| rest(k, 0, run::HEIGHT_SPEED) < rest(k, 1, run::HEIGHT_SPEED))
             .collect();
-        steady(&mut left, rate_hz);
+        remove_short(&mut left, rate_hz);
         for k in i..j {
             let stands = usize::from(!left[k - i]);
             let arrives =
@@ -148,44 +148,22 @@ impl FlightPhases {
     /// nobody stands, and be pushed evenly where a foot does. Newton's method on the samples that are held down; each
     /// round is one banded solve, O(n).
     pub(crate) fn heights(&self, most: &[f64]) -> Vec<f64> {
-        let n = most.len();
         let bend = (leg::DROP_TIME * self.rate_hz).powi(4);
-        let mut held = vec![false; n];
-        let mut d = vec![0.0; n];
-        for round in 0..leg::CEILING_ROUNDS {
-            let now: Vec<bool> = d.iter().zip(most).map(|(d, c)| d > c).collect();
-            if round > 0 && now == held {
-                break;
-            }
-            held = now;
-            let spring: Vec<f64> = held
-                .iter()
-                .map(|h| f64::from(*h) * leg::CEILING_STIFFNESS)
-                .collect();
-            let pull = |(h, c): (&bool, &f64)| if *h { leg::CEILING_STIFFNESS * c } else { 0.0 };
-            d = held.iter().zip(most).map(pull).collect();
-            let mut matrix = Pentadiagonal::new(spring.iter().map(|s| 1.0 + s).collect());
-            for i in 1..n - 1 {
-                let free = falls(&self.air, i);
-                let weight = if free { run::FLIGHT_PRICE * bend } else { bend };
-                matrix.add_row(i as isize - 1, [1.0, -2.0, 1.0], weight);
-                let to = if free { Some(-GRAVITY) } else { self.push[i] };
-                if let Some(to) = to {
-                    let want =
-                        balance::PELVIS_LEAD * (to - self.plain[i]) / (self.rate_hz * self.rate_hz);
-                    for (k, r) in [(i - 1, 1.0), (i, -2.0), (i + 1, 1.0)] {
-                        d[k] += weight * r * want;
-                    }
-                }
-            }
-            matrix.factor().solve(d.as_chunks_mut::<1>().0);
-        }
-        d
+        bent_below(most, |i| {
+            let free = in_free_fall(&self.air, i);
+            let weight = if free { run::FLIGHT_PRICE * bend } else { bend };
+            let to = if free { Some(-GRAVITY) } else { self.push[i] };
+            let lacks = |to: f64| balance::PELVIS_LEAD * (to - self.plain[i]);
+            (
+                weight,
+                to.map(|to| lacks(to) / (self.rate_hz * self.rate_hz)),
+            )
+        })
     }
 }
 
 /// True if the sample `i` and both beside it are in the air.
-pub(crate) fn falls(air: &[bool], i: usize) -> bool {
+pub(crate) fn in_free_fall(air: &[bool], i: usize) -> bool {
     air[i - 1] && air[i] && air[i + 1]
 }
 
@@ -220,7 +198,7 @@ fn pushes(air: &[bool], rate_hz: f64) -> Vec<Option<f64>> {
 /// foot that is held flat on its toes to the last has its ankle 5 cm behind and 5 cm below that, and its leg is too
 /// short for it.
 ///
-/// * `heel_up`, `tip`: per sample, rad; both are changed in the `stances` of the `locked` foot.
+/// * `turns`: heel and tip are changed in the `stances` of the `locked` foot.
 ///
 /// O(n).
 pub(crate) fn roll_off(
@@ -228,19 +206,19 @@ pub(crate) fn roll_off(
     ankle: &[Vec3],
     locked: &LockedFoot,
     stances: &[Stance],
-    (heel_up, tip): (&mut [f64], &mut [f64]),
+    turns: &mut StanceTurns,
     rate_hz: f64,
 ) {
     for st in stances {
-        let flat = |k: &usize| locked.anchors[*k].pitch > -run::ROLL_FROM;
+        let flat = |k: &usize| locked.placements[*k].pitch > -run::ROLL_FROM;
         let from = (st.start..st.end).rev().find(flat);
         let from = from.map_or(st.start, |k| k + 1);
         let mut up = vec![0.0; ankle.len()];
         let mut on = vec![0.0; ankle.len()];
         for k in from..st.end {
-            (up[k], on[k]) = roll(sole, &locked.anchors[k], ankle[k]);
+            (up[k], on[k]) = roll(sole, &locked.placements[k], ankle[k]);
         }
-        for (v, out) in [(&mut up, &mut *heel_up), (&mut on, &mut *tip)] {
+        for (v, out) in [(&mut up, &mut turns.heel_up), (&mut on, &mut turns.tip)] {
             // No smoothing across the take-off.
             let last = v[st.end - 1];
             v[st.end..].fill(last);
@@ -249,14 +227,14 @@ pub(crate) fn roll_off(
                 out[k] += v[k];
             }
         }
-        tip[st.start..st.end]
+        turns.tip[st.start..st.end]
             .iter_mut()
             .for_each(|t| *t = t.max(0.0));
     }
 }
 
 /// The heel and the tip, rad, that bring the ankle of a foot that stands at `at` nearest to `ankle`, for little.
-fn roll(sole: &Sole, at: &Anchor, ankle: Vec3) -> (f64, f64) {
+fn roll(sole: &Sole, at: &FootPlacement, ankle: Vec3) -> (f64, f64) {
     let mut best = (f64::INFINITY, 0.0, 0.0);
     for a in -run::HEEL_STEPS..=run::HEEL_STEPS {
         let up = f64::from(a) * run::HEEL_STEP;
@@ -266,7 +244,7 @@ fn roll(sole: &Sole, at: &Anchor, ankle: Vec3) -> (f64, f64) {
         }
         for b in 0..=run::TIP_STEPS {
             let tip = f64::from(b) * run::TIP_STEP;
-            let pose = sole.stand_on_tip(&Anchor { pitch, tip, ..*at });
+            let pose = sole.stand_on_tip(&FootPlacement { pitch, tip, ..*at });
             let off = (pose.ankle - ankle).norm();
             let cost =
                 off + run::TURN_PRICE * (up + tip).abs() + run::BEND_PRICE * (up.abs() + tip);

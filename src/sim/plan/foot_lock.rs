@@ -1,6 +1,6 @@
 //! Planted feet that do not slide, and swinging feet that clear the floor.
 //!
-//! Each stance gets one anchor (place and heading); the whole pose of the foot follows from the anchor and the pitch:
+//! Each stance gets one placement (place and heading); the whole pose of the foot follows from it and the pitch:
 //! flat, rolled up about the heel edge, or heel up about the toe joint with flat toes. Between stances the foot follows
 //! the recording plus an offset that fades from the one lock and grows into the next with continuous velocity and
 //! acceleration, raised where it would scrape.
@@ -8,7 +8,7 @@
 mod sole;
 mod stances;
 
-pub use sole::{Anchor, FootPose, Sole, turn, yaw_pitch};
+pub use sole::{FootPlacement, FootPose, Sole, turn, yaw_pitch};
 pub use stances::{Stance, stances};
 
 use super::contact_labels::runs;
@@ -24,8 +24,8 @@ pub struct LockedFoot {
     pub poses: Vec<FootPose>,
     /// True where the foot is locked to the floor.
     pub planted: Vec<bool>,
-    /// Where it stands, per sample; zero elsewhere.
-    pub anchors: Vec<Anchor>,
+    /// Where it stands, per sample; zero other_support.
+    pub placements: Vec<FootPlacement>,
     /// How far the recorded foot point strayed in stance, m: largest distance between any sample and the anchor.
     pub slide_before: f64,
 }
@@ -49,6 +49,37 @@ pub(super) fn fade(value: f64, slope: f64, curvature: f64, u: f64) -> f64 {
 
 type Channels = [f64; 7];
 
+/// Ankle (m) and `world_from_foot` of a foot as it was recorded, per sample; floor at z = 0, body scale.
+#[derive(Clone, Copy, Debug)]
+pub struct RecordedFoot<'a> {
+    /// Ankle, m.
+    pub ankles: &'a [Vec3],
+    /// `world_from_foot`.
+    pub rotations: &'a [Quat],
+}
+
+/// By how much a foot in stance is turned otherwise than it was recorded, rad per sample.
+#[derive(Clone, Debug)]
+pub struct StanceTurns {
+    /// Heel raised further.
+    pub heel_up: Vec<f64>,
+    /// Foot turned outwards on the floor; one value per stance.
+    pub toe_out: Vec<f64>,
+    /// Toes turned up about their tip.
+    pub tip: Vec<f64>,
+}
+
+impl StanceTurns {
+    /// None, for `n` samples.
+    pub fn none(n: usize) -> Self {
+        Self {
+            heel_up: vec![0.0; n],
+            toe_out: vec![0.0; n],
+            tip: vec![0.0; n],
+        }
+    }
+}
+
 fn offset(locked: &FootPose, ankle: Vec3, rotation: Quat, toe: f64) -> Channels {
     let p = locked.ankle - ankle;
     let r = (locked.rotation * rotation.conjugate()).log();
@@ -57,10 +88,7 @@ fn offset(locked: &FootPose, ankle: Vec3, rotation: Quat, toe: f64) -> Channels 
 
 /// Locks one foot.
 ///
-/// * `ankles`, `rotations`: recorded ankle (m) and `world_from_foot` per sample, floor at z = 0, body scale.
 /// * `stances`, `other`: when it stands, and when the other one does (from [`stances`]).
-/// * `heel_up`, `toe_out`: by how much more the heel is raised and the foot turned outwards in stance than recorded,
-///   rad per sample.
 /// * `side`: 0 left, 1 right.
 /// * `rate_hz`: samples per second.
 ///
@@ -69,13 +97,14 @@ fn offset(locked: &FootPose, ankle: Vec3, rotation: Quat, toe: f64) -> Channels 
 /// n) per stance.
 pub fn lock_foot(
     sole: &Sole,
-    ankles: &[Vec3],
-    rotations: &[Quat],
-    (stances, other): (&[Stance], &[Stance]),
-    (heel_up, toe_out, tip): (&[f64], &[f64], &[f64]),
+    recorded: RecordedFoot<'_>,
+    stances: &[Stance],
+    other: &[Stance],
+    turns: &StanceTurns,
     side: usize,
     rate_hz: f64,
 ) -> LockedFoot {
+    let RecordedFoot { ankles, rotations } = recorded;
     let n = ankles.len();
     let track = Track::new(sole, ankles, rotations);
     let toes: Vec<f64> = track
@@ -92,7 +121,7 @@ pub fn lock_foot(
             })
             .collect(),
         planted: vec![false; n],
-        anchors: vec![Anchor::default(); n],
+        placements: vec![FootPlacement::default(); n],
         slide_before: 0.0,
     };
     for &Stance { start: i, end: j } in stances {
@@ -106,30 +135,26 @@ pub fn lock_foot(
         // A foot that is turned outwards is so about its ball.
         let stays = place + arm(yaw);
         for k in i..j {
-            let yaw = yaw + if side == 0 { toe_out[k] } else { -toe_out[k] };
-            let at = Anchor {
+            let out_turn = turns.toe_out[k];
+            let yaw = yaw + if side == 0 { out_turn } else { -out_turn };
+            let at = FootPlacement {
                 place: stays - arm(yaw),
                 yaw,
-                pitch: (pitch[k - i] - heel_up[k]).max(contact::LEAST_PITCH),
-                tip: tip[k],
+                pitch: (pitch[k - i] - turns.heel_up[k]).max(contact::LEAST_PITCH),
+                tip: turns.tip[k],
             };
             out.slide_before = out.slide_before.max((track.point[k] - at.place).norm());
             out.planted[k] = true;
-            out.anchors[k] = at;
+            out.placements[k] = at;
             out.poses[k] = sole.stand_on_tip(&at);
         }
     }
-    let recorded = Recorded {
-        ankles,
-        rotations,
-        toes: &toes,
-    };
     let off = |k: usize| !other.iter().any(|s| (s.start..s.end).contains(&k));
     let long = (contact::SHORTEST_FLIGHT * rate_hz) as usize;
     for (i, j, on) in runs(&out.planted.clone()) {
         if !on {
             let flies = [off((i + long).min(n - 1)), off(j.saturating_sub(long))];
-            swing(sole, &mut out, &recorded, (i, j), flies, rate_hz);
+            swing(sole, &mut out, (recorded, &toes), (i, j), flies, rate_hz);
         }
     }
     out
@@ -173,13 +198,6 @@ fn stance_pitch(raw: &[f64], rate_hz: f64) -> Vec<f64> {
     p
 }
 
-/// A foot as it was recorded.
-struct Recorded<'a> {
-    ankles: &'a [Vec3],
-    rotations: &'a [Quat],
-    toes: &'a [f64],
-}
-
 /// Where a swing leaves a lock, or comes into one.
 struct End {
     sample: usize,
@@ -194,15 +212,12 @@ struct End {
 fn swing(
     sole: &Sole,
     out: &mut LockedFoot,
-    &Recorded {
-        ankles,
-        rotations,
-        toes,
-    }: &Recorded<'_>,
+    (recorded, toes): (RecordedFoot<'_>, &[f64]),
     (i, j): (usize, usize),
     flies: [bool; 2],
     rate_hz: f64,
 ) {
+    let RecordedFoot { ankles, rotations } = recorded;
     let n = ankles.len();
     let at = |k: usize, out: &LockedFoot| offset(&out.poses[k], ankles[k], rotations[k], toes[k]);
     // Between two locks each offset is gone where the other begins; a swing that the recording breaks off has no other.
@@ -271,14 +286,14 @@ fn swing(
     let (a, b) = (i.saturating_sub(1), j.min(n - 1));
     let reach = (out.poses[b].ankle - out.poses[a].ankle).norm();
     let most = (swing::CLEARANCE_SHARE * reach).clamp(swing::LEAST_CLEARANCE, swing::CLEARANCE);
+    // Time since lift-off and until touch-down, s; a second where the recording breaks the swing off.
+    let since_until = |k: usize| {
+        let time = |known: bool, samples: usize| if known { samples as f64 / rate_hz } else { 1.0 };
+        (time(i > 0, k + 1 - i), time(j < n, j - k))
+    };
     let mut lift: Vec<f64> = (i..j)
         .map(|k| {
-            let since = if i > 0 {
-                (k + 1 - i) as f64 / rate_hz
-            } else {
-                1.0
-            };
-            let until = if j < n { (j - k) as f64 / rate_hz } else { 1.0 };
+            let (since, until) = since_until(k);
             let need = most
                 .min(swing::RISE_SPEED * since)
                 .min(swing::SINK_SPEED * until);
@@ -288,12 +303,7 @@ fn swing(
         .collect();
     low_pass(&mut lift, swing::HEIGHT_CUTOFF, rate_hz);
     for (k, l) in (i..j).zip(lift) {
-        let since = if i > 0 {
-            (k + 1 - i) as f64 / rate_hz
-        } else {
-            1.0
-        };
-        let until = if j < n { (j - k) as f64 / rate_hz } else { 1.0 };
+        let (since, until) = since_until(k);
         let w = (since.min(until) / swing::LIFT_TIME).min(1.0);
         out.poses[k].ankle.z += l.max(0.0) * w * w * (3.0 - 2.0 * w);
     }

@@ -21,7 +21,7 @@ use crate::sim::body::Body;
 use crate::sim::motion::clip::Clip;
 use crate::sim::motion::target::Target;
 use crate::sim::plan::params::{stop, transition};
-use candidates::{Looks, moments};
+use candidates::{Features, moments};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -111,7 +111,7 @@ impl Ways {
         let long = (next.skipped() / next.speed * stop::RATE) as usize;
         // With a sample before and after, for rates.
         let beginning = next.samples(-next.speed / stop::RATE, long + 3);
-        let (left, entered) = (Looks::new(body, &known), Looks::new(body, &beginning));
+        let (left, entered) = (Features::new(body, &known), Features::new(body, &beginning));
         let moments = moments(&left, from.max(now), &entered);
         Self {
             body: Arc::clone(body),
@@ -140,7 +140,7 @@ impl Ways {
         if k > self.found.load(Ordering::Relaxed) {
             return None;
         }
-        let (asks, way) = seam::lead_over(
+        let (asks, way) = seam::transition_at(
             &self.body,
             &self.known,
             self.now,

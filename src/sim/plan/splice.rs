@@ -6,7 +6,7 @@
 //! allocates, 10 to 20 ms for each end.
 
 use super::cycle::label;
-use super::feasibility::consistency;
+use super::feasibility::infeasibility;
 use super::foot_lock::{fade, turn, yaw_pitch};
 use super::prepare::{Draft, PrepareOptions, prepare_in};
 use crate::sim::body::{Body, Posture};
@@ -16,7 +16,7 @@ use crate::sim::plan::params::{balance, leg, likeness, stop, stream};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 
-pub(crate) const HOW: PrepareOptions = PrepareOptions {
+pub(crate) const SEAM_OPTIONS: PrepareOptions = PrepareOptions {
     lock_feet: true,
     balance: true,
     runs: true,
@@ -40,13 +40,13 @@ pub struct Ends {
     now: usize,
     goal: Option<Posture>,
     streamed: bool,
-    way: OnceLock<Option<Way>>,
+    way: OnceLock<Option<KnownMotion>>,
     /// First end that was easy, as far as is known: those after it are not wanted.
     easy: AtomicUsize,
 }
 
 /// What all ends have in common: the motion with samples at [`stop::RATE`], with its step finished, and its labels.
-struct Way {
+struct KnownMotion {
     known: Vec<Sample>,
     postures: Vec<Posture>,
     label: Vec<[bool; 2]>,
@@ -78,18 +78,18 @@ impl Ends {
         }
     }
 
-    fn way(&self) -> Option<&Way> {
+    fn way(&self) -> Option<&KnownMotion> {
         let way = || {
             if self.known.len() < 4 {
                 return None;
             }
-            let (known, now) = (finer(&self.known)?, 2 * self.now);
+            let (known, now) = (twice_as_fine(&self.known)?, 2 * self.now);
             let (mut postures, planted): (Vec<_>, Vec<_>) = known.iter().copied().unzip();
             let mut label = label(&self.body, stop::RATE, &postures, &planted);
             if (now..label.len()).all(|i| label[i] != [true; 2]) {
                 finish_step(&mut postures, &mut label);
             }
-            Some(Way {
+            Some(KnownMotion {
                 known,
                 postures,
                 label,
@@ -113,15 +113,7 @@ impl Ends {
         if end > latest {
             return None;
         }
-        let (postures, label) = (&way.postures[..], &way.label[..]);
-        let how = (self.goal.as_ref(), self.streamed);
-        let found = ending(
-            &self.body,
-            &way.known,
-            (postures, label),
-            (way.now, end),
-            how,
-        )?;
+        let found = way.stop_after(&self.body, end, self.goal.as_ref(), self.streamed)?;
         if found.0 < stop::EASY {
             self.easy.fetch_min(k, Ordering::Relaxed);
         }
@@ -155,43 +147,42 @@ pub fn stop(
     Ends::best((0..Ends::MOST).map(|k| ends.end(k)))
 }
 
-/// The motion up to sample `end`, then to a stand, and how hard that is for a body.
-fn ending(
-    body: &Body,
-    known: &[Sample],
-    (postures, label): (&[Posture], &[[bool; 2]]),
-    (now, end): (usize, usize),
-    (goal, streamed): (Option<&Posture>, bool),
-) -> Option<(f64, Clip)> {
-    // What was long ago has no part in it.
-    let cut = now.saturating_sub((stop::PREPARED_TIME * stop::RATE) as usize);
-    let part = (postures[cut..=end].to_vec(), label[cut..=end].to_vec());
-    let mut draft = Draft::of_postures(body, stop::RATE, part.0, part.1);
-    let added = match goal {
-        Some(goal) => draft.end_like(body, goal),
-        None => draft.end_standing(body, streamed),
-    };
-    if added == 0 {
-        return None;
+impl KnownMotion {
+    /// The motion up to sample `end`, then to a stand like `goal`, or at ease, and how much that asks for from nothing.
+    fn stop_after(
+        &self,
+        body: &Body,
+        end: usize,
+        goal: Option<&Posture>,
+        streamed: bool,
+    ) -> Option<(f64, Clip)> {
+        // What was long ago has no part in it.
+        let cut = (self.now).saturating_sub((stop::PREPARED_TIME * stop::RATE) as usize);
+        let now = self.now - cut;
+        let (postures, label) = (&self.postures[cut..=end], &self.label[cut..=end]);
+        let mut draft = Draft::of_postures(body, stop::RATE, postures.to_vec(), label.to_vec());
+        let added = match goal {
+            Some(goal) => draft.end_like(body, goal),
+            None => draft.end_standing(body, streamed),
+        };
+        if added == 0 {
+            return None;
+        }
+        let mut whole = prepare_in(body, &draft, SEAM_OPTIONS, balance::SEAM_ROUNDS);
+        blend_from_played(&mut whole.postures, &self.known[cut..], now);
+        let from = now.saturating_sub(4);
+        let (postures, label) = (&whole.postures[from..], &draft.label[from..]);
+        let asked = infeasibility(body, postures, label, stop::RATE);
+        let (mut all, mut planted): (Vec<_>, Vec<_>) = self.known[..cut].iter().copied().unzip();
+        all.extend(whole.postures);
+        planted.extend(whole.planted);
+        let clip = Clip::from_postures("stop", stop::RATE, all, planted).ok()?;
+        Some((asked, clip))
     }
-    let mut whole = prepare_in(body, &draft, HOW, balance::SEAM_ROUNDS);
-    hold_on(&mut whole.postures, &known[cut..], now - cut);
-    let from = (now - cut).saturating_sub(4);
-    let asks = consistency(
-        body,
-        &whole.postures[from..],
-        &draft.label[from..],
-        stop::RATE,
-    );
-    let (mut all, mut planted): (Vec<_>, Vec<_>) = known[..cut].iter().copied().unzip();
-    all.extend(whole.postures);
-    planted.extend(whole.planted);
-    let clip = Clip::from_postures("stop", stop::RATE, all, planted).ok()?;
-    Some((asks.force.rms + asks.moment.rms, clip))
 }
 
 /// The same motion with as many samples again in between.
-fn finer(known: &[Sample]) -> Option<Vec<Sample>> {
+fn twice_as_fine(known: &[Sample]) -> Option<Vec<Sample>> {
     let (postures, planted) = known.iter().copied().unzip();
     let clip = Clip::from_postures("", stream::RATE, postures, planted).ok()?;
     let count = 2 * (known.len() - 1);
@@ -208,7 +199,7 @@ fn finer(known: &[Sample]) -> Option<Vec<Sample>> {
 
 /// What is played already stays as it was: the difference that preparation makes to the samples `before` up to `now`
 /// grows in after that.
-pub(crate) fn hold_on(postures: &mut [Posture], before: &[Sample], now: usize) {
+pub(crate) fn blend_from_played(postures: &mut [Posture], before: &[Sample], now: usize) {
     if now < 1 || now >= postures.len().min(before.len()) {
         return;
     }

@@ -31,7 +31,7 @@ pub struct Sole {
 
 /// Where a planted foot stands in one sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Anchor {
+pub struct FootPlacement {
     /// Point of the floor under the flat ankle, m (z = 0).
     pub place: Vec3,
     /// Heading of the foot, rad.
@@ -42,7 +42,7 @@ pub struct Anchor {
     pub tip: f64,
 }
 
-impl Anchor {
+impl FootPlacement {
     /// Point of the floor, m, and heading, rad.
     pub fn place_and_yaw(&self) -> (Vec3, f64) {
         (self.place, self.yaw)
@@ -152,7 +152,7 @@ impl Sole {
     }
 
     /// The same with the toes turned up about their tip by `tip` rad, and the foot with them.
-    pub fn stand_on_tip(&self, at: &Anchor) -> FootPose {
+    pub fn stand_on_tip(&self, at: &FootPlacement) -> FootPose {
         let mut pose = self.stand(at.place, at.yaw, at.pitch);
         if at.tip > 0.0 {
             let toes = pose.rotation * Quat::exp(Vec3::Y * -pose.toe);
@@ -167,12 +167,12 @@ impl Sole {
 
     /// Where a foot at `ankle` with `world_from_foot` stands, or would: rolled about its heel edge or its toe joint, as
     /// it is pitched. The same bits on every machine, since ticks use it.
-    pub fn footing(&self, (ankle, rotation): (Vec3, Quat)) -> Anchor {
+    pub fn footing(&self, (ankle, rotation): (Vec3, Quat)) -> FootPlacement {
         let x = rotation.rotate(Vec3::X);
         let level = (x.x * x.x + x.y * x.y).sqrt();
         let (yaw, pitch) = (trig::atan2(x.y, x.x), trig::atan2(x.z, level));
         let place = ankle - self.stand(Vec3::zero(), yaw, pitch).ankle;
-        Anchor {
+        FootPlacement {
             place: Vec3 { z: 0.0, ..place },
             yaw,
             pitch,
@@ -199,8 +199,8 @@ impl Sole {
 
     /// Visits the floor polygon corners (x, y) that carry a foot standing at `at`: heel while not heel-up, toes while
     /// not toe-up.
-    pub fn each_corner(&self, at: &Anchor, mut visit: impl FnMut([f64; 2])) {
-        let Anchor {
+    pub fn each_corner(&self, at: &FootPlacement, mut visit: impl FnMut([f64; 2])) {
+        let FootPlacement {
             place: anchor,
             yaw,
             pitch,
@@ -239,7 +239,7 @@ impl Sole {
     }
 
     /// Adds the corners of [`Self::each_corner`].
-    pub fn footprint(&self, at: &Anchor, out: &mut Vec<[f64; 2]>) {
+    pub fn footprint(&self, at: &FootPlacement, out: &mut Vec<[f64; 2]>) {
         self.each_corner(at, |p| out.push(p));
     }
 }

@@ -1,8 +1,8 @@
 //! When feet stand: labels of what is near the floor made into stances, by splitting what shuffles or turns, and by
 //! giving swings the time they need.
 
-use super::median;
 use super::sole::{Sole, turn, yaw_pitch};
+use super::{RecordedFoot, median};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::plan::contact_labels::runs;
 use crate::sim::plan::params::{contact, stance};
@@ -158,9 +158,9 @@ impl Track {
     /// low step only.
     fn unhurry(&self, pieces: &mut [(usize, usize)], other: &[bool], rate_hz: f64) {
         let shortest = (stance::SHORTEST * rate_hz) as usize;
-        let anchors: Vec<_> = pieces.iter().map(|&(i, j)| self.anchor(i, j)).collect();
+        let placements: Vec<_> = pieces.iter().map(|&(i, j)| self.anchor(i, j)).collect();
         for w in 1..pieces.len() {
-            let ((from, yaw_from), (to, yaw_to)) = (anchors[w - 1], anchors[w]);
+            let ((from, yaw_from), (to, yaw_to)) = (placements[w - 1], placements[w]);
             let way = (to - from).norm() + stance::TURN_ARM * (yaw_to - yaw_from).abs();
             let needed = ((way / stance::SWING_ACCELERATION).sqrt() * rate_hz).ceil() as usize;
             let ((start, mut end), (mut begin, finish)) = (pieces[w - 1], pieces[w]);
@@ -216,18 +216,16 @@ impl Track {
 /// When both feet stand: where their labels say so and they neither shuffle nor turn away. Which one gives way to the
 /// other first is decided by how far they stand from where the recording has them.
 ///
-/// * `ankles`, `rotations`: recorded ankle (m) and `world_from_foot` per sample, floor at z = 0, body scale.
-/// * `labels`: where the feet are on the floor (from [`super::contacts`]).
+/// * `labels`: where the feet are on the floor.
 /// * `rate_hz`: samples per second.
 pub fn stances(
     soles: &[Sole; 2],
-    ankles: [&[Vec3]; 2],
-    rotations: [&[Quat]; 2],
+    recorded: [RecordedFoot<'_>; 2],
     labels: [&[bool]; 2],
     rate_hz: f64,
 ) -> [Vec<Stance>; 2] {
     let tracks: [Track; 2] =
-        std::array::from_fn(|s| Track::new(&soles[s], ankles[s], rotations[s]));
+        std::array::from_fn(|s| Track::new(&soles[s], recorded[s].ankles, recorded[s].rotations));
     let first = |first: usize| sequence(&tracks, labels, [first, 1 - first], rate_hz);
     let (left, right) = (first(0), first(1));
     let strays = |pieces: &[Pieces; 2]| tracks[0].strays(&pieces[0]) + tracks[1].strays(&pieces[1]);

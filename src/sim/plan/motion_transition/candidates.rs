@@ -6,7 +6,7 @@ use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::clip::PlanarTransform;
 use crate::sim::motion::leg_ik::{center_of_mass, forward};
-use crate::sim::plan::foot_lock::{Anchor, Sole};
+use crate::sim::plan::foot_lock::{FootPlacement, Sole};
 use crate::sim::plan::params::{balance, likeness, stop, transition};
 use crate::sim::plan::splice::Sample;
 
@@ -30,13 +30,13 @@ pub struct Moment {
 }
 
 /// A motion as it is compared.
-pub(super) struct Looks<'a> {
+pub(super) struct Features<'a> {
     samples: &'a [Sample],
     pub com: Vec<Vec3>,
-    pub feet: Vec<[Anchor; 2]>,
+    pub feet: Vec<[FootPlacement; 2]>,
 }
 
-impl<'a> Looks<'a> {
+impl<'a> Features<'a> {
     pub fn new(body: &Body, samples: &'a [Sample]) -> Self {
         let soles = [Sole::new(body, 0), Sole::new(body, 1)];
         let of = |(posture, _): &Sample| {
@@ -110,7 +110,7 @@ pub(super) fn far(a: [f64; 2], b: [f64; 2]) -> f64 {
 }
 
 /// Unlikeness of the postures and their rates, whatever place and heading, rad rms.
-fn unlike((a, i): (&Looks<'_>, usize), (b, j): (&Looks<'_>, usize)) -> f64 {
+fn unlike((a, i): (&Features<'_>, usize), (b, j): (&Features<'_>, usize)) -> f64 {
     let (p, q) = (a.posture(i), b.posture(j));
     let angles = p.joint_difference(q);
     let (before, after) = (a.rates(i), b.rates(j));
@@ -135,7 +135,12 @@ fn unlike((a, i): (&Looks<'_>, usize), (b, j): (&Looks<'_>, usize)) -> f64 {
 
 /// Compares sample `i` of one motion with sample `j` of another: how they are like, and how much; `None` if they are
 /// not.
-fn compare(left: &Looks<'_>, i: usize, entered: &Looks<'_>, j: usize) -> Option<(f64, Moment)> {
+fn compare(
+    left: &Features<'_>,
+    i: usize,
+    entered: &Features<'_>,
+    j: usize,
+) -> Option<(f64, Moment)> {
     let planted = left.planted(i)?;
     if entered.planted(j)? != planted {
         return None;
@@ -196,7 +201,7 @@ fn compare(left: &Looks<'_>, i: usize, entered: &Looks<'_>, j: usize) -> Option<
 
 /// The moments from sample `from` of `left` on at which that is like the beginning of `entered`, most alike first. The
 /// first sample of `entered` is the one before its beginning.
-pub(super) fn moments(left: &Looks<'_>, from: usize, entered: &Looks<'_>) -> Vec<Moment> {
+pub(super) fn moments(left: &Features<'_>, from: usize, entered: &Features<'_>) -> Vec<Moment> {
     let mut found: Vec<(f64, Moment)> = Vec::new();
     for i in (from.max(1)..left.samples.len().saturating_sub(1)).step_by(transition::STRIDE) {
         let beginnings = (1..entered.samples.len() - 1).step_by(transition::STRIDE);

@@ -2,19 +2,19 @@
 //!
 //! It is an end of the beginning of the clip, backwards ([`crate::sim::plan::stop`]): the steps that would bring the
 //! reversed motion to that very stand, prepared together with what comes after them. A clip that begins at once instead
-//! throws arms and trunk about, drags feet that are elsewhere, and asks for a velocity that nobody has who stands.
+//! throws arms and trunk about, drags feet that are other_support, and asks for a velocity that nobody has who stands.
 
-use super::candidates::{Looks, far, turned};
+use super::candidates::{Features, far, turned};
 use super::{Next, WayIn};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::{Vec3, trig};
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::clip::Clip;
 use crate::sim::plan::cycle::label;
-use crate::sim::plan::foot_lock::Anchor;
+use crate::sim::plan::foot_lock::FootPlacement;
 use crate::sim::plan::params::{balance, stop, transition};
 use crate::sim::plan::prepare::{Draft, prepare_in};
-use crate::sim::plan::splice::{HOW, Sample, hold_on};
+use crate::sim::plan::splice::{SEAM_OPTIONS, Sample, blend_from_played};
 
 impl Next {
     /// True if nobody who stands like `stand` need do anything before the clip begins at clip time `first`, s. No
@@ -23,11 +23,11 @@ impl Next {
         let sample = |t: f64| (self.sample(t).posture, [true; 2]);
         let later = self.speed / stop::RATE;
         let samples = [(*stand, [true; 2]), sample(first), sample(first + later)];
-        let looks = Looks::new(body, &samples);
-        let omega = (GRAVITY / looks.com[0].z.max(balance::LEAST_HEIGHT)).sqrt();
-        let is = seen(&looks.feet[0], looks.com[0]);
-        let moves = (looks.com[2] - looks.com[1]) * (stop::RATE / omega);
-        let begins = seen(&looks.feet[1], looks.com[1] + moves);
+        let features = Features::new(body, &samples);
+        let omega = (GRAVITY / features.com[0].z.max(balance::LEAST_HEIGHT)).sqrt();
+        let is = seen(&features.feet[0], features.com[0]);
+        let moves = (features.com[2] - features.com[1]) * (stop::RATE / omega);
+        let begins = seen(&features.feet[1], features.com[1] + moves);
         let joints = stand.joint_difference(&samples[1].0);
         let rates = samples[1].0.joint_difference(&samples[2].0);
         far(is.0, begins.0) < transition::BEGIN_DISTANCE
@@ -61,8 +61,8 @@ impl Next {
         if added == 0 {
             return None;
         }
-        let mut whole = prepare_in(body, &draft, HOW, balance::SEAM_ROUNDS);
-        hold_on(&mut whole.postures, &known, seen - held);
+        let mut whole = prepare_in(body, &draft, SEAM_OPTIONS, balance::SEAM_ROUNDS);
+        blend_from_played(&mut whole.postures, &known, seen - held);
         whole.postures.reverse();
         whole.planted.reverse();
         let rate = stop::RATE / self.speed;
@@ -79,7 +79,7 @@ impl Next {
 }
 
 /// Seen from the middle between two feet: the left one, its heading, and a point over the floor.
-fn seen(feet: &[Anchor; 2], point: Vec3) -> ([f64; 2], f64, [f64; 2]) {
+fn seen(feet: &[FootPlacement; 2], point: Vec3) -> ([f64; 2], f64, [f64; 2]) {
     let half = 0.5 * trig::wrapped(feet[1].yaw - feet[0].yaw);
     let heading = feet[0].yaw + half;
     let middle = (feet[0].place + feet[1].place) * 0.5;

@@ -19,11 +19,13 @@ use crate::sim::motion::leg_ik::{forward, knee_axis, solve_leg_in_plane};
 use crate::sim::plan::ankle_torque_limit::AnkleTorqueLimit;
 use crate::sim::plan::cycle::label;
 use crate::sim::plan::envelope::smoothest_below;
-use crate::sim::plan::feasibility::consistency;
-use crate::sim::plan::foot_lock::{Anchor, FootPose, LockedFoot, Sole, fade};
+use crate::sim::plan::feasibility::infeasibility;
+use crate::sim::plan::foot_lock::{FootPlacement, FootPose, LockedFoot, Sole, fade};
 use crate::sim::plan::params::{balance, leg, stop, transition};
-use crate::sim::plan::pelvis_shift::{mass_track, pelvis_shift};
-use crate::sim::plan::prepare::{carriers_of, held_by, leg_geometry, may_rest, planted_of};
+use crate::sim::plan::pelvis_shift::{ShiftProblem, mass_track, pelvis_shift};
+use crate::sim::plan::prepare::{
+    StandingFeet, leg_geometry, limit_ankle_torques, other_support, planted_of, support_phases,
+};
 use crate::sim::plan::splice::Sample;
 
 const FOOT: [usize; 2] = [L_FOOT.index(), R_FOOT.index()];
@@ -33,9 +35,9 @@ fn samples_in(seconds: f64) -> usize {
 }
 
 /// A difference before, at and after the seam, that fades from there on.
-struct Off<const N: usize>([[f64; N]; 3]);
+struct FadingOffset<const N: usize>([[f64; N]; 3]);
 
-impl<const N: usize> Off<N> {
+impl<const N: usize> FadingOffset<N> {
     /// What is left of it `k` samples after the seam, if it fades within `span` samples.
     fn left(&self, k: usize, span: impl Fn(usize) -> f64) -> [f64; N] {
         let [before, at, after] = &self.0;
@@ -83,7 +85,7 @@ fn feet_of(body: &Body, posture: &Posture) -> [FootPose; 2] {
     })
 }
 
-fn stood(sole: &Sole, pose: &FootPose) -> Anchor {
+fn stood(sole: &Sole, pose: &FootPose) -> FootPlacement {
     sole.footing((pose.ankle, pose.rotation))
 }
 
@@ -137,7 +139,7 @@ impl Seam {
     /// Postures from the seam on: those of the second motion, and what is left of the difference.
     fn postures(&self, count: usize) -> Vec<Posture> {
         let off = |k: usize| self.entered[k].0.difference(&self.left[k]);
-        let off: Off<NV> = Off([off(0), off(1), off(2)]);
+        let off: FadingOffset<NV> = FadingOffset([off(0), off(1), off(2)]);
         let arms = 6 + DOF_START[L_UPPER_ARM.index()]..6 + DOF_START[L_THIGH.index()];
         let span = |d: usize| {
             stop::RATE
@@ -176,7 +178,7 @@ impl Seam {
         };
         if !self.label[0][side] {
             let off = |k: usize| between(&self.feet[k][side], &self.from[k][side]);
-            let off = Off([off(0), off(1), off(2)]);
+            let off = FadingOffset([off(0), off(1), off(2)]);
             for (k, pose) in out.iter_mut().enumerate() {
                 *pose = moved(pose, &off.left(k, |_| within(change)));
             }
@@ -186,8 +188,8 @@ impl Seam {
             let [is, should] = [&self.from[k], &self.feet[k]].map(|f| stood(sole, &f[side]));
             [is.pitch - should.pitch]
         };
-        let pitch = Off([pitch(0), pitch(1), pitch(2)]);
-        let Anchor { place, yaw, .. } = stood(sole, &self.from[1][side]);
+        let pitch = FadingOffset([pitch(0), pitch(1), pitch(2)]);
+        let FootPlacement { place, yaw, .. } = stood(sole, &self.from[1][side]);
         let mut last = [0.0; 7];
         for (k, pose) in out.iter_mut().enumerate().take(change) {
             let pitched = stood(sole, pose).pitch + pitch.left(k, |_| within(change))[0];
@@ -196,7 +198,7 @@ impl Seam {
             *pose = moved(pose, &last);
         }
         let landed = self.label[change..].iter().position(|l| l[side]);
-        let off = Off([last; 3]);
+        let off = FadingOffset([last; 3]);
         let span = within(landed.unwrap_or(usize::MAX));
         for (k, pose) in out[change..].iter_mut().enumerate() {
             *pose = moved(pose, &off.left(k, |_| span));
@@ -206,7 +208,7 @@ impl Seam {
 
     /// Samples after the seam from which on foot `side` is where the second motion has it: once it has come down anew.
     /// `None` if it does not.
-    fn is_led(&self, side: usize) -> Option<usize> {
+    fn follows_from(&self, side: usize) -> Option<usize> {
         let change = self.first_change(side);
         if !self.label[0][side] {
             return (change < self.label.len()).then_some(change);
@@ -224,7 +226,7 @@ impl Seam {
 
     /// Samples after the seam at which the clip itself can take over.
     fn ends(&self) -> Option<usize> {
-        let led = self.is_led(0)?.max(self.is_led(1)?);
+        let led = self.follows_from(0)?.max(self.follows_from(1)?);
         let earliest =
             led.max(samples_in(transition::ARM_BLEND_TIME)) + samples_in(transition::SHIFT_EDGE);
         let steady = |k: &usize| {
@@ -237,7 +239,7 @@ impl Seam {
 }
 
 /// A motion as it is made one that a body can follow.
-struct Draft<'a> {
+struct SeamMotion<'a> {
     body: &'a Body,
     soles: &'a [Sole; 2],
     /// Before legs are solved and the pelvis is moved.
@@ -248,7 +250,7 @@ struct Draft<'a> {
     share: Vec<f64>,
 }
 
-impl Draft<'_> {
+impl SeamMotion<'_> {
     /// Postures with the pelvis shifted and lowered, m, and the feet in their places.
     fn with(&self, shift: &[[f64; 2]], drop: &[f64]) -> Vec<Posture> {
         let posture = |i: usize| {
@@ -299,29 +301,27 @@ impl Draft<'_> {
     /// With the pelvis shifted so that the zero-moment point stays in the support.
     fn balanced(&self) -> Vec<Posture> {
         let n = self.postures.len();
-        let one_foot = AnkleTorqueLimit::new(self.body);
-        let carriers = carriers_of(
-            self.body,
-            self.soles,
-            &self.postures,
-            (&self.feet, &planted_of(&self.feet)),
-            &self.label,
-        );
-        let elsewhere = may_rest(self.body, &self.postures, &self.label, stop::RATE);
+        let limit = AnkleTorqueLimit::new(self.body);
+        let feet = StandingFeet {
+            soles: self.soles,
+            locked: &self.feet,
+            carries: &planted_of(&self.feet),
+        };
+        let phases = support_phases(self.body, feet, &self.postures, &self.label);
+        let other_support = other_support(self.body, &self.postures, &self.label, stop::RATE);
         let drop = self.drop();
         let mut shift = vec![[0.0; 2]; n];
         let mut postures = self.with(&shift, &drop);
         for _ in 0..balance::SEAM_ROUNDS {
             let track = mass_track(self.body, &postures, stop::RATE);
-            let held = held_by(
-                &carriers,
-                self.soles,
-                &self.feet,
-                (&one_foot, &track),
-                stop::RATE,
-            );
-            let reach = (balance::INSET, balance::OTHER_SUPPORT);
-            shift = pelvis_shift(&track, &shift, &held, &elsewhere, reach, stop::RATE);
+            shift = pelvis_shift(&ShiftProblem {
+                support: &limit_ankle_torques(&phases, feet, &limit, &track, false, stop::RATE),
+                track: &track,
+                so_far: &shift,
+                other_support: &other_support,
+                inset: balance::INSET,
+                rate_hz: stop::RATE,
+            });
             for (s, share) in shift.iter_mut().zip(&self.share) {
                 *s = s.map(|x| share * x);
             }
@@ -349,7 +349,7 @@ impl Draft<'_> {
 ///
 /// * `known`: the motion; it plays as it is up to sample `now`.
 /// * `enters`: clip time at which `next` is entered at that moment, s.
-pub(super) fn lead_over(
+pub(super) fn transition_at(
     body: &Body,
     known: &[Sample],
     now: usize,
@@ -373,9 +373,9 @@ pub(super) fn lead_over(
     poses.extend((0..count).map(|k| [left[k], right[k]]));
     let n = postures.len();
     let feet = [0, 1].map(|s: usize| {
-        let anchors = poses.iter().map(|f| stood(&seam.soles[s], &f[s]));
+        let placements = poses.iter().map(|f| stood(&seam.soles[s], &f[s]));
         LockedFoot {
-            anchors: anchors.collect(),
+            placements: placements.collect(),
             planted: label.iter().map(|l| l[s]).collect(),
             poses: poses.iter().map(|f| f[s]).collect(),
             slide_before: 0.0,
@@ -387,7 +387,7 @@ pub(super) fn lead_over(
         let until = ends_at.saturating_sub(i) as f64;
         smootherstep(since.min(until) / (transition::SHIFT_EDGE * stop::RATE))
     };
-    let draft = Draft {
+    let draft = SeamMotion {
         body,
         soles: &seam.soles,
         postures,
@@ -401,7 +401,7 @@ pub(super) fn lead_over(
         postures[at - cut + k] = *seam.to(k);
     }
     let from = (held - cut).saturating_sub(4);
-    let asks = consistency(body, &postures[from..], &draft.label[from..], stop::RATE);
+    let asked = infeasibility(body, &postures[from..], &draft.label[from..], stop::RATE);
     if stray > transition::MOST_STRAY {
         return None;
     }
@@ -420,5 +420,5 @@ pub(super) fn lead_over(
         enters,
         until: enters + seconds(ends),
     };
-    Some((asks.force.rms + asks.moment.rms, way))
+    Some((asked, way))
 }

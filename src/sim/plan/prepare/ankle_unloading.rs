@@ -5,19 +5,15 @@ use crate::sim::body::angles::anatomical_angles;
 use crate::sim::body::topology::{DOF_START, L_THIGH, R_THIGH};
 use crate::sim::body::{Body, Posture};
 use crate::sim::motion::filter::{low_pass, smooth_minimum};
-use crate::sim::plan::foot_lock::Stance;
+use crate::sim::plan::foot_lock::{Stance, StanceTurns};
 use crate::sim::plan::params::{leg, pitch};
 
 /// What is bent so that planted legs stay within their limits, per sample.
 pub(super) struct AnkleUnloading {
-    /// Heel raised further than recorded, rad.
-    pub heel_up: [Vec<f64>; 2],
+    /// How feet are turned in stance.
+    pub feet: [StanceTurns; 2],
     /// Leg turned inwards about the line from hip to ankle, rad.
     pub turn_in: [Vec<f64>; 2],
-    /// Foot turned outwards on the floor, rad; one value per stance.
-    pub toe_out: [Vec<f64>; 2],
-    /// Toes turned up about their tip, rad.
-    pub tip: [Vec<f64>; 2],
     /// Pelvis turned anticlockwise about the vertical, rad.
     pub yaw: Vec<f64>,
 }
@@ -25,10 +21,8 @@ pub(super) struct AnkleUnloading {
 impl AnkleUnloading {
     pub fn new(n: usize) -> Self {
         Self {
-            heel_up: [vec![0.0; n], vec![0.0; n]],
+            feet: [StanceTurns::none(n), StanceTurns::none(n)],
             turn_in: [vec![0.0; n], vec![0.0; n]],
-            toe_out: [vec![0.0; n], vec![0.0; n]],
-            tip: [vec![0.0; n], vec![0.0; n]],
             yaw: vec![0.0; n],
         }
     }
@@ -73,9 +67,14 @@ impl AnkleUnloading {
                 smooth_minimum(&raw, half).into_iter().map(|x| -x).collect()
             };
             let hip = DOF_START[[L_THIGH, R_THIGH][s].index()];
-            for (i, (sum, e)) in self.heel_up[s].iter_mut().zip(over(d, true)).enumerate() {
+            let StanceTurns {
+                heel_up,
+                toe_out,
+                tip,
+            } = &mut self.feet[s];
+            for (i, (sum, e)) in heel_up.iter_mut().zip(over(d, true)).enumerate() {
                 // A runner's pelvis is lower in the first rounds than in the last: what was too much is given back.
-                if runs && e == 0.0 && *sum > 0.0 && planted[i][s] && self.tip[s][i] < pitch::FLAT {
+                if runs && e == 0.0 && *sum > 0.0 && planted[i][s] && tip[i] < pitch::FLAT {
                     let spare = (body.upper[d] - leg::PLANTED_MARGIN - angles[i][d]).max(0.0);
                     *sum = (*sum - spare).max(0.0);
                 }
@@ -93,8 +92,8 @@ impl AnkleUnloading {
                 let most = |v: &[f64]| v[st.start..st.end].iter().copied().fold(0.0, f64::max);
                 let e = leg::HEADING_GAIN * (most(&rotated_in) - most(&rotated_out));
                 for i in st.start..st.end {
-                    self.toe_out[s][i] =
-                        (self.toe_out[s][i] + e).clamp(-leg::MOST_TURN, leg::MOST_TURN);
+                    toe_out[i] =
+                        (toe_out[i] + e).clamp(-leg::MOST_TURN, leg::MOST_TURN);
                     self.turn_in[s][i] =
                         (self.turn_in[s][i] - e).clamp(-leg::MOST_TURN, leg::MOST_TURN);
                 }

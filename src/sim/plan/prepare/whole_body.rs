@@ -33,7 +33,7 @@ pub(super) fn assemble(
     upper: &[Posture],
     locked: &[LockedFoot; 2],
     draft: &Draft,
-    relief: &AnkleUnloading,
+    unloading: &AnkleUnloading,
     shift: &[[f64; 2]],
     flights: Option<&FlightPhases>,
 ) -> (Vec<Posture>, Vec<f64>) {
@@ -42,7 +42,7 @@ pub(super) fn assemble(
     let mut out = upper.to_vec();
     let mut drop = vec![f64::INFINITY; n];
     for i in 0..n {
-        pelvis_yaw::turn(body, &mut out[i], relief.yaw[i]);
+        pelvis_yaw::turn(body, &mut out[i], unloading.yaw[i]);
         out[i].root_position.x += shift[i][0];
         out[i].root_position.y += shift[i][1];
         for ((hip, length), foot) in legs.iter().zip(locked) {
@@ -102,9 +102,9 @@ pub(super) fn assemble(
             }
             // Inwards is clockwise seen from above for the left leg: about the line pointing down, positive.
             let inward = if s == 0 {
-                relief.turn_in[s][i]
+                unloading.turn_in[s][i]
             } else {
-                -relief.turn_in[s][i]
+                -unloading.turn_in[s][i]
             };
             let axis =
                 Quat::exp(line.normalized_or(-Vec3::Z) * inward).rotate(draft.knee_axis[s][i]);

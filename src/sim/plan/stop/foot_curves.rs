@@ -1,7 +1,7 @@
 //! How the feet move between the footholds of an end.
 
 use super::footsteps::Step;
-use super::initial_state::Start;
+use super::initial_state::InitialState;
 use super::{min_jerk_3, turned};
 use crate::sim::math::ease::smootherstep;
 use crate::sim::math::{Quat, Vec3};
@@ -42,7 +42,7 @@ fn left_behind(place: Vec3, other: Vec3, heading: f64) -> f64 {
 ///
 /// * `lands`: see [`stop::OVER_TIME`]; not where time runs backwards, and what looks like a landing is a foot that leaves.
 pub(super) fn pose(
-    from: &Start,
+    from: &InitialState,
     steps: &[Step],
     sole: &Sole,
     (side, yaw, lands): (usize, f64, bool),
@@ -50,16 +50,16 @@ pub(super) fn pose(
 ) -> (Vec3, Quat, bool) {
     let other = |t: f64| {
         let landed = steps.iter().rev().find(|s| s.side != side && s.on <= t);
-        landed.map_or(from.place[1 - side], |s| s.place)
+        landed.map_or(from.feet[1 - side].place, |s| s.place)
     };
     let mine: Vec<&Step> = steps.iter().filter(|s| s.side == side).collect();
-    let pitch = yaw_pitch(from.foot[side]).1;
+    let pitch = yaw_pitch(from.feet[side].rotation).1;
     let stance = |k: usize| {
         let off = mine.get(k).map_or(f64::INFINITY, |s| s.off);
         let lifted = |place: Vec3| left_behind(place, other(off), from.heading);
         match k.checked_sub(1) {
             None => {
-                let place = from.place[side];
+                let place = from.feet[side].place;
                 let last = if off.is_finite() {
                     lifted(place).min(pitch)
                 } else {
@@ -67,7 +67,7 @@ pub(super) fn pose(
                 };
                 Stance {
                     place,
-                    yaw: from.yaw[side],
+                    yaw: from.feet[side].yaw,
                     on: 0.0,
                     off,
                     pitch: [pitch, pitch, last],
@@ -96,17 +96,22 @@ pub(super) fn pose(
         .map(|k| (k, mine[k]))
         .filter(|(_, s)| t < s.on);
     let Some((k, step)) = under_way else {
-        if k == 0 && !from.down[side] {
-            return (from.ankle[side], from.foot[side], true);
+        if k == 0 && !from.feet[side].down {
+            return (from.feet[side].ankle, from.feet[side].rotation, true);
         }
         let (ankle, rotation) = stance(k).pose(sole, t);
         return (ankle, rotation, true);
     };
-    let in_air = k == 0 && !from.down[side];
+    let in_air = k == 0 && !from.feet[side].down;
     // A foot in the air, and one that lifts at once, goes on as it moves, toe-up as it may be.
     let (start, rotation, velocity, spin) = if in_air || k == 0 && step.off <= 0.0 {
-        let (velocity, spin) = (from.ankle_velocity[side], from.foot_spin[side]);
-        (from.ankle[side], from.foot[side], velocity, spin)
+        let (velocity, spin) = (from.feet[side].velocity, from.feet[side].spin);
+        (
+            from.feet[side].ankle,
+            from.feet[side].rotation,
+            velocity,
+            spin,
+        )
     } else {
         let (ankle, rotation) = stance(k).pose(sole, step.off);
         (ankle, rotation, Vec3::zero(), Vec3::zero())

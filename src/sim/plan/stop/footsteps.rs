@@ -3,7 +3,7 @@
 //! The capture point ξ = c + ċ/ω says where the next foot has to land (Pratt et al. 2006); once it lies between the
 //! feet they are brought side by side. Several ways are tried; the one is taken that asks least of a body.
 
-use super::initial_state::Start;
+use super::initial_state::InitialState;
 use super::{FOOT, flat, ground, level, turned};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::Vec3;
@@ -11,7 +11,7 @@ use crate::sim::math::ease::rise;
 use crate::sim::math::polygon::{Region, hull, margin};
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::leg_ik::{center_of_mass, forward};
-use crate::sim::plan::foot_lock::{Anchor, Sole, turn, yaw_pitch};
+use crate::sim::plan::foot_lock::{FootPlacement, Sole, turn, yaw_pitch};
 use crate::sim::plan::params::stop;
 
 /// A swing that is under way already lasts at least this long, s, and a swinging foot gets no faster than this on the
@@ -45,7 +45,7 @@ impl Feet<'_> {
     pub(super) fn support(&self, down: [bool; 2]) -> Vec<[f64; 2]> {
         let mut corners = Vec::new();
         for s in (0..2).filter(|s| down[*s]) {
-            let at = Anchor {
+            let at = FootPlacement {
                 tip: 0.0,
                 place: self.place[s],
                 yaw: self.yaw[s],
@@ -62,7 +62,7 @@ impl Feet<'_> {
 }
 
 /// How it stands in the end. Places from the middle between the ankles, headings against that of the whole.
-pub(super) struct Stand {
+pub(super) struct StandingPose {
     pub(super) posture: Posture,
     pub(super) home: [Vec3; 2],
     pub(super) yaw: [f64; 2],
@@ -71,7 +71,7 @@ pub(super) struct Stand {
     pub(super) heading: f64,
 }
 
-impl Stand {
+impl StandingPose {
     pub(super) fn of(body: &Body, posture: &Posture) -> Self {
         let poses = forward(body, posture);
         let feet = FOOT.map(|s| poses[s]);
@@ -99,7 +99,7 @@ impl Stand {
 
 /// What can be chosen about an end.
 #[derive(Clone, Copy, Debug)]
-struct Way {
+struct StepOptions {
     /// What has to be in hand beyond [`stop::CAUGHT_INSET`], s.
     spare: f64,
     /// See [`stop::BEYOND_CAPTURE`], m.
@@ -113,7 +113,7 @@ struct Way {
     turn: f64,
 }
 
-impl Way {
+impl StepOptions {
     /// All that are tried with the same `turn`.
     ///
     /// * `spare`: the most that should be in hand beyond [`stop::CAUGHT_INSET`], s; `in_air`: a foot is in the air.
@@ -141,15 +141,15 @@ impl Way {
 }
 
 /// The pendulum on its way to a stand: footsteps, and the path of its mass.
-struct Stop<'a> {
-    from: &'a Start,
+struct PendulumPlan<'a> {
+    from: &'a InitialState,
     feet: Feet<'a>,
-    stand: &'a Stand,
+    stand: &'a StandingPose,
     leg: f64,
     omega: f64,
     dt: f64,
     capture: Vec3,
-    way: Way,
+    way: StepOptions,
     steps: Vec<Step>,
     path: Vec<Vec3>,
 }
@@ -163,7 +163,7 @@ pub(super) struct Footsteps {
 }
 
 /// Frequency of the pendulum between a start and a stand, rad/s.
-pub(super) fn frequency(from: &Start, stand: &Stand) -> f64 {
+pub(super) fn frequency(from: &InitialState, stand: &StandingPose) -> f64 {
     (GRAVITY / (0.5 * (from.com.z + stand.mass.z)).max(stop::LEAST_HEIGHT)).sqrt()
 }
 
@@ -172,18 +172,18 @@ pub(super) fn frequency(from: &Start, stand: &Stand) -> f64 {
 /// * `leg`: from hip to ankle, m; `rate_hz`: samples per second of the path; `spare`: the most that should be in hand
 ///   beyond [`stop::CAUGHT_INSET`], s.
 pub(super) fn footsteps(
-    from: &Start,
-    stand: &Stand,
+    from: &InitialState,
+    stand: &StandingPose,
     soles: &[Sole; 2],
     (leg, rate_hz, spare): (f64, f64, f64),
 ) -> Option<Footsteps> {
     let omega = frequency(from, stand);
-    let tried = |way: Way| {
-        let mut stop = Stop {
+    let tried = |way: StepOptions| {
+        let mut stop = PendulumPlan {
             from,
             feet: Feet {
-                place: from.place,
-                yaw: from.yaw,
+                place: from.feet.map(|f| f.place),
+                yaw: from.feet.map(|f| f.yaw),
                 soles,
             },
             stand,
@@ -197,9 +197,9 @@ pub(super) fn footsteps(
         };
         stop.run().then_some(stop)
     };
-    let in_air = from.down != [true; 2];
+    let in_air = from.down() != [true; 2];
     let best = |turn: f64| {
-        let found = Way::all(spare, in_air, turn).filter_map(tried);
+        let found = StepOptions::all(spare, in_air, turn).filter_map(tried);
         found.min_by(|a, b| a.price().total_cmp(&b.price()))
     };
     // Who falls to a side where his feet cannot get turns there.
@@ -235,7 +235,7 @@ impl Support {
     }
 }
 
-impl Stop<'_> {
+impl PendulumPlan<'_> {
     fn now(&self) -> f64 {
         (self.path.len() - 1) as f64 * self.dt
     }
@@ -342,7 +342,7 @@ impl Stop<'_> {
     /// * `ankle`: where it is; `least`: shortest time.
     ///
     /// Returns time, place, and how far inside the feet the capture point will be then, m.
-    fn catching(&self, side: usize, ankle: Vec3, least: f64) -> (f64, Vec3, f64) {
+    fn capture_step(&self, side: usize, ankle: Vec3, least: f64) -> (f64, Vec3, f64) {
         let mut down = [true; 2];
         down[side] = false;
         let p = level(self.hold(&Support::of(&self.feet, down)));
@@ -433,7 +433,7 @@ impl Stop<'_> {
         let falls: f64 = self.path.windows(3).map(fall).sum();
         let hops = |w: &&[Step]| w[0].side == w[1].side && w[1].on - w[1].off < stop::CLOSING_TIME;
         let hops = self.steps.windows(2).filter(hops).count() as f64;
-        let mut at = [0, 1].map(|s| (ground(self.from.ankle[s]), self.from.yaw[s]));
+        let mut at = [0, 1].map(|s| (ground(self.from.feet[s].ankle), self.from.feet[s].yaw));
         let mut hurry = 0.0;
         for s in &self.steps {
             let (place, yaw) = at[s.side];
@@ -455,7 +455,7 @@ impl Stop<'_> {
     }
 
     /// A body in the air comes down, on the lower foot, as far ahead as the leg reaches. Returns which one.
-    fn come_down(&mut self) -> usize {
+    fn land_from_flight(&mut self) -> usize {
         let from = self.from;
         let fall = from.velocity.z;
         let drop = (from.com.z - (self.stand.mass.z - stop::LANDING_DROP)).max(0.0);
@@ -467,7 +467,7 @@ impl Stop<'_> {
             self.path.push(c);
             self.capture = c + velocity * (1.0 / self.omega);
         }
-        let side = usize::from(from.ankle[1].z < from.ankle[0].z);
+        let side = usize::from(from.feet[1].ankle.z < from.feet[0].ankle.z);
         let c = self.mass();
         let reach = (self.capture - c)
             .norm()
@@ -487,9 +487,9 @@ impl Stop<'_> {
 
     /// The foot that is in the air already lands where it catches.
     fn land(&mut self, side: usize) {
-        let since = self.from.since[side] + self.now();
+        let since = self.from.feet[side].since + self.now();
         let least = (stop::SHORTEST_SWING - since).max(self.way.rest);
-        let (time, place, _) = self.catching(side, self.from.ankle[side], least);
+        let (time, place, _) = self.capture_step(side, self.from.feet[side].ankle, least);
         let in_flight = self.path.len() > 1;
         self.swing(side, time, place, None);
         if let Some(step) = self.steps.last_mut().filter(|_| in_flight) {
@@ -500,8 +500,8 @@ impl Stop<'_> {
 
     /// Steps until the capture point is between the feet, or for as long as there is hope. With both feet down the one
     /// goes first that catches better.
-    fn catch(&mut self) {
-        let mut ankle = self.from.ankle;
+    fn capture(&mut self) {
+        let mut ankle = self.from.feet.map(|f| f.ankle);
         let mut first = self.way.first;
         for _ in 0..stop::MOST_STEPS {
             for s in &self.steps {
@@ -511,7 +511,7 @@ impl Stop<'_> {
                 return;
             }
             let [left, right] =
-                [0, 1].map(|s: usize| self.catching(s, ankle[s], stop::SHORTEST_SWING));
+                [0, 1].map(|s: usize| self.capture_step(s, ankle[s], stop::SHORTEST_SWING));
             let side = first.take().unwrap_or(usize::from(right.2 > left.2));
             let (time, place, _) = [left, right][side];
             self.swing(side, time, place, None);
@@ -520,7 +520,7 @@ impl Stop<'_> {
     }
 
     /// Brings the feet side by side, the one first that carries less, and the mass over them.
-    fn gather(&mut self) {
+    fn close_feet(&mut self) {
         for _ in 0..2 {
             let far = |s: usize| (self.feet.middle(s) - self.capture).norm();
             let side = usize::from(far(1) > far(0));
@@ -547,18 +547,18 @@ impl Stop<'_> {
 
     /// All of it; false if the body runs away.
     fn run(&mut self) -> bool {
-        let mut down = self.from.down;
+        let mut down = self.from.down();
         if down == [false; 2] {
-            down[self.come_down()] = true;
+            down[self.land_from_flight()] = true;
         }
         if let Some(side) = (0..2).find(|s| !down[*s]) {
             self.land(side);
         }
-        self.catch();
+        self.capture();
         if !self.is_caught() {
             return false;
         }
-        self.gather();
+        self.close_feet();
         self.is_caught()
     }
 }

@@ -19,8 +19,8 @@ use crate::sim::motion::builtin::at_ease;
 use crate::sim::motion::filter::low_pass_points;
 use crate::sim::motion::leg_ik::{forward, knee_axis};
 use crate::sim::plan::params::{stance, stop};
-use footsteps::{Footsteps, Stand, footsteps, frequency};
-use initial_state::Start;
+use footsteps::{Footsteps, StandingPose, footsteps, frequency};
+use initial_state::InitialState;
 
 const FOOT: [usize; 2] = [L_FOOT.index(), R_FOOT.index()];
 
@@ -67,7 +67,7 @@ enum Goal<'a> {
     /// The same, of a motion that runs backwards: it will come from there.
     Origin,
     /// At rest: as it stands if it does, and else standing at ease.
-    Still,
+    AtRest,
     /// Standing like this, if it does not stand like that.
     Like(&'a Posture),
     /// At rest in this posture, however near to it and slow it is.
@@ -76,28 +76,28 @@ enum Goal<'a> {
 
 /// Samples after the last one of `draft`, from its motion to its goal. `None` if it is there already, if it does not
 /// walk, or if no steps are found that stop it.
-fn tail(body: &Body, draft: &Draft, goal: Goal<'_>, spare: f64) -> Option<Draft> {
+fn steps_to_stand(body: &Body, draft: &Draft, goal: Goal<'_>, spare: f64) -> Option<Draft> {
     if draft.postures.len() < 3 {
         return None;
     }
     let soles = [Sole::new(body, 0), Sole::new(body, 1)];
-    let from = Start::of(body, draft, &soles);
+    let from = InitialState::of(body, draft, &soles);
     let mut stand = match goal {
-        Goal::Stand | Goal::Origin | Goal::Still => Stand::of(body, &at_ease(body)),
-        Goal::Like(posture) | Goal::Rest(posture) => Stand::of(body, posture),
+        Goal::Stand | Goal::Origin | Goal::AtRest => StandingPose::of(body, &at_ease(body)),
+        Goal::Like(posture) | Goal::Rest(posture) => StandingPose::of(body, posture),
     };
     // Who sits or lies is not led to a stand; who squats stands on his feet.
     let stands = from.stands(&soles, frequency(&from, &stand));
     if !stands && from.posture.root_position.z < stop::UPRIGHT * body.standing_root_height() {
         return None;
     }
-    if stands && matches!(goal, Goal::Still) {
+    if stands && matches!(goal, Goal::AtRest) {
         // It needs no step, only time.
-        stand = Stand::of(body, &from.posture);
+        stand = StandingPose::of(body, &from.posture);
     }
     let is_there = match goal {
         Goal::Stand | Goal::Origin => true,
-        Goal::Still => !from.moves(),
+        Goal::AtRest => !from.moves(),
         Goal::Like(posture) => alike(&from.posture, posture),
         Goal::Rest(_) => false,
     };
@@ -109,16 +109,16 @@ fn tail(body: &Body, draft: &Draft, goal: Goal<'_>, spare: f64) -> Option<Draft>
     let axis = [0, 1].map(|s: usize| draft.knee_axis[s].last().copied().unwrap_or(Vec3::Y));
     let lands = !matches!(goal, Goal::Origin);
     let how = (axis, draft.rate_hz, lands);
-    Some(walk(&from, &stand, &soles, &found, how))
+    Some(along_footsteps(&from, &stand, &soles, &found, how))
 }
 
 /// The motion along footsteps: the pelvis with the pendulum's mass, feet from hold to hold, everything else to ease.
 ///
 /// * `axis`: knee axes that it starts with; `rate`: samples per second; `lands`: what comes down in it does so in the
 ///   world, as time runs there.
-fn walk(
-    from: &Start,
-    stand: &Stand,
+fn along_footsteps(
+    from: &InitialState,
+    stand: &StandingPose,
     soles: &[Sole; 2],
     found: &Footsteps,
     (axis, rate, lands): ([Vec3; 2], f64, bool),
@@ -272,14 +272,14 @@ impl Draft {
     /// samples it took.
     pub fn end_like(&mut self, body: &Body, goal: &Posture) -> usize {
         self.put_down();
-        let after = tail(body, self, Goal::Like(goal), 0.0);
+        let after = steps_to_stand(body, self, Goal::Like(goal), 0.0);
         self.go_on(after)
     }
 
     /// The same, but to rest in just that posture, however little that takes.
     pub fn end_at_rest(&mut self, body: &Body, goal: &Posture) -> usize {
         self.put_down();
-        let after = tail(body, self, Goal::Rest(goal), 0.0);
+        let after = steps_to_stand(body, self, Goal::Rest(goal), 0.0);
         self.go_on(after)
     }
 
@@ -290,7 +290,7 @@ impl Draft {
     ///   chosen for being easy.
     pub fn end_standing(&mut self, body: &Body, given: bool) -> usize {
         self.put_down();
-        let after = tail(
+        let after = steps_to_stand(
             body,
             self,
             Goal::Stand,
@@ -303,10 +303,10 @@ impl Draft {
     /// anyway. Returns how many samples came before and after.
     pub fn add_ends(&mut self, body: &Body) -> (usize, usize) {
         self.put_down();
-        let after = tail(body, self, Goal::Still, stop::SPARE_TIME);
+        let after = steps_to_stand(body, self, Goal::AtRest, stop::SPARE_TIME);
         self.reverse();
         self.put_down();
-        let before = tail(body, self, Goal::Origin, stop::SPARE_TIME);
+        let before = steps_to_stand(body, self, Goal::Origin, stop::SPARE_TIME);
         let before = self.go_on(before);
         self.reverse();
         (before, self.go_on(after))

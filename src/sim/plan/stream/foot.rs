@@ -4,7 +4,7 @@ use super::{H, RATE};
 use crate::sim::math::ease::fall;
 use crate::sim::math::rotation_vector::quintic;
 use crate::sim::math::{Quat, Vec3, trig};
-use crate::sim::plan::foot_lock::{Anchor, FootPose, Sole};
+use crate::sim::plan::foot_lock::{FootPlacement, FootPose, Sole};
 use crate::sim::plan::params::{contact, pitch, stance, swing};
 
 /// A foot that has stood for less than this is not taken off the floor again, samples.
@@ -109,7 +109,7 @@ fn stance_pitch(raw: f64, age: i64, rolled: bool) -> f64 {
 /// Pitch of a standing foot that its leg reaches: it rises on its toes by as little as that takes.
 ///
 /// * `lacks`: how far an ankle is out of reach, m.
-pub fn risen(sole: &Sole, at: &Anchor, lacks: &impl Fn(Vec3) -> f64) -> f64 {
+pub fn risen(sole: &Sole, at: &FootPlacement, lacks: &impl Fn(Vec3) -> f64) -> f64 {
     let left = |rise: f64| lacks(sole.stand(at.place, at.yaw, at.pitch - rise).ankle);
     let most = pitch::MOST_RISE.min(at.pitch.min(0.0) - contact::LEAST_PITCH);
     let (mut low, mut high) = (0.0, most);
@@ -350,9 +350,9 @@ impl Foot {
     }
 
     /// Where it stands in sample `j`; `None` if it does not.
-    pub fn anchor(&self, j: i64, standing: impl Fn(i64) -> Standing) -> Option<Anchor> {
+    pub fn anchor(&self, j: i64, standing: impl Fn(i64) -> Standing) -> Option<FootPlacement> {
         let st = &self.stances[self.stance_at(j)?];
-        Some(Anchor {
+        Some(FootPlacement {
             tip: 0.0,
             place: st.place,
             yaw: st.yaw,
@@ -405,7 +405,7 @@ impl Foot {
             }
             let st = &mut self.stances[k];
             st.rolled |= now.pitch < pitch::DEAD_BAND;
-            let at = Anchor {
+            let at = FootPlacement {
                 tip: 0.0,
                 place: st.place,
                 yaw: st.yaw,

@@ -47,10 +47,10 @@ impl StreamPlan {
             [p[0] - balanced.zmp[0], p[1] - balanced.zmp[1]]
         });
         // About a second: peaks of gait, which go there and back, are corrected, a chair is not.
-        for (lasting, way) in self.lasting.iter_mut().zip(way) {
+        for (lasting, way) in self.balance.lasting.iter_mut().zip(way) {
             *lasting += (way - *lasting) * (1.0 - exp(-H));
         }
-        let [x, y] = self.lasting;
+        let [x, y] = self.balance.lasting;
         let far = (x * x + y * y).sqrt();
         let u = ((far - balance::OTHER_SUPPORT_BEGINS * balance::OTHER_SUPPORT)
             / (balance::OTHER_SUPPORT_RANGE * balance::OTHER_SUPPORT))
@@ -58,7 +58,7 @@ impl StreamPlan {
         let trust = 1.0 - smoothstep(u);
         self.at_mut(j).trust = trust;
         balanced.weight = trust * load * load;
-        self.balance.push(balanced);
+        self.balance.horizon.push(balanced);
     }
 
     /// The balance of sample `j` with the centre of mass and the angular momentum that are meant, and its load, 0…1.
@@ -71,8 +71,8 @@ impl StreamPlan {
         let load = 1.0 + acc.z / GRAVITY;
         let omega2 = ((GRAVITY + acc.z) / b.z.max(balance::LEAST_HEIGHT))
             .clamp(balance::LEAST_OMEGA2, balance::MOST_OMEGA2);
-        let looks = self.at(j).smooth.root_rotation.heading();
-        let mut balanced = Balanced::new([b.x, b.y], omega2, looks);
+        let heading = self.at(j).smooth.root_rotation.heading();
+        let mut balanced = Balanced::new([b.x, b.y], omega2, heading);
         if load > balance::LEAST_LOAD && j >= 2 {
             let force = (acc + Vec3::Z * GRAVITY) * mass;
             let z = zero_moment_point(b, (force, rate));
@@ -83,27 +83,27 @@ impl StreamPlan {
                 lean: [b.x - z[0], b.y - z[1]],
                 load: None,
             };
-            let anchors: [_; 2] =
+            let placements: [_; 2] =
                 std::array::from_fn(|side| self.feet[side].anchor(j, |i| self.standing(side, i)));
-            let alone = anchors[0].is_some() != anchors[1].is_some();
+            let alone = placements[0].is_some() != placements[1].is_some();
             let mut polygon = Polygon::default();
-            for (sole, anchor) in self.soles.iter().zip(&anchors) {
+            for (sole, anchor) in self.soles.iter().zip(&placements) {
                 match anchor {
                     Some(at) if alone => {
-                        self.one_foot
+                        self.ankle_limit
                             .each_corner(sole, at, &over, |p| polygon.add(p));
                     }
                     Some(at) => sole.each_corner(at, |p| polygon.add(p)),
                     None => {}
                 }
             }
-            balanced = Balanced::new(z, omega2, looks);
+            balanced = Balanced::new(z, omega2, heading);
             balanced.support = polygon.inner(balance::INSET);
         }
         (balanced, load.clamp(0.0, 1.0))
     }
 
-    /// Puts sample `i` together as it is going to be, and looks at the balance of that.
+    /// Puts sample `i` together as it is going to be, and heading at the balance of that.
     pub(super) fn build(&mut self, i: i64) {
         let shift = self.planned(i);
         let posture = self.posture(i, shift);
@@ -130,6 +130,6 @@ impl StreamPlan {
     pub(super) fn improve(&mut self, i: i64, of: impl Fn(&Sample) -> (Vec3, Vec3)) {
         let (mut better, load) = self.balanced(i, of);
         better.weight = self.at(i).trust * load * load;
-        self.balance.improve(i, better);
+        self.balance.horizon.improve(i, better);
     }
 }

@@ -21,7 +21,7 @@ pub struct Balanced {
     pub weight: f64,
     /// Square of the pendulum frequency, 1/s².
     pub omega2: f64,
-    /// Which way the body looks, rad.
+    /// Which way the body heading, rad.
     pub heading: f64,
     /// Zero-moment point that the supports ask for, and what it still owes them, m: kept from sample to sample.
     goal: [f64; 2],
@@ -121,7 +121,7 @@ impl Lacking {
         }
     }
 
-    /// What is expected of a body that looks along `heading` (rad), m, world axes.
+    /// What is expected of a body that heading along `heading` (rad), m, world axes.
     fn expected(&self, heading: f64) -> [f64; 2] {
         let mean = self.lately.map(|l| l / self.weight.max(1.0));
         let expected =
@@ -163,7 +163,7 @@ impl Balance {
         }
     }
 
-    /// The shift that sample `i` is going to have, as it looks now, m.
+    /// The shift that sample `i` is going to have, as it heading now, m.
     pub fn planned(&self, i: i64) -> [f64; 2] {
         let k = (i - self.first.0).max(0) as usize + self.first.1;
         let last = self.solved.checked_sub(1);
@@ -194,8 +194,8 @@ impl Balance {
         let (a, dies) = self.last_answer();
         // The last shift leads on to the one beyond: what that adds to the last zero-moment point, and to the last
         // bend.
-        let looks = self.samples.back().map_or(0.0, |s| s.heading);
-        let beyond = self.lacking.expected(looks).map(|m| (1.0 - dies) * m);
+        let heading = self.samples.back().map_or(0.0, |s| s.heading);
+        let beyond = self.lacking.expected(heading).map(|m| (1.0 - dies) * m);
         let bend = (balance::BEND_TIME * RATE).powi(4);
         let rounds = match self.solved {
             0 => balance::STREAM_FIRST_ALTERNATIONS,

@@ -10,17 +10,17 @@ use crate::sim::math::Vec3;
 use crate::sim::motion::leg_ik::{knee_axis, solve_leg_in_plane};
 use crate::sim::plan::params::{balance, leg};
 
-/// Lowering of the pelvis: as low as was needed in the last seconds, so that it does not add to the ups and downs of
+/// PelvisLowering of the pelvis: as low as was needed in the last seconds, so that it does not add to the ups and downs of
 /// the gait.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Lowering {
+pub(super) struct PelvisLowering {
     /// What is needed, forgotten slowly, m.
     needed: f64,
     at: f64,
     speed: f64,
 }
 
-impl Lowering {
+impl PelvisLowering {
     /// Takes the next need; the first one holds at once.
     fn take(&mut self, need: f64, first: bool) {
         if first {
@@ -116,16 +116,19 @@ impl StreamPlan {
 
     /// The shift of the centre of mass that sample `i` is going to have, as it looks now, m.
     pub(super) fn planned(&self, i: i64) -> [f64; 2] {
-        let planned = self.balance.planned(i);
+        let planned = self.balance.horizon.planned(i);
         planned.map(|x| x.clamp(-balance::STREAM_MOST_SHIFT, balance::STREAM_MOST_SHIFT))
     }
 
     /// Moves the shift of the trunk on to sample `out`.
     pub(super) fn shift_on(&mut self, out: i64) {
-        let next = self.balance.next((out > 0).then_some(self.shift));
+        let next = self
+            .balance
+            .horizon
+            .next((out > 0).then_some(self.balance.shift));
         let next = next.map(|x| x.clamp(-balance::STREAM_MOST_SHIFT, balance::STREAM_MOST_SHIFT));
-        self.shift = if out > 0 {
-            [self.shift[1], next]
+        self.balance.shift = if out > 0 {
+            [self.balance.shift[1], next]
         } else {
             [next; 2]
         };

@@ -11,7 +11,7 @@ pub fn is_same(a: &Posture, b: &Posture) -> bool {
 
 /// The newest sample, how it came to be there, and for how long.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Newest {
+pub(super) struct RepeatedSamples {
     posture: Option<Posture>,
     /// Samples that have repeated it.
     repeated: i64,
@@ -19,7 +19,7 @@ pub(super) struct Newest {
     velocity: [f64; 2],
 }
 
-impl Newest {
+impl RepeatedSamples {
     pub(super) fn take(&mut self, posture: &Posture) {
         let Some(last) = self.posture.replace(*posture) else {
             return;
@@ -57,13 +57,13 @@ mod tests {
     use super::*;
 
     /// Ahead at a speed, m/s, for half a second, then the same for so many samples.
-    fn stream(speed: f64, repeats: usize) -> Newest {
+    fn stream(speed: f64, repeats: usize) -> RepeatedSamples {
         let at = |i: usize| {
             let mut p = Posture::default();
             p.root_position.x = speed * i.min(30) as f64 / RATE;
             p
         };
-        let mut newest = Newest::default();
+        let mut newest = RepeatedSamples::default();
         (0..=30 + repeats).for_each(|i| newest.take(&at(i)));
         newest
     }
