@@ -40,7 +40,7 @@ use joints::Joints;
 use recording::Recording;
 use report::{mapped_bones, missing_segments};
 use root::{RootPath, follow_feet};
-use scene::Scene;
+use scene::{RecordedPaths, Scene};
 use size::{guess_up, measure, unit};
 
 /// Most frames of a clip: bounds time and memory (8 min at 120 Hz).
@@ -154,8 +154,15 @@ pub fn retarget(
             warnings.push(warning.into());
         }
     }
-    let recorded = (places, turns, take.rest(bvh));
-    let (mut scene, seen) = Scene::new(&take, &map, recorded, (up, unit_m), source_rate, options);
+    let recorded = RecordedPaths {
+        places,
+        turns,
+        rest: take.rest(bvh),
+        up,
+        unit_m,
+        source_rate,
+    };
+    let (mut scene, seen) = Scene::new(&take, &map, recorded, options);
     let keeps_run = seen.keeps_run();
     let fastest_run = seen.fastest_run();
     warnings.extend(seen.notes(source_rate));

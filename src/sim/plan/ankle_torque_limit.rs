@@ -27,8 +27,8 @@ pub struct Over {
 /// Limits of the support of one foot that carries a whole body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AnkleTorqueLimit {
-    /// Distance before the ankle at which the weight of the body takes [`ankle::STRENGTH_SHARE`] of the strength of the ankle, or
-    /// [`ankle::LEAST_SOLE`] of the sole, m.
+    /// Distance before the ankle at which the weight of the body takes [`ankle::STRENGTH_SHARE`] of the strength of the
+    /// ankle, or [`ankle::LEAST_SOLE`] of the sole, m.
     front: f64,
     /// How much farther that is than what the ankle holds, m.
     lacks: f64,

@@ -1,4 +1,5 @@
-//! Can a body do this motion on its feet? What inverse dynamics asks of the ground against what the ground can give. See `docs/locomotion.md#balance`.
+//! Can a body do this motion on its feet? What inverse dynamics asks of the ground against what the ground can give.
+//! See `docs/locomotion.md#balance`.
 //!
 //! A recording is consistent with the dynamics of a body if its zero-moment point stays inside the support polygon and
 //! the wrench that its acceleration needs lies in the friction cones of the feet that stand. How far it is from that

@@ -8,6 +8,7 @@
 mod sole;
 mod stances;
 
+pub(in crate::sim::plan) use sole::FootOffset;
 pub use sole::{FootPlacement, FootPose, Sole, turn, yaw_pitch};
 pub use stances::{Stance, stances};
 
@@ -47,8 +48,6 @@ pub(super) fn fade(value: f64, slope: f64, curvature: f64, u: f64) -> f64 {
         + 0.5 * curvature * u * u)
 }
 
-type Channels = [f64; 7];
-
 /// Ankle (m) and `world_from_foot` of a foot as it was recorded, per sample; floor at z = 0, body scale.
 #[derive(Clone, Copy, Debug)]
 pub struct RecordedFoot<'a> {
@@ -78,12 +77,6 @@ impl StanceTurns {
             tip: vec![0.0; n],
         }
     }
-}
-
-fn offset(locked: &FootPose, ankle: Vec3, rotation: Quat, toe: f64) -> Channels {
-    let p = locked.ankle - ankle;
-    let r = (locked.rotation * rotation.conjugate()).log();
-    [p.x, p.y, p.z, r.x, r.y, r.z, locked.toe - toe]
 }
 
 /// Locks one foot.
@@ -204,7 +197,7 @@ struct End {
     /// Samples over which the offset fades.
     span: f64,
     /// Value, slope and curvature of the offset, per span.
-    offset: [Channels; 3],
+    offset: [FootOffset; 3],
 }
 
 /// Fills the samples `i..j` of a swing between the locks on either side; `flies`: at its beginning and at its end the
@@ -219,7 +212,12 @@ fn swing(
 ) {
     let RecordedFoot { ankles, rotations } = recorded;
     let n = ankles.len();
-    let at = |k: usize, out: &LockedFoot| offset(&out.poses[k], ankles[k], rotations[k], toes[k]);
+    let recorded_pose = |k: usize| FootPose {
+        ankle: ankles[k],
+        rotation: rotations[k],
+        toe: toes[k],
+    };
+    let at = |k: usize, out: &LockedFoot| out.poses[k].offset_from(&recorded_pose(k));
     // Between two locks each offset is gone where the other begins; a swing that the recording breaks off has no other.
     let fade_time = ((swing::DEPARTURE * rate_hz) as usize).max(1);
     let span = if i > 0 && j < n {
@@ -276,11 +274,9 @@ fn swing(
                 }
             }
         }
-        out.poses[k] = FootPose {
-            ankle: ankles[k] + Vec3::from_array([o[0], o[1], o[2]]),
-            rotation: (Quat::exp(Vec3::from_array([o[3], o[4], o[5]])) * rotations[k]).normalized(),
-            toe: (toes[k] + o[6]).clamp(sole.toe_range.0, sole.toe_range.1),
-        };
+        let mut pose = recorded_pose(k).moved(&o);
+        pose.toe = pose.toe.clamp(sole.toe_range.0, sole.toe_range.1);
+        out.poses[k] = pose;
     }
     // Clearance, in proportion to the step: a shuffle of some centimetres need not rise like a stride.
     let (a, b) = (i.saturating_sub(1), j.min(n - 1));

@@ -99,8 +99,8 @@ pub struct Ways {
 }
 
 impl Ways {
-    /// * `known`: the motion from at least [`transition::RUN_UP`] ago to [`transition::AHEAD`] and [`transition::BEYOND`] ahead, samples at [`stop::RATE`]; it
-    ///   goes on at least up to sample `now`.
+    /// * `known`: the motion from at least [`transition::RUN_UP`] ago to [`transition::AHEAD`] and
+    ///   [`transition::BEYOND`] ahead, samples at [`stop::RATE`]; it goes on at least up to sample `now`.
     /// * `from`: the first sample at which it may be left.
     pub fn new(
         body: &Arc<Body>,

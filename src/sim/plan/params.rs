@@ -73,7 +73,7 @@ pub mod stance {
         HALF_QUICKEST_SHUFFLE: f64 = 0.08, "s", 0.05..=0.15, "docs/locomotion.md#foot-lock";
         /// Least way of a shuffle, in units of the stray distance and angle.
         LEAST_SHUFFLE: f64 = 0.25, "1", 0.05..=1.0, "docs/locomotion.md#foot-lock";
-        /// A foot stands at least so long beside one that has just landed, and one that has just left stays down so long.
+        /// A foot stands at least so long beside one that has just landed; one that has just left has not left.
         OVERLAP: f64 = 0.04, "s", 0..=0.15, "docs/locomotion.md#foot-lock";
         /// `OVERLAP` of a stream.
         STREAM_OVERLAP: i64 = 4, "samples", 0..=9, "docs/locomotion.md#streams";
@@ -611,7 +611,7 @@ pub mod transition {
         CANDIDATE_STRIDE: usize = 18, "samples", 1..=60, "docs/locomotion.md#transitions";
         /// Force and moment that a transition may ask for from nothing, in weights.
         MOST_INFEASIBLE: f64 = 0.05, "1", 0..=0.3, "docs/locomotion.md#transitions";
-        /// Time over which trunk and legs pass from one motion to the other, and over which the jump of a stream is spread.
+        /// Time over which trunk and legs pass from one motion to another; the jump of a stream is spread over it too.
         BLEND_TIME: f64 = 0.4, "s", 0.1..=1.0, "docs/locomotion.md#transitions";
         /// Time in which arms do.
         ARM_BLEND_TIME: f64 = 0.6, "s", 0.1..=1.5, "docs/locomotion.md#transitions";

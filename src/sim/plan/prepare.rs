@@ -15,7 +15,7 @@ use super::pelvis_shift::{
     MassTrack, OtherSupport, ShiftProblem, SupportPhase, mass_track, pelvis_shift,
     pelvis_shift_in_run,
 };
-use crate::sim::body::topology::{DOF_COUNT, L_FOOT, R_FOOT, SegmentId};
+use crate::sim::body::topology::DOF_COUNT;
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::polygon::margin;
 use crate::sim::math::{Quat, Vec3};
@@ -89,8 +89,6 @@ pub struct Prepared {
     /// Fraction of foot samples that were declared free because the leg's limits do not let it hold the foot in place.
     pub freed: f64,
 }
-
-const FOOT: [SegmentId; 2] = [L_FOOT, R_FOOT];
 
 /// Turns a draft into a motion that the body can follow.
 ///
@@ -242,7 +240,8 @@ impl<'a> Preparation<'a> {
         self.feet.support = support_phases(self.body, self.standing_feet(), &self.upper, label);
     }
 
-    /// Bends heels, toes, legs and the pelvis where ankles and hips of planted feet lack range, and locks the feet anew.
+    /// Bends heels, toes, legs and the pelvis where ankles and hips of planted feet lack range, and locks the feet
+    /// anew.
     fn unload_ankles(&mut self) {
         let stances = &self.feet.stances;
         self.unloading.add(

@@ -57,8 +57,8 @@ impl Ends {
     /// Most ends that are tried.
     pub const MOST: usize = (stop::SEARCH_TIME * stop::RATE) as usize / stop::SEARCH_STRIDE + 1;
 
-    /// * `known`: the motion so far and as far ahead as it is known, samples at [`stream::RATE`]; it goes on at least up to
-    ///   sample `now`.
+    /// * `known`: the motion so far and as far ahead as it is known, samples at [`stream::RATE`]; it goes on at least
+    ///   up to sample `now`.
     /// * `how`: how it stands in the end, wherever that is, at ease if not given; and whether the motion is a stream,
     ///   which is known less well than a clip.
     pub fn new(

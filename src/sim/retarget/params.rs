@@ -93,7 +93,7 @@ pub mod recording {
         BLEND_END_RATIO: f64 = 2.0, "1", 1.2..=5.0, "tests/corpus";
         /// A jump is so many times as large as 95 of 100 changes of the clip.
         USUAL_RATIO: f64 = 2.5, "1", 1.2..=10, "tests/corpus";
-        /// The fourth largest turn of a bone, or that of the root, of a jump out of a pose that is held for several frames.
+        /// Least fourth largest turn of a bone, or turn of the root, of a jump out of a pose held for several frames.
         POSE_JUMP: f64 = 0.12, "rad", 0.03..=0.4, "tests/corpus";
         /// A bone within this of the file's rest pose is at rest.
         REST_ANGLE: f64 = 0.09, "rad", 0.02..=0.2, "tests/corpus";
@@ -237,7 +237,7 @@ pub mod warning {
         CLAMP: f64 = 0.0873, "rad", 0.02..=0.3, "5°";
         /// It lasts for more than this share of the clip.
         CLAMP_SHARE: f64 = 0.05, "1", 0.01..=0.3, "tests/corpus";
-        /// A clamp that is larger is worth a warning if it lasts less, and so is a limb this far out of its hinge plane.
+        /// A clamp that is larger is worth a warning if it lasts less; so is a limb this far out of its hinge plane.
         LARGE_CLAMP: f64 = 0.17, "rad", 0.05..=0.5, "10°";
         /// A large clamp lasts for more than this share of the clip.
         LARGE_CLAMP_SHARE: f64 = 0.02, "1", 0..=0.2, "tests/corpus";

@@ -4,7 +4,7 @@
 //! flight before each landing, and which gets somewhere by that. The flights are seen in the mass: where the lead of
 //! the feet changes a runner falls freely, and a walker is lifted by both legs.
 
-use super::run_to_walk::paces;
+use super::run_to_walk::{leads, paces, turning_points};
 use crate::sim::math::Vec3;
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::filter::{low_pass, low_pass_points};
@@ -12,7 +12,7 @@ use crate::sim::plan::contact_labels::runs;
 use crate::sim::retarget::params::run_detection;
 
 /// Points of a recorded figure, per sample, m, z up.
-pub(crate) struct Figure<'a> {
+pub(crate) struct RecordedPoints<'a> {
     /// Middle of all joints.
     pub middle: &'a [Vec3],
     /// Ankle of the left and of the right foot.
@@ -78,7 +78,7 @@ impl FastStretch {
 }
 
 /// The stretches of a recording that are faster than people walk, in order. O(n).
-pub(crate) fn fast_stretches(figure: &Figure<'_>, rate_hz: f64) -> Vec<FastStretch> {
+pub(crate) fn fast_stretches(figure: &RecordedPoints<'_>, rate_hz: f64) -> Vec<FastStretch> {
     let speed = paces(figure.middle, rate_hz);
     let moves: Vec<bool> = speed
         .iter()
@@ -88,11 +88,16 @@ pub(crate) fn fast_stretches(figure: &Figure<'_>, rate_hz: f64) -> Vec<FastStret
     runs(&moves)
         .into_iter()
         .filter(|(i, j, fast)| *fast && most(*i, *j) > run_detection::RUN_SPEED)
-        .map(|(i, j, _)| judge(figure, (i, j), most(i, j), rate_hz))
+        .map(|(i, j, _)| classify(figure, (i, j), most(i, j), rate_hz))
         .collect()
 }
 
-fn judge(figure: &Figure<'_>, (i, j): (usize, usize), speed: f64, rate_hz: f64) -> FastStretch {
+fn classify(
+    figure: &RecordedPoints<'_>,
+    (i, j): (usize, usize),
+    speed: f64,
+    rate_hz: f64,
+) -> FastStretch {
     let turns = lead_turns(figure, (i, j), rate_hz);
     let falls = falling(figure.middle, rate_hz);
     let steps = turns.windows(2).map(|w| w[1] - w[0]);
@@ -139,33 +144,11 @@ fn judge(figure: &Figure<'_>, (i, j): (usize, usize), speed: f64, rate_hz: f64) 
 
 /// Samples within `i..j` in which the lead of one foot over the other, along the way, is at its largest and the other
 /// foot takes over.
-fn lead_turns(figure: &Figure<'_>, (i, j): (usize, usize), rate_hz: f64) -> Vec<usize> {
-    let n = figure.middle.len();
+fn lead_turns(figure: &RecordedPoints<'_>, (i, j): (usize, usize), rate_hz: f64) -> Vec<usize> {
     let mut slow = figure.middle.to_vec();
     low_pass_points(&mut slow, run_detection::PATH_CUTOFF, rate_hz);
-    let [left, right] = figure.feet;
-    let mut lead: Vec<f64> = (0..n)
-        .map(|k| {
-            let ahead = slow[(k + 1).min(n - 1)] - slow[k.saturating_sub(1)];
-            let ahead = Vec3 { z: 0.0, ..ahead }.normalized_or(Vec3::X);
-            (left[k] - right[k]).dot(ahead)
-        })
-        .collect();
-    low_pass(&mut lead, run_detection::LEAD_CUTOFF, rate_hz);
-    let (mut turns, mut sense, mut last) = (Vec::<usize>::new(), 0.0f64, i);
-    for k in i + 1..j {
-        let back = lead[last] - lead[k];
-        if sense == 0.0 {
-            if back.abs() > run_detection::LEAD_TURN {
-                (sense, last) = (-back.signum(), k);
-            }
-        } else if sense * back < 0.0 {
-            last = k;
-        } else if sense * back > run_detection::LEAD_TURN {
-            turns.push(last);
-            (sense, last) = (-sense, k);
-        }
-    }
+    let lead = leads(&slow, figure.feet, rate_hz);
+    let turns = turning_points(&lead, i..j);
     // Each one has to be a lead of its own foot, in turns, soon after the one before.
     let mut steps: Vec<usize> = Vec::new();
     let mut best: Vec<usize> = Vec::new();

@@ -1,11 +1,11 @@
 //! Runs that are walked: a run slowed down and shortened until a body whose muscles cannot run takes the same steps.
 //!
 //! A run needs 1.3 to 1.5 times the strength that is measured in people's joints: hip, knee and ankle are at their
-//! limits together, and at take-off the ankle turns so fast that it gives a third of what it holds (docs/adr/0021,
-//! 0032). What can be kept of it is its steps, their order, rhythm and headings, and what trunk and arms do. Time runs
-//! as much slower as makes its steps last as long as walked ones, the way is shortened along with them until it is
-//! walked at a walk's speed (and until nobody leans more than such a speed can be braked with), every foot stays down
-//! until the other one has landed, and between its places it swings as a walking foot does.
+//! limits together, and at take-off the ankle turns so fast that it gives a third of what it holds
+//! (`docs/locomotion.md#runs`). What can be kept of it is its steps, their order, rhythm and headings, and what trunk
+//! and arms do. Time runs as much slower as makes its steps last as long as walked ones, the way is shortened along
+//! with them until it is walked at a walk's speed (and until nobody leans more than such a speed can be braked with),
+//! every foot stays down until the other one has landed, and between its places it swings as a walking foot does.
 
 use crate::sim::math::ease::smootherstep;
 use crate::sim::math::{Quat, Vec3};
@@ -44,9 +44,8 @@ fn leans(way: &[Vec3], slow: &[Vec3], feet: [&[Vec3]; 2], rate_hz: f64) -> Vec<f
     out
 }
 
-/// Duration of the step that each sample belongs to, s: from one turning point of the way between the feet to the next,
-/// along the `slow` way of the body.
-fn steps(slow: &[Vec3], [left, right]: [&[Vec3]; 2], rate_hz: f64) -> Vec<f64> {
+/// Lead of the left foot over the right one along the `slow` way of the body, m per sample.
+pub(super) fn leads(slow: &[Vec3], [left, right]: [&[Vec3]; 2], rate_hz: f64) -> Vec<f64> {
     let n = slow.len();
     let mut lead: Vec<f64> = (0..n)
         .map(|i| {
@@ -56,21 +55,33 @@ fn steps(slow: &[Vec3], [left, right]: [&[Vec3]; 2], rate_hz: f64) -> Vec<f64> {
         })
         .collect();
     low_pass(&mut lead, run_detection::LEAD_CUTOFF, rate_hz);
-    // Turning points: the foot that has come ahead begins to fall behind.
-    let (mut turns, mut sense, mut last) = (Vec::new(), 0.0, 0);
-    for i in 1..n {
-        let back = lead[last] - lead[i];
+    lead
+}
+
+/// Samples within `range` at which the foot that has come ahead begins to fall behind.
+pub(super) fn turning_points(lead: &[f64], range: std::ops::Range<usize>) -> Vec<usize> {
+    let (mut turns, mut sense, mut last) = (Vec::new(), 0.0f64, range.start);
+    for k in range.start + 1..range.end {
+        let back = lead[last] - lead[k];
         if sense == 0.0 {
             if back.abs() > run_detection::LEAD_TURN {
-                (sense, last) = (-back.signum(), i);
+                (sense, last) = (-back.signum(), k);
             }
         } else if sense * back < 0.0 {
-            last = i;
+            last = k;
         } else if sense * back > run_detection::LEAD_TURN {
             turns.push(last);
-            (sense, last) = (-sense, i);
+            (sense, last) = (-sense, k);
         }
     }
+    turns
+}
+
+/// Duration of the step that each sample belongs to, s: from one turning point of the way between the feet to the next,
+/// along the `slow` way of the body.
+fn steps(slow: &[Vec3], feet: [&[Vec3]; 2], rate_hz: f64) -> Vec<f64> {
+    let n = slow.len();
+    let turns = turning_points(&leads(slow, feet, rate_hz), 0..n);
     let of = |i: usize| {
         // Before the first and after the last one steps go on as they were.
         let k = turns.partition_point(|t| *t <= i);

@@ -17,6 +17,28 @@ pub struct FootPose {
     pub toe: f64,
 }
 
+/// Difference of two poses of a foot: translation (m), rotation vector (rad), toe extension (rad).
+pub(in crate::sim::plan) type FootOffset = [f64; 7];
+
+impl FootPose {
+    /// What takes `other` to this pose.
+    pub(in crate::sim::plan) fn offset_from(&self, other: &Self) -> FootOffset {
+        let p = self.ankle - other.ankle;
+        let r = (self.rotation * other.rotation.conjugate()).log();
+        [p.x, p.y, p.z, r.x, r.y, r.z, self.toe - other.toe]
+    }
+
+    /// This pose moved by an offset.
+    pub(in crate::sim::plan) fn moved(&self, by: &FootOffset) -> Self {
+        let turn = Quat::exp(Vec3::from_array([by[3], by[4], by[5]]));
+        Self {
+            ankle: self.ankle + Vec3::from_array([by[0], by[1], by[2]]),
+            rotation: (turn * self.rotation).normalized(),
+            toe: self.toe + by[6],
+        }
+    }
+}
+
 /// The sole of one foot of a body.
 #[derive(Clone, Debug)]
 pub struct Sole {

@@ -9,6 +9,7 @@ use crate::sim::motion::leg_ik::{center_of_mass, forward};
 use crate::sim::plan::foot_lock::{FootPlacement, Sole};
 use crate::sim::plan::params::{balance, likeness, stop, transition};
 use crate::sim::plan::splice::Sample;
+use crate::sim::plan::turned_on_floor;
 
 /// A moment at which a motion is like another one's beginning.
 #[derive(Clone, Debug)]
@@ -99,11 +100,6 @@ fn nearest_turn(a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
     trig::atan2(cross, dot)
 }
 
-pub(super) fn turned(p: [f64; 2], yaw: f64) -> [f64; 2] {
-    let (s, c) = trig::sin_cos(yaw);
-    [c * p[0] - s * p[1], s * p[0] + c * p[1]]
-}
-
 pub(super) fn far(a: [f64; 2], b: [f64; 2]) -> f64 {
     let (x, y) = (a[0] - b[0], a[1] - b[1]);
     (x * x + y * y).sqrt()
@@ -159,7 +155,7 @@ fn compare(
     let a = left.points(i, side, omega);
     let b = entered.points(j, side, omega);
     let yaw = nearest_turn(&a, &b);
-    let b = b.map(|p| turned(p, yaw));
+    let b = b.map(|p| turned_on_floor(p, yaw));
     let sum = |p: &[[f64; 2]; 5]| [p[0][0] + p[1][0], p[0][1] + p[1][1]];
     let capture = far(sum(&a), sum(&b));
     let step = far(a[2], b[2]);
@@ -175,7 +171,7 @@ fn compare(
     if unlike > likeness::TRANSITION {
         return None;
     }
-    let at = turned([from.place.x, from.place.y], yaw);
+    let at = turned_on_floor([from.place.x, from.place.y], yaw);
     let moment = Moment {
         left: i,
         entered: j - 1,

@@ -4,7 +4,7 @@
 //! reversed motion to that very stand, prepared together with what comes after them. A clip that begins at once instead
 //! throws arms and trunk about, drags feet that are other_support, and asks for a velocity that nobody has who stands.
 
-use super::candidates::{Features, far, turned};
+use super::candidates::{Features, far};
 use super::{Next, WayIn};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::{Vec3, trig};
@@ -15,6 +15,7 @@ use crate::sim::plan::foot_lock::FootPlacement;
 use crate::sim::plan::params::{balance, stop, transition};
 use crate::sim::plan::prepare::{Draft, prepare_in};
 use crate::sim::plan::splice::{SEAM_OPTIONS, Sample, blend_from_played};
+use crate::sim::plan::turned_on_floor;
 
 impl Next {
     /// True if nobody who stands like `stand` need do anything before the clip begins at clip time `first`, s. No
@@ -83,6 +84,6 @@ fn seen(feet: &[FootPlacement; 2], point: Vec3) -> ([f64; 2], f64, [f64; 2]) {
     let half = 0.5 * trig::wrapped(feet[1].yaw - feet[0].yaw);
     let heading = feet[0].yaw + half;
     let middle = (feet[0].place + feet[1].place) * 0.5;
-    let from = |p: Vec3| turned([p.x - middle.x, p.y - middle.y], -heading);
+    let from = |p: Vec3| turned_on_floor([p.x - middle.x, p.y - middle.y], -heading);
     (from(feet[0].place), -half, from(point))
 }

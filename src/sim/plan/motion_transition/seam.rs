@@ -8,12 +8,10 @@
 use super::candidates::Moment;
 use super::{Next, WayIn};
 use crate::sim::body::angles::clamp_to_limits;
-use crate::sim::body::topology::{
-    DOF_START, JOINT, Joint, L_FOOT, L_THIGH, L_TOES, L_UPPER_ARM, NV, R_FOOT, R_TOES,
-};
+use crate::sim::body::topology::{DOF_START, L_THIGH, L_UPPER_ARM, NV};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::ease::smootherstep;
-use crate::sim::math::{Quat, Vec3, trig};
+use crate::sim::math::{Vec3, trig};
 use crate::sim::motion::clip::Clip;
 use crate::sim::motion::leg_ik::{forward, knee_axis, solve_leg_in_plane};
 use crate::sim::plan::ankle_torque_limit::AnkleTorqueLimit;
@@ -27,8 +25,7 @@ use crate::sim::plan::prepare::{
     StandingFeet, leg_geometry, limit_ankle_torques, other_support, planted_of, support_phases,
 };
 use crate::sim::plan::splice::Sample;
-
-const FOOT: [usize; 2] = [L_FOOT.index(), R_FOOT.index()];
+use crate::sim::plan::{FEET, toe_hinge};
 
 fn samples_in(seconds: f64) -> usize {
     (seconds * stop::RATE).round() as usize
@@ -72,11 +69,8 @@ struct Seam {
 fn feet_of(body: &Body, posture: &Posture) -> [FootPose; 2] {
     let poses = forward(body, posture);
     std::array::from_fn(|s| {
-        let (ankle, rotation) = poses[FOOT[s]];
-        let toe = match JOINT[[L_TOES, R_TOES][s].index()] {
-            Joint::Hinge1(h) => posture.hinge[h],
-            _ => unreachable!("the toes are on a hinge"),
-        };
+        let (ankle, rotation) = poses[FEET[s].index()];
+        let toe = posture.hinge[toe_hinge(s)];
         FootPose {
             ankle,
             rotation,
@@ -87,22 +81,6 @@ fn feet_of(body: &Body, posture: &Posture) -> [FootPose; 2] {
 
 fn stood(sole: &Sole, pose: &FootPose) -> FootPlacement {
     sole.footing((pose.ankle, pose.rotation))
-}
-
-/// From one pose of a foot to another: translation, rotation vector, toes.
-fn between(from: &FootPose, to: &FootPose) -> [f64; 7] {
-    let p = to.ankle - from.ankle;
-    let r = (to.rotation * from.rotation.conjugate()).log();
-    [p.x, p.y, p.z, r.x, r.y, r.z, to.toe - from.toe]
-}
-
-fn moved(pose: &FootPose, by: &[f64; 7]) -> FootPose {
-    let turn = Quat::exp(Vec3::from_array([by[3], by[4], by[5]]));
-    FootPose {
-        ankle: pose.ankle + Vec3::from_array([by[0], by[1], by[2]]),
-        rotation: (turn * pose.rotation).normalized(),
-        toe: pose.toe + by[6],
-    }
 }
 
 impl Seam {
@@ -177,10 +155,10 @@ impl Seam {
                 .max(stop::RATE * transition::LEAST_BLEND_TIME)
         };
         if !self.label[0][side] {
-            let off = |k: usize| between(&self.feet[k][side], &self.from[k][side]);
+            let off = |k: usize| self.from[k][side].offset_from(&self.feet[k][side]);
             let off = FadingOffset([off(0), off(1), off(2)]);
             for (k, pose) in out.iter_mut().enumerate() {
-                *pose = moved(pose, &off.left(k, |_| within(change)));
+                *pose = pose.moved(&off.left(k, |_| within(change)));
             }
             return out;
         }
@@ -194,14 +172,14 @@ impl Seam {
         for (k, pose) in out.iter_mut().enumerate().take(change) {
             let pitched = stood(sole, pose).pitch + pitch.left(k, |_| within(change))[0];
             let stands = sole.stand(place, yaw, pitched);
-            last = between(pose, &stands);
-            *pose = moved(pose, &last);
+            last = stands.offset_from(pose);
+            *pose = pose.moved(&last);
         }
         let landed = self.label[change..].iter().position(|l| l[side]);
         let off = FadingOffset([last; 3]);
         let span = within(landed.unwrap_or(usize::MAX));
         for (k, pose) in out[change..].iter_mut().enumerate() {
-            *pose = moved(pose, &off.left(k, |_| span));
+            *pose = pose.moved(&off.left(k, |_| span));
         }
         out
     }

@@ -1,10 +1,11 @@
 //! What bends for the sake of planted legs: ankles and hips that would have to go beyond their limits.
 
-use super::{FOOT, pelvis_yaw};
+use super::pelvis_yaw;
 use crate::sim::body::angles::anatomical_angles;
 use crate::sim::body::topology::{DOF_START, L_THIGH, R_THIGH};
 use crate::sim::body::{Body, Posture};
 use crate::sim::motion::filter::{low_pass, smooth_minimum};
+use crate::sim::plan::FEET;
 use crate::sim::plan::foot_lock::{Stance, StanceTurns};
 use crate::sim::plan::params::{leg, pitch};
 
@@ -48,7 +49,7 @@ impl AnkleUnloading {
         let half = (around * rate_hz) as usize;
         let angles: Vec<_> = postures.iter().map(anatomical_angles).collect();
         for s in 0..2 {
-            let d = DOF_START[FOOT[s].index()];
+            let d = DOF_START[FEET[s].index()];
             let over = |dof: usize, up: bool| -> Vec<f64> {
                 let raw: Vec<f64> = (0..n)
                     .map(|i| {
@@ -92,8 +93,7 @@ impl AnkleUnloading {
                 let most = |v: &[f64]| v[st.start..st.end].iter().copied().fold(0.0, f64::max);
                 let e = leg::HEADING_GAIN * (most(&rotated_in) - most(&rotated_out));
                 for i in st.start..st.end {
-                    toe_out[i] =
-                        (toe_out[i] + e).clamp(-leg::MOST_TURN, leg::MOST_TURN);
+                    toe_out[i] = (toe_out[i] + e).clamp(-leg::MOST_TURN, leg::MOST_TURN);
                     self.turn_in[s][i] =
                         (self.turn_in[s][i] - e).clamp(-leg::MOST_TURN, leg::MOST_TURN);
                 }

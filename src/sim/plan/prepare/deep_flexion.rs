@@ -5,20 +5,16 @@
 //! chest forward again as far as it goes. What is then left, of knees and ankles, raises the pelvis. Both come and go
 //! smoothly, and the legs are solved again.
 
-use super::joint_limits::toe_hinge;
-use super::{FOOT, leg_geometry};
+use super::leg_geometry;
 use crate::sim::body::angles::{anatomical_angles, clamp_to_limits};
-use crate::sim::body::topology::{
-    ABDOMEN, CHEST, DOF_COUNT, DOF_START, JOINT, Joint, L_THIGH, R_THIGH,
-};
-use crate::sim::body::{Body, Posture, SegmentId};
+use crate::sim::body::topology::{ABDOMEN, CHEST, DOF_COUNT, DOF_START};
+use crate::sim::body::{Body, Posture};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::leg_ik::{forward, solve_leg};
 use crate::sim::plan::envelope::smoothest_below;
 use crate::sim::plan::foot_lock::{LockedFoot, Sole};
 use crate::sim::plan::params::leg;
-
-const THIGH: [SegmentId; 2] = [L_THIGH, R_THIGH];
+use crate::sim::plan::{FEET, THIGHS, ball_joint, toe_hinge};
 
 /// How far the pelvis gave way.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -29,13 +25,6 @@ pub(super) struct DeepFlexion {
     pub raise_max: f64,
 }
 
-fn ball(segment: SegmentId) -> usize {
-    match JOINT[segment.index()] {
-        Joint::Ball(b) => b,
-        _ => unreachable!("hips and spine are ball joints"),
-    }
-}
-
 /// How deep each foot is in the floor when a posture is within its limits, m; 0 for a leg that would have to reach
 /// further back, which the knee lifts.
 fn depths(body: &Body, posture: &Posture, soles: &[Sole; 2]) -> [f64; 2] {
@@ -43,10 +32,10 @@ fn depths(body: &Body, posture: &Posture, soles: &[Sole; 2]) -> [f64; 2] {
     let off = clamp_to_limits(body, &mut within, leg::LIMIT_MARGIN * 0.5);
     let poses = forward(body, &within);
     [0, 1].map(|s| {
-        if off[DOF_START[THIGH[s].index()]] < 0.0 {
+        if off[DOF_START[THIGHS[s].index()]] < 0.0 {
             return 0.0;
         }
-        let (ankle, rotation) = poses[FOOT[s].index()];
+        let (ankle, rotation) = poses[FEET[s].index()];
         -(ankle.z + soles[s].lowest(rotation, within.hinge[toe_hinge(s)]))
     })
 }
@@ -61,7 +50,7 @@ fn lacks_flexion(body: &Body, posture: &Posture, deep: [bool; 2]) -> f64 {
     let angles: [f64; DOF_COUNT] = anatomical_angles(posture);
     (0..2)
         .filter(|s| deep[*s])
-        .map(|s| DOF_START[THIGH[s].index()])
+        .map(|s| DOF_START[THIGHS[s].index()])
         .map(|d| angles[d] - (body.upper[d] - leg::PLANTED_MARGIN))
         .fold(0.0, f64::max)
 }
@@ -79,7 +68,7 @@ fn give_way(
     let middle = (hips[0].0 + hips[1].0) * 0.5;
     let left = before.rotate(hips[0].0 - hips[1].0).normalized_or(Vec3::Y);
     let about = |angle: f64| Quat::exp(left * angle);
-    let (waist, thorax) = (ball(ABDOMEN), ball(CHEST));
+    let (waist, thorax) = (ball_joint(ABDOMEN), ball_joint(CHEST));
     let abdomen = before * like.ball[waist];
     let chest = abdomen * like.ball[thorax];
     // Back is towards negative angles about the left.
@@ -127,7 +116,7 @@ pub(super) fn unfold(
                 if planted[i][s] {
                     ((lock.ankle, lock.rotation), lock.toe)
                 } else {
-                    (poses[FOOT[s].index()], original[i].hinge[toe_hinge(s)])
+                    (poses[FEET[s].index()], original[i].hinge[toe_hinge(s)])
                 }
             })
         })

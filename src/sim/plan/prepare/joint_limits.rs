@@ -1,10 +1,9 @@
 //! Joints within the limits of the body: the upper body first, the legs last.
 
-use super::FOOT;
 use crate::sim::body::angles::clamp_to_limits;
 use crate::sim::body::topology::{
     BALL_COUNT, DOF_COUNT, DOF_START, HINGE_COUNT, JOINT, Joint, L_FOOT, L_SHANK, L_THIGH, L_TOES,
-    R_FOOT, R_SHANK, R_THIGH, R_TOES, SegmentId,
+    R_FOOT, R_SHANK, R_THIGH, R_TOES,
 };
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::{Quat, Vec3};
@@ -12,8 +11,8 @@ use crate::sim::motion::filter::{low_pass, low_pass_rotations};
 use crate::sim::motion::leg_ik::{forward, knee_axis, solve_leg};
 use crate::sim::plan::foot_lock::{LockedFoot, Sole};
 use crate::sim::plan::params::{leg, swing};
+use crate::sim::plan::{FEET, THIGHS, toe_hinge};
 
-const TOES: [SegmentId; 2] = [L_TOES, R_TOES];
 /// What is left of a lock when the legs are within their limits.
 #[derive(Default)]
 pub(super) struct Held {
@@ -39,9 +38,9 @@ pub(super) fn into_limits(
         let wanted = forward(body, posture);
         let off = clamp_to_limits(body, posture, leg::LIMIT_MARGIN * 0.5);
         note_clamped(clamped, &off, n);
-        let behind = |s: usize| off[DOF_START[[L_THIGH, R_THIGH][s].index()]] < 0.0;
+        let behind = |s: usize| off[DOF_START[THIGHS[s].index()]] < 0.0;
         for s in (0..2).filter(|s| !planted[*s] && behind(*s)) {
-            lift_by_knee(body, posture, s, wanted[FOOT[s].index()]);
+            lift_by_knee(body, posture, s, wanted[FEET[s].index()]);
         }
         for s in (0..2).filter(|s| !planted[*s]) {
             raise_foot(body, posture, s, &soles[s]);
@@ -51,7 +50,7 @@ pub(super) fn into_limits(
             if !planted[s] {
                 continue;
             }
-            let (at, q) = poses[FOOT[s].index()];
+            let (at, q) = poses[FEET[s].index()];
             let low = at.z + soles[s].lowest(q, posture.hinge[toe_hinge(s)]);
             let stray = soles[s].stray((at, q), &locked[s].poses[i]);
             if stray > accuracy || low < -accuracy {
@@ -71,7 +70,7 @@ pub(super) fn into_limits(
 /// `wanted`: its foot would be in the floor.
 fn lift_by_knee(body: &Body, posture: &mut Posture, side: usize, wanted: (Vec3, Quat)) {
     let shank = [L_SHANK, R_SHANK][side].index();
-    let foot = FOOT[side].index();
+    let foot = FEET[side].index();
     let (Joint::Hinge1(k), Joint::Ball(f)) = (JOINT[shank], JOINT[foot]) else {
         unreachable!("the tree has hinge knees and ball ankles")
     };
@@ -94,7 +93,7 @@ fn lift_by_knee(body: &Body, posture: &mut Posture, side: usize, wanted: (Vec3, 
 /// A foot that limits have put deeper into the floor than [`leg::DEEP`] is brought up to that by the whole leg.
 fn raise_foot(body: &Body, posture: &mut Posture, side: usize, sole: &Sole) {
     for _ in 0..leg::SOLVES {
-        let (ankle, rotation) = forward(body, posture)[FOOT[side].index()];
+        let (ankle, rotation) = forward(body, posture)[FEET[side].index()];
         let toe = posture.hinge[toe_hinge(side)];
         let deep = -(ankle.z + sole.lowest(rotation, toe)) - leg::DEEP;
         if deep <= 0.0 {
@@ -103,13 +102,6 @@ fn raise_foot(body: &Body, posture: &mut Posture, side: usize, sole: &Sole) {
         let to = (ankle + Vec3::Z * deep, rotation);
         solve_leg(body, posture, side == 0, to, toe);
         clamp_to_limits(body, posture, leg::LIMIT_MARGIN * 0.5);
-    }
-}
-
-pub(super) fn toe_hinge(side: usize) -> usize {
-    match JOINT[TOES[side].index()] {
-        Joint::Hinge1(h) => h,
-        _ => unreachable!("the toes are on a hinge"),
     }
 }
 

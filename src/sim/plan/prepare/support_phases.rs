@@ -1,11 +1,11 @@
 //! What carries the body in each sample, and how well what is planned stays over it.
 
-use super::FOOT;
 use crate::sim::body::angles::clamp_to_limits;
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::polygon::{hull, margin};
 use crate::sim::motion::filter::{low_pass, percentile};
 use crate::sim::motion::leg_ik::forward;
+use crate::sim::plan::FEET;
 use crate::sim::plan::ankle_torque_limit::{AnkleTorqueLimit, Over};
 use crate::sim::plan::foot_lock::{LockedFoot, Sole};
 use crate::sim::plan::params::{ankle, balance, contact, leg};
@@ -56,7 +56,7 @@ pub(super) fn within_reach(
         clamp_to_limits(body, &mut posture, leg::LIMIT_MARGIN * 0.5);
         let poses = forward(body, &posture);
         let near = |s: usize| {
-            let stray = soles[s].stray(poses[FOOT[s].index()], &locked[s].poses[i]);
+            let stray = soles[s].stray(poses[FEET[s].index()], &locked[s].poses[i]);
             stray <= leg::SEAM_HELD
         };
         match *planted {

@@ -20,7 +20,8 @@ struct Stance {
 }
 
 impl Stance {
-    /// Pose `t` seconds into the end. The heel of a foot that is left behind rises before it is lifted, over [`stop::ROLL_TIME`].
+    /// Pose `t` seconds into the end. The heel of a foot that is left behind rises before it is lifted, over
+    /// [`stop::ROLL_TIME`].
     fn pose(&self, sole: &Sole, t: f64) -> (Vec3, Quat) {
         let [first, middle, last] = self.pitch;
         let half = 0.5 * (self.off - self.on);
@@ -40,7 +41,8 @@ fn left_behind(place: Vec3, other: Vec3, heading: f64) -> f64 {
 
 /// Ankle and rotation of a foot `t` seconds into the end, and whether it is down.
 ///
-/// * `lands`: see [`stop::OVER_TIME`]; not where time runs backwards, and what looks like a landing is a foot that leaves.
+/// * `lands`: see [`stop::OVER_TIME`]; not where time runs backwards, and what looks like a landing is a foot that
+///   leaves.
 pub(super) fn pose(
     from: &InitialState,
     steps: &[Step],

@@ -4,13 +4,14 @@
 //! feet they are brought side by side. Several ways are tried; the one is taken that asks least of a body.
 
 use super::initial_state::InitialState;
-use super::{FOOT, flat, ground, level, turned};
+use super::{flat, ground, level, turned};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::Vec3;
 use crate::sim::math::ease::rise;
 use crate::sim::math::polygon::{Region, hull, margin};
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::leg_ik::{center_of_mass, forward};
+use crate::sim::plan::FEET;
 use crate::sim::plan::foot_lock::{FootPlacement, Sole, turn, yaw_pitch};
 use crate::sim::plan::params::stop;
 
@@ -74,7 +75,7 @@ pub(super) struct StandingPose {
 impl StandingPose {
     pub(super) fn of(body: &Body, posture: &Posture) -> Self {
         let poses = forward(body, posture);
-        let feet = FOOT.map(|s| poses[s]);
+        let feet = FEET.map(|s| poses[s.index()]);
         let yaws = feet.map(|f| yaw_pitch(f.1).0);
         let pelvis = yaw_pitch(posture.root_rotation).0;
         let heading = pelvis + 0.25 * (turn(pelvis, yaws[0]) + turn(pelvis, yaws[1]));

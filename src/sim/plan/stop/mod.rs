@@ -11,18 +11,17 @@ mod initial_state;
 
 use super::foot_lock::Sole;
 use super::prepare::Draft;
-use crate::sim::body::topology::{L_FOOT, NV, R_FOOT};
+use crate::sim::body::topology::NV;
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::ease::smootherstep;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::builtin::at_ease;
 use crate::sim::motion::filter::low_pass_points;
 use crate::sim::motion::leg_ik::{forward, knee_axis};
+use crate::sim::plan::FEET;
 use crate::sim::plan::params::{stance, stop};
 use footsteps::{Footsteps, StandingPose, footsteps, frequency};
 use initial_state::InitialState;
-
-const FOOT: [usize; 2] = [L_FOOT.index(), R_FOOT.index()];
 
 /// Value at `t` of the quintic from `x0`, with slope `v0`, to rest at `x1` after time `end`; no curvature at either
 /// end.
@@ -179,7 +178,7 @@ fn along_footsteps(
 
 /// Length of a leg from hip to ankle, m.
 fn leg_length(body: &Body) -> f64 {
-    body.joint_offset[FOOT[0]].norm() + body.joint_offset[FOOT[0] - 1].norm()
+    body.joint_offset[FEET[0].index()].norm() + body.joint_offset[FEET[0].index() - 1].norm()
 }
 
 /// True if nothing worth a movement is between two postures.
@@ -212,7 +211,7 @@ impl Draft {
         for p in &postures {
             let poses = forward(body, p);
             for s in 0..2 {
-                let (ankle, foot) = poses[FOOT[s]];
+                let (ankle, foot) = poses[FEET[s].index()];
                 out.ankle[s].push(ankle);
                 out.foot[s].push(foot);
                 out.knee_axis[s].push(knee_axis(p, s == 0));

@@ -4,7 +4,7 @@ use super::{H, RATE};
 use crate::sim::math::ease::fall;
 use crate::sim::math::rotation_vector::quintic;
 use crate::sim::math::{Quat, Vec3, trig};
-use crate::sim::plan::foot_lock::{FootPlacement, FootPose, Sole};
+use crate::sim::plan::foot_lock::{FootOffset, FootPlacement, FootPose, Sole};
 use crate::sim::plan::params::{contact, pitch, stance, swing};
 
 /// A foot that has stood for less than this is not taken off the floor again, samples.
@@ -56,8 +56,6 @@ pub struct Posed {
     pub lift: f64,
 }
 
-type Channels = [f64; 7];
-
 /// Labels, stances and the swing of one foot.
 #[derive(Clone, Debug)]
 pub struct Foot {
@@ -75,7 +73,7 @@ pub struct Foot {
     /// For how long it has been steep, samples.
     steep: i64,
     /// Offset from the recording, and its first two derivatives.
-    offset: [Channels; 3],
+    offset: [FootOffset; 3],
     posed: i64,
 }
 
@@ -125,12 +123,6 @@ pub fn risen(sole: &Sole, at: &FootPlacement, lacks: &impl Fn(Vec3) -> f64) -> f
         }
     }
     at.pitch - high
-}
-
-fn difference(to: &FootPose, (ankle, rotation): (Vec3, Quat), toe: f64) -> Channels {
-    let p = to.ankle - ankle;
-    let r = (to.rotation * rotation.conjugate()).log();
-    [p.x, p.y, p.z, r.x, r.y, r.z, to.toe - toe]
 }
 
 fn swing_toe(pitch: f64) -> f64 {
@@ -394,8 +386,15 @@ impl Foot {
         lacks: impl Fn(Vec3) -> f64,
     ) -> Posed {
         let now = standing(f);
-        let (ankle, rotation) = raw(f);
-        let toe = swing_toe(now.pitch);
+        let recorded_pose = |i: i64, pitch: f64| {
+            let (ankle, rotation) = raw(i);
+            FootPose {
+                ankle,
+                rotation,
+                toe: swing_toe(pitch),
+            }
+        };
+        let recorded = recorded_pose(f, now.pitch);
         if let Some(k) = self.stance_at(f) {
             if !self.stances[k].settled {
                 let (start, end) = (self.stances[k].start, self.stances[k].end);
@@ -412,10 +411,10 @@ impl Foot {
                 pitch: stance_pitch(now.pitch, f - st.start, st.rolled),
             };
             let pose = sole.stand(at.place, at.yaw, risen(sole, &at, &lacks));
-            let o = difference(&pose, (ankle, rotation), toe);
+            let o = pose.offset_from(&recorded);
             let o0 = self.offset[0];
             self.offset = if self.posed >= 0 {
-                let v: Channels = std::array::from_fn(|c| (o[c] - o0[c]) / H);
+                let v: FootOffset = std::array::from_fn(|c| (o[c] - o0[c]) / H);
                 // Differences of differences would lead the swing astray.
                 [o, v, [0.0; 7]]
             } else {
@@ -435,10 +434,10 @@ impl Foot {
                 let at = |i: i64| {
                     let s = standing(i);
                     let pose = sole.stand(st.place, st.yaw, stance_pitch(s.pitch, 0, false));
-                    difference(&pose, raw(i), swing_toe(s.pitch))
+                    pose.offset_from(&recorded_pose(i, s.pitch))
                 };
                 let (a, b) = (at(st.start), at((st.start + 1).min(seen)));
-                let slope: Channels = std::array::from_fn(|c| (b[c] - a[c]) / H);
+                let slope: FootOffset = std::array::from_fn(|c| (b[c] - a[c]) / H);
                 (a, slope, (st.start - f + 1) as f64 * H)
             }
             None => ([0.0; 7], [0.0; 7], swing::STREAM_DEPARTURE),
@@ -451,12 +450,8 @@ impl Foot {
             self.offset[2][c] = a;
         }
         self.posed = f;
-        let o = self.offset[0];
-        let pose = FootPose {
-            ankle: ankle + Vec3::from_array([o[0], o[1], o[2]]),
-            rotation: (Quat::exp(Vec3::from_array([o[3], o[4], o[5]])) * rotation).normalized(),
-            toe: (toe + o[6]).max(0.0),
-        };
+        let mut pose = recorded.moved(&self.offset[0]);
+        pose.toe = pose.toe.max(0.0);
         Posed {
             lift: self.lift(sole, f, &pose, now.place),
             pose,

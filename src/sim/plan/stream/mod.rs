@@ -1,4 +1,4 @@
-//! A stream made into a motion that a body can follow, while it comes (WALKING §1, sliding window).
+//! A stream made into a motion that a body can follow, while it comes, over a sliding window.
 //!
 //! What [`prepare`](super::prepare) does with a whole clip happens here sample by sample, a window behind the newest
 //! one: smoothing, labels of planted feet, foot lock, swings that clear the floor and meet the next foothold, a pelvis
@@ -6,8 +6,9 @@
 //! window again with every sample. Memory is a ring, time per sample is bounded, nothing allocates. Rounds alike
 //! everywhere: it is part of the tick.
 //!
-//! Places of a sample on its way, in samples behind the newest: smoothed (`stream::SMOOTH`), labelled and balanced (`LABEL`),
-//! feet posed and balanced again as the body is to be (up to `stream::FORESEEN` before the output), put out (the window).
+//! Places of a sample on its way, in samples behind the newest: smoothed (`stream::SMOOTH`), labelled and balanced
+//! (`LABEL`), feet posed and balanced again as the body is to be (up to `stream::FORESEEN` before the output), put out
+//! (the window).
 
 mod foot;
 mod momentum;

@@ -5,11 +5,11 @@ use super::polygon::Polygon;
 use super::{H, RATE};
 use crate::sim::math::banded::{Factor, Pentadiagonal};
 use crate::sim::math::exp::exp;
-use crate::sim::math::trig;
 use crate::sim::plan::params::balance;
+use crate::sim::plan::pelvis_shift::PRICE;
+use crate::sim::plan::turned_on_floor;
 use std::collections::VecDeque;
 
-const PRICE: f64 = 1.0 / (balance::OUTSIDE_COST * balance::OUTSIDE_COST);
 /// What is known of the balance in one sample.
 #[derive(Clone, Copy, Debug)]
 pub struct Balanced {
@@ -109,7 +109,7 @@ struct Lacking {
 
 impl Lacking {
     fn take(&mut self, sample: &Balanced) {
-        let lacks = turned(sample.lacks(), -sample.heading);
+        let lacks = turned_on_floor(sample.lacks(), -sample.heading);
         let (lately, now) = (
             exp(-H / balance::STREAM_USUAL_TIME),
             exp(-H / balance::STREAM_NOW_TIME),
@@ -126,13 +126,8 @@ impl Lacking {
         let mean = self.lately.map(|l| l / self.weight.max(1.0));
         let expected =
             [0, 1].map(|k| mean[k] + balance::STREAM_NOW_SHARE * (self.now[k] - mean[k]));
-        turned(expected, heading)
+        turned_on_floor(expected, heading)
     }
-}
-
-fn turned([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
-    let (s, c) = trig::sin_cos(angle);
-    [c * x - s * y, s * x + c * y]
 }
 
 impl Balance {

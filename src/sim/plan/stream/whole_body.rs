@@ -10,8 +10,8 @@ use crate::sim::math::Vec3;
 use crate::sim::motion::leg_ik::{knee_axis, solve_leg_in_plane};
 use crate::sim::plan::params::{balance, leg};
 
-/// PelvisLowering of the pelvis: as low as was needed in the last seconds, so that it does not add to the ups and downs of
-/// the gait.
+/// PelvisLowering of the pelvis: as low as was needed in the last seconds, so that it does not add to the ups and downs
+/// of the gait.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct PelvisLowering {
     /// What is needed, forgotten slowly, m.
