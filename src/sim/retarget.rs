@@ -9,6 +9,7 @@
 
 mod feet;
 mod joints;
+pub mod params;
 mod recording;
 mod report;
 mod root;
@@ -29,7 +30,8 @@ use super::motion::skeleton_map::map_skeleton;
 use super::plan::contact_labels::{label_feet, phases};
 use super::plan::flight_phases;
 use super::plan::foot_lock::Sole;
-use super::plan::prepare::{Draft, HELD, PrepareOptions, Prepared, prepare};
+use super::plan::params::leg;
+use super::plan::prepare::{Draft, PrepareOptions, Prepared, prepare};
 use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES, L_FOOT, L_SHANK};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::{Quat, Vec3};
@@ -38,7 +40,7 @@ use joints::Joints;
 use recording::Recording;
 use report::{mapped_bones, missing_segments};
 use root::{RootPath, follow_feet};
-use scene::Scene;
+use scene::{RecordedPaths, Scene};
 use size::{guess_up, measure, unit};
 
 /// Most frames of a clip: bounds time and memory (8 min at 120 Hz).
@@ -152,8 +154,15 @@ pub fn retarget(
             warnings.push(warning.into());
         }
     }
-    let recorded = (places, turns, take.rest(bvh));
-    let (mut scene, seen) = Scene::new(&take, &map, recorded, (up, unit_m), source_rate, options);
+    let recorded = RecordedPaths {
+        places,
+        turns,
+        rest: take.rest(bvh),
+        up,
+        unit_m,
+        source_rate,
+    };
+    let (mut scene, seen) = Scene::new(&take, &map, recorded, options);
     let keeps_run = seen.keeps_run();
     let fastest_run = seen.fastest_run();
     warnings.extend(seen.notes(source_rate));
@@ -265,7 +274,7 @@ pub fn retarget(
             lock_feet: false,
             balance: false,
             runs: fastest_run.is_some(),
-            held: HELD,
+            held: leg::HELD,
         };
         let recorded = prepare(body, &draft, bare).postures;
         flight_phases::label_runs(body, &recorded, &mut draft.label, rate);
@@ -277,7 +286,7 @@ pub fn retarget(
         lock_feet: options.lock_feet && options.floor,
         balance: options.balance,
         runs: fastest_run.is_some(),
-        held: HELD,
+        held: leg::HELD,
     };
     let prepared = prepare(body, &draft, how);
     let (postures, planted, lead_in, lead_out) = if options.ends && how.lock_feet {

@@ -4,29 +4,12 @@
 //! holds his weight no farther than 14 cm before it. A motion planned up to the edge of the sole leaves no torque for
 //! the body to correct anything with.
 
-use super::foot_lock::{Anchor, Sole};
+use super::foot_lock::{FootPlacement, Sole};
 use crate::sim::body::Body;
 use crate::sim::body::topology::{DOF_COUNT, DOF_START, L_FOOT};
 use crate::sim::motion::GRAVITY;
+use crate::sim::plan::params::ankle;
 use crate::sim::strength::{MuscleScale, Strength};
-
-/// Share of its strength that an ankle gives at the edge of the support.
-const FIRM: f64 = 0.87;
-/// A body slower than the first, m/s, stays over the foot until an error has grown; one faster than the second is past
-/// it before: its support is longer by so much.
-const SLOW: f64 = 0.8;
-const FAST: f64 = 1.2;
-const LONGER: f64 = 0.4;
-/// Nobody is planned on less than this share of his sole before the ankle: whose calf is weaker than that is weak in
-/// knees and hips too, and falls by those when he is kept farther back. At speed he gets as much again as he lacked.
-const LEAST: f64 = 0.61;
-/// Who stands on the ball of his foot has nothing behind his toe joint to stand on: he is planned on this much before
-/// it, m, whatever his calf holds.
-const BALL: f64 = 0.015;
-/// A runner's foot that carries less than this share of his weight is as strong as one that carries so much.
-const LEAST_LOAD: f64 = 0.5;
-/// The support is moved against the lean of the body by no more than this, m.
-const MOST_MOVED: f64 = 0.03;
 
 /// Where a body is over its foot.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,8 +27,8 @@ pub struct Over {
 /// Limits of the support of one foot that carries a whole body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AnkleTorqueLimit {
-    /// Distance before the ankle at which the weight of the body takes [`FIRM`] of the strength of the ankle, or
-    /// [`LEAST`] of the sole, m.
+    /// Distance before the ankle at which the weight of the body takes [`ankle::STRENGTH_SHARE`] of the strength of the
+    /// ankle, or [`ankle::LEAST_SOLE`] of the sole, m.
     front: f64,
     /// How much farther that is than what the ankle holds, m.
     lacks: f64,
@@ -67,8 +50,8 @@ impl AnkleTorqueLimit {
         );
         let sole = Sole::new(body, 0);
         let toes = sole.points(0.0).map(|p| p.x).fold(0.0, f64::max);
-        let firm = -FIRM * lower[DOF_START[L_FOOT.index()]] / weight;
-        let lacks = (LEAST * toes - firm).max(0.0);
+        let firm = -ankle::STRENGTH_SHARE * lower[DOF_START[L_FOOT.index()]] / weight;
+        let lacks = (ankle::LEAST_SOLE * toes - firm).max(0.0);
         let front = firm + lacks;
         Self {
             front,
@@ -84,7 +67,7 @@ impl AnkleTorqueLimit {
     pub fn each_corner(
         &self,
         sole: &Sole,
-        at: &Anchor,
+        at: &FootPlacement,
         over: &Over,
         mut visit: impl FnMut([f64; 2]),
     ) {
@@ -94,19 +77,19 @@ impl AnkleTorqueLimit {
             lean,
             load,
         } = *over;
-        let hurry = ((speed - SLOW) / (FAST - SLOW)).clamp(0.0, 1.0);
-        let mut front = self.front * (1.0 + LONGER * hurry) + self.lacks * hurry;
+        let hurry = ((speed - ankle::SLOW) / (ankle::FAST - ankle::SLOW)).clamp(0.0, 1.0);
+        let mut front = self.front * (1.0 + ankle::FAST_EXTENSION * hurry) + self.lacks * hurry;
         if let Some(load) = load {
-            front = self.front / load.max(LEAST_LOAD);
+            front = self.front / load.max(ankle::LEAST_LOAD);
         }
         // Who runs is over it before that matters.
         if at.is_on_ball() && load.is_none() {
-            front = front.max(sole.toe_joint.x + BALL);
+            front = front.max(sole.toe_joint.x + ankle::BALL);
         }
         let rise = self.ankle / height.max(self.ankle);
         let lean = lean.map(|d| d * rise);
         let far = (lean[0] * lean[0] + lean[1] * lean[1]).sqrt();
-        let share = (MOST_MOVED / far.max(MOST_MOVED)).min(1.0);
+        let share = (ankle::MOST_MOVED / far.max(ankle::MOST_MOVED)).min(1.0);
         let ahead = at.ahead();
         sole.each_corner(at, |p| {
             let x = (p[0] - at.place.x) * ahead[0] + (p[1] - at.place.y) * ahead[1];
@@ -125,7 +108,7 @@ mod tests {
     use crate::sim::math::Vec3;
     use crate::sim::math::polygon::{hull, margin};
 
-    const AT: Anchor = Anchor {
+    const AT: FootPlacement = FootPlacement {
         place: Vec3 {
             x: 0.3,
             y: -0.2,
@@ -167,7 +150,7 @@ mod tests {
     fn nobody_stands_behind_the_ball_of_a_foot_whose_heel_is_up() {
         for body in [Body::adult_man(), Body::adult_woman()] {
             let (one, sole) = (AnkleTorqueLimit::new(&body), Sole::new(&body, 0));
-            let at = Anchor { pitch: -0.3, ..AT };
+            let at = FootPlacement { pitch: -0.3, ..AT };
             for speed in [0.0, 2.0] {
                 let over = Over {
                     height: 1.0,
@@ -182,7 +165,7 @@ mod tests {
                 });
                 let ball = sole.toe_joint.x;
                 assert!(
-                    reach.0 >= ball - 0.01 && reach.1 >= ball + BALL - 1e-9,
+                    reach.0 >= ball - 0.01 && reach.1 >= ball + ankle::BALL - 1e-9,
                     "{speed} m/s: {reach:?}, ball at {ball}"
                 );
             }
@@ -221,10 +204,13 @@ mod tests {
         for body in [old(70.0), old(80.0)] {
             let (one, sole) = (AnkleTorqueLimit::new(&body), Sole::new(&body, 0));
             let toes = sole.points(0.0).map(|p| p.x).fold(0.0, f64::max);
-            assert!((one.front - LEAST * toes).abs() < 1e-12, "{one:?}");
+            assert!(
+                (one.front - ankle::LEAST_SOLE * toes).abs() < 1e-12,
+                "{one:?}"
+            );
             let mut whole = Vec::new();
             sole.footprint(&AT, &mut whole);
-            assert_eq!(support(&one, &sole, [0.0, 0.0], FAST), hull(&whole));
+            assert_eq!(support(&one, &sole, [0.0, 0.0], ankle::FAST), hull(&whole));
         }
         // Nothing changes for who is strong enough, and there is no jump where that ends.
         let at = |age: f64| AnkleTorqueLimit::new(&old(age));
@@ -242,7 +228,7 @@ mod tests {
         let body = Body::adult_man();
         let (one, sole) = (AnkleTorqueLimit::new(&body), Sole::new(&body, 0));
         let still = support(&one, &sole, [0.0, 0.0], 0.0);
-        for (lean, moved) in [(0.1, 0.1 * sole.ankle_height), (1.0, MOST_MOVED)] {
+        for (lean, moved) in [(0.1, 0.1 * sole.ankle_height), (1.0, ankle::MOST_MOVED)] {
             for (a, b) in still.iter().zip(&support(&one, &sole, [lean, 0.0], 0.0)) {
                 assert!((a[0] - b[0] - moved).abs() < 1e-12 && (a[1] - b[1]).abs() < 1e-12);
             }

@@ -6,21 +6,7 @@
 
 use crate::sim::math::Vec3;
 use crate::sim::motion::filter::{low_pass_points, percentile, speeds};
-
-/// A point is on the floor below this speed, m/s.
-const SPEED_ON: f64 = 0.45;
-/// A point on the floor stays there up to this speed, m/s.
-const SPEED_OFF: f64 = 0.55;
-/// A point is on the floor within this height of its own lowest level, m.
-const HEIGHT_ON: f64 = 0.06;
-/// A point on the floor stays there up to this height, m.
-const HEIGHT_OFF: f64 = 0.07;
-/// Light smoothing before speeds are formed, Hz: takes out marker noise, leaves touch-down sharp.
-const LABEL_CUTOFF: f64 = 15.0;
-/// Gaps and touches shorter than this are noise, s.
-const SHORTEST: f64 = 0.08;
-/// With no foot down for less than this it was no flight: the later foot came earlier, s.
-const SHORTEST_FLIGHT: f64 = 0.06;
+use crate::sim::plan::params::contact;
 
 /// A stretch of the clip with the same feet on the floor.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,7 +57,7 @@ pub fn label_feet(points: [&[Vec<Vec3>]; 2], rate_hz: f64) -> Vec<[bool; 2]> {
     // Someone must stand unless it is a flight: a very short gap is closed by the foot that lands.
     let none: Vec<bool> = (0..n).map(|i| !feet[0][i] && !feet[1][i]).collect();
     for (i, j, gap) in runs(&none) {
-        if gap && i > 0 && j < n && ((j - i) as f64) < SHORTEST_FLIGHT * rate_hz {
+        if gap && i > 0 && j < n && ((j - i) as f64) < contact::SHORTEST_FLIGHT * rate_hz {
             let side = usize::from(!feet[0][j]);
             feet[side][i..j].fill(true);
         }
@@ -83,22 +69,22 @@ fn label_foot(points: &[Vec<Vec3>], n: usize, rate_hz: f64) -> Vec<bool> {
     let mut on = vec![false; n];
     for p in points {
         let mut p = p.clone();
-        low_pass_points(&mut p, LABEL_CUTOFF, rate_hz);
+        low_pass_points(&mut p, contact::CUTOFF, rate_hz);
         let speed = speeds(&p, rate_hz);
         let heights: Vec<f64> = p.iter().map(|p| p.z).collect();
-        let level = percentile(&heights, 0.005);
+        let level = percentile(&heights, contact::LEVEL_SHARE);
         let mut down = false;
         for i in 0..n {
             let (fast, high) = if down {
-                (SPEED_OFF, HEIGHT_OFF)
+                (contact::SPEED_OFF, contact::HEIGHT_OFF)
             } else {
-                (SPEED_ON, HEIGHT_ON)
+                (contact::SPEED_ON, contact::HEIGHT_ON)
             };
             down = speed[i] < fast && heights[i] - level < high;
             on[i] |= down;
         }
     }
-    let short = SHORTEST * rate_hz;
+    let short = contact::SHORTEST * rate_hz;
     for (i, j, v) in runs(&on) {
         if !v && i > 0 && j < n && ((j - i) as f64) < short {
             on[i..j].fill(true);

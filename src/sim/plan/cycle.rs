@@ -2,27 +2,13 @@
 //! no foot slides.
 
 use super::foot_lock::Sole;
-use super::prepare::{Draft, HELD, PrepareOptions, prepare};
+use super::prepare::{Draft, PrepareOptions, prepare};
 use crate::sim::body::topology::{DOF_COUNT, L_FOOT, R_FOOT};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::Vec3;
 use crate::sim::motion::clip::Clip;
 use crate::sim::motion::leg_ik::forward;
-
-/// Shortest cycle, s, and share of the motion that it has to be: less would no longer be the motion that was asked for.
-const SHORTEST: (f64, f64) = (0.6, 0.45);
-/// Samples per second at which beginnings and ends are compared.
-const COMPARED: f64 = 30.0;
-/// Rates count this much against angles, s.
-const RATE_SHARE: f64 = 0.05;
-/// Unlikeness, rad rms, up to which a motion repeats as a whole, and up to which a stretch of it does.
-const ALIKE: f64 = 0.06;
-const CLOSABLE: f64 = 0.12;
-/// What a longer cycle is worth, rad per share of the motion.
-const LENGTH: f64 = 0.25;
-
-/// How far balance looks ahead and back, s.
-const AHEAD: f64 = 1.0;
+use crate::sim::plan::params::{contact, leg, likeness};
 
 /// What two samples are compared by.
 struct Key {
@@ -39,13 +25,13 @@ fn unlike(a: &Key, b: &Key) -> Option<f64> {
     let angles = a.posture.joint_difference(&b.posture);
     let mut sum: f64 = angles.iter().map(|e| e * e).sum();
     for (x, y) in a.rates.iter().zip(&b.rates) {
-        sum += (RATE_SHARE * (x - y)).powi(2);
+        sum += (likeness::RATE_SHARE * (x - y)).powi(2);
     }
     // Tilt: where the vertical is in the pelvis.
     let up = |p: &Posture| p.root_rotation.conjugate().rotate(Vec3::Z);
     let tilt = up(&a.posture) - up(&b.posture);
     let height = a.posture.root_position.z - b.posture.root_position.z;
-    sum += 4.0 * tilt.dot(tilt) + 25.0 * height * height;
+    sum += likeness::TILT_WEIGHT * tilt.dot(tilt) + likeness::HEIGHT_WEIGHT * height * height;
     Some((sum / DOF_COUNT as f64).sqrt())
 }
 
@@ -61,7 +47,7 @@ enum Repeat {
 
 fn find(clip: &Clip) -> Repeat {
     let n = clip.len();
-    let stride = (clip.rate_hz() / COMPARED).round().max(1.0) as usize;
+    let stride = (clip.rate_hz() / likeness::CYCLE_RATE).round().max(1.0) as usize;
     let at: Vec<usize> = (0..n).step_by(stride).collect();
     let keys: Vec<Key> = at
         .iter()
@@ -86,21 +72,22 @@ fn find(clip: &Clip) -> Repeat {
         .collect();
     let steps = keys.iter().any(|k| k.planted != [true; 2]);
     let whole = unlike(&keys[0], &keys[keys.len() - 1]);
-    if whole.is_some_and(|u| u < ALIKE) {
+    if whole.is_some_and(|u| u < likeness::WHOLE_CYCLE) {
         return Repeat::Whole;
     }
     if !steps {
         return Repeat::Standing;
     }
-    let least = (SHORTEST.0 * clip.rate_hz()).max(SHORTEST.1 * n as f64);
+    let least =
+        (likeness::SHORTEST_CYCLE * clip.rate_hz()).max(likeness::SHORTEST_CYCLE_SHARE * n as f64);
     let shortest = (least / stride as f64).ceil() as usize;
     let mut best = (f64::INFINITY, 0, 0);
     for i in 0..keys.len() {
         for j in i + shortest..keys.len() {
-            let Some(u) = unlike(&keys[i], &keys[j]).filter(|u| *u < CLOSABLE) else {
+            let Some(u) = unlike(&keys[i], &keys[j]).filter(|u| *u < likeness::CLOSED_CYCLE) else {
                 continue;
             };
-            let score = u - LENGTH * (j - i) as f64 / keys.len() as f64;
+            let score = u - likeness::LENGTH_WORTH * (j - i) as f64 / keys.len() as f64;
             if score < best.0 {
                 best = (score, at[i], at[j]);
             }
@@ -128,12 +115,8 @@ const HOW: PrepareOptions = PrepareOptions {
     lock_feet: true,
     balance: true,
     runs: true,
-    held: HELD,
+    held: leg::HELD,
 };
-
-/// A sole this low, m, and this slow, m/s, is on the floor.
-const LOW: f64 = 0.015;
-const SLOW: f64 = 0.3;
 
 /// Feet on the floor: the planted ones, and those that a former preparation set free because the leg could not hold
 /// them exactly.
@@ -159,7 +142,8 @@ pub(crate) fn label(
             let before = i.saturating_sub(1);
             std::array::from_fn(|s| {
                 let speed = (feet[i][s].0 - feet[before][s].0).norm() * rate;
-                planted[i][s] || (feet[i][s].1 < LOW && speed < SLOW)
+                planted[i][s]
+                    || (feet[i][s].1 < contact::PREPARED_HEIGHT && speed < contact::PREPARED_SPEED)
             })
         })
         .collect()
@@ -192,7 +176,9 @@ fn closed(body: &Body, clip: &Clip, i: usize, j: usize) -> Option<Clip> {
     // Several rounds, prepared as one motion: the one that is kept has others around it for as long as balance looks
     // ahead and back, and those before it lead in.
     let round = j - i;
-    let around = (AHEAD * rate / round as f64).ceil().max(1.0) as usize;
+    let around = (likeness::CYCLE_AHEAD * rate / round as f64)
+        .ceil()
+        .max(1.0) as usize;
     let (mut postures, mut planted): (Vec<_>, Vec<_>) = samples[..lead].iter().copied().unzip();
     for k in 0..=(2 * around + 1) * round {
         let t = piece.sample_looped(k as f64 / rate);

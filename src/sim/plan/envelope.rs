@@ -5,11 +5,7 @@
 //! the least acceleration.
 
 use crate::sim::math::banded::Pentadiagonal;
-
-/// Weight of a sample above the ceiling against one of the curve itself.
-const STIFFNESS: f64 = 1e4;
-/// Most rounds of finding the samples that the ceiling holds down; 5 to 20 are typical.
-const ROUNDS: usize = 60;
+use crate::sim::plan::params::leg;
 
 /// The curve `d ≤ ceiling` that minimises `Σ d² + τ⁴ d̈²`: it leaves 0 as little, and bends as little, as the ceiling
 /// allows.
@@ -22,24 +18,44 @@ const ROUNDS: usize = 60;
 /// method on the samples that are held; each round is one banded solve, O(n).
 pub fn smoothest_below(ceiling: &[f64], tau: f64, rate_hz: f64) -> Vec<f64> {
     let n = ceiling.len();
-    let mut d = vec![0.0; n];
     if n < 3 {
         return ceiling.iter().map(|c| c.min(0.0)).collect();
     }
+    if !ceiling.iter().any(|c| 0.0 > *c) {
+        return vec![0.0; n];
+    }
     let bend = (tau * rate_hz).powi(4);
+    bent_below(ceiling, |_| (bend, None))
+}
+
+/// The curve `d ≤ ceiling` that minimises `Σ d² + Σ weight (d̈ − wanted)²`, with accelerations per squared sample.
+///
+/// * `bend`: weight of an inner sample, and the acceleration that is wanted there, if not 0.
+pub(super) fn bent_below(ceiling: &[f64], bend: impl Fn(usize) -> (f64, Option<f64>)) -> Vec<f64> {
+    let n = ceiling.len();
+    let mut d = vec![0.0; n];
     let mut held = vec![false; n];
-    for _ in 0..ROUNDS {
+    for round in 0..leg::CEILING_ROUNDS {
         let now: Vec<bool> = d.iter().zip(ceiling).map(|(d, c)| d > c).collect();
-        if now == held {
+        if round > 0 && now == held {
             break;
         }
         held = now;
-        let spring: Vec<f64> = held.iter().map(|h| f64::from(*h) * STIFFNESS).collect();
-        let pull = |(h, c): (&bool, &f64)| if *h { STIFFNESS * c } else { 0.0 };
+        let spring: Vec<f64> = held
+            .iter()
+            .map(|h| f64::from(*h) * leg::CEILING_STIFFNESS)
+            .collect();
+        let pull = |(h, c): (&bool, &f64)| if *h { leg::CEILING_STIFFNESS * c } else { 0.0 };
         d = held.iter().zip(ceiling).map(pull).collect();
         let mut matrix = Pentadiagonal::new(spring.iter().map(|s| 1.0 + s).collect());
-        for i in 0..n - 2 {
-            matrix.add_row(i as isize, [1.0, -2.0, 1.0], bend);
+        for i in 1..n - 1 {
+            let (weight, wanted) = bend(i);
+            matrix.add_row(i as isize - 1, [1.0, -2.0, 1.0], weight);
+            if let Some(wanted) = wanted {
+                for (k, r) in [(i - 1, 1.0), (i, -2.0), (i + 1, 1.0)] {
+                    d[k] += weight * r * wanted;
+                }
+            }
         }
         matrix.factor().solve(d.as_chunks_mut::<1>().0);
     }

@@ -1,13 +1,13 @@
-//! Can a body do this motion on its feet? What inverse dynamics asks of the ground against what the ground can give
-//! (WALKING §1).
+//! Can a body do this motion on its feet? What inverse dynamics asks of the ground against what the ground can give.
+//! See `docs/locomotion.md#balance`.
 //!
 //! A recording is consistent with the dynamics of a body if its zero-moment point stays inside the support polygon and
 //! the wrench that its acceleration needs lies in the friction cones of the feet that stand. How far it is from that
 //! says, before anything is simulated, how hard it will be to follow. Pure, offline; nothing here changes a motion.
 
 use super::contact_labels::runs;
-use super::foot_lock::{Anchor, Sole};
-use super::pelvis_shift::{LIGHT, mass_track};
+use super::foot_lock::{FootPlacement, Sole};
+use super::pelvis_shift::mass_track;
 use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::nnls::nnls;
@@ -15,15 +15,7 @@ use crate::sim::math::polygon::{hull, margin};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::leg_ik::forward;
-
-/// Friction that the ground is believed to have: what the modern controller counts on, on the default ground.
-const FRICTION: f64 = 0.8;
-/// Edges of the pyramid that stands for a friction cone.
-const EDGES: usize = 8;
-/// Keeps the equations solvable where edges of cones depend on each other; forces are in weights.
-const RIDGE: f64 = 1e-10;
-/// A pelvis below this share of its standing height sits or lies: feet are not what carries it.
-const SEATED: f64 = 0.45;
+use crate::sim::plan::params::{balance, contact, feasibility};
 
 /// Root mean square and largest value of something over a motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -83,7 +75,7 @@ pub fn consistency(
     let track = mass_track(body, &postures[..n], rate_hz);
     let soles = [Sole::new(body, 0), Sole::new(body, 1)];
     let weight = GRAVITY * body.segments.iter().map(|s| s.mass).sum::<f64>();
-    let seated = SEATED * body.standing_root_height();
+    let seated = contact::SEATED * body.standing_root_height();
     let feet: Vec<[Standing; 2]> = postures[..n]
         .iter()
         .map(|p| Standing::both(body, &soles, p))
@@ -106,7 +98,7 @@ pub fn consistency(
             out.flight += 1.0 / n as f64;
         }
         let polygon = hull(&corners);
-        if !polygon.is_empty() && track.load[i] > LIGHT {
+        if !polygon.is_empty() && track.load[i] > balance::LEAST_LOAD {
             outside.push((-margin(&polygon, track.zmp[i])).max(0.0));
         }
         let (f, m) = track.wrench[i];
@@ -141,9 +133,20 @@ pub fn consistency(
     out
 }
 
+/// Force and moment that a motion asks for from nothing, root mean squares over weight (and 1 m) added.
+pub(super) fn infeasibility(
+    body: &Body,
+    postures: &[Posture],
+    label: &[[bool; 2]],
+    rate_hz: f64,
+) -> f64 {
+    let asked = consistency(body, postures, label, rate_hz);
+    asked.force.rms + asked.moment.rms
+}
+
 /// Where a foot is, if it stands.
 struct Standing {
-    at: Anchor,
+    at: FootPlacement,
     /// Height of its lowest point, m.
     low: f64,
 }
@@ -171,18 +174,19 @@ impl Standing {
 /// What is left of a wrench (force, moment about `com`) after the best forces in the friction cones at the corners of
 /// `polygon`: lengths of force and moment, in the units given.
 fn lacking(polygon: &[[f64; 2]], com: Vec3, force: Vec3, moment: Vec3) -> (f64, f64) {
-    let mut columns = Vec::with_capacity(polygon.len() * EDGES);
+    let mut columns = Vec::with_capacity(polygon.len() * feasibility::CONE_EDGES);
     for p in polygon {
         let arm = Vec3 {
             x: p[0] - com.x,
             y: p[1] - com.y,
             z: -com.z,
         };
-        for k in 0..EDGES {
-            let (s, c) = (std::f64::consts::TAU * k as f64 / EDGES as f64).sin_cos();
+        for k in 0..feasibility::CONE_EDGES {
+            let (s, c) =
+                (std::f64::consts::TAU * k as f64 / feasibility::CONE_EDGES as f64).sin_cos();
             let f = Vec3 {
-                x: FRICTION * c,
-                y: FRICTION * s,
+                x: feasibility::FRICTION * c,
+                y: feasibility::FRICTION * s,
                 z: 1.0,
             };
             let m = arm.cross(f);
@@ -191,7 +195,7 @@ fn lacking(polygon: &[[f64; 2]], com: Vec3, force: Vec3, moment: Vec3) -> (f64, 
     }
     let (f, m) = (force.to_array(), moment.to_array());
     let mut rest = [f[0], f[1], f[2], m[0], m[1], m[2]];
-    let pushes = nnls(&columns, &rest, RIDGE);
+    let pushes = nnls(&columns, &rest, feasibility::RIDGE);
     for (c, x) in columns.iter().zip(&pushes) {
         for (r, a) in rest.iter_mut().zip(c) {
             *r -= a * x;

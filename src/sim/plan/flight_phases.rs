@@ -5,44 +5,30 @@
 //! is the body, whose mass falls freely in flight; a motion that is to be followed has to let it.
 
 use super::contact_labels::runs;
-use super::foot_lock::{Anchor, LockedFoot, STEEPEST, Sole, Stance};
-use super::pelvis_shift::{LEAD, MassTrack, mass_track};
+use super::envelope::bent_below;
+use super::foot_lock::{FootPlacement, LockedFoot, Sole, Stance, StanceTurns};
+use super::pelvis_shift::{MassTrack, mass_track};
 use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::Vec3;
-use crate::sim::math::banded::Pentadiagonal;
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::filter::low_pass;
 use crate::sim::motion::leg_ik::forward;
-
-/// Least cut-off of a run, Hz: its steps come three to five times a second, and a body that is smoothed below twice
-/// that never leaves the floor.
-pub(crate) const CUTOFF: f64 = 10.0;
-/// Who flies and is faster than this runs, m/s, over so long before and after, s.
-const FAST: f64 = 2.0;
-const AROUND: f64 = 0.05;
-/// The floor carries somebody if it carries more than this share of his weight.
-const LOADED: f64 = 0.45;
-/// Shortest stance and shortest flight, s.
-const SHORTEST: f64 = 0.05;
-/// A foot that comes down faster than this does not stand yet, m/s.
-const ARRIVES: f64 = 1.6;
-/// Which foot stands: a metre of height counts as this speed, m/s.
-const HEIGHT: f64 = 20.0;
+use crate::sim::plan::params::{balance, contact, leg, run};
 
 /// Speed over the floor between so many samples before `from` and after `to`, m/s.
 fn pace(at: impl Fn(usize) -> Vec3, (from, to): (usize, usize), n: usize, rate_hz: f64) -> f64 {
-    let half = (AROUND * rate_hz) as usize;
+    let half = (run::PACE_TIME * rate_hz) as usize;
     let (a, b) = (from.saturating_sub(half), (to + half).min(n - 1));
     let way = at(b) - at(a);
     way.x.hypot(way.y) * rate_hz / (b - a).max(1) as f64
 }
 
 /// Takes out what lasts too short: first gaps, then stances.
-fn steady(on: &mut [bool], rate_hz: f64) {
+fn remove_short(on: &mut [bool], rate_hz: f64) {
     for value in [false, true] {
         for (i, j, v) in runs(on) {
-            let short = ((j - i) as f64) < SHORTEST * rate_hz;
+            let short = ((j - i) as f64) < run::SHORTEST * rate_hz;
             if v == value && short && i > 0 && j < on.len() {
                 on[i..j].fill(!value);
             }
@@ -62,8 +48,8 @@ pub(crate) fn label_runs(body: &Body, postures: &[Posture], label: &mut [[bool; 
         return;
     }
     let track = mass_track(body, postures, rate_hz);
-    let mut loaded: Vec<bool> = track.load.iter().map(|l| *l > LOADED).collect();
-    steady(&mut loaded, rate_hz);
+    let mut loaded: Vec<bool> = track.load.iter().map(|l| *l > run::STANCE_LOAD).collect();
+    remove_short(&mut loaded, rate_hz);
     let soles = [Sole::new(body, 0), Sole::new(body, 1)];
     let points: Vec<[Vec<Vec3>; 2]> = postures
         .iter()
@@ -80,16 +66,17 @@ pub(crate) fn label_runs(body: &Body, postures: &[Posture], label: &mut [[bool; 
             .map(of)
             .fold(f64::INFINITY, f64::min)
     };
-    let fast = |i: usize| pace(|k| track.com[k], (i, i), n, rate_hz) > FAST;
+    let fast = |i: usize| pace(|k| track.com[k], (i, i), n, rate_hz) > run::SPEED;
     let fast: Vec<bool> = (0..n).map(fast).collect();
     for (i, j, _) in runs(&fast).into_iter().filter(|r| r.2) {
         let mut left: Vec<bool> = (i..j)
-            .map(|k| rest(k, 0, HEIGHT) < rest(k, 1, HEIGHT))
+            .map(|k| rest(k, 0, run::HEIGHT_SPEED) < rest(k, 1, run::HEIGHT_SPEED))
             .collect();
-        steady(&mut left, rate_hz);
+        remove_short(&mut left, rate_hz);
         for k in i..j {
             let stands = usize::from(!left[k - i]);
-            let arrives = k > 0 && !label[k - 1][stands] && rest(k, stands, 0.0) > ARRIVES;
+            let arrives =
+                k > 0 && !label[k - 1][stands] && rest(k, stands, 0.0) > run::ARRIVAL_SPEED;
             label[k] = [false; 2];
             label[k][stands] = loaded[k] && !arrives;
         }
@@ -109,21 +96,6 @@ fn sole_points(body: &Body, soles: &[Sole; 2], posture: &Posture) -> [Vec<Vec3>;
         foot.chain(toes).collect()
     })
 }
-
-/// Shares of a stance in which a leg takes up its load and from which on it gives it up, and what is left of it at the
-/// end: an ankle that turns as fast as a runner's has no strength left for the last push.
-const RISES: f64 = 0.15;
-const FALLS: f64 = 0.5;
-const LAST: f64 = 0.15;
-/// A stance that is longer than this is none of a run, s.
-const LONGEST: f64 = 0.4;
-/// Time below which the height of the pelvis is not to change, s; price of an acceleration that is not that of gravity
-/// in the air, against another one's; stiffness of what holds the pelvis down, and most rounds of finding where it
-/// does.
-const BEND: f64 = 0.15;
-const FREE: f64 = 1e3;
-const STIFFNESS: f64 = 1e4;
-const ROUNDS: usize = 60;
 
 /// Where a motion that runs flies, and how hard it pushes in between.
 pub(crate) struct FlightPhases {
@@ -146,7 +118,7 @@ impl FlightPhases {
         let mut air = vec![false; n];
         for (i, j, _) in runs(&none).into_iter().filter(|r| r.2) {
             let speed = pace(|k| upper[k].root_position, (i, j - 1), n, rate_hz);
-            if speed > FAST && (j - i) as f64 >= SHORTEST * rate_hz {
+            if speed > run::SPEED && (j - i) as f64 >= run::SHORTEST * rate_hz {
                 air[i..j].fill(true);
             }
         }
@@ -165,7 +137,7 @@ impl FlightPhases {
 
     /// Takes over how the mass moves with the pelvis raised by `height` (m).
     pub(crate) fn observe(&mut self, track: &MassTrack, height: &[f64]) {
-        let z = |i: usize| track.com[i].z - height[i] / LEAD;
+        let z = |i: usize| track.com[i].z - height[i] / balance::PELVIS_LEAD;
         for i in 1..height.len() - 1 {
             let bend = z(i - 1) - 2.0 * z(i) + z(i + 1);
             self.plain[i] = bend * self.rate_hz * self.rate_hz;
@@ -176,40 +148,22 @@ impl FlightPhases {
     /// nobody stands, and be pushed evenly where a foot does. Newton's method on the samples that are held down; each
     /// round is one banded solve, O(n).
     pub(crate) fn heights(&self, most: &[f64]) -> Vec<f64> {
-        let n = most.len();
-        let bend = (BEND * self.rate_hz).powi(4);
-        let mut held = vec![false; n];
-        let mut d = vec![0.0; n];
-        for round in 0..ROUNDS {
-            let now: Vec<bool> = d.iter().zip(most).map(|(d, c)| d > c).collect();
-            if round > 0 && now == held {
-                break;
-            }
-            held = now;
-            let spring: Vec<f64> = held.iter().map(|h| f64::from(*h) * STIFFNESS).collect();
-            let pull = |(h, c): (&bool, &f64)| if *h { STIFFNESS * c } else { 0.0 };
-            d = held.iter().zip(most).map(pull).collect();
-            let mut matrix = Pentadiagonal::new(spring.iter().map(|s| 1.0 + s).collect());
-            for i in 1..n - 1 {
-                let free = falls(&self.air, i);
-                let weight = if free { FREE * bend } else { bend };
-                matrix.add_row(i as isize - 1, [1.0, -2.0, 1.0], weight);
-                let to = if free { Some(-GRAVITY) } else { self.push[i] };
-                if let Some(to) = to {
-                    let want = LEAD * (to - self.plain[i]) / (self.rate_hz * self.rate_hz);
-                    for (k, r) in [(i - 1, 1.0), (i, -2.0), (i + 1, 1.0)] {
-                        d[k] += weight * r * want;
-                    }
-                }
-            }
-            matrix.factor().solve(d.as_chunks_mut::<1>().0);
-        }
-        d
+        let bend = (leg::DROP_TIME * self.rate_hz).powi(4);
+        bent_below(most, |i| {
+            let free = in_free_fall(&self.air, i);
+            let weight = if free { run::FLIGHT_PRICE * bend } else { bend };
+            let to = if free { Some(-GRAVITY) } else { self.push[i] };
+            let lacks = |to: f64| balance::PELVIS_LEAD * (to - self.plain[i]);
+            (
+                weight,
+                to.map(|to| lacks(to) / (self.rate_hz * self.rate_hz)),
+            )
+        })
     }
 }
 
 /// True if the sample `i` and both beside it are in the air.
-pub(crate) fn falls(air: &[bool], i: usize) -> bool {
+pub(crate) fn in_free_fall(air: &[bool], i: usize) -> bool {
     air[i - 1] && air[i] && air[i + 1]
 }
 
@@ -218,15 +172,16 @@ pub(crate) fn falls(air: &[bool], i: usize) -> bool {
 fn pushes(air: &[bool], rate_hz: f64) -> Vec<Option<f64>> {
     let mut out = vec![None; air.len()];
     let share = |u: f64| {
-        let late = 1.0 - (1.0 - LAST) * (u - FALLS) / (1.0 - FALLS);
-        (u / RISES).min(1.0).min(late)
+        let late = 1.0
+            - (1.0 - run::LAST_LOAD) * (u - run::UNLOADING_SHARE) / (1.0 - run::UNLOADING_SHARE);
+        (u / run::LOADING_SHARE).min(1.0).min(late)
     };
     for w in runs(air).windows(3) {
         let [(a, i, _), (_, j, flies), (_, b, _)] = *w else {
             unreachable!("windows of three")
         };
         let (stance, flight) = ((j - i) as f64, 0.5 * ((i - a) + (b - j)) as f64);
-        if flies || stance > LONGEST * rate_hz {
+        if flies || stance > run::LONGEST_STANCE * rate_hz {
             continue;
         }
         let at = |k: usize| share(((k - i) as f64 + 0.5) / stance);
@@ -239,23 +194,11 @@ fn pushes(air: &[bool], rate_hz: f64) -> Vec<Option<f64>> {
     out
 }
 
-/// A foot rolls off where its heel is raised further than this, rad.
-const ROLLS: f64 = 0.35;
-/// Least pitch that is tried for it, rad; steps in which the heel and the toes are raised, rad, and how many.
-const LEAST_PITCH: f64 = 0.2;
-const STEPS: (f64, i32) = (0.04, 10);
-const TIP_STEPS: (f64, i32) = (0.05, 12);
-/// Price of turning the foot as a whole, and of turning anything, m/rad.
-const TURNS: f64 = 0.03;
-const BENDS: f64 = 0.01;
-/// Cut-off of the roll, Hz.
-const ROLL_CUTOFF: f64 = 12.0;
-
 /// How far a foot rolls up onto its toes, and onto their tip, so that its ankle is where it was recorded: a runner's
 /// foot that is held flat on its toes to the last has its ankle 5 cm behind and 5 cm below that, and its leg is too
 /// short for it.
 ///
-/// * `heel_up`, `tip`: per sample, rad; both are changed in the `stances` of the `locked` foot.
+/// * `turns`: heel and tip are changed in the `stances` of the `locked` foot.
 ///
 /// O(n).
 pub(crate) fn roll_off(
@@ -263,47 +206,48 @@ pub(crate) fn roll_off(
     ankle: &[Vec3],
     locked: &LockedFoot,
     stances: &[Stance],
-    (heel_up, tip): (&mut [f64], &mut [f64]),
+    turns: &mut StanceTurns,
     rate_hz: f64,
 ) {
     for st in stances {
-        let flat = |k: &usize| locked.anchors[*k].pitch > -ROLLS;
+        let flat = |k: &usize| locked.placements[*k].pitch > -run::ROLL_FROM;
         let from = (st.start..st.end).rev().find(flat);
         let from = from.map_or(st.start, |k| k + 1);
         let mut up = vec![0.0; ankle.len()];
         let mut on = vec![0.0; ankle.len()];
         for k in from..st.end {
-            (up[k], on[k]) = roll(sole, &locked.anchors[k], ankle[k]);
+            (up[k], on[k]) = roll(sole, &locked.placements[k], ankle[k]);
         }
-        for (v, out) in [(&mut up, &mut *heel_up), (&mut on, &mut *tip)] {
+        for (v, out) in [(&mut up, &mut turns.heel_up), (&mut on, &mut turns.tip)] {
             // No smoothing across the take-off.
             let last = v[st.end - 1];
             v[st.end..].fill(last);
-            low_pass(v, ROLL_CUTOFF, rate_hz);
+            low_pass(v, run::ROLL_CUTOFF, rate_hz);
             for k in st.start..st.end {
                 out[k] += v[k];
             }
         }
-        tip[st.start..st.end]
+        turns.tip[st.start..st.end]
             .iter_mut()
             .for_each(|t| *t = t.max(0.0));
     }
 }
 
 /// The heel and the tip, rad, that bring the ankle of a foot that stands at `at` nearest to `ankle`, for little.
-fn roll(sole: &Sole, at: &Anchor, ankle: Vec3) -> (f64, f64) {
+fn roll(sole: &Sole, at: &FootPlacement, ankle: Vec3) -> (f64, f64) {
     let mut best = (f64::INFINITY, 0.0, 0.0);
-    for a in -STEPS.1..=STEPS.1 {
-        let up = f64::from(a) * STEPS.0;
+    for a in -run::HEEL_STEPS..=run::HEEL_STEPS {
+        let up = f64::from(a) * run::HEEL_STEP;
         let pitch = at.pitch - up;
-        if pitch < STEEPEST.0 || pitch > -LEAST_PITCH {
+        if pitch < contact::LEAST_PITCH || pitch > -run::LEAST_RAISE {
             continue;
         }
-        for b in 0..=TIP_STEPS.1 {
-            let tip = f64::from(b) * TIP_STEPS.0;
-            let pose = sole.stand_on_tip(&Anchor { pitch, tip, ..*at });
+        for b in 0..=run::TIP_STEPS {
+            let tip = f64::from(b) * run::TIP_STEP;
+            let pose = sole.stand_on_tip(&FootPlacement { pitch, tip, ..*at });
             let off = (pose.ankle - ankle).norm();
-            let cost = off + TURNS * (up + tip).abs() + BENDS * (up.abs() + tip);
+            let cost =
+                off + run::TURN_PRICE * (up + tip).abs() + run::BEND_PRICE * (up.abs() + tip);
             if cost < best.0 {
                 best = (cost, up, tip);
             }

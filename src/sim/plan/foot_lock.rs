@@ -1,6 +1,6 @@
 //! Planted feet that do not slide, and swinging feet that clear the floor.
 //!
-//! Each stance gets one anchor (place and heading); the whole pose of the foot follows from the anchor and the pitch:
+//! Each stance gets one placement (place and heading); the whole pose of the foot follows from it and the pitch:
 //! flat, rolled up about the heel edge, or heel up about the toe joint with flat toes. Between stances the foot follows
 //! the recording plus an offset that fades from the one lock and grows into the next with continuous velocity and
 //! acceleration, raised where it would scrape.
@@ -8,14 +8,15 @@
 mod sole;
 mod stances;
 
-pub(in crate::sim::plan) use sole::ON_TIP;
-pub use sole::{Anchor, FootPose, Sole, turn, yaw_pitch};
+pub(in crate::sim::plan) use sole::FootOffset;
+pub use sole::{FootPlacement, FootPose, Sole, turn, yaw_pitch};
 pub use stances::{Stance, stances};
 
 use super::contact_labels::runs;
 use crate::sim::math::curve::{fade, smoothstep_to};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::filter::low_pass;
+use crate::sim::plan::params::{contact, pitch, swing};
 use stances::Track;
 
 /// A foot that stands as the body's sole allows, and how much was changed for that.
@@ -25,58 +26,54 @@ pub struct LockedFoot {
     pub poses: Vec<FootPose>,
     /// True where the foot is locked to the floor.
     pub planted: Vec<bool>,
-    /// Where it stands, per sample; zero elsewhere.
-    pub anchors: Vec<Anchor>,
+    /// Where it stands, per sample; zero other_support.
+    pub placements: Vec<FootPlacement>,
     /// How far the recorded foot point strayed in stance, m: largest distance between any sample and the anchor.
     pub slide_before: f64,
 }
 
-/// Pitch below which a walking foot counts as flat, rad (4°).
-const DEAD_BAND: f64 = 0.07;
-/// The same for a foot that stands for long, rad (9°): a standing person's soles are flat unless clearly raised.
-const DEAD_BAND_LONG: f64 = 0.16;
-/// A foot pitched by less than this is flat at that moment, rad.
-const FLAT: f64 = 0.12;
-/// Stances longer than this are standing, not walking, s.
-const LONG_STANCE: f64 = 1.5;
-/// A foot steeper or more rolled than this does not stand on its sole, rad.
-pub(super) const STEEPEST: (f64, f64, f64) = (-1.05, 0.6, 0.6);
-/// A swinging sole passes at least this high, m, for a step of normal length.
-const CLEARANCE: f64 = 0.045;
-/// How fast a sole rises after lift-off and sinks before touch-down at least, m/s.
-const RISE: (f64, f64) = (0.45, 0.4);
-/// Longest time over which a swing departs from a lock, s.
-const FADE: f64 = 0.3;
-/// A foot that leaves for a flight, or comes from one, is pulled off its lock fast: the offset would first grow, by its
-/// speed times this share of the time over which it fades. There it grows by this much at most, m, and fades over this
-/// time at least, s: a leg that trails its foot by more stretches, and spins up in the air.
+/// Largest value of u (1 − u)³ (1 + 3 u), about: an offset that fades grows first, by its speed times this share of the
+/// time over which it fades.
 const GROWS: f64 = 0.2;
-const MOST_GROWTH: f64 = 0.015;
-const LEAST_FADE: f64 = 0.05;
-/// Feet that are both off the floor for this long fly, s.
-const FLIES: f64 = 0.06;
-/// Largest toe extension of a swinging foot, rad.
-const SWING_TOE: f64 = 0.6;
-
 fn median(mut v: Vec<f64>) -> f64 {
     v.sort_by(f64::total_cmp);
     v.get(v.len() / 2).copied().unwrap_or(0.0)
 }
 
-type Channels = [f64; 7];
+/// Ankle (m) and `world_from_foot` of a foot as it was recorded, per sample; floor at z = 0, body scale.
+#[derive(Clone, Copy, Debug)]
+pub struct RecordedFoot<'a> {
+    /// Ankle, m.
+    pub ankles: &'a [Vec3],
+    /// `world_from_foot`.
+    pub rotations: &'a [Quat],
+}
 
-fn offset(locked: &FootPose, ankle: Vec3, rotation: Quat, toe: f64) -> Channels {
-    let p = locked.ankle - ankle;
-    let r = (locked.rotation * rotation.conjugate()).log();
-    [p.x, p.y, p.z, r.x, r.y, r.z, locked.toe - toe]
+/// By how much a foot in stance is turned otherwise than it was recorded, rad per sample.
+#[derive(Clone, Debug)]
+pub struct StanceTurns {
+    /// Heel raised further.
+    pub heel_up: Vec<f64>,
+    /// Foot turned outwards on the floor; one value per stance.
+    pub toe_out: Vec<f64>,
+    /// Toes turned up about their tip.
+    pub tip: Vec<f64>,
+}
+
+impl StanceTurns {
+    /// None, for `n` samples.
+    pub fn none(n: usize) -> Self {
+        Self {
+            heel_up: vec![0.0; n],
+            toe_out: vec![0.0; n],
+            tip: vec![0.0; n],
+        }
+    }
 }
 
 /// Locks one foot.
 ///
-/// * `ankles`, `rotations`: recorded ankle (m) and `world_from_foot` per sample, floor at z = 0, body scale.
 /// * `stances`, `other`: when it stands, and when the other one does (from [`stances`]).
-/// * `heel_up`, `toe_out`: by how much more the heel is raised and the foot turned outwards in stance than recorded,
-///   rad per sample.
 /// * `side`: 0 left, 1 right.
 /// * `rate_hz`: samples per second.
 ///
@@ -85,19 +82,20 @@ fn offset(locked: &FootPose, ankle: Vec3, rotation: Quat, toe: f64) -> Channels 
 /// n) per stance.
 pub fn lock_foot(
     sole: &Sole,
-    ankles: &[Vec3],
-    rotations: &[Quat],
-    (stances, other): (&[Stance], &[Stance]),
-    (heel_up, toe_out, tip): (&[f64], &[f64], &[f64]),
+    recorded: RecordedFoot<'_>,
+    stances: &[Stance],
+    other: &[Stance],
+    turns: &StanceTurns,
     side: usize,
     rate_hz: f64,
 ) -> LockedFoot {
+    let RecordedFoot { ankles, rotations } = recorded;
     let n = ankles.len();
     let track = Track::new(sole, ankles, rotations);
     let toes: Vec<f64> = track
         .pitch
         .iter()
-        .map(|p| (-p).clamp(0.0, SWING_TOE))
+        .map(|p| (-p).clamp(0.0, swing::MOST_TOE))
         .collect();
     let mut out = LockedFoot {
         poses: (0..n)
@@ -108,7 +106,7 @@ pub fn lock_foot(
             })
             .collect(),
         planted: vec![false; n],
-        anchors: vec![Anchor::default(); n],
+        placements: vec![FootPlacement::default(); n],
         slide_before: 0.0,
     };
     for &Stance { start: i, end: j } in stances {
@@ -122,30 +120,26 @@ pub fn lock_foot(
         // A foot that is turned outwards is so about its ball.
         let stays = place + arm(yaw);
         for k in i..j {
-            let yaw = yaw + if side == 0 { toe_out[k] } else { -toe_out[k] };
-            let at = Anchor {
+            let out_turn = turns.toe_out[k];
+            let yaw = yaw + if side == 0 { out_turn } else { -out_turn };
+            let at = FootPlacement {
                 place: stays - arm(yaw),
                 yaw,
-                pitch: (pitch[k - i] - heel_up[k]).max(STEEPEST.0),
-                tip: tip[k],
+                pitch: (pitch[k - i] - turns.heel_up[k]).max(contact::LEAST_PITCH),
+                tip: turns.tip[k],
             };
             out.slide_before = out.slide_before.max((track.point[k] - at.place).norm());
             out.planted[k] = true;
-            out.anchors[k] = at;
+            out.placements[k] = at;
             out.poses[k] = sole.stand_on_tip(&at);
         }
     }
-    let recorded = Recorded {
-        ankles,
-        rotations,
-        toes: &toes,
-    };
     let off = |k: usize| !other.iter().any(|s| (s.start..s.end).contains(&k));
-    let long = (FLIES * rate_hz) as usize;
+    let long = (contact::SHORTEST_FLIGHT * rate_hz) as usize;
     for (i, j, on) in runs(&out.planted.clone()) {
         if !on {
             let flies = [off((i + long).min(n - 1)), off(j.saturating_sub(long))];
-            swing(sole, &mut out, &recorded, (i, j), flies, rate_hz);
+            swing(sole, &mut out, (recorded, &toes), (i, j), flies, rate_hz);
         }
     }
     out
@@ -155,18 +149,24 @@ pub fn lock_foot(
 /// and one way only after it: toe-up first and heel-up then, unless it comes down on its toes or leaves from its heel.
 fn stance_pitch(raw: &[f64], rate_hz: f64) -> Vec<f64> {
     let n = raw.len();
-    let long = n as f64 > LONG_STANCE * rate_hz;
-    let band = if long { DEAD_BAND_LONG } else { DEAD_BAND };
+    let long = n as f64 > pitch::LONG_STANCE * rate_hz;
+    let band = if long {
+        pitch::LONG_DEAD_BAND
+    } else {
+        pitch::DEAD_BAND
+    };
     let mut p: Vec<f64> = raw
         .iter()
-        .map(|x| (x - x.clamp(-band, band)).clamp(STEEPEST.0, STEEPEST.1))
+        .map(|x| (x - x.clamp(-band, band)).clamp(contact::LEAST_PITCH, contact::MOST_TILT))
         .collect();
     if !long {
-        let flat: Vec<usize> = (0..n).filter(|k| raw[*k].abs() < FLAT).collect();
+        let flat: Vec<usize> = (0..n)
+            .filter(|k| raw[*k].abs() < pitch::MIDSTANCE)
+            .collect();
         if let Some(&mid) = flat.get(flat.len() / 2) {
             // Who walks backwards, or dances, comes down on the toes and may leave from the heel.
-            let toes_first = raw[0] < -FLAT;
-            let heel_last = raw[n - 1] > FLAT;
+            let toes_first = raw[0] < -pitch::MIDSTANCE;
+            let heel_last = raw[n - 1] > pitch::MIDSTANCE;
             for (k, p) in p.iter_mut().enumerate() {
                 let toe_up = if k < mid { !toes_first } else { heel_last };
                 *p = if toe_up { p.max(0.0) } else { p.min(0.0) };
@@ -179,15 +179,8 @@ fn stance_pitch(raw: &[f64], rate_hz: f64) -> Vec<f64> {
     } else {
         p.iter_mut().for_each(|p| *p = p.min(0.0));
     }
-    low_pass(&mut p, 8.0, rate_hz);
+    low_pass(&mut p, swing::JOINT_CUTOFF, rate_hz);
     p
-}
-
-/// A foot as it was recorded.
-struct Recorded<'a> {
-    ankles: &'a [Vec3],
-    rotations: &'a [Quat],
-    toes: &'a [f64],
 }
 
 /// Where a swing leaves a lock, or comes into one.
@@ -196,7 +189,7 @@ struct End {
     /// Samples over which the offset fades.
     span: f64,
     /// Value, slope and curvature of the offset, per span.
-    offset: [Channels; 3],
+    offset: [FootOffset; 3],
 }
 
 /// Fills the samples `i..j` of a swing between the locks on either side; `flies`: at its beginning and at its end the
@@ -204,19 +197,21 @@ struct End {
 fn swing(
     sole: &Sole,
     out: &mut LockedFoot,
-    &Recorded {
-        ankles,
-        rotations,
-        toes,
-    }: &Recorded<'_>,
+    (recorded, toes): (RecordedFoot<'_>, &[f64]),
     (i, j): (usize, usize),
     flies: [bool; 2],
     rate_hz: f64,
 ) {
+    let RecordedFoot { ankles, rotations } = recorded;
     let n = ankles.len();
-    let at = |k: usize, out: &LockedFoot| offset(&out.poses[k], ankles[k], rotations[k], toes[k]);
+    let recorded_pose = |k: usize| FootPose {
+        ankle: ankles[k],
+        rotation: rotations[k],
+        toe: toes[k],
+    };
+    let at = |k: usize, out: &LockedFoot| out.poses[k].offset_from(&recorded_pose(k));
     // Between two locks each offset is gone where the other begins; a swing that the recording breaks off has no other.
-    let fade_time = ((FADE * rate_hz) as usize).max(1);
+    let fade_time = ((swing::DEPARTURE * rate_hz) as usize).max(1);
     let span = if i > 0 && j < n {
         fade_time.min(j - i + 1)
     } else {
@@ -247,7 +242,9 @@ fn swing(
             }
             let speed = v[..3].iter().map(|v| v * v).sum::<f64>().sqrt();
             let span = if flies && speed > 0.0 {
-                span.min((MOST_GROWTH / (GROWS * speed)).max(LEAST_FADE * rate_hz))
+                span.min(
+                    (swing::MOST_GROWTH / (GROWS * speed)).max(swing::LEAST_DEPARTURE * rate_hz),
+                )
             } else {
                 span
             };
@@ -269,38 +266,33 @@ fn swing(
                 }
             }
         }
-        out.poses[k] = FootPose {
-            ankle: ankles[k] + Vec3::from_array([o[0], o[1], o[2]]),
-            rotation: (Quat::exp(Vec3::from_array([o[3], o[4], o[5]])) * rotations[k]).normalized(),
-            toe: (toes[k] + o[6]).clamp(sole.toe_range.0, sole.toe_range.1),
-        };
+        let mut pose = recorded_pose(k).moved(&o);
+        pose.toe = pose.toe.clamp(sole.toe_range.0, sole.toe_range.1);
+        out.poses[k] = pose;
     }
     // Clearance, in proportion to the step: a shuffle of some centimetres need not rise like a stride.
     let (a, b) = (i.saturating_sub(1), j.min(n - 1));
     let reach = (out.poses[b].ankle - out.poses[a].ankle).norm();
-    let most = (0.12 * reach).clamp(0.015, CLEARANCE);
+    let most = (swing::CLEARANCE_SHARE * reach).clamp(swing::LEAST_CLEARANCE, swing::CLEARANCE);
+    // Time since lift-off and until touch-down, s; a second where the recording breaks the swing off.
+    let since_until = |k: usize| {
+        let time = |known: bool, samples: usize| if known { samples as f64 / rate_hz } else { 1.0 };
+        (time(i > 0, k + 1 - i), time(j < n, j - k))
+    };
     let mut lift: Vec<f64> = (i..j)
         .map(|k| {
-            let since = if i > 0 {
-                (k + 1 - i) as f64 / rate_hz
-            } else {
-                1.0
-            };
-            let until = if j < n { (j - k) as f64 / rate_hz } else { 1.0 };
-            let need = most.min(RISE.0 * since).min(RISE.1 * until);
+            let (since, until) = since_until(k);
+            let need = most
+                .min(swing::RISE_SPEED * since)
+                .min(swing::SINK_SPEED * until);
             let p = &out.poses[k];
             (need - (p.ankle.z + sole.lowest(p.rotation, p.toe))).max(0.0)
         })
         .collect();
-    low_pass(&mut lift, 10.0, rate_hz);
+    low_pass(&mut lift, swing::HEIGHT_CUTOFF, rate_hz);
     for (k, l) in (i..j).zip(lift) {
-        let since = if i > 0 {
-            (k + 1 - i) as f64 / rate_hz
-        } else {
-            1.0
-        };
-        let until = if j < n { (j - k) as f64 / rate_hz } else { 1.0 };
-        let w = (since.min(until) / 0.06).min(1.0);
+        let (since, until) = since_until(k);
+        let w = (since.min(until) / swing::LIFT_TIME).min(1.0);
         out.poses[k].ankle.z += smoothstep_to(l.max(0.0), w);
     }
 }

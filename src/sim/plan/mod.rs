@@ -8,6 +8,7 @@ pub mod feasibility;
 pub(crate) mod flight_phases;
 pub mod foot_lock;
 pub mod motion_transition;
+pub mod params;
 pub mod pelvis_shift;
 pub mod prepare;
 pub mod splice;
@@ -16,3 +17,36 @@ pub mod stream;
 
 pub use cycle::cycle;
 pub use stream::StreamPlan;
+
+use crate::sim::body::SegmentId;
+use crate::sim::body::topology::{JOINT, Joint, L_FOOT, L_THIGH, L_TOES, R_FOOT, R_THIGH, R_TOES};
+use crate::sim::math::trig;
+
+/// Left and right foot.
+const FEET: [SegmentId; 2] = [L_FOOT, R_FOOT];
+/// Left and right thigh.
+const THIGHS: [SegmentId; 2] = [L_THIGH, R_THIGH];
+/// Left and right toes.
+const TOES: [SegmentId; 2] = [L_TOES, R_TOES];
+
+/// Index of the ball joint of a segment in a posture.
+fn ball_joint(segment: SegmentId) -> usize {
+    match JOINT[segment.index()] {
+        Joint::Ball(b) => b,
+        _ => unreachable!("hips and spine are ball joints"),
+    }
+}
+
+/// Index of the hinge of the toes of a side in a posture.
+fn toe_hinge(side: usize) -> usize {
+    match JOINT[TOES[side].index()] {
+        Joint::Hinge1(h) => h,
+        _ => unreachable!("the toes are on a hinge"),
+    }
+}
+
+/// A vector of the floor turned by an angle, rad. The same bits on every machine.
+fn turned_on_floor([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
+    let (s, c) = trig::sin_cos(angle);
+    [c * x - s * y, s * x + c * y]
+}

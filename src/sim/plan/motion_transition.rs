@@ -13,26 +13,17 @@ mod seam;
 
 pub use candidates::Moment;
 
+pub(crate) use super::params::stop::RATE;
+pub(crate) use super::params::transition::{AHEAD, BEYOND, RUN_UP};
+
 use super::splice::Sample;
 use crate::sim::body::Body;
 use crate::sim::motion::clip::Clip;
 use crate::sim::motion::target::Target;
-use candidates::{Looks, moments};
+use crate::sim::plan::params::{stop, transition};
+use candidates::{Features, moments};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// Samples per second of what is searched and prepared here.
-pub const RATE: f64 = 120.0;
-/// Time of the motion so far that is taken along, s: what is prepared with the seam, and some more.
-pub const RUN_UP: f64 = 0.5;
-/// How far ahead a motion is looked at for a place to leave it, s: more than a stride.
-pub const AHEAD: f64 = 1.5;
-/// What of it is needed beyond the last such place, s.
-pub const BEYOND: f64 = 0.05;
-/// Most of a clip that is skipped: s, and share of its length.
-const SKIPPED: (f64, f64) = (0.4, 0.15);
-/// The same of one that repeats, where what is skipped comes in the next round: a stride, s.
-const SKIPPED_OF_ROUND: f64 = 1.2;
 
 /// The clip that is to follow, in its own place and time.
 #[derive(Clone, Debug)]
@@ -59,15 +50,15 @@ impl Next {
     fn skipped(&self) -> f64 {
         let long = self.clip.duration();
         if self.looped {
-            SKIPPED_OF_ROUND.min(long)
+            transition::MOST_SKIPPED_OF_CYCLE.min(long)
         } else {
-            SKIPPED.0.min(SKIPPED.1 * long)
+            transition::MOST_SKIPPED.min(transition::MOST_SKIPPED_SHARE * long)
         }
     }
 
-    /// Samples at [`RATE`] of the world from clip time `from` (s) on.
+    /// Samples at [`stop::RATE`] of the world from clip time `from` (s) on.
     fn samples(&self, from: f64, count: usize) -> Vec<Sample> {
-        let at = |k: usize| from + k as f64 * self.speed / RATE;
+        let at = |k: usize| from + k as f64 * self.speed / stop::RATE;
         let samples = (0..count).map(|k| self.sample(at(k)));
         samples.map(|t| (t.posture, t.planted)).collect()
     }
@@ -108,8 +99,8 @@ pub struct Ways {
 }
 
 impl Ways {
-    /// * `known`: the motion from at least [`RUN_UP`] ago to [`AHEAD`] and [`BEYOND`] ahead, samples at [`RATE`]; it
-    ///   goes on at least up to sample `now`.
+    /// * `known`: the motion from at least [`transition::RUN_UP`] ago to [`transition::AHEAD`] and
+    ///   [`transition::BEYOND`] ahead, samples at [`stop::RATE`]; it goes on at least up to sample `now`.
     /// * `from`: the first sample at which it may be left.
     pub fn new(
         body: &Arc<Body>,
@@ -117,10 +108,10 @@ impl Ways {
         (now, from): (usize, usize),
         next: Next,
     ) -> Self {
-        let long = (next.skipped() / next.speed * RATE) as usize;
+        let long = (next.skipped() / next.speed * stop::RATE) as usize;
         // With a sample before and after, for rates.
-        let beginning = next.samples(-next.speed / RATE, long + 3);
-        let (left, entered) = (Looks::new(body, &known), Looks::new(body, &beginning));
+        let beginning = next.samples(-next.speed / stop::RATE, long + 3);
+        let (left, entered) = (Features::new(body, &known), Features::new(body, &beginning));
         let moments = moments(&left, from.max(now), &entered);
         Self {
             body: Arc::clone(body),
@@ -139,7 +130,7 @@ impl Ways {
 
     /// Clip time at which the clip is entered at a moment, s.
     pub fn enters(&self, moment: &Moment) -> f64 {
-        moment.entered as f64 * self.next.speed / RATE
+        moment.entered as f64 * self.next.speed / stop::RATE
     }
 
     /// The way at the `k`-th moment, and where it puts the origin of the clip; `None` if a body cannot go it, or if one
@@ -149,14 +140,14 @@ impl Ways {
         if k > self.found.load(Ordering::Relaxed) {
             return None;
         }
-        let (asks, way) = seam::lead_over(
+        let (asks, way) = seam::transition_at(
             &self.body,
             &self.known,
             self.now,
             &self.next,
             (moment, self.enters(moment)),
         )?;
-        if asks > seam::MOST_ASKED {
+        if asks > transition::MOST_INFEASIBLE {
             return None;
         }
         self.found.fetch_min(k, Ordering::Relaxed);

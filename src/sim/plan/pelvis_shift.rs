@@ -5,7 +5,7 @@
 //! back; it answers to a shift Δ of the centre of mass by `Δ − Δ̈/ω²`, `ω² = (g + c̈_z)/c_z` (cart-table model of
 //! Kajita et al. 2003).
 
-use super::flight_phases::falls;
+use super::flight_phases::in_free_fall;
 use crate::sim::body::topology::SEGMENT_COUNT;
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::Vec3;
@@ -15,9 +15,7 @@ use crate::sim::math::polygon::{Region, margin};
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::filter::low_pass;
 use crate::sim::motion::leg_ik::forward;
-
-/// Ground force over weight below which the zero-moment point is meaningless.
-pub const LIGHT: f64 = 0.25;
+use crate::sim::plan::params::balance;
 
 /// Centre of mass and zero-moment point of every sample of a motion.
 #[derive(Clone, Debug)]
@@ -70,7 +68,10 @@ pub fn mass_track(body: &Body, postures: &[Posture], rate_hz: f64) -> MassTrack 
         .collect();
     let mut out = MassTrack {
         zmp: com.iter().map(|c| [c.x, c.y]).collect(),
-        omega2: com.iter().map(|c| GRAVITY / c.z.max(0.2)).collect(),
+        omega2: com
+            .iter()
+            .map(|c| GRAVITY / c.z.max(balance::LEAST_HEIGHT))
+            .collect(),
         load: vec![1.0; n],
         wrench: vec![(Vec3::Z * (mass * GRAVITY), Vec3::zero()); n],
         com,
@@ -84,9 +85,10 @@ pub fn mass_track(body: &Body, postures: &[Posture], rate_hz: f64) -> MassTrack 
         let rate = (momentum[i + 1] - momentum[i - 1]) * (0.5 / h);
         out.load[i] = 1.0 + acc.z / GRAVITY;
         out.wrench[i] = ((acc + Vec3::Z * GRAVITY) * mass, rate);
-        out.omega2[i] = ((GRAVITY + acc.z) / c.z.max(0.2)).clamp(3.0, 40.0);
+        out.omega2[i] = ((GRAVITY + acc.z) / c.z.max(balance::LEAST_HEIGHT))
+            .clamp(balance::LEAST_OMEGA2, balance::MOST_OMEGA2);
         // Near flight there is no zero-moment point to speak of; the centre of mass stands in.
-        if out.load[i] > LIGHT {
+        if out.load[i] > balance::LEAST_LOAD {
             out.zmp[i] = zero_moment_point(c, out.wrench[i]);
         }
     }
@@ -113,7 +115,7 @@ pub(crate) fn zero_moment_point(com: Vec3, (force, moment): (Vec3, Vec3)) -> [f6
 
 /// How much a body may rest on something other than its feet in one sample, from 0 to 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Elsewhere {
+pub struct OtherSupport {
     /// On a seat.
     pub seat: f64,
     /// On its hands.
@@ -122,7 +124,7 @@ pub struct Elsewhere {
 
 /// What carries the body in one sample.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Carrier {
+pub enum SupportPhase {
     /// Feet on the floor: convex hull of their footprints.
     Feet(Vec<[f64; 2]>),
     /// Nothing: free flight.
@@ -130,20 +132,6 @@ pub enum Carrier {
     /// Something this preparation knows nothing about: other body parts, a chair.
     Other,
 }
-
-/// Pelvis and trunk move by this much more than the centre of mass, because the feet stay.
-pub(crate) const LEAD: f64 = 1.15;
-/// A zero-moment point this much outside costs as much as a shift of one metre, m.
-const COST: f64 = 0.1;
-/// Time below which a shift is not to change, s.
-const BEND: f64 = 0.08;
-/// Price of bending the path of a body in the air, against that of a zero-moment point outside, s⁴.
-const FREE: f64 = 1.0;
-/// Most alternations between trajectory and polygons, and the change that is none, m.
-const ALTERNATIONS: usize = 150;
-const SETTLED: f64 = 1e-6;
-/// Most of a correction of the zero-moment point, m.
-const MOST_OFF: f64 = 0.4;
 
 /// How the zero-moment point answers to a shift of the centre of mass: Δ − Δ̈/ω², tridiagonal, the motion mirrored at
 /// both ends.
@@ -169,31 +157,53 @@ fn answered(rows: &[[f64; 3]], shift: &[[f64; 2]], i: usize) -> [f64; 2] {
 }
 
 /// Price of a zero-moment point outside, 1/m².
-const PRICE: f64 = 1.0 / (COST * COST);
+pub(super) const PRICE: f64 = 1.0 / (balance::OUTSIDE_COST * balance::OUTSIDE_COST);
+
+/// What a shift of the pelvis is worked out from.
+#[derive(Clone, Copy)]
+pub struct ShiftProblem<'a> {
+    /// The motion as shifted by `so_far`.
+    pub track: &'a MassTrack,
+    /// Shift of the pelvis that is in `track` already, per sample, m.
+    pub so_far: &'a [[f64; 2]],
+    /// What carries the body.
+    pub support: &'a [SupportPhase],
+    /// What else may carry the body. A body on a seat is left alone, as is one in flight; one that may lean on its
+    /// hands is where its zero-moment point is outside by more than [`balance::OTHER_SUPPORT`] for long.
+    pub other_support: &'a [OtherSupport],
+    /// Distance inside the support at which the zero-moment point is kept, m.
+    pub inset: f64,
+    /// Samples per second.
+    pub rate_hz: f64,
+}
 
 /// Share of the way into the support that the zero-moment point is brought in each sample: none where something else
 /// than feet carries.
 ///
 /// * `plain`: zero-moment point without any shift, m.
-fn how_much_yields(
-    track: &MassTrack,
-    plain: &[[f64; 2]],
-    carriers: &[Carrier],
-    elsewhere: &[Elsewhere],
-    (reach, rate_hz): (f64, f64),
-) -> Vec<f64> {
-    let outside = |(i, c): (usize, &Carrier)| match c {
-        Carrier::Feet(p) => (-margin(p, plain[i])).clamp(0.0, MOST_OFF),
+fn correction_shares(problem: &ShiftProblem<'_>, plain: &[[f64; 2]]) -> Vec<f64> {
+    let &ShiftProblem {
+        track,
+        support,
+        other_support,
+        rate_hz,
+        ..
+    } = problem;
+    let reach = balance::OTHER_SUPPORT;
+    let outside = |(i, c): (usize, &SupportPhase)| match c {
+        SupportPhase::Feet(p) => (-margin(p, plain[i])).clamp(0.0, balance::MOST_OUTSIDE),
         _ => 0.0,
     };
     // How far outside for about a second: peaks of gait are corrected, a chair is not.
-    let mut lasting: Vec<f64> = carriers.iter().enumerate().map(outside).collect();
-    low_pass(&mut lasting, 0.5, rate_hz);
-    let share = |(i, c): (usize, &Carrier)| {
-        let u = ((lasting[i] - 0.7 * reach) / (0.6 * reach)).clamp(0.0, 1.0);
-        let meant = if matches!(c, Carrier::Feet(_)) {
-            let leans = smoothstep_to(elsewhere[i].hands, u);
-            (1.0 - elsewhere[i].seat) * (1.0 - leans)
+    let mut lasting: Vec<f64> = support.iter().enumerate().map(outside).collect();
+    low_pass(&mut lasting, balance::LASTING_CUTOFF, rate_hz);
+    let share = |(i, c): (usize, &SupportPhase)| {
+        let u = ((lasting[i] - balance::OTHER_SUPPORT_BEGINS * reach)
+            / (balance::OTHER_SUPPORT_RANGE * reach))
+            .clamp(0.0, 1.0);
+        let meant = if matches!(c, SupportPhase::Feet(_)) {
+            let leans = smoothstep_to(other_support[i].hands, u);
+            (1.0 - other_support[i].seat) * (1.0 - leans)
         } else {
             0.0
         };
@@ -202,21 +212,21 @@ fn how_much_yields(
         let sigma = PRICE * meant * load * load;
         sigma / (sigma + PRICE)
     };
-    carriers.iter().enumerate().map(share).collect()
+    support.iter().enumerate().map(share).collect()
 }
 
 /// `1 + PRICE Aᵀ A + τ⁴ D²ᵀ D²` with the answers A (`rows`) of the zero-moment point.
-fn shift_system(rows: &[[f64; 3]], carriers: &[Carrier], rate_hz: f64) -> Pentadiagonal {
+fn shift_system(rows: &[[f64; 3]], support: &[SupportPhase], rate_hz: f64) -> Pentadiagonal {
     let n = rows.len();
     let mut matrix = Pentadiagonal::new(vec![1.0; n]);
     for i in 0..n {
         matrix.add_row(i as isize - 1, rows[i], PRICE);
         if i > 0 && i + 1 < n {
             // Nothing bends the path of a body in the air.
-            let weight = if carriers[i] == Carrier::Air {
-                FREE * PRICE * rate_hz.powi(4)
+            let weight = if support[i] == SupportPhase::Air {
+                balance::FLIGHT_PRICE * PRICE * rate_hz.powi(4)
             } else {
-                (BEND * rate_hz).powi(4)
+                (balance::BEND_TIME * rate_hz).powi(4)
             };
             matrix.add_row(i as isize - 1, [1.0, -2.0, 1.0], weight);
         }
@@ -224,84 +234,67 @@ fn shift_system(rows: &[[f64; 3]], carriers: &[Carrier], rate_hz: f64) -> Pentad
     matrix
 }
 
-/// Shift of the pelvis, per sample, that brings the zero-moment point `inset` (m) inside the support: the least one,
+/// Shift of the pelvis, m per sample, that brings the zero-moment point inside the support: the least one,
 /// and the smoothest.
 ///
 /// Minimises `Σ s² + τ⁴ s̈² + Σ (outside/COST)²` where the zero-moment point answers to a shift Δ = s/LEAD of the
 /// centre of mass by Δ − Δ̈/ω² (cart-table model of Kajita et al. 2003), by alternating between the trajectory (a
 /// banded solve per axis) and the polygons (alternating direction method of multipliers).
 ///
-/// * `track`: of the motion as shifted by `so_far`, m.
-/// * `elsewhere`: what else may carry the body. A body on a seat is left alone, as is one in flight; one that may lean
-///   on its hands is where its zero-moment point is outside by more than `reach` (m) for long.
-///
 /// O(n).
-pub fn pelvis_shift(
-    track: &MassTrack,
-    so_far: &[[f64; 2]],
-    carriers: &[Carrier],
-    elsewhere: &[Elsewhere],
-    (inset, reach): (f64, f64),
-    rate_hz: f64,
-) -> Vec<[f64; 2]> {
-    let around = (carriers, elsewhere);
-    shift_with(track, so_far, around, (inset, reach), None, rate_hz)
+pub fn pelvis_shift(problem: &ShiftProblem<'_>) -> Vec<[f64; 2]> {
+    shift_with(problem, None)
 }
 
 /// The same for a body that runs, which flies where `air` is set: the path of its mass is straight there, whatever it
 /// was.
-pub(crate) fn pelvis_shift_in_run(
-    track: &MassTrack,
-    so_far: &[[f64; 2]],
-    around: (&[Carrier], &[Elsewhere]),
-    limits: (f64, f64),
-    air: &[bool],
-    rate_hz: f64,
-) -> Vec<[f64; 2]> {
+pub(crate) fn pelvis_shift_in_run(problem: &ShiftProblem<'_>, air: &[bool]) -> Vec<[f64; 2]> {
     let mut straight = vec![[0.0; 2]; air.len()];
-    let plain = |i: usize, k: usize| track.com[i].to_array()[k] - so_far[i][k] / LEAD;
-    let price = FREE * PRICE * rate_hz.powi(4);
-    for i in (1..air.len() - 1).filter(|i| falls(air, *i)) {
+    let (com, so_far) = (&problem.track.com, problem.so_far);
+    let plain = |i: usize, k: usize| com[i].to_array()[k] - so_far[i][k] / balance::PELVIS_LEAD;
+    let price = balance::FLIGHT_PRICE * PRICE * problem.rate_hz.powi(4);
+    for i in (1..air.len() - 1).filter(|i| in_free_fall(air, *i)) {
         for k in 0..2 {
             let bend = plain(i - 1, k) - 2.0 * plain(i, k) + plain(i + 1, k);
             for (j, r) in [(i - 1, 1.0), (i, -2.0), (i + 1, 1.0)] {
-                straight[j][k] -= price * r * LEAD * bend;
+                straight[j][k] -= price * r * balance::PELVIS_LEAD * bend;
             }
         }
     }
-    shift_with(track, so_far, around, limits, Some(&straight), rate_hz)
+    shift_with(problem, Some(&straight))
 }
 
 /// [`pelvis_shift`] with another pull on the shift, per sample, from whatever else is asked of it.
-fn shift_with(
-    track: &MassTrack,
-    so_far: &[[f64; 2]],
-    (carriers, elsewhere): (&[Carrier], &[Elsewhere]),
-    (inset, reach): (f64, f64),
-    pull: Option<&[[f64; 2]]>,
-    rate_hz: f64,
-) -> Vec<[f64; 2]> {
+fn shift_with(problem: &ShiftProblem<'_>, pull: Option<&[[f64; 2]]>) -> Vec<[f64; 2]> {
+    let &ShiftProblem {
+        track,
+        so_far,
+        support,
+        inset,
+        rate_hz,
+        ..
+    } = problem;
     let n = track.com.len();
     let rows: Vec<[f64; 3]> = (0..n)
-        .map(|i| answer(track.omega2[i], rate_hz, i, n).map(|x| x / LEAD))
+        .map(|i| answer(track.omega2[i], rate_hz, i, n).map(|x| x / balance::PELVIS_LEAD))
         .collect();
     // Where the zero-moment point would be without any shift.
     let plain: Vec<[f64; 2]> = (0..n)
         .map(|i| minus(track.zmp[i], answered(&rows, so_far, i)))
         .collect();
-    let inner: Vec<Option<Region>> = carriers
+    let inner: Vec<Option<Region>> = support
         .iter()
         .map(|c| match c {
-            Carrier::Feet(p) => Some(Region::inside(p, inset)),
+            SupportPhase::Feet(p) => Some(Region::inside(p, inset)),
             _ => None,
         })
         .collect();
-    let yields = how_much_yields(track, &plain, carriers, elsewhere, (reach, rate_hz));
-    let factor = shift_system(&rows, carriers, rate_hz).factor();
+    let shares = correction_shares(problem, &plain);
+    let factor = shift_system(&rows, support, rate_hz).factor();
     let mut shift = vec![[0.0; 2]; n];
     let mut goal = plain.clone();
     let mut debt = vec![[0.0; 2]; n];
-    for _ in 0..ALTERNATIONS {
+    for _ in 0..balance::ALTERNATIONS {
         // PRICE Aᵀ (goal − debt − plain)
         match pull {
             Some(pull) => shift.copy_from_slice(pull),
@@ -333,7 +326,7 @@ fn shift_with(
                 None => v,
             };
             for k in 0..2 {
-                let next = v[k] + yields[i] * (inside[k] - v[k]);
+                let next = v[k] + shares[i] * (inside[k] - v[k]);
                 let owed = v[k] - next;
                 change = change
                     .max((next - goal[i][k]).abs())
@@ -341,7 +334,7 @@ fn shift_with(
                 (goal[i][k], debt[i][k]) = (next, owed);
             }
         }
-        if change < SETTLED {
+        if change < balance::SETTLED {
             break;
         }
     }

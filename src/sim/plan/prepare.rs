@@ -10,37 +10,26 @@ mod whole_body;
 
 use super::ankle_torque_limit::AnkleTorqueLimit;
 use super::flight_phases::{FlightPhases, roll_off};
-use super::foot_lock::{LockedFoot, Sole, lock_foot, stances};
-use super::pelvis_shift::{Carrier, mass_track, pelvis_shift, pelvis_shift_in_run};
-use crate::sim::body::topology::{DOF_COUNT, L_FOOT, R_FOOT, SegmentId};
+use super::foot_lock::{LockedFoot, RecordedFoot, Sole, Stance, lock_foot, stances};
+use super::pelvis_shift::{
+    MassTrack, OtherSupport, ShiftProblem, SupportPhase, mass_track, pelvis_shift,
+    pelvis_shift_in_run,
+};
+use crate::sim::body::topology::DOF_COUNT;
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::polygon::margin;
 use crate::sim::math::{Quat, Vec3};
+use crate::sim::plan::params::{balance, contact};
 use ankle_unloading::AnkleUnloading;
 use deep_flexion::{DeepFlexion, unfold};
-use joint_limits::{LIMIT_MARGIN, clamp_upper, into_limits};
+use joint_limits::{clamp_upper, into_limits};
 pub use support_phases::ZmpOutside;
-pub(super) use support_phases::{carriers_of, held_by, may_rest, planted_of};
-use support_phases::{held_in_gait, within_reach, zmp_outside};
+pub(super) use support_phases::{
+    StandingFeet, limit_ankle_torques, other_support, planted_of, support_phases,
+};
+use support_phases::{within_reach, zmp_outside};
 use whole_body::assemble;
-pub(super) use whole_body::{DROP_TIME, leg_geometry};
-
-/// Rounds of shifting the trunk and solving the legs again.
-const ROUNDS: usize = 8;
-/// The zero-moment point is kept this far inside the support polygon, m.
-pub(crate) const INSET: f64 = 0.04;
-/// The same for runners, whose ankles limit it anyway.
-const RUN_INSET: f64 = 0.02;
-/// A zero-moment point outside by more than this for long means that something other than the feet carries the body, m.
-pub(crate) const CARRIED: f64 = 0.15;
-/// The trunk is never moved further than this for balance, m.
-const MOST_SHIFT: f64 = 0.2;
-/// Below this fraction of standing height the pelvis lies or sits on the floor: feet are not what stands.
-const LYING: f64 = 0.22;
-/// Accuracy to which the feet of a recording hold their places, m.
-pub(crate) const HELD: f64 = 5e-4;
-/// Which planted feet carry is looked at so many rounds before the last.
-const RELIEVED: usize = 5;
+pub(super) use whole_body::leg_geometry;
 
 /// A recorded motion in body scale, floor at z = 0: what the preparation starts from.
 #[derive(Clone, Debug)]
@@ -101,192 +90,341 @@ pub struct Prepared {
     pub freed: f64,
 }
 
-const FOOT: [SegmentId; 2] = [L_FOOT, R_FOOT];
-
 /// Turns a draft into a motion that the body can follow.
 ///
 /// Memory and time are linear in the number of samples (times a handful of balancing rounds).
 pub fn prepare(body: &Body, draft: &Draft, options: PrepareOptions) -> Prepared {
-    prepare_in(body, draft, options, ROUNDS)
+    prepare_in(body, draft, options, balance::ROUNDS)
 }
 
-/// The same with another number of rounds in which ankles are relieved and the trunk is shifted.
+/// The same with another number of rounds in which ankles are unloaded and the pelvis is shifted.
 pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: usize) -> Prepared {
-    let n = draft.postures.len();
-    let rate = draft.rate_hz;
-    let soles = [Sole::new(body, 0), Sole::new(body, 1)];
-    let one_foot = AnkleTorqueLimit::new(body);
-    let standing = body.standing_root_height();
-    let mut upper = draft.postures.clone();
-    let mut clamped = [(0.0f64, 0.0f64); DOF_COUNT];
-    clamp_upper(body, &mut upper, rate, &mut clamped);
-
-    let upright = |i: usize| options.lock_feet && upper[i].root_position.z > LYING * standing;
-    let label: [Vec<bool>; 2] =
-        std::array::from_fn(|s| (0..n).map(|i| draft.label[i][s] && upright(i)).collect());
-    let stands = stances(
-        &soles,
-        [&draft.ankle[0], &draft.ankle[1]],
-        [&draft.foot[0], &draft.foot[1]],
-        [&label[0], &label[1]],
-        rate,
-    );
-    let lock = |relief: &AnkleUnloading| -> [LockedFoot; 2] {
-        std::array::from_fn(|s| {
-            lock_foot(
-                &soles[s],
-                &draft.ankle[s],
-                &draft.foot[s],
-                (&stands[s], &stands[1 - s]),
-                (&relief.heel_up[s], &relief.toe_out[s], &relief.tip[s]),
-                s,
-                rate,
-            )
-        })
-    };
-    let mut relief = AnkleUnloading::new(n);
-    let mut locked = lock(&relief);
-    let fits = options.lock_feet && options.balance;
-    let mut flights = (fits && options.runs)
-        .then(|| FlightPhases::of(&upper, &draft.label, rate))
-        .flatten();
-    if flights.is_some() {
-        for s in 0..2 {
-            let roll = (&mut relief.heel_up[s], &mut relief.tip[s]);
-            let roll = (roll.0.as_mut_slice(), roll.1.as_mut_slice());
-            roll_off(
-                &soles[s],
-                &draft.ankle[s],
-                &locked[s],
-                &stands[s],
-                roll,
-                rate,
-            );
-        }
-        locked = lock(&relief);
-    }
-    let mut planted = planted_of(&locked);
-    let mut penetration_before: f64 = 0.0;
-    for s in 0..2 {
-        for i in (0..n).filter(|i| draft.label[*i][s]) {
-            let low =
-                draft.ankle[s][i].z + soles[s].lowest(draft.foot[s][i], locked[s].poses[i].toe);
-            penetration_before = penetration_before.max(-low);
-        }
-    }
-
-    // Legs as recorded first; then rounds in which ankles are relieved and the trunk is shifted over the feet.
-    let mut shift = vec![[0.0f64; 2]; n];
-    let (mut postures, mut drop) = assemble(body, &upper, &locked, draft, &relief, &shift, None);
-    let mut carries = planted.clone();
-    let mut carriers = carriers_of(body, &soles, &upper, (&locked, &carries), &draft.label);
-    let mut track = mass_track(body, &postures, rate);
-    let before = zmp_outside(&track, &carriers);
-    let elsewhere = may_rest(body, &upper, &planted, rate);
-    let rounds = if options.lock_feet && n >= 8 {
+    let mut work = Preparation::new(body, draft, options);
+    let zmp_before = zmp_outside(&work.motion.track, &work.feet.support);
+    let depth_before = work.recorded_depth();
+    let short = draft.postures.len() < 8;
+    let rounds = if options.lock_feet && !short {
         rounds
     } else {
         0
     };
     for round in 0..rounds {
         if round + 2 < rounds {
-            relief.add(
-                body,
-                &postures,
-                &planted,
-                [&stands[0], &stands[1]],
-                flights.is_some(),
-                rate,
-            );
-            locked = lock(&relief);
-            carriers = carriers_of(body, &soles, &upper, (&locked, &carries), &draft.label);
+            work.unload_ankles();
         }
         if options.balance && round > 0 {
-            let held = held_in_gait(
-                &carriers,
-                &soles,
-                (&locked, &carries),
-                (&one_foot, &track),
-                flights.is_some(),
-                rate,
-            );
-            shift = match &flights {
-                None => {
-                    let reach = (INSET, CARRIED);
-                    pelvis_shift(&track, &shift, &held, &elsewhere, reach, rate)
-                }
-                Some(f) => pelvis_shift_in_run(
-                    &track,
-                    &shift,
-                    (&held, &elsewhere),
-                    (RUN_INSET, CARRIED),
-                    f.air(),
-                    rate,
-                ),
-            };
-            for s in &mut shift {
-                let far = s[0].hypot(s[1]);
-                if far > MOST_SHIFT {
-                    *s = s.map(|x| x * MOST_SHIFT / far);
-                }
+            work.shift_pelvis();
+        }
+        work.pose_legs();
+        if round + balance::REACH_ROUND == rounds {
+            work.release_unreached_feet();
+        }
+    }
+    let folded = work.unfold_legs();
+    work.report(folded, zmp_before, depth_before)
+}
+
+/// What the feet do.
+struct Feet {
+    stances: [Vec<Stance>; 2],
+    locked: [LockedFoot; 2],
+    /// Locked to the floor, per sample.
+    planted: Vec<[bool; 2]>,
+    /// Those of the planted ones that carry.
+    carries: Vec<[bool; 2]>,
+    support: Vec<SupportPhase>,
+}
+
+/// What the body does.
+struct Motion {
+    postures: Vec<Posture>,
+    track: MassTrack,
+    /// Shift of the pelvis for balance, m.
+    shift: Vec<[f64; 2]>,
+    /// Lowering of the pelvis so that legs reach, m.
+    drop: Vec<f64>,
+}
+
+/// A preparation under way: its methods are its stages.
+struct Preparation<'a> {
+    body: &'a Body,
+    draft: &'a Draft,
+    options: PrepareOptions,
+    soles: [Sole; 2],
+    ankle_limit: AnkleTorqueLimit,
+    /// Postures of the draft with spine, neck and arms within their limits.
+    upper: Vec<Posture>,
+    clamped: [(f64, f64); DOF_COUNT],
+    flights: Option<FlightPhases>,
+    unloading: AnkleUnloading,
+    other_support: Vec<OtherSupport>,
+    feet: Feet,
+    motion: Motion,
+}
+
+impl<'a> Preparation<'a> {
+    /// Feet locked, legs solved for the pelvis as recorded.
+    fn new(body: &'a Body, draft: &'a Draft, options: PrepareOptions) -> Self {
+        let n = draft.postures.len();
+        let rate = draft.rate_hz;
+        let soles = [Sole::new(body, 0), Sole::new(body, 1)];
+        let mut upper = draft.postures.clone();
+        let mut clamped = [(0.0f64, 0.0f64); DOF_COUNT];
+        clamp_upper(body, &mut upper, rate, &mut clamped);
+        let low = contact::LYING * body.standing_root_height();
+        let upright = |i: usize| options.lock_feet && upper[i].root_position.z > low;
+        let label: [Vec<bool>; 2] =
+            std::array::from_fn(|s| (0..n).map(|i| draft.label[i][s] && upright(i)).collect());
+        let recorded = [0, 1].map(|s| draft.recorded_foot(s));
+        let stances = stances(&soles, recorded, [&label[0], &label[1]], rate);
+        let mut unloading = AnkleUnloading::new(n);
+        let mut locked = lock(draft, &soles, &stances, &unloading);
+        let runs = options.lock_feet && options.balance && options.runs;
+        let flights = runs
+            .then(|| FlightPhases::of(&upper, &draft.label, rate))
+            .flatten();
+        if flights.is_some() {
+            for s in 0..2 {
+                let turns = &mut unloading.feet[s];
+                let (ankle, foot) = (&draft.ankle[s], &locked[s]);
+                roll_off(&soles[s], ankle, foot, &stances[s], turns, rate);
             }
+            locked = lock(draft, &soles, &stances, &unloading);
         }
-        if let Some(f) = &mut flights {
-            f.observe(&track, &drop);
-        }
-        (postures, drop) = assemble(
+        let planted = planted_of(&locked);
+        let shift = vec![[0.0f64; 2]; n];
+        let (postures, drop) = assemble(body, &upper, &locked, draft, &unloading, &shift, None);
+        let standing = StandingFeet {
+            soles: &soles,
+            locked: &locked,
+            carries: &planted,
+        };
+        let support = support_phases(body, standing, &upper, &draft.label);
+        Self {
+            other_support: other_support(body, &upper, &planted, rate),
+            ankle_limit: AnkleTorqueLimit::new(body),
+            motion: Motion {
+                track: mass_track(body, &postures, rate),
+                postures,
+                shift,
+                drop,
+            },
+            feet: Feet {
+                stances,
+                locked,
+                carries: planted.clone(),
+                planted,
+                support,
+            },
             body,
-            &upper,
-            &locked,
             draft,
-            &relief,
-            &shift,
-            flights.as_ref(),
-        );
-        track = mass_track(body, &postures, rate);
-        if round + RELIEVED == rounds {
-            let left = within_reach(body, &postures, &planted, (&soles, &locked));
-            carries.copy_from_slice(&left);
-            carriers = carriers_of(body, &soles, &upper, (&locked, &carries), &draft.label);
+            options,
+            soles,
+            upper,
+            clamped,
+            flights,
+            unloading,
         }
     }
 
-    let folded = if options.lock_feet {
-        unfold(body, &mut postures, &planted, (&soles, &locked), rate)
-    } else {
-        DeepFlexion::default()
-    };
-    let held = into_limits(
-        body,
-        &mut postures,
-        &mut planted,
-        (&soles, &locked, options.held),
-        &mut clamped,
-    );
-    track = mass_track(body, &postures, rate);
-    let after = zmp_outside(&track, &carriers);
-    let far = (0..n)
-        .filter(|i| match &carriers[*i] {
-            Carrier::Feet(p) => margin(p, track.zmp[*i]) < -CARRIED,
-            Carrier::Other => true,
-            Carrier::Air => false,
-        })
-        .count();
-    Prepared {
-        postures,
-        planted,
-        clamped,
-        slide: (
-            locked[0].slide_before.max(locked[1].slide_before),
-            held.slide,
-        ),
-        penetration: (penetration_before, held.penetration),
-        zmp: (before, after),
-        shift_max: shift.iter().map(|s| s[0].hypot(s[1])).fold(0.0, f64::max),
-        drop_max: -drop.iter().copied().fold(0.0, f64::min),
-        tilt_max: folded.tilt_max,
-        raise_max: folded.raise_max,
-        carried: far as f64 / n.max(1) as f64,
-        freed: held.freed as f64 / (2 * n).max(1) as f64,
+    fn standing_feet(&self) -> StandingFeet<'_> {
+        StandingFeet {
+            soles: &self.soles,
+            locked: &self.feet.locked,
+            carries: &self.feet.carries,
+        }
+    }
+
+    fn update_support(&mut self) {
+        let label = &self.draft.label;
+        self.feet.support = support_phases(self.body, self.standing_feet(), &self.upper, label);
+    }
+
+    /// Bends heels, toes, legs and the pelvis where ankles and hips of planted feet lack range, and locks the feet
+    /// anew.
+    fn unload_ankles(&mut self) {
+        let stances = &self.feet.stances;
+        self.unloading.add(
+            self.body,
+            &self.motion.postures,
+            &self.feet.planted,
+            [&stances[0], &stances[1]],
+            self.flights.is_some(),
+            self.draft.rate_hz,
+        );
+        self.feet.locked = lock(self.draft, &self.soles, stances, &self.unloading);
+        self.update_support();
+    }
+
+    /// Shifts the pelvis so that the zero-moment point stays where the feet can have it.
+    fn shift_pelvis(&mut self) {
+        let rate_hz = self.draft.rate_hz;
+        let runs = self.flights.is_some();
+        let (feet, track) = (self.standing_feet(), &self.motion.track);
+        let (limit, phases) = (&self.ankle_limit, &self.feet.support);
+        let support = limit_ankle_torques(phases, feet, limit, track, runs, rate_hz);
+        let problem = ShiftProblem {
+            track,
+            so_far: &self.motion.shift,
+            support: &support,
+            other_support: &self.other_support,
+            inset: if runs {
+                balance::RUN_INSET
+            } else {
+                balance::INSET
+            },
+            rate_hz,
+        };
+        let mut shift = match &self.flights {
+            None => pelvis_shift(&problem),
+            Some(f) => pelvis_shift_in_run(&problem, f.air()),
+        };
+        for s in &mut shift {
+            let far = s[0].hypot(s[1]);
+            if far > balance::MOST_SHIFT {
+                *s = s.map(|x| x * balance::MOST_SHIFT / far);
+            }
+        }
+        self.motion.shift = shift;
+    }
+
+    /// Lowers the pelvis until the legs reach and solves them.
+    fn pose_legs(&mut self) {
+        if let Some(f) = &mut self.flights {
+            f.observe(&self.motion.track, &self.motion.drop);
+        }
+        (self.motion.postures, self.motion.drop) = assemble(
+            self.body,
+            &self.upper,
+            &self.feet.locked,
+            self.draft,
+            &self.unloading,
+            &self.motion.shift,
+            self.flights.as_ref(),
+        );
+        self.motion.track = mass_track(self.body, &self.motion.postures, self.draft.rate_hz);
+    }
+
+    /// Lets the planted feet no longer carry that their legs hold far from their places.
+    fn release_unreached_feet(&mut self) {
+        let (feet, postures) = (&self.feet, &self.motion.postures);
+        let locked = (&self.soles, &feet.locked);
+        self.feet.carries = within_reach(self.body, postures, &feet.planted, locked.0, locked.1);
+        self.update_support();
+    }
+
+    /// Tilts and raises the pelvis for legs that fold further than the body's.
+    fn unfold_legs(&mut self) -> DeepFlexion {
+        if !self.options.lock_feet {
+            return DeepFlexion::default();
+        }
+        let (postures, feet) = (&mut self.motion.postures, &self.feet);
+        let locked = (&self.soles, &feet.locked);
+        unfold(
+            self.body,
+            postures,
+            &feet.planted,
+            locked,
+            self.draft.rate_hz,
+        )
+    }
+
+    /// Deepest sole in the floor of a foot that is on it, as recorded, m.
+    fn recorded_depth(&self) -> f64 {
+        let draft = self.draft;
+        let mut depth: f64 = 0.0;
+        for s in 0..2 {
+            for i in (0..draft.postures.len()).filter(|i| draft.label[*i][s]) {
+                let toe = self.feet.locked[s].poses[i].toe;
+                let low = draft.ankle[s][i].z + self.soles[s].lowest(draft.foot[s][i], toe);
+                depth = depth.max(-low);
+            }
+        }
+        depth
+    }
+
+    /// Brings the legs into their limits, which may free feet, and says what came of it all.
+    fn report(self, folded: DeepFlexion, zmp_before: ZmpOutside, depth_before: f64) -> Prepared {
+        let Self {
+            body,
+            draft,
+            soles,
+            mut clamped,
+            feet,
+            motion,
+            ..
+        } = self;
+        let Feet {
+            locked,
+            mut planted,
+            support,
+            ..
+        } = feet;
+        let Motion {
+            mut postures,
+            shift,
+            drop,
+            ..
+        } = motion;
+        let n = postures.len();
+        let held = into_limits(
+            body,
+            &mut postures,
+            &mut planted,
+            (&soles, &locked, self.options.held),
+            &mut clamped,
+        );
+        let track = mass_track(body, &postures, draft.rate_hz);
+        let far = (0..n)
+            .filter(|i| match &support[*i] {
+                SupportPhase::Feet(p) => margin(p, track.zmp[*i]) < -balance::OTHER_SUPPORT,
+                SupportPhase::Other => true,
+                SupportPhase::Air => false,
+            })
+            .count();
+        let slide_before = locked[0].slide_before.max(locked[1].slide_before);
+        Prepared {
+            zmp: (zmp_before, zmp_outside(&track, &support)),
+            postures,
+            planted,
+            clamped,
+            slide: (slide_before, held.slide),
+            penetration: (depth_before, held.penetration),
+            shift_max: shift.iter().map(|s| s[0].hypot(s[1])).fold(0.0, f64::max),
+            drop_max: -drop.iter().copied().fold(0.0, f64::min),
+            tilt_max: folded.tilt_max,
+            raise_max: folded.raise_max,
+            carried: far as f64 / n.max(1) as f64,
+            freed: held.freed as f64 / (2 * n).max(1) as f64,
+        }
+    }
+}
+
+/// Locks the feet of a draft to the floor in their stances.
+fn lock(
+    draft: &Draft,
+    soles: &[Sole; 2],
+    stances: &[Vec<Stance>; 2],
+    unloading: &AnkleUnloading,
+) -> [LockedFoot; 2] {
+    std::array::from_fn(|s| {
+        lock_foot(
+            &soles[s],
+            draft.recorded_foot(s),
+            &stances[s],
+            &stances[1 - s],
+            &unloading.feet[s],
+            s,
+            draft.rate_hz,
+        )
+    })
+}
+
+impl Draft {
+    fn recorded_foot(&self, side: usize) -> RecordedFoot<'_> {
+        RecordedFoot {
+            ankles: &self.ankle[side],
+            rotations: &self.foot[side],
+        }
     }
 }

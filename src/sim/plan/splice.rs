@@ -6,47 +6,27 @@
 //! allocates, 10 to 20 ms for each end.
 
 use super::cycle::label;
-use super::feasibility::consistency;
+use super::feasibility::infeasibility;
 use super::foot_lock::{turn, yaw_pitch};
 use super::prepare::{Draft, PrepareOptions, prepare_in};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::curve::{fade, smootherstep};
 use crate::sim::motion::clip::{Clip, PlanarTransform};
+use crate::sim::plan::params::{balance, leg, likeness, stop, stream};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 
-/// Samples per second of what is planned here.
-pub const RATE: f64 = 60.0;
-/// Time of the motion so far that takes part in the seam, s.
-pub const RUN_UP: f64 = 1.4;
-/// Rates count this much against angles, s; moments are alike up to this unlikeness, rad rms; a step is at least so
-/// many samples long.
-const RATE_SHARE: f64 = 0.05;
-const ALIKE: f64 = 0.3;
-const LEAST_BACK: usize = 48;
-/// Time over which one motion turns into another, s.
-pub(crate) const BLEND: f64 = 0.3;
-/// How far ahead it is looked for a place to stop, s, and samples between the places that are tried.
-const STEP: f64 = 0.55;
-const APART: usize = 14;
-/// An end that asks for no more than this force and moment from nothing, shares of what a body weighs, is not worth
-/// bettering. Of those above 0.6 most fall, of those above 0.05 some.
-const EASY: f64 = 0.03;
-/// Rounds of preparation: what is known so far has been prepared, or comes off a window.
-pub(crate) const ROUNDS: usize = 4;
-/// Time of the motion so far that is prepared with its end, s.
-pub(crate) const TAKES_PART: f64 = 0.4;
-/// Samples per second of what is prepared.
-pub(crate) const FINE: f64 = 2.0 * RATE;
-
-pub(crate) const HOW: PrepareOptions = PrepareOptions {
+pub(crate) const SEAM_OPTIONS: PrepareOptions = PrepareOptions {
     lock_feet: true,
     balance: true,
     runs: true,
     // A foot that an ankle at its limit moves by millimetres goes on standing: taken off the floor it would step in
     // place, and nobody who is being stopped has time for that.
-    held: 0.01,
+    held: leg::SEAM_HELD,
 };
+
+pub(crate) use super::params::stop::RUN_UP;
+pub(crate) use super::params::stream::RATE;
 
 /// A sample: posture, and which feet are planted.
 pub type Sample = (Posture, [bool; 2]);
@@ -60,13 +40,13 @@ pub struct Ends {
     now: usize,
     goal: Option<Posture>,
     streamed: bool,
-    way: OnceLock<Option<Way>>,
+    way: OnceLock<Option<KnownMotion>>,
     /// First end that was easy, as far as is known: those after it are not wanted.
     easy: AtomicUsize,
 }
 
-/// What all ends have in common: the motion with samples at [`FINE`], with its step finished, and its labels.
-struct Way {
+/// What all ends have in common: the motion with samples at [`stop::RATE`], with its step finished, and its labels.
+struct KnownMotion {
     known: Vec<Sample>,
     postures: Vec<Posture>,
     label: Vec<[bool; 2]>,
@@ -75,10 +55,10 @@ struct Way {
 
 impl Ends {
     /// Most ends that are tried.
-    pub const MOST: usize = (STEP * FINE) as usize / APART + 1;
+    pub const MOST: usize = (stop::SEARCH_TIME * stop::RATE) as usize / stop::SEARCH_STRIDE + 1;
 
-    /// * `known`: the motion so far and as far ahead as it is known, samples at [`RATE`]; it goes on at least up to
-    ///   sample `now`.
+    /// * `known`: the motion so far and as far ahead as it is known, samples at [`stream::RATE`]; it goes on at least
+    ///   up to sample `now`.
     /// * `how`: how it stands in the end, wherever that is, at ease if not given; and whether the motion is a stream,
     ///   which is known less well than a clip.
     pub fn new(
@@ -98,18 +78,18 @@ impl Ends {
         }
     }
 
-    fn way(&self) -> Option<&Way> {
+    fn way(&self) -> Option<&KnownMotion> {
         let way = || {
             if self.known.len() < 4 {
                 return None;
             }
-            let (known, now) = (finer(&self.known)?, 2 * self.now);
+            let (known, now) = (twice_as_fine(&self.known)?, 2 * self.now);
             let (mut postures, planted): (Vec<_>, Vec<_>) = known.iter().copied().unzip();
-            let mut label = label(&self.body, FINE, &postures, &planted);
+            let mut label = label(&self.body, stop::RATE, &postures, &planted);
             if (now..label.len()).all(|i| label[i] != [true; 2]) {
                 finish_step(&mut postures, &mut label);
             }
-            Some(Way {
+            Some(KnownMotion {
                 known,
                 postures,
                 label,
@@ -128,21 +108,13 @@ impl Ends {
         let way = self.way()?;
         // Where in a step a body can be stopped best shows only when it is worked out.
         let last = way.postures.len() - 1;
-        let latest = (way.now + (STEP * FINE) as usize).min(last);
-        let end = way.now.min(last) + k * APART;
+        let latest = (way.now + (stop::SEARCH_TIME * stop::RATE) as usize).min(last);
+        let end = way.now.min(last) + k * stop::SEARCH_STRIDE;
         if end > latest {
             return None;
         }
-        let (postures, label) = (&way.postures[..], &way.label[..]);
-        let how = (self.goal.as_ref(), self.streamed);
-        let found = ending(
-            &self.body,
-            &way.known,
-            (postures, label),
-            (way.now, end),
-            how,
-        )?;
-        if found.0 < EASY {
+        let found = way.stop_after(&self.body, end, self.goal.as_ref(), self.streamed)?;
+        if found.0 < stop::EASY {
             self.easy.fetch_min(k, Ordering::Relaxed);
         }
         Some(found)
@@ -153,7 +125,7 @@ impl Ends {
         let mut best: Option<(f64, Clip)> = None;
         for found in ends.into_iter().flatten() {
             if best.as_ref().is_none_or(|b| found.0 < b.0) {
-                let easy = found.0 < EASY;
+                let easy = found.0 < stop::EASY;
                 best = Some(found);
                 if easy {
                     break;
@@ -175,42 +147,46 @@ pub fn stop(
     Ends::best((0..Ends::MOST).map(|k| ends.end(k)))
 }
 
-/// The motion up to sample `end`, then to a stand, and how hard that is for a body.
-fn ending(
-    body: &Body,
-    known: &[Sample],
-    (postures, label): (&[Posture], &[[bool; 2]]),
-    (now, end): (usize, usize),
-    (goal, streamed): (Option<&Posture>, bool),
-) -> Option<(f64, Clip)> {
-    // What was long ago has no part in it.
-    let cut = now.saturating_sub((TAKES_PART * FINE) as usize);
-    let part = (postures[cut..=end].to_vec(), label[cut..=end].to_vec());
-    let mut draft = Draft::of_postures(body, FINE, part.0, part.1);
-    let added = match goal {
-        Some(goal) => draft.end_like(body, goal),
-        None => draft.end_standing(body, streamed),
-    };
-    if added == 0 {
-        return None;
+impl KnownMotion {
+    /// The motion up to sample `end`, then to a stand like `goal`, or at ease, and how much that asks for from nothing.
+    fn stop_after(
+        &self,
+        body: &Body,
+        end: usize,
+        goal: Option<&Posture>,
+        streamed: bool,
+    ) -> Option<(f64, Clip)> {
+        // What was long ago has no part in it.
+        let cut = (self.now).saturating_sub((stop::PREPARED_TIME * stop::RATE) as usize);
+        let now = self.now - cut;
+        let (postures, label) = (&self.postures[cut..=end], &self.label[cut..=end]);
+        let mut draft = Draft::of_postures(body, stop::RATE, postures.to_vec(), label.to_vec());
+        let added = match goal {
+            Some(goal) => draft.end_like(body, goal),
+            None => draft.end_standing(body, streamed),
+        };
+        if added == 0 {
+            return None;
+        }
+        let mut whole = prepare_in(body, &draft, SEAM_OPTIONS, balance::SEAM_ROUNDS);
+        blend_from_played(&mut whole.postures, &self.known[cut..], now);
+        let from = now.saturating_sub(4);
+        let (postures, label) = (&whole.postures[from..], &draft.label[from..]);
+        let asked = infeasibility(body, postures, label, stop::RATE);
+        let (mut all, mut planted): (Vec<_>, Vec<_>) = self.known[..cut].iter().copied().unzip();
+        all.extend(whole.postures);
+        planted.extend(whole.planted);
+        let clip = Clip::from_postures("stop", stop::RATE, all, planted).ok()?;
+        Some((asked, clip))
     }
-    let mut whole = prepare_in(body, &draft, HOW, ROUNDS);
-    hold_on(&mut whole.postures, &known[cut..], now - cut);
-    let from = (now - cut).saturating_sub(4);
-    let asks = consistency(body, &whole.postures[from..], &draft.label[from..], FINE);
-    let (mut all, mut planted): (Vec<_>, Vec<_>) = known[..cut].iter().copied().unzip();
-    all.extend(whole.postures);
-    planted.extend(whole.planted);
-    let clip = Clip::from_postures("stop", FINE, all, planted).ok()?;
-    Some((asks.force.rms + asks.moment.rms, clip))
 }
 
 /// The same motion with as many samples again in between.
-fn finer(known: &[Sample]) -> Option<Vec<Sample>> {
+fn twice_as_fine(known: &[Sample]) -> Option<Vec<Sample>> {
     let (postures, planted) = known.iter().copied().unzip();
-    let clip = Clip::from_postures("", RATE, postures, planted).ok()?;
+    let clip = Clip::from_postures("", stream::RATE, postures, planted).ok()?;
     let count = 2 * (known.len() - 1);
-    let at = |i: usize| clip.sample(i as f64 / FINE);
+    let at = |i: usize| clip.sample(i as f64 / stop::RATE);
     Some(
         (0..=count)
             .map(|i| {
@@ -223,13 +199,13 @@ fn finer(known: &[Sample]) -> Option<Vec<Sample>> {
 
 /// What is played already stays as it was: the difference that preparation makes to the samples `before` up to `now`
 /// grows in after that.
-pub(crate) fn hold_on(postures: &mut [Posture], before: &[Sample], now: usize) {
+pub(crate) fn blend_from_played(postures: &mut [Posture], before: &[Sample], now: usize) {
     if now < 1 || now >= postures.len().min(before.len()) {
         return;
     }
     let off = |i: usize| postures[i].difference(&before[i].0);
     let (last, off) = (off(now - 1), off(now));
-    let span = BLEND * FINE;
+    let span = stop::BLEND_TIME * stop::RATE;
     for (p, b) in postures.iter_mut().zip(before).take(now) {
         *p = b.0;
     }
@@ -257,15 +233,18 @@ fn finish_step(postures: &mut Vec<Posture>, label: &mut Vec<[bool; 2]>) {
         let angles = postures[i].joint_difference(&postures[end]);
         let rates = rates(i);
         let sum: f64 = (0..angles.len())
-            .map(|k| angles[k].powi(2) + (RATE_SHARE * FINE * (rates[k] - last[k])).powi(2))
+            .map(|k| {
+                angles[k].powi(2)
+                    + (likeness::RATE_SHARE * stop::RATE * (rates[k] - last[k])).powi(2)
+            })
             .sum();
         (sum / angles.len() as f64).sqrt()
     };
-    let best = (1..end.saturating_sub(LEAST_BACK))
+    let best = (1..end.saturating_sub(stop::LEAST_STEP))
         .filter(|i| label[*i] == label[end])
         .map(|i| (unlike(i), i))
         .min_by(|a, b| a.0.total_cmp(&b.0));
-    let Some((_, from)) = best.filter(|(u, _)| *u < ALIKE) else {
+    let Some((_, from)) = best.filter(|(u, _)| *u < likeness::SAME_STEP) else {
         return;
     };
     let moved = between(&postures[from], &postures[end]);
@@ -276,7 +255,7 @@ fn finish_step(postures: &mut Vec<Posture>, label: &mut Vec<[bool; 2]>) {
     };
     let off = placed(&postures[from]).difference(&postures[end]);
     for i in from + 1..=end {
-        let u = ((i - from) as f64 / (BLEND * FINE)).min(1.0);
+        let u = ((i - from) as f64 / (stop::BLEND_TIME * stop::RATE)).min(1.0);
         let s = 1.0 - smootherstep(u);
         let mut p = placed(&postures[i]);
         p.integrate(&off.map(|e| e * s), 1.0);

@@ -1,5 +1,6 @@
 //! Feet and the floor: when a foot stands flat, how it is turned, and where the recorded floor is.
 
+use super::params::floor;
 use super::scene::Scene;
 use super::segments::{Calibration, shortest};
 use crate::sim::math::{Quat, Vec3};
@@ -21,12 +22,14 @@ impl Scene<'_> {
         let speed = speeds(ankle, self.rate);
         // Under a standing or squatting body only: feet of someone who lies are slow and low, and not flat.
         let slow: Vec<usize> = (0..self.count)
-            .filter(|i| speed[*i] < 0.25 && hip[*i].z - ankle[*i].z > 0.4 * leg)
+            .filter(|i| {
+                speed[*i] < floor::SLOW && hip[*i].z - ankle[*i].z > floor::HIP_HEIGHT * leg
+            })
             .collect();
         let heights: Vec<f64> = slow.iter().map(|i| ankle[*i].z).collect();
-        let low = percentile(&heights, 0.15);
+        let low = percentile(&heights, floor::LEVEL_SHARE);
         slow.into_iter()
-            .filter(|i| (ankle[*i].z - low).abs() < 0.012)
+            .filter(|i| (ankle[*i].z - low).abs() < floor::FLAT_HEIGHT)
             .collect()
     }
 
@@ -50,7 +53,7 @@ impl Scene<'_> {
                 })
             })
         };
-        let Some(toe) = toe.filter(|_| flat.len() >= 5) else {
+        let Some(toe) = toe.filter(|_| flat.len() >= floor::FEWEST) else {
             return from_rest();
         };
         let toe = self.place(toe);
@@ -60,7 +63,7 @@ impl Scene<'_> {
         for &i in flat {
             let d = toe[i] - ankle[i];
             // Standing means the sole is down; a foot that lies on its side or hangs tells nothing.
-            if d.x.hypot(d.y) < 0.5 * d.norm() {
+            if d.x.hypot(d.y) < floor::LEVEL_TOES * d.norm() {
                 continue;
             }
             let q = turns[i].conjugate() * Quat::exp(Vec3::Z * d.y.atan2(d.x));
@@ -83,7 +86,7 @@ impl Scene<'_> {
         }
         let length = sum.iter().map(|c| c * c).sum::<f64>().sqrt();
         // Scattered answers (norm well below the count) are no calibration.
-        if length < 0.9 * flat.len() as f64 {
+        if length < floor::AGREEMENT * flat.len() as f64 {
             return from_rest();
         }
         let bone_from_foot = renormalised(Quat::from_xyzw(sum.map(|c| c / length)));
@@ -106,7 +109,8 @@ pub(super) fn fit_floor(ankle: &[Vec<Vec3>; 2], flat: &[Vec<usize>; 2]) -> Groun
     let n = points.len().max(1) as f64;
     let centre = points.iter().fold(Vec3::zero(), |s, p| s + *p) * (1.0 / n);
     // Regularised least squares: a spread of 0.2 m halves what the data says, so a spot of floor is taken as level.
-    let (mut xx, mut xy, mut yy, mut xz, mut yz) = (0.05 * n, 0.0, 0.05 * n, 0.0, 0.0);
+    let (mut xx, mut xy, mut yy, mut xz, mut yz) =
+        (floor::SPREAD2 * n, 0.0, floor::SPREAD2 * n, 0.0, 0.0);
     for p in &points {
         let d = *p - centre;
         xx += d.x * d.x;
@@ -123,7 +127,11 @@ pub(super) fn fit_floor(ankle: &[Vec<Vec3>; 2], flat: &[Vec<usize>; 2]) -> Groun
     };
     // Steeper than 5 % is no floor but a motion that the fit misread.
     let slope = sx.hypot(sy);
-    let (sx, sy) = if slope < 0.05 { (sx, sy) } else { (0.0, 0.0) };
+    let (sx, sy) = if slope < floor::MOST_SLOPE {
+        (sx, sy)
+    } else {
+        (0.0, 0.0)
+    };
     let normal = Vec3 {
         x: -sx,
         y: -sy,
@@ -136,7 +144,7 @@ pub(super) fn fit_floor(ankle: &[Vec<Vec3>; 2], flat: &[Vec<usize>; 2]) -> Groun
             .iter()
             .map(|i| level.rotate(ankle[s][*i]).z)
             .collect();
-        if of_flat.len() >= 5 {
+        if of_flat.len() >= floor::FEWEST {
             Some(percentile(&of_flat, 0.5))
         } else {
             None
@@ -144,11 +152,11 @@ pub(super) fn fit_floor(ankle: &[Vec<Vec3>; 2], flat: &[Vec<usize>; 2]) -> Groun
     });
     let lowest = || {
         let all: Vec<f64> = ankle.iter().flatten().map(|p| level.rotate(*p).z).collect();
-        percentile(&all, 0.02)
+        percentile(&all, floor::LOWEST_SHARE)
     };
     let height = match heights {
         // Both feet stand on one floor: more than 4 cm apart, the lower one is right.
-        [Some(a), Some(b)] if (a - b).abs() < 0.04 => [a, b],
+        [Some(a), Some(b)] if (a - b).abs() < floor::SAME_HEIGHT => [a, b],
         [Some(a), Some(b)] => [a.min(b); 2],
         [Some(a), None] | [None, Some(a)] => [a; 2],
         [None, None] => [lowest(); 2],

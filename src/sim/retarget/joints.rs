@@ -8,19 +8,7 @@ use crate::sim::body::topology::{
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::filter::percentile;
 use crate::sim::plan::foot_lock::turn;
-
-/// Largest median wrist deviation and flexion that are believed, rad: hand markers are few, so a hand's rest pose is
-/// often off.
-const WRIST_BIAS: (f64, f64) = (0.15, 0.6);
-
-/// Pronation, either way, that a forearm keeps to but for one sample in twenty at each end of its range, rad.
-const PRONATION: f64 = 1.5;
-/// A range of pronation that is out of that by more than this, or whose median is further from 0 than the second, has a
-/// zero that means nothing, rad; its middle then goes here, rad: hands that hang or work are a little pronated.
-const ZERO_OFF: (f64, f64) = (0.5, 1.3);
-pub(super) const PRONATION_MIDDLE: f64 = 0.4;
-/// A hand that is bent further than this has no twist of its own: cosine of the angle.
-const TWIST_DEFINED: f64 = 0.2;
+use crate::sim::retarget::params::segments;
 
 /// How the arms of a recording fit, left and right, rad.
 pub(super) struct ArmFit {
@@ -35,14 +23,19 @@ pub(super) struct ArmFit {
 /// What has to be taken out of the `angles` of pronation, rad, so that they are a forearm's.
 fn pronation_shift(angles: &[f64]) -> f64 {
     let (low, high) = (percentile(angles, 0.05), percentile(angles, 0.95));
-    let (under, over) = ((-PRONATION - low).max(0.0), (high - PRONATION).max(0.0));
+    let (under, over) = (
+        (-segments::PRONATION - low).max(0.0),
+        (high - segments::PRONATION).max(0.0),
+    );
     if under > 0.0 && over > 0.0 {
         0.5 * (low + high)
-    } else if under.max(over) > ZERO_OFF.0 || percentile(angles, 0.5).abs() > ZERO_OFF.1 {
-        0.5 * (low + high) - PRONATION_MIDDLE
+    } else if under.max(over) > segments::PRONATION_OUT
+        || percentile(angles, 0.5).abs() > segments::PRONATION_MEDIAN
+    {
+        0.5 * (low + high) - segments::PRONATION_MIDDLE
     } else {
         // As little as fits, unless the range is as wide as a forearm's.
-        let most = (2.0 * PRONATION - (high - low)).max(0.0);
+        let most = (2.0 * segments::PRONATION - (high - low)).max(0.0);
         (over - under).clamp(-most, most)
     }
 }
@@ -58,7 +51,7 @@ fn split_hand(bent_to_hand: impl Iterator<Item = Quat>) -> Vec<[f64; 3]> {
             // M = Rz(α) Rx(β) Ry(γ).
             let w = q.to_mat3();
             let (sin_b, level) = (w.y.z, w.y.x.hypot(w.y.y));
-            let twist = if level > TWIST_DEFINED {
+            let twist = if level > segments::TWIST_DEFINED {
                 (-w.y.x).atan2(w.y.y)
             } else {
                 before
@@ -160,7 +153,10 @@ impl Joints {
                     p.hinge[wrist + 1] = -deviation;
                 }
             }
-            for (h, most) in [(wrist, WRIST_BIAS.1), (wrist + 1, WRIST_BIAS.0)] {
+            for (h, most) in [
+                (wrist, segments::WRIST_FLEXION),
+                (wrist + 1, segments::WRIST_DEVIATION),
+            ] {
                 let angles: Vec<f64> = out.iter().map(|p| p.hinge[h]).collect();
                 let median = percentile(&angles, 0.5);
                 let bias = median - median.clamp(-most, most);

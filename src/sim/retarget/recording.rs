@@ -5,38 +5,7 @@ use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::bvh::Bvh;
 use crate::sim::motion::filter::{align_signs, percentile, renormalised};
 use crate::sim::motion::skeleton_map::{SideMap, SkeletonMap};
-
-/// A pose that is no part of the motion is held for at most so long at the start, s.
-const LONGEST_POSE: f64 = 30.0;
-/// Some files start with two such poses.
-const MOST_POSES: usize = 2;
-/// Least root of the sum of squares of all bones' turns (rad) and of the root's way (in units of the figure's size)
-/// that is a jump between two frames, and the most that a held pose may have strayed from its first frame.
-const LEAST_JUMP: f64 = 0.15;
-const DRIFT: f64 = 0.3;
-/// A jump is so many times as large as any change within the time after it, s and least number of frames.
-const JUMPS: f64 = 3.0;
-const AFTER: f64 = 0.1;
-const LEAST_AFTER: usize = 3;
-/// Longest blend from the rest pose into the motion, s; at its end a change is so many times as large as the next one.
-const RUSH: f64 = 0.06;
-const FADES: f64 = 2.0;
-/// And so many times as large as 95 of 100 changes of the clip.
-const USUAL: f64 = 2.5;
-/// Where the pose is held for several frames the fourth largest turn of a bone is more than this, or that of the root,
-/// rad.
-const POSE_JUMP: f64 = 0.12;
-/// A bone within this of the file's rest pose is at rest, rad.
-const RESTS: f64 = 0.09;
-/// A bone that turns further than this in one frame and back within [`GLITCH_FRAMES`] is bridged, rad.
-const GLITCH_STEP: f64 = 0.45;
-/// The same as a speed, rad/s: at low frame rates honest motion turns far in one frame.
-const GLITCH_RATE: f64 = 45.0;
-/// A root that moves further than this in one frame and back is bridged, in units of the figure's size, and per second.
-const ROOT_STEP: f64 = 0.1;
-const ROOT_RATE: f64 = 12.0;
-/// Longest glitch that is bridged, frames.
-const GLITCH_FRAMES: usize = 4;
+use crate::sim::retarget::params::recording;
 
 fn angle_of(q: Quat) -> f64 {
     q.log().norm()
@@ -239,7 +208,9 @@ impl Recording {
             .iter()
             .zip(&self.parent)
             .filter(|(_, p)| p.is_some());
-        below.into_iter().all(|(t, _)| angle_of(t[frame]) < RESTS)
+        below
+            .into_iter()
+            .all(|(t, _)| angle_of(t[frame]) < recording::REST_ANGLE)
     }
 
     /// Drops a pose that is no part of the motion from the start: one that does not change, or hardly, before it jumps
@@ -251,7 +222,7 @@ impl Recording {
     pub(super) fn skip_pose(&mut self, rate_hz: f64, warnings: &mut Vec<String>) -> usize {
         let size = self.size();
         let mut skipped = 0;
-        for _ in 0..MOST_POSES {
+        for _ in 0..recording::MOST_POSES {
             let Some(cut) = self.held_pose(rate_hz, size) else {
                 break;
             };
@@ -277,13 +248,14 @@ impl Recording {
         if !self.rests(cut - 1) {
             return (cut, jump);
         }
-        let last = (cut + (RUSH * rate_hz) as usize).min(self.len().saturating_sub(LEAST_AFTER));
+        let last = (cut + (recording::LONGEST_BLEND * rate_hz) as usize)
+            .min(self.len().saturating_sub(recording::AFTER_JUMP_FRAMES));
         let change = |i: usize| self.change(i, i + 1, size).all;
         let (mut end, mut largest) = (cut, jump);
         while end < last {
             let next = change(end);
-            let fades = next > FADES * change(end + 1);
-            if next * JUMPS < largest && !fades {
+            let fades = next > recording::BLEND_END_RATIO * change(end + 1);
+            if next * recording::JUMP_RATIO < largest && !fades {
                 break;
             }
             largest = largest.max(next);
@@ -298,20 +270,21 @@ impl Recording {
     /// Frames of a pose held at the start that is no part of the motion.
     fn held_pose(&self, rate_hz: f64, size: f64) -> Option<usize> {
         let n = self.len();
-        let longest = ((LONGEST_POSE * rate_hz) as usize).min(n.saturating_sub(LEAST_AFTER));
-        let after = ((AFTER * rate_hz) as usize).max(LEAST_AFTER);
+        let longest = ((recording::LONGEST_POSE * rate_hz) as usize)
+            .min(n.saturating_sub(recording::AFTER_JUMP_FRAMES));
+        let after = ((recording::AFTER_JUMP * rate_hz) as usize).max(recording::AFTER_JUMP_FRAMES);
         for cut in 1..=longest {
             let jump = self.change(cut - 1, cut, size);
-            if jump.all < LEAST_JUMP {
+            if jump.all < recording::LEAST_JUMP {
                 // Still the same pose?
-                if self.change(0, cut, size).all > DRIFT {
+                if self.change(0, cut, size).all > recording::MOST_DRIFT {
                     return None;
                 }
                 continue;
             }
             let (end, largest) = self.rush(cut, jump.all, rate_hz, size);
             let around = (end..(end + after).min(n - 1)).map(|i| self.change(i, i + 1, size).all);
-            if largest < JUMPS * around.fold(0.0, f64::max) {
+            if largest < recording::JUMP_RATIO * around.fold(0.0, f64::max) {
                 return None;
             }
             let stride = (n / 2000).max(1);
@@ -319,16 +292,17 @@ impl Recording {
                 .step_by(stride)
                 .map(|i| self.change(i, i + 1, size).all)
                 .collect();
-            let several = jump.bones > POSE_JUMP || jump.root > POSE_JUMP;
+            let several = jump.bones > recording::POSE_JUMP || jump.root > recording::POSE_JUMP;
             let pose = cut == 1 || several || self.rests(cut - 1);
-            return (pose && largest > USUAL * percentile(&usual, 0.95)).then_some(end);
+            return (pose && largest > recording::USUAL_RATIO * percentile(&usual, 0.95))
+                .then_some(end);
         }
         None
     }
 
     /// Replaces short excursions of single bones, and of the root's place, by interpolation.
     pub(super) fn bridge(&mut self, bvh: &Bvh, rate_hz: f64, skipped: usize) -> Vec<Bridged> {
-        let limit = GLITCH_STEP.max(GLITCH_RATE / rate_hz);
+        let limit = recording::GLITCH_ANGLE.max(recording::GLITCH_RATE / rate_hz);
         let n = self.len();
         let mut out = self.bridge_root(bvh, rate_hz, skipped);
         for k in 0..self.joints.len() {
@@ -338,8 +312,9 @@ impl Recording {
                 let step = angle_of(turn[i - 1].conjugate() * turn[i]);
                 if step > limit {
                     // The bone must come back: after the glitch it is about where it was before.
-                    let back = (i + 1..(i + 1 + GLITCH_FRAMES).min(n))
-                        .find(|j| angle_of(turn[i - 1].conjugate() * turn[*j]) < 0.4 * step);
+                    let back = (i + 1..(i + 1 + recording::GLITCH_FRAMES).min(n)).find(|j| {
+                        angle_of(turn[i - 1].conjugate() * turn[*j]) < recording::GLITCH_BACK * step
+                    });
                     if let Some(j) = back {
                         let (a, b) = (turn[i - 1], turn[j]);
                         for m in i..j {
@@ -362,15 +337,15 @@ impl Recording {
 
     /// Replaces short excursions of the root's place, such as frames in which all channels are 0.
     fn bridge_root(&mut self, bvh: &Bvh, rate_hz: f64, skipped: usize) -> Vec<Bridged> {
-        let limit = self.size() * ROOT_STEP.max(ROOT_RATE / rate_hz);
+        let limit = self.size() * recording::ROOT_STEP.max(recording::ROOT_RATE / rate_hz);
         let (n, place) = (self.len(), &mut self.step[0]);
         let mut out = Vec::new();
         let mut i = 1;
         while i + 1 < n {
             let before = place[i - 1];
             let step = (place[i] - before).norm();
-            let back = (i + 1..(i + 1 + GLITCH_FRAMES).min(n))
-                .find(|j| (place[*j] - before).norm() < 0.4 * step);
+            let back = (i + 1..(i + 1 + recording::GLITCH_FRAMES).min(n))
+                .find(|j| (place[*j] - before).norm() < recording::GLITCH_BACK * step);
             if let Some(j) = back.filter(|_| step > limit) {
                 let way = place[j] - before;
                 for (m, p) in place.iter_mut().enumerate().take(j).skip(i) {

@@ -7,6 +7,7 @@ use crate::sim::motion::clip::{Clip, ClipError};
 use crate::sim::motion::skeleton_map::{MapError, SkeletonMap};
 use crate::sim::plan::contact_labels::ContactPhase;
 use crate::sim::plan::prepare::ZmpOutside;
+use crate::sim::retarget::params::warning;
 
 /// A retargeted clip with its report.
 #[derive(Clone, Debug)]
@@ -49,11 +50,6 @@ impl ClampedDof {
         format!("{side}{joint}: {}", motion.replace('_', " "))
     }
 }
-
-/// A clamp is worth a warning that is larger than this, rad, and lasts longer than this fraction of the clip.
-const NOTABLE_CLAMP: (f64, f64) = (0.0873, 0.05);
-/// And so is a larger one that lasts less.
-const LARGE_CLAMP: (f64, f64) = (0.17, 0.02);
 
 /// A stretch of frames that was replaced by interpolation.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -256,9 +252,12 @@ impl RetargetReport {
             w.push(format!("{frames} frames with jumps were bridged"));
         }
         let notable = |c: &&ClampedDof| {
-            [NOTABLE_CLAMP, LARGE_CLAMP]
-                .iter()
-                .any(|least| c.max > least.0 && c.fraction > least.1)
+            [
+                (warning::CLAMP, warning::CLAMP_SHARE),
+                (warning::LARGE_CLAMP, warning::LARGE_CLAMP_SHARE),
+            ]
+            .iter()
+            .any(|least| c.max > least.0 && c.fraction > least.1)
         };
         for c in self.clamped.iter().filter(notable) {
             w.push(format!(
@@ -269,32 +268,32 @@ impl RetargetReport {
             ));
         }
         for (side, shift) in ["left", "right"].into_iter().zip(self.pronation_shift) {
-            if shift.abs() > NOTABLE_CLAMP.0 {
+            if shift.abs() > warning::CLAMP {
                 w.push(format!(
                     "{side} forearm: its rotation was taken {:.0}° off, as recorded it is no forearm's",
                     shift.abs().to_degrees()
                 ));
             }
         }
-        if self.pelvis_tilt_max > NOTABLE_CLAMP.0 {
+        if self.pelvis_tilt_max > warning::CLAMP {
             w.push(format!(
                 "the pelvis is tilted back by up to {:.0}° where hips do not flex as far as recorded",
                 self.pelvis_tilt_max.to_degrees()
             ));
         }
-        if self.pelvis_raise_max > 0.01 {
+        if self.pelvis_raise_max > warning::PELVIS_RAISE {
             w.push(format!(
                 "the pelvis is raised by up to {:.0} cm where legs do not fold as far as recorded",
                 100.0 * self.pelvis_raise_max
             ));
         }
-        if self.freed > 0.01 {
+        if self.freed > warning::FREED_SHARE {
             w.push(format!(
                 "planted feet were let go in {:.0} % of the samples: the legs' limits do not let them stand as recorded",
                 100.0 * self.freed
             ));
         }
-        if self.carried > 0.02 {
+        if self.carried > warning::CARRIED_SHARE {
             w.push(format!(
                 "in {:.0} % of the clip something other than the feet carries the body (chair, hands, back)",
                 100.0 * self.carried
@@ -306,7 +305,7 @@ impl RetargetReport {
             .chain(&self.elbow_off_axis)
             .copied()
             .fold(0.0, f64::max);
-        if off > 0.17 {
+        if off > warning::LARGE_CLAMP {
             w.push(format!(
                 "knees or elbows leave their hinge plane by {:.0}° (95th percentile)",
                 off.to_degrees()

@@ -8,28 +8,19 @@ use super::recording::Recording;
 use crate::sim::math::Vec3;
 use crate::sim::motion::filter::{low_pass, percentile};
 use crate::sim::motion::skeleton_map::SkeletonMap;
+use crate::sim::retarget::params::root;
 
 /// Heights of joints over the floor they rest on, in lengths of the leg: ankle, toe joint, tip of the toes, knee, hip,
 /// wrist or elbow, shoulder or head.
-const CLEARANCE: [f64; 7] = [0.095, 0.03, 0.02, 0.07, 0.12, 0.05, 0.1];
-/// A point weighs less by a factor of e for each of these lengths of the leg that it is higher than the lowest one.
-const SOFT: f64 = 0.015;
-/// Nothing touches the floor where the lowest point is higher than this over its usual lowest level, in lengths of the
-/// leg; share of the samples below that level.
-const OFF_FLOOR: f64 = 0.06;
-const LOW_SHARE: f64 = 0.05;
-/// Differences of speed below this are noise, lengths of the leg per second.
-const STILL: f64 = 0.03;
-/// Rounds of weighting points by how little they slide.
-const ROUNDS: usize = 12;
-/// Cut-off of the path, Hz.
-const CUTOFF: f64 = 6.0;
-/// A root that moves less than this, in lengths of the leg, does not move.
-const MOVES: f64 = 1e-6;
-
-/// A figure that would stray by less than this, in lengths of the leg, stands still.
-const LEAST_WAY: f64 = 0.02;
-
+const CLEARANCE: [f64; 7] = [
+    root::ANKLE_HEIGHT,
+    root::TOE_JOINT_HEIGHT,
+    root::TOE_TIP_HEIGHT,
+    root::KNEE_HEIGHT,
+    root::HIP_HEIGHT,
+    root::ARM_HEIGHT,
+    root::HEAD_HEIGHT,
+];
 /// What a file says of the place of the root.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum RootPath {
@@ -60,7 +51,7 @@ impl RootPath {
             UpAxis::Y => 1,
             UpAxis::Z => 2,
         };
-        let moves = |c: usize| ranges[c] > MOVES * leg;
+        let moves = |c: usize| ranges[c] > root::LEAST_MOTION * leg;
         match ((0..3).any(|c| c != axis && moves(c)), moves(axis)) {
             (true, _) => Self::Given,
             (false, true) => Self::InPlace,
@@ -118,7 +109,7 @@ pub(super) fn follow_feet(
     let way = path_by_feet(places, (take, map), (path, up, leg), rate_hz);
     let first = way.first().copied().unwrap_or_default();
     let far = way.iter().map(|w| (*w - first).norm());
-    if far.fold(0.0, f64::max) < LEAST_WAY * leg {
+    if far.fold(0.0, f64::max) < root::LEAST_WAY * leg {
         return false;
     }
     for place in places {
@@ -147,27 +138,27 @@ fn path_by_feet(
             heights.fold(f64::INFINITY, f64::min)
         })
         .collect();
-    let level = percentile(&lowest, LOW_SHARE);
-    let still = STILL * leg / rate_hz;
+    let level = percentile(&lowest, root::LOW_SHARE);
+    let still = root::STILL * leg / rate_hz;
     let mut way = vec![Vec3::zero(); n];
     let mut step = Vec3::zero();
     for i in 1..n {
-        let off =
-            path == RootPath::InPlace && lowest[i].min(lowest[i - 1]) - level > OFF_FLOOR * leg;
+        let off = path == RootPath::InPlace
+            && lowest[i].min(lowest[i - 1]) - level > root::OFF_FLOOR * leg;
         if !off {
             step = -slide(
                 &points,
                 i,
                 |k, j| places[k][j],
                 |p, j| height(p, j) - lowest[j],
-                (vertical, SOFT * leg, still),
+                (vertical, root::WEIGHT_HEIGHT * leg, still),
             );
         }
         way[i] = way[i - 1] + step;
     }
     if path == RootPath::Missing {
         let mut down = lowest;
-        low_pass(&mut down, CUTOFF, rate_hz);
+        low_pass(&mut down, root::CUTOFF, rate_hz);
         for (w, z) in way.iter_mut().zip(down) {
             *w -= vertical * z;
         }
@@ -193,7 +184,7 @@ fn slide(
         })
         .collect();
     let mut common = Vec3::zero();
-    for round in 0..ROUNDS {
+    for round in 0..root::ROUNDS {
         let (mut sum, mut weights) = (Vec3::zero(), 0.0);
         for (way, weight) in &moved {
             let off = if round == 0 {

@@ -4,37 +4,15 @@
 //! flight before each landing, and which gets somewhere by that. The flights are seen in the mass: where the lead of
 //! the feet changes a runner falls freely, and a walker is lifted by both legs.
 
-use super::run_to_walk::{RUNS, WALKS, paces};
+use super::run_to_walk::{leads, paces, turning_points};
 use crate::sim::math::Vec3;
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::filter::{low_pass, low_pass_points};
 use crate::sim::plan::contact_labels::runs;
-
-/// Cut-off of the way of the body, Hz: to form its direction, and its vertical acceleration.
-const SLOW_CUTOFF: f64 = 2.0;
-const FALL_CUTOFF: f64 = 12.0;
-/// The way between the feet has turned after so much of it back, m; jitter is taken out above this, Hz.
-const TURNS: f64 = 0.05;
-const TURNS_CUTOFF: f64 = 8.0;
-/// A lead of one foot that is smaller than this, m, is no step.
-const LEAST_LEAD: f64 = 0.12;
-/// A running step takes at most so long, s.
-const LONGEST_STEP: f64 = 0.5;
-/// Share of gravity with which a flying body accelerates downwards, and within which share of a step before and after
-/// the feet are farthest apart: a walker's body falls as well, over the foot it stands on.
-const FALLS: f64 = 0.4;
-const AROUND: f64 = 0.25;
-/// Fewest steps of a run, and share of them that have a flight.
-const FEWEST_STEPS: usize = 2;
-const FLYING_SHARE: f64 = 0.5;
-/// A runner's trunk is within this of upright: cosine, and share of the samples that are so.
-const UPRIGHT: f64 = 0.5;
-const UPRIGHT_SHARE: f64 = 0.95;
-/// A run gets at least so far from where it began, m.
-const LEAST_WAY: f64 = 1.0;
+use crate::sim::retarget::params::run_detection;
 
 /// Points of a recorded figure, per sample, m, z up.
-pub(crate) struct Figure<'a> {
+pub(crate) struct RecordedPoints<'a> {
     /// Middle of all joints.
     pub middle: &'a [Vec3],
     /// Ankle of the left and of the right foot.
@@ -100,23 +78,33 @@ impl FastStretch {
 }
 
 /// The stretches of a recording that are faster than people walk, in order. O(n).
-pub(crate) fn fast_stretches(figure: &Figure<'_>, rate_hz: f64) -> Vec<FastStretch> {
+pub(crate) fn fast_stretches(figure: &RecordedPoints<'_>, rate_hz: f64) -> Vec<FastStretch> {
     let speed = paces(figure.middle, rate_hz);
-    let moves: Vec<bool> = speed.iter().map(|v| *v > WALKS).collect();
+    let moves: Vec<bool> = speed
+        .iter()
+        .map(|v| *v > run_detection::WALK_SPEED)
+        .collect();
     let most = |i: usize, j: usize| speed[i..j].iter().copied().fold(0.0, f64::max);
     runs(&moves)
         .into_iter()
-        .filter(|(i, j, fast)| *fast && most(*i, *j) > RUNS)
-        .map(|(i, j, _)| judge(figure, (i, j), most(i, j), rate_hz))
+        .filter(|(i, j, fast)| *fast && most(*i, *j) > run_detection::RUN_SPEED)
+        .map(|(i, j, _)| classify(figure, (i, j), most(i, j), rate_hz))
         .collect()
 }
 
-fn judge(figure: &Figure<'_>, (i, j): (usize, usize), speed: f64, rate_hz: f64) -> FastStretch {
+fn classify(
+    figure: &RecordedPoints<'_>,
+    (i, j): (usize, usize),
+    speed: f64,
+    rate_hz: f64,
+) -> FastStretch {
     let turns = lead_turns(figure, (i, j), rate_hz);
     let falls = falling(figure.middle, rate_hz);
     let steps = turns.windows(2).map(|w| w[1] - w[0]);
-    let step = steps.min().unwrap_or((LONGEST_STEP * rate_hz) as usize);
-    let half = (AROUND * step as f64) as usize;
+    let step = steps
+        .min()
+        .unwrap_or((run_detection::LONGEST_STEP * rate_hz) as usize);
+    let half = (run_detection::FALL_WINDOW * step as f64) as usize;
     let flies = |k: &&usize| {
         let around = k.saturating_sub(half).max(i)..(*k + half + 1).min(j);
         falls[around].contains(&true)
@@ -126,7 +114,7 @@ fn judge(figure: &Figure<'_>, (i, j): (usize, usize), speed: f64, rate_hz: f64) 
     let upright = (i..j)
         .filter(|k| {
             let up = (shoulders[*k] - hips[*k]).normalized_or(Vec3::zero());
-            up.z > UPRIGHT
+            up.z > run_detection::UPRIGHT
         })
         .count();
     let start = figure.middle[i];
@@ -134,13 +122,13 @@ fn judge(figure: &Figure<'_>, (i, j): (usize, usize), speed: f64, rate_hz: f64) 
         let way = *p - start;
         way.x.hypot(way.y)
     });
-    let gait = if (upright as f64) < UPRIGHT_SHARE * (j - i) as f64 {
+    let gait = if (upright as f64) < run_detection::UPRIGHT_SHARE * (j - i) as f64 {
         Gait::NotUpright
-    } else if turns.len() < FEWEST_STEPS {
+    } else if turns.len() < run_detection::FEWEST_STEPS {
         Gait::FewSteps
-    } else if far.fold(0.0, f64::max) < LEAST_WAY {
+    } else if far.fold(0.0, f64::max) < run_detection::LEAST_WAY {
         Gait::GoesNowhere
-    } else if (flights as f64) < FLYING_SHARE * turns.len() as f64 {
+    } else if (flights as f64) < run_detection::FLYING_SHARE * turns.len() as f64 {
         Gait::NoFlights
     } else {
         Gait::Run
@@ -156,42 +144,20 @@ fn judge(figure: &Figure<'_>, (i, j): (usize, usize), speed: f64, rate_hz: f64) 
 
 /// Samples within `i..j` in which the lead of one foot over the other, along the way, is at its largest and the other
 /// foot takes over.
-fn lead_turns(figure: &Figure<'_>, (i, j): (usize, usize), rate_hz: f64) -> Vec<usize> {
-    let n = figure.middle.len();
+fn lead_turns(figure: &RecordedPoints<'_>, (i, j): (usize, usize), rate_hz: f64) -> Vec<usize> {
     let mut slow = figure.middle.to_vec();
-    low_pass_points(&mut slow, SLOW_CUTOFF, rate_hz);
-    let [left, right] = figure.feet;
-    let mut lead: Vec<f64> = (0..n)
-        .map(|k| {
-            let ahead = slow[(k + 1).min(n - 1)] - slow[k.saturating_sub(1)];
-            let ahead = Vec3 { z: 0.0, ..ahead }.normalized_or(Vec3::X);
-            (left[k] - right[k]).dot(ahead)
-        })
-        .collect();
-    low_pass(&mut lead, TURNS_CUTOFF, rate_hz);
-    let (mut turns, mut sense, mut last) = (Vec::<usize>::new(), 0.0f64, i);
-    for k in i + 1..j {
-        let back = lead[last] - lead[k];
-        if sense == 0.0 {
-            if back.abs() > TURNS {
-                (sense, last) = (-back.signum(), k);
-            }
-        } else if sense * back < 0.0 {
-            last = k;
-        } else if sense * back > TURNS {
-            turns.push(last);
-            (sense, last) = (-sense, k);
-        }
-    }
+    low_pass_points(&mut slow, run_detection::PATH_CUTOFF, rate_hz);
+    let lead = leads(&slow, figure.feet, rate_hz);
+    let turns = turning_points(&lead, i..j);
     // Each one has to be a lead of its own foot, in turns, soon after the one before.
     let mut steps: Vec<usize> = Vec::new();
     let mut best: Vec<usize> = Vec::new();
     for k in turns {
         let follows = steps.last().is_none_or(|before| {
             lead[k].signum() != lead[*before].signum()
-                && (k - before) as f64 <= LONGEST_STEP * rate_hz
+                && (k - before) as f64 <= run_detection::LONGEST_STEP * rate_hz
         });
-        if lead[k].abs() < LEAST_LEAD {
+        if lead[k].abs() < run_detection::LEAST_LEAD {
             continue;
         }
         if !follows {
@@ -209,14 +175,14 @@ fn lead_turns(figure: &Figure<'_>, (i, j): (usize, usize), rate_hz: f64) -> Vec<
 fn falling(middle: &[Vec3], rate_hz: f64) -> Vec<bool> {
     let n = middle.len();
     let mut height: Vec<f64> = middle.iter().map(|p| p.z).collect();
-    low_pass(&mut height, FALL_CUTOFF, rate_hz);
+    low_pass(&mut height, run_detection::FALL_CUTOFF, rate_hz);
     (0..n)
         .map(|k| {
             if k == 0 || k + 1 >= n {
                 return false;
             }
             let bend = height[k - 1] - 2.0 * height[k] + height[k + 1];
-            bend * rate_hz * rate_hz < -FALLS * GRAVITY
+            bend * rate_hz * rate_hz < -run_detection::FALL_SHARE * GRAVITY
         })
         .collect()
 }

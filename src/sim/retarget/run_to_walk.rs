@@ -1,60 +1,26 @@
 //! Runs that are walked: a run slowed down and shortened until a body whose muscles cannot run takes the same steps.
 //!
 //! A run needs 1.3 to 1.5 times the strength that is measured in people's joints: hip, knee and ankle are at their
-//! limits together, and at take-off the ankle turns so fast that it gives a third of what it holds (docs/adr/0021,
-//! 0032). What can be kept of it is its steps, their order, rhythm and headings, and what trunk and arms do. Time runs
-//! as much slower as makes its steps last as long as walked ones, the way is shortened along with them until it is
-//! walked at a walk's speed (and until nobody leans more than such a speed can be braked with), every foot stays down
-//! until the other one has landed, and between its places it swings as a walking foot does.
+//! limits together, and at take-off the ankle turns so fast that it gives a third of what it holds
+//! (`docs/locomotion.md#runs`). What can be kept of it is its steps, their order, rhythm and headings, and what trunk
+//! and arms do. Time runs as much slower as makes its steps last as long as walked ones, the way is shortened along
+//! with them until it is walked at a walk's speed (and until nobody leans more than such a speed can be braked with),
+//! every foot stays down until the other one has landed, and between its places it swings as a walking foot does.
 
 use crate::sim::math::curve::{arc, smootherstep};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::filter::{low_pass, low_pass_points, speeds};
 use crate::sim::plan::contact_labels::runs;
-
-/// People run above this speed, m/s (and walk up to it: half of the speed at which a leg of 0.9 m would leave the
-/// floor, squared).
-pub(crate) const RUNS: f64 = 2.2;
-/// What is faster than this before or after a run belongs to it; and how fast a run is walked, m/s.
-pub(crate) const WALKS: f64 = 1.05;
-/// Duration of a walked step, s; the longest of a run.
-const STEP: f64 = 0.5;
-const RUNS_STEP: f64 = 0.4;
-/// Farthest that a body may lean that walks, m: slowed down, it brakes less than its lean would have it.
-const LEAN: f64 = 0.15;
-/// Least share of their length that steps keep.
-const SHORTEST: f64 = 0.35;
-/// The way between the feet has turned after so much of it back, m; jitter is taken out above this, Hz.
-const TURNS: f64 = 0.05;
-const TURNS_CUTOFF: f64 = 8.0;
-/// The speed is that of the slow part of the way, Hz, and the highest within so long before and after, s.
-const CUTOFF: f64 = 2.0;
-const AROUND: f64 = 0.05;
-/// A body bounces with its steps above this, Hz.
-const BOUNCES: f64 = 0.7;
-/// The least pace of so long before and after, s.
-const LINGERS: f64 = 0.1;
-/// Least share of its pace that time keeps.
-const SLOWEST: f64 = 0.1;
-/// A share above this is the whole.
-const WHOLE: f64 = 0.999;
-/// After a run so much longer as part of it, s: its last step.
-const AFTER: f64 = 0.08;
-/// Longest flight that is closed, s of the walk; both feet then stand together for so long, s.
-const LONGEST: f64 = 0.8;
-const TOGETHER: f64 = 0.035;
-/// Height of a swinging ankle over the line between its places, m.
-const ARC: f64 = 0.08;
-/// A foot that the recording has in the air where it is to land comes to rest over its place in so long, s.
-const RESTS: f64 = 0.1;
+use crate::sim::plan::params::run;
+use crate::sim::retarget::params::{run_detection, run_to_walk};
 
 /// Speed over the floor of the slow part of a way, the highest around each sample, m/s.
 pub(crate) fn paces(way: &[Vec3], rate_hz: f64) -> Vec<f64> {
     let mut way: Vec<Vec3> = way.iter().map(|p| Vec3 { z: 0.0, ..*p }).collect();
-    low_pass_points(&mut way, CUTOFF, rate_hz);
+    low_pass_points(&mut way, run_detection::PATH_CUTOFF, rate_hz);
     let speed = speeds(&way, rate_hz);
-    let half = (AROUND * rate_hz) as usize;
+    let half = (run::PACE_TIME * rate_hz) as usize;
     let around = |i: usize| &speed[i.saturating_sub(half)..(i + half).min(speed.len())];
     let most = |i: usize| around(i).iter().copied().fold(0.0, f64::max);
     (0..speed.len()).map(most).collect()
@@ -78,9 +44,8 @@ fn leans(way: &[Vec3], slow: &[Vec3], feet: [&[Vec3]; 2], rate_hz: f64) -> Vec<f
     out
 }
 
-/// Duration of the step that each sample belongs to, s: from one turning point of the way between the feet to the next,
-/// along the `slow` way of the body.
-fn steps(slow: &[Vec3], [left, right]: [&[Vec3]; 2], rate_hz: f64) -> Vec<f64> {
+/// Lead of the left foot over the right one along the `slow` way of the body, m per sample.
+pub(super) fn leads(slow: &[Vec3], [left, right]: [&[Vec3]; 2], rate_hz: f64) -> Vec<f64> {
     let n = slow.len();
     let mut lead: Vec<f64> = (0..n)
         .map(|i| {
@@ -89,28 +54,42 @@ fn steps(slow: &[Vec3], [left, right]: [&[Vec3]; 2], rate_hz: f64) -> Vec<f64> {
             (left[i] - right[i]).dot(ahead)
         })
         .collect();
-    low_pass(&mut lead, TURNS_CUTOFF, rate_hz);
-    // Turning points: the foot that has come ahead begins to fall behind.
-    let (mut turns, mut sense, mut last) = (Vec::new(), 0.0, 0);
-    for i in 1..n {
-        let back = lead[last] - lead[i];
+    low_pass(&mut lead, run_detection::LEAD_CUTOFF, rate_hz);
+    lead
+}
+
+/// Samples within `range` at which the foot that has come ahead begins to fall behind.
+pub(super) fn turning_points(lead: &[f64], range: std::ops::Range<usize>) -> Vec<usize> {
+    let (mut turns, mut sense, mut last) = (Vec::new(), 0.0f64, range.start);
+    for k in range.start + 1..range.end {
+        let back = lead[last] - lead[k];
         if sense == 0.0 {
-            if back.abs() > TURNS {
-                (sense, last) = (-back.signum(), i);
+            if back.abs() > run_detection::LEAD_TURN {
+                (sense, last) = (-back.signum(), k);
             }
         } else if sense * back < 0.0 {
-            last = i;
-        } else if sense * back > TURNS {
+            last = k;
+        } else if sense * back > run_detection::LEAD_TURN {
             turns.push(last);
-            (sense, last) = (-sense, i);
+            (sense, last) = (-sense, k);
         }
     }
+    turns
+}
+
+/// Duration of the step that each sample belongs to, s: from one turning point of the way between the feet to the next,
+/// along the `slow` way of the body.
+fn steps(slow: &[Vec3], feet: [&[Vec3]; 2], rate_hz: f64) -> Vec<f64> {
+    let n = slow.len();
+    let turns = turning_points(&leads(slow, feet, rate_hz), 0..n);
     let of = |i: usize| {
         // Before the first and after the last one steps go on as they were.
         let k = turns.partition_point(|t| *t <= i);
         let k = k.clamp(1, turns.len().max(2) - 1);
         let between = turns.get(k).map(|t| (t - turns[k - 1]) as f64 / rate_hz);
-        between.unwrap_or(RUNS_STEP).min(RUNS_STEP)
+        between
+            .unwrap_or(run_to_walk::LONGEST_STEP)
+            .min(run_to_walk::LONGEST_STEP)
     };
     (0..n).map(of).collect()
 }
@@ -143,29 +122,29 @@ impl RunToWalk {
         }
         let speed = paces(way, rate_hz);
         let mut slow = way.to_vec();
-        low_pass_points(&mut slow, CUTOFF, rate_hz);
+        low_pass_points(&mut slow, run_detection::PATH_CUTOFF, rate_hz);
         let step = steps(&slow, feet, rate_hz);
         let leans = leans(way, &slow, feet, rate_hz);
         let (mut pace, mut share) = (vec![1.0; n], vec![1.0; n]);
         for &(i, j) in runs {
             for k in i..j {
-                let rhythm = (step[k] / STEP).min(1.0);
-                share[k] = (WALKS / (speed[k] * rhythm))
-                    .min(LEAN / leans[k].max(1e-9))
-                    .clamp(SHORTEST, 1.0);
-                pace[k] = (WALKS / (speed[k] * share[k])).min(rhythm);
+                let rhythm = (step[k] / run_to_walk::WALKED_STEP).min(1.0);
+                share[k] = (run_detection::WALK_SPEED / (speed[k] * rhythm))
+                    .min(run_to_walk::MOST_LEAN / leans[k].max(1e-9))
+                    .clamp(run_to_walk::LEAST_LENGTH, 1.0);
+                pace[k] = (run_detection::WALK_SPEED / (speed[k] * share[k])).min(rhythm);
             }
         }
         // Time comes to its own pace after a run has ended, not before.
-        let half = (LINGERS * rate_hz) as usize;
+        let half = (run_to_walk::PACE_HELD * rate_hz) as usize;
         let mut pace: Vec<f64> = (0..n)
             .map(|i| {
                 let around = &pace[i.saturating_sub(half)..(i + half + 1).min(n)];
                 around.iter().copied().fold(1.0, f64::min)
             })
             .collect();
-        low_pass(&mut pace, CUTOFF, rate_hz);
-        low_pass(&mut share, CUTOFF, rate_hz);
+        low_pass(&mut pace, run_detection::PATH_CUTOFF, rate_hz);
+        low_pass(&mut share, run_detection::PATH_CUTOFF, rate_hz);
         let mut out = Self {
             times: Vec::new(),
             share: Vec::new(),
@@ -176,7 +155,7 @@ impl RunToWalk {
             let k = at as usize;
             out.times.push(at);
             out.share.push(share[k].min(1.0));
-            let pace = pace[k].clamp(SLOWEST, 1.0);
+            let pace = pace[k].clamp(run_to_walk::LEAST_PACE, 1.0);
             out.pace.push(pace);
             at += pace * rate_hz / to_hz;
         }
@@ -212,7 +191,7 @@ impl RunToWalk {
 
     /// First and one past the last sample of each run, its last step included.
     fn stretches(&self) -> Vec<(usize, usize)> {
-        let run: Vec<bool> = self.share.iter().map(|c| *c < WHOLE).collect();
+        let run: Vec<bool> = self.share.iter().map(|c| *c < run_to_walk::WHOLE).collect();
         let runs = runs(&run).into_iter().filter(|r| r.2);
         runs.map(|(i, j, _)| (i, j)).collect()
     }
@@ -246,7 +225,7 @@ impl RunToWalk {
     /// of a bounce shrinks with the square of the pace.
     pub(crate) fn calm(&self, pelvis: &mut [Vec3], rate_hz: f64) {
         let mut middle: Vec<f64> = pelvis.iter().map(|p| p.z).collect();
-        low_pass(&mut middle, BOUNCES, rate_hz);
+        low_pass(&mut middle, run_to_walk::BOUNCE_CUTOFF, rate_hz);
         let heights = pelvis.iter_mut().map(|p| &mut p.z);
         for ((z, middle), pace) in heights.zip(middle).zip(&self.pace) {
             *z = middle + (*z - middle) * pace * pace;
@@ -265,7 +244,7 @@ impl RunToWalk {
     ) {
         let n = label.len();
         for (a, b) in self.stretches() {
-            let until = (b + (AFTER * rate_hz) as usize).min(n);
+            let until = (b + (run_to_walk::LAST_STEP * rate_hz) as usize).min(n);
             let stood = label.to_vec();
             close_flights(label, a..until, rate_hz);
             for s in 0..2 {
@@ -308,7 +287,10 @@ fn close_flights(label: &mut [[bool; 2]], within: std::ops::Range<usize>, rate_h
     let n = label.len();
     let none: Vec<bool> = label.iter().map(|l| *l == [false; 2]).collect();
     for (i, j, _) in runs(&none).into_iter().filter(|r| r.2) {
-        if !within.contains(&i) || (j - i) as f64 > LONGEST * rate_hz || (i, j) == (0, n) {
+        if !within.contains(&i)
+            || (j - i) as f64 > run_to_walk::LONGEST_FLIGHT * rate_hz
+            || (i, j) == (0, n)
+        {
             continue;
         }
         let before = (i > 0).then(|| label[i - 1]);
@@ -317,7 +299,7 @@ fn close_flights(label: &mut [[bool; 2]], within: std::ops::Range<usize>, rate_h
         let leaves = if j == n {
             n
         } else {
-            (lands + (TOGETHER * rate_hz) as usize).min(n)
+            (lands + (run_to_walk::DOUBLE_SUPPORT * rate_hz) as usize).min(n)
         };
         for s in 0..2 {
             if before.is_some_and(|l| l[s]) {
@@ -337,14 +319,14 @@ fn swing(ankle: &mut [Vec3], foot: &mut [Quat], i: usize, j: usize) {
     for k in i..j {
         let u = (k + 1 - i) as f64 / (j + 1 - i) as f64;
         let s = smootherstep(u);
-        ankle[k] = p.0 + (q.0 - p.0) * s + Vec3::Z * (ARC * arc(1.0, u));
+        ankle[k] = p.0 + (q.0 - p.0) * s + Vec3::Z * (run_to_walk::ARC_HEIGHT * arc(1.0, u));
         foot[k] = (Quat::exp(turn * s) * p.1).normalized();
     }
 }
 
 /// Bends the recorded way of a foot, as it is at the sample (or end) `free`, to the place where it stands in sample
 /// `stands`. One that lands does so where the recording still has it in the air, and comes to rest along the floor
-/// within the last [`RESTS`].
+/// within the last [`run_to_walk::REST_TIME`].
 fn bend(
     ankle: &mut [Vec3],
     foot: &mut [Quat],
@@ -361,7 +343,7 @@ fn bend(
         ankle[k] = recorded.0[k] + off * s;
         foot[k] = (Quat::exp(turn * s) * recorded.1[k]).normalized();
         if free < stands {
-            let left = (stands - k) as f64 / (RESTS * rate_hz);
+            let left = (stands - k) as f64 / (run_to_walk::REST_TIME * rate_hz);
             let way = ankle[stands] - ankle[k];
             ankle[k] += Vec3 { z: 0.0, ..way } * smootherstep(1.0 - left);
         }
@@ -453,10 +435,13 @@ mod tests {
     /// Everything that is faster than a walk and as fast as a run somewhere.
     fn fast(way: &[Vec3]) -> Vec<(usize, usize)> {
         let speed = paces(way, RATE);
-        let moves: Vec<bool> = speed.iter().map(|v| *v > WALKS).collect();
-        let fast = runs(&moves)
-            .into_iter()
-            .filter(|(i, j, fast)| *fast && speed[*i..*j].iter().any(|v| *v > RUNS));
+        let moves: Vec<bool> = speed
+            .iter()
+            .map(|v| *v > run_detection::WALK_SPEED)
+            .collect();
+        let fast = runs(&moves).into_iter().filter(|(i, j, fast)| {
+            *fast && speed[*i..*j].iter().any(|v| *v > run_detection::RUN_SPEED)
+        });
         fast.map(|(i, j, _)| (i, j)).collect()
     }
 
@@ -488,7 +473,10 @@ mod tests {
         let slowed = slowed(&recorded).unwrap();
         let at = |t: f64| slowed.times.partition_point(|k| *k < t * RATE);
         let share = slowed.share[at(1.7)];
-        assert!((share - LEAN / 0.306).abs() < 0.02, "{share}");
+        assert!(
+            (share - run_to_walk::MOST_LEAN / 0.306).abs() < 0.02,
+            "{share}"
+        );
     }
 
     #[test]
@@ -496,7 +484,11 @@ mod tests {
         for speed in [0.0, 1.2, 2.0] {
             let way = way(|_| speed);
             assert!(slowed(&way).is_none());
-            assert!(paces(&way, RATE).iter().all(|v| *v <= RUNS));
+            assert!(
+                paces(&way, RATE)
+                    .iter()
+                    .all(|v| *v <= run_detection::RUN_SPEED)
+            );
         }
     }
 

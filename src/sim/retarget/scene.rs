@@ -1,7 +1,7 @@
 //! The recording as a scene: metres, z up, even samples, smooth.
 
 use super::recording::Recording;
-use super::run_detection::{FastStretch, Figure, Gait, fast_stretches};
+use super::run_detection::{FastStretch, Gait, RecordedPoints, fast_stretches};
 use super::run_to_walk::RunToWalk;
 use super::{MAX_FRAMES, RetargetOptions, UpAxis};
 use crate::sim::math::{Mat3, Quat, Vec3};
@@ -9,7 +9,7 @@ use crate::sim::motion::filter::{
     low_pass_points, low_pass_rotations, resample_points, resample_rotations,
 };
 use crate::sim::motion::skeleton_map::SkeletonMap;
-use crate::sim::plan::flight_phases;
+use crate::sim::plan::params::run;
 
 /// Per sample: smoothed world positions and rotations, metres, z up.
 pub(super) struct Scene<'a> {
@@ -22,8 +22,24 @@ pub(super) struct Scene<'a> {
     pub rate: f64,
 }
 
+/// A recording in its own units and axes, `[bone][frame]`.
+pub(super) struct RecordedPaths {
+    /// World positions.
+    pub places: Vec<Vec<Vec3>>,
+    /// World rotations.
+    pub turns: Vec<Vec<Quat>>,
+    /// Positions in the file's zero pose.
+    pub rest: Vec<Vec3>,
+    /// Axis that points up.
+    pub up: UpAxis,
+    /// Metres per unit.
+    pub unit_m: f64,
+    /// Frames per second.
+    pub source_rate: f64,
+}
+
 /// What [`Scene::new`] finds on the way.
-pub(super) struct Seen {
+pub(super) struct SceneFindings {
     /// Points of either foot (ankle, toe joint, tip) before they were smoothed, `[side][point][sample]`.
     pub feet: [Vec<Vec<Vec3>>; 2],
     /// Mean distance, rms, over which smoothing moved the points, m.
@@ -36,7 +52,7 @@ pub(super) struct Seen {
     pub slower: f64,
 }
 
-impl Seen {
+impl SceneFindings {
     /// True if it runs and is to run.
     pub(super) fn keeps_run(&self) -> bool {
         self.runs().next().is_some() && self.slowed.is_none()
@@ -84,11 +100,17 @@ impl<'a> Scene<'a> {
     pub(super) fn new(
         take: &'a Recording,
         map: &SkeletonMap,
-        (mut places, mut turns, rest): (Vec<Vec<Vec3>>, Vec<Vec<Quat>>, Vec<Vec3>),
-        (up, unit_m): (UpAxis, f64),
-        source_rate: f64,
+        recorded: RecordedPaths,
         options: &RetargetOptions,
-    ) -> (Self, Seen) {
+    ) -> (Self, SceneFindings) {
+        let RecordedPaths {
+            mut places,
+            mut turns,
+            rest,
+            up,
+            unit_m,
+            source_rate,
+        } = recorded;
         for p in &mut places {
             for v in p.iter_mut() {
                 *v = z_up(up, *v * unit_m);
@@ -123,7 +145,7 @@ impl<'a> Scene<'a> {
             between([l.thigh, r.thigh]),
             between([l.upper_arm, r.upper_arm]),
         ];
-        let figure = Figure {
+        let figure = RecordedPoints {
             middle: &way,
             feet,
             trunk: [&trunk[0], &trunk[1]],
@@ -142,7 +164,7 @@ impl<'a> Scene<'a> {
         let count = slowed.as_ref().map_or(count, RunToWalk::count);
         let mut smoothing = (0.0, 0usize);
         let cutoff_hz = if !runs.is_empty() && slowed.is_none() {
-            options.cutoff_hz.max(flight_phases::CUTOFF)
+            options.cutoff_hz.max(run::CUTOFF)
         } else {
             options.cutoff_hz
         };
@@ -187,7 +209,7 @@ impl<'a> Scene<'a> {
         let smoothing_rms = (smoothing.0 / smoothing.1.max(1) as f64).sqrt();
         (
             scene,
-            Seen {
+            SceneFindings {
                 feet,
                 smoothing_rms,
                 fast,

@@ -1,16 +1,11 @@
 //! Where the segments point: their frames from end points, hinge planes, and bones relative to a calibration pose.
 
-use super::joints::PRONATION_MIDDLE;
 use super::scene::Scene;
 use crate::sim::math::curve::rise;
 use crate::sim::math::{Mat3, Quat, Vec3};
 use crate::sim::motion::filter::percentile;
 use crate::sim::motion::skeleton_map::SkeletonMap;
-
-/// Bend below which the plane of a limb is noise, and from which it is trusted, rad.
-const PLANE_TRUST: (f64, f64) = (0.26, 0.70);
-/// Bend from which a frame tells something about the hinge axis, rad.
-const PLANE_LEAST: f64 = 0.30;
+use crate::sim::retarget::params::{root, segments};
 
 /// How bones carry segments.
 pub(super) struct Calibration {
@@ -21,14 +16,11 @@ pub(super) struct Calibration {
     pub poses: Vec<(Option<usize>, Quat)>,
 }
 
-/// Samples that are nearly as upright as the most upright one serve for calibration: least difference of their score,
-/// and at most so many.
-const UPRIGHT: f64 = 0.06;
-const MOST_POSES: usize = 400;
-/// A forearm that points down by more than this hangs: cosine.
-const HANGS: f64 = 0.7;
 /// Height of the ankle over the toe joint, and over the tip of the toes, on a flat foot, in lengths of the leg.
-const ANKLE_OVER_TOE: [f64; 2] = [0.065, 0.075];
+const ANKLE_OVER_TOE: [f64; 2] = [
+    root::ANKLE_HEIGHT - root::TOE_JOINT_HEIGHT,
+    root::ANKLE_HEIGHT - root::TOE_TIP_HEIGHT,
+];
 
 /// Mean of rotations that are about alike; those far from the others count for less. The identity for none.
 pub(super) fn mean_rotation(rotations: &[Quat]) -> Quat {
@@ -145,9 +137,9 @@ impl Scene<'_> {
             .collect();
         let most = upright.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let samples: Vec<usize> = (0..self.count)
-            .filter(|i| upright[*i] >= most - UPRIGHT)
+            .filter(|i| upright[*i] >= most - segments::UPRIGHT_RANGE)
             .collect();
-        let stride = samples.len().div_ceil(MOST_POSES).max(1);
+        let stride = samples.len().div_ceil(segments::MOST_POSES).max(1);
         let poses = samples
             .into_iter()
             .step_by(stride)
@@ -293,7 +285,7 @@ impl Scene<'_> {
         let mut weight = 0.0;
         for (i, q) in turn.iter().enumerate() {
             let (_, n, bend) = normal(i);
-            if bend > PLANE_LEAST && bend < 2.8 {
+            if bend > segments::PLANE_LEAST && bend < 2.8 {
                 let w = n.norm();
                 mean += q.conjugate().rotate(n);
                 weight += w;
@@ -324,12 +316,13 @@ impl Scene<'_> {
             let own = (own - u * own.dot(u)).normalized_or(Vec3::Y);
             let plane = n.normalized_or(own);
             let agree = plane.dot(own);
-            if bend > PLANE_LEAST {
+            if bend > segments::PLANE_LEAST {
                 let v = (c[i] - b[i]).normalized_or(u);
                 off.push(v.dot(own).abs().clamp(0.0, 1.0).asin());
             }
-            let w =
-                rise(bend, PLANE_TRUST) * (1.0 - rise(bend, (2.6, 2.9))) * rise(agree, (0.3, 0.7));
+            let w = rise(bend, (segments::PLANE_NOISE, segments::PLANE_TRUSTED))
+                * (1.0 - rise(bend, (2.6, 2.9)))
+                * rise(agree, (0.3, 0.7));
             axis.push((own * (1.0 - w) + plane * w).normalized_or(own));
         }
         (axis, off)
@@ -380,11 +373,11 @@ impl Scene<'_> {
             let bone = m.hand.unwrap_or(m.forearm);
             // A hand that hangs in a sample of the motion is pronated as hands that hang are.
             let sign = if s == 0 { -1.0 } else { 1.0 };
-            let hangs = Quat::exp(Vec3::Z * (sign * PRONATION_MIDDLE));
+            let hangs = Quat::exp(Vec3::Z * (sign * segments::PRONATION_MIDDLE));
             hand[s] = self.follow(bone, calibration, |pose, figure| {
                 let direction = self.calibrated_direction((m.forearm, wrist), (pose, figure));
                 let straight = shortest(-Vec3::Z, direction);
-                if pose.is_some() && direction.z < -HANGS {
+                if pose.is_some() && direction.z < -segments::HANGING {
                     straight * hangs
                 } else {
                     straight

@@ -7,16 +7,10 @@ use crate::sim::math::Vec3;
 use crate::sim::motion::bvh::Bvh;
 use crate::sim::motion::filter::percentile;
 use crate::sim::motion::skeleton_map::SkeletonMap;
+use crate::sim::retarget::params::size;
 
-/// Statures that a unit may lead to when it is guessed, m.
-const LIKELY_STATURE: (f64, f64) = (1.3, 2.0);
-/// Statures that are accepted with a unit given by the caller, m.
-const POSSIBLE_STATURE: (f64, f64) = (0.7, 2.6);
 /// Units that files use, m: metre, decimetre, centimetre, millimetre, inch, CMU (inch / 0.45), foot.
 const UNITS: [f64; 7] = [1.0, 0.1, 0.01, 0.001, 0.0254, 0.0254 / 0.45, 0.3048];
-/// Leg (hip to ankle) over stature, both sexes; about 0.495 for men and 0.465 for women after de Leva 1996.
-const LEG_OF_STATURE: f64 = 0.485;
-
 /// Lengths of the figure in file units.
 pub(super) struct Measure {
     pub leg: f64,
@@ -77,7 +71,8 @@ pub(super) fn measure(
     let trunk = percentile(&trunk, 0.8);
     Ok(Measure {
         leg,
-        stature: 0.7 * leg / LEG_OF_STATURE + 0.3 * trunk / 0.29,
+        stature: size::LEG_WEIGHT * leg / size::LEG_OF_STATURE
+            + size::TRUNK_WEIGHT * trunk / size::TRUNK_OF_STATURE,
     })
 }
 
@@ -86,7 +81,7 @@ pub(super) fn unit(given: Option<f64>, measured: f64) -> Result<(f64, f64), Reta
     match given {
         Some(unit_m) => {
             let stature = measured * unit_m;
-            if !(stature >= POSSIBLE_STATURE.0 && stature <= POSSIBLE_STATURE.1) {
+            if !(stature >= size::LEAST_STATURE && stature <= size::MOST_STATURE) {
                 return Err(RetargetError::Stature {
                     unit_m,
                     stature,
@@ -97,7 +92,9 @@ pub(super) fn unit(given: Option<f64>, measured: f64) -> Result<(f64, f64), Reta
         }
         None => UNITS
             .into_iter()
-            .find(|u| (LIKELY_STATURE.0..=LIKELY_STATURE.1).contains(&(measured * u)))
+            .find(|u| {
+                (size::LEAST_LIKELY_STATURE..=size::MOST_LIKELY_STATURE).contains(&(measured * u))
+            })
             .map(|u| (u, measured * u))
             .ok_or(RetargetError::Unit { measured }),
     }

@@ -45,7 +45,7 @@ fn the_mass_of_a_runner_falls_freely_in_flight() {
     };
     flights.observe(&track, &vec![0.0; n]);
     let height = flights.heights(&vec![1.0; n]);
-    let z = |i: usize| track.com[i].z + height[i] / LEAD;
+    let z = |i: usize| track.com[i].z + height[i] / balance::PELVIS_LEAD;
     for i in 51..65 {
         let a = (z(i - 1) - 2.0 * z(i) + z(i + 1)) * RATE * RATE;
         assert!((a + GRAVITY).abs() < 0.2, "{i}: {a}");
@@ -63,21 +63,21 @@ fn the_mass_of_a_runner_falls_freely_in_flight() {
 fn a_foot_rolls_over_its_toes_to_where_its_ankle_is() {
     let body = Body::adult_man();
     let sole = Sole::new(&body, 0);
-    let at = Anchor {
+    let at = FootPlacement {
         place: Vec3::zero(),
         yaw: 0.3,
         pitch: -0.8,
         tip: 0.0,
     };
-    let tip_of = |at: &Anchor| {
+    let tip_of = |at: &FootPlacement| {
         let pose = sole.stand_on_tip(at);
         let toes = pose.rotation * Quat::exp(Vec3::Y * -pose.toe);
         pose.ankle + pose.rotation.rotate(sole.toe_joint) + toes.rotate(sole.toe_tip())
     };
     // The tip stays where it is, and everything else comes off the floor.
-    let rolled = Anchor { tip: 0.4, ..at };
+    let rolled = FootPlacement { tip: 0.4, ..at };
     assert!((tip_of(&rolled) - tip_of(&at)).norm() < 1e-12);
-    let low = |at: &Anchor| {
+    let low = |at: &FootPlacement| {
         let pose = sole.stand_on_tip(at);
         pose.ankle.z + sole.lowest(pose.rotation, pose.toe)
     };
@@ -86,7 +86,7 @@ fn a_foot_rolls_over_its_toes_to_where_its_ankle_is() {
     assert!(up.ankle.z > flat.ankle.z + 0.02);
     // Found again from the ankle alone, and a foot that is in place stays.
     let (heel, tip) = roll(&sole, &at, up.ankle);
-    let found = sole.stand_on_tip(&Anchor {
+    let found = sole.stand_on_tip(&FootPlacement {
         pitch: at.pitch - heel,
         tip,
         ..at

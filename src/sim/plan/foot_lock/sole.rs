@@ -4,12 +4,7 @@
 use crate::sim::body::Body;
 use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::math::{Quat, Vec3, trig};
-
-/// Length of the toes' tip, m; toes are on it when they are turned up by more than this, rad.
-const TIP: f64 = 0.02;
-pub(in crate::sim::plan) const ON_TIP: f64 = 0.02;
-/// A foot pitched by less than this stands on its whole sole, rad.
-const PITCHED: f64 = 0.02;
+use crate::sim::plan::params::pitch;
 
 /// Pose of one foot: ankle position, `world_from_foot`, toe extension.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,6 +15,28 @@ pub struct FootPose {
     pub rotation: Quat,
     /// Toe extension, rad.
     pub toe: f64,
+}
+
+/// Difference of two poses of a foot: translation (m), rotation vector (rad), toe extension (rad).
+pub(in crate::sim::plan) type FootOffset = [f64; 7];
+
+impl FootPose {
+    /// What takes `other` to this pose.
+    pub(in crate::sim::plan) fn offset_from(&self, other: &Self) -> FootOffset {
+        let p = self.ankle - other.ankle;
+        let r = (self.rotation * other.rotation.conjugate()).log();
+        [p.x, p.y, p.z, r.x, r.y, r.z, self.toe - other.toe]
+    }
+
+    /// This pose moved by an offset.
+    pub(in crate::sim::plan) fn moved(&self, by: &FootOffset) -> Self {
+        let turn = Quat::exp(Vec3::from_array([by[3], by[4], by[5]]));
+        Self {
+            ankle: self.ankle + Vec3::from_array([by[0], by[1], by[2]]),
+            rotation: (turn * self.rotation).normalized(),
+            toe: self.toe + by[6],
+        }
+    }
 }
 
 /// The sole of one foot of a body.
@@ -36,7 +53,7 @@ pub struct Sole {
 
 /// Where a planted foot stands in one sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Anchor {
+pub struct FootPlacement {
     /// Point of the floor under the flat ankle, m (z = 0).
     pub place: Vec3,
     /// Heading of the foot, rad.
@@ -47,7 +64,7 @@ pub struct Anchor {
     pub tip: f64,
 }
 
-impl Anchor {
+impl FootPlacement {
     /// Point of the floor, m, and heading, rad.
     pub fn place_and_yaw(&self) -> (Vec3, f64) {
         (self.place, self.yaw)
@@ -55,7 +72,7 @@ impl Anchor {
 
     /// True where the heel is raised: nothing behind the ball of the foot carries.
     pub(in crate::sim::plan) fn is_on_ball(&self) -> bool {
-        self.pitch <= -PITCHED
+        self.pitch <= -pitch::FLAT
     }
 
     /// Direction in which the foot points, x and y.
@@ -157,7 +174,7 @@ impl Sole {
     }
 
     /// The same with the toes turned up about their tip by `tip` rad, and the foot with them.
-    pub fn stand_on_tip(&self, at: &Anchor) -> FootPose {
+    pub fn stand_on_tip(&self, at: &FootPlacement) -> FootPose {
         let mut pose = self.stand(at.place, at.yaw, at.pitch);
         if at.tip > 0.0 {
             let toes = pose.rotation * Quat::exp(Vec3::Y * -pose.toe);
@@ -172,12 +189,12 @@ impl Sole {
 
     /// Where a foot at `ankle` with `world_from_foot` stands, or would: rolled about its heel edge or its toe joint, as
     /// it is pitched. The same bits on every machine, since ticks use it.
-    pub fn footing(&self, (ankle, rotation): (Vec3, Quat)) -> Anchor {
+    pub fn footing(&self, (ankle, rotation): (Vec3, Quat)) -> FootPlacement {
         let x = rotation.rotate(Vec3::X);
         let level = (x.x * x.x + x.y * x.y).sqrt();
         let (yaw, pitch) = (trig::atan2(x.y, x.x), trig::atan2(x.z, level));
         let place = ankle - self.stand(Vec3::zero(), yaw, pitch).ankle;
-        Anchor {
+        FootPlacement {
             place: Vec3 { z: 0.0, ..place },
             yaw,
             pitch,
@@ -204,8 +221,8 @@ impl Sole {
 
     /// Visits the floor polygon corners (x, y) that carry a foot standing at `at`: heel while not heel-up, toes while
     /// not toe-up.
-    pub fn each_corner(&self, at: &Anchor, mut visit: impl FnMut([f64; 2])) {
-        let Anchor {
+    pub fn each_corner(&self, at: &FootPlacement, mut visit: impl FnMut([f64; 2])) {
+        let FootPlacement {
             place: anchor,
             yaw,
             pitch,
@@ -219,17 +236,17 @@ impl Sole {
         };
         for p in &self.foot {
             let front = p.x > 0.5 * ball;
-            if (!at.is_on_ball() || front) && (pitch < PITCHED || !front) {
+            if (!at.is_on_ball() || front) && (pitch < pitch::FLAT || !front) {
                 push(*p);
             }
         }
-        if pitch < PITCHED {
+        if pitch < pitch::FLAT {
             // On their tip the toes still carry with a strip of it.
             let front = self.toe_tip().x;
-            let back = if tip < ON_TIP {
+            let back = if tip < pitch::FLAT {
                 f64::NEG_INFINITY
             } else {
-                front - TIP
+                front - pitch::TIP_LENGTH
             };
             for p in &self.toes {
                 push(
@@ -244,7 +261,7 @@ impl Sole {
     }
 
     /// Adds the corners of [`Self::each_corner`].
-    pub fn footprint(&self, at: &Anchor, out: &mut Vec<[f64; 2]>) {
+    pub fn footprint(&self, at: &FootPlacement, out: &mut Vec<[f64; 2]>) {
         self.each_corner(at, |p| out.push(p));
     }
 }

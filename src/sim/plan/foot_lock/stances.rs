@@ -2,9 +2,10 @@
 //! giving swings the time they need.
 
 use super::sole::{Sole, turn, yaw_pitch};
-use super::{STEEPEST, median};
+use super::{RecordedFoot, median};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::plan::contact_labels::runs;
+use crate::sim::plan::params::{contact, stance};
 
 /// One stance of one foot: its place and its heading stay.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,28 +16,12 @@ pub struct Stance {
     pub end: usize,
 }
 
-/// A recorded foot that strays further than this from its anchor has stepped or pivoted, m and rad.
-const STRAY: (f64, f64) = (0.06, 0.40);
 /// Half of the time that a shuffle is given, s: the first of these that fits.
-const HALF_SHUFFLE: [f64; 3] = [0.14, 0.11, 0.08];
-/// Least way of a shuffle, in units of [`STRAY`].
-const SHUFFLES: f64 = 0.25;
-/// A foot that drags on after the other one has landed stands for so long beside it, s: nobody changes feet in no time.
-const DRAGS: f64 = 0.04;
-/// In so much of a stance at each end, one part in so many and at most so long, s, a foot may be astray without having
-/// stepped or pivoted; where it is then, it is further from its anchor than the first, in units of [`STRAY`], and
-/// everywhere else nearer than the second.
-const EDGE: (usize, f64) = (8, 0.15);
-const ASTRAY: f64 = 0.4;
-const STEADY: f64 = 0.6;
-/// Shortest stance that is made by taking samples from another, s.
-const SHORTEST_STANCE: f64 = 0.15;
-/// A swing takes at least √(way over this), m/s², where the way counts a turn by a radian as the second, m. That is
-/// what recorded steps of people take, with few exceptions, whether they walk, dance or shuffle; a leg is on time with
-/// it, and would be late and short by a third at twice as much.
-pub(super) const HASTE: f64 = 8.0;
-const TURN_ARM: f64 = 0.25;
-
+const HALF_SHUFFLE: [f64; 3] = [
+    stance::HALF_SHUFFLE,
+    stance::HALF_QUICK_SHUFFLE,
+    stance::HALF_QUICKEST_SHUFFLE,
+];
 /// Foot point and heading per sample: where the flat ankle would stand on the floor.
 pub(super) struct Track {
     pub point: Vec<Vec3>,
@@ -72,7 +57,7 @@ impl Track {
 
     /// Median place and heading over the middle 70 % of a stance.
     pub fn anchor(&self, start: usize, end: usize) -> (Vec3, f64) {
-        let margin = (end - start) * 15 / 100;
+        let margin = (end - start) * stance::PLACE_MARGIN / 100;
         let mid = start + margin..(end - margin).max(start + margin + 1);
         let of = |f: &dyn Fn(usize) -> f64| median(mid.clone().map(f).collect());
         (
@@ -85,17 +70,19 @@ impl Track {
         )
     }
 
-    /// Distance of a sample from an anchor in units of [`STRAY`].
+    /// Distance of a sample from an anchor in units of [`stance::STRAY_DISTANCE`].
     pub fn stray(&self, i: usize, anchor: Vec3, yaw: f64) -> f64 {
-        ((self.point[i] - anchor).norm() / STRAY.0).max((self.yaw[i] - yaw).abs() / STRAY.1)
+        ((self.point[i] - anchor).norm() / stance::STRAY_DISTANCE)
+            .max((self.yaw[i] - yaw).abs() / stance::STRAY_ANGLE)
     }
 
     /// Splits a stance in which the foot visibly shuffles or pivots into stances joined by short steps, or begins it
     /// after, or ends it before it does, while the `other` foot is on the floor: a foot that shuffles alone stays.
     fn split(&self, (start, end): (usize, usize), other: &[bool], rate_hz: f64, out: &mut Pieces) {
-        let shortest = (SHORTEST_STANCE * rate_hz) as usize;
+        let shortest = (stance::SHORTEST * rate_hz) as usize;
         let (anchor, yaw) = self.anchor(start, end);
-        let inner = start + (end - start) / 12..end - (end - start) / 12;
+        let margin = (end - start) / stance::SPLIT_MARGIN;
+        let inner = start + margin..end - margin;
         let worst = inner
             .clone()
             .map(|i| self.stray(i, anchor, yaw))
@@ -105,8 +92,8 @@ impl Track {
             return;
         }
         let moved = |a: usize, b: usize| {
-            ((self.point[b] - self.point[a]).norm() / STRAY.0)
-                .max((self.yaw[b] - self.yaw[a]).abs() / STRAY.1)
+            ((self.point[b] - self.point[a]).norm() / stance::STRAY_DISTANCE)
+                .max((self.yaw[b] - self.yaw[a]).abs() / stance::STRAY_ANGLE)
         };
         // Where the foot moves fastest over one shuffle's time.
         for half in HALF_SHUFFLE {
@@ -115,7 +102,7 @@ impl Track {
                 .filter(|i| other[i - half..=i + half].iter().all(|o| *o))
                 .map(|i| (i, moved(i - half, i + half)))
                 .max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
-            if let Some((i, _)) = at.filter(|(_, far)| *far > SHUFFLES) {
+            if let Some((i, _)) = at.filter(|(_, far)| *far > stance::LEAST_SHUFFLE) {
                 self.split((start, i - half), other, rate_hz, out);
                 self.split((i + half, end), other, rate_hz, out);
                 return;
@@ -129,12 +116,12 @@ impl Track {
             .map_or(start, |i| i + 1);
         let alone_from = (start..end).find(|i| !other[*i]).unwrap_or(end);
         let least = shortest.max((end - start) / 3).max(1);
-        let drags = (DRAGS * rate_hz) as usize;
+        let drags = (stance::OVERLAP * rate_hz) as usize;
         let tail = (alone_until + drags).max(start + least);
         let head = alone_from.min(end.saturating_sub(least));
-        if tail < end && moved(tail, end - 1) > SHUFFLES {
+        if tail < end && moved(tail, end - 1) > stance::LEAST_SHUFFLE {
             self.split((start, tail), other, rate_hz, out);
-        } else if head > start && moved(start, head) > SHUFFLES {
+        } else if head > start && moved(start, head) > stance::LEAST_SHUFFLE {
             self.split((head, end), other, rate_hz, out);
         } else {
             out.push((start, end));
@@ -147,9 +134,9 @@ impl Track {
     /// to turn away, or that is still coming, does not stand, and what stands does not pivot because of it.
     fn trim(&self, (start, end): (usize, usize), other: &[bool], rate_hz: f64) -> (usize, usize) {
         let (anchor, yaw) = self.anchor(start, end);
-        let edge = ((end - start) / EDGE.0).min((EDGE.1 * rate_hz) as usize);
+        let edge = ((end - start) / stance::TRIM_SHARE).min((stance::TRIM_TIME * rate_hz) as usize);
         let astray = |i: usize| self.stray(i, anchor, yaw);
-        let leaves = |i: &usize| other[*i] && astray(*i) > ASTRAY;
+        let leaves = |i: &usize| other[*i] && astray(*i) > stance::TRIM_STRAY;
         let cut = |outermost: usize, n: usize| if astray(outermost) > 1.0 { n } else { 0 };
         // Where the recording begins or ends there is no swing that it would belong to.
         let clip = |at: usize, n: usize| if at == 0 || at == other.len() { 0 } else { n };
@@ -157,7 +144,7 @@ impl Track {
         let tail = (end - edge..end).rev().take_while(leaves).count();
         let (head, tail) = (clip(start, head), clip(end, tail));
         let (from, to) = (start + cut(start, head), end - cut(end - 1, tail));
-        if (from..to).any(|i| astray(i) > STEADY) {
+        if (from..to).any(|i| astray(i) > stance::STEADY_STRAY) {
             return (start, end);
         }
         (from, to)
@@ -170,12 +157,12 @@ impl Track {
     /// no more than half of what there is, since the other foot may need some as well. Labels see the fastest part of a
     /// low step only.
     fn unhurry(&self, pieces: &mut [(usize, usize)], other: &[bool], rate_hz: f64) {
-        let shortest = (SHORTEST_STANCE * rate_hz) as usize;
-        let anchors: Vec<_> = pieces.iter().map(|&(i, j)| self.anchor(i, j)).collect();
+        let shortest = (stance::SHORTEST * rate_hz) as usize;
+        let placements: Vec<_> = pieces.iter().map(|&(i, j)| self.anchor(i, j)).collect();
         for w in 1..pieces.len() {
-            let ((from, yaw_from), (to, yaw_to)) = (anchors[w - 1], anchors[w]);
-            let way = (to - from).norm() + TURN_ARM * (yaw_to - yaw_from).abs();
-            let needed = ((way / HASTE).sqrt() * rate_hz).ceil() as usize;
+            let ((from, yaw_from), (to, yaw_to)) = (placements[w - 1], placements[w]);
+            let way = (to - from).norm() + stance::TURN_ARM * (yaw_to - yaw_from).abs();
+            let needed = ((way / stance::SWING_ACCELERATION).sqrt() * rate_hz).ceil() as usize;
             let ((start, mut end), (mut begin, finish)) = (pieces[w - 1], pieces[w]);
             let both = |k: &usize| other[*k];
             let (first, last) = ((start + shortest).min(end), finish.saturating_sub(shortest));
@@ -202,7 +189,11 @@ impl Track {
         for (i, j, on) in runs(label) {
             let of = |v: &[f64]| median(v[i..j].to_vec());
             let (pitch, roll) = (of(&self.pitch), of(&self.roll));
-            if on && pitch > STEEPEST.0 && pitch < STEEPEST.1 && roll.abs() < STEEPEST.2 {
+            if on
+                && pitch > contact::LEAST_PITCH
+                && pitch < contact::MOST_TILT
+                && roll.abs() < contact::MOST_TILT
+            {
                 self.split((i, j), other, rate_hz, &mut pieces);
             }
         }
@@ -210,7 +201,7 @@ impl Track {
     }
 
     /// How far the recorded foot is from where it would stand, squared and summed over its stances, in units of
-    /// [`STRAY`].
+    /// [`stance::STRAY_DISTANCE`].
     fn strays(&self, pieces: &[(usize, usize)]) -> f64 {
         let of = |&(i, j): &(usize, usize)| {
             let (anchor, yaw) = self.anchor(i, j);
@@ -225,18 +216,16 @@ impl Track {
 /// When both feet stand: where their labels say so and they neither shuffle nor turn away. Which one gives way to the
 /// other first is decided by how far they stand from where the recording has them.
 ///
-/// * `ankles`, `rotations`: recorded ankle (m) and `world_from_foot` per sample, floor at z = 0, body scale.
-/// * `labels`: where the feet are on the floor (from [`super::contacts`]).
+/// * `labels`: where the feet are on the floor.
 /// * `rate_hz`: samples per second.
 pub fn stances(
     soles: &[Sole; 2],
-    ankles: [&[Vec3]; 2],
-    rotations: [&[Quat]; 2],
+    recorded: [RecordedFoot<'_>; 2],
     labels: [&[bool]; 2],
     rate_hz: f64,
 ) -> [Vec<Stance>; 2] {
     let tracks: [Track; 2] =
-        std::array::from_fn(|s| Track::new(&soles[s], ankles[s], rotations[s]));
+        std::array::from_fn(|s| Track::new(&soles[s], recorded[s].ankles, recorded[s].rotations));
     let first = |first: usize| sequence(&tracks, labels, [first, 1 - first], rate_hz);
     let (left, right) = (first(0), first(1));
     let strays = |pieces: &[Pieces; 2]| tracks[0].strays(&pieces[0]) + tracks[1].strays(&pieces[1]);

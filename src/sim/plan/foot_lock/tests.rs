@@ -1,5 +1,6 @@
-use super::stances::{HASTE, Pieces};
+use super::stances::Pieces;
 use super::*;
+use crate::sim::plan::params::stance;
 
 fn sole() -> Sole {
     Sole {
@@ -91,17 +92,28 @@ fn locked(
     let (right, ahead) = beside(place.len());
     let [stands, other] = stances(
         &[sole(), sole()],
-        [place, &right],
-        [turned, &ahead],
+        [
+            RecordedFoot {
+                ankles: place,
+                rotations: turned,
+            },
+            RecordedFoot {
+                ankles: &right,
+                rotations: &ahead,
+            },
+        ],
         [label, other],
         120.0,
     );
     let f = lock_foot(
         &sole(),
-        place,
-        turned,
-        (&stands, &other),
-        (&still, &still, &still),
+        RecordedFoot {
+            ankles: place,
+            rotations: turned,
+        },
+        &stands,
+        &other,
+        &StanceTurns::none(still.len()),
         0,
         120.0,
     );
@@ -125,7 +137,15 @@ fn feet_that_turn_together_step_in_turn_and_one_of_them_always_stands() {
     let (n, soles, label) = (340, [sole(), sole()], vec![true; 340]);
     for angle in [1.5, -2.5, 4.0] {
         let [l, r] = spun(angle, n);
-        let steps = stances(&soles, [&l.0, &r.0], [&l.1, &r.1], [&label, &label], 120.0);
+        let steps = stances(
+            &soles,
+            [&l, &r].map(|f| RecordedFoot {
+                ankles: &f.0,
+                rotations: &f.1,
+            }),
+            [&label, &label],
+            120.0,
+        );
         let stands = |steps: &[Pieces; 2], k: usize| {
             steps.iter().flatten().any(|&(i, j)| (i..j).contains(&k))
         };
@@ -152,15 +172,18 @@ fn feet_that_turn_together_step_in_turn_and_one_of_them_always_stands() {
             let still = vec![0.0; n];
             let f = lock_foot(
                 &soles[s],
-                &place,
-                &turned,
-                (&of, &others),
-                (&still, &still, &still),
+                RecordedFoot {
+                    ankles: &place,
+                    rotations: &turned,
+                },
+                &of,
+                &others,
+                &StanceTurns::none(still.len()),
                 s,
                 120.0,
             );
             for p in &of {
-                let yaw = |k: usize| f.anchors[k].yaw;
+                let yaw = |k: usize| f.placements[k].yaw;
                 assert!((p.start..p.end).all(|k| yaw(k) == yaw(p.start)));
             }
         }
@@ -185,7 +208,7 @@ fn a_step_of_which_the_label_saw_only_the_middle_takes_the_time_that_it_needs() 
         assert_eq!(stances.len(), 2);
         (stances[0].end, stances[1].start)
     };
-    let needed = ((0.25f64 / HASTE).sqrt() * 120.0).ceil() as usize;
+    let needed = ((0.25f64 / stance::SWING_ACCELERATION).sqrt() * 120.0).ceil() as usize;
     assert!(needed > last - first);
     let (end, start) = swing(&vec![true; n]);
     assert!(end < first && start > last && start - end == needed);

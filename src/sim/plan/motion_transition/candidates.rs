@@ -1,36 +1,15 @@
 //! Where a motion is like the beginning of another one.
 
-use super::RATE;
 use crate::sim::body::topology::{DOF_COUNT, DOF_START, L_FOOT, L_THIGH, L_UPPER_ARM, R_FOOT};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::clip::PlanarTransform;
 use crate::sim::motion::leg_ik::{center_of_mass, forward};
-use crate::sim::plan::foot_lock::{Anchor, Sole};
+use crate::sim::plan::foot_lock::{FootPlacement, Sole};
+use crate::sim::plan::params::{balance, likeness, stop, transition};
 use crate::sim::plan::splice::Sample;
-
-/// Samples between those that are compared.
-const STRIDE: usize = 2;
-/// Furthest that capture points may be apart, seen from the foot that stands, m. A push that moves it by as much, 30
-/// N·s, is caught by a walking man 59 of 64 times; here it is known beforehand. Whether a body can go over is seen when
-/// the way is worked out: this and what follows choose what is tried.
-const CAPTURE: f64 = 0.13;
-/// Most unlike that postures may be, rad rms over trunk and legs.
-const UNLIKE: f64 = 0.35;
-/// Furthest that the other feet may be apart, m, and most that the standing foot may be turned, rad: hips turn by 0.7.
-const STEP: f64 = 0.35;
-const TURN: f64 = 0.7;
-/// Rates count this much against angles, s; arms, which weigh little and have time, this much against legs.
-const RATE_SHARE: f64 = 0.05;
-const ARMS: f64 = 0.05;
-/// What headings of pelvis and foot count in the turn that puts the one motion on the other, m.
-const HEADINGS: (f64, f64) = (0.15, 0.1);
-/// What waiting for a better moment costs, per s.
-const WAITING: f64 = 0.5;
-/// Moments that are tried, and samples that lie between them.
-const MOST: usize = 4;
-const APART: usize = 18;
+use crate::sim::plan::turned_on_floor;
 
 /// A moment at which a motion is like another one's beginning.
 #[derive(Clone, Debug)]
@@ -52,13 +31,13 @@ pub struct Moment {
 }
 
 /// A motion as it is compared.
-pub(super) struct Looks<'a> {
+pub(super) struct Features<'a> {
     samples: &'a [Sample],
     pub com: Vec<Vec3>,
-    pub feet: Vec<[Anchor; 2]>,
+    pub feet: Vec<[FootPlacement; 2]>,
 }
 
-impl<'a> Looks<'a> {
+impl<'a> Features<'a> {
     pub fn new(body: &Body, samples: &'a [Sample]) -> Self {
         let soles = [Sole::new(body, 0), Sole::new(body, 1)];
         let of = |(posture, _): &Sample| {
@@ -85,7 +64,7 @@ impl<'a> Looks<'a> {
     /// Joint rates, rad/s.
     fn rates(&self, i: usize) -> [f64; DOF_COUNT] {
         let way = self.posture(i - 1).joint_difference(self.posture(i + 1));
-        way.map(|w| 0.5 * RATE * w)
+        way.map(|w| 0.5 * stop::RATE * w)
     }
 
     /// What the turn between two motions is found from, seen from foot `side`: centre of mass, what its velocity adds
@@ -93,7 +72,7 @@ impl<'a> Looks<'a> {
     fn points(&self, i: usize, side: usize, omega: f64) -> [[f64; 2]; 5] {
         let at = self.feet[i][side].place;
         let from = |p: Vec3| [p.x - at.x, p.y - at.y];
-        let v = (self.com[i + 1] - self.com[i - 1]) * (0.5 * RATE / omega);
+        let v = (self.com[i + 1] - self.com[i - 1]) * (0.5 * stop::RATE / omega);
         let ahead = |q: Quat, long: f64| {
             let x = q.rotate(Vec3::X);
             let level = (x.x * x.x + x.y * x.y).sqrt().max(1e-9);
@@ -104,8 +83,8 @@ impl<'a> Looks<'a> {
             from(self.com[i]),
             [v.x, v.y],
             from(self.feet[i][1 - side].place),
-            ahead(self.posture(i).root_rotation, HEADINGS.0),
-            ahead(foot, HEADINGS.1),
+            ahead(self.posture(i).root_rotation, transition::PELVIS_HEADING),
+            ahead(foot, transition::FOOT_HEADING),
         ]
     }
 }
@@ -121,44 +100,48 @@ fn nearest_turn(a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
     trig::atan2(cross, dot)
 }
 
-pub(super) fn turned(p: [f64; 2], yaw: f64) -> [f64; 2] {
-    let (s, c) = trig::sin_cos(yaw);
-    [c * p[0] - s * p[1], s * p[0] + c * p[1]]
-}
-
 pub(super) fn far(a: [f64; 2], b: [f64; 2]) -> f64 {
     let (x, y) = (a[0] - b[0], a[1] - b[1]);
     (x * x + y * y).sqrt()
 }
 
 /// Unlikeness of the postures and their rates, whatever place and heading, rad rms.
-fn unlike((a, i): (&Looks<'_>, usize), (b, j): (&Looks<'_>, usize)) -> f64 {
+fn unlike((a, i): (&Features<'_>, usize), (b, j): (&Features<'_>, usize)) -> f64 {
     let (p, q) = (a.posture(i), b.posture(j));
     let angles = p.joint_difference(q);
     let (before, after) = (a.rates(i), b.rates(j));
     let arms = DOF_START[L_UPPER_ARM.index()]..DOF_START[L_THIGH.index()];
     let mut sum = 0.0;
     for k in 0..DOF_COUNT {
-        let rate = RATE_SHARE * (before[k] - after[k]);
-        let share = if arms.contains(&k) { ARMS } else { 1.0 };
+        let rate = likeness::RATE_SHARE * (before[k] - after[k]);
+        let share = if arms.contains(&k) {
+            likeness::ARM_WEIGHT
+        } else {
+            1.0
+        };
         sum += share * (angles[k] * angles[k] + rate * rate);
     }
     // Tilt: where the vertical is in the pelvis.
     let up = |p: &Posture| p.root_rotation.conjugate().rotate(Vec3::Z);
     let tilt = up(p) - up(q);
     let height = p.root_position.z - q.root_position.z;
-    sum += 4.0 * tilt.dot(tilt) + 25.0 * height * height;
+    sum += likeness::TILT_WEIGHT * tilt.dot(tilt) + likeness::HEIGHT_WEIGHT * height * height;
     (sum / (DOF_COUNT - arms.len()) as f64).sqrt()
 }
 
 /// Compares sample `i` of one motion with sample `j` of another: how they are like, and how much; `None` if they are
 /// not.
-fn compare(left: &Looks<'_>, i: usize, entered: &Looks<'_>, j: usize) -> Option<(f64, Moment)> {
+fn compare(
+    left: &Features<'_>,
+    i: usize,
+    entered: &Features<'_>,
+    j: usize,
+) -> Option<(f64, Moment)> {
     let planted = left.planted(i)?;
     if entered.planted(j)? != planted {
         return None;
     }
-    let omega = (GRAVITY / left.com[i].z.max(0.2)).sqrt();
+    let omega = (GRAVITY / left.com[i].z.max(balance::LEAST_HEIGHT)).sqrt();
     // Of two standing feet the one that stays longer.
     let stays = |s: usize| {
         let on = entered.samples[j..].iter().take_while(|k| k.1[s]);
@@ -172,20 +155,23 @@ fn compare(left: &Looks<'_>, i: usize, entered: &Looks<'_>, j: usize) -> Option<
     let a = left.points(i, side, omega);
     let b = entered.points(j, side, omega);
     let yaw = nearest_turn(&a, &b);
-    let b = b.map(|p| turned(p, yaw));
+    let b = b.map(|p| turned_on_floor(p, yaw));
     let sum = |p: &[[f64; 2]; 5]| [p[0][0] + p[1][0], p[0][1] + p[1][1]];
     let capture = far(sum(&a), sum(&b));
     let step = far(a[2], b[2]);
     let (from, to) = (&entered.feet[j][side], &left.feet[i][side]);
     let turn = trig::wrapped(to.yaw - from.yaw - yaw).abs();
-    if capture > CAPTURE || step > STEP || turn > TURN {
+    if capture > transition::MOST_CAPTURE
+        || step > transition::MOST_STEP
+        || turn > transition::MOST_TURN
+    {
         return None;
     }
     let unlike = unlike((left, i), (entered, j));
-    if unlike > UNLIKE {
+    if unlike > likeness::TRANSITION {
         return None;
     }
-    let at = turned([from.place.x, from.place.y], yaw);
+    let at = turned_on_floor([from.place.x, from.place.y], yaw);
     let moment = Moment {
         left: i,
         entered: j - 1,
@@ -199,25 +185,30 @@ fn compare(left: &Looks<'_>, i: usize, entered: &Looks<'_>, j: usize) -> Option<
         step,
         turn,
     };
-    let parts = [capture / CAPTURE, unlike / UNLIKE, step / STEP, turn / TURN];
-    let wait = WAITING * i as f64 / RATE;
+    let parts = [
+        capture / transition::MOST_CAPTURE,
+        unlike / likeness::TRANSITION,
+        step / transition::MOST_STEP,
+        turn / transition::MOST_TURN,
+    ];
+    let wait = transition::WAITING_COST * i as f64 / stop::RATE;
     Some((parts.iter().map(|p| p * p).sum::<f64>() + wait, moment))
 }
 
 /// The moments from sample `from` of `left` on at which that is like the beginning of `entered`, most alike first. The
 /// first sample of `entered` is the one before its beginning.
-pub(super) fn moments(left: &Looks<'_>, from: usize, entered: &Looks<'_>) -> Vec<Moment> {
+pub(super) fn moments(left: &Features<'_>, from: usize, entered: &Features<'_>) -> Vec<Moment> {
     let mut found: Vec<(f64, Moment)> = Vec::new();
-    for i in (from.max(1)..left.samples.len().saturating_sub(1)).step_by(STRIDE) {
-        let beginnings = (1..entered.samples.len() - 1).step_by(STRIDE);
+    for i in (from.max(1)..left.samples.len().saturating_sub(1)).step_by(transition::STRIDE) {
+        let beginnings = (1..entered.samples.len() - 1).step_by(transition::STRIDE);
         let like = beginnings.filter_map(|j| compare(left, i, entered, j));
         found.extend(like.min_by(|a, b| a.0.total_cmp(&b.0)));
     }
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut out: Vec<Moment> = Vec::new();
     for (_, moment) in found {
-        let near = |m: &Moment| m.left.abs_diff(moment.left) < APART;
-        if out.len() < MOST && !out.iter().any(near) {
+        let near = |m: &Moment| m.left.abs_diff(moment.left) < transition::CANDIDATE_STRIDE;
+        if out.len() < transition::CANDIDATES && !out.iter().any(near) {
             out.push(moment);
         }
     }

@@ -2,68 +2,71 @@
 //!
 //! It is an end of the beginning of the clip, backwards ([`crate::sim::plan::stop`]): the steps that would bring the
 //! reversed motion to that very stand, prepared together with what comes after them. A clip that begins at once instead
-//! throws arms and trunk about, drags feet that are elsewhere, and asks for a velocity that nobody has who stands.
+//! throws arms and trunk about, drags feet that are other_support, and asks for a velocity that nobody has who stands.
 
-use super::candidates::{Looks, far, turned};
+use super::candidates::{Features, far};
 use super::{Next, WayIn};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::{Vec3, trig};
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::clip::Clip;
 use crate::sim::plan::cycle::label;
-use crate::sim::plan::foot_lock::Anchor;
+use crate::sim::plan::foot_lock::FootPlacement;
+use crate::sim::plan::params::{balance, stop, transition};
 use crate::sim::plan::prepare::{Draft, prepare_in};
-use crate::sim::plan::splice::{BLEND, FINE, HOW, ROUNDS, Sample, TAKES_PART, hold_on};
-
-/// A clip begins as a figure stands if no foot is farther from where it has it than this, m and rad, the capture point
-/// no farther, m, and no joint, rad; and if no joint is faster, rad/s.
-const ALIKE: (f64, f64, f64, f64, f64) = (0.04, 0.2, 0.05, 0.25, 1.0);
+use crate::sim::plan::splice::{SEAM_OPTIONS, Sample, blend_from_played};
+use crate::sim::plan::turned_on_floor;
 
 impl Next {
     /// True if nobody who stands like `stand` need do anything before the clip begins at clip time `first`, s. No
     /// platform-dependent rounding, since it is asked in the tick.
     pub fn begins_as(&self, body: &Body, first: f64, stand: &Posture) -> bool {
         let sample = |t: f64| (self.sample(t).posture, [true; 2]);
-        let later = self.speed / FINE;
+        let later = self.speed / stop::RATE;
         let samples = [(*stand, [true; 2]), sample(first), sample(first + later)];
-        let looks = Looks::new(body, &samples);
-        let omega = (GRAVITY / looks.com[0].z.max(0.2)).sqrt();
-        let is = seen(&looks.feet[0], looks.com[0]);
-        let moves = (looks.com[2] - looks.com[1]) * (FINE / omega);
-        let begins = seen(&looks.feet[1], looks.com[1] + moves);
+        let features = Features::new(body, &samples);
+        let omega = (GRAVITY / features.com[0].z.max(balance::LEAST_HEIGHT)).sqrt();
+        let is = seen(&features.feet[0], features.com[0]);
+        let moves = (features.com[2] - features.com[1]) * (stop::RATE / omega);
+        let begins = seen(&features.feet[1], features.com[1] + moves);
         let joints = stand.joint_difference(&samples[1].0);
         let rates = samples[1].0.joint_difference(&samples[2].0);
-        far(is.0, begins.0) < ALIKE.0
-            && trig::wrapped(begins.1 - is.1).abs() < ALIKE.1
-            && far(is.2, begins.2) < ALIKE.2
-            && joints.iter().all(|e| e.abs() < ALIKE.3)
-            && rates.iter().all(|e| e.abs() * FINE < ALIKE.4)
+        far(is.0, begins.0) < transition::BEGIN_DISTANCE
+            && trig::wrapped(begins.1 - is.1).abs() < transition::BEGIN_ANGLE
+            && far(is.2, begins.2) < transition::BEGIN_CAPTURE
+            && joints.iter().all(|e| e.abs() < transition::BEGIN_JOINT)
+            && rates
+                .iter()
+                .all(|e| e.abs() * stop::RATE < transition::BEGIN_RATE)
     }
 
     /// The way from standing like `stand` into the clip, which begins at clip time `first`, s. `None` if there is none.
     pub fn from_stand(&self, body: &Body, first: f64, stand: &Posture) -> Option<WayIn> {
-        let samples = |seconds: f64| (seconds * FINE).round() as usize;
-        let (held, seen) = (samples(BLEND), samples(BLEND + TAKES_PART));
-        let at = |k: usize| first + k as f64 * self.speed / FINE;
+        let samples = |seconds: f64| (seconds * stop::RATE).round() as usize;
+        let (held, seen) = (
+            samples(stop::BLEND_TIME),
+            samples(stop::BLEND_TIME + stop::PREPARED_TIME),
+        );
+        let at = |k: usize| first + k as f64 * self.speed / stop::RATE;
         let mut known: Vec<Sample> = (0..=seen)
             .map(|k| self.sample(at(k)))
             .map(|t| (t.posture, t.planted))
             .collect();
         let (mut postures, planted): (Vec<_>, Vec<_>) = known.iter().copied().unzip();
-        let mut label = label(body, FINE, &postures, &planted);
+        let mut label = label(body, stop::RATE, &postures, &planted);
         known.reverse();
         postures.reverse();
         label.reverse();
-        let mut draft = Draft::of_postures(body, FINE, postures, label);
+        let mut draft = Draft::of_postures(body, stop::RATE, postures, label);
         let added = draft.end_at_rest(body, stand);
         if added == 0 {
             return None;
         }
-        let mut whole = prepare_in(body, &draft, HOW, ROUNDS);
-        hold_on(&mut whole.postures, &known, seen - held);
+        let mut whole = prepare_in(body, &draft, SEAM_OPTIONS, balance::SEAM_ROUNDS);
+        blend_from_played(&mut whole.postures, &known, seen - held);
         whole.postures.reverse();
         whole.planted.reverse();
-        let rate = FINE / self.speed;
+        let rate = stop::RATE / self.speed;
         let clip =
             Clip::from_postures(self.clip.name(), rate, whole.postures, whole.planted).ok()?;
         let begin = first - added as f64 / rate;
@@ -77,10 +80,10 @@ impl Next {
 }
 
 /// Seen from the middle between two feet: the left one, its heading, and a point over the floor.
-fn seen(feet: &[Anchor; 2], point: Vec3) -> ([f64; 2], f64, [f64; 2]) {
+fn seen(feet: &[FootPlacement; 2], point: Vec3) -> ([f64; 2], f64, [f64; 2]) {
     let half = 0.5 * trig::wrapped(feet[1].yaw - feet[0].yaw);
     let heading = feet[0].yaw + half;
     let middle = (feet[0].place + feet[1].place) * 0.5;
-    let from = |p: Vec3| turned([p.x - middle.x, p.y - middle.y], -heading);
+    let from = |p: Vec3| turned_on_floor([p.x - middle.x, p.y - middle.y], -heading);
     (from(feet[0].place), -half, from(point))
 }

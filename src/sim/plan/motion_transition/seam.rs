@@ -6,64 +6,35 @@
 //! support.
 
 use super::candidates::Moment;
-use super::{Next, RATE, WayIn};
+use super::{Next, WayIn};
 use crate::sim::body::angles::clamp_to_limits;
-use crate::sim::body::topology::{
-    DOF_START, JOINT, Joint, L_FOOT, L_THIGH, L_TOES, L_UPPER_ARM, NV, R_FOOT, R_TOES,
-};
+use crate::sim::body::topology::{DOF_START, L_THIGH, L_UPPER_ARM, NV};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::curve::{fade, smootherstep};
-use crate::sim::math::{Quat, Vec3, trig};
+use crate::sim::math::{Vec3, trig};
 use crate::sim::motion::clip::Clip;
 use crate::sim::motion::leg_ik::{forward, knee_axis, solve_leg_in_plane};
 use crate::sim::plan::ankle_torque_limit::AnkleTorqueLimit;
 use crate::sim::plan::cycle::label;
 use crate::sim::plan::envelope::smoothest_below;
-use crate::sim::plan::feasibility::consistency;
-use crate::sim::plan::foot_lock::{Anchor, FootPose, LockedFoot, Sole};
-use crate::sim::plan::pelvis_shift::{mass_track, pelvis_shift};
+use crate::sim::plan::feasibility::infeasibility;
+use crate::sim::plan::foot_lock::{FootPlacement, FootPose, LockedFoot, Sole};
+use crate::sim::plan::params::{balance, leg, stop, transition};
+use crate::sim::plan::pelvis_shift::{ShiftProblem, mass_track, pelvis_shift};
 use crate::sim::plan::prepare::{
-    CARRIED, DROP_TIME, INSET, carriers_of, held_by, leg_geometry, may_rest, planted_of,
+    StandingFeet, leg_geometry, limit_ankle_torques, other_support, planted_of, support_phases,
 };
 use crate::sim::plan::splice::Sample;
-
-/// Force and moment that a way may ask for from nothing, shares of what a body weighs. Of 35 ways of 17 pairs of
-/// recordings that asked for less nobody fell; of 29 that asked for more six did.
-pub(super) const MOST_ASKED: f64 = 0.05;
-/// Time in which trunk and legs turn from one motion to the other, and arms, s.
-const BLEND: f64 = 0.4;
-const ARMS_BLEND: f64 = 0.6;
-/// A swinging foot has less if it lands sooner, but at least this, s.
-const LEAST_BLEND: f64 = 0.1;
-/// Time before the seam in which the pelvis may be shifted for what comes, s.
-const BEFORE: f64 = 0.5;
-/// Time in which a shift of the pelvis comes in, and goes out, s.
-const EDGE: f64 = 0.25;
-/// What is known before and after that, for accelerations and filters, s.
-const MARGIN: f64 = 0.3;
-/// The feet have stood, or swung, for so long when the clip itself takes over, and go on, samples.
-const STEADY: usize = 6;
-/// Longest time after the seam until it does, s.
-const LONGEST: f64 = 3.0;
-/// A foot that stays where it is may be so far from where the clip has it, m and rad.
-const IN_PLACE: (f64, f64) = (0.002, 0.02);
-/// A planted leg is stretched to at most this share of its length.
-const REACH: f64 = 0.99;
-/// A foot that its leg cannot hold in place to this accuracy makes a way useless, m.
-const STRAY: f64 = 0.003;
-/// Rounds of shifting the pelvis.
-const ROUNDS: usize = 4;
-
-const FOOT: [usize; 2] = [L_FOOT.index(), R_FOOT.index()];
+use crate::sim::plan::{FEET, toe_hinge};
 
 fn samples_in(seconds: f64) -> usize {
-    (seconds * RATE).round() as usize
+    (seconds * stop::RATE).round() as usize
 }
 
 /// A difference before, at and after the seam, that fades from there on.
-struct Off<const N: usize>([[f64; N]; 3]);
+struct FadingOffset<const N: usize>([[f64; N]; 3]);
 
-impl<const N: usize> Off<N> {
+impl<const N: usize> FadingOffset<N> {
     /// What is left of it `k` samples after the seam, if it fades within `span` samples.
     fn left(&self, k: usize, span: impl Fn(usize) -> f64) -> [f64; N] {
         let [before, at, after] = &self.0;
@@ -98,11 +69,8 @@ struct Seam {
 fn feet_of(body: &Body, posture: &Posture) -> [FootPose; 2] {
     let poses = forward(body, posture);
     std::array::from_fn(|s| {
-        let (ankle, rotation) = poses[FOOT[s]];
-        let toe = match JOINT[[L_TOES, R_TOES][s].index()] {
-            Joint::Hinge1(h) => posture.hinge[h],
-            _ => unreachable!("the toes are on a hinge"),
-        };
+        let (ankle, rotation) = poses[FEET[s].index()];
+        let toe = posture.hinge[toe_hinge(s)];
         FootPose {
             ankle,
             rotation,
@@ -111,24 +79,8 @@ fn feet_of(body: &Body, posture: &Posture) -> [FootPose; 2] {
     })
 }
 
-fn stood(sole: &Sole, pose: &FootPose) -> Anchor {
+fn stood(sole: &Sole, pose: &FootPose) -> FootPlacement {
     sole.footing((pose.ankle, pose.rotation))
-}
-
-/// From one pose of a foot to another: translation, rotation vector, toes.
-fn between(from: &FootPose, to: &FootPose) -> [f64; 7] {
-    let p = to.ankle - from.ankle;
-    let r = (to.rotation * from.rotation.conjugate()).log();
-    [p.x, p.y, p.z, r.x, r.y, r.z, to.toe - from.toe]
-}
-
-fn moved(pose: &FootPose, by: &[f64; 7]) -> FootPose {
-    let turn = Quat::exp(Vec3::from_array([by[3], by[4], by[5]]));
-    FootPose {
-        ankle: pose.ankle + Vec3::from_array([by[0], by[1], by[2]]),
-        rotation: (turn * pose.rotation).normalized(),
-        toe: pose.toe + by[6],
-    }
 }
 
 impl Seam {
@@ -141,7 +93,7 @@ impl Seam {
         (moment, enters): (&Moment, f64),
         count: usize,
     ) -> Self {
-        let mut entered = next.samples(enters - next.speed / RATE, count + 1);
+        let mut entered = next.samples(enters - next.speed / stop::RATE, count + 1);
         for (posture, _) in &mut entered {
             moment.place.apply_posture(posture);
         }
@@ -149,7 +101,7 @@ impl Seam {
         let left = [at - 1, at, at + 1].map(|i| known[i].0);
         Self {
             soles: [Sole::new(body, 0), Sole::new(body, 1)],
-            label: label(body, RATE, &postures, &planted).split_off(1),
+            label: label(body, stop::RATE, &postures, &planted).split_off(1),
             feet: postures.iter().map(|p| feet_of(body, p)).collect(),
             from: [0, 1, 2].map(|k: usize| feet_of(body, &left[k])),
             left,
@@ -165,9 +117,16 @@ impl Seam {
     /// Postures from the seam on: those of the second motion, and what is left of the difference.
     fn postures(&self, count: usize) -> Vec<Posture> {
         let off = |k: usize| self.entered[k].0.difference(&self.left[k]);
-        let off: Off<NV> = Off([off(0), off(1), off(2)]);
+        let off: FadingOffset<NV> = FadingOffset([off(0), off(1), off(2)]);
         let arms = 6 + DOF_START[L_UPPER_ARM.index()]..6 + DOF_START[L_THIGH.index()];
-        let span = |d: usize| RATE * if arms.contains(&d) { ARMS_BLEND } else { BLEND };
+        let span = |d: usize| {
+            stop::RATE
+                * if arms.contains(&d) {
+                    transition::ARM_BLEND_TIME
+                } else {
+                    transition::BLEND_TIME
+                }
+        };
         let posture = |k: usize| {
             let mut p = *self.to(k);
             p.integrate(&off.left(k, span), 1.0);
@@ -190,12 +149,16 @@ impl Seam {
         let sole = &self.soles[side];
         let change = self.first_change(side);
         let mut out: Vec<_> = self.feet[1..].iter().map(|f| f[side]).collect();
-        let within = |samples: usize| (RATE * BLEND).min(samples as f64).max(RATE * LEAST_BLEND);
+        let within = |samples: usize| {
+            (stop::RATE * transition::BLEND_TIME)
+                .min(samples as f64)
+                .max(stop::RATE * transition::LEAST_BLEND_TIME)
+        };
         if !self.label[0][side] {
-            let off = |k: usize| between(&self.feet[k][side], &self.from[k][side]);
-            let off = Off([off(0), off(1), off(2)]);
+            let off = |k: usize| self.from[k][side].offset_from(&self.feet[k][side]);
+            let off = FadingOffset([off(0), off(1), off(2)]);
             for (k, pose) in out.iter_mut().enumerate() {
-                *pose = moved(pose, &off.left(k, |_| within(change)));
+                *pose = pose.moved(&off.left(k, |_| within(change)));
             }
             return out;
         }
@@ -203,27 +166,27 @@ impl Seam {
             let [is, should] = [&self.from[k], &self.feet[k]].map(|f| stood(sole, &f[side]));
             [is.pitch - should.pitch]
         };
-        let pitch = Off([pitch(0), pitch(1), pitch(2)]);
-        let Anchor { place, yaw, .. } = stood(sole, &self.from[1][side]);
+        let pitch = FadingOffset([pitch(0), pitch(1), pitch(2)]);
+        let FootPlacement { place, yaw, .. } = stood(sole, &self.from[1][side]);
         let mut last = [0.0; 7];
         for (k, pose) in out.iter_mut().enumerate().take(change) {
             let pitched = stood(sole, pose).pitch + pitch.left(k, |_| within(change))[0];
             let stands = sole.stand(place, yaw, pitched);
-            last = between(pose, &stands);
-            *pose = moved(pose, &last);
+            last = stands.offset_from(pose);
+            *pose = pose.moved(&last);
         }
         let landed = self.label[change..].iter().position(|l| l[side]);
-        let off = Off([last; 3]);
+        let off = FadingOffset([last; 3]);
         let span = within(landed.unwrap_or(usize::MAX));
         for (k, pose) in out[change..].iter_mut().enumerate() {
-            *pose = moved(pose, &off.left(k, |_| span));
+            *pose = pose.moved(&off.left(k, |_| span));
         }
         out
     }
 
     /// Samples after the seam from which on foot `side` is where the second motion has it: once it has come down anew.
     /// `None` if it does not.
-    fn is_led(&self, side: usize) -> Option<usize> {
+    fn follows_from(&self, side: usize) -> Option<usize> {
         let change = self.first_change(side);
         if !self.label[0][side] {
             return (change < self.label.len()).then_some(change);
@@ -234,26 +197,27 @@ impl Seam {
         let sole = &self.soles[side];
         let [is, should] = [&self.from[1], &self.feet[1]].map(|f| stood(sole, &f[side]));
         let stays = change == self.label.len();
-        let near = (is.place - should.place).norm() < IN_PLACE.0
-            && trig::wrapped(is.yaw - should.yaw).abs() < IN_PLACE.1;
+        let near = (is.place - should.place).norm() < transition::SAME_PLACE
+            && trig::wrapped(is.yaw - should.yaw).abs() < transition::SAME_HEADING;
         (stays && near).then_some(0)
     }
 
     /// Samples after the seam at which the clip itself can take over.
     fn ends(&self) -> Option<usize> {
-        let led = self.is_led(0)?.max(self.is_led(1)?);
-        let earliest = led.max(samples_in(ARMS_BLEND)) + samples_in(EDGE);
+        let led = self.follows_from(0)?.max(self.follows_from(1)?);
+        let earliest =
+            led.max(samples_in(transition::ARM_BLEND_TIME)) + samples_in(transition::SHIFT_EDGE);
         let steady = |k: &usize| {
-            let around = &self.label[k - STEADY..=k + STEADY];
+            let around = &self.label[k - transition::STEADY..=k + transition::STEADY];
             around.iter().all(|l| *l == self.label[*k])
         };
-        let latest = samples_in(LONGEST).min(self.label.len() - STEADY - 1);
+        let latest = samples_in(transition::LONGEST).min(self.label.len() - transition::STEADY - 1);
         (earliest..=latest).find(steady)
     }
 }
 
 /// A motion as it is made one that a body can follow.
-struct Draft<'a> {
+struct SeamMotion<'a> {
     body: &'a Body,
     soles: &'a [Sole; 2],
     /// Before legs are solved and the pelvis is moved.
@@ -264,7 +228,7 @@ struct Draft<'a> {
     share: Vec<f64>,
 }
 
-impl Draft<'_> {
+impl SeamMotion<'_> {
     /// Postures with the pelvis shifted and lowered, m, and the feet in their places.
     fn with(&self, shift: &[[f64; 2]], drop: &[f64]) -> Vec<Posture> {
         let posture = |i: usize| {
@@ -300,35 +264,42 @@ impl Draft<'_> {
                 }
                 let d = p.root_position + p.root_rotation.rotate(*hip) - foot.poses[i].ankle;
                 let level = d.x * d.x + d.y * d.y;
-                (REACH * REACH * length * length - level).max(0.0).sqrt() - d.z
+                (leg::SEAM_REACH * leg::SEAM_REACH * length * length - level)
+                    .max(0.0)
+                    .sqrt()
+                    - d.z
             });
             self.share[i] * needs.fold(0.0, f64::min)
         };
         let lacks: Vec<f64> = (0..self.postures.len()).map(lacks).collect();
-        let drop = smoothest_below(&lacks, DROP_TIME, RATE);
+        let drop = smoothest_below(&lacks, leg::DROP_TIME, stop::RATE);
         drop.iter().zip(&self.share).map(|(d, s)| s * d).collect()
     }
 
     /// With the pelvis shifted so that the zero-moment point stays in the support.
     fn balanced(&self) -> Vec<Posture> {
         let n = self.postures.len();
-        let one_foot = AnkleTorqueLimit::new(self.body);
-        let carriers = carriers_of(
-            self.body,
-            self.soles,
-            &self.postures,
-            (&self.feet, &planted_of(&self.feet)),
-            &self.label,
-        );
-        let elsewhere = may_rest(self.body, &self.postures, &self.label, RATE);
+        let limit = AnkleTorqueLimit::new(self.body);
+        let feet = StandingFeet {
+            soles: self.soles,
+            locked: &self.feet,
+            carries: &planted_of(&self.feet),
+        };
+        let phases = support_phases(self.body, feet, &self.postures, &self.label);
+        let other_support = other_support(self.body, &self.postures, &self.label, stop::RATE);
         let drop = self.drop();
         let mut shift = vec![[0.0; 2]; n];
         let mut postures = self.with(&shift, &drop);
-        for _ in 0..ROUNDS {
-            let track = mass_track(self.body, &postures, RATE);
-            let held = held_by(&carriers, self.soles, &self.feet, (&one_foot, &track), RATE);
-            let reach = (INSET, CARRIED);
-            shift = pelvis_shift(&track, &shift, &held, &elsewhere, reach, RATE);
+        for _ in 0..balance::SEAM_ROUNDS {
+            let track = mass_track(self.body, &postures, stop::RATE);
+            shift = pelvis_shift(&ShiftProblem {
+                support: &limit_ankle_torques(&phases, feet, &limit, &track, false, stop::RATE),
+                track: &track,
+                so_far: &shift,
+                other_support: &other_support,
+                inset: balance::INSET,
+                rate_hz: stop::RATE,
+            });
             for (s, share) in shift.iter_mut().zip(&self.share) {
                 *s = s.map(|x| share * x);
             }
@@ -356,7 +327,7 @@ impl Draft<'_> {
 ///
 /// * `known`: the motion; it plays as it is up to sample `now`.
 /// * `enters`: clip time at which `next` is entered at that moment, s.
-pub(super) fn lead_over(
+pub(super) fn transition_at(
     body: &Body,
     known: &[Sample],
     now: usize,
@@ -364,15 +335,15 @@ pub(super) fn lead_over(
     (moment, enters): (&Moment, f64),
 ) -> Option<(f64, WayIn)> {
     let at = moment.left;
-    let count = samples_in(LONGEST) + STEADY + 2;
+    let count = samples_in(transition::LONGEST) + transition::STEADY + 2;
     let seam = Seam::new(body, (known, at), next, (moment, enters), count);
     let ends = seam.ends()?;
-    let count = (ends + samples_in(MARGIN)).min(count);
+    let count = (ends + samples_in(transition::MARGIN)).min(count);
 
-    let held = now.max(at.saturating_sub(samples_in(BEFORE)));
-    let cut = held.saturating_sub(samples_in(MARGIN));
+    let held = now.max(at.saturating_sub(samples_in(transition::SHIFT_AHEAD)));
+    let cut = held.saturating_sub(samples_in(transition::MARGIN));
     let (mut postures, planted): (Vec<_>, Vec<_>) = known[cut..at].iter().copied().unzip();
-    let mut label = label(body, RATE, &postures, &planted);
+    let mut label = label(body, stop::RATE, &postures, &planted);
     let mut poses: Vec<[FootPose; 2]> = postures.iter().map(|p| feet_of(body, p)).collect();
     postures.extend(seam.postures(count));
     label.extend_from_slice(&seam.label[..count]);
@@ -380,9 +351,9 @@ pub(super) fn lead_over(
     poses.extend((0..count).map(|k| [left[k], right[k]]));
     let n = postures.len();
     let feet = [0, 1].map(|s: usize| {
-        let anchors = poses.iter().map(|f| stood(&seam.soles[s], &f[s]));
+        let placements = poses.iter().map(|f| stood(&seam.soles[s], &f[s]));
         LockedFoot {
-            anchors: anchors.collect(),
+            placements: placements.collect(),
             planted: label.iter().map(|l| l[s]).collect(),
             poses: poses.iter().map(|f| f[s]).collect(),
             slide_before: 0.0,
@@ -392,9 +363,9 @@ pub(super) fn lead_over(
     let share = |i: usize| {
         let since = (i + cut).saturating_sub(held) as f64;
         let until = ends_at.saturating_sub(i) as f64;
-        smootherstep(since.min(until) / (EDGE * RATE))
+        smootherstep(since.min(until) / (transition::SHIFT_EDGE * stop::RATE))
     };
-    let draft = Draft {
+    let draft = SeamMotion {
         body,
         soles: &seam.soles,
         postures,
@@ -408,8 +379,8 @@ pub(super) fn lead_over(
         postures[at - cut + k] = *seam.to(k);
     }
     let from = (held - cut).saturating_sub(4);
-    let asks = consistency(body, &postures[from..], &draft.label[from..], RATE);
-    if stray > STRAY {
+    let asked = infeasibility(body, &postures[from..], &draft.label[from..], stop::RATE);
+    if stray > transition::MOST_STRAY {
         return None;
     }
 
@@ -419,13 +390,13 @@ pub(super) fn lead_over(
     planted.extend(seam.entered[1..=count].iter().map(|s| s.1));
     let back = moment.place.power(-1.0);
     all.iter_mut().for_each(|p| back.apply_posture(p));
-    let clip = Clip::from_postures(next.clip.name(), RATE / next.speed, all, planted).ok()?;
-    let seconds = |samples: usize| samples as f64 * next.speed / RATE;
+    let clip = Clip::from_postures(next.clip.name(), stop::RATE / next.speed, all, planted).ok()?;
+    let seconds = |samples: usize| samples as f64 * next.speed / stop::RATE;
     let way = WayIn {
         clip,
         begin: enters - seconds(at),
         enters,
         until: enters + seconds(ends),
     };
-    Some((asks.force.rms + asks.moment.rms, way))
+    Some((asked, way))
 }

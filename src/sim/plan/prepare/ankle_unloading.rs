@@ -1,30 +1,20 @@
 //! What bends for the sake of planted legs: ankles and hips that would have to go beyond their limits.
 
-use super::{FOOT, pelvis_yaw};
+use super::pelvis_yaw;
 use crate::sim::body::angles::anatomical_angles;
 use crate::sim::body::topology::{DOF_START, L_THIGH, R_THIGH};
 use crate::sim::body::{Body, Posture};
 use crate::sim::motion::filter::{low_pass, smooth_minimum};
-use crate::sim::plan::foot_lock::{ON_TIP, Stance};
-
-/// Ankles and hips of planted feet are kept this far from their limits, rad.
-pub(super) const MARGIN: f64 = 0.03;
-/// What is bent for an ankle's sake is so this long before and after, s: of who walks and of who runs, whose whole
-/// stance takes 0.2 s.
-const AROUND: (f64, f64) = (0.1, 0.025);
-/// A leg is turned at most this far for its ankle's sake, rad.
-const MOST_TURN: f64 = 0.6;
+use crate::sim::plan::FEET;
+use crate::sim::plan::foot_lock::{Stance, StanceTurns};
+use crate::sim::plan::params::{leg, pitch};
 
 /// What is bent so that planted legs stay within their limits, per sample.
 pub(super) struct AnkleUnloading {
-    /// Heel raised further than recorded, rad.
-    pub heel_up: [Vec<f64>; 2],
+    /// How feet are turned in stance.
+    pub feet: [StanceTurns; 2],
     /// Leg turned inwards about the line from hip to ankle, rad.
     pub turn_in: [Vec<f64>; 2],
-    /// Foot turned outwards on the floor, rad; one value per stance.
-    pub toe_out: [Vec<f64>; 2],
-    /// Toes turned up about their tip, rad.
-    pub tip: [Vec<f64>; 2],
     /// Pelvis turned anticlockwise about the vertical, rad.
     pub yaw: Vec<f64>,
 }
@@ -32,10 +22,8 @@ pub(super) struct AnkleUnloading {
 impl AnkleUnloading {
     pub fn new(n: usize) -> Self {
         Self {
-            heel_up: [vec![0.0; n], vec![0.0; n]],
+            feet: [StanceTurns::none(n), StanceTurns::none(n)],
             turn_in: [vec![0.0; n], vec![0.0; n]],
-            toe_out: [vec![0.0; n], vec![0.0; n]],
-            tip: [vec![0.0; n], vec![0.0; n]],
             yaw: vec![0.0; n],
         }
     }
@@ -53,11 +41,15 @@ impl AnkleUnloading {
         rate_hz: f64,
     ) {
         let n = postures.len();
-        let around = if runs { AROUND.1 } else { AROUND.0 };
+        let around = if runs {
+            leg::RUN_UNLOAD_TIME
+        } else {
+            leg::UNLOAD_TIME
+        };
         let half = (around * rate_hz) as usize;
         let angles: Vec<_> = postures.iter().map(anatomical_angles).collect();
         for s in 0..2 {
-            let d = DOF_START[FOOT[s].index()];
+            let d = DOF_START[FEET[s].index()];
             let over = |dof: usize, up: bool| -> Vec<f64> {
                 let raw: Vec<f64> = (0..n)
                     .map(|i| {
@@ -70,16 +62,21 @@ impl AnkleUnloading {
                         } else {
                             body.lower[dof] - a
                         };
-                        -(e + MARGIN).max(0.0)
+                        -(e + leg::PLANTED_MARGIN).max(0.0)
                     })
                     .collect();
                 smooth_minimum(&raw, half).into_iter().map(|x| -x).collect()
             };
             let hip = DOF_START[[L_THIGH, R_THIGH][s].index()];
-            for (i, (sum, e)) in self.heel_up[s].iter_mut().zip(over(d, true)).enumerate() {
+            let StanceTurns {
+                heel_up,
+                toe_out,
+                tip,
+            } = &mut self.feet[s];
+            for (i, (sum, e)) in heel_up.iter_mut().zip(over(d, true)).enumerate() {
                 // A runner's pelvis is lower in the first rounds than in the last: what was too much is given back.
-                if runs && e == 0.0 && *sum > 0.0 && planted[i][s] && self.tip[s][i] < ON_TIP {
-                    let spare = (body.upper[d] - MARGIN - angles[i][d]).max(0.0);
+                if runs && e == 0.0 && *sum > 0.0 && planted[i][s] && tip[i] < pitch::FLAT {
+                    let spare = (body.upper[d] - leg::PLANTED_MARGIN - angles[i][d]).max(0.0);
                     *sum = (*sum - spare).max(0.0);
                 }
                 *sum += e;
@@ -89,18 +86,19 @@ impl AnkleUnloading {
             let (abducted, adducted) = (over(hip + 1, true), over(hip + 1, false));
             for (i, sum) in self.turn_in[s].iter_mut().enumerate() {
                 *sum = (*sum + inward[i] - outward[i] + abducted[i] - adducted[i])
-                    .clamp(-MOST_TURN, MOST_TURN);
+                    .clamp(-leg::MOST_TURN, leg::MOST_TURN);
             }
             let (rotated_in, rotated_out) = (over(hip + 2, true), over(hip + 2, false));
             for st in stances[s] {
                 let most = |v: &[f64]| v[st.start..st.end].iter().copied().fold(0.0, f64::max);
-                let e = 1.3 * (most(&rotated_in) - most(&rotated_out));
+                let e = leg::HEADING_GAIN * (most(&rotated_in) - most(&rotated_out));
                 for i in st.start..st.end {
-                    self.toe_out[s][i] = (self.toe_out[s][i] + e).clamp(-MOST_TURN, MOST_TURN);
-                    self.turn_in[s][i] = (self.turn_in[s][i] - e).clamp(-MOST_TURN, MOST_TURN);
+                    toe_out[i] = (toe_out[i] + e).clamp(-leg::MOST_TURN, leg::MOST_TURN);
+                    self.turn_in[s][i] =
+                        (self.turn_in[s][i] - e).clamp(-leg::MOST_TURN, leg::MOST_TURN);
                 }
             }
-            low_pass(&mut self.turn_in[s], 3.0, rate_hz);
+            low_pass(&mut self.turn_in[s], leg::TURN_CUTOFF, rate_hz);
         }
         pelvis_yaw::add(body, postures, planted, stances, &mut self.yaw, rate_hz);
     }

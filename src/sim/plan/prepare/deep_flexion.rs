@@ -5,30 +5,16 @@
 //! chest forward again as far as it goes. What is then left, of knees and ankles, raises the pelvis. Both come and go
 //! smoothly, and the legs are solved again.
 
-use super::joint_limits::{DEEP, LIMIT_MARGIN, toe_hinge};
-use super::whole_body::DROP_TIME;
-use super::{FOOT, leg_geometry};
+use super::leg_geometry;
 use crate::sim::body::angles::{anatomical_angles, clamp_to_limits};
-use crate::sim::body::topology::{
-    ABDOMEN, CHEST, DOF_COUNT, DOF_START, JOINT, Joint, L_THIGH, R_THIGH,
-};
-use crate::sim::body::{Body, Posture, SegmentId};
+use crate::sim::body::topology::{ABDOMEN, CHEST, DOF_COUNT, DOF_START};
+use crate::sim::body::{Body, Posture};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::leg_ik::{forward, solve_leg};
 use crate::sim::plan::envelope::smoothest_below;
 use crate::sim::plan::foot_lock::{LockedFoot, Sole};
-
-/// The pelvis is tilted back at most this far, rad, and raised at most this far, m.
-const MOST_TILT: f64 = 0.8;
-const MOST_RAISE: f64 = 0.2;
-/// A hip is brought this far inside its limit, rad.
-const SPARE: f64 = 0.03;
-/// How much of what the hips lack is asked for when the first tilt was not enough, and how often.
-const ROUNDS: usize = 3;
-/// Bisections of the raise.
-const HALVINGS: usize = 7;
-
-const THIGH: [SegmentId; 2] = [L_THIGH, R_THIGH];
+use crate::sim::plan::params::leg;
+use crate::sim::plan::{FEET, THIGHS, ball_joint, toe_hinge};
 
 /// How far the pelvis gave way.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -39,24 +25,17 @@ pub(super) struct DeepFlexion {
     pub raise_max: f64,
 }
 
-fn ball(segment: SegmentId) -> usize {
-    match JOINT[segment.index()] {
-        Joint::Ball(b) => b,
-        _ => unreachable!("hips and spine are ball joints"),
-    }
-}
-
 /// How deep each foot is in the floor when a posture is within its limits, m; 0 for a leg that would have to reach
 /// further back, which the knee lifts.
 fn depths(body: &Body, posture: &Posture, soles: &[Sole; 2]) -> [f64; 2] {
     let mut within = *posture;
-    let off = clamp_to_limits(body, &mut within, LIMIT_MARGIN * 0.5);
+    let off = clamp_to_limits(body, &mut within, leg::LIMIT_MARGIN * 0.5);
     let poses = forward(body, &within);
     [0, 1].map(|s| {
-        if off[DOF_START[THIGH[s].index()]] < 0.0 {
+        if off[DOF_START[THIGHS[s].index()]] < 0.0 {
             return 0.0;
         }
-        let (ankle, rotation) = poses[FOOT[s].index()];
+        let (ankle, rotation) = poses[FEET[s].index()];
         -(ankle.z + soles[s].lowest(rotation, within.hinge[toe_hinge(s)]))
     })
 }
@@ -71,8 +50,8 @@ fn lacks_flexion(body: &Body, posture: &Posture, deep: [bool; 2]) -> f64 {
     let angles: [f64; DOF_COUNT] = anatomical_angles(posture);
     (0..2)
         .filter(|s| deep[*s])
-        .map(|s| DOF_START[THIGH[s].index()])
-        .map(|d| angles[d] - (body.upper[d] - SPARE))
+        .map(|s| DOF_START[THIGHS[s].index()])
+        .map(|d| angles[d] - (body.upper[d] - leg::PLANTED_MARGIN))
         .fold(0.0, f64::max)
 }
 
@@ -89,7 +68,7 @@ fn give_way(
     let middle = (hips[0].0 + hips[1].0) * 0.5;
     let left = before.rotate(hips[0].0 - hips[1].0).normalized_or(Vec3::Y);
     let about = |angle: f64| Quat::exp(left * angle);
-    let (waist, thorax) = (ball(ABDOMEN), ball(CHEST));
+    let (waist, thorax) = (ball_joint(ABDOMEN), ball_joint(CHEST));
     let abdomen = before * like.ball[waist];
     let chest = abdomen * like.ball[thorax];
     // Back is towards negative angles about the left.
@@ -106,7 +85,7 @@ fn give_way(
 }
 
 /// Tilts back and raises the pelvis where the limits of folded legs would put feet into the floor by more than
-/// [`DEEP`].
+/// [`leg::DEEP`].
 ///
 /// * `postures`: legs solved, not yet within their limits; `planted`: of each sample; `soles`, `locked`: where planted
 ///   feet are to be.
@@ -122,7 +101,7 @@ pub(super) fn unfold(
     let n = postures.len();
     let deep: Vec<[bool; 2]> = postures
         .iter()
-        .map(|p| depths(body, p, soles).map(|d| d > DEEP))
+        .map(|p| depths(body, p, soles).map(|d| d > leg::DEEP))
         .collect();
     if deep.iter().all(|d| *d == [false; 2]) {
         return DeepFlexion::default();
@@ -137,7 +116,7 @@ pub(super) fn unfold(
                 if planted[i][s] {
                     ((lock.ankle, lock.rotation), lock.toe)
                 } else {
-                    (poses[FOOT[s].index()], original[i].hinge[toe_hinge(s)])
+                    (poses[FEET[s].index()], original[i].hinge[toe_hinge(s)])
                 }
             })
         })
@@ -146,15 +125,15 @@ pub(super) fn unfold(
         |i: usize, tilt: f64, raise: f64| give_way(body, &original[i], (tilt, raise), feet[i]);
     let smooth = |need: &[f64]| -> Vec<f64> {
         let ceiling: Vec<f64> = need.iter().map(|x| -x).collect();
-        let curve = smoothest_below(&ceiling, DROP_TIME, rate_hz);
+        let curve = smoothest_below(&ceiling, leg::DROP_TIME, rate_hz);
         curve.into_iter().map(|x| (-x).max(0.0)).collect()
     };
 
     let mut need = vec![0.0f64; n];
     for i in (0..n).filter(|i| deep[*i] != [false; 2]) {
-        for _ in 0..ROUNDS {
+        for _ in 0..leg::TILT_ROUNDS {
             let lacks = lacks_flexion(body, &with(i, need[i], 0.0), deep[i]);
-            need[i] = (need[i] + lacks).min(MOST_TILT);
+            need[i] = (need[i] + lacks).min(leg::MOST_TILT);
         }
         // Where something else is cut, a tilt may put the feet deeper.
         if deepest(body, &with(i, need[i], 0.0), soles) >= deepest(body, &original[i], soles) {
@@ -171,13 +150,13 @@ pub(super) fn unfold(
             standing.fold(0.0f64, |most, (depth, _)| most.max(depth))
         };
         let first = depth(0.0);
-        if first <= DEEP {
+        if first <= leg::DEEP {
             continue;
         }
-        let (mut low, mut high) = (0.0, first.min(MOST_RAISE));
-        for _ in 0..HALVINGS {
+        let (mut low, mut high) = (0.0, first.min(leg::MOST_RAISE));
+        for _ in 0..leg::RAISE_HALVINGS {
             let middle = 0.5 * (low + high);
-            if depth(middle) > DEEP {
+            if depth(middle) > leg::DEEP {
                 low = middle;
             } else {
                 high = middle;

@@ -1,35 +1,21 @@
 //! A pelvis that turns ahead of its recording, or after it: where one stance asks for more rotation than a hip has, in
 //! both directions.
 
-use super::LIMIT_MARGIN;
-use super::ankle_unloading::MARGIN;
 use crate::sim::body::angles::{clamp_to_limits, swing_twist};
-use crate::sim::body::topology::{ABDOMEN, CHEST, DOF_START, JOINT, Joint, L_THIGH, R_THIGH};
-use crate::sim::body::{Body, Posture, SegmentId};
+use crate::sim::body::topology::{ABDOMEN, CHEST, DOF_START};
+use crate::sim::body::{Body, Posture};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::filter::smooth_minimum;
 use crate::sim::plan::foot_lock::Stance;
+use crate::sim::plan::params::leg;
+use crate::sim::plan::{THIGHS, ball_joint};
 
-/// What the pelvis is turned by for a hip's sake it is so this long before and after, s: the foot that lands needs it
-/// as well.
-const AROUND: f64 = 0.15;
-/// The pelvis is turned at most this far, rad.
-const MOST: f64 = 0.35;
 /// Which way the hip of a foot that stays turns when the pelvis turns anticlockwise: the left one inwards, the right
 /// one outwards.
 const WAY: [f64; 2] = [1.0, -1.0];
-const THIGH: [SegmentId; 2] = [L_THIGH, R_THIGH];
-
-fn ball(segment: SegmentId) -> usize {
-    match JOINT[segment.index()] {
-        Joint::Ball(b) => b,
-        _ => unreachable!("hips and spine are ball joints"),
-    }
-}
-
 /// Adds to `yaw` (rad per sample, anticlockwise seen from above) what the hips of planted feet lack in rotation.
 ///
-/// Only in stances in which a hip turns further than from limit to limit: elsewhere another heading of the foot is
+/// Only in stances in which a hip turns further than from limit to limit: other_support another heading of the foot is
 /// enough. The hip of the other foot, if that is planted as well, is not turned beyond its limits. O(n · window).
 pub(super) fn add(
     body: &Body,
@@ -39,9 +25,9 @@ pub(super) fn add(
     yaw: &mut [f64],
     rate_hz: f64,
 ) {
-    let dof = THIGH.map(|t| DOF_START[t.index()]);
+    let dof = THIGHS.map(|t| DOF_START[t.index()]);
     let rotation = |side: usize, i: usize| {
-        let hip = postures[i].ball[ball(THIGH[side])];
+        let hip = postures[i].ball[ball_joint(THIGHS[side])];
         swing_twist(hip).angles(dof[side])[2]
     };
     let limits = dof.map(|d| (body.lower[d + 2], body.upper[d + 2]));
@@ -63,11 +49,15 @@ pub(super) fn add(
             for i in samples {
                 // The heading of the foot comes to share what is too much between both ends.
                 let a = rotation(side, i) - 0.5 * (least + most);
-                let lack = -WAY[side] * (a - a.clamp(MARGIN - half, half - MARGIN));
+                let lack = -WAY[side]
+                    * (a - a.clamp(leg::PLANTED_MARGIN - half, half - leg::PLANTED_MARGIN));
                 lacks[i] += if planted[i][other] {
                     let a = rotation(other, i);
                     let (lower, upper) = limits[other];
-                    let (down, up) = ((a - lower - MARGIN).max(0.0), (upper - MARGIN - a).max(0.0));
+                    let (down, up) = (
+                        (a - lower - leg::PLANTED_MARGIN).max(0.0),
+                        (upper - leg::PLANTED_MARGIN - a).max(0.0),
+                    );
                     WAY[other] * (WAY[other] * lack).clamp(-down, up)
                 } else {
                     lack
@@ -78,14 +68,14 @@ pub(super) fn add(
     if lacks.iter().all(|l| *l == 0.0) {
         return;
     }
-    let half = (AROUND * rate_hz) as usize;
+    let half = (leg::YAW_TIME * rate_hz) as usize;
     let around = |sign: f64| {
         let part: Vec<f64> = lacks.iter().map(|l| -(sign * l).max(0.0)).collect();
         smooth_minimum(&part, half)
     };
     let both = around(1.0).into_iter().zip(around(-1.0));
     for (yaw, (plus, minus)) in yaw.iter_mut().zip(both) {
-        *yaw = (*yaw + minus - plus).clamp(-MOST, MOST);
+        *yaw = (*yaw + minus - plus).clamp(-leg::MOST_YAW, leg::MOST_YAW);
     }
 }
 
@@ -95,7 +85,7 @@ pub(super) fn turn(body: &Body, posture: &mut Posture, yaw: f64) {
     if yaw == 0.0 {
         return;
     }
-    let (waist, thorax) = (ball(ABDOMEN), ball(CHEST));
+    let (waist, thorax) = (ball_joint(ABDOMEN), ball_joint(CHEST));
     let about = |angle: f64| Quat::exp(Vec3::Z * angle);
     let abdomen = posture.root_rotation * posture.ball[waist];
     let chest = abdomen * posture.ball[thorax];
@@ -103,12 +93,13 @@ pub(super) fn turn(body: &Body, posture: &mut Posture, yaw: f64) {
     posture.root_rotation = (about(yaw) * posture.root_rotation).normalized();
     posture.ball[waist] = (posture.root_rotation.conjugate() * abdomen).normalized();
     posture.ball[thorax] = (abdomen.conjugate() * chest).normalized();
-    clamp_to_limits(body, posture, LIMIT_MARGIN);
+    clamp_to_limits(body, posture, leg::LIMIT_MARGIN);
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sim::body::topology::{L_THIGH, R_THIGH};
 
     /// A right leg that turns from one end to the other while its foot stays, beside a left one that is or is not
     /// planted with `spare` rad left; 60 Hz.
@@ -121,8 +112,8 @@ mod tests {
                 let mut p = Posture::default();
                 let u = 2.0 * i as f64 / (n - 1) as f64 - 1.0;
                 // Inwards is anticlockwise for the right leg, clockwise for the left one.
-                p.ball[ball(R_THIGH)] = Quat::exp(Vec3::Z * (u * ends));
-                p.ball[ball(L_THIGH)] = Quat::exp(Vec3::Z * (left.unwrap_or(upper) - upper));
+                p.ball[ball_joint(R_THIGH)] = Quat::exp(Vec3::Z * (u * ends));
+                p.ball[ball_joint(L_THIGH)] = Quat::exp(Vec3::Z * (left.unwrap_or(upper) - upper));
                 p
             })
             .collect();
@@ -156,7 +147,8 @@ mod tests {
     #[test]
     fn the_chest_stays_where_the_spine_lets_it() {
         let body = Body::adult_man();
-        let chest = |p: &Posture| p.root_rotation * p.ball[ball(ABDOMEN)] * p.ball[ball(CHEST)];
+        let chest =
+            |p: &Posture| p.root_rotation * p.ball[ball_joint(ABDOMEN)] * p.ball[ball_joint(CHEST)];
         let before = Posture::default();
         let mut after = before;
         turn(&body, &mut after, 0.2);

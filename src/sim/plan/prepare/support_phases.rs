@@ -1,28 +1,15 @@
 //! What carries the body in each sample, and how well what is planned stays over it.
 
-use super::{FOOT, LIMIT_MARGIN};
 use crate::sim::body::angles::clamp_to_limits;
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::polygon::{hull, margin};
 use crate::sim::motion::filter::{low_pass, percentile};
 use crate::sim::motion::leg_ik::forward;
+use crate::sim::plan::FEET;
 use crate::sim::plan::ankle_torque_limit::{AnkleTorqueLimit, Over};
 use crate::sim::plan::foot_lock::{LockedFoot, Sole};
-use crate::sim::plan::pelvis_shift::{Carrier, Elsewhere, LIGHT, MassTrack};
-
-/// A planted foot that is farther off its place than this, m, does not carry while the other one does.
-const NEAR: f64 = 0.01;
-/// A pelvis below the first share of its standing height may sit, one above the second does not.
-const SITS: (f64, f64) = (0.65, 0.8);
-
-/// Feet that stay for so long before and after a moment do not step, s.
-const STAYS: f64 = 0.5;
-
-/// Time over which the speed is taken with which a body passes over its foot, s.
-const PASSING: f64 = 0.2;
-
-/// Cut-off of the lean of a body over its foot, Hz.
-const LEAN_CUTOFF: f64 = 4.0;
+use crate::sim::plan::params::{ankle, balance, contact, leg};
+use crate::sim::plan::pelvis_shift::{MassTrack, OtherSupport, SupportPhase};
 
 /// How far the zero-moment point is outside the support polygon of planted feet, over the samples that feet carry.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -44,19 +31,34 @@ pub(in crate::sim::plan) fn planted_of(locked: &[LockedFoot; 2]) -> Vec<[bool; 2
     both.map(|(l, r)| [*l, *r]).collect()
 }
 
+/// Feet that are locked to the floor, and which of them carry the body.
+#[derive(Clone, Copy)]
+pub(in crate::sim::plan) struct StandingFeet<'a> {
+    /// Soles of the left and the right foot.
+    pub soles: &'a [Sole; 2],
+    /// Where they are locked.
+    pub locked: &'a [LockedFoot; 2],
+    /// Which ones carry, per sample.
+    pub carries: &'a [[bool; 2]],
+}
+
 /// Which planted feet carry the body: not those that their legs, within their limits, hold far from their places while
 /// the other one stands. Declared free in the end they would leave a body alone on one foot that is balanced on two.
 pub(super) fn within_reach(
     body: &Body,
     postures: &[Posture],
     planted: &[[bool; 2]],
-    (soles, locked): (&[Sole; 2], &[LockedFoot; 2]),
+    soles: &[Sole; 2],
+    locked: &[LockedFoot; 2],
 ) -> Vec<[bool; 2]> {
     let carries = |(i, planted): (usize, &[bool; 2])| {
         let mut posture = postures[i];
-        clamp_to_limits(body, &mut posture, LIMIT_MARGIN * 0.5);
+        clamp_to_limits(body, &mut posture, leg::LIMIT_MARGIN * 0.5);
         let poses = forward(body, &posture);
-        let near = |s: usize| soles[s].stray(poses[FOOT[s].index()], &locked[s].poses[i]) <= NEAR;
+        let near = |s: usize| {
+            let stray = soles[s].stray(poses[FEET[s].index()], &locked[s].poses[i]);
+            stray <= leg::SEAM_HELD
+        };
         match *planted {
             [true, true] if near(0) != near(1) => [near(0), near(1)],
             as_locked => as_locked,
@@ -66,77 +68,62 @@ pub(super) fn within_reach(
 }
 
 /// What carries the body in each sample.
-pub(in crate::sim::plan) fn carriers_of(
+pub(in crate::sim::plan) fn support_phases(
     body: &Body,
-    soles: &[Sole; 2],
+    feet: StandingFeet<'_>,
     upper: &[Posture],
-    (locked, carries): (&[LockedFoot; 2], &[[bool; 2]]),
     label: &[[bool; 2]],
-) -> Vec<Carrier> {
+) -> Vec<SupportPhase> {
     let standing = body.standing_root_height();
     let mut corners = Vec::new();
     (0..upper.len())
         .map(|i| {
             corners.clear();
-            let feet = soles.iter().zip(locked).zip(carries[i]);
-            for ((sole, foot), _) in feet.filter(|(_, carries)| *carries) {
-                sole.footprint(&foot.anchors[i], &mut corners);
+            for s in (0..2).filter(|s| feet.carries[i][*s]) {
+                feet.soles[s].footprint(&feet.locked[s].placements[i], &mut corners);
             }
-            if upper[i].root_position.z < 0.45 * standing {
-                Carrier::Other
+            if upper[i].root_position.z < contact::SEATED * standing {
+                SupportPhase::Other
             } else if corners.len() >= 3 {
-                Carrier::Feet(hull(&corners))
+                SupportPhase::Feet(hull(&corners))
             } else if label[i] == [false, false] {
-                Carrier::Air
+                SupportPhase::Air
             } else {
-                Carrier::Other
+                SupportPhase::Other
             }
         })
         .collect()
 }
 
-/// The same where no foot is asked to hold alone what its ankle cannot.
-pub(in crate::sim::plan) fn held_by(
-    carriers: &[Carrier],
-    soles: &[Sole; 2],
-    locked: &[LockedFoot; 2],
-    (one_foot, track): (&AnkleTorqueLimit, &MassTrack),
-    rate_hz: f64,
-) -> Vec<Carrier> {
-    let carries = planted_of(locked);
-    let feet = (locked, carries.as_slice());
-    held_in_gait(carriers, soles, feet, (one_foot, track), false, rate_hz)
-}
-
-/// The same, of who `runs` or walks.
-pub(super) fn held_in_gait(
-    carriers: &[Carrier],
-    soles: &[Sole; 2],
-    (locked, carries): (&[LockedFoot; 2], &[[bool; 2]]),
-    (one_foot, track): (&AnkleTorqueLimit, &MassTrack),
+/// The same where no foot is asked to hold alone what its ankle cannot, of a body that `runs` or walks.
+pub(in crate::sim::plan) fn limit_ankle_torques(
+    support: &[SupportPhase],
+    feet: StandingFeet<'_>,
+    limit: &AnkleTorqueLimit,
+    track: &MassTrack,
     runs: bool,
     rate_hz: f64,
-) -> Vec<Carrier> {
-    let half = (0.5 * PASSING * rate_hz) as usize;
+) -> Vec<SupportPhase> {
+    let half = (0.5 * ankle::SPEED_TIME * rate_hz) as usize;
     // Without the jumps of touch-downs, from which the rounds would not settle.
     let lean: [Vec<f64>; 2] = std::array::from_fn(|k| {
         let both = track.com.iter().zip(&track.zmp);
         let mut lean: Vec<f64> = both.map(|(c, z)| c.to_array()[k] - z[k]).collect();
-        low_pass(&mut lean, LEAN_CUTOFF, rate_hz);
+        low_pass(&mut lean, ankle::LEAN_CUTOFF, rate_hz);
         lean
     });
     let mut corners = Vec::new();
-    let held = |(i, carrier): (usize, &Carrier)| {
-        let side = match carries[i] {
+    let limited = |(i, phase): (usize, &SupportPhase)| {
+        let side = match feet.carries[i] {
             [true, false] => 0,
             [false, true] => 1,
-            _ => return carrier.clone(),
+            _ => return phase.clone(),
         };
-        if !matches!(carrier, Carrier::Feet(_)) {
-            return carrier.clone();
+        if !matches!(phase, SupportPhase::Feet(_)) {
+            return phase.clone();
         }
         corners.clear();
-        let (before, after) = (i.saturating_sub(half), (i + half).min(carriers.len() - 1));
+        let (before, after) = (i.saturating_sub(half), (i + half).min(support.len() - 1));
         let way = track.com[after] - track.com[before];
         let over = Over {
             height: track.com[i].z,
@@ -144,31 +131,32 @@ pub(super) fn held_in_gait(
             lean: [lean[0][i], lean[1][i]],
             load: runs.then(|| track.load[i]),
         };
-        let at = &locked[side].anchors[i];
-        one_foot.each_corner(&soles[side], at, &over, |p| corners.push(p));
-        Carrier::Feet(hull(&corners))
+        let at = &feet.locked[side].placements[i];
+        limit.each_corner(&feet.soles[side], at, &over, |p| corners.push(p));
+        SupportPhase::Feet(hull(&corners))
     };
-    carriers.iter().enumerate().map(held).collect()
+    support.iter().enumerate().map(limited).collect()
 }
 
 /// What else than the feet may carry the body: a seat where the pelvis is low, hands where both feet stay for a while.
 /// Who steps walks on his feet.
-pub(in crate::sim::plan) fn may_rest(
+pub(in crate::sim::plan) fn other_support(
     body: &Body,
     upper: &[Posture],
     planted: &[[bool; 2]],
     rate_hz: f64,
-) -> Vec<Elsewhere> {
+) -> Vec<OtherSupport> {
     let standing = body.standing_root_height();
     let n = upper.len();
-    let half = (STAYS * rate_hz) as usize;
+    let half = (balance::STAYS * rate_hz) as usize;
     let smooth = |mut x: Vec<f64>| {
-        low_pass(&mut x, 2.0, rate_hz);
+        low_pass(&mut x, balance::OTHER_CUTOFF, rate_hz);
         x
     };
-    let seat = upper
-        .iter()
-        .map(|p| ((SITS.1 - p.root_position.z / standing) / (SITS.1 - SITS.0)).clamp(0.0, 1.0));
+    let seat = upper.iter().map(|p| {
+        ((balance::NO_SEAT - p.root_position.z / standing) / (balance::NO_SEAT - balance::SEAT))
+            .clamp(0.0, 1.0)
+    });
     let stays = |i: usize| {
         let around = i.saturating_sub(half)..(i + half).min(n);
         planted[around].iter().all(|p| *p == [true; 2])
@@ -176,21 +164,21 @@ pub(in crate::sim::plan) fn may_rest(
     let hands = (0..n).map(|i| f64::from(stays(i)));
     let (seat, hands) = (smooth(seat.collect()), smooth(hands.collect()));
     let both = seat.into_iter().zip(hands);
-    both.map(|(seat, hands)| Elsewhere {
+    both.map(|(seat, hands)| OtherSupport {
         seat: seat.clamp(0.0, 1.0),
         hands: hands.clamp(0.0, 1.0),
     })
     .collect()
 }
 
-pub(super) fn zmp_outside(track: &MassTrack, carriers: &[Carrier]) -> ZmpOutside {
+pub(super) fn zmp_outside(track: &MassTrack, support: &[SupportPhase]) -> ZmpOutside {
     let outside: Vec<f64> = track
         .zmp
         .iter()
-        .zip(carriers)
+        .zip(support)
         .zip(&track.load)
         .filter_map(|((z, c), load)| match c {
-            Carrier::Feet(p) if *load > LIGHT => Some((-margin(p, *z)).max(0.0)),
+            SupportPhase::Feet(p) if *load > balance::LEAST_LOAD => Some((-margin(p, *z)).max(0.0)),
             _ => None,
         })
         .collect();

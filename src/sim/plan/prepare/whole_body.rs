@@ -14,23 +14,7 @@ use crate::sim::plan::contact_labels::runs;
 use crate::sim::plan::envelope::smoothest_below;
 use crate::sim::plan::flight_phases::FlightPhases;
 use crate::sim::plan::foot_lock::LockedFoot;
-
-/// A planted leg reaches at most this fraction of its length: a straight knee makes inverse kinematics jump.
-const REACH: f64 = 0.98;
-
-/// For a swinging leg the pelvis is lowered by no more than this, m.
-const SWING_DROP: f64 = 0.04;
-
-/// The pelvis is lowered over about this time, s.
-pub(in crate::sim::plan) const DROP_TIME: f64 = 0.15;
-
-/// Cut-off of the joints of swinging legs, Hz, and the time over which it comes in and goes out, s.
-const SWING_CUTOFF: f64 = 8.0;
-
-const SWING_EDGE: f64 = 0.08;
-
-/// After take-off feet come to follow the pelvis over this time, and before landing they cease to, s.
-const FLIGHT_EDGE: f64 = 0.1;
+use crate::sim::plan::params::{leg, swing};
 
 /// Hip joint of each side in the pelvis frame, m, and length of the leg from hip to ankle, m.
 pub(in crate::sim::plan) fn leg_geometry(body: &Body) -> [(Vec3, f64); 2] {
@@ -49,7 +33,7 @@ pub(super) fn assemble(
     upper: &[Posture],
     locked: &[LockedFoot; 2],
     draft: &Draft,
-    relief: &AnkleUnloading,
+    unloading: &AnkleUnloading,
     shift: &[[f64; 2]],
     flights: Option<&FlightPhases>,
 ) -> (Vec<Posture>, Vec<f64>) {
@@ -58,31 +42,33 @@ pub(super) fn assemble(
     let mut out = upper.to_vec();
     let mut drop = vec![f64::INFINITY; n];
     for i in 0..n {
-        pelvis_yaw::turn(body, &mut out[i], relief.yaw[i]);
+        pelvis_yaw::turn(body, &mut out[i], unloading.yaw[i]);
         out[i].root_position.x += shift[i][0];
         out[i].root_position.y += shift[i][1];
         for ((hip, length), foot) in legs.iter().zip(locked) {
             let d = out[i].root_position + out[i].root_rotation.rotate(*hip) - foot.poses[i].ankle;
-            let most = REACH * length;
+            let most = leg::REACH * length;
             let level = d.x.hypot(d.y);
-            let height = (most * most - level * level).max(0.04 * most * most).sqrt();
+            let height = (most * most - level * level)
+                .max(leg::LEAST_HEIGHT2 * most * most)
+                .sqrt();
             let need = height - d.z;
             // A swinging leg must not be straight when it lands either; one that kicks or lies is its own affair.
             let weight = if foot.planted[i] {
                 1.0
             } else {
-                ((0.6 - level / most) / 0.15).clamp(0.0, 1.0)
+                ((leg::SWING_FAR - level / most) / leg::SWING_FAR_RANGE).clamp(0.0, 1.0)
             };
             let need = if foot.planted[i] || need > 0.0 {
                 need
             } else {
-                need.max(-SWING_DROP) * weight
+                need.max(-leg::SWING_DROP) * weight
             };
             drop[i] = drop[i].min(need);
         }
     }
     let drop = match flights {
-        None => smoothest_below(&drop, DROP_TIME, draft.rate_hz),
+        None => smoothest_below(&drop, leg::DROP_TIME, draft.rate_hz),
         Some(f) => f.heights(&drop),
     };
     let mut path: Vec<Vec3> = (0..n)
@@ -93,7 +79,7 @@ pub(super) fn assemble(
         })
         .collect();
     if flights.is_none() {
-        low_pass_points(&mut path, 10.0, draft.rate_hz);
+        low_pass_points(&mut path, swing::HEIGHT_CUTOFF, draft.rate_hz);
     }
     let flies = if flights.is_some() {
         vec![0.0; n]
@@ -110,15 +96,15 @@ pub(super) fn assemble(
             let hip = path[i] + out[i].root_rotation.rotate(*hip);
             let line = foot.ankle - hip;
             let far = line.norm();
-            let most = 0.995 * length;
+            let most = leg::SWING_REACH * length;
             if !locked[s].planted[i] && far > most {
                 foot.ankle = hip + line * (most / far);
             }
             // Inwards is clockwise seen from above for the left leg: about the line pointing down, positive.
             let inward = if s == 0 {
-                relief.turn_in[s][i]
+                unloading.turn_in[s][i]
             } else {
-                -relief.turn_in[s][i]
+                -unloading.turn_in[s][i]
             };
             let axis =
                 Quat::exp(line.normalized_or(-Vec3::Z) * inward).rotate(draft.knee_axis[s][i]);
@@ -149,7 +135,7 @@ fn in_flight(locked: &[LockedFoot; 2], rate_hz: f64) -> Vec<f64> {
             continue;
         }
         for (k, s) in share.iter_mut().enumerate().take(j).skip(i) {
-            let u = ((k + 1 - i).min(j - k) as f64 / (FLIGHT_EDGE * rate_hz)).min(1.0);
+            let u = ((k + 1 - i).min(j - k) as f64 / (swing::FLIGHT_EDGE * rate_hz)).min(1.0);
             *s = smoothstep(u);
         }
     }
@@ -169,7 +155,7 @@ fn smooth_swings(postures: &mut [Posture], side: usize, planted: &[bool], rate_h
         for (k, s) in share.iter_mut().enumerate().take(j).skip(i) {
             let since = if i > 0 { k + 1 - i } else { usize::MAX };
             let until = if j < planted.len() { j - k } else { usize::MAX };
-            let u = (since.min(until) as f64 / (SWING_EDGE * rate_hz)).min(1.0);
+            let u = (since.min(until) as f64 / (swing::JOINT_EDGE * rate_hz)).min(1.0);
             *s = if on { 0.0 } else { smoothstep(u) };
         }
     }
@@ -177,7 +163,7 @@ fn smooth_swings(postures: &mut [Posture], side: usize, planted: &[bool], rate_h
         match JOINT[segment.index()] {
             Joint::Ball(b) => {
                 let mut q: Vec<Quat> = postures.iter().map(|p| p.ball[b]).collect();
-                low_pass_rotations(&mut q, SWING_CUTOFF, rate_hz);
+                low_pass_rotations(&mut q, swing::JOINT_CUTOFF, rate_hz);
                 for ((p, q), s) in postures.iter_mut().zip(q).zip(&share) {
                     let to = (q * p.ball[b].conjugate()).log() * *s;
                     p.ball[b] = (Quat::exp(to) * p.ball[b]).normalized();
@@ -185,7 +171,7 @@ fn smooth_swings(postures: &mut [Posture], side: usize, planted: &[bool], rate_h
             }
             Joint::Hinge1(h) => {
                 let mut a: Vec<f64> = postures.iter().map(|p| p.hinge[h]).collect();
-                low_pass(&mut a, SWING_CUTOFF, rate_hz);
+                low_pass(&mut a, swing::JOINT_CUTOFF, rate_hz);
                 for ((p, a), s) in postures.iter_mut().zip(a).zip(&share) {
                     p.hinge[h] += s * (a - p.hinge[h]);
                 }

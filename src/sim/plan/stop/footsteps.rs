@@ -3,66 +3,26 @@
 //! The capture point ξ = c + ċ/ω says where the next foot has to land (Pratt et al. 2006); once it lies between the
 //! feet they are brought side by side. Several ways are tried; the one is taken that asks least of a body.
 
-use super::initial_state::Start;
-use super::{FOOT, SWING, flat, ground, level, turned};
+use super::initial_state::InitialState;
+use super::{flat, ground, level, turned};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::Vec3;
 use crate::sim::math::curve::rise;
 use crate::sim::math::polygon::{Region, hull, margin};
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::leg_ik::{center_of_mass, forward};
-use crate::sim::plan::foot_lock::{Anchor, Sole, turn, yaw_pitch};
+use crate::sim::plan::FEET;
+use crate::sim::plan::foot_lock::{FootPlacement, Sole, turn, yaw_pitch};
+use crate::sim::plan::params::stop;
 
-/// Length of a step that only closes the feet, s.
-const CLOSING: f64 = 0.5;
 /// A swing that is under way already lasts at least this long, s, and a swinging foot gets no faster than this on the
 /// average, m/s: the ways that are tried, the first one also where both feet are down.
-const SWINGS: [(f64, f64); 4] = [(0.12, 2.2), (0.12, 3.2), (0.24, 2.2), (0.4, 2.2)];
-/// Double support after a step and before the first one, s.
-const BOTH: f64 = 0.1;
-/// Longest step, forward and to the side, leg lengths; least distance of the feet to the side, share of that at ease.
-const LONGEST: (f64, f64) = (0.8, 0.65);
-const CLOSEST: f64 = 0.8;
-/// Between these distances before or behind the other foot, m, a step may come to cross its line by up to this, m.
-const CROSS_FROM: (f64, f64) = (0.2, 0.35);
-const CROSS: f64 = 0.12;
-/// The zero-moment point stays this far inside the soles, m; it keeps the capture point this far inside where it can.
-const INSET: f64 = 0.01;
-const INNER: f64 = 0.035;
-/// The capture point counts as caught this far inside the soles, m.
-const CAUGHT: f64 = 0.015;
-/// A foot that catches a body of 1 m/s lands this far beyond the capture point, m, so that it comes to rest between the
-/// feet.
-const BEYOND: f64 = 0.1;
-/// Prices against falling beside the zero-moment point, m⁴ s: of a foot faster than the first, m/s, per its square,
-/// with so many m for each rad that it turns; of a foot that steps twice; worth of having something in hand, per s.
-const UNHURRIED: f64 = 1.5;
-const TURNING: f64 = 0.3;
-const PRICE_OF_HURRY: f64 = 1e-3;
-const PRICE_OF_HOP: f64 = 1e-3;
-const WORTH_OF_SPARE: f64 = 0.1;
-/// Gain of the zero-moment point on the way to a place, how close counts as there, m, and when patience ends, s.
-const LEAN: (f64, f64, f64) = (2.0, 0.015, 0.9);
-/// A foot this far from under the mass, leg lengths, is about to be out of the leg's reach: the hip does not extend
-/// further.
-const STRETCHED: f64 = 0.5;
-/// A foot that belongs farther than the first from the other one, m, is not put there by a body that stays over that
-/// one, deep in its knee; from the second on the capture point is half-way when it lands.
-const STRIDES: (f64, f64) = (0.35, 0.6);
-/// A foot this close to where it belongs stays, m and rad.
-const HOME: (f64, f64) = (0.04, 0.15);
-/// Turns of the whole, as shares of the way to where the body moves, tried in turn until steps are found; and how far
-/// aside that may be, rad.
-const TURNS: [f64; 4] = [0.0, 0.5, 1.0, 1.5];
-const MOST_ASIDE: f64 = 1.2;
-/// Most steps of an end.
-const MOST_STEPS: usize = 8;
-/// Longest flight that is believed, s.
-const LONGEST_FLIGHT: f64 = 0.5;
-/// Distance of the middle of the sole before the ankle, m.
-const SOLE_MIDDLE: f64 = 0.05;
-/// How long the motion goes on after the feet have come to rest, s.
-const REST: f64 = 0.8;
+const SWINGS: [(f64, f64); 4] = [
+    (stop::SWING_REST, stop::FOOT_SPEED),
+    (stop::SWING_REST, stop::FAST_FOOT_SPEED),
+    (stop::LONG_SWING_REST, stop::FOOT_SPEED),
+    (stop::LONGEST_SWING_REST, stop::FOOT_SPEED),
+];
 
 /// One step of the end.
 #[derive(Clone, Copy, Debug)]
@@ -86,7 +46,7 @@ impl Feet<'_> {
     pub(super) fn support(&self, down: [bool; 2]) -> Vec<[f64; 2]> {
         let mut corners = Vec::new();
         for s in (0..2).filter(|s| down[*s]) {
-            let at = Anchor {
+            let at = FootPlacement {
                 tip: 0.0,
                 place: self.place[s],
                 yaw: self.yaw[s],
@@ -98,12 +58,12 @@ impl Feet<'_> {
     }
 
     fn middle(&self, side: usize) -> Vec3 {
-        self.place[side] + turned(self.yaw[side], Vec3::X * SOLE_MIDDLE)
+        self.place[side] + turned(self.yaw[side], Vec3::X * stop::SOLE_MIDDLE)
     }
 }
 
 /// How it stands in the end. Places from the middle between the ankles, headings against that of the whole.
-pub(super) struct Stand {
+pub(super) struct StandingPose {
     pub(super) posture: Posture,
     pub(super) home: [Vec3; 2],
     pub(super) yaw: [f64; 2],
@@ -112,10 +72,10 @@ pub(super) struct Stand {
     pub(super) heading: f64,
 }
 
-impl Stand {
+impl StandingPose {
     pub(super) fn of(body: &Body, posture: &Posture) -> Self {
         let poses = forward(body, posture);
-        let feet = FOOT.map(|s| poses[s]);
+        let feet = FEET.map(|s| poses[s.index()]);
         let yaws = feet.map(|f| yaw_pitch(f.1).0);
         let pelvis = yaw_pitch(posture.root_rotation).0;
         let heading = pelvis + 0.25 * (turn(pelvis, yaws[0]) + turn(pelvis, yaws[1]));
@@ -140,10 +100,10 @@ impl Stand {
 
 /// What can be chosen about an end.
 #[derive(Clone, Copy, Debug)]
-struct Way {
-    /// What has to be in hand beyond [`CAUGHT`], s.
+struct StepOptions {
+    /// What has to be in hand beyond [`stop::CAUGHT_INSET`], s.
     spare: f64,
-    /// See [`BEYOND`], m.
+    /// See [`stop::BEYOND_CAPTURE`], m.
     beyond: f64,
     /// Foot that steps first where both are down; otherwise the one that catches best.
     first: Option<usize>,
@@ -154,10 +114,10 @@ struct Way {
     turn: f64,
 }
 
-impl Way {
+impl StepOptions {
     /// All that are tried with the same `turn`.
     ///
-    /// * `spare`: the most that should be in hand beyond [`CAUGHT`], s; `in_air`: a foot is in the air.
+    /// * `spare`: the most that should be in hand beyond [`stop::CAUGHT_INSET`], s; `in_air`: a foot is in the air.
     fn all(spare: f64, in_air: bool, turn: f64) -> impl Iterator<Item = Self> {
         let swings = if in_air { &SWINGS[..] } else { &SWINGS[..1] };
         let hands: &[f64] = if spare > 0.0 {
@@ -165,7 +125,8 @@ impl Way {
         } else {
             &[1.0]
         };
-        let ways = { hands.iter() }.flat_map(move |h| [0.0, BEYOND].map(|b| (h * spare, b)));
+        let ways =
+            { hands.iter() }.flat_map(move |h| [0.0, stop::BEYOND_CAPTURE].map(|b| (h * spare, b)));
         let ways = ways.flat_map(|way| [None, Some(0), Some(1)].map(|first| (way, first)));
         ways.flat_map(move |((spare, beyond), first)| {
             swings.iter().map(move |&(rest, speed)| Self {
@@ -181,15 +142,15 @@ impl Way {
 }
 
 /// The pendulum on its way to a stand: footsteps, and the path of its mass.
-struct Stop<'a> {
-    from: &'a Start,
+struct PendulumPlan<'a> {
+    from: &'a InitialState,
     feet: Feet<'a>,
-    stand: &'a Stand,
+    stand: &'a StandingPose,
     leg: f64,
     omega: f64,
     dt: f64,
     capture: Vec3,
-    way: Way,
+    way: StepOptions,
     steps: Vec<Step>,
     path: Vec<Vec3>,
 }
@@ -203,27 +164,27 @@ pub(super) struct Footsteps {
 }
 
 /// Frequency of the pendulum between a start and a stand, rad/s.
-pub(super) fn frequency(from: &Start, stand: &Stand) -> f64 {
-    (GRAVITY / (0.5 * (from.com.z + stand.mass.z)).max(0.3)).sqrt()
+pub(super) fn frequency(from: &InitialState, stand: &StandingPose) -> f64 {
+    (GRAVITY / (0.5 * (from.com.z + stand.mass.z)).max(stop::LEAST_HEIGHT)).sqrt()
 }
 
 /// The steps that ask least of a body. `None` if none are found that stop it.
 ///
 /// * `leg`: from hip to ankle, m; `rate_hz`: samples per second of the path; `spare`: the most that should be in hand
-///   beyond [`CAUGHT`], s.
+///   beyond [`stop::CAUGHT_INSET`], s.
 pub(super) fn footsteps(
-    from: &Start,
-    stand: &Stand,
+    from: &InitialState,
+    stand: &StandingPose,
     soles: &[Sole; 2],
     (leg, rate_hz, spare): (f64, f64, f64),
 ) -> Option<Footsteps> {
     let omega = frequency(from, stand);
-    let tried = |way: Way| {
-        let mut stop = Stop {
+    let tried = |way: StepOptions| {
+        let mut stop = PendulumPlan {
             from,
             feet: Feet {
-                place: from.place,
-                yaw: from.yaw,
+                place: from.feet.map(|f| f.place),
+                yaw: from.feet.map(|f| f.yaw),
                 soles,
             },
             stand,
@@ -237,19 +198,19 @@ pub(super) fn footsteps(
         };
         stop.run().then_some(stop)
     };
-    let in_air = from.down != [true; 2];
+    let in_air = from.down() != [true; 2];
     let best = |turn: f64| {
-        let found = Way::all(spare, in_air, turn).filter_map(tried);
+        let found = StepOptions::all(spare, in_air, turn).filter_map(tried);
         found.min_by(|a, b| a.price().total_cmp(&b.price()))
     };
     // Who falls to a side where his feet cannot get turns there.
     let aside = turn(from.heading, from.velocity.y.atan2(from.velocity.x));
-    let turns = if aside.abs() < MOST_ASIDE {
-        &TURNS[..]
+    let turns = if aside.abs() < stop::MOST_ASIDE {
+        stop::TURNS
     } else {
-        &TURNS[..1]
+        1
     };
-    let best = turns.iter().find_map(|share| best(share * aside))?;
+    let best = (0..turns).find_map(|k| best(stop::TURN_STEP * k as f64 * aside))?;
     Some(Footsteps {
         heading: best.heading(),
         steps: best.steps,
@@ -269,13 +230,13 @@ impl Support {
     fn of(feet: &Feet<'_>, down: [bool; 2]) -> Self {
         let hull = feet.support(down);
         Self {
-            capture: Region::inside(&hull, INNER),
-            pressure: Region::inside(&hull, INSET),
+            capture: Region::inside(&hull, stop::CAPTURE_INSET),
+            pressure: Region::inside(&hull, stop::ZMP_INSET),
         }
     }
 }
 
-impl Stop<'_> {
+impl PendulumPlan<'_> {
     fn now(&self) -> f64 {
         (self.path.len() - 1) as f64 * self.dt
     }
@@ -306,7 +267,9 @@ impl Stop<'_> {
     /// The zero-moment point within `support` that keeps the capture point there, or slows it down most.
     fn hold(&self, support: &Support) -> [f64; 2] {
         let off = self.capture - level(support.capture.nearest(flat(self.capture)));
-        support.pressure.nearest(flat(self.capture + off * LEAN.0))
+        support
+            .pressure
+            .nearest(flat(self.capture + off * stop::LEAN_GAIN))
     }
 
     /// Stands on both feet for a while.
@@ -326,19 +289,21 @@ impl Stop<'_> {
             down[side] = false;
             (self.feet.support(down), self.feet.place[side])
         });
-        for _ in 0..(LEAN.2 / self.dt) as usize {
+        for _ in 0..(stop::LEAN_TIME / self.dt) as usize {
             let off = self.capture - goal;
-            if off.norm() < LEAN.1 {
+            if off.norm() < stop::LEAN_SETTLED {
                 break;
             }
             let leaves = other.as_ref().is_some_and(|(sole, foot)| {
-                (*foot - self.mass()).norm() > STRETCHED * self.leg
-                    && margin(sole, flat(self.capture)) > INNER
+                (*foot - self.mass()).norm() > stop::STRETCHED * self.leg
+                    && margin(sole, flat(self.capture)) > stop::CAPTURE_INSET
             });
             if leaves {
                 break;
             }
-            let p = support.pressure.nearest(flat(self.capture + off * LEAN.0));
+            let p = support
+                .pressure
+                .nearest(flat(self.capture + off * stop::LEAN_GAIN));
             self.advance(p);
         }
     }
@@ -378,7 +343,7 @@ impl Stop<'_> {
     /// * `ankle`: where it is; `least`: shortest time.
     ///
     /// Returns time, place, and how far inside the feet the capture point will be then, m.
-    fn catching(&self, side: usize, ankle: Vec3, least: f64) -> (f64, Vec3, f64) {
+    fn capture_step(&self, side: usize, ankle: Vec3, least: f64) -> (f64, Vec3, f64) {
         let mut down = [true; 2];
         down[side] = false;
         let p = level(self.hold(&Support::of(&self.feet, down)));
@@ -389,7 +354,7 @@ impl Stop<'_> {
         let beyond = moves * (self.way.beyond / moves.norm().max(1.0));
         let mut best = (f64::INFINITY, least, Vec3::zero());
         let mut time = least;
-        while time <= SWING.1.max(least) {
+        while time <= stop::LONGEST_SWING.max(least) {
             let place = self.reachable(side, landing(time) + beyond);
             let far = place - ankle;
             let speed = far.x.hypot(far.y) / time;
@@ -399,7 +364,7 @@ impl Stop<'_> {
             if speed < self.way.speed {
                 break;
             }
-            time += 0.02;
+            time += stop::SWING_STEP;
         }
         let (_, time, place) = best;
         let mut feet = Feet {
@@ -421,17 +386,18 @@ impl Stop<'_> {
         let local = turned(-heading, wanted - stance);
         let outward = if side == 0 { 1.0 } else { -1.0 };
         let apart = (self.stand.home[0].y - self.stand.home[1].y).abs();
-        let (far, wide) = (LONGEST.0 * self.leg, LONGEST.1 * self.leg);
-        let x = (local.x - SOLE_MIDDLE).clamp(-far, far);
+        let (far, wide) = (stop::STEP_LENGTH * self.leg, stop::STEP_WIDTH * self.leg);
+        let x = (local.x - stop::SOLE_MIDDLE).clamp(-far, far);
         // Far before or behind the other foot there is room to cross.
-        let room = ((x.abs() - CROSS_FROM.0) / (CROSS_FROM.1 - CROSS_FROM.0)).clamp(0.0, 1.0);
-        let closest = CLOSEST * apart * (1.0 - room) - CROSS * room;
+        let room = ((x.abs() - stop::CROSS_BEGINS) / (stop::CROSS_ENDS - stop::CROSS_BEGINS))
+            .clamp(0.0, 1.0);
+        let closest = stop::LEAST_WIDTH * apart * (1.0 - room) - stop::MOST_CROSS * room;
         let mut place = Vec3 {
             x,
             y: (local.y * outward).clamp(closest, wide.max(apart)) * outward,
             z: 0.0,
         };
-        if place.x.abs() < 0.02 {
+        if place.x.abs() < stop::STEP_LEVEL {
             place.x = 0.0;
         }
         Vec3 {
@@ -453,8 +419,8 @@ impl Stop<'_> {
     }
 
     fn is_home(&self, side: usize) -> bool {
-        (self.feet.place[side] - self.beside(side)).norm() < HOME.0
-            && turn(self.feet.yaw[side], self.yaw(side)).abs() < HOME.1
+        (self.feet.place[side] - self.beside(side)).norm() < stop::HOME_DISTANCE
+            && turn(self.feet.yaw[side], self.yaw(side)).abs() < stop::HOME_ANGLE
     }
 
     /// How hard the way is for a body, less what it is worth that it has something in hand.
@@ -466,41 +432,47 @@ impl Stop<'_> {
             square * square * self.dt
         };
         let falls: f64 = self.path.windows(3).map(fall).sum();
-        let hops = |w: &&[Step]| w[0].side == w[1].side && w[1].on - w[1].off < CLOSING;
+        let hops = |w: &&[Step]| w[0].side == w[1].side && w[1].on - w[1].off < stop::CLOSING_TIME;
         let hops = self.steps.windows(2).filter(hops).count() as f64;
-        let mut at = [0, 1].map(|s| (ground(self.from.ankle[s]), self.from.yaw[s]));
+        let mut at = [0, 1].map(|s| (ground(self.from.feet[s].ankle), self.from.feet[s].yaw));
         let mut hurry = 0.0;
         for s in &self.steps {
             let (place, yaw) = at[s.side];
-            let way = (s.place - place).norm() + TURNING * turn(yaw, self.yaw(s.side)).abs();
-            hurry += (way / (s.on - s.off) - UNHURRIED).max(0.0).powi(2);
+            let way = (s.place - place).norm() + stop::TURN_ARM * turn(yaw, self.yaw(s.side)).abs();
+            hurry += (way / (s.on - s.off) - stop::UNHURRIED_SPEED)
+                .max(0.0)
+                .powi(2);
             at[s.side] = (s.place, self.yaw(s.side));
         }
-        falls + PRICE_OF_HURRY * hurry + PRICE_OF_HOP * hops - WORTH_OF_SPARE * self.way.spare
+        falls + stop::HURRY_PRICE * hurry + stop::HOP_PRICE * hops
+            - stop::SPARE_WORTH * self.way.spare
     }
 
     fn is_caught(&self) -> bool {
         let away = self.capture - self.mass();
         let speed = self.omega * away.x.hypot(away.y);
-        margin(&self.feet.support([true; 2]), flat(self.capture)) > CAUGHT + self.way.spare * speed
+        margin(&self.feet.support([true; 2]), flat(self.capture))
+            > stop::CAUGHT_INSET + self.way.spare * speed
     }
 
     /// A body in the air comes down, on the lower foot, as far ahead as the leg reaches. Returns which one.
-    fn come_down(&mut self) -> usize {
+    fn land_from_flight(&mut self) -> usize {
         let from = self.from;
         let fall = from.velocity.z;
-        let drop = (from.com.z - (self.stand.mass.z - 0.03)).max(0.0);
+        let drop = (from.com.z - (self.stand.mass.z - stop::LANDING_DROP)).max(0.0);
         let time = ((fall + (fall * fall + 2.0 * GRAVITY * drop).sqrt()) / GRAVITY)
-            .clamp(2.0 * self.dt, LONGEST_FLIGHT);
+            .clamp(2.0 * self.dt, stop::LONGEST_FLIGHT);
         let velocity = ground(from.velocity);
         for _ in 0..(time / self.dt).round() as usize {
             let c = self.mass() + velocity * self.dt;
             self.path.push(c);
             self.capture = c + velocity * (1.0 / self.omega);
         }
-        let side = usize::from(from.ankle[1].z < from.ankle[0].z);
+        let side = usize::from(from.feet[1].ankle.z < from.feet[0].ankle.z);
         let c = self.mass();
-        let reach = (self.capture - c).norm().min(0.5 * LONGEST.0 * self.leg);
+        let reach = (self.capture - c)
+            .norm()
+            .min(0.5 * stop::STEP_LENGTH * self.leg);
         let ahead = (self.capture - c).normalized_or(Vec3::X) * reach;
         let place = c + ahead + turned(self.heading(), Vec3::Y * self.stand.home[side].y);
         self.steps.push(Step {
@@ -516,43 +488,45 @@ impl Stop<'_> {
 
     /// The foot that is in the air already lands where it catches.
     fn land(&mut self, side: usize) {
-        let since = self.from.since[side] + self.now();
-        let least = (SWING.0 - since).max(self.way.rest);
-        let (time, place, _) = self.catching(side, self.from.ankle[side], least);
+        let since = self.from.feet[side].since + self.now();
+        let least = (stop::SHORTEST_SWING - since).max(self.way.rest);
+        let (time, place, _) = self.capture_step(side, self.from.feet[side].ankle, least);
         let in_flight = self.path.len() > 1;
         self.swing(side, time, place, None);
         if let Some(step) = self.steps.last_mut().filter(|_| in_flight) {
             step.off = 0.0;
         }
-        self.both(BOTH);
+        self.both(stop::DOUBLE_SUPPORT);
     }
 
     /// Steps until the capture point is between the feet, or for as long as there is hope. With both feet down the one
     /// goes first that catches better.
-    fn catch(&mut self) {
-        let mut ankle = self.from.ankle;
+    fn capture(&mut self) {
+        let mut ankle = self.from.feet.map(|f| f.ankle);
         let mut first = self.way.first;
-        for _ in 0..MOST_STEPS {
+        for _ in 0..stop::MOST_STEPS {
             for s in &self.steps {
                 ankle[s.side] = s.place;
             }
             if self.is_caught() {
                 return;
             }
-            let [left, right] = [0, 1].map(|s: usize| self.catching(s, ankle[s], SWING.0));
+            let [left, right] =
+                [0, 1].map(|s: usize| self.capture_step(s, ankle[s], stop::SHORTEST_SWING));
             let side = first.take().unwrap_or(usize::from(right.2 > left.2));
             let (time, place, _) = [left, right][side];
             self.swing(side, time, place, None);
-            self.both(BOTH);
+            self.both(stop::DOUBLE_SUPPORT);
         }
     }
 
     /// Brings the feet side by side, the one first that carries less, and the mass over them.
-    fn gather(&mut self) {
+    fn close_feet(&mut self) {
         for _ in 0..2 {
             let far = |s: usize| (self.feet.middle(s) - self.capture).norm();
             let side = usize::from(far(1) > far(0));
-            let heads_home = turn(self.feet.yaw[1 - side], self.yaw(1 - side)).abs() < HOME.1;
+            let heads_home =
+                turn(self.feet.yaw[1 - side], self.yaw(1 - side)).abs() < stop::HOME_ANGLE;
             if self.is_home(side) && heads_home {
                 break;
             }
@@ -561,31 +535,31 @@ impl Stop<'_> {
             self.lean(over, Some(side));
             let place = self.beside(side);
             let way = place - self.feet.place[1 - side];
-            let strides = 0.5 * rise(way.norm(), STRIDES);
+            let strides = 0.5 * rise(way.norm(), (stop::STRIDE_BEGINS, stop::STRIDE_ENDS));
             let goal = (strides > 0.0).then(|| over + way * strides);
-            self.swing(side, CLOSING, place, goal);
-            self.both(BOTH);
+            self.swing(side, stop::CLOSING_TIME, place, goal);
+            self.both(stop::DOUBLE_SUPPORT);
         }
         let middle = (self.feet.place[0] + self.feet.place[1]) * 0.5;
         let stands = middle + turned(self.heading(), self.stand.mass);
         self.lean(ground(stands), None);
-        self.both(REST);
+        self.both(stop::REST_TIME);
     }
 
     /// All of it; false if the body runs away.
     fn run(&mut self) -> bool {
-        let mut down = self.from.down;
+        let mut down = self.from.down();
         if down == [false; 2] {
-            down[self.come_down()] = true;
+            down[self.land_from_flight()] = true;
         }
         if let Some(side) = (0..2).find(|s| !down[*s]) {
             self.land(side);
         }
-        self.catch();
+        self.capture();
         if !self.is_caught() {
             return false;
         }
-        self.gather();
+        self.close_feet();
         self.is_caught()
     }
 }

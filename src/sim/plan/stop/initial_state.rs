@@ -1,7 +1,7 @@
 //! What an end starts from: where the last samples of a motion have the body, and how it moves.
 
-use super::flat;
 use super::footsteps::Feet;
+use super::{flat, ground};
 use crate::sim::body::topology::NV;
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::polygon::margin;
@@ -9,45 +9,44 @@ use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::leg_ik::{center_of_mass, forward};
 use crate::sim::plan::contact_labels::runs;
 use crate::sim::plan::foot_lock::{Sole, turn, yaw_pitch};
+use crate::sim::plan::params::{contact, stop};
 use crate::sim::plan::prepare::Draft;
 
-/// Slower than this, m/s, and with the capture point this far inside the soles, m, it stands.
-const STANDS: (f64, f64) = (0.35, 0.02);
-/// A pelvis faster than this over the floor has to be stopped, m/s; who controls balance stops slower ones as well
-/// himself.
-const MOVES: f64 = 0.08;
-/// Time over which the velocity at the end is measured, s.
-const MEASURED: f64 = 0.08;
-/// Shortest flight that is believed, s.
-const SHORTEST_FLIGHT: f64 = 0.08;
-/// Fastest rate of a joint that is taken over, rad/s.
-const FASTEST: f64 = 4.0;
+/// How a foot is where a motion ends, and how it moves.
+#[derive(Clone, Copy)]
+pub(super) struct FootState {
+    pub(super) ankle: Vec3,
+    /// Of the ankle, m/s.
+    pub(super) velocity: Vec3,
+    /// `world_from_foot`.
+    pub(super) rotation: Quat,
+    /// Rate of the rotation, rad/s.
+    pub(super) spin: Vec3,
+    /// Point of the floor under the flat ankle, m.
+    pub(super) place: Vec3,
+    pub(super) yaw: f64,
+    pub(super) down: bool,
+    /// How long it has been in the air, s.
+    pub(super) since: f64,
+}
 
-/// What the end starts from.
-pub(super) struct Start {
+/// What a stop starts from.
+pub(super) struct InitialState {
     pub(super) posture: Posture,
     pub(super) rates: [f64; NV],
     pub(super) com: Vec3,
     pub(super) velocity: Vec3,
     /// Of the pelvis, m/s.
     pub(super) pelvis_velocity: Vec3,
-    pub(super) ankle: [Vec3; 2],
-    pub(super) ankle_velocity: [Vec3; 2],
-    pub(super) foot: [Quat; 2],
-    pub(super) foot_spin: [Vec3; 2],
-    pub(super) place: [Vec3; 2],
-    pub(super) yaw: [f64; 2],
-    pub(super) down: [bool; 2],
-    /// How long each foot has been in the air, s.
-    pub(super) since: [f64; 2],
+    pub(super) feet: [FootState; 2],
     pub(super) heading: f64,
 }
 
-impl Start {
+impl InitialState {
     /// Reads it off the last samples of a draft.
     pub(super) fn of(body: &Body, draft: &Draft, soles: &[Sole; 2]) -> Self {
         let last = draft.postures.len() - 1;
-        let half = ((0.5 * MEASURED * draft.rate_hz) as usize).clamp(1, last / 2);
+        let half = ((0.5 * stop::MEASURED_TIME * draft.rate_hz) as usize).clamp(1, last / 2);
         let b = &draft.postures[last];
         // Slope of the parabola through three samples, at the last one: the mean over that time is half of it old.
         let back = [last - half, last - 2 * half];
@@ -62,20 +61,12 @@ impl Start {
             *r = (4.0 * near - far) * per_s;
         }
         for r in &mut rates {
-            *r = r.clamp(-FASTEST, FASTEST);
-        }
-        let mut place = [Vec3::zero(); 2];
-        let mut yaw = [0.0; 2];
-        for s in 0..2 {
-            let (y, pitch) = yaw_pitch(draft.foot[s][last]);
-            place[s] = draft.ankle[s][last] - soles[s].stand(Vec3::zero(), y, pitch).ankle;
-            place[s].z = 0.0;
-            yaw[s] = y;
+            *r = r.clamp(-stop::MOST_RATE, stop::MOST_RATE);
         }
         // A foot that is about to come down, or has just left, may look as if both were in the air.
         let flight = draft.label.iter().rev();
         let flight = flight.take_while(|l| **l == [false; 2]).count();
-        let down = if flight <= last && (flight as f64) < SHORTEST_FLIGHT * draft.rate_hz {
+        let down = if flight <= last && (flight as f64) < contact::SHORTEST * draft.rate_hz {
             draft.label[last - flight]
         } else {
             [false; 2]
@@ -83,52 +74,63 @@ impl Start {
         let pelvis = yaw_pitch(b.root_rotation).0;
         let feet: Vec<f64> = (0..2)
             .filter(|s| down[*s])
-            .map(|s| turn(pelvis, yaw[s]))
+            .map(|s| turn(pelvis, yaw_pitch(draft.foot[s][last]).0))
             .collect();
         let heading = pelvis + 0.5 * feet.iter().sum::<f64>() / feet.len().max(1) as f64;
-        let since = std::array::from_fn(|s| {
-            let on: Vec<bool> = draft.label.iter().map(|l| l[s]).collect();
-            match runs(&on).last() {
-                Some((i, j, false)) => (j - i) as f64 / draft.rate_hz,
-                _ => 0.0,
-            }
-        });
         let com = |i: usize| center_of_mass(body, &forward(body, &draft.postures[i]));
         let moved = |p: &dyn Fn(usize) -> Vec3| slope(back.map(|i| p(last) - p(i)));
+        let feet = [0, 1].map(|s: usize| {
+            let (ankle, rotation) = (draft.ankle[s][last], draft.foot[s][last]);
+            let (yaw, pitch) = yaw_pitch(rotation);
+            let place = ankle - soles[s].stand(Vec3::zero(), yaw, pitch).ankle;
+            let on: Vec<bool> = draft.label.iter().map(|l| l[s]).collect();
+            let since = match runs(&on).last() {
+                Some((i, j, false)) => (j - i) as f64 / draft.rate_hz,
+                _ => 0.0,
+            };
+            FootState {
+                ankle,
+                velocity: moved(&|i| draft.ankle[s][i]),
+                rotation,
+                spin: turned_by(&|i| draft.foot[s][i]),
+                place: ground(place),
+                yaw,
+                down: down[s],
+                since,
+            }
+        });
         Self {
             posture: *b,
             rates,
             com: com(last),
             velocity: moved(&com),
             pelvis_velocity: moved(&|i| draft.postures[i].root_position),
-            ankle: [0, 1].map(|s| draft.ankle[s][last]),
-            ankle_velocity: [0, 1].map(|s: usize| moved(&|i| draft.ankle[s][i])),
-            foot: [0, 1].map(|s| draft.foot[s][last]),
-            foot_spin: [0, 1].map(|s: usize| turned_by(&|i| draft.foot[s][i])),
-            place,
-            yaw,
-            down,
-            since,
+            feet,
             heading,
         }
+    }
+
+    /// Feet on the floor.
+    pub(super) fn down(&self) -> [bool; 2] {
+        self.feet.map(|f| f.down)
     }
 
     /// True if it is not at rest: what ends here would end in motion.
     pub(super) fn moves(&self) -> bool {
         let v = self.pelvis_velocity;
-        v.x.hypot(v.y) > MOVES
+        v.x.hypot(v.y) > stop::MOVING_SPEED
     }
 
     /// True if a body could stop here without a step.
     pub(super) fn stands(&self, soles: &[Sole; 2], omega: f64) -> bool {
         let feet = Feet {
-            place: self.place,
-            yaw: self.yaw,
+            place: self.feet.map(|f| f.place),
+            yaw: self.feet.map(|f| f.yaw),
             soles,
         };
         let capture = self.com + self.velocity * (1.0 / omega);
-        self.velocity.x.hypot(self.velocity.y) < STANDS.0
-            && self.down == [true; 2]
-            && margin(&feet.support(self.down), flat(capture)) > STANDS.1
+        self.velocity.x.hypot(self.velocity.y) < stop::STANDING_SPEED
+            && self.down() == [true; 2]
+            && margin(&feet.support(self.down()), flat(capture)) > stop::STANDING_MARGIN
     }
 }

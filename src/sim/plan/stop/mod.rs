@@ -11,33 +11,17 @@ mod initial_state;
 
 use super::foot_lock::Sole;
 use super::prepare::Draft;
-use crate::sim::body::topology::{L_FOOT, NV, R_FOOT};
+use crate::sim::body::topology::NV;
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::curve::{min_jerk, smootherstep};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::builtin::at_ease;
 use crate::sim::motion::filter::low_pass_points;
 use crate::sim::motion::leg_ik::{forward, knee_axis};
-use footsteps::{Footsteps, Stand, footsteps, frequency};
-use initial_state::Start;
-
-/// A pelvis below this share of its standing height is not one that walks.
-const UPRIGHT: f64 = 0.75;
-/// A foot that left the floor no longer than this before the end has not left it, s.
-const JUST_LIFTED: f64 = 0.04;
-/// Shortest and longest swing of a step that catches the body, s.
-const SWING: (f64, f64) = (0.26, 0.46);
-/// What a body of 1 m/s should have in hand, s, where the moment is given and not chosen: it stops less well than a
-/// pendulum.
-const SPARE: f64 = 0.03;
-/// Time constant with which the rates of the joints die away, s.
-const DECAY: f64 = 0.2;
-/// Time in which trunk and arms come to ease, s.
-const EASE: f64 = 1.0;
-/// Joints this close to where they shall be are there, rad.
-const ALIKE: f64 = 0.03;
-
-const FOOT: [usize; 2] = [L_FOOT.index(), R_FOOT.index()];
+use crate::sim::plan::FEET;
+use crate::sim::plan::params::{stance, stop};
+use footsteps::{Footsteps, StandingPose, footsteps, frequency};
+use initial_state::InitialState;
 
 fn turned(yaw: f64, v: Vec3) -> Vec3 {
     Quat::exp(Vec3::Z * yaw).rotate(v)
@@ -68,7 +52,7 @@ enum Goal<'a> {
     /// The same, of a motion that runs backwards: it will come from there.
     Origin,
     /// At rest: as it stands if it does, and else standing at ease.
-    Still,
+    AtRest,
     /// Standing like this, if it does not stand like that.
     Like(&'a Posture),
     /// At rest in this posture, however near to it and slow it is.
@@ -77,28 +61,28 @@ enum Goal<'a> {
 
 /// Samples after the last one of `draft`, from its motion to its goal. `None` if it is there already, if it does not
 /// walk, or if no steps are found that stop it.
-fn tail(body: &Body, draft: &Draft, goal: Goal<'_>, spare: f64) -> Option<Draft> {
+fn steps_to_stand(body: &Body, draft: &Draft, goal: Goal<'_>, spare: f64) -> Option<Draft> {
     if draft.postures.len() < 3 {
         return None;
     }
     let soles = [Sole::new(body, 0), Sole::new(body, 1)];
-    let from = Start::of(body, draft, &soles);
+    let from = InitialState::of(body, draft, &soles);
     let mut stand = match goal {
-        Goal::Stand | Goal::Origin | Goal::Still => Stand::of(body, &at_ease(body)),
-        Goal::Like(posture) | Goal::Rest(posture) => Stand::of(body, posture),
+        Goal::Stand | Goal::Origin | Goal::AtRest => StandingPose::of(body, &at_ease(body)),
+        Goal::Like(posture) | Goal::Rest(posture) => StandingPose::of(body, posture),
     };
     // Who sits or lies is not led to a stand; who squats stands on his feet.
     let stands = from.stands(&soles, frequency(&from, &stand));
-    if !stands && from.posture.root_position.z < UPRIGHT * body.standing_root_height() {
+    if !stands && from.posture.root_position.z < stop::UPRIGHT * body.standing_root_height() {
         return None;
     }
-    if stands && matches!(goal, Goal::Still) {
+    if stands && matches!(goal, Goal::AtRest) {
         // It needs no step, only time.
-        stand = Stand::of(body, &from.posture);
+        stand = StandingPose::of(body, &from.posture);
     }
     let is_there = match goal {
         Goal::Stand | Goal::Origin => true,
-        Goal::Still => !from.moves(),
+        Goal::AtRest => !from.moves(),
         Goal::Like(posture) => alike(&from.posture, posture),
         Goal::Rest(_) => false,
     };
@@ -110,16 +94,16 @@ fn tail(body: &Body, draft: &Draft, goal: Goal<'_>, spare: f64) -> Option<Draft>
     let axis = [0, 1].map(|s: usize| draft.knee_axis[s].last().copied().unwrap_or(Vec3::Y));
     let lands = !matches!(goal, Goal::Origin);
     let how = (axis, draft.rate_hz, lands);
-    Some(walk(&from, &stand, &soles, &found, how))
+    Some(along_footsteps(&from, &stand, &soles, &found, how))
 }
 
 /// The motion along footsteps: the pelvis with the pendulum's mass, feet from hold to hold, everything else to ease.
 ///
 /// * `axis`: knee axes that it starts with; `rate`: samples per second; `lands`: what comes down in it does so in the
 ///   world, as time runs there.
-fn walk(
-    from: &Start,
-    stand: &Stand,
+fn along_footsteps(
+    from: &InitialState,
+    stand: &StandingPose,
     soles: &[Sole; 2],
     found: &Footsteps,
     (axis, rate, lands): ([Vec3; 2], f64, bool),
@@ -128,18 +112,21 @@ fn walk(
         Quat::exp(Vec3::Z * (found.heading - stand.heading)) * stand.posture.root_rotation;
     // The zero-moment point of the pendulum jumps from foot to foot; a body's does not.
     let mut path = found.path.clone();
-    low_pass_points(&mut path, 4.0, rate);
+    low_pass_points(&mut path, stop::PATH_CUTOFF, rate);
     let offset = ground(from.posture.root_position - from.com);
     let end_offset = turned(found.heading, ground(stand.pelvis - stand.mass));
     let mut out = Draft::empty(rate);
     for i in 1..path.len() {
         let t = i as f64 / rate;
-        let s = smootherstep(t / EASE);
+        let s = smootherstep(t / stop::EASE_TIME);
         let mut p = from.posture;
         // Rates die away while the joints come to ease.
         let mut rates = from.rates;
         rates[3..6].fill(0.0);
-        p.integrate(&rates, DECAY * (1.0 - (-t / DECAY).exp()));
+        p.integrate(
+            &rates,
+            stop::RATE_DECAY * (1.0 - (-t / stop::RATE_DECAY).exp()),
+        );
         let mut way = [0.0; NV];
         let spin = (upright * p.root_rotation.conjugate()).log() * s;
         way[..3].copy_from_slice(&spin.to_array());
@@ -153,7 +140,7 @@ fn walk(
                 from.posture.root_position.z,
                 from.velocity.z,
                 stand.pelvis.z,
-                EASE,
+                stop::EASE_TIME,
                 t,
             ),
             ..at
@@ -177,12 +164,14 @@ fn walk(
 
 /// Length of a leg from hip to ankle, m.
 fn leg_length(body: &Body) -> f64 {
-    body.joint_offset[FOOT[0]].norm() + body.joint_offset[FOOT[0] - 1].norm()
+    body.joint_offset[FEET[0].index()].norm() + body.joint_offset[FEET[0].index() - 1].norm()
 }
 
 /// True if nothing worth a movement is between two postures.
 fn alike(a: &Posture, b: &Posture) -> bool {
-    a.joint_difference(b).iter().all(|e| e.abs() < ALIKE)
+    a.joint_difference(b)
+        .iter()
+        .all(|e| e.abs() < stop::SAME_JOINT)
 }
 
 impl Draft {
@@ -208,7 +197,7 @@ impl Draft {
         for p in &postures {
             let poses = forward(body, p);
             for s in 0..2 {
-                let (ankle, foot) = poses[FOOT[s]];
+                let (ankle, foot) = poses[FEET[s].index()];
                 out.ankle[s].push(ankle);
                 out.foot[s].push(foot);
                 out.knee_axis[s].push(knee_axis(p, s == 0));
@@ -232,7 +221,7 @@ impl Draft {
 
     /// Leaves feet on the floor that lift in the very end: those of a body that is going to stop need not.
     fn put_down(&mut self) {
-        let most = (JUST_LIFTED * self.rate_hz) as usize;
+        let most = (stance::OVERLAP * self.rate_hz) as usize;
         for s in 0..2 {
             let on = |l: &[bool; 2]| l[s];
             if let Some(last) = self.label.iter().rposition(on) {
@@ -268,14 +257,14 @@ impl Draft {
     /// samples it took.
     pub fn end_like(&mut self, body: &Body, goal: &Posture) -> usize {
         self.put_down();
-        let after = tail(body, self, Goal::Like(goal), 0.0);
+        let after = steps_to_stand(body, self, Goal::Like(goal), 0.0);
         self.go_on(after)
     }
 
     /// The same, but to rest in just that posture, however little that takes.
     pub fn end_at_rest(&mut self, body: &Body, goal: &Posture) -> usize {
         self.put_down();
-        let after = tail(body, self, Goal::Rest(goal), 0.0);
+        let after = steps_to_stand(body, self, Goal::Rest(goal), 0.0);
         self.go_on(after)
     }
 
@@ -286,7 +275,12 @@ impl Draft {
     ///   chosen for being easy.
     pub fn end_standing(&mut self, body: &Body, given: bool) -> usize {
         self.put_down();
-        let after = tail(body, self, Goal::Stand, if given { SPARE } else { 0.0 });
+        let after = steps_to_stand(
+            body,
+            self,
+            Goal::Stand,
+            if given { stop::SPARE_TIME } else { 0.0 },
+        );
         self.go_on(after)
     }
 
@@ -294,10 +288,10 @@ impl Draft {
     /// anyway. Returns how many samples came before and after.
     pub fn add_ends(&mut self, body: &Body) -> (usize, usize) {
         self.put_down();
-        let after = tail(body, self, Goal::Still, SPARE);
+        let after = steps_to_stand(body, self, Goal::AtRest, stop::SPARE_TIME);
         self.reverse();
         self.put_down();
-        let before = tail(body, self, Goal::Origin, SPARE);
+        let before = steps_to_stand(body, self, Goal::Origin, stop::SPARE_TIME);
         let before = self.go_on(before);
         self.reverse();
         (before, self.go_on(after))

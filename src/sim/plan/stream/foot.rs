@@ -1,69 +1,17 @@
 //! One foot of a stream: when it stands, where, and how it gets from one place to the next.
 
-use super::{H, STEADY};
+use super::{H, RATE};
 use crate::sim::math::curve::{fall, quintic, smoothstep_to};
 use crate::sim::math::{Quat, Vec3, trig};
-use crate::sim::plan::foot_lock::{Anchor, FootPose, Sole};
+use crate::sim::plan::foot_lock::{FootOffset, FootPlacement, FootPose, Sole};
+use crate::sim::plan::params::{contact, pitch, stance, swing};
 
-/// A point touches below this speed, m/s, and until it is faster than that.
-const SPEED: (f64, f64) = (0.45, 0.55);
-/// A point touches this close to its own lowest level, m, and until it is higher than that.
-const HEIGHT: (f64, f64) = (0.05, 0.07);
-/// Speed at which the lowest level is forgotten, m/s, and how far it may be from that of the body's own sole, m.
-const FORGET: f64 = 0.01;
-const UNEVEN: f64 = 0.06;
-/// A standing foot whose recording strays further than this has moved, m and rad; it is given so many samples to get
-/// there.
-const STRAY: (f64, f64) = (0.06, 0.40);
-const SHUFFLE: i64 = 12;
 /// A foot that has stood for less than this is not taken off the floor again, samples.
-const SHORTEST: i64 = 9;
-/// A foot is not taken off the floor sooner than that, samples, unless the recording does so: the body has to come over
-/// the other one.
-const NOTICE: i64 = 18;
-/// Nor before the other one has stood for so long, samples: nobody changes feet in no time.
-const DRAGS: i64 = 4;
-/// Pitch below which a foot in a stride is flat, rad, and one that stays: a standing person's soles are flat unless
-/// clearly raised. It stays when it has stood for longer than the first, s, and for certain after the second.
-const FLAT: (f64, f64) = (0.07, 0.16);
-const STAYS: (f64, f64) = (0.7, 1.5);
-/// Who lands on his heel begins to come down to his sole after the first, and has after the second, s: a heel alone
-/// keeps nobody's balance. Recordings with a foot pitched up by some degrees throughout would have it so.
-const HEEL: (f64, f64) = (0.1, 0.2);
-/// Largest pitch of a standing foot, rad.
-const STEEPEST: (f64, f64) = (-1.05, 0.6);
-/// Sine of the roll beyond which a foot does not stand on its sole. A foot that comes down is flatter than steepest by
-/// this much; one that leaves the floor may be steeper for so many samples.
-const ROLLED: f64 = 0.56;
-const LANDS: f64 = 0.8;
-const LEAVING: i64 = 12;
-/// Most by which a standing foot rises on its toes so that its leg reaches, rad, and halvings on the way to what it
-/// takes.
-const MOST_RISE: f64 = 0.7;
-const HALVINGS: usize = 12;
-/// Time over which a swing departs from a lock while its next place is not known, s.
-const FADE: f64 = 0.4;
-/// Height of a swinging sole, m, share of the step that it is, least height; how fast a sole rises and sinks at least,
-/// m/s.
-const CLEARANCE: f64 = 0.045;
-const CLEARANCE_SHARE: f64 = 0.12;
-const CLEARANCE_LEAST: f64 = 0.015;
-const RISE: (f64, f64) = (0.45, 0.4);
-/// It takes about so long until it rises like that, s: a foot that leaves the floor at once jerks the leg.
-const LEAVES: f64 = 0.06;
-/// Largest toe extension of a swinging foot, rad.
-const SWING_TOE: f64 = 0.6;
-/// Speed of a place at which it counts half in where a foot stands, m/s.
-const QUIET: f64 = 0.1;
-/// Neither foot down for no more samples than this is no flight.
-const FLIGHT: i64 = 5;
+const SHORTEST: i64 = (stance::SHORTEST * RATE) as i64;
 /// Samples that labels are kept for.
 const KEPT: usize = 192;
 /// Stances that are kept.
 pub(super) const STANCES: usize = 8;
-/// Most samples that a place is averaged over.
-const AVERAGED: i64 = 30;
-
 /// One stance of one foot. Times in samples of the grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stance {
@@ -107,8 +55,6 @@ pub struct Posed {
     pub lift: f64,
 }
 
-type Channels = [f64; 7];
-
 /// Labels, stances and the swing of one foot.
 #[derive(Clone, Debug)]
 pub struct Foot {
@@ -126,45 +72,48 @@ pub struct Foot {
     /// For how long it has been steep, samples.
     steep: i64,
     /// Offset from the recording, and its first two derivatives.
-    offset: [Channels; 3],
+    offset: [FootOffset; 3],
     posed: i64,
 }
 
 /// How steep or rolled a foot is; beyond 1 it does not stand on its sole.
 pub fn steepness(rotation: Quat, pitch: f64) -> f64 {
-    let roll = rotation.rotate(Vec3::Y).z.abs() / ROLLED;
-    roll.max(pitch / STEEPEST.0).max(pitch / STEEPEST.1)
+    let roll = rotation.rotate(Vec3::Y).z.abs() / contact::MOST_ROLL_SINE;
+    roll.max(pitch / contact::LEAST_PITCH)
+        .max(pitch / contact::MOST_TILT)
 }
 
 /// Pitch of a standing foot: flat within a band, with a smooth beginning, and toe-up for a moment only. `age`: for how
 /// long it has stood, samples.
 fn stance_pitch(raw: f64, age: i64, rolled: bool) -> f64 {
     let stood = age as f64 * H;
-    let u = ((stood - STAYS.0) / (STAYS.1 - STAYS.0)).clamp(0.0, 1.0);
-    let flat = FLAT.0 + u * (FLAT.1 - FLAT.0);
+    let u = ((stood - pitch::STREAM_LONG_STANCE)
+        / (pitch::LONG_STANCE - pitch::STREAM_LONG_STANCE))
+        .clamp(0.0, 1.0);
+    let flat = pitch::DEAD_BAND + u * (pitch::LONG_DEAD_BAND - pitch::DEAD_BAND);
     let beyond = (raw.abs() - flat).max(0.0);
-    let p = (beyond * beyond / (beyond + FLAT.0)).copysign(raw);
-    let p = p.clamp(STEEPEST.0, STEEPEST.1);
+    let p = (beyond * beyond / (beyond + pitch::DEAD_BAND)).copysign(raw);
+    let p = p.clamp(contact::LEAST_PITCH, contact::MOST_TILT);
     if p < 0.0 {
         p
     } else if rolled {
         0.0
     } else {
-        p * fall(stood, HEEL)
+        p * fall(stood, (pitch::HEEL_BEGINS, pitch::HEEL_ENDS))
     }
 }
 
 /// Pitch of a standing foot that its leg reaches: it rises on its toes by as little as that takes.
 ///
 /// * `lacks`: how far an ankle is out of reach, m.
-pub fn risen(sole: &Sole, at: &Anchor, lacks: &impl Fn(Vec3) -> f64) -> f64 {
+pub fn risen(sole: &Sole, at: &FootPlacement, lacks: &impl Fn(Vec3) -> f64) -> f64 {
     let left = |rise: f64| lacks(sole.stand(at.place, at.yaw, at.pitch - rise).ankle);
-    let most = MOST_RISE.min(at.pitch.min(0.0) - STEEPEST.0);
+    let most = pitch::MOST_RISE.min(at.pitch.min(0.0) - contact::LEAST_PITCH);
     let (mut low, mut high) = (0.0, most);
     if left(low) <= 0.0 || most <= 0.0 || left(high) >= left(low) {
         return at.pitch;
     }
-    for _ in 0..HALVINGS {
+    for _ in 0..pitch::RISE_HALVINGS {
         let middle = 0.5 * (low + high);
         if left(middle) > 0.0 {
             low = middle;
@@ -175,14 +124,8 @@ pub fn risen(sole: &Sole, at: &Anchor, lacks: &impl Fn(Vec3) -> f64) -> f64 {
     at.pitch - high
 }
 
-fn difference(to: &FootPose, (ankle, rotation): (Vec3, Quat), toe: f64) -> Channels {
-    let p = to.ankle - ankle;
-    let r = (to.rotation * rotation.conjugate()).log();
-    [p.x, p.y, p.z, r.x, r.y, r.z, to.toe - toe]
-}
-
 fn swing_toe(pitch: f64) -> f64 {
-    (-pitch).clamp(0.0, SWING_TOE)
+    (-pitch).clamp(0.0, swing::MOST_TOE)
 }
 
 impl Foot {
@@ -233,7 +176,7 @@ impl Foot {
 
     /// True if it touches in sample `j` or so soon after it that the time between is no flight.
     fn lands(&self, j: i64, last: i64) -> bool {
-        (j..=(j + FLIGHT).min(last)).any(|i| self.on[Self::slot(i)])
+        (j..=(j + contact::STREAM_SHORTEST_FLIGHT).min(last)).any(|i| self.on[Self::slot(i)])
     }
 
     fn stance_at(&self, i: i64) -> Option<usize> {
@@ -252,12 +195,15 @@ impl Foot {
     ) {
         for k in 0..3 {
             let z = points[k].z;
-            let level = (self.level[k] + FORGET * H).min(z);
-            self.level[k] = level.clamp(standing[k] - UNEVEN, standing[k] + UNEVEN);
+            let level = (self.level[k] + contact::LEVEL_RISE * H).min(z);
+            self.level[k] = level.clamp(
+                standing[k] - contact::LEVEL_OFFSET,
+                standing[k] + contact::LEVEL_OFFSET,
+            );
             let (fast, high) = if self.touches[k] {
-                (SPEED.1, HEIGHT.1)
+                (contact::SPEED_OFF, contact::HEIGHT_OFF)
             } else {
-                (SPEED.0, HEIGHT.0)
+                (contact::SPEED_ON, contact::STREAM_HEIGHT_ON)
             };
             let low = z - self.level[k] < high;
             self.touches[k] = low && speed(k).map_or(self.touches[k], |v| v < fast);
@@ -282,11 +228,15 @@ impl Foot {
         let on = |i: i64| self.on[Self::slot(i)];
         // Nobody comes down on a foot as steep as that; who leaves the floor may be so for a moment.
         let now = standing(j);
-        let most = if before { 1.0 } else { LANDS };
+        let most = if before {
+            1.0
+        } else {
+            contact::LANDING_STEEPNESS
+        };
         self.steep = if now.steep > most { self.steep + 1 } else { 0 };
-        let upright = upright && self.steep < if before { LEAVING } else { 1 };
+        let upright = upright && self.steep < if before { contact::LEAVING_TIME } else { 1 };
         let wanted = on(j) && upright;
-        let steady = j == 0 || (j..=(j + STEADY).min(last)).all(|i| on(i) == on(j));
+        let steady = j == 0 || (j..=(j + contact::STREAM_STEADY).min(last)).all(|i| on(i) == on(j));
         let mut down = if wanted == before || steady {
             wanted
         } else {
@@ -338,16 +288,18 @@ impl Foot {
         } else {
             self.estimate(st.start, j, standing)
         };
-        let strays = (now.place - at.place).norm() > STRAY.0
-            || trig::wrapped(now.yaw - at.yaw).abs() > STRAY.1;
+        let strays = (now.place - at.place).norm() > stance::STRAY_DISTANCE
+            || trig::wrapped(now.yaw - at.yaw).abs() > stance::STRAY_ANGLE;
         self.strayed = if strays { self.strayed + 1 } else { 0 };
-        let carried = |i: i64| (1..=DRAGS).all(|k| other.is_down(i - k));
-        if self.strayed <= STEADY || !(other.touches(j) && carried(j) && j >= other.moving) {
+        let carried = |i: i64| (1..=stance::STREAM_OVERLAP).all(|k| other.is_down(i - k));
+        if self.strayed <= contact::STREAM_STEADY
+            || !(other.touches(j) && carried(j) && j >= other.moving)
+        {
             return None;
         }
-        let wanted = j - self.strayed - SHUFFLE / 2;
+        let wanted = j - self.strayed - stance::STREAM_SHUFFLE / 2;
         let first = wanted
-            .max(self.posed + NOTICE)
+            .max(self.posed + stance::STREAM_NOTICE)
             .max(st.start + SHORTEST)
             .min(j);
         let from = (first..j).rev().take_while(|i| carried(*i)).last();
@@ -356,7 +308,7 @@ impl Foot {
             self.down[Self::slot(i)] = false;
         }
         self.stances[k].end = from;
-        self.moving = (from + SHUFFLE).max(j + 1);
+        self.moving = (from + stance::STREAM_SHUFFLE).max(j + 1);
         Some(from)
     }
 
@@ -372,12 +324,13 @@ impl Foot {
         };
         let first = standing(start);
         let (mut sum, mut place, mut yaw) = (0.0, Vec3::zero(), 0.0);
-        for i in start..=last.min(start + AVERAGED).max(start) {
+        for i in start..=last.min(start + stance::STREAM_AVERAGED).max(start) {
             if i > start && !self.on[Self::slot(i)] {
                 break;
             }
             let s = standing(i);
-            let w = QUIET * QUIET / (QUIET * QUIET + s.speed * s.speed);
+            let w = stance::QUIET_SPEED * stance::QUIET_SPEED
+                / (stance::QUIET_SPEED * stance::QUIET_SPEED + s.speed * s.speed);
             sum += w;
             place += (s.place - first.place) * w;
             yaw += trig::wrapped(s.yaw - first.yaw) * w;
@@ -388,9 +341,9 @@ impl Foot {
     }
 
     /// Where it stands in sample `j`; `None` if it does not.
-    pub fn anchor(&self, j: i64, standing: impl Fn(i64) -> Standing) -> Option<Anchor> {
+    pub fn anchor(&self, j: i64, standing: impl Fn(i64) -> Standing) -> Option<FootPlacement> {
         let st = &self.stances[self.stance_at(j)?];
-        Some(Anchor {
+        Some(FootPlacement {
             tip: 0.0,
             place: st.place,
             yaw: st.yaw,
@@ -414,7 +367,9 @@ impl Foot {
         while start > labelled.max(f) + 1 && self.on[Self::slot(start - 1)] {
             start -= 1;
         }
-        let comes = start <= seen && start >= self.moving && standing(start).steep < LANDS;
+        let comes = start <= seen
+            && start >= self.moving
+            && standing(start).steep < contact::LANDING_STEEPNESS;
         comes.then(|| self.estimate(start, seen, standing))
     }
 
@@ -430,8 +385,15 @@ impl Foot {
         lacks: impl Fn(Vec3) -> f64,
     ) -> Posed {
         let now = standing(f);
-        let (ankle, rotation) = raw(f);
-        let toe = swing_toe(now.pitch);
+        let recorded_pose = |i: i64, pitch: f64| {
+            let (ankle, rotation) = raw(i);
+            FootPose {
+                ankle,
+                rotation,
+                toe: swing_toe(pitch),
+            }
+        };
+        let recorded = recorded_pose(f, now.pitch);
         if let Some(k) = self.stance_at(f) {
             if !self.stances[k].settled {
                 let (start, end) = (self.stances[k].start, self.stances[k].end);
@@ -440,18 +402,18 @@ impl Foot {
                 (st.place, st.yaw, st.settled) = (better.place, better.yaw, true);
             }
             let st = &mut self.stances[k];
-            st.rolled |= now.pitch < FLAT.0;
-            let at = Anchor {
+            st.rolled |= now.pitch < pitch::DEAD_BAND;
+            let at = FootPlacement {
                 tip: 0.0,
                 place: st.place,
                 yaw: st.yaw,
                 pitch: stance_pitch(now.pitch, f - st.start, st.rolled),
             };
             let pose = sole.stand(at.place, at.yaw, risen(sole, &at, &lacks));
-            let o = difference(&pose, (ankle, rotation), toe);
+            let o = pose.offset_from(&recorded);
             let o0 = self.offset[0];
             self.offset = if self.posed >= 0 {
-                let v: Channels = std::array::from_fn(|c| (o[c] - o0[c]) / H);
+                let v: FootOffset = std::array::from_fn(|c| (o[c] - o0[c]) / H);
                 // Differences of differences would lead the swing astray.
                 [o, v, [0.0; 7]]
             } else {
@@ -471,13 +433,13 @@ impl Foot {
                 let at = |i: i64| {
                     let s = standing(i);
                     let pose = sole.stand(st.place, st.yaw, stance_pitch(s.pitch, 0, false));
-                    difference(&pose, raw(i), swing_toe(s.pitch))
+                    pose.offset_from(&recorded_pose(i, s.pitch))
                 };
                 let (a, b) = (at(st.start), at((st.start + 1).min(seen)));
-                let slope: Channels = std::array::from_fn(|c| (b[c] - a[c]) / H);
+                let slope: FootOffset = std::array::from_fn(|c| (b[c] - a[c]) / H);
                 (a, slope, (st.start - f + 1) as f64 * H)
             }
-            None => ([0.0; 7], [0.0; 7], FADE),
+            None => ([0.0; 7], [0.0; 7], swing::STREAM_DEPARTURE),
         };
         let [o0, v0, a0] = self.offset;
         for c in 0..7 {
@@ -487,12 +449,8 @@ impl Foot {
             self.offset[2][c] = a;
         }
         self.posed = f;
-        let o = self.offset[0];
-        let pose = FootPose {
-            ankle: ankle + Vec3::from_array([o[0], o[1], o[2]]),
-            rotation: (Quat::exp(Vec3::from_array([o[3], o[4], o[5]])) * rotation).normalized(),
-            toe: (toe + o[6]).max(0.0),
-        };
+        let mut pose = recorded.moved(&self.offset[0]);
+        pose.toe = pose.toe.max(0.0);
         Posed {
             lift: self.lift(sole, f, &pose, now.place),
             pose,
@@ -509,12 +467,12 @@ impl Foot {
         let reach = (place - from)
             .norm()
             .max(self.coming.map_or(0.0, |s| (s.place - from).norm()));
-        let most = (CLEARANCE_SHARE * reach).clamp(CLEARANCE_LEAST, CLEARANCE);
+        let most = (swing::CLEARANCE_SHARE * reach).clamp(swing::LEAST_CLEARANCE, swing::CLEARANCE);
         let need = most
-            .min(RISE.0 * since * since / (since + LEAVES))
-            .min(RISE.1 * until);
+            .min(swing::RISE_SPEED * since * since / (since + swing::LIFT_TIME))
+            .min(swing::SINK_SPEED * until);
         let lacks = (need - (pose.ankle.z + sole.lowest(pose.rotation, pose.toe))).max(0.0);
-        let w = (since.min(until) / 0.06).min(1.0);
+        let w = (since.min(until) / swing::LIFT_TIME).min(1.0);
         smoothstep_to(lacks, w)
     }
 }

@@ -1,4 +1,4 @@
-//! A stream made into a motion that a body can follow, while it comes (WALKING §1, sliding window).
+//! A stream made into a motion that a body can follow, while it comes, over a sliding window.
 //!
 //! What [`prepare`](super::prepare) does with a whole clip happens here sample by sample, a window behind the newest
 //! one: smoothing, labels of planted feet, foot lock, swings that clear the floor and meet the next foothold, a pelvis
@@ -6,13 +6,14 @@
 //! window again with every sample. Memory is a ring, time per sample is bounded, nothing allocates. Rounds alike
 //! everywhere: it is part of the tick.
 //!
-//! Places of a sample on its way, in samples behind the newest: smoothed (`SMOOTH`), labelled and balanced (`LABEL`),
-//! feet posed and balanced again as the body is to be (up to `FORESEEN` before the output), put out (the window).
+//! Places of a sample on its way, in samples behind the newest: smoothed (`stream::SMOOTH`), labelled and balanced
+//! (`LABEL`), feet posed and balanced again as the body is to be (up to `stream::FORESEEN` before the output), put out
+//! (the window).
 
 mod foot;
 mod momentum;
 mod receding_horizon;
-mod silence;
+mod repeated_samples;
 mod whole_body;
 
 use super::ankle_torque_limit::AnkleTorqueLimit;
@@ -25,47 +26,28 @@ use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::clip::{Knot, PlanarTransform, between};
 use crate::sim::motion::leg_ik::{center_of_mass, forward};
 use crate::sim::motion::target::Target;
+use crate::sim::plan::params::{contact, stream, transition};
 use foot::Foot;
 pub use foot::Stance;
 use receding_horizon::Balance;
-use silence::Newest;
-pub use silence::is_same;
+use repeated_samples::RepeatedSamples;
+pub use repeated_samples::is_same;
 use std::collections::VecDeque;
 use std::sync::Arc;
-use whole_body::Lowering;
+use whole_body::PelvisLowering;
 
 /// Samples per second of the grid that a stream is prepared on.
-pub const RATE: f64 = 60.0;
+pub const RATE: f64 = stream::RATE;
 /// Shortest and longest window, s.
-pub const WINDOW: (f64, f64) = (0.3, 1.0);
+pub const WINDOW: (f64, f64) = (stream::SHORTEST_WINDOW, stream::LONGEST_WINDOW);
 /// Most stances of a foot that are known at a time.
 pub const MOST_STANCES: usize = foot::STANCES + 1;
 const H: f64 = 1.0 / RATE;
 /// The shortest window, samples.
 const SHORTEST_WINDOW: i64 = (WINDOW.0 * RATE) as i64;
 
-/// Half width of the smoothing, samples, and its standard deviation: the amplitude is half at 7 Hz.
-const SMOOTH: i64 = 3;
-const SIGMA: f64 = 1.6;
-/// A foot is labelled as on the floor or off it once it has been so for this many samples.
-pub(super) const STEADY: i64 = 3;
 /// Samples between the newest one and the one that is labelled.
-const LABEL: i64 = SMOOTH + 1 + STEADY;
-/// Samples between the one whose feet are posed and the one that is put together: clearance and pelvis height are
-/// smooth over them. The latter is the output with the shortest window, and up to so many samples before it with longer
-/// ones: its balance is known better then.
-const POSED: i64 = 2;
-const FORESEEN: i64 = 16;
-/// Samples behind the output that balance looks back on, and that a figure which is late may still ask for.
-const PAST: i64 = 90;
-/// A pelvis below this share of standing height is not one that stands on feet.
-const UPRIGHT: f64 = 0.45;
-/// A stream that is this far from where its last samples were leading has jumped: joints and tilt, rad; pelvis, m.
-const JUMP: (f64, f64) = (0.25, 0.06);
-/// So many coordinates of the joints jump together.
-const SEVERAL: usize = 4;
-/// Time over which a jump is spread, s.
-const FADE: f64 = 0.4;
+const LABEL: i64 = stream::SMOOTH + 1 + contact::STREAM_STEADY;
 /// Samples that may wait to be prepared: ten seconds.
 pub const MOST_PENDING: usize = 600;
 
@@ -76,17 +58,23 @@ struct Raw {
     planted: Option<[bool; 2]>,
 }
 
-/// A sample on its way through the window.
-#[derive(Clone, Debug)]
-struct Sample {
-    /// As it came, where the stream lies now, jumps spread.
-    raw: Posture,
+/// What came with a sample.
+#[derive(Clone, Copy, Debug)]
+struct Received {
     /// Points of the feet as they came: ankle, toe joint, toe tip.
     points: [[Vec3; 3]; 2],
     /// Labels that came with it.
     planted: Option<[bool; 2]>,
     /// The stream jumped just before.
     broken: bool,
+}
+
+/// A sample on its way through the window.
+#[derive(Clone, Debug)]
+struct Sample {
+    /// As it came, where the stream lies now, jumps spread.
+    raw: Posture,
+    received: Received,
     smooth: Posture,
     poses: [(Vec3, Quat); SEGMENT_COUNT],
     com: Vec3,
@@ -122,9 +110,11 @@ impl Sample {
         };
         Self {
             raw: *posture,
-            points: [[Vec3::zero(); 3]; 2],
-            planted: None,
-            broken: false,
+            received: Received {
+                points: [[Vec3::zero(); 3]; 2],
+                planted: None,
+                broken: false,
+            },
             smooth: *posture,
             poses,
             com: Vec3::zero(),
@@ -143,36 +133,69 @@ impl Sample {
     }
 }
 
+/// How far behind the newest sample things happen.
+#[derive(Clone, Debug)]
+struct Timing {
+    /// Samples between the newest one and the output.
+    window: i64,
+    /// Samples between the output and the one whose feet are posed.
+    ahead: i64,
+    /// Of the smoothing, the middle one first.
+    weights: [f64; stream::SMOOTH as usize + 1],
+}
+
+/// What has come and waits.
+#[derive(Clone, Debug)]
+struct Input {
+    pending: VecDeque<Raw>,
+    newest: RepeatedSamples,
+}
+
+/// What was put out.
+#[derive(Clone, Debug)]
+struct Output {
+    knots: Vec<Knot>,
+    /// Last five postures, for their rates.
+    recent: [Posture; 5],
+    /// Number of the last one, −1 before the first.
+    last: i64,
+}
+
+/// The shift for balance and what it goes by.
+#[derive(Clone, Debug)]
+struct ShiftState {
+    /// Shift of the centre of mass for balance, at the output and one sample before, newest last, m.
+    shift: [[f64; 2]; 2],
+    /// Way from the zero-moment point into the feet on average over about a second, m.
+    lasting: [f64; 2],
+    horizon: Balance,
+}
+
+/// Where the stream lies in the world.
+#[derive(Clone, Debug, Default)]
+struct Placement {
+    /// A stream that jumps goes on from where it was.
+    frame: PlanarTransform,
+    /// What is left of a jump, and the samples since.
+    fade: Option<([f64; NV], i64)>,
+}
+
 /// A stream of one figure on its way to a motion. Times count from the first sample, s.
 #[derive(Clone, Debug)]
 pub struct StreamPlan {
     body: Arc<Body>,
     soles: [Sole; 2],
-    one_foot: AnkleTorqueLimit,
-    window: i64,
-    /// Samples between the output and the one whose feet are posed.
-    ahead: i64,
-    pending: VecDeque<Raw>,
-    newest: Newest,
+    ankle_limit: AnkleTorqueLimit,
+    timing: Timing,
+    input: Input,
     /// Number of samples taken into the ring.
     count: i64,
     ring: Vec<Sample>,
-    knots: Vec<Knot>,
-    /// Last five postures that were put out, for their rates.
-    recent: [Posture; 5],
-    out: i64,
     feet: [Foot; 2],
-    /// Shift of the centre of mass for balance, at the output and one sample before, newest last, m.
-    shift: [[f64; 2]; 2],
-    lowering: Lowering,
-    /// Way from the zero-moment point into the feet on average over about a second, m.
-    lasting: [f64; 2],
-    balance: Balance,
-    /// Where the stream lies: a stream that jumps goes on from where it was.
-    frame: PlanarTransform,
-    /// What is left of a jump, and the samples since.
-    fade: Option<([f64; NV], i64)>,
-    weights: [f64; SMOOTH as usize + 1],
+    lowering: PelvisLowering,
+    balance: ShiftState,
+    output: Output,
+    placement: Placement,
 }
 
 impl StreamPlan {
@@ -180,57 +203,65 @@ impl StreamPlan {
     /// will ever need.
     pub fn new(body: Arc<Body>, window: f64) -> Self {
         let window = (window.clamp(WINDOW.0, WINDOW.1) * RATE).floor() as i64;
-        let length = (PAST + window + 8) as usize;
+        let length = (stream::PAST + window + 8) as usize;
         let posture = Posture::default();
         let blank = Sample::new(&posture, forward(&body, &posture));
         let knot = Knot::of(&[posture], 0, H, [true; 2]);
-        let mut weights: [f64; SMOOTH as usize + 1] =
-            std::array::from_fn(|k| exp(-0.5 * (k as f64 / SIGMA) * (k as f64 / SIGMA)));
+        let mut weights: [f64; stream::SMOOTH as usize + 1] = std::array::from_fn(|k| {
+            exp(-0.5 * (k as f64 / stream::SIGMA) * (k as f64 / stream::SIGMA))
+        });
         let sum = weights[0] + 2.0 * weights[1..].iter().sum::<f64>();
         weights.iter_mut().for_each(|w| *w /= sum);
         Self {
             soles: [Sole::new(&body, 0), Sole::new(&body, 1)],
-            one_foot: AnkleTorqueLimit::new(&body),
-            window,
-            ahead: POSED + (window - SHORTEST_WINDOW).min(FORESEEN),
-            pending: VecDeque::with_capacity(MOST_PENDING),
-            newest: Newest::default(),
+            ankle_limit: AnkleTorqueLimit::new(&body),
+            timing: Timing {
+                window,
+                ahead: stream::POSED + (window - SHORTEST_WINDOW).min(stream::FORESEEN),
+                weights,
+            },
+            input: Input {
+                pending: VecDeque::with_capacity(MOST_PENDING),
+                newest: RepeatedSamples::default(),
+            },
             count: 0,
             ring: vec![blank; length],
-            knots: vec![knot; PAST as usize],
-            recent: [posture; 5],
-            out: -1,
             feet: [Foot::new(), Foot::new()],
-            shift: [[0.0; 2]; 2],
-            lowering: Lowering::default(),
-            lasting: [0.0; 2],
-            balance: Balance::new(window as usize),
-            frame: PlanarTransform::default(),
-            fade: None,
-            weights,
+            lowering: PelvisLowering::default(),
+            balance: ShiftState {
+                shift: [[0.0; 2]; 2],
+                lasting: [0.0; 2],
+                horizon: Balance::new(window as usize),
+            },
+            output: Output {
+                knots: vec![knot; stream::PAST as usize],
+                recent: [posture; 5],
+                last: -1,
+            },
+            placement: Placement::default(),
             body,
         }
     }
 
     /// Length of the window, s.
     pub fn window(&self) -> f64 {
-        self.window as f64 * H
+        self.timing.window as f64 * H
     }
 
     /// Where the stream lies in the world: it moves when the stream jumps.
     pub fn frame(&self) -> PlanarTransform {
-        self.frame
+        self.placement.frame
     }
 
     /// Number of samples that were taken or wait.
     pub fn fed(&self) -> i64 {
-        self.count + self.pending.len() as i64
+        self.count + self.input.pending.len() as i64
     }
 
     /// The same without those at the end that repeat one, if it breaks off with them.
     pub fn moved(&self) -> i64 {
         let repeated = if self.breaks_off() {
-            self.newest.repeated()
+            self.input.newest.repeated()
         } else {
             0
         };
@@ -240,7 +271,7 @@ impl StreamPlan {
     /// True if its samples have repeated one in the middle of a movement for so long that it is over: no body stops
     /// like that.
     pub fn breaks_off(&self) -> bool {
-        self.newest.breaks_off()
+        self.input.newest.breaks_off()
     }
 
     /// The next sample, 1/[`RATE`] s after the last one.
@@ -250,7 +281,7 @@ impl StreamPlan {
     /// A sample that is not finite is taken for a repetition of the last one.
     pub fn push(&mut self, posture: &Posture, planted: Option<[bool; 2]>) {
         if posture.is_finite() {
-            self.newest.take(posture);
+            self.input.newest.take(posture);
             self.wait(Raw {
                 posture: *posture,
                 planted,
@@ -259,20 +290,20 @@ impl StreamPlan {
     }
 
     fn wait(&mut self, raw: Raw) {
-        if self.pending.len() == MOST_PENDING {
-            self.pending.pop_front();
+        if self.input.pending.len() == MOST_PENDING {
+            self.input.pending.pop_front();
         }
-        self.pending.push_back(raw);
+        self.input.pending.push_back(raw);
     }
 
     /// Prepares what has come, up to time `t` (s) of the motion. Where the stream has not come that far it stands still
     /// in its last posture.
     pub fn advance(&mut self, t: f64) {
-        let needed = ((t * RATE - 1e-6).ceil() as i64).saturating_add(self.window);
+        let needed = ((t * RATE - 1e-6).ceil() as i64).saturating_add(self.timing.window);
         // Time jumps of hostile clocks are not made up for sample by sample.
-        let most = self.count + self.window + PAST;
+        let most = self.count + self.timing.window + stream::PAST;
         while self.count < needed.min(most) {
-            match self.pending.pop_front() {
+            match self.input.pending.pop_front() {
                 Some(raw) => self.take(&raw.posture, raw.planted),
                 None if self.count > 0 => {
                     let last = self.at(self.count - 1).raw;
@@ -286,7 +317,7 @@ impl StreamPlan {
 
     fn unframed(&self, posture: &Posture) -> Posture {
         let mut p = *posture;
-        self.frame.power(-1.0).apply_posture(&mut p);
+        self.placement.frame.power(-1.0).apply_posture(&mut p);
         p
     }
 
@@ -307,7 +338,7 @@ impl StreamPlan {
     /// Moves the stream to where the last samples were leading if it has jumped, and spreads what is left of the jump.
     fn placed(&mut self, posture: &Posture) -> (Posture, bool) {
         let mut p = *posture;
-        self.frame.apply_posture(&mut p);
+        self.placement.frame.apply_posture(&mut p);
         if self.count < 2 {
             return (p, false);
         }
@@ -318,11 +349,11 @@ impl StreamPlan {
         let mut faded = self.faded(&p);
         let off = led.difference(&faded);
         let far = (off[3] * off[3] + off[4] * off[4] + off[5] * off[5]).sqrt();
-        let beyond = |e: &&f64| e.abs() > JUMP.0;
+        let beyond = |e: &&f64| e.abs() > stream::JUMP_ANGLE;
         // One joint alone that snaps is a glitch of its own; a stream that jumps takes the body along.
-        let jumped = far > JUMP.1
+        let jumped = far > stream::JUMP_DISTANCE
             || off[..3].iter().any(|e| beyond(&e))
-            || off[6..].iter().filter(beyond).count() >= SEVERAL;
+            || off[6..].iter().filter(beyond).count() >= stream::JUMP_JOINTS;
         if jumped {
             // The place of the pelvis over the floor and its heading go on as they were; the rest is spread.
             let yaw = led.root_rotation.heading() - p.root_rotation.heading();
@@ -337,15 +368,15 @@ impl StreamPlan {
                 y: led.root_position.y - turned.y,
                 yaw,
             };
-            self.frame = step.after(self.frame);
+            self.placement.frame = step.after(self.placement.frame);
             step.apply_posture(&mut p);
-            self.fade = Some((p.difference(&led), 0));
+            self.placement.fade = Some((p.difference(&led), 0));
             faded = self.faded(&p);
         }
-        if let Some((_, since)) = &mut self.fade {
+        if let Some((_, since)) = &mut self.placement.fade {
             *since += 1;
-            if *since as f64 * H >= FADE {
-                self.fade = None;
+            if *since as f64 * H >= transition::BLEND_TIME {
+                self.placement.fade = None;
             }
         }
         (faded, jumped)
@@ -353,8 +384,8 @@ impl StreamPlan {
 
     fn faded(&self, posture: &Posture) -> Posture {
         let mut p = *posture;
-        if let Some((e, since)) = &self.fade {
-            let u = (*since as f64 * H / FADE).min(1.0);
+        if let Some((e, since)) = &self.placement.fade {
+            let u = (*since as f64 * H / transition::BLEND_TIME).min(1.0);
             let s = 1.0 - smootherstep(u);
             p.integrate(&e.map(|e| e * s), 1.0);
         }
@@ -365,24 +396,24 @@ impl StreamPlan {
     fn take(&mut self, posture: &Posture, planted: Option<[bool; 2]>) {
         let mut given = *posture;
         let (raw, broken) = self.placed(posture);
-        self.frame.apply_posture(&mut given);
+        self.placement.frame.apply_posture(&mut given);
         let k = self.count;
         let poses = forward(&self.body, &raw);
         let mut sample = Sample::new(&raw, poses);
         let own = forward(&self.body, &given);
-        sample.points = [(L_FOOT, L_TOES), (R_FOOT, R_TOES)].map(|(foot, toes)| {
+        sample.received.points = [(L_FOOT, L_TOES), (R_FOOT, R_TOES)].map(|(foot, toes)| {
             let tip = self.soles[usize::from(foot == R_FOOT)].toe_tip();
             let (at, q) = own[toes.index()];
             [own[foot.index()].0, at, at + q.rotate(tip)]
         });
-        sample.planted = planted;
-        sample.broken = broken;
+        sample.received.planted = planted;
+        sample.received.broken = broken;
         *self.at_mut(k) = sample;
         self.count += 1;
         if k == 0 {
             self.measure(0);
         }
-        let s = k - SMOOTH;
+        let s = k - stream::SMOOTH;
         if s < 0 {
             return;
         }
@@ -395,20 +426,20 @@ impl StreamPlan {
             self.label(j, s - 1);
             self.balance(j);
         }
-        let out = k + 3 - self.window;
-        let f = out + self.ahead;
+        let out = k + 3 - self.timing.window;
+        let f = out + self.timing.ahead;
         if f >= 0 {
             if out < 0 {
-                self.balance.next(None);
+                self.balance.horizon.next(None);
             }
             self.pose_feet(f, s - 1, j);
-            let built = f - POSED;
+            let built = f - stream::POSED;
             if built > out && built >= 0 {
                 self.build(built);
             }
         }
         if out >= 0 {
-            self.put_out(out);
+            self.emit(out);
         }
     }
 
@@ -417,7 +448,7 @@ impl StreamPlan {
         let centre = self.at(i).raw;
         let mut e = [0.0; NV];
         // At the beginning the past is taken to mirror what follows.
-        for (k, w) in (1..=SMOOTH.min(i)).zip(&self.weights[1..]) {
+        for (k, w) in (1..=stream::SMOOTH.min(i)).zip(&self.timing.weights[1..]) {
             for j in [i - k, i + k] {
                 let d = centre.difference(&self.at(j).raw);
                 for (e, d) in e.iter_mut().zip(d) {
@@ -452,13 +483,13 @@ impl StreamPlan {
             return;
         }
         // The jump of a stream is not a movement of its feet.
-        let broken = self.at(i).broken || self.at(i + 1).broken;
-        let hint = self.at(i).planted;
+        let broken = self.at(i).received.broken || self.at(i + 1).received.broken;
+        let hint = self.at(i).received.planted;
         for side in 0..2 {
             let (a, b, c) = (
-                self.at(i - 1).points[side],
-                self.at(i).points[side],
-                self.at(i + 1).points[side],
+                self.at(i - 1).received.points[side],
+                self.at(i).received.points[side],
+                self.at(i + 1).received.points[side],
             );
             let standing = self.soles[side].standing_heights();
             let speed = |k: usize| {
@@ -475,7 +506,7 @@ impl StreamPlan {
     /// Settles which feet stand in sample `j`; `last` is the newest one that was looked at.
     fn label(&mut self, j: i64, last: i64) {
         let upright =
-            self.at(j).smooth.root_position.z > UPRIGHT * self.body.standing_root_height();
+            self.at(j).smooth.root_position.z > contact::SEATED * self.body.standing_root_height();
         for side in 0..2 {
             let mut foot = std::mem::replace(&mut self.feet[side], Foot::new());
             let other = &self.feet[1 - side];
@@ -501,29 +532,29 @@ impl StreamPlan {
     }
 
     /// The whole posture of sample `out`.
-    fn put_out(&mut self, out: i64) {
+    fn emit(&mut self, out: i64) {
         self.shift_on(out);
-        let posture = self.posture(out, self.shift[1]);
+        let posture = self.posture(out, self.balance.shift[1]);
         let s = self.at(out);
         let down = s.down;
         if out == 0 {
-            self.recent = [posture; 5];
+            self.output.recent = [posture; 5];
         }
-        self.recent.rotate_left(1);
-        self.recent[4] = posture;
-        self.out = out;
-        let n = self.knots.len() as i64;
-        self.knots[out.rem_euclid(n) as usize] = Knot::of(&[posture], 0, H, down);
+        self.output.recent.rotate_left(1);
+        self.output.recent[4] = posture;
+        self.output.last = out;
+        let n = self.output.knots.len() as i64;
+        self.output.knots[out.rem_euclid(n) as usize] = Knot::of(&[posture], 0, H, down);
         // Rates need two neighbours on either side, where there are any.
         let known = (out + 1).min(5) as usize;
-        let recent = &self.recent[5 - known..];
+        let recent = &self.output.recent[5 - known..];
         for back in [2, 1] {
             let i = out - back;
             if i >= 0 {
                 let down = self.at(i).down;
                 let knot = Knot::of(recent, known - 1 - back as usize, H, down);
-                let n = self.knots.len() as i64;
-                self.knots[i.rem_euclid(n) as usize] = knot;
+                let n = self.output.knots.len() as i64;
+                self.output.knots[i.rem_euclid(n) as usize] = knot;
             }
         }
     }
@@ -533,19 +564,19 @@ impl StreamPlan {
         if self.count == 0 {
             return Target::still(Posture::default());
         }
-        if self.out < 0 {
+        if self.output.last < 0 {
             return Target::still(self.at(0).raw);
         }
         if t < 0.0 {
             return Target::still(self.sample(0.0).posture);
         }
-        let n = self.knots.len() as i64;
+        let n = self.output.knots.len() as i64;
         // The newest two have no rates of their own yet.
-        let last = (self.out - 2).max(0) as f64;
-        let first = (self.out - n + 1).max(0) as f64;
+        let last = (self.output.last - 2).max(0) as f64;
+        let first = (self.output.last - n + 1).max(0) as f64;
         let x = (t * RATE).clamp(first, last.max(first));
         let i = (x as i64).min((last as i64 - 1).max(0));
-        let knot = |i: i64| &self.knots[i.rem_euclid(n) as usize];
+        let knot = |i: i64| &self.output.knots[i.rem_euclid(n) as usize];
         between(knot(i), knot(i + 1), H, (x - i as f64).clamp(0.0, 1.0))
     }
 
@@ -553,19 +584,19 @@ impl StreamPlan {
     /// stream; `None` where that is not known. In flight a recorded body keeps it, whatever is made of its legs.
     pub fn spin_at(&self, t: f64) -> Option<Vec3> {
         let i = (t * RATE).round() as i64;
-        let newest = self.count - SMOOTH - 2;
+        let newest = self.count - stream::SMOOTH - 2;
         let held = self.count - self.ring.len() as i64;
         (i > held.max(0) && i <= newest).then(|| self.at(i).momentum)
     }
 
     /// Time up to which touch-downs are seen, s.
     pub fn seen(&self) -> f64 {
-        (self.count - SMOOTH - 2).max(0) as f64 * H
+        (self.count - stream::SMOOTH - 2).max(0) as f64 * H
     }
 
     /// Latest time that can be sampled, s.
     pub fn ready(&self) -> f64 {
-        (self.out - 2).max(0) as f64 * H
+        (self.output.last - 2).max(0) as f64 * H
     }
 
     /// Stances of a foot (0 left, 1 right) that are known, oldest first; times in samples.
@@ -577,13 +608,13 @@ impl StreamPlan {
     /// the window as it came, led over from there. Samples are 1/[`RATE`] s apart; the first is at the time returned
     /// with them. `came`: how many samples have come, if the motion has been prepared beyond them.
     pub fn known(&self, from: f64, came: i64) -> (f64, Vec<(Posture, [bool; 2])>) {
-        let n = self.knots.len() as i64;
+        let n = self.output.knots.len() as i64;
         let last = self.count.min(came) - 1;
-        let done = (self.out - 2).max(0);
-        let first = ((from * RATE) as i64).clamp((self.out - n + 1).max(0), done);
+        let done = (self.output.last - 2).max(0);
+        let first = ((from * RATE) as i64).clamp((self.output.last - n + 1).max(0), done);
         let mut all: Vec<(Posture, [bool; 2])> = (first..=done)
             .map(|i| {
-                let knot = &self.knots[i.rem_euclid(n) as usize];
+                let knot = &self.output.knots[i.rem_euclid(n) as usize];
                 (knot.posture, knot.planted)
             })
             .collect();
@@ -591,7 +622,7 @@ impl StreamPlan {
             return (0.0, all);
         };
         let moved = self.at(done).raw.difference(&end);
-        let (labelled, seen) = (last - LABEL, last - SMOOTH - 1);
+        let (labelled, seen) = (last - LABEL, last - stream::SMOOTH - 1);
         for i in done + 1..=last {
             let mut p = self.at(i).raw;
             p.integrate(&moved, 1.0);

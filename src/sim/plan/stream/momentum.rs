@@ -10,12 +10,8 @@ use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::leg_ik::{center_of_mass, forward};
 use crate::sim::plan::ankle_torque_limit::Over;
-use crate::sim::plan::pelvis_shift::{LIGHT, zero_moment_point};
-
-/// The zero-moment point is kept this far inside the soles, m.
-const INSET: f64 = 0.04;
-/// Outside to the same side by this much for about a second, m: something other than the feet carries the body.
-const CARRIED: f64 = 0.15;
+use crate::sim::plan::params::balance;
+use crate::sim::plan::pelvis_shift::zero_moment_point;
 
 impl StreamPlan {
     /// Angular momentum of sample `i` by central differences.
@@ -51,16 +47,18 @@ impl StreamPlan {
             [p[0] - balanced.zmp[0], p[1] - balanced.zmp[1]]
         });
         // About a second: peaks of gait, which go there and back, are corrected, a chair is not.
-        for (lasting, way) in self.lasting.iter_mut().zip(way) {
+        for (lasting, way) in self.balance.lasting.iter_mut().zip(way) {
             *lasting += (way - *lasting) * (1.0 - exp(-H));
         }
-        let [x, y] = self.lasting;
+        let [x, y] = self.balance.lasting;
         let far = (x * x + y * y).sqrt();
-        let u = ((far - 0.7 * CARRIED) / (0.6 * CARRIED)).clamp(0.0, 1.0);
+        let u = ((far - balance::OTHER_SUPPORT_BEGINS * balance::OTHER_SUPPORT)
+            / (balance::OTHER_SUPPORT_RANGE * balance::OTHER_SUPPORT))
+            .clamp(0.0, 1.0);
         let trust = 1.0 - smoothstep(u);
         self.at_mut(j).trust = trust;
         balanced.weight = trust * load * load;
-        self.balance.push(balanced);
+        self.balance.horizon.push(balanced);
     }
 
     /// The balance of sample `j` with the centre of mass and the angular momentum that are meant, and its load, 0…1.
@@ -71,10 +69,11 @@ impl StreamPlan {
         let rate = (at(j + 1).1 - at(j - 1).1) * (0.5 * RATE);
         let mass: f64 = self.body.segments.iter().map(|s| s.mass).sum();
         let load = 1.0 + acc.z / GRAVITY;
-        let omega2 = ((GRAVITY + acc.z) / b.z.max(0.2)).clamp(3.0, 40.0);
-        let looks = self.at(j).smooth.root_rotation.heading();
-        let mut balanced = Balanced::new([b.x, b.y], omega2, looks);
-        if load > LIGHT && j >= 2 {
+        let omega2 = ((GRAVITY + acc.z) / b.z.max(balance::LEAST_HEIGHT))
+            .clamp(balance::LEAST_OMEGA2, balance::MOST_OMEGA2);
+        let heading = self.at(j).smooth.root_rotation.heading();
+        let mut balanced = Balanced::new([b.x, b.y], omega2, heading);
+        if load > balance::LEAST_LOAD && j >= 2 {
             let force = (acc + Vec3::Z * GRAVITY) * mass;
             let z = zero_moment_point(b, (force, rate));
             let way = (c - a) * (0.25 * RATE);
@@ -84,27 +83,27 @@ impl StreamPlan {
                 lean: [b.x - z[0], b.y - z[1]],
                 load: None,
             };
-            let anchors: [_; 2] =
+            let placements: [_; 2] =
                 std::array::from_fn(|side| self.feet[side].anchor(j, |i| self.standing(side, i)));
-            let alone = anchors[0].is_some() != anchors[1].is_some();
+            let alone = placements[0].is_some() != placements[1].is_some();
             let mut polygon = SmallPolygon::default();
-            for (sole, anchor) in self.soles.iter().zip(&anchors) {
+            for (sole, anchor) in self.soles.iter().zip(&placements) {
                 match anchor {
                     Some(at) if alone => {
-                        self.one_foot
+                        self.ankle_limit
                             .each_corner(sole, at, &over, |p| polygon.add(p));
                     }
                     Some(at) => sole.each_corner(at, |p| polygon.add(p)),
                     None => {}
                 }
             }
-            balanced = Balanced::new(z, omega2, looks);
-            balanced.support = polygon.inner(INSET);
+            balanced = Balanced::new(z, omega2, heading);
+            balanced.support = polygon.inner(balance::INSET);
         }
         (balanced, load.clamp(0.0, 1.0))
     }
 
-    /// Puts sample `i` together as it is going to be, and looks at the balance of that.
+    /// Puts sample `i` together as it is going to be, and heading at the balance of that.
     pub(super) fn build(&mut self, i: i64) {
         let shift = self.planned(i);
         let posture = self.posture(i, shift);
@@ -131,6 +130,6 @@ impl StreamPlan {
     pub(super) fn improve(&mut self, i: i64, of: impl Fn(&Sample) -> (Vec3, Vec3)) {
         let (mut better, load) = self.balanced(i, of);
         better.weight = self.at(i).trust * load * load;
-        self.balance.improve(i, better);
+        self.balance.horizon.improve(i, better);
     }
 }

@@ -5,25 +5,10 @@ use super::{H, RATE};
 use crate::sim::math::banded::{Factor, Pentadiagonal};
 use crate::sim::math::exp::exp;
 use crate::sim::math::polygon::SmallPolygon;
-use crate::sim::math::trig;
+use crate::sim::plan::params::balance;
+use crate::sim::plan::pelvis_shift::PRICE;
+use crate::sim::plan::turned_on_floor;
 use std::collections::VecDeque;
-
-/// A zero-moment point outside by the first costs as much as a shift by one metre, m; price of it, 1/m².
-const COST: f64 = 0.1;
-const PRICE: f64 = 1.0 / (COST * COST);
-/// Time below which a shift is not to change, s.
-const BEND: f64 = 0.08;
-/// Price of leaving where the shift is already: none does.
-const HELD: f64 = 1e15;
-/// Alternations between trajectory and supports per sample, and for the first one, which nothing went before.
-const ALTERNATIONS: (usize, usize) = (8, 200);
-/// Times over which it is averaged what zero-moment points lack: lately and now, s; and how much of what comes is like
-/// now.
-const LATELY: f64 = 1.0;
-const NOW: f64 = 0.05;
-const LIKE_NOW: f64 = 0.3;
-/// Largest distance of a zero-moment point that is corrected at all, m.
-const MOST_OFF: f64 = 0.3;
 
 /// What is known of the balance in one sample.
 #[derive(Clone, Copy, Debug)]
@@ -36,7 +21,7 @@ pub struct Balanced {
     pub weight: f64,
     /// Square of the pendulum frequency, 1/s².
     pub omega2: f64,
-    /// Which way the body looks, rad.
+    /// Which way the body heading, rad.
     pub heading: f64,
     /// Zero-moment point that the supports ask for, and what it still owes them, m: kept from sample to sample.
     goal: [f64; 2],
@@ -60,8 +45,12 @@ impl Balanced {
     /// The way from the zero-moment point as it came into the support, as far as that counts, m.
     fn lacks(&self) -> [f64; 2] {
         let inside = self.support.as_ref().map(|s| s.nearest(self.zmp));
-        let way =
-            |k: usize| inside.map_or(0.0, |p| (p[k] - self.zmp[k]).clamp(-MOST_OFF, MOST_OFF));
+        let way = |k: usize| {
+            inside.map_or(0.0, |p| {
+                (p[k] - self.zmp[k])
+                    .clamp(-balance::STREAM_MOST_OUTSIDE, balance::STREAM_MOST_OUTSIDE)
+            })
+        };
         std::array::from_fn(|k| self.weight * way(k))
     }
 
@@ -83,7 +72,8 @@ impl Balanced {
         let inside = self.support.as_ref().map_or(v, |s| s.nearest(v));
         let share = self.weight / (self.weight + 1.0);
         for k in 0..2 {
-            let way = (inside[k] - v[k]).clamp(-MOST_OFF, MOST_OFF);
+            let way = (inside[k] - v[k])
+                .clamp(-balance::STREAM_MOST_OUTSIDE, balance::STREAM_MOST_OUTSIDE);
             self.goal[k] = v[k] + share * way;
             self.debt[k] = v[k] - self.goal[k];
         }
@@ -115,8 +105,11 @@ struct Lacking {
 
 impl Lacking {
     fn take(&mut self, sample: &Balanced) {
-        let lacks = turned(sample.lacks(), -sample.heading);
-        let (lately, now) = (exp(-H / LATELY), exp(-H / NOW));
+        let lacks = turned_on_floor(sample.lacks(), -sample.heading);
+        let (lately, now) = (
+            exp(-H / balance::STREAM_USUAL_TIME),
+            exp(-H / balance::STREAM_NOW_TIME),
+        );
         self.weight = lately * self.weight + 1.0;
         for (k, lack) in lacks.into_iter().enumerate() {
             self.lately[k] = lately * self.lately[k] + lack;
@@ -124,17 +117,13 @@ impl Lacking {
         }
     }
 
-    /// What is expected of a body that looks along `heading` (rad), m, world axes.
+    /// What is expected of a body that heading along `heading` (rad), m, world axes.
     fn expected(&self, heading: f64) -> [f64; 2] {
         let mean = self.lately.map(|l| l / self.weight.max(1.0));
-        let expected = [0, 1].map(|k| mean[k] + LIKE_NOW * (self.now[k] - mean[k]));
-        turned(expected, heading)
+        let expected =
+            [0, 1].map(|k| mean[k] + balance::STREAM_NOW_SHARE * (self.now[k] - mean[k]));
+        turned_on_floor(expected, heading)
     }
-}
-
-fn turned([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
-    let (s, c) = trig::sin_cos(angle);
-    [c * x - s * y, s * x + c * y]
 }
 
 impl Balance {
@@ -165,7 +154,7 @@ impl Balance {
         }
     }
 
-    /// The shift that sample `i` is going to have, as it looks now, m.
+    /// The shift that sample `i` is going to have, as it heading now, m.
     pub fn planned(&self, i: i64) -> [f64; 2] {
         let k = (i - self.first.0).max(0) as usize + self.first.1;
         let last = self.solved.checked_sub(1);
@@ -196,18 +185,18 @@ impl Balance {
         let (a, dies) = self.last_answer();
         // The last shift leads on to the one beyond: what that adds to the last zero-moment point, and to the last
         // bend.
-        let looks = self.samples.back().map_or(0.0, |s| s.heading);
-        let beyond = self.lacking.expected(looks).map(|m| (1.0 - dies) * m);
-        let bend = (BEND * RATE).powi(4);
+        let heading = self.samples.back().map_or(0.0, |s| s.heading);
+        let beyond = self.lacking.expected(heading).map(|m| (1.0 - dies) * m);
+        let bend = (balance::BEND_TIME * RATE).powi(4);
         let rounds = match self.solved {
-            0 => ALTERNATIONS.1,
-            _ => ALTERNATIONS.0,
+            0 => balance::STREAM_FIRST_ALTERNATIONS,
+            _ => balance::STREAM_ALTERNATIONS,
         };
         let shift = &mut self.shift[..n];
         for _ in 0..rounds {
             shift.fill([0.0; 2]);
             for (x, held) in shift.iter_mut().zip(so_far.iter().flatten()) {
-                *x = held.map(|h| HELD * h);
+                *x = held.map(|h| balance::STREAM_FIXED_PRICE * h);
             }
             for (x, w) in shift[last..].iter_mut().zip([1.0, dies - 2.0]) {
                 for (x, m) in x.iter_mut().zip(beyond) {
@@ -260,10 +249,10 @@ impl Balance {
         let mut matrix = std::mem::take(&mut self.matrix);
         matrix.reset(n, 1.0);
         if held {
-            matrix.add_row(0, [1.0, 0.0, 0.0], HELD);
-            matrix.add_row(1, [1.0, 0.0, 0.0], HELD);
+            matrix.add_row(0, [1.0, 0.0, 0.0], balance::STREAM_FIXED_PRICE);
+            matrix.add_row(1, [1.0, 0.0, 0.0], balance::STREAM_FIXED_PRICE);
         } else {
-            matrix.add_row(0, [1.0, -1.0, 0.0], HELD);
+            matrix.add_row(0, [1.0, -1.0, 0.0], balance::STREAM_FIXED_PRICE);
         }
         for (i, (s, row)) in self.samples.iter().zip(&mut self.rows).enumerate() {
             let a = RATE * RATE / s.omega2;
@@ -275,7 +264,7 @@ impl Balance {
                 (row[2], bend[2]) = (0.0, 0.0);
             }
             matrix.add_row(i as isize, *row, PRICE);
-            matrix.add_row(i as isize, bend, (BEND * RATE).powi(4));
+            matrix.add_row(i as isize, bend, (balance::BEND_TIME * RATE).powi(4));
         }
         matrix.factor()
     }

@@ -97,7 +97,7 @@ fn planted_feet_do_not_slide_and_the_motion_is_its_own_derivative() {
 fn a_stream_that_jumps_goes_on_from_where_it_was() {
     let body = Arc::new(Body::adult_man());
     let stand = at_ease(&body);
-    let elsewhere = |i: usize| {
+    let other_support = |i: usize| {
         let mut p = stand;
         let place = PlanarTransform {
             x: 7.0,
@@ -112,7 +112,7 @@ fn a_stream_that_jumps_goes_on_from_where_it_was() {
         }
         p
     };
-    let (_, out) = through(&body, 0.5, 240, elsewhere);
+    let (_, out) = through(&body, 0.5, 240, other_support);
     for t in &out {
         let e = stand.difference(&t.posture);
         assert!(e.iter().all(|e| e.abs() < 0.15), "{e:?}");
@@ -190,15 +190,15 @@ fn the_momentum_of_the_stream_is_known_ahead_of_what_is_put_out() {
     };
     let (live, out) = through(&body, 0.5, 120, |i| fall(i as f64 / RATE));
     let newest = 119.0 / RATE;
-    let put_out = live.ready();
-    assert!(out.len() > 60 && put_out < newest - 0.4);
+    let emit = live.ready();
+    assert!(out.len() > 60 && emit < newest - 0.4);
     assert_eq!(live.spin_at(newest), None, "its neighbours have not come");
     assert_eq!(live.spin_at(f64::NAN), None);
     for t in [-1.0, f64::INFINITY, f64::NEG_INFINITY, 1e300] {
         assert_eq!(live.spin_at(t), None, "{t}");
     }
     // One rigid body that turns: inertia about the lateral axis times the rate, by its own links.
-    for t in [put_out, put_out + 0.2, newest - 0.1] {
+    for t in [emit, emit + 0.2, newest - 0.1] {
         let poses = forward(&body, &fall(t));
         let com = crate::sim::motion::leg_ik::center_of_mass(&body, &poses);
         let rate = Vec3::Y * 2.0;

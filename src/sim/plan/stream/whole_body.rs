@@ -8,44 +8,27 @@ use crate::sim::body::angles::clamp_to_limits;
 use crate::sim::body::topology::{L_FOOT, L_THIGH, R_FOOT, R_THIGH};
 use crate::sim::math::Vec3;
 use crate::sim::motion::leg_ik::{knee_axis, solve_leg_in_plane};
+use crate::sim::plan::params::{balance, leg};
 
-/// How much farther the pelvis moves than the centre of mass: the feet stay.
-const LEAD: f64 = 1.15;
-/// Most shift of the centre of mass, m.
-const MOST_SHIFT: f64 = 0.12;
-/// A leg reaches this share of its length; for a swinging one the pelvis is lowered by no more than this, m.
-const REACH: f64 = 0.98;
-const SWING_DROP: f64 = 0.04;
-/// A foot that the hip is less than the first ahead of does not rise on its toes for its leg to reach, m; from the
-/// second on it does. What its leg lacks then is the pelvis's to give, up to so much, m.
-const BEHIND: (f64, f64) = (0.0, 0.15);
-const SPARED: f64 = 0.1;
-/// How many samples ahead the pelvis looks for what it needs.
-const AHEAD: i64 = 20;
-/// How fast a lowered pelvis comes up again, m/s, and how fast it goes down, 1/s.
-const FORGET: f64 = 0.01;
-const STIFF: f64 = 8.0;
-/// Angles are kept this far from their limits, rad.
-const LIMIT_MARGIN: f64 = 0.005;
-
-/// Lowering of the pelvis: as low as was needed in the last seconds, so that it does not add to the ups and downs of
-/// the gait.
+/// PelvisLowering of the pelvis: as low as was needed in the last seconds, so that it does not add to the ups and downs
+/// of the gait.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Lowering {
+pub(super) struct PelvisLowering {
     /// What is needed, forgotten slowly, m.
     needed: f64,
     at: f64,
     speed: f64,
 }
 
-impl Lowering {
+impl PelvisLowering {
     /// Takes the next need; the first one holds at once.
     fn take(&mut self, need: f64, first: bool) {
         if first {
             (self.needed, self.at) = (need, need);
         }
-        self.needed = need.min(self.needed + FORGET * H).min(0.0);
-        let pull = STIFF * STIFF * (self.needed - self.at) - 2.0 * STIFF * self.speed;
+        self.needed = need.min(self.needed + leg::STREAM_RISE_SPEED * H).min(0.0);
+        let pull = leg::STREAM_DROP_RATE * leg::STREAM_DROP_RATE * (self.needed - self.at)
+            - 2.0 * leg::STREAM_DROP_RATE * self.speed;
         self.speed += pull * H;
         self.at += self.speed * H;
     }
@@ -69,7 +52,7 @@ impl StreamPlan {
         }
         let mut drop = self.needs(f, |s, side| (s.feet[side].ankle, s.down[side]));
         // Who looks ahead comes down in time.
-        for i in f + 1..=labelled.min(f + AHEAD) {
+        for i in f + 1..=labelled.min(f + leg::STREAM_AHEAD) {
             let ankle = |s: &Sample, side: usize| {
                 let sole = &self.soles[side];
                 match self.feet[side].anchor(i, |i| self.standing(side, i)) {
@@ -91,10 +74,10 @@ impl StreamPlan {
         let s = self.at(i);
         let t = [L_THIGH, R_THIGH][side].index();
         let length = self.body.joint_offset[t + 1].norm() + self.body.joint_offset[t + 2].norm();
-        let [x, y] = self.planned(i).map(|d| LEAD * d);
+        let [x, y] = self.planned(i).map(|d| balance::PELVIS_LEAD * d);
         let shift = Vec3 { x, y, z: 0.0 };
         let offset = s.smooth.root_rotation.rotate(self.body.joint_offset[t]);
-        (s.smooth.root_position + offset + shift, REACH * length)
+        (s.smooth.root_position + offset + shift, leg::REACH * length)
     }
 
     /// How far an ankle is out of the leg's reach in sample `i` while the pelvis is as low as it is now, m.
@@ -103,8 +86,8 @@ impl StreamPlan {
         let far = hip + Vec3::Z * self.lowering.at - ankle;
         // Who has left a foot behind rises on its toes; who stands over it comes down.
         let ahead = self.at(i).smooth.root_rotation.rotate(Vec3::X);
-        let behind = (far.x * ahead.x + far.y * ahead.y - BEHIND.0) / (BEHIND.1 - BEHIND.0);
-        far.norm() - most - SPARED * (1.0 - behind.clamp(0.0, 1.0))
+        let behind = (far.x * ahead.x + far.y * ahead.y) / leg::STREAM_TRAILING;
+        far.norm() - most - leg::STREAM_SPARED * (1.0 - behind.clamp(0.0, 1.0))
     }
 
     /// How far the pelvis of sample `i` has to come down so that both legs reach their ankles, m (≤ 0).
@@ -117,12 +100,15 @@ impl StreamPlan {
             let (hip, most) = self.hip(i, side);
             let d = hip - ankle;
             let along = (d.x * d.x + d.y * d.y).sqrt();
-            let height = (most * most - along * along).max(0.04 * most * most).sqrt();
+            let height = (most * most - along * along)
+                .max(leg::LEAST_HEIGHT2 * most * most)
+                .sqrt();
             let need = (height - d.z).min(0.0);
             if down {
                 need
             } else {
-                need.max(-SWING_DROP) * ((0.6 - along / most) / 0.15).clamp(0.0, 1.0)
+                need.max(-leg::SWING_DROP)
+                    * ((leg::SWING_FAR - along / most) / leg::SWING_FAR_RANGE).clamp(0.0, 1.0)
             }
         };
         of(0).min(of(1))
@@ -130,16 +116,19 @@ impl StreamPlan {
 
     /// The shift of the centre of mass that sample `i` is going to have, as it looks now, m.
     pub(super) fn planned(&self, i: i64) -> [f64; 2] {
-        let planned = self.balance.planned(i);
-        planned.map(|x| x.clamp(-MOST_SHIFT, MOST_SHIFT))
+        let planned = self.balance.horizon.planned(i);
+        planned.map(|x| x.clamp(-balance::STREAM_MOST_SHIFT, balance::STREAM_MOST_SHIFT))
     }
 
     /// Moves the shift of the trunk on to sample `out`.
     pub(super) fn shift_on(&mut self, out: i64) {
-        let next = self.balance.next((out > 0).then_some(self.shift));
-        let next = next.map(|x| x.clamp(-MOST_SHIFT, MOST_SHIFT));
-        self.shift = if out > 0 {
-            [self.shift[1], next]
+        let next = self
+            .balance
+            .horizon
+            .next((out > 0).then_some(self.balance.shift));
+        let next = next.map(|x| x.clamp(-balance::STREAM_MOST_SHIFT, balance::STREAM_MOST_SHIFT));
+        self.balance.shift = if out > 0 {
+            [self.balance.shift[1], next]
         } else {
             [next; 2]
         };
@@ -148,7 +137,7 @@ impl StreamPlan {
     /// The whole posture of sample `i` with a shift of the centre of mass, m.
     pub(super) fn posture(&self, i: i64, shift: [f64; 2]) -> Posture {
         let s = self.at(i);
-        let [x, y] = shift.map(|d| d * LEAD);
+        let [x, y] = shift.map(|d| d * balance::PELVIS_LEAD);
         let mut posture = s.smooth;
         posture.root_position += Vec3 { x, y, z: s.drop };
         for side in 0..2 {
@@ -166,7 +155,7 @@ impl StreamPlan {
             let foot = (pose.ankle, pose.rotation);
             solve_leg_in_plane(&self.body, &mut posture, left, foot, pose.toe, axis);
         }
-        clamp_to_limits(&self.body, &mut posture, LIMIT_MARGIN);
+        clamp_to_limits(&self.body, &mut posture, leg::LIMIT_MARGIN * 0.5);
         posture
     }
 }

@@ -28,7 +28,7 @@ fn points(at: impl Fn(f64) -> (Vec3, f64, Vec3)) -> Points {
 }
 
 fn gaits(p: &Points) -> Vec<Gait> {
-    let figure = Figure {
+    let figure = RecordedPoints {
         middle: &p.middle,
         feet: [&p.feet[0], &p.feet[1]],
         trunk: [&p.trunk[0], &p.trunk[1]],

@@ -2,25 +2,16 @@
 
 use super::RATE;
 use crate::sim::body::Posture;
-
-/// A coordinate that changes by less than this from sample to sample does not change, rad or m. Nobody is ever as quiet
-/// as that; only software is.
-pub const SAME: f64 = 1e-6;
-/// Samples of a stream that repeat one for so long break it off, s: as long as a velocity is continued in a silence.
-const REPEATS: f64 = 0.1;
-/// A pelvis that was faster than this over the floor, m/s, was in motion.
-const MOVES: f64 = 0.1;
-/// Samples over which its velocity is averaged, about.
-const AVERAGED: f64 = 4.0;
+use crate::sim::plan::params::stream;
 
 /// True if nothing moved between two postures.
 pub fn is_same(a: &Posture, b: &Posture) -> bool {
-    a.difference(b).iter().all(|d| d.abs() < SAME)
+    a.difference(b).iter().all(|d| d.abs() < stream::SAME)
 }
 
 /// The newest sample, how it came to be there, and for how long.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Newest {
+pub(super) struct RepeatedSamples {
     posture: Option<Posture>,
     /// Samples that have repeated it.
     repeated: i64,
@@ -28,7 +19,7 @@ pub(super) struct Newest {
     velocity: [f64; 2],
 }
 
-impl Newest {
+impl RepeatedSamples {
     pub(super) fn take(&mut self, posture: &Posture) {
         let Some(last) = self.posture.replace(*posture) else {
             return;
@@ -45,7 +36,7 @@ impl Newest {
         let (a, b) = (last.root_position, posture.root_position);
         let way = [b.x - a.x, b.y - a.y];
         for (v, way) in self.velocity.iter_mut().zip(way) {
-            *v += (way * RATE - *v) / AVERAGED;
+            *v += (way * RATE - *v) / stream::SPEED_AVERAGED;
         }
     }
 
@@ -56,7 +47,8 @@ impl Newest {
 
     pub(super) fn breaks_off(&self) -> bool {
         let [x, y] = self.velocity;
-        self.repeated >= (REPEATS * RATE) as i64 && x * x + y * y > MOVES * MOVES
+        self.repeated >= (stream::REPEATED_TIME * RATE) as i64
+            && x * x + y * y > stream::MOVING_SPEED * stream::MOVING_SPEED
     }
 }
 
@@ -65,13 +57,13 @@ mod tests {
     use super::*;
 
     /// Ahead at a speed, m/s, for half a second, then the same for so many samples.
-    fn stream(speed: f64, repeats: usize) -> Newest {
+    fn stream(speed: f64, repeats: usize) -> RepeatedSamples {
         let at = |i: usize| {
             let mut p = Posture::default();
             p.root_position.x = speed * i.min(30) as f64 / RATE;
             p
         };
-        let mut newest = Newest::default();
+        let mut newest = RepeatedSamples::default();
         (0..=30 + repeats).for_each(|i| newest.take(&at(i)));
         newest
     }
