@@ -9,9 +9,9 @@ use super::report::MAX_CONTACTS;
 use super::tasks::TaskWorkspace;
 use crate::sim::body::topology::SegmentId;
 use crate::sim::body::{Body, Posture, SEGMENT_COUNT};
-use crate::sim::control::{OnFloor, PointTarget};
+use crate::sim::control::OnFloor;
 use crate::sim::dynamics::Terms;
-use crate::sim::get_up::GetUpMotion;
+use crate::sim::get_up::{GetUpMotion, GetUpSolver};
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::TargetPair;
 
@@ -33,29 +33,31 @@ const STALLED: (f64, f64) = (0.05, 3.0);
 /// Attempts for one command.
 const ATTEMPTS: u32 = 3;
 
-/// What a fallen figure is about.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Phase {
-    /// Nothing.
-    Lying,
-    /// It gets up; the way has hardly gone on for so long, s.
-    Rising(f64),
-}
-
-/// How a fallen figure gets up.
-#[derive(Clone, Debug)]
+/// How a fallen figure gets up, and when.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct GetUp {
-    ascent: Box<GetUpMotion>,
-    phase: Phase,
-    /// The motion has lain down since the figure fell; attempts that are left once it gets up.
+    motion: GetUpMotion,
+    /// The commanded motion has lain down since the figure fell.
     lay: bool,
-    left: u32,
+    /// Attempts that are left once the commanded motion gets up.
+    attempts: u32,
     /// The last tick's motion was not the commanded one.
     own: bool,
-    /// Height of every contact point on the way, m.
-    heights: Box<[f64; MAX_CONTACTS]>,
-    /// Distance of the centre of mass from the way's over the floor, m.
+    /// How long the motion has hardly gone on, s.
+    stalled: f64,
+    /// Distance of the centre of mass from the motion's over the floor, m.
     off: f64,
+}
+
+/// What a fallen figure is to do next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum GetUpDecision {
+    /// Go on as it does.
+    Continue,
+    /// Begin to get up.
+    Begin,
+    /// Give up: it does not get on.
+    GiveUp,
 }
 
 /// How much two rotations differ but for a turn about the vertical, rad.
@@ -71,93 +73,92 @@ fn unlike(a: &Posture, b: &Posture) -> f64 {
 }
 
 impl GetUp {
-    /// Of a figure with this body, that stands like `at_ease` in the end. Allocates.
-    pub fn new(body: &Body, at_ease: &Posture) -> Self {
+    /// Of a figure with this body.
+    pub fn new(body: &Body) -> Self {
         Self {
-            ascent: Box::new(GetUpMotion::new(body, at_ease)),
-            phase: Phase::Lying,
+            motion: GetUpMotion::new(body),
             lay: false,
-            left: 0,
+            attempts: 0,
             own: false,
-            heights: Box::new([0.0; MAX_CONTACTS]),
+            stalled: 0.0,
             off: 0.0,
         }
     }
 
-    /// Forgets that anything was commanded.
+    /// Forgets that the commanded motion gets up.
     pub fn reset(&mut self) {
-        self.phase = Phase::Lying;
         self.lay = false;
-        self.left = 0;
+        self.attempts = 0;
     }
 
-    /// True while the figure follows its way up.
-    pub fn is_rising(&self) -> bool {
-        matches!(self.phase, Phase::Rising(_))
+    /// True once the motion is over.
+    pub fn is_over(&self) -> bool {
+        self.motion.is_over()
     }
 
-    /// True once it has gone its way to the end.
-    pub fn is_up(&self) -> bool {
-        self.is_rising() && self.ascent.is_over()
+    /// Name of the stage.
+    pub fn stage(&self) -> &'static str {
+        self.motion.stage()
     }
 
-    /// What it is about on its way.
-    pub fn stage(&self) -> Option<&'static str> {
-        self.is_rising().then(|| self.ascent.stage())
-    }
-
-    /// How it is meant to touch the floor, while it follows its way.
-    pub fn on_floor(&self) -> Option<OnFloor<'_>> {
-        self.is_rising().then_some(OnFloor {
-            heights: &self.heights,
-            lies: self.ascent.lies(),
-            rolls: self.ascent.rolls(),
-            slides: self.ascent.slides(),
-        })
-    }
-
-    /// Judges a fallen figure in the state of `terms`, whose motion had its centre of mass at `height` (share of the
-    /// standing one).
-    pub fn watch(&mut self, terms: &Terms, height: f64) {
-        match self.phase {
-            Phase::Lying if self.own => self.own = false,
-            Phase::Lying => {
-                if height < LOW {
-                    (self.lay, self.left) = (true, ATTEMPTS);
-                } else if self.lay && self.left > 0 && lies(terms) {
-                    self.left -= 1;
-                    self.own = true;
-                    self.off = 0.0;
-                    self.ascent.begin(terms);
-                    self.phase = Phase::Rising(0.0);
-                }
-            }
-            Phase::Rising(stalled) if stalled.max(self.ascent.waits()) > STALLED.1 => {
-                self.phase = Phase::Lying
-            }
-            Phase::Rising(_) => {}
+    /// How the body is meant to touch the floor.
+    pub fn on_floor<'a>(&'a self, heights: &'a [f64; MAX_CONTACTS]) -> OnFloor<'a> {
+        OnFloor {
+            heights,
+            lies: self.motion.lies(),
+            rolls: self.motion.rolls(),
+            slides: self.motion.slides(),
         }
     }
 
-    /// Desired motion of a tick of `dt` seconds, if it is the way's: at the pace at which the figure, in the state of
+    /// Decides about a fallen figure in the state of `terms`, whose motion had its centre of mass at `height` (share of
+    /// the standing one); `gets_up` if it does so already.
+    pub fn decide(
+        &mut self,
+        solver: &GetUpSolver,
+        terms: &Terms,
+        height: f64,
+        gets_up: bool,
+    ) -> GetUpDecision {
+        if gets_up {
+            return if self.stalled.max(self.motion.waits()) > STALLED.1 {
+                GetUpDecision::GiveUp
+            } else {
+                GetUpDecision::Continue
+            };
+        }
+        if self.own {
+            self.own = false;
+        } else if height < LOW {
+            (self.lay, self.attempts) = (true, ATTEMPTS);
+        } else if self.lay && self.attempts > 0 && lies(terms) {
+            self.attempts -= 1;
+            self.own = true;
+            self.off = 0.0;
+            self.stalled = 0.0;
+            self.motion.begin(solver, terms);
+            return GetUpDecision::Begin;
+        }
+        GetUpDecision::Continue
+    }
+
+    /// Desired motion of a tick of `dt` seconds while it gets up: at the pace at which the figure, in the state of
     /// `terms`, follows the last tick's `target`.
     pub fn targets(
         &mut self,
         body: &Body,
+        solver: &mut GetUpSolver,
         terms: &Terms,
         target: &Posture,
         dt: f64,
-    ) -> Option<TargetPair> {
-        let Phase::Rising(stalled) = self.phase else {
-            return None;
-        };
+    ) -> TargetPair {
         let state = &terms.state.posture;
         let turn = tilt(state.root_rotation, target.root_rotation);
         let keeping =
             |(full, none): (f64, f64), e: f64| ((none - e) / (none - full)).clamp(0.0, 1.0);
-        let pace = if self.ascent.rolls() {
+        let pace = if self.motion.rolls() {
             1.0
-        } else if self.ascent.lies() {
+        } else if self.motion.lies() {
             (keeping(LYING_PACE[0], unlike(state, target)) * keeping(LYING_PACE[1], turn))
                 .max(LEAST_PACE)
         } else {
@@ -165,27 +166,30 @@ impl GetUp {
                 * keeping(PACE[1], turn)
                 * keeping(PACE[2], self.off)
         };
-        let stalled = if pace < STALLED.0 { stalled + dt } else { 0.0 };
-        self.phase = Phase::Rising(stalled);
-        Some(self.ascent.advance(body, terms, dt, pace))
+        self.stalled = if pace < STALLED.0 {
+            self.stalled + dt
+        } else {
+            0.0
+        };
+        self.motion.advance(body, solver, terms, dt, pace)
     }
 
-    /// Where the way has the contact points, with the target's kinematics in `tasks`.
-    pub fn touch(
+    /// Heights of the contact points that the motion means to touch the floor, with the target's kinematics in `tasks`;
+    /// infinite for the others. `off`: from the centre of mass to the desired one, m.
+    pub fn plan_contacts(
         &mut self,
         body: &Body,
-        terms: &Terms,
         tasks: &TaskWorkspace,
         target: &TargetPair,
-        com: &PointTarget,
+        off: Vec3,
+        heights: &mut [f64; MAX_CONTACTS],
     ) {
-        let off = com.now - terms.com;
         self.off = (off.x * off.x + off.y * off.y).sqrt();
-        self.heights.fill(f64::INFINITY);
-        for s in SegmentId::all().filter(|s| self.ascent.carries(*s)) {
+        heights.fill(f64::INFINITY);
+        for s in SegmentId::all().filter(|s| self.motion.carries(*s)) {
             let points = body.segment(s).contact_points.iter().take(POINTS);
             for (vertex, p) in points.enumerate() {
-                self.heights[s.index() * POINTS + vertex] = tasks.desired_point(target, s, *p).z;
+                heights[s.index() * POINTS + vertex] = tasks.desired_point(target, s, *p).z;
             }
         }
     }

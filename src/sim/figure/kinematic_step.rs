@@ -4,7 +4,7 @@
 //! Nothing here can push back: what the ground would have to give follows from inverse dynamics and is shared among the
 //! touching points. What they cannot give shows as a residual of the audit; it is not hidden.
 
-use super::report::{Audit, ContactPoint, Flags, MAX_CONTACTS};
+use super::report::{ContactPoint, Flags, MAX_CONTACTS};
 use super::torque_step::{MAX_SPEED, StepInput, TickForces};
 use crate::sim::body::topology::{DOF_COUNT, L_FOOT, L_TOES, NV, R_FOOT, R_TOES, SEGMENT_COUNT};
 use crate::sim::body::{Body, Posture, SegmentId, State};
@@ -101,17 +101,7 @@ impl KinematicStepper {
             hessian: MassMatrix::default(),
             sharing: Sharing::default(),
             penetration: 0.0,
-            forces: TickForces {
-                torque: [0.0; DOF_COUNT],
-                ligament_torque: [0.0; DOF_COUNT],
-                assist: [0.0; 6],
-                bar: Vec3::zero(),
-                contact: Vec::with_capacity(2 * MAX_CONTACTS),
-                over_limit: 0.0,
-                iterations: 0,
-                flags: Flags::default(),
-                audit: Audit::with_capacity(super::loads::MAX_PERTURBATIONS),
-            },
+            forces: TickForces::new(2 * MAX_CONTACTS, super::loads::MAX_PERTURBATIONS),
         }
     }
 
@@ -157,24 +147,32 @@ impl KinematicStepper {
         }
         let start = *state;
         for (v, a) in state.velocity.iter_mut().zip(&command.acceleration) {
-            *v += input.dt * a;
+            *v += input.world.dt * a;
         }
         if state.brake(MAX_SPEED) {
             self.forces.flags.set(Flags::SPEED_BOUND);
         }
-        self.advance(input, main, command.pivot, &start, input.dt, state);
+        self.advance(input, main, command.pivot, &start, input.world.dt, state);
         let arrival = self.arrival(input, &start.posture, &state.posture);
         if let Some(fraction) = arrival {
             // Up to the moment of arrival, the impact, and the rest of the tick with what it leaves.
             let velocity = state.velocity;
             *state = start;
             state.velocity = velocity;
-            state.posture.integrate(&velocity, fraction * input.dt);
-            self.terms
-                .compute(input.links, state, input.applied, input.gravity);
+            state
+                .posture
+                .integrate(&velocity, fraction * input.world.dt);
+            self.terms.compute(
+                input.links,
+                state,
+                input.forces.applied,
+                input.world.gravity,
+            );
             self.impact(input, state);
             let v = state.velocity;
-            state.posture.integrate(&v, (1.0 - fraction) * input.dt);
+            state
+                .posture
+                .integrate(&v, (1.0 - fraction) * input.world.dt);
             self.anchor = None;
         }
         true
@@ -234,7 +232,7 @@ impl KinematicStepper {
                 let alpha = p.project(alpha);
                 let turn = Quat::exp((before + alpha * (0.5 * dt)) * dt);
                 let arm = t.com - p.point;
-                let weight = Vec3::Z * (input.gravity * t.mass);
+                let weight = Vec3::Z * (input.world.gravity * t.mass);
                 let moment = (turn.rotate(arm) - arm).cross(weight);
                 let change = tipping_acceleration(t, &p, Vec3::zero(), moment);
                 let omega = before + (alpha + change * 0.5) * dt;
@@ -297,7 +295,7 @@ impl KinematicStepper {
         );
         let mut first = None;
         for (a, b) in z0.iter().flatten().zip(z1.iter().flatten()) {
-            if *b < 0.0 && (a - b) > IMPACT_SPEED * input.dt {
+            if *b < 0.0 && (a - b) > IMPACT_SPEED * input.world.dt {
                 let fraction = (a / (a - b)).max(0.0);
                 if first.is_none_or(|f| fraction < f) {
                     first = Some(fraction);
@@ -372,7 +370,7 @@ impl KinematicStepper {
                             p.segment,
                             input.body.segments[p.segment].contact_points[p.vertex],
                         ),
-                        force: impulse * (1.0 / input.dt),
+                        force: impulse * (1.0 / input.world.dt),
                     },
                 );
             }
@@ -456,7 +454,7 @@ impl KinematicStepper {
         f.audit.state = *state;
         f.audit.acceleration = command.acceleration;
         f.audit.applied.clear();
-        for (s, p, force) in input.applied {
+        for (s, p, force) in input.forces.applied {
             f.audit
                 .applied
                 .push((*s, t.point_world(s.index(), *p), *force));
@@ -465,8 +463,8 @@ impl KinematicStepper {
         for j in 0..DOF_COUNT {
             f.over_limit = f
                 .over_limit
-                .max(f.torque[j] / input.upper[j] - 1.0)
-                .max(f.torque[j] / input.lower[j] - 1.0);
+                .max(f.torque[j] / input.available.upper[j] - 1.0)
+                .max(f.torque[j] / input.available.lower[j] - 1.0);
         }
     }
 }

@@ -1,5 +1,6 @@
 //! One figure, one tick. The stages are listed in [`step`].
 
+mod activity;
 pub mod assist;
 mod background;
 pub mod balance_loss;

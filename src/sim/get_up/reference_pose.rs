@@ -1,10 +1,10 @@
-//! Joint angles that the stages look like.
+//! Joint angles of the stages' reference poses.
 
 use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES};
 
 /// Joint angles of the stages.
 #[derive(Clone, Debug)]
-pub struct Looks {
+pub struct ReferencePoses {
     pub sprawled: [f64; DOF_COUNT],
     pub drawn: [f64; DOF_COUNT],
     pub gathered: [f64; DOF_COUNT],
@@ -37,7 +37,7 @@ fn looks(list: &[(&str, f64)]) -> [f64; DOF_COUNT] {
     out
 }
 
-impl Looks {
+impl ReferencePoses {
     pub fn new(at_ease: [f64; DOF_COUNT]) -> Self {
         Self {
             sprawled: looks(&[

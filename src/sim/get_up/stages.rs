@@ -6,7 +6,7 @@
 //! of it is written for rolling over the right side; the other is the mirror image.
 
 use super::goals::{Aim, Goals, swapped};
-use super::reference_pose::Looks;
+use super::reference_pose::ReferencePoses;
 use crate::sim::body::topology::DOF_COUNT;
 use crate::sim::math::Vec3;
 use std::f64::consts::FRAC_PI_2;
@@ -28,7 +28,7 @@ const STEP: (f64, f64) = (1.0, 0.08);
 
 /// Where everything is.
 #[derive(Clone, Copy, Debug)]
-pub struct Here {
+pub struct Layout {
     /// Length over that of the reference body.
     pub scale: f64,
     /// The pelvis as it really is, and how far it is turned about the vertical, rad.
@@ -49,16 +49,16 @@ pub struct Stage {
     /// How long it takes, s.
     pub seconds: f64,
     /// Its goals.
-    pub goals: fn(&Here, &Looks) -> Goals,
+    pub goals: fn(&Layout, &ReferencePoses) -> Goals,
     /// What is on the floor.
-    pub down: Down,
+    pub down: FloorContacts,
     /// A hand that steps, and how high, m.
     pub step: Option<(usize, f64)>,
 }
 
 /// What is on the floor in a stage.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Down {
+pub struct FloorContacts {
     /// Whatever touches.
     pub whole: bool,
     /// What touches may slide.
@@ -68,34 +68,34 @@ pub struct Down {
     pub hands: [bool; 2],
 }
 
-const ROLLS: Down = Down {
+const ROLLS: FloorContacts = FloorContacts {
     whole: true,
     slides: true,
     ..LIES
 };
-const PUSHES: Down = Down {
+const PUSHES: FloorContacts = FloorContacts {
     balls: true,
     ..ROLLS
 };
-const LIES: Down = Down {
+const LIES: FloorContacts = FloorContacts {
     whole: false,
     slides: true,
     knees: true,
     balls: false,
     hands: [false; 2],
 };
-const KNEELS: Down = Down {
+const KNEELS: FloorContacts = FloorContacts {
     whole: false,
     slides: false,
     knees: true,
     balls: true,
     hands: [true; 2],
 };
-const SLIDES: Down = Down {
+const SLIDES: FloorContacts = FloorContacts {
     slides: true,
     ..KNEELS
 };
-const STANDS: Down = Down {
+const STANDS: FloorContacts = FloorContacts {
     whole: false,
     slides: false,
     knees: false,
@@ -103,8 +103,8 @@ const STANDS: Down = Down {
     hands: [false; 2],
 };
 /// On the balls of the feet and these hands.
-const fn leans(hands: [bool; 2]) -> Down {
-    Down { hands, ..STANDS }
+const fn leans(hands: [bool; 2]) -> FloorContacts {
+    FloorContacts { hands, ..STANDS }
 }
 
 fn look(angles: &[f64; DOF_COUNT], weight: f64) -> [Aim; DOF_COUNT] {
@@ -130,7 +130,7 @@ fn tucked(p: Vec3) -> [Aim; 3] {
     [x, y, Aim { weight: 0.1, ..z }]
 }
 
-impl Here {
+impl Layout {
     /// The mirror image.
     pub fn mirrored(&self) -> Self {
         let place = |p: Vec3| Vec3 { y: -p.y, ..p };
@@ -203,8 +203,8 @@ impl Here {
 const fn stage(
     name: &'static str,
     seconds: f64,
-    goals: fn(&Here, &Looks) -> Goals,
-    down: Down,
+    goals: fn(&Layout, &ReferencePoses) -> Goals,
+    down: FloorContacts,
 ) -> Stage {
     Stage {
         name,
@@ -215,7 +215,11 @@ const fn stage(
     }
 }
 
-const fn stepping(name: &'static str, goals: fn(&Here, &Looks) -> Goals, side: usize) -> Stage {
+const fn stepping(
+    name: &'static str,
+    goals: fn(&Layout, &ReferencePoses) -> Goals,
+    side: usize,
+) -> Stage {
     let mut hands = [true; 2];
     hands[side] = false;
     Stage {
@@ -227,7 +231,11 @@ const fn stepping(name: &'static str, goals: fn(&Here, &Looks) -> Goals, side: u
     }
 }
 
-const fn crawling(name: &'static str, goals: fn(&Here, &Looks) -> Goals, side: usize) -> Stage {
+const fn crawling(
+    name: &'static str,
+    goals: fn(&Layout, &ReferencePoses) -> Goals,
+    side: usize,
+) -> Stage {
     let mut out = stepping(name, goals, side);
     out.down.knees = true;
     out
@@ -274,12 +282,12 @@ pub const UP: &[Stage] = &[
 ];
 
 /// Lying as it lies: the left foot set up, the right arm out of the way, the left one across.
-fn gather(h: &Here, l: &Looks) -> Goals {
+fn gather(h: &Layout, l: &ReferencePoses) -> Goals {
     set_up(h, l, h.roll, 1.0)
 }
 
 /// Turned so far from lying on the belly, the left foot set up behind.
-fn set_up(h: &Here, l: &Looks, turn: f64, weight: f64) -> Goals {
+fn set_up(h: &Layout, l: &ReferencePoses, turn: f64, weight: f64) -> Goals {
     let mut out = roll(h, &l.gathered, turn);
     out.balls[0][2] = Aim::new(0.0, weight);
     out.tips[0] = Aim::new(0.0, weight);
@@ -288,14 +296,14 @@ fn set_up(h: &Here, l: &Looks, turn: f64, weight: f64) -> Goals {
 }
 
 /// Pushed over by the left foot, which stays where it is.
-fn push(h: &Here, l: &Looks) -> Goals {
+fn push(h: &Layout, l: &ReferencePoses) -> Goals {
     let mut out = set_up(h, l, 2.2, FIRM);
     out.balls[0] = stay(h.balls[0], FIRM);
     out
 }
 
 /// Turned so far from lying on the belly.
-fn roll(h: &Here, looks: &[f64; DOF_COUNT], turn: f64) -> Goals {
+fn roll(h: &Layout, looks: &[f64; DOF_COUNT], turn: f64) -> Goals {
     Goals {
         pelvis: h.pelvis.to_array().map(|x| Aim::new(x, FIRM)),
         turn: [
@@ -309,7 +317,7 @@ fn roll(h: &Here, looks: &[f64; DOF_COUNT], turn: f64) -> Goals {
 }
 
 /// Lying as it lay: arms out to the sides, feet off the floor so that the toes can be tucked.
-fn sprawl(h: &Here, l: &Looks) -> Goals {
+fn sprawl(h: &Layout, l: &ReferencePoses) -> Goals {
     let knees = h.knees.map(|p| stay(p, 1.0));
     Goals {
         pelvis: h.pelvis.to_array().map(|x| Aim::new(x, 1.0)),
@@ -322,7 +330,7 @@ fn sprawl(h: &Here, l: &Looks) -> Goals {
 }
 
 /// Hands flat beside the ribs, toes tucked.
-fn plant(h: &Here, l: &Looks) -> Goals {
+fn plant(h: &Layout, l: &ReferencePoses) -> Goals {
     let k = middle(h.knees);
     let y = ARMS_APART * h.scale;
     let [left, right] = [y, -y].map(|y| h.flat(k.x + 0.6 * h.scale, k.y + y));
@@ -346,7 +354,7 @@ fn plant(h: &Here, l: &Looks) -> Goals {
 }
 
 /// The hips up, the chest still on the floor.
-fn draw(h: &Here, l: &Looks) -> Goals {
+fn draw(h: &Layout, l: &ReferencePoses) -> Goals {
     Goals {
         pelvis: h.place(middle(h.knees), 0.25, 0.34, 1.0),
         turn: h.level(1.85, 0.3),
@@ -356,7 +364,7 @@ fn draw(h: &Here, l: &Looks) -> Goals {
     }
 }
 
-fn kneeling(h: &Here) -> Goals {
+fn kneeling(h: &Layout) -> Goals {
     let (hands, palms) = h.hands();
     Goals {
         turn: h.level(1.35, 1.0),
@@ -370,7 +378,7 @@ fn kneeling(h: &Here) -> Goals {
 }
 
 /// Hips back over the knees, which takes the weight off the bent arms.
-fn sink_back(h: &Here, l: &Looks) -> Goals {
+fn sink_back(h: &Layout, l: &ReferencePoses) -> Goals {
     Goals {
         pelvis: h.place(middle(h.knees), -0.12, 0.38, 1.0),
         turn: h.level(1.75, 0.3),
@@ -379,7 +387,7 @@ fn sink_back(h: &Here, l: &Looks) -> Goals {
     }
 }
 
-fn on_all_fours(h: &Here, l: &Looks) -> Goals {
+fn on_all_fours(h: &Layout, l: &ReferencePoses) -> Goals {
     Goals {
         pelvis: h.place(middle(h.knees), 0.02, 0.46, 1.0),
         looks: look(&l.on_all_fours, LOOK),
@@ -388,7 +396,7 @@ fn on_all_fours(h: &Here, l: &Looks) -> Goals {
 }
 
 /// On knees and feet, and the hand that is not of `side`.
-fn crawl(h: &Here, l: &Looks, side: usize) -> Goals {
+fn crawl(h: &Layout, l: &ReferencePoses, side: usize) -> Goals {
     let shares = [
         (middle(h.knees), 0.6),
         (middle(h.balls), if side == 0 { 0.2 } else { 0.12 }),
@@ -402,12 +410,12 @@ fn crawl(h: &Here, l: &Looks, side: usize) -> Goals {
     }
 }
 
-fn crawl_hand(h: &Here, l: &Looks, side: usize) -> Goals {
+fn crawl_hand(h: &Layout, l: &ReferencePoses, side: usize) -> Goals {
     h.step(crawl(h, l, side), side, 0.62)
 }
 
 /// On hands and the balls of the feet.
-fn leaning(h: &Here, shares: &[(Vec3, f64)]) -> Goals {
+fn leaning(h: &Layout, shares: &[(Vec3, f64)]) -> Goals {
     let (hands, palms) = h.hands();
     Goals {
         com: h.over(shares, COM),
@@ -420,7 +428,7 @@ fn leaning(h: &Here, shares: &[(Vec3, f64)]) -> Goals {
     }
 }
 
-fn bear(h: &Here, l: &Looks) -> Goals {
+fn bear(h: &Layout, l: &ReferencePoses) -> Goals {
     let shares = [(middle(h.balls), 0.6), (middle(h.hands), 0.4)];
     Goals {
         pelvis: h.place(middle(h.balls), 0.1, 0.66, 5.0),
@@ -431,7 +439,7 @@ fn bear(h: &Here, l: &Looks) -> Goals {
 }
 
 /// Away from the hand of one side.
-fn lean(h: &Here, l: &Looks, side: usize, at: (f64, f64)) -> Goals {
+fn lean(h: &Layout, l: &ReferencePoses, side: usize, at: (f64, f64)) -> Goals {
     let other = 1 - side;
     let shares = [
         (h.balls[side], 0.42),
@@ -446,19 +454,19 @@ fn lean(h: &Here, l: &Looks, side: usize, at: (f64, f64)) -> Goals {
 }
 
 /// The hand of one side steps to so far ahead of the feet.
-fn reach(h: &Here, l: &Looks, side: usize, at: (f64, f64), x: f64) -> Goals {
+fn reach(h: &Layout, l: &ReferencePoses, side: usize, at: (f64, f64), x: f64) -> Goals {
     h.step(lean(h, l, side, at), side, x)
 }
 
 /// The middle of the feet, ahead of the heels.
-fn soles(h: &Here) -> [(Vec3, f64); 1] {
+fn soles(h: &Layout) -> [(Vec3, f64); 1] {
     let mut p = middle(h.balls);
     p.x -= 0.06 * h.scale;
     [(p, 1.0)]
 }
 
 /// Heels down and all the weight on the feet, the hands still on the floor.
-fn fold(h: &Here, l: &Looks) -> Goals {
+fn fold(h: &Layout, l: &ReferencePoses) -> Goals {
     let mut out = Goals {
         pelvis: h.place(middle(h.balls), -0.27, 0.72, 0.5),
         heels: [Aim::new(0.0, FIRM); 2],
@@ -472,7 +480,7 @@ fn fold(h: &Here, l: &Looks) -> Goals {
     out
 }
 
-fn rise(h: &Here, l: &Looks) -> Goals {
+fn rise(h: &Layout, l: &ReferencePoses) -> Goals {
     Goals {
         hands: [[Aim::NONE; 3]; 2],
         palms: [Aim::NONE; 2],
@@ -483,6 +491,6 @@ fn rise(h: &Here, l: &Looks) -> Goals {
     }
 }
 
-fn stand(h: &Here, l: &Looks) -> Goals {
+fn stand(h: &Layout, l: &ReferencePoses) -> Goals {
     rise(h, l)
 }

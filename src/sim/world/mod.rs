@@ -153,7 +153,7 @@ impl World {
         let (near, alone) = self.figures.split_at_mut(gathered);
         each(alone, threads, |f| {
             if !f.is_frozen() {
-                f.simulate(&context);
+                f.integrate(&context);
                 f.finish(&context);
             }
         });

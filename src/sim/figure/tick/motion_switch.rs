@@ -52,7 +52,7 @@ impl LastResort {
 
 /// What is worked out aside when a motion is left.
 #[derive(Debug, Default)]
-pub(super) struct MotionSwitch {
+pub(in crate::sim::figure) struct ExitPlan {
     /// Over to the clip that waits, best first.
     over: Vec<Plan<Over>>,
     /// To a stand.
@@ -78,7 +78,7 @@ struct Given {
     streamed: bool,
 }
 
-impl MotionSwitch {
+impl ExitPlan {
     fn at(due: f64) -> Self {
         Self {
             due,
@@ -104,25 +104,27 @@ impl Figure {
         from: f64,
         time: f64,
     ) -> (f64, Option<f64>) {
-        let stands = match &self.drive {
-            Drive::Clip(end) if self.ending => end.start + end.clip.duration() + self.tracker.lag(),
+        let stands = match self.motion.source() {
+            Drive::Clip(end) if self.motion.stops() => {
+                end.start + end.clip.duration() + self.desired.tracker.lag()
+            }
             Drive::Hold(_) if self.crouches() => time + STANDS_AFTER,
             Drive::Hold(_) | Drive::External(_) => time,
             Drive::Clip(_) | Drive::Live(_) => time + STANDS_AFTER,
         };
-        let pending = self.leaving.as_ref().map(|l| l.due);
+        let pending = self.motion.exit().map(|l| l.due);
         // A stream that is being stopped has ended.
-        if matches!(self.drive, Drive::Live(_)) && pending.is_some() {
+        if matches!(self.motion.source(), Drive::Live(_)) && pending.is_some() {
             return (stands, None);
         }
-        let mut leaving = MotionSwitch::at(pending.unwrap_or(time + ASIDE as f64 / splice::RATE));
+        let mut leaving = ExitPlan::at(pending.unwrap_or(time + ASIDE as f64 / splice::RATE));
         let over = if fixed {
             None
         } else {
             self.ways_over(play, (leaving.due, from), time)
         };
         let entered = over.as_ref().map(|ways| {
-            leaving.known_from = time - self.tracker.lag() - motion_transition::RUN_UP;
+            leaving.known_from = time - self.desired.tracker.lag() - motion_transition::RUN_UP;
             let plan = |k| {
                 let ways = Arc::clone(ways);
                 Plan::new(move || ways.way(k))
@@ -132,8 +134,8 @@ impl Figure {
             let at = time - motion_transition::RUN_UP + first.left as f64 / motion_transition::RATE;
             at - ways.enters(first) / play.speed
         });
-        let ends = !self.ending
-            && match &self.drive {
+        let ends = !self.motion.stops()
+            && match self.motion.source() {
                 Drive::Clip(_) | Drive::Live(_) => true,
                 Drive::Hold(_) => self.crouches(),
                 Drive::External(_) => false,
@@ -141,7 +143,8 @@ impl Figure {
         if ends {
             self.plan_ends(&mut leaving, goal, over.as_ref(), time);
         }
-        self.leaving = (ends || leaving.leads_over()).then(|| Box::new(leaving));
+        self.motion
+            .plan_exit((ends || leaving.leads_over()).then_some(leaving));
         (stands, entered)
     }
 
@@ -153,16 +156,16 @@ impl Figure {
         (due, from): (f64, f64),
         time: f64,
     ) -> Option<Arc<Ways>> {
-        let Drive::Clip(now) = &self.drive else {
+        let Drive::Clip(now) = self.motion.source() else {
             return None;
         };
-        let walks = self.tracker.is_walking() && !self.rising.is_rising();
+        let walks = self.desired.tracker.is_walking() && !self.motion.gets_up();
         if !walks || play.clip.lead_in() <= 0.0 {
             return None;
         }
         let long = motion_transition::RUN_UP + motion_transition::AHEAD + motion_transition::BEYOND;
         let count = (long * motion_transition::RATE).round() as usize;
-        let first = time - self.tracker.lag() - motion_transition::RUN_UP;
+        let first = time - self.desired.tracker.lag() - motion_transition::RUN_UP;
         let known = (0..=count).map(|i| now.sample(first + i as f64 / motion_transition::RATE));
         let known = known.map(|t| (t.posture, t.planted)).collect();
         let sample = |t: f64| {
@@ -176,21 +179,21 @@ impl Figure {
 
     /// Begins to work out how the motion is led to a stand at ease.
     pub(super) fn leave_for_a_stand(&mut self, time: f64) {
-        let mut leaving = MotionSwitch::at(time + ASIDE as f64 / splice::RATE);
+        let mut leaving = ExitPlan::at(time + ASIDE as f64 / splice::RATE);
         self.plan_ends(&mut leaving, None, None, time);
-        self.leaving = Some(Box::new(leaving));
+        self.motion.plan_exit(Some(leaving));
     }
 
     /// True if it hardly moves, or stands in its motion.
     pub(super) fn is_slow(&self) -> bool {
-        let v = self.terms.com_velocity;
-        (v.x * v.x + v.y * v.y).sqrt() < SLOW || !self.tracker.is_walking()
+        let v = self.scratch.terms.com_velocity;
+        (v.x * v.x + v.y * v.y).sqrt() < SLOW || !self.desired.tracker.is_walking()
     }
 
     /// Begins to work out the ends of the motion; they are left out if there is a way over.
     fn plan_ends(
         &mut self,
-        leaving: &mut MotionSwitch,
+        leaving: &mut ExitPlan,
         goal: Option<Posture>,
         over: Option<&Arc<Ways>>,
         time: f64,
@@ -228,28 +231,28 @@ impl Figure {
     /// Allocates.
     pub(super) fn leave_broken_stream(&mut self, time: f64) {
         let broken = |live: &LivePlayback| live.motion.breaks_off();
-        let streams =
-            self.leaving.is_none() && matches!(&self.drive, Drive::Live(live) if broken(live));
-        if streams && self.steps() && self.tracker.is_walking() {
+        let streams = self.motion.exit().is_none()
+            && matches!(self.motion.source(), Drive::Live(live) if broken(live));
+        if streams && self.steps() && self.desired.tracker.is_walking() {
             self.leave_for_a_stand(time);
         }
     }
 
     /// Leaves the motion in the last tick that begins before the way out differs from it. Always in that one, however
     /// long that took to work out.
-    pub(super) fn begin_to_leave(&mut self, world: &TickContext) {
-        let due = |l: &MotionSwitch| world.time() + world.dt > l.due + 1e-9;
-        if self.leaving.as_deref().is_some_and(due) {
-            self.follow_way_out();
+    pub(super) fn follow_exit_if_due(&mut self, world: &TickContext) {
+        let due = |l: &ExitPlan| world.time() + world.dt > l.due + 1e-9;
+        if self.motion.exit().is_some_and(due) {
+            self.follow_exit();
         }
     }
 
     /// Turns to the way out now, if one is being worked out.
-    pub(super) fn follow_way_out(&mut self) {
-        let Some(leaving) = self.leaving.take() else {
+    pub(super) fn follow_exit(&mut self) {
+        let Some(leaving) = self.motion.take_exit() else {
             return;
         };
-        let MotionSwitch {
+        let ExitPlan {
             over,
             ends,
             last_resort,
@@ -257,7 +260,7 @@ impl Figure {
             due,
             begin,
             before,
-        } = *leaving;
+        } = leaving;
         if let Some(way) = over.into_iter().find_map(Plan::take) {
             self.go_over(way, known_from);
             return;
@@ -270,53 +273,56 @@ impl Figure {
         let best = Ends::best(ends.into_iter().map(Plan::take));
         let clip = best.or_else(|| last_resort?.end(&self.setup.body));
         self.follow_end(clip, begin, before);
-        if let Some(q) = &mut self.queued {
-            q.due = match &self.drive {
-                Drive::Clip(end) => end.start + end.clip.duration() + self.tracker.lag(),
-                _ => due,
-            };
-        }
+        let stands = match self.motion.source() {
+            Drive::Clip(end) => end.start + end.clip.duration() + self.desired.tracker.lag(),
+            _ => due,
+        };
+        self.motion.update_next(|q| q.due = stands);
         self.plan_entry(due);
     }
 
     /// Goes over to the clip that waits. World time of the first sample of the way is `begin`, s.
     fn go_over(&mut self, (way, place): (WayIn, PlanarTransform), begin: f64) {
-        let (Some(queued), Drive::Clip(now)) = (self.queued.take(), &self.drive) else {
+        let next = self.motion.take_next();
+        let (Some(next), Drive::Clip(now)) = (next, self.motion.source()) else {
             return;
         };
-        let Queued { mut play, plan, .. } = *queued;
+        let Queued { mut play, plan, .. } = next;
         play.start = begin - way.begin / play.speed;
         play.origin = place;
         let plan = plan.entered_by(&self.setup.body, &way);
         let before = now.clip_time(play.start);
-        self.tracker.go_on((plan, play.speed, place), before);
+        self.desired
+            .tracker
+            .go_on((plan, play.speed, place), before);
         play.way_in = Some(Arc::new(way));
-        self.drive = Drive::Clip(play);
-        self.ending = false;
+        self.motion.enter(Drive::Clip(play));
     }
 
     /// Turns to a clip that begins at world time `begin`, s, which is `before` of the present motion. Without one holds
     /// the motion as it is: a stand takes no movement, or is not possible.
     fn follow_end(&mut self, clip: Option<Clip>, begin: f64, before: f64) {
         let Some(clip) = clip else {
-            let (queued, posture) = (self.queued.take(), self.target.next.posture);
+            let (next, posture) = (self.motion.take_next(), self.desired.target.next.posture);
             self.set_drive(Drive::Hold(posture));
-            self.queued = queued;
+            if let Some(next) = next {
+                self.motion.queue(next);
+            }
             return;
         };
         let plan = StepPlan::new(&self.setup.body, &clip, false);
         let here = PlanarTransform::default();
-        self.tracker.go_on((plan, 1.0, here), before);
-        self.drive = Drive::Clip(ClipPlayback::new(Arc::new(clip), begin));
-        self.ending = true;
+        self.desired.tracker.go_on((plan, 1.0, here), before);
+        let steps = ClipPlayback::new(Arc::new(clip), begin);
+        self.motion.follow_to_stand(Drive::Clip(steps));
     }
 
     /// The motion under way, by the rate of joins, from the run-up that planning a stop at world time `time` needs to
     /// as far ahead as it is known. It still plays for `after` samples.
     fn motion_until_stop(&mut self, time: f64, after: usize) -> (Given, Vec<Sample>) {
-        let from = time - self.tracker.lag();
+        let from = time - self.desired.tracker.lag();
         let (begin, so_far) = self.motion_around(from, after as f64 / splice::RATE);
-        let (streamed, before) = match &self.drive {
+        let (streamed, before) = match self.motion.source() {
             Drive::Clip(play) => (false, play.clip_time(begin)),
             Drive::Live(live) => (true, live.stream_time(begin)),
             Drive::Hold(_) | Drive::External(_) => (false, 0.0),
@@ -332,7 +338,7 @@ impl Figure {
 
     /// Postures and planted feet, with the world time of the first, s.
     fn motion_around(&mut self, from: f64, still: f64) -> (f64, Vec<Sample>) {
-        match &mut self.drive {
+        match self.motion.source_mut() {
             Drive::Clip(play) => {
                 let count = (RUN_UP * splice::RATE) as usize;
                 let at = |i: usize| from + (i as f64 - count as f64) / splice::RATE;

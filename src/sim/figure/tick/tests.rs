@@ -23,7 +23,7 @@ fn a_figure_that_is_not_finite_is_frozen_told_once_and_harms_nobody() {
         let all: Vec<u64> = (0..60)
             .map(|tick| {
                 if broken && tick == 20 {
-                    world.figure_mut(victim).unwrap().state.velocity[7] = f64::NAN;
+                    world.figure_mut(victim).unwrap().physical.state.velocity[7] = f64::NAN;
                 }
                 world.step();
                 let f = world.figure(victim).unwrap();

@@ -157,7 +157,7 @@ impl Cluster {
         let apart = |who: &Who| matches!(who, Who::Figure(i) if cast.figures[*i].1.is_prescribed());
         self.pairs.retain(|pair| !pair.iter().any(apart));
         for (_, f) in cast.figures.iter_mut().filter(|(_, f)| f.is_prescribed()) {
-            f.simulate(world);
+            f.integrate(world);
             f.finish(world);
         }
     }

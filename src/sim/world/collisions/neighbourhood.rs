@@ -175,7 +175,7 @@ impl Neighbourhood {
                 return true;
             };
             let known = through.binary_search(&(*ki, *kj)).is_ok();
-            let passes = if a.is_new || b.is_new {
+            let passes = if a.neighbours.is_new || b.neighbours.is_new {
                 overlap(a, b)
             } else {
                 known
@@ -187,7 +187,7 @@ impl Neighbourhood {
         });
         std::mem::swap(through, still_through);
         for (_, f) in figures {
-            f.is_new = false;
+            f.neighbours.is_new = false;
         }
     }
 
@@ -198,7 +198,7 @@ impl Neighbourhood {
     ) {
         let nf = figures.len();
         for (i, (_, f)) in figures.iter_mut().enumerate() {
-            f.cluster = self.label[i];
+            f.neighbours.cluster = self.label[i];
         }
         for (i, (_, o)) in obstacles.iter_mut().enumerate() {
             o.cluster = self.label[nf + i];
@@ -267,7 +267,7 @@ impl Neighbourhood {
                     .push([Who::Free(place[k]), Who::Ground]);
             }
         }
-        figures.sort_unstable_by_key(|(k, f)| (f.cluster, *k));
+        figures.sort_unstable_by_key(|(k, f)| (f.neighbours.cluster, *k));
         obstacles.sort_unstable_by_key(|(k, o)| (o.cluster, *k));
     }
 
