@@ -6,10 +6,10 @@ use sinew::sim::body::{Body, DOF_COUNT, Links, State};
 use sinew::sim::contact::Tissue;
 use sinew::sim::dynamics::Terms;
 use sinew::sim::figure::StrengthScale;
-use sinew::sim::figure::TickContext;
 use sinew::sim::figure::torque_step::{
     ExternalForces, MotorCommand, StepInput, Stepper, TorqueRange, TorqueStepper,
 };
+use sinew::sim::figure::{Planning, TickContext};
 use sinew::sim::strength::{MuscleScale, Strength};
 use std::sync::Arc;
 
@@ -82,6 +82,7 @@ impl Bare {
                 dt: self.dt,
                 substeps: 1,
                 gravity: self.gravity,
+                planning: Planning::default(),
             },
         };
         self.stepper.step(&input, state);

@@ -17,7 +17,7 @@ use super::tick::ExitPlan;
 use crate::sim::body::Posture;
 
 /// What a figure does.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) enum Activity {
     /// Hold a posture.
     Hold,
@@ -32,7 +32,7 @@ pub(super) enum Activity {
 }
 
 /// A switch to another motion; empty if there is none.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Switch {
     /// The exit from the present motion, while it is planned.
     pub exit: Option<Box<ExitPlan>>,
@@ -49,7 +49,7 @@ impl Switch {
 }
 
 /// What a figure does, and where its desired motion comes from.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct MotionState {
     source: Drive,
     activity: Activity,

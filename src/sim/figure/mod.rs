@@ -2,7 +2,6 @@
 
 mod activity;
 pub mod assist;
-mod background;
 pub mod balance_loss;
 pub mod constraints;
 pub mod drive;
@@ -11,6 +10,7 @@ mod get_up;
 pub mod kinematic_step;
 mod load_compensation;
 pub mod loads;
+pub mod plan_task;
 pub mod report;
 pub mod setup;
 pub mod tasks;
@@ -21,6 +21,7 @@ pub mod touches;
 pub use constraints::{Constrained, Constraint, MAX_CONSTRAINTS};
 pub use drive::{ClipPlayback, Drive, LivePlayback};
 pub use events::FigureEvent;
+pub use plan_task::{PlanRequest, Planning};
 pub use report::{Audit, ContactPoint, Flags, TickReport};
 pub use setup::{
     ControlParams, ControllerKind, FigureOptions, FigureSetup, HeldLoad, Metric, Perturbation,

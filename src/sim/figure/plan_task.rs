@@ -1,180 +1,172 @@
-//! Work that is too long for a tick, done aside: begun in one tick, needed in a later one that is fixed beforehand.
+//! Plans that take too long for a tick. A figure states a problem in one tick and takes the result in a later one that
+//! is fixed beforehand.
 //!
-//! Who needs it waits if it is not done by then, and does it itself if nobody has begun: what comes out, and when it
-//! counts, depends neither on how fast the machine is nor on how many threads it has.
+//! Nothing here runs on its own. Whoever steps the world may solve the problems meanwhile, on threads of its own
+//! ([`World::plan_requests`](crate::sim::world::World::plan_requests)). What nobody has solved by then is solved by the
+//! tick that takes it ([`Planning::InTick`]), or is taken later ([`Planning::Aside`]).
 
-use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock, PoisonError};
-use std::thread;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock, Weak};
 
-/// Most threads that plan, for all worlds together.
-const MOST_PLANNERS: usize = 4;
-/// Most plans that wait for one of them; what finds no room is worked out by who needs it.
-const MOST_WAITING: usize = 256;
-
-type Work<T> = Box<dyn FnOnce() -> T + Send>;
-
-enum Stage<T> {
-    Waiting(Work<T>),
-    Begun,
-    Done(thread::Result<T>),
-    Taken,
+/// What a tick does that needs a plan which is not there.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Planning {
+    /// It works the plan out: every plan counts in the tick that was fixed for it.
+    #[default]
+    InTick,
+    /// It does not wait: the figure goes on with what it does, and takes a plan in a later tick.
+    Aside,
 }
 
+/// A problem and, once it is solved, its result.
 struct Shared<T> {
-    stage: Mutex<Stage<T>>,
-    done: Condvar,
+    /// Depends on nothing but what it was made of, so that it may be done twice.
+    work: Box<dyn Fn() -> T + Send + Sync>,
+    /// `None` if the work panicked: whoever takes it sees that panic.
+    result: OnceLock<Option<T>>,
+    /// Somebody has undertaken to solve it.
+    accepted: AtomicBool,
 }
 
-impl<T> Shared<T> {
-    /// No code of others runs under the lock, so that it is never left in between.
-    fn stage(&self) -> MutexGuard<'_, Stage<T>> {
-        self.stage.lock().unwrap_or_else(PoisonError::into_inner)
+trait Problem: Send + Sync {
+    fn solve(&self);
+    fn accept(&self);
+}
+
+impl<T: Send + Sync> Problem for Shared<T> {
+    fn solve(&self) {
+        if self.result.get().is_none() {
+            let out = catch_unwind(AssertUnwindSafe(&self.work)).ok();
+            // If it is there by now, it is the same.
+            let _ = self.result.set(out);
+        }
+    }
+
+    fn accept(&self) {
+        self.accepted.store(true, Ordering::Relaxed);
     }
 }
 
-trait Task: Send + Sync {
-    fn run(&self);
-}
+/// A plan that a figure has asked for. Dropped, it is not wanted any more.
+pub(super) struct PlanTask<T>(Arc<Shared<T>>);
 
-impl<T: Send> Task for Shared<T> {
-    /// Does it, unless somebody has begun or nobody wants it any more.
-    fn run(&self) {
-        let work = {
-            let mut stage = self.stage();
-            match std::mem::replace(&mut *stage, Stage::Begun) {
-                Stage::Waiting(work) => work,
-                other => {
-                    *stage = other;
-                    return;
-                }
-            }
-        };
-        let out = catch_unwind(AssertUnwindSafe(work));
-        *self.stage() = Stage::Done(out);
-        self.done.notify_all();
+impl<T> Clone for PlanTask<T> {
+    fn clone(&self) -> Self {
+        Self(Arc::clone(&self.0))
     }
 }
 
-/// Work that somebody else does meanwhile. Dropped, it is not begun any more.
-pub struct Plan<T>(Arc<Shared<T>>);
-
-impl<T> std::fmt::Debug for Plan<T> {
+impl<T> std::fmt::Debug for PlanTask<T> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str("Plan")
+        f.write_str("PlanTask")
     }
 }
 
-impl<T> Drop for Plan<T> {
-    fn drop(&mut self) {
-        let mut stage = self.0.stage();
-        if let Stage::Waiting(_) = *stage {
-            *stage = Stage::Taken;
-        }
-    }
-}
-
-impl<T: Send + 'static> Plan<T> {
-    /// Begins `work` aside.
-    pub fn new(work: impl FnOnce() -> T + Send + 'static) -> Self {
-        let shared = Arc::new(Shared {
-            stage: Mutex::new(Stage::Waiting(Box::new(work))),
-            done: Condvar::new(),
-        });
-        // Without room, or without anybody, it waits for who needs it.
-        let _ = planners().try_send(Arc::clone(&shared) as Arc<dyn Task>);
-        Self(shared)
+impl<T: Clone + Send + Sync + 'static> PlanTask<T> {
+    /// A problem that `work` solves.
+    pub fn new(work: impl Fn() -> T + Send + Sync + 'static) -> Self {
+        Self(Arc::new(Shared {
+            work: Box::new(work),
+            result: OnceLock::new(),
+            accepted: AtomicBool::new(false),
+        }))
     }
 
-    /// What came out: at once, if it is done by now.
+    /// True if [`Self::take`] has nothing to work out.
+    pub fn is_ready(&self) -> bool {
+        self.0.result.get().is_some()
+    }
+
+    /// The result, if it is there.
+    pub fn result(&self) -> Option<&T> {
+        self.0.result.get()?.as_ref()
+    }
+
+    /// The result, worked out now if it is not there. Waits for nobody.
     pub fn take(self) -> T {
-        self.0.run();
-        let mut stage = self.0.stage();
-        while let Stage::Begun = *stage {
-            let waited = self.0.done.wait(stage);
-            stage = waited.unwrap_or_else(PoisonError::into_inner);
+        match self.result() {
+            Some(out) => out.clone(),
+            None => (self.0.work)(),
         }
-        match std::mem::replace(&mut *stage, Stage::Taken) {
-            Stage::Done(Ok(out)) => out,
-            Stage::Done(Err(panic)) => {
-                drop(stage);
-                resume_unwind(panic)
-            }
-            Stage::Waiting(_) | Stage::Begun | Stage::Taken => {
-                unreachable!("it was done, and is taken once")
-            }
-        }
+    }
+
+    /// Asks for somebody who solves it by world time `needed_at`, s, unless somebody has undertaken that.
+    pub fn request(&self, needed_at: f64) -> Option<PlanRequest> {
+        let problem: Arc<dyn Problem> = self.0.clone();
+        let open = !self.is_ready() && !self.0.accepted.load(Ordering::Relaxed);
+        open.then(|| PlanRequest {
+            needed_at,
+            problem: Arc::downgrade(&problem),
+        })
     }
 }
 
-/// The threads that plan, begun with the first plan.
-fn planners() -> &'static SyncSender<Arc<dyn Task>> {
-    static PLANNERS: OnceLock<SyncSender<Arc<dyn Task>>> = OnceLock::new();
-    PLANNERS.get_or_init(|| {
-        let (send, receive) = sync_channel(MOST_WAITING);
-        let receive = Arc::new(Mutex::new(receive));
-        let count = thread::available_parallelism().map_or(1, usize::from);
-        for _ in 0..count.min(MOST_PLANNERS) {
-            let receive = Arc::clone(&receive);
-            let plan = move || serve(&receive);
-            // A machine that has no thread to spare plans in the tick.
-            let _ = thread::Builder::new().name("planner".into()).spawn(plan);
-        }
-        send
-    })
+/// A problem that somebody else may solve.
+#[derive(Clone)]
+pub struct PlanRequest {
+    /// World time at which the result is needed, s.
+    pub needed_at: f64,
+    problem: Weak<dyn Problem>,
 }
 
-fn serve(receive: &Mutex<Receiver<Arc<dyn Task>>>) {
-    loop {
-        let next = receive
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .recv();
-        let Ok(task) = next else { return };
-        task.run();
+impl std::fmt::Debug for PlanRequest {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("PlanRequest")
+            .field("needed_at", &self.needed_at)
+            .finish_non_exhaustive()
+    }
+}
+
+impl PlanRequest {
+    /// Undertakes to solve it: it is not requested again.
+    pub fn accept(&self) {
+        if let Some(problem) = self.problem.upgrade() {
+            problem.accept();
+        }
+    }
+
+    /// Solves it, on any thread, unless its figure does not want it any more.
+    pub fn solve(&self) {
+        if let Some(problem) = self.problem.upgrade() {
+            problem.solve();
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::sync::atomic::{AtomicUsize, Ordering};
+    use std::sync::atomic::AtomicUsize;
 
     #[test]
-    fn every_plan_is_worked_out_once_whoever_does_it() {
-        static DONE: AtomicUsize = AtomicUsize::new(0);
-        // More than fit into the queue.
-        let plans: Vec<_> = (0..3 * MOST_WAITING)
-            .map(|i| {
-                Plan::new(move || {
-                    DONE.fetch_add(1, Ordering::Relaxed);
-                    i * i
-                })
-            })
-            .collect();
-        let count = plans.len();
-        for (i, plan) in plans.into_iter().enumerate() {
-            assert_eq!(plan.take(), i * i);
-        }
-        assert_eq!(DONE.load(Ordering::Relaxed), count);
+    fn a_plan_that_was_solved_is_not_worked_out_again_and_any_other_is() {
+        let done = Arc::new(AtomicUsize::new(0));
+        let count = Arc::clone(&done);
+        let task = PlanTask::new(move || count.fetch_add(1, Ordering::Relaxed));
+        let request = task.request(1.0).unwrap();
+        request.accept();
+        assert!(task.request(1.0).is_none() && !task.is_ready());
+        request.solve();
+        request.solve();
+        assert!(task.is_ready() && task.result() == Some(&0));
+        assert_eq!((task.take(), done.load(Ordering::Relaxed)), (0, 1));
+        assert_eq!(PlanTask::new(|| 7).take(), 7);
     }
 
     #[test]
-    fn a_panic_is_the_one_of_who_takes_it() {
-        let plan = Plan::new(|| -> u32 { panic!("no way") });
-        assert!(catch_unwind(AssertUnwindSafe(|| plan.take())).is_err());
-        assert_eq!(Plan::new(|| 7).take(), 7);
+    fn a_panic_is_the_one_of_whoever_takes_the_plan() {
+        let task = PlanTask::new(|| -> u32 { panic!("no plan") });
+        task.request(0.0).unwrap().solve();
+        assert!(task.is_ready() && task.result().is_none());
+        assert!(catch_unwind(AssertUnwindSafe(|| task.take())).is_err());
     }
 
     #[test]
-    fn what_nobody_wants_any_more_is_not_begun() {
-        let shared = Arc::new(Shared {
-            stage: Mutex::new(Stage::Waiting(Box::new(|| panic!("begun")))),
-            done: Condvar::new(),
-        });
-        drop(Plan::<u32>(Arc::clone(&shared)));
-        shared.run();
-        assert!(matches!(*shared.stage(), Stage::Taken));
+    fn a_plan_that_is_not_wanted_any_more_is_not_begun() {
+        let task = PlanTask::new(|| -> u32 { unreachable!("begun") });
+        let request = task.request(0.0).unwrap();
+        drop(task);
+        request.solve();
     }
 }

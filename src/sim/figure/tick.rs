@@ -32,6 +32,7 @@ use super::activity::MotionState;
 use super::assist::Assist;
 use super::events::Watcher;
 use super::kinematic_step::{Decision, KinematicStepper};
+use super::plan_task::Planning;
 use super::report::Flags;
 use super::setup::{ControllerKind, FigureSetup, Share};
 use super::tasks::TaskPoints;
@@ -54,6 +55,8 @@ pub struct TickContext {
     pub substeps: u32,
     /// Magnitude of gravity, m/s².
     pub gravity: f64,
+    /// What a tick does that needs a plan which is not there.
+    pub planning: Planning,
 }
 
 impl TickContext {
@@ -128,6 +131,7 @@ impl Figure {
                 report: empty_report(&setup.state),
                 reported: false,
                 watcher: Watcher::default(),
+                late_plans: 0,
             },
             neighbours: Neighbours {
                 cluster: 0,
@@ -140,6 +144,7 @@ impl Figure {
     /// Stages 1–5 of a tick: everything before the body moves. False for a frozen figure, whose tick ends here.
     pub(crate) fn prepare(&mut self, world: &TickContext) -> bool {
         self.outcome.watcher.begin();
+        self.outcome.late_plans = 0;
         self.commands(world);
         if self.physical.frozen {
             self.outcome.report.flags = Flags::QUARANTINED;
@@ -191,7 +196,7 @@ impl Figure {
     fn update_activity(&mut self, world: &TickContext) {
         self.leave_broken_stream(world.time());
         self.follow_exit_if_due(world);
-        self.begin_next_if_ready(world.time());
+        self.begin_next_if_ready(world);
         self.update_get_up(world.time());
     }
 

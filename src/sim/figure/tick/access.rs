@@ -1,15 +1,16 @@
 //! A figure from outside: what it is, what it does, and changes between ticks.
 
-use super::Figure;
 use super::state::rested;
+use super::{ExitPlan, Figure};
 use crate::sim::body::topology::DOF_COUNT;
 use crate::sim::body::{Body, Links, State};
 use crate::sim::collide::shape::BodyShape;
 use crate::sim::control::Controller;
 use crate::sim::dynamics::Terms;
 use crate::sim::figure::constraints::Constraint;
-use crate::sim::figure::drive::{Drive, LivePlayback};
+use crate::sim::figure::drive::{Drive, LivePlayback, Queued};
 use crate::sim::figure::events::FigureEvent;
+use crate::sim::figure::plan_task::PlanRequest;
 use crate::sim::figure::report::TickReport;
 use crate::sim::figure::setup::{
     ControlParams, ControllerKind, FigureOptions, FigureSetup, Perturbation, StrengthScale,
@@ -83,6 +84,16 @@ impl Figure {
     pub fn events(&self) -> &[FigureEvent] {
         self.outcome.watcher.events()
     }
+    /// Problems that are being planned and that nobody has undertaken to solve.
+    pub(crate) fn plan_requests(&self) -> impl Iterator<Item = PlanRequest> + '_ {
+        let exit = self.motion.exit().into_iter().flat_map(ExitPlan::requests);
+        let entry = self.motion.next().and_then(Queued::request);
+        exit.chain(entry)
+    }
+    /// Plans that the last tick needed and that were not there.
+    pub(crate) fn late_plans(&self) -> usize {
+        self.outcome.late_plans
+    }
     /// What it is about on its way up, while it gets up.
     pub fn rising(&self) -> Option<&'static str> {
         self.motion.gets_up().then(|| self.desired.get_up.stage())
@@ -137,7 +148,8 @@ impl Figure {
     pub(crate) fn schedule(&mut self, what: Perturbation) -> bool {
         self.surroundings.disturbances.add(what)
     }
-    /// Puts the figure into a state and forgets its past; loads stay.
+    /// Puts the figure into a state and forgets its past; loads stay. A stop or transition that is being planned is
+    /// followed at once, and worked out here if it is not there.
     pub fn reset(&mut self, state: State) {
         self.follow_exit();
         self.physical.state = state;

@@ -2,9 +2,9 @@
 //! Both are worked out aside, and taken in a tick that is fixed when they are asked for.
 
 use super::{Figure, TickContext};
-use crate::sim::body::{Body, Posture};
-use crate::sim::figure::background::Plan;
+use crate::sim::body::Posture;
 use crate::sim::figure::drive::{ClipPlayback, Drive, LivePlayback, Queued};
+use crate::sim::figure::plan_task::{PlanRequest, PlanTask, Planning};
 use crate::sim::motion::clip::{Clip, PlanarTransform};
 use crate::sim::plan::motion_transition;
 use crate::sim::plan::motion_transition::{WayIn, Ways};
@@ -17,6 +17,8 @@ use std::sync::Arc;
 const STOP_AHEAD: f64 = 0.8;
 /// Samples (of joins) that still play before a motion is left: the time that there is to work out how.
 pub(super) const ASIDE: usize = 4;
+/// The same after plans that came late: twice as many each time, up to this.
+const MOST_ASIDE: usize = 24;
 /// A body slower than this is led into the posture in which the next clip begins; a faster one comes to its ease first,
 /// m/s.
 const SLOW: f64 = 0.2;
@@ -28,44 +30,81 @@ type End = Option<(f64, Clip)>;
 /// A way into a clip, and where that puts the clip's origin.
 type Over = Option<(WayIn, PlanarTransform)>;
 
-/// What a motion is stopped from if no planned way leads out of it.
-#[derive(Debug)]
-struct LastResort {
-    so_far: Vec<Sample>,
-    /// Sample up to which it still plays.
-    now: usize,
-    streamed: bool,
-    /// How it is to stand.
-    goal: Posture,
+/// What the exit from a motion is to lead to.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ExitGoal {
+    /// The posture in which the figure is to stand if it hardly moves or does not reach the clip from step to step; at
+    /// ease if not given.
+    pub posture: Option<Posture>,
+    /// The clip's origin is meant: the figure may not go over to it where it is.
+    pub fixed: bool,
+    /// World time before which the clip does not begin, s.
+    pub from: f64,
 }
 
-impl LastResort {
-    fn end(self, body: &Arc<Body>) -> Option<Clip> {
-        splice::stop(
-            body,
-            self.so_far,
-            self.now,
-            (Some(self.goal), self.streamed),
-        )
-    }
-}
-
-/// What is worked out aside when a motion is left.
-#[derive(Debug, Default)]
+/// How a motion is left, while that is planned.
+#[derive(Clone, Debug)]
 pub(in crate::sim::figure) struct ExitPlan {
+    goal: ExitGoal,
+    /// Samples that there were to plan it.
+    lead: usize,
     /// Over to the clip that waits, best first.
-    over: Vec<Plan<Over>>,
-    /// To a stand.
-    ends: Vec<Plan<End>>,
-    /// What is tried if there is no such way: to stand as the next clip begins.
-    last_resort: Option<LastResort>,
-    /// World time of the first sample of the ways over, s.
+    over: Vec<PlanTask<Over>>,
+    /// World time of the first sample of these, s.
     known_from: f64,
+    /// To a stand.
+    ends: Vec<PlanTask<End>>,
+    /// To a stand like the beginning of the next clip, if there is no such way.
+    last_resort: Option<PlanTask<Option<Clip>>>,
     /// When the motion turns from its own way to that one, s.
     due: f64,
     /// World time of the first sample of the way to a stand, and time of the present motion then, s.
     begin: f64,
     before: f64,
+}
+
+impl ExitPlan {
+    /// Everything that is to be planned, the more urgent first.
+    pub fn requests(&self) -> impl Iterator<Item = PlanRequest> + '_ {
+        let over = self.over.iter().filter_map(|t| t.request(self.due));
+        let ends = self.ends.iter().filter_map(|t| t.request(self.due));
+        let last = self.last_resort.iter().filter_map(|t| t.request(self.due));
+        over.chain(ends).chain(last)
+    }
+
+    /// True if nothing that decides is still to be worked out.
+    fn is_ready(&self) -> bool {
+        for way in &self.over {
+            match way.result() {
+                Some(Some(_)) => return true,
+                _ if way.is_ready() => {}
+                _ => return false,
+            }
+        }
+        let found = |end: &PlanTask<End>| matches!(end.result(), Some(Some(_)));
+        self.ends.iter().all(PlanTask::is_ready)
+            && (self.ends.iter().any(found)
+                || self.last_resort.as_ref().is_none_or(PlanTask::is_ready))
+    }
+
+    fn at(due: f64, goal: ExitGoal, lead: usize) -> Self {
+        Self {
+            goal,
+            lead,
+            over: Vec::new(),
+            known_from: 0.0,
+            ends: Vec::new(),
+            last_resort: None,
+            due,
+            begin: 0.0,
+            before: 0.0,
+        }
+    }
+
+    /// True if it may lead over to the clip that waits.
+    pub fn leads_over(&self) -> bool {
+        !self.over.is_empty()
+    }
 }
 
 /// What a stop is planned from.
@@ -78,20 +117,6 @@ struct Given {
     streamed: bool,
 }
 
-impl ExitPlan {
-    fn at(due: f64) -> Self {
-        Self {
-            due,
-            ..Self::default()
-        }
-    }
-
-    /// True if it may lead over to the clip that waits.
-    pub fn leads_over(&self) -> bool {
-        !self.over.is_empty()
-    }
-}
-
 impl Figure {
     /// Begins to work out how the motion is left for a clip that is to play from world time `from` on: over to it,
     /// unless its place is `fixed`, or to a stand at ease, or like `goal` if it hardly moves or stands in another way.
@@ -100,8 +125,8 @@ impl Figure {
     pub(super) fn leave(
         &mut self,
         play: &ClipPlayback,
-        (goal, fixed): (Option<Posture>, bool),
-        from: f64,
+        goal: ExitGoal,
+        lead: usize,
         time: f64,
     ) -> (f64, Option<f64>) {
         let stands = match self.motion.source() {
@@ -117,17 +142,18 @@ impl Figure {
         if matches!(self.motion.source(), Drive::Live(_)) && pending.is_some() {
             return (stands, None);
         }
-        let mut leaving = ExitPlan::at(pending.unwrap_or(time + ASIDE as f64 / splice::RATE));
-        let over = if fixed {
+        let due = pending.unwrap_or(time + lead as f64 / splice::RATE);
+        let mut leaving = ExitPlan::at(due, goal, lead);
+        let over = if goal.fixed {
             None
         } else {
-            self.ways_over(play, (leaving.due, from), time)
+            self.ways_over(play, (due, goal.from), time)
         };
         let entered = over.as_ref().map(|ways| {
             leaving.known_from = time - self.desired.tracker.lag() - motion_transition::RUN_UP;
             let plan = |k| {
                 let ways = Arc::clone(ways);
-                Plan::new(move || ways.way(k))
+                PlanTask::new(move || ways.way(k))
             };
             leaving.over = (0..ways.moments().len()).map(plan).collect();
             let first = &ways.moments()[0];
@@ -141,7 +167,7 @@ impl Figure {
                 Drive::External(_) => false,
             };
         if ends {
-            self.plan_ends(&mut leaving, goal, over.as_ref(), time);
+            self.plan_ends(&mut leaving, over.as_ref(), time);
         }
         self.motion
             .plan_exit((ends || leaving.leads_over()).then_some(leaving));
@@ -178,9 +204,14 @@ impl Figure {
     }
 
     /// Begins to work out how the motion is led to a stand at ease.
-    pub(super) fn leave_for_a_stand(&mut self, time: f64) {
-        let mut leaving = ExitPlan::at(time + ASIDE as f64 / splice::RATE);
-        self.plan_ends(&mut leaving, None, None, time);
+    pub(super) fn leave_for_a_stand(&mut self, lead: usize, time: f64) {
+        let goal = ExitGoal {
+            posture: None,
+            fixed: false,
+            from: time,
+        };
+        let mut leaving = ExitPlan::at(time + lead as f64 / splice::RATE, goal, lead);
+        self.plan_ends(&mut leaving, None, time);
         self.motion.plan_exit(Some(leaving));
     }
 
@@ -191,40 +222,34 @@ impl Figure {
     }
 
     /// Begins to work out the ends of the motion; they are left out if there is a way over.
-    fn plan_ends(
-        &mut self,
-        leaving: &mut ExitPlan,
-        goal: Option<Posture>,
-        over: Option<&Arc<Ways>>,
-        time: f64,
-    ) {
+    fn plan_ends(&mut self, leaving: &mut ExitPlan, over: Option<&Arc<Ways>>, time: f64) {
         let after = ((leaving.due - time) * splice::RATE).round() as usize;
         let (given, so_far) = self.motion_until_stop(time, after);
         (leaving.begin, leaving.before) = (given.begin, given.before);
-        let slow = self.is_slow();
-        let plans = |so_far: Vec<Sample>, goal: Option<Posture>| -> Vec<Plan<End>> {
-            let how = (goal, given.streamed);
-            let ends = Arc::new(Ends::new(&self.setup.body, so_far, given.now, how));
-            let plan = |k| {
-                let (ends, over) = (Arc::clone(&ends), over.cloned());
-                Plan::new(move || {
-                    let needed = over.is_none_or(|o| !o.found());
-                    needed.then(|| ends.end(k)).flatten()
-                })
-            };
-            (0..Ends::MOST).map(plan).collect()
+        let (body, now, streamed) = (&self.setup.body, given.now, given.streamed);
+        let posture = leaving.goal.posture;
+        let slow = self.is_slow() && posture.is_some();
+        let how = (posture.filter(|_| slow), streamed);
+        let ends = Arc::new(Ends::new(body, so_far.clone(), now, how));
+        let plan = |k| {
+            let (ends, over) = (Arc::clone(&ends), over.cloned());
+            PlanTask::new(move || {
+                let needed = over.as_ref().is_none_or(|o| !o.found());
+                needed.then(|| ends.end(k)).flatten()
+            })
         };
-        if slow && goal.is_some() {
-            leaving.ends = plans(so_far, goal);
-        } else {
-            leaving.ends = plans(so_far.clone(), None);
-            leaving.last_resort = goal.map(|goal| LastResort {
-                so_far,
-                now: given.now,
-                streamed: given.streamed,
-                goal,
-            });
-        }
+        leaving.ends = (0..Ends::MOST).map(plan).collect();
+        let Some(posture) = posture.filter(|_| !slow) else {
+            return;
+        };
+        let (body, over, ends) = (Arc::clone(body), over.cloned(), leaving.ends.clone());
+        leaving.last_resort = Some(PlanTask::new(move || {
+            let found = ends.iter().any(|e| matches!(e.result(), Some(Some(_))));
+            if found || over.as_ref().is_some_and(|o| o.found()) {
+                return None;
+            }
+            splice::stop(&body, so_far.clone(), now, (Some(posture), streamed))
+        }));
     }
 
     /// A stream that breaks off in the middle of a step, its last posture held, is left by the steps to a stand.
@@ -234,20 +259,39 @@ impl Figure {
         let streams = self.motion.exit().is_none()
             && matches!(self.motion.source(), Drive::Live(live) if broken(live));
         if streams && self.steps() && self.desired.tracker.is_walking() {
-            self.leave_for_a_stand(time);
+            self.leave_for_a_stand(ASIDE, time);
         }
     }
 
-    /// Leaves the motion in the last tick that begins before the way out differs from it. Always in that one, however
-    /// long that took to work out.
+    /// Leaves the motion in the last tick that begins before its exit differs from it. A tick that does not wait for
+    /// plans goes on without one that is not there: the way out begins with samples that the motion has passed by then,
+    /// so it is planned anew from a later one.
     pub(super) fn follow_exit_if_due(&mut self, world: &TickContext) {
-        let due = |l: &ExitPlan| world.time() + world.dt > l.due + 1e-9;
-        if self.motion.exit().is_some_and(due) {
+        let due = |l: &&ExitPlan| world.time() + world.dt > l.due + 1e-9;
+        let Some(exit) = self.motion.exit().filter(due) else {
+            return;
+        };
+        if world.planning == Planning::InTick || exit.is_ready() {
             self.follow_exit();
+            return;
+        }
+        let (goal, lead) = (exit.goal, (2 * exit.lead).min(MOST_ASIDE));
+        self.outcome.late_plans += 1;
+        self.motion.plan_exit(None);
+        let time = world.time();
+        match self.motion.next().map(|q| q.play.clone()) {
+            Some(play) => {
+                let (due, _) = self.leave(&play, goal, lead, time);
+                self.motion.update_next(|q| q.due = due);
+                if self.motion.exit().is_none() {
+                    self.plan_entry(time);
+                }
+            }
+            None => self.leave_for_a_stand(lead, time),
         }
     }
 
-    /// Turns to the way out now, if one is being worked out.
+    /// Follows the exit that is planned now, if one is.
     pub(super) fn follow_exit(&mut self) {
         let Some(leaving) = self.motion.take_exit() else {
             return;
@@ -260,8 +304,9 @@ impl Figure {
             due,
             begin,
             before,
+            ..
         } = leaving;
-        if let Some(way) = over.into_iter().find_map(Plan::take) {
+        if let Some(way) = over.into_iter().find_map(PlanTask::take) {
             self.go_over(way, known_from);
             return;
         }
@@ -270,8 +315,8 @@ impl Figure {
             self.plan_entry(due);
             return;
         }
-        let best = Ends::best(ends.into_iter().map(Plan::take));
-        let clip = best.or_else(|| last_resort?.end(&self.setup.body));
+        let best = Ends::best(ends.into_iter().map(PlanTask::take));
+        let clip = best.or_else(|| last_resort?.take());
         self.follow_end(clip, begin, before);
         let stands = match self.motion.source() {
             Drive::Clip(end) => end.start + end.clip.duration() + self.desired.tracker.lag(),

@@ -1,15 +1,15 @@
 //! From one motion to another while the figure moves: from step to step where they fit, else by a stand for which what
 //! was asked for waits.
 
-use super::Figure;
 use super::fall_detection::FEET;
-use super::motion_switch::ASIDE;
+use super::motion_switch::{ASIDE, ExitGoal};
 use super::state::Scratch;
+use super::{Figure, TickContext};
 use crate::sim::body::Posture;
 use crate::sim::control::Controller;
-use crate::sim::figure::background::Plan;
 use crate::sim::figure::drive::{ClipPlayback, Drive, Queued};
 use crate::sim::figure::get_up::GetUpDecision;
+use crate::sim::figure::plan_task::{PlanTask, Planning};
 use crate::sim::figure::setup::ControllerKind;
 use crate::sim::motion::{Clip, Target};
 use crate::sim::plan::splice;
@@ -77,7 +77,12 @@ impl Figure {
         let from = play.start + first / play.speed;
         let (due, entered) = if moves {
             let goal = begin.upright.then_some(goal);
-            self.leave(&play, (goal, fixed), from, time)
+            let goal = ExitGoal {
+                posture: goal,
+                fixed,
+                from,
+            };
+            self.leave(&play, goal, ASIDE, time)
         } else {
             (time, None)
         };
@@ -158,7 +163,7 @@ impl Figure {
         let way = move || next.from_stand(&body, first, &stand);
         self.motion.update_next(|q| {
             q.from = q.from.max(time + ASIDE as f64 / splice::RATE);
-            q.entry = Some(Plan::new(way));
+            q.entry = Some(PlanTask::new(way));
         });
     }
 
@@ -189,7 +194,8 @@ impl Figure {
     }
 
     /// Begins the clip that waits, once the figure stands.
-    pub(super) fn begin_next_if_ready(&mut self, time: f64) {
+    pub(super) fn begin_next_if_ready(&mut self, world: &TickContext) {
+        let time = world.time();
         let Some(q) = self.motion.next() else { return };
         if self.motion.exit().is_some() {
             return;
@@ -208,9 +214,14 @@ impl Figure {
         if !ready {
             return;
         }
+        let planned = q.entry.as_ref().is_none_or(PlanTask::is_ready);
+        if !planned && world.planning == Planning::Aside {
+            self.outcome.late_plans += 1;
+            return;
+        }
         let stance = self.desired.tracker.stance(&self.scratch.terms);
         if let Some(mut q) = self.motion.take_next() {
-            if let Some(way) = q.entry.take().and_then(Plan::take) {
+            if let Some(way) = q.entry.take().and_then(PlanTask::take) {
                 let begins = way.clip.sample(0.0).posture;
                 q.stance = Some(self.desired.tracker.stance_of(&self.setup.body, &begins));
                 q.first = way.begin;
@@ -297,6 +308,6 @@ impl Figure {
             self.set_drive(Drive::Hold(posture));
             return;
         }
-        self.leave_for_a_stand(time);
+        self.leave_for_a_stand(ASIDE, time);
     }
 }

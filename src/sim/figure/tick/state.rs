@@ -243,6 +243,8 @@ pub(super) struct Outcome {
     pub reported: bool,
     /// Events.
     pub watcher: Watcher,
+    /// Plans that it needed and that were not there.
+    pub late_plans: usize,
 }
 
 /// What the world notes of the figure when it looks for neighbours.
