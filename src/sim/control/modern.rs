@@ -17,11 +17,11 @@ use crate::sim::contact::{
 };
 use crate::sim::dynamics::Terms;
 use crate::sim::dynamics::terms::WIDTH;
-use crate::sim::figure::Flags;
-use crate::sim::figure::report::MAX_CONTACTS;
 use crate::sim::math::ease::fall;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::TargetPair;
+use crate::sim::report::Flags;
+use crate::sim::report::MAX_CONTACTS;
 use crate::sim::support::Polygon;
 use multiversion::multiversion;
 use tasks::pendulum_time;

@@ -3,7 +3,7 @@
 use super::rows::{ROW, Row, RowQr, Square, add_scaled, cholesky_solve, dot};
 use super::torque_limits::{Outcome, TOLERANCE, violates};
 use crate::sim::body::DOF_COUNT;
-use crate::sim::figure::Priority;
+use crate::sim::setup::Priority;
 
 /// Most rows of one task: positions of both hands, and eight constraints from outside with position and rotation.
 pub const MAX_ROWS: usize = 54;

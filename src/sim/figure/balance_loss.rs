@@ -1,10 +1,10 @@
 //! Is balance lost for good? Then the controller, which would bend ankles and knees to keep soles flat that cannot stay
 //! flat, hands over to motors alone (ALGORITHM §14.3): the figure falls as the body it is.
 
-use super::report::MAX_CONTACTS;
 use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::body::{Body, SegmentId};
 use crate::sim::dynamics::Terms;
+use crate::sim::report::MAX_CONTACTS;
 use crate::sim::support::{Polygon, Support};
 
 /// A body this low (share of its standing height) does not step any more.

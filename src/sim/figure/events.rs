@@ -1,9 +1,9 @@
 //! What happened to a figure in a tick, in words.
 
-use super::report::{Flags, TickReport};
 use crate::sim::body::SegmentId;
 use crate::sim::body::topology::{DOF_COUNT, SEGMENT_COUNT};
 use crate::sim::collide::Other;
+use crate::sim::report::{Flags, TickReport};
 use crate::sim::support::Support;
 
 /// Something worth telling.

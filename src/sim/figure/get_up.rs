@@ -5,7 +5,6 @@
 //! recorded, and often it leaps. So the motion says *when*; *how* is the figure's own ([`crate::sim::get_up`]), at the
 //! pace at which it can follow.
 
-use super::report::MAX_CONTACTS;
 use super::tasks::TaskWorkspace;
 use crate::sim::body::topology::SegmentId;
 use crate::sim::body::{Body, Posture, SEGMENT_COUNT};
@@ -14,6 +13,7 @@ use crate::sim::dynamics::Terms;
 use crate::sim::get_up::{GetUpMotion, GetUpSolver};
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::TargetPair;
+use crate::sim::report::MAX_CONTACTS;
 
 /// Most contact points of one segment.
 const POINTS: usize = MAX_CONTACTS / SEGMENT_COUNT;

@@ -4,7 +4,6 @@
 //! Nothing here can push back: what the ground would have to give follows from inverse dynamics and is shared among the
 //! touching points. What they cannot give shows as a residual of the audit; it is not hidden.
 
-use super::report::{ContactPoint, Flags, MAX_CONTACTS};
 use super::torque_step::{MAX_SPEED, StepInput, TickForces};
 use crate::sim::body::topology::{DOF_COUNT, L_FOOT, L_TOES, NV, R_FOOT, R_TOES, SEGMENT_COUNT};
 use crate::sim::body::{Body, Posture, SegmentId, State};
@@ -18,6 +17,7 @@ use crate::sim::dynamics::factor::{factor, solve};
 use crate::sim::dynamics::terms::WIDTH;
 use crate::sim::dynamics::{Kinematics, MassMatrix, Terms};
 use crate::sim::math::{Quat, Vec3};
+use crate::sim::report::{ContactPoint, Flags, MAX_CONTACTS};
 use crate::sim::support::{Pivot, Sharing, Support, SupportPoint, tipping_acceleration};
 
 /// A point that arrives faster than this strikes the ground; a slower one settles, m/s.

@@ -1,7 +1,6 @@
 //! Loads and pushes of one figure: which act in a tick, and what taking up a load does to the body.
 
 use super::events::{FigureEvent, Watcher};
-use super::setup::{HeldLoad, Perturbation};
 use crate::sim::body::topology::{NV, SegmentId};
 use crate::sim::body::{Body, Links, State};
 use crate::sim::dynamics::crba::CompositeInertia;
@@ -9,11 +8,12 @@ use crate::sim::dynamics::jacobian::for_each_column;
 use crate::sim::dynamics::terms::AppliedForce;
 use crate::sim::dynamics::{Kinematics, MassMatrix, Terms, crba, factor, solve};
 use crate::sim::math::Vec3;
+use crate::sim::setup::{HeldLoad, Perturbation};
 
 /// Most perturbations a figure can have scheduled at once.
 pub const MAX_PERTURBATIONS: usize = 64;
 /// Most forces of other bodies in the audit of one figure.
-pub const MAX_EXTERNAL: usize = crate::sim::collide::touch::MAX_ISLAND_CONTACTS;
+pub const MAX_EXTERNAL: usize = crate::sim::touch::MAX_ISLAND_CONTACTS;
 /// Most applied forces in an audit: perturbations, a bar, other bodies.
 pub const MAX_APPLIED: usize = MAX_PERTURBATIONS + 2 + MAX_EXTERNAL;
 

@@ -33,14 +33,14 @@ use super::assist::Assist;
 use super::events::Watcher;
 use super::kinematic_step::{Decision, KinematicStepper};
 use super::plan_task::Planning;
-use super::report::Flags;
-use super::setup::{ControllerKind, FigureSetup, Share};
 use super::tasks::TaskPoints;
 use super::torque_step::{ExternalForces, StepInput, Stepper, TorqueStepper};
 use crate::sim::body::State;
 use crate::sim::body::angles::anatomical_angles;
 use crate::sim::contact::Tissue;
 use crate::sim::control::{Balance, Command, Modern, Paper, TakeOff};
+use crate::sim::report::Flags;
+use crate::sim::setup::{ControllerKind, FigureSetup, Share};
 use crate::sim::support::Support;
 use crate::sim::track::TaskTargets;
 

@@ -8,7 +8,6 @@
 
 use super::assist::{Assist, Spring};
 use super::loads::{Bar, MAX_EXTERNAL};
-use super::report::{Audit, ContactPoint, Flags, MAX_CONTACTS};
 use super::tick::TickContext;
 use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT, SegmentId};
 use crate::sim::body::{Body, Links, State};
@@ -23,6 +22,7 @@ use crate::sim::dynamics::terms::AppliedForce;
 use crate::sim::dynamics::{MassMatrix, Terms, factor, solve};
 use crate::sim::math::Vec3;
 use crate::sim::motion::TargetPair;
+use crate::sim::report::{Audit, ContactPoint, Flags, MAX_CONTACTS};
 use crate::sim::strength::{MuscleScale, Strength};
 use multiversion::multiversion;
 

@@ -11,13 +11,13 @@ use crate::sim::figure::constraints::Constraint;
 use crate::sim::figure::drive::{Drive, LivePlayback, Queued};
 use crate::sim::figure::events::FigureEvent;
 use crate::sim::figure::plan_task::PlanRequest;
-use crate::sim::figure::report::TickReport;
-use crate::sim::figure::setup::{
-    ControlParams, ControllerKind, FigureOptions, FigureSetup, Perturbation, StrengthScale,
-};
 use crate::sim::figure::touches::Touches;
 use crate::sim::math::Vec3;
 use crate::sim::motion::{PlanarTransform, TargetPair};
+use crate::sim::report::TickReport;
+use crate::sim::setup::{
+    ControlParams, ControllerKind, FigureOptions, FigureSetup, Perturbation, StrengthScale,
+};
 use crate::sim::strength::fatigue::Fatigue;
 use crate::sim::strength::{MuscleScale, Strength};
 use crate::sim::track::{StepPlan, StepTracker};

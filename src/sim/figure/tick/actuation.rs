@@ -6,12 +6,12 @@ use crate::sim::body::topology::DOF_COUNT;
 use crate::sim::control::{ControlInput, Controller, Law, TakeOff, tracking};
 use crate::sim::figure::assist::Assist;
 use crate::sim::figure::drive::Drive;
-use crate::sim::figure::setup::{ControlParams, ControllerKind, StrengthScale};
 use crate::sim::figure::tasks::TaskPoints;
 use crate::sim::figure::torque_step::{
     FALLEN_SPEED, FEED_FORWARD_SPEED, MODERN_SPEED, MOTORS_ALONE_SPEED, MotorCommand,
 };
 use crate::sim::motion::TargetPair;
+use crate::sim::setup::{ControlParams, ControllerKind, StrengthScale};
 use crate::sim::strength::MuscleScale;
 
 /// A fallen figure relaxes: share of its strength, and time constant of its demand, s (ALGORITHM §12).

@@ -7,8 +7,8 @@ use crate::sim::control::Controller;
 use crate::sim::figure::balance_loss::Reach;
 use crate::sim::figure::events::FigureEvent;
 use crate::sim::figure::kinematic_step::{SPEED_CAP, other_part_arrives};
-use crate::sim::figure::report::Flags;
-use crate::sim::figure::setup::{ControllerKind, StepperKind};
+use crate::sim::report::Flags;
+use crate::sim::setup::{ControllerKind, StepperKind};
 
 /// A figure has fallen when its CoM is below this share of its standing height and something other than a foot carries
 /// it.

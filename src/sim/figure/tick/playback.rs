@@ -10,9 +10,9 @@ use crate::sim::control::Controller;
 use crate::sim::figure::drive::{ClipPlayback, Drive, Queued};
 use crate::sim::figure::get_up::GetUpDecision;
 use crate::sim::figure::plan_task::{PlanTask, Planning};
-use crate::sim::figure::setup::ControllerKind;
 use crate::sim::motion::{Clip, Target};
 use crate::sim::plan::splice;
+use crate::sim::setup::ControllerKind;
 use crate::sim::track::StepPlan;
 use std::sync::Arc;
 

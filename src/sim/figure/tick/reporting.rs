@@ -7,8 +7,8 @@ use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT};
 use crate::sim::collide::MAX_TOUCHES;
 use crate::sim::figure::constraints::MAX_CONSTRAINTS;
 use crate::sim::figure::loads::MAX_APPLIED;
-use crate::sim::figure::report::{Audit, Flags, MAX_CONTACTS, TickReport};
 use crate::sim::math::Vec3;
+use crate::sim::report::{Audit, Flags, MAX_CONTACTS, TickReport};
 
 impl Figure {
     /// What the tick showed, for everyone outside.

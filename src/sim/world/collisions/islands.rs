@@ -5,11 +5,11 @@ use super::{Candidate, Cluster, Who, find, unite};
 use crate::sim::body::SegmentId;
 use crate::sim::body::topology::NV;
 use crate::sim::collide::island::Island;
-use crate::sim::collide::touch::MAX_ISLAND_CONTACTS as MAX_CONTACTS;
 use crate::sim::dynamics::jacobian::for_each_column;
 use crate::sim::figure::TickContext;
 use crate::sim::figure::touches::Contacting;
 use crate::sim::math::Vec3;
+use crate::sim::touch::MAX_ISLAND_CONTACTS as MAX_CONTACTS;
 
 /// Compliance of a contact between bodies, 1/kg.
 const COMPLIANCE: f64 = 1e-4;

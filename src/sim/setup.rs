@@ -165,7 +165,7 @@ impl ControlParams {
 pub struct FigureOptions {
     /// Seconds of muscle fatigue per simulated second, 0…1000; 0: muscles never tire.
     pub fatigue_time_scale: f64,
-    /// Help towards the desired pose of the pelvis, 0…1: [`Assist`](super::assist::Assist). 0: none.
+    /// Help towards the desired pose of the pelvis, 0…1: [`Assist`](crate::sim::figure::assist::Assist). 0: none.
     pub assist: f64,
 }
 

@@ -1,8 +1,8 @@
 //! What one tick of one figure did: enough to check it from outside.
 
 use crate::sim::body::{DOF_COUNT, NV, SEGMENT_COUNT, SegmentId, State};
-use crate::sim::collide::touch::Touch;
 use crate::sim::math::Vec3;
+use crate::sim::touch::Touch;
 
 /// Most contact points one figure can have at once: 8 per segment.
 pub const MAX_CONTACTS: usize = 8 * SEGMENT_COUNT;
@@ -170,7 +170,7 @@ pub struct TickReport {
     /// Touching points with their mean force.
     pub contacts: Vec<ContactPoint>,
     /// Parts that touch other figures and obstacles, by segment, then by what is touched; at most
-    /// [`MAX_TOUCHES`](crate::sim::collide::touch::MAX_TOUCHES).
+    /// [`MAX_TOUCHES`](crate::sim::touch::MAX_TOUCHES).
     pub touches: Vec<Touch>,
     /// Main supporting segment, if any.
     pub main_support: Option<SegmentId>,
