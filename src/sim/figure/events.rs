@@ -139,7 +139,7 @@ impl Watcher {
         }
         self.supports = now;
         for dof in 0..DOF_COUNT {
-            let at_limit = report.saturated & (1 << dof) != 0;
+            let at_limit = report.joints.saturated & (1 << dof) != 0;
             if at_limit == self.saturated[dof] {
                 self.streak[dof] = 0;
                 continue;

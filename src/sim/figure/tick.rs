@@ -22,7 +22,6 @@ mod state;
 
 pub(super) use motion_switch::ExitPlan;
 
-use reporting::empty_report;
 use state::{
     BodyConstants, Controllers, DesiredMotion, Neighbours, Outcome, PhysicalState, Scratch,
     StepperChoice, Steppers, Surroundings,
@@ -30,8 +29,10 @@ use state::{
 
 use super::activity::MotionState;
 use super::assist::Assist;
+use super::constraints::MAX_CONSTRAINTS;
 use super::events::Watcher;
 use super::kinematic_step::{Decision, KinematicStepper};
+use super::loads::MAX_APPLIED;
 use super::plan_task::Planning;
 use super::tasks::TaskPoints;
 use super::torque_step::{ExternalForces, StepInput, Stepper, TorqueStepper};
@@ -39,7 +40,7 @@ use crate::sim::body::State;
 use crate::sim::body::angles::anatomical_angles;
 use crate::sim::contact::Tissue;
 use crate::sim::control::{Balance, Command, Modern, Paper, TakeOff};
-use crate::sim::report::Flags;
+use crate::sim::report::{Flags, TickReport};
 use crate::sim::setup::{ControllerKind, FigureSetup, Share};
 use crate::sim::support::Support;
 use crate::sim::track::TaskTargets;
@@ -128,7 +129,7 @@ impl Figure {
             },
             scratch: Scratch::new(&setup),
             outcome: Outcome {
-                report: empty_report(&setup.state),
+                report: TickReport::empty(&setup.state, MAX_CONSTRAINTS, MAX_APPLIED),
                 reported: false,
                 watcher: Watcher::default(),
                 late_plans: 0,

@@ -170,12 +170,14 @@ impl Figure {
         self.stepping.handed_over = None;
         self.surroundings.balance.reset();
         self.physical.fatigue = rested(&self.setup.options);
-        self.outcome.report.remaining = [[1.0; 2]; DOF_COUNT];
+        self.outcome.report.joints.remaining = [[1.0; 2]; DOF_COUNT];
         // What the last tick said of the centre of mass was of another state. Loads that were taken off go with the
         // next tick.
         let links = self.surroundings.disturbances.loaded(&self.setup.body);
-        (self.outcome.report.com, self.outcome.report.com_velocity) =
-            self.scratch.tasks.center_of_mass(&links, &state);
+        (
+            self.outcome.report.balance.com,
+            self.outcome.report.balance.com_velocity,
+        ) = self.scratch.tasks.center_of_mass(&links, &state);
     }
     /// Changes the scale of its strength. Another percentile makes new curves: about 20 µs, allocates.
     pub fn set_strength(&mut self, scale: StrengthScale) {
@@ -191,7 +193,7 @@ impl Figure {
             (Some(fatigue), true) => fatigue.time_scale = options.fatigue_time_scale,
             (fatigue, _) => {
                 *fatigue = rested(&options);
-                self.outcome.report.remaining = [[1.0; 2]; DOF_COUNT];
+                self.outcome.report.joints.remaining = [[1.0; 2]; DOF_COUNT];
             }
         }
         self.setup.options = options;

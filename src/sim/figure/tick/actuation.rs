@@ -110,7 +110,7 @@ impl Figure {
             &self.steppers.torque.forces.torque
         };
         fatigue.step(torque, &lower, &upper, dt);
-        self.outcome.report.remaining = fatigue.remaining();
+        self.outcome.report.joints.remaining = fatigue.remaining();
     }
 
     /// Runs the controller in charge and turns its command into work for the motors.
@@ -190,8 +190,8 @@ impl Figure {
             torque: command.torque,
             saturation_speed,
         };
-        self.outcome.report.saturated = command.saturated;
-        self.outcome.report.saturated_secondary = command.saturated_secondary;
+        self.outcome.report.joints.saturated = command.saturated;
+        self.outcome.report.joints.saturated_secondary = command.saturated_secondary;
         self.outcome.report.control_iterations = command.iterations;
         self.outcome.report.flags = command.flags;
         self.stepping.tips = command.pivot.is_some();

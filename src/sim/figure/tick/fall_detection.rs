@@ -88,7 +88,7 @@ impl Figure {
     pub(super) fn update_hand_over(&mut self, dt: f64) {
         let r = &self.outcome.report;
         if self.stepping.prescribed && self.setup.params.hand_over {
-            let saturated = (r.saturated | r.saturated_secondary) != 0;
+            let saturated = (r.joints.saturated | r.joints.saturated_secondary) != 0;
             let arrives = other_part_arrives(&self.setup.body, &self.scratch.terms, dt);
             let fast = self.physical.state.velocity[6..]
                 .iter()
@@ -103,7 +103,7 @@ impl Figure {
             let flat = points.len() >= 3 && points.iter().all(|p| FEET.contains(&p.segment));
             let upright = !self.motion.has_fallen() && !self.surroundings.balance.lost();
             let alone = self.surroundings.touches.list().next().is_none();
-            let stands = flat && upright && alone && !self.stepping.tips && r.saturated == 0;
+            let stands = flat && upright && alone && !self.stepping.tips && r.joints.saturated == 0;
             self.stepping.handed_over = match calm + dt {
                 t if !stands && t > 0.0 => Some(0.0),
                 t if t > CALM_TIME => None,
