@@ -23,11 +23,9 @@ const PARTS: &[(&str, &[&str])] = &[
     ("sim", &[]),
 ];
 
-/// Layers of the physics, from the left to the right; modules of one layer do not use each other. Two refinements of
-/// the style guide's line: `contact` (the Newton kernel of motors, limits and friction) lies right of `control`,
-/// because the modern controller is solved by the same kernel; and `figure::setup` and `figure::report`,
-/// `collide::touch` are plain data, how a figure is set up and what it says, so they lie right of everything that reads
-/// and fills them.
+/// Layers of the physics, from the left to the right; modules of one layer do not use each other. `contact` (the Newton
+/// kernel of motors, limits and friction) lies right of `control`, because the modern controller is solved by the same
+/// kernel. `setup`, `report` and `touch` are plain data: how a figure is set up, and what it says.
 const SIM: &[&[&str]] = &[
     &["world"],
     &["figure"],
@@ -35,15 +33,14 @@ const SIM: &[&[&str]] = &[
     &["control"],
     &["collide"],
     &["contact"],
-    &["figure::setup"],
     &["retarget"],
     &["plan"],
     &["support", "motion"],
+    &["setup"],
     &["strength"],
     &["dynamics"],
-    &["figure::report"],
-    &["collide::touch"],
-    &["motion::target"],
+    &["report"],
+    &["touch"],
     &["body"],
     &["math", "params"],
 ];
@@ -630,6 +627,6 @@ fn the_reader_of_this_test_sees_what_it_should() {
             "sim::world::step",
         ]
     );
-    let body = ["figure", "report"].map(str::to_owned);
-    assert_eq!(layer(SIM, &body).unwrap().1, "figure::report");
+    let module = ["figure", "tick", "state"].map(str::to_owned);
+    assert_eq!(layer(SIM, &module).unwrap().1, "figure");
 }

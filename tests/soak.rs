@@ -277,9 +277,10 @@ fn live(seed: u64, people: &[Arc<Body>], seen: &mut Seen) {
             let r = f.report().unwrap();
             assert!(f.state().is_finite(), "seed {seed}, tick {}", world.tick());
             let numbers = r
+                .joints
                 .torque
                 .iter()
-                .chain(&r.ligament_torque)
+                .chain(&r.joints.ligament_torque)
                 .chain(&r.acceleration);
             let forces = r.contacts.iter().map(|c| c.force);
             let touches = r
@@ -293,17 +294,17 @@ fn live(seed: u64, people: &[Arc<Body>], seen: &mut Seen) {
                 world.tick()
             );
             assert!(
-                r.over_limit <= 1e-9,
+                r.joints.over_limit <= 1e-9,
                 "seed {seed}, tick {}: {:e} over the limit",
                 world.tick(),
-                r.over_limit
+                r.joints.over_limit
             );
             assert!(
                 !r.flags.has(Flags::QUARANTINED),
                 "seed {seed}, tick {}: frozen",
                 world.tick()
             );
-            seen.over_limit = seen.over_limit.max(r.over_limit);
+            seen.over_limit = seen.over_limit.max(r.joints.over_limit);
             seen.braked += u64::from(r.flags.has(Flags::SPEED_BOUND));
             seen.bounds_hit += u64::from(r.flags.has(Flags::STEP_BOUND));
             seen.figure_ticks += 1;

@@ -169,7 +169,7 @@ impl Metrics {
         self.assist[0] = self.assist[0].max(size(moment));
         self.assist[1] = self.assist[1].max(size(force));
         self.assist_sum += size(force);
-        let left = report.remaining.iter().flatten();
+        let left = report.joints.remaining.iter().flatten();
         self.remaining = left.fold(self.remaining, |m, r| m.min(*r));
         let found = audit(tick.links, &report.audit, tick.gravity);
         self.residual = self.residual.max(found.relative);
@@ -211,8 +211,11 @@ impl Metrics {
         for (d, used) in tick.utilisation().into_iter().enumerate() {
             self.utilisation[d] = self.utilisation[d].max(used);
             // The solver's own word covers all substeps, ours one of them, independently.
-            self.over_limit = self.over_limit.max(used - 1.0).max(tick.report.over_limit);
-            if used >= AT_LIMIT || tick.report.saturated >> d & 1 == 1 {
+            self.over_limit = self
+                .over_limit
+                .max(used - 1.0)
+                .max(tick.report.joints.over_limit);
+            if used >= AT_LIMIT || tick.report.joints.saturated >> d & 1 == 1 {
                 self.saturated_ticks[d] += 1;
             }
         }
@@ -220,7 +223,11 @@ impl Metrics {
 
     fn observe_tracking(&mut self, tick: &Tick<'_>) {
         self.tracked_ticks += 1;
-        for (sum, e) in self.square_error.iter_mut().zip(&tick.report.joint_error) {
+        for (sum, e) in self
+            .square_error
+            .iter_mut()
+            .zip(&tick.report.joints.joint_error)
+        {
             *sum += e * e;
             self.largest_error = self.largest_error.max(e.abs());
         }
@@ -233,7 +240,7 @@ impl Metrics {
             self.global_distance += off.norm() / SEGMENT_COUNT as f64;
             self.root_distance += (off - shift).norm() / SEGMENT_COUNT as f64;
         }
-        if let Some(margin) = tick.report.margin {
+        if let Some(margin) = tick.report.balance.margin {
             self.margin = Some(self.margin.map_or(margin, |m| m.min(margin)));
         }
         let before = segment_poses(&tick.links.offset, &self.before);
@@ -310,11 +317,11 @@ fn is_finite(tick: &Tick<'_>) -> bool {
         && a.state.is_finite()
         && tick.target.next.posture.is_finite()
         && [
-            &r.torque,
-            &r.ligament_torque,
-            &r.torque_lower,
-            &r.torque_upper,
-            &r.joint_error,
+            &r.joints.torque,
+            &r.joints.ligament_torque,
+            &r.joints.torque_lower,
+            &r.joints.torque_upper,
+            &r.joints.joint_error,
             &a.torque,
             &a.ligament_torque,
         ]
@@ -324,7 +331,11 @@ fn is_finite(tick: &Tick<'_>) -> bool {
         && all(&a.acceleration)
         && all(&r.assist)
         && all(&a.assist)
-        && all(&[r.over_limit, r.penetration, r.margin.unwrap_or(0.0)])
+        && all(&[
+            r.joints.over_limit,
+            r.penetration,
+            r.balance.margin.unwrap_or(0.0),
+        ])
         && r.contacts
             .iter()
             .chain(&a.contacts)

@@ -28,6 +28,7 @@ use crate::wire::types::{
 use std::sync::Arc;
 
 pub use crate::sim::collide::ObstacleKey;
+pub use crate::sim::figure::{PlanRequest, Planning};
 pub use crate::sim::motion::Clip;
 pub use crate::sim::motion::builtin::BUILTIN_NAMES;
 pub use crate::sim::world::{

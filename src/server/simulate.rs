@@ -61,22 +61,22 @@ struct Merit {
 impl Merit {
     fn count(&mut self, r: &TickReport, time: f64) {
         for d in 0..DOF_COUNT {
-            let e = r.joint_error[d].abs();
+            let e = r.joints.joint_error[d].abs();
             self.square += e * e;
             self.most = self.most.max(e);
-            let limit = if r.torque[d] < 0.0 {
-                r.torque_lower[d]
+            let limit = if r.joints.torque[d] < 0.0 {
+                r.joints.torque_lower[d]
             } else {
-                r.torque_upper[d]
+                r.joints.torque_upper[d]
             };
             if limit.abs() > 0.0 {
-                self.utilisation = self.utilisation.max((r.torque[d] / limit).abs());
+                self.utilisation = self.utilisation.max((r.joints.torque[d] / limit).abs());
             }
-            self.saturated[d] += r.saturated >> d & 1;
+            self.saturated[d] += r.joints.saturated >> d & 1;
         }
-        self.over_limit = self.over_limit.max(r.over_limit);
+        self.over_limit = self.over_limit.max(r.joints.over_limit);
         self.penetration = self.penetration.max(r.penetration);
-        if let Some(m) = r.margin {
+        if let Some(m) = r.balance.margin {
             self.margin = Some(self.margin.map_or(m, |least| least.min(m)));
         }
         if r.flags.has(Flags::FALLEN) && self.fell_at.is_none() {

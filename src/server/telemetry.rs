@@ -26,6 +26,10 @@ fn describe() {
     describe_gauge!("sinew_viewers", "Open streams of frames and events.");
     describe_gauge!("sinew_drivers", "Open streams of desired motion.");
     describe_counter!("sinew_worlds_failed_total", "Worlds that failed.");
+    describe_counter!(
+        "sinew_plans_late_total",
+        "Plans that were not there in their tick."
+    );
     describe_counter!("sinew_frames_sent_total", "Frames sent to viewers.");
     describe_counter!(
         "sinew_frames_dropped_total",

@@ -1,4 +1,4 @@
-//! Getting up, for any body, from where it lies: worked out as it is done.
+//! Getting up from the floor, for any body, from where it lies: planned tick by tick.
 //!
 //! A sequence of [`stages`], each a handful of [`goals`]: where pelvis, knees, feet and hands are, over what the centre
 //! of mass is, what the joints look like. From one stage to the next goals and weights pass over smoothly, and in each
@@ -7,6 +7,7 @@
 //! can be gone at any pace.
 
 mod goals;
+pub mod params;
 mod reference_pose;
 mod solver;
 mod stages;
@@ -23,29 +24,35 @@ use crate::sim::math::exp::exp;
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::{PlanarTransform, Target, TargetPair};
 use goals::Goals;
-use reference_pose::Looks;
+use params::layout::{NEAR_HEIGHT, ON_SIDE, PRONE, REFERENCE_LEG, TOUCH_HEIGHT, UPDATE_TIME};
+use reference_pose::ReferencePoses;
 use solver::{BALL, HANDS, KNEE, SHANKS, Solver, TOES};
-use stages::{Down, Here, Stage};
+use stages::{FloorContacts, Layout, Stage};
 
-/// Leg length (hip to ankle) that distances are written for, m.
-const REFERENCE_LEG: f64 = 0.867;
-/// Time constant with which what is on the floor counts as where it really is, s.
-const TAKE_OVER: f64 = 0.3;
-/// Lower than the first it is on the floor, than the second it will be as soon as it is leant on, m.
-const TOUCH: f64 = 0.02;
-const NEARLY: f64 = 0.05;
-/// Who looks down this much lies on the belly; who is turned less than this from there lies on the side.
-const PRONE: f64 = 0.7;
-const ON_ITS_SIDE: f64 = 1.9;
-/// The stage in which who lies on the side begins.
+/// The stage in which a body that lies on its side begins.
 const SIDE: usize = 2;
 
-/// The way up of one figure.
+/// What getting up needs of a body, with the buffers of its inverse kinematics.
 #[derive(Clone, Debug)]
-pub struct GetUpMotion {
+pub struct GetUpSolver {
     solver: Solver,
-    looks: Looks,
-    here: Here,
+    poses: ReferencePoses,
+}
+
+impl GetUpSolver {
+    /// Of a body that stands like `at_ease` in the end. Allocates.
+    pub fn new(body: &Body, at_ease: &Posture) -> Self {
+        Self {
+            solver: Solver::new(body),
+            poses: ReferencePoses::new(anatomical_angles(at_ease)),
+        }
+    }
+}
+
+/// The motion of one figure that gets up.
+#[derive(Clone, Copy, Debug)]
+pub struct GetUpMotion {
+    here: Layout,
     /// Where the way lies in the world.
     place: PlanarTransform,
     stages: &'static [Stage],
@@ -65,7 +72,7 @@ pub struct GetUpMotion {
     velocity: [f64; NV],
 }
 
-/// How far who looks to `front` is turned from lying on the belly, rad: π on the back, π/2 on the right side.
+/// How far a body that faces `front` is turned from lying on its belly, rad: π on the back, π/2 on the right side.
 fn roll(front: Vec3) -> f64 {
     trig::atan2(front.y, -front.z)
 }
@@ -81,15 +88,13 @@ fn inverse(place: PlanarTransform, p: Vec3) -> Vec3 {
 }
 
 impl GetUpMotion {
-    /// Ways up of `body`, that ends standing like `at_ease`. Allocates.
-    pub fn new(body: &Body, at_ease: &Posture) -> Self {
+    /// Of a body that has not begun yet.
+    pub fn new(body: &Body) -> Self {
         let leg =
             body.joint_offset[L_FOOT.index()].norm() + body.joint_offset[L_SHANK.index()].norm();
         let o = [Vec3::zero(); 2];
         Self {
-            solver: Solver::new(body),
-            looks: Looks::new(anatomical_angles(at_ease)),
-            here: Here {
+            here: Layout {
                 scale: leg / REFERENCE_LEG,
                 pelvis: Vec3::zero(),
                 roll: 0.0,
@@ -113,13 +118,13 @@ impl GetUpMotion {
     }
 
     /// Begins where the body of `terms` lies: on its belly, or else by rolling onto it.
-    pub fn begin(&mut self, terms: &Terms) {
+    pub fn begin(&mut self, with: &GetUpSolver, terms: &Terms) {
         let p = &terms.state.posture;
-        let knees = SHANKS.map(|s| terms.point_world(s.index(), self.solver.contact(s, KNEE)));
+        let knees = SHANKS.map(|s| terms.point_world(s.index(), with.solver.contact(s, KNEE)));
         let chest = terms.segment_position(CHEST.index());
         let front = p.root_rotation.rotate(Vec3::X);
         let prone = front.z < -PRONE;
-        // Who does not lie straight rolls about the trunk.
+        // A body that does not lie straight rolls about its trunk.
         let back = if prone {
             (knees[0] + knees[1]) * 0.5
         } else {
@@ -139,22 +144,22 @@ impl GetUpMotion {
         self.here.yaw = 0.0;
         self.here.roll = roll(back.rotate(front));
         for side in 0..2 {
-            self.here.knees[side] = self.real(terms, (SHANKS[side], KNEE));
-            self.here.balls[side] = self.ball(terms, side);
+            self.here.knees[side] = self.real(with, terms, (SHANKS[side], KNEE));
+            self.here.balls[side] = self.ball(with, terms, side);
             self.here.hands[side] =
                 inverse(self.place, terms.segment_position(HANDS[side].index()));
         }
         self.turns_over = !prone;
         self.stages = if prone { stages::UP } else { stages::OVER };
         self.mirrored = !prone && self.here.roll < 0.0;
-        let first = if !prone && self.here.roll.abs() < ON_ITS_SIDE {
+        let first = if !prone && self.here.roll.abs() < ON_SIDE {
             SIDE
         } else {
             0
         };
         self.here.pelvis = self.posture.root_position;
         let up = self.posture.root_rotation.rotate(Vec3::Z);
-        self.now = self.goals(first);
+        self.now = self.goals(&with.poses, first);
         self.now.begin(
             [trig::atan2(up.x, up.z), self.here.roll, 0.0],
             &anatomical_angles(&self.posture),
@@ -163,22 +168,23 @@ impl GetUpMotion {
     }
 
     /// Goals of a stage.
-    fn goals(&self, stage: usize) -> Goals {
+    fn goals(&self, poses: &ReferencePoses, stage: usize) -> Goals {
         let goals = self.stages[stage].goals;
         if self.mirrored {
-            goals(&self.here.mirrored(), &self.looks).mirrored()
+            goals(&self.here.mirrored(), poses).mirrored()
         } else {
-            goals(&self.here, &self.looks)
+            goals(&self.here, poses)
         }
     }
 
-    fn real(&self, terms: &Terms, (s, point): (SegmentId, usize)) -> Vec3 {
-        let p = self.solver.contact(s, point);
+    /// Where a contact point really is.
+    fn real(&self, with: &GetUpSolver, terms: &Terms, (s, point): (SegmentId, usize)) -> Vec3 {
+        let p = with.solver.contact(s, point);
         inverse(self.place, terms.point_world(s.index(), p))
     }
 
-    fn ball(&self, terms: &Terms, side: usize) -> Vec3 {
-        let [a, b] = BALL.map(|k| self.real(terms, (TOES[side], k)));
+    fn ball(&self, with: &GetUpSolver, terms: &Terms, side: usize) -> Vec3 {
+        let [a, b] = BALL.map(|k| self.real(with, terms, (TOES[side], k)));
         (a + b) * 0.5
     }
 
@@ -239,8 +245,8 @@ impl GetUpMotion {
             out
         };
         match self.stages[self.stage].down {
-            Down { whole: true, .. } => &BUT_FEET,
-            Down { slides: true, .. } => &BUT_HANDS,
+            FloorContacts { whole: true, .. } => &BUT_FEET,
+            FloorContacts { slides: true, .. } => &BUT_HANDS,
             _ => &NONE,
         }
     }
@@ -257,32 +263,39 @@ impl GetUpMotion {
 
     /// Desired motion of a tick of `dt` seconds at a share `pace` of its own pace, for the body of `terms`. No
     /// allocation.
-    pub fn advance(&mut self, body: &Body, terms: &Terms, dt: f64, pace: f64) -> TargetPair {
+    pub fn advance(
+        &mut self,
+        body: &Body,
+        with: &mut GetUpSolver,
+        terms: &Terms,
+        dt: f64,
+        pace: f64,
+    ) -> TargetPair {
         let before = self.target();
         self.since += dt * pace;
         let stage = self.stages[self.stage];
         if self.since >= stage.seconds && self.stage + 1 < self.stages.len() {
-            if self.is_down(terms, self.stages[self.stage + 1].down) {
+            if is_down(&with.solver, terms, self.stages[self.stage + 1].down) {
                 self.enter(self.stage + 1);
             } else {
                 self.since = stage.seconds;
                 self.waits += dt;
             }
         } else if self.since >= stage.seconds && self.turns_over {
-            self.begin(terms);
+            self.begin(with, terms);
         }
-        self.look_around(terms, dt);
+        self.update_layout(with, terms, dt);
         let stage = &self.stages[self.stage];
         let u = (self.since / stage.seconds).min(1.0);
         let share = smootherstep(u);
-        self.now = self.from.mix(&self.goals(self.stage), share);
+        self.now = self.from.mix(&self.goals(&with.poses, self.stage), share);
         let mut goals = self.now;
         if let Some((side, height)) = stage.step {
             let rise = arc(height * self.here.scale, u);
             goals.hands[side][2].at += rise;
             goals.palms[side].at += rise;
         }
-        self.solver
+        with.solver
             .advance(body, (&mut self.posture, &mut self.velocity), &goals, dt);
         TargetPair {
             now: before,
@@ -290,20 +303,9 @@ impl GetUpMotion {
         }
     }
 
-    /// True if all that the next stage leans on is on the floor.
-    fn is_down(&self, terms: &Terms, down: Down) -> bool {
-        (0..2).all(|side| {
-            let low = |s: SegmentId| self.solver.lowest(terms, s) < NEARLY;
-            down.whole
-                || (!down.knees || !down.balls || low(SHANKS[side]))
-                    && (!down.balls || low(TOES[side]))
-                    && (!down.hands[side] || low(HANDS[side]))
-        })
-    }
-
     /// What is on the floor counts where it is.
-    fn look_around(&mut self, terms: &Terms, dt: f64) {
-        let share = 1.0 - exp(-dt / TAKE_OVER);
+    fn update_layout(&mut self, with: &GetUpSolver, terms: &Terms, dt: f64) {
+        let share = 1.0 - exp(-dt / UPDATE_TIME);
         let real = &terms.state.posture;
         self.here.pelvis = inverse(self.place, real.root_position);
         let heading = if self.stages[self.stage].down.whole {
@@ -316,14 +318,14 @@ impl GetUpMotion {
         self.here.yaw += share * off;
         let down = self.stages[self.stage].down;
         for side in 0..2 {
-            let knee = self.real(terms, (SHANKS[side], KNEE));
-            let ball = self.ball(terms, side);
+            let knee = self.real(with, terms, (SHANKS[side], KNEE));
+            let ball = self.ball(with, terms, side);
             let wrist = inverse(self.place, terms.segment_position(HANDS[side].index()));
-            let palm = self.solver.lowest(terms, HANDS[side]);
-            let toes = self.solver.lowest(terms, TOES[side]);
+            let palm = with.solver.lowest(terms, HANDS[side]);
+            let toes = with.solver.lowest(terms, TOES[side]);
             let h = &mut self.here;
             let take = |place: &mut Vec3, real: Vec3, low: f64, down: bool| {
-                if down && low < TOUCH {
+                if down && low < TOUCH_HEIGHT {
                     *place += (real - *place) * share;
                 }
             };
@@ -347,6 +349,17 @@ impl GetUpMotion {
         self.place.apply_to(&mut out);
         out
     }
+}
+
+/// True if all that a stage leans on is on the floor.
+fn is_down(solver: &Solver, terms: &Terms, down: FloorContacts) -> bool {
+    (0..2).all(|side| {
+        let low = |s: SegmentId| solver.lowest(terms, s) < NEAR_HEIGHT;
+        down.whole
+            || (!down.knees || !down.balls || low(SHANKS[side]))
+                && (!down.balls || low(TOES[side]))
+                && (!down.hands[side] || low(HANDS[side]))
+    })
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Physics and control: pure, synchronous, without I/O, clock or logging.
 //!
 //! `world` ─► `figure` ─► `track` ─► `control` ─► `collide` ─► `contact` ─► `retarget` ─► `plan` ─► `motion`, `support`
-//! ─► `strength` ─► `dynamics` ─► `body` ─► `math`.
+//! ─► `setup` ─► `strength` ─► `dynamics` ─► `report` ─► `touch` ─► `body` ─► `math`.
 
 pub mod body;
 pub mod collide;
@@ -14,8 +14,11 @@ pub mod math;
 pub mod motion;
 pub mod params;
 pub mod plan;
+pub mod report;
 pub mod retarget;
+pub mod setup;
 pub mod strength;
 pub mod support;
+pub mod touch;
 pub mod track;
 pub mod world;

@@ -167,24 +167,24 @@ pub fn loads(list: &[(SegmentId, Vec3, f64)]) -> Vec<pb::CarriedLoad> {
 
 fn balance(format: NumberFormat, r: &TickReport) -> pb::Balance {
     pb::Balance {
-        com: places(format, &r.com.to_array()),
-        com_velocity: numbers(format, &r.com_velocity.to_array()),
-        com_desired: places(format, &r.com_desired.to_array()),
-        zmp: r.zmp.and_then(|z| places(format, &z.to_array())),
-        margin_m: r.margin,
-        polygon: places(format, r.support_polygon.as_flattened()),
-        main_support: r.main_support.map_or(-1, |s| s.index() as i32),
-        support_ratio: numbers(format, &r.support_ratio),
+        com: places(format, &r.balance.com.to_array()),
+        com_velocity: numbers(format, &r.balance.com_velocity.to_array()),
+        com_desired: places(format, &r.balance.com_desired.to_array()),
+        zmp: r.balance.zmp.and_then(|z| places(format, &z.to_array())),
+        margin_m: r.balance.margin,
+        polygon: places(format, r.balance.support_polygon.as_flattened()),
+        main_support: r.balance.main_support.map_or(-1, |s| s.index() as i32),
+        support_ratio: numbers(format, &r.balance.support_ratio),
     }
 }
 
 fn status(r: &TickReport, carried: &[(SegmentId, Vec3, f64)]) -> pb::Status {
-    let square: f64 = r.joint_error.iter().map(|e| e * e).sum();
+    let square: f64 = r.joints.joint_error.iter().map(|e| e * e).sum();
     pb::Status {
         flags: r.flags.0 as i32,
-        saturated: r.saturated as i64,
-        saturated_secondary: r.saturated_secondary as i64,
-        over_limit: r.over_limit,
+        saturated: r.joints.saturated as i64,
+        saturated_secondary: r.joints.saturated_secondary as i64,
+        over_limit: r.joints.over_limit,
         tracking_joint_rms_rad: (square / DOF_COUNT as f64).sqrt(),
         penetration_m: r.penetration,
         control_iterations: r.control_iterations as i32,
@@ -270,13 +270,16 @@ pub fn figure_frame(
         out.acceleration = numbers(format, &r.acceleration);
     }
     if fields.has("torque") {
-        out.torque = numbers(format, &r.torque);
+        out.torque = numbers(format, &r.joints.torque);
     }
     if fields.has("ligament_torque") {
-        out.ligament_torque = numbers(format, &r.ligament_torque);
+        out.ligament_torque = numbers(format, &r.joints.ligament_torque);
     }
     if fields.has("torque_limits") {
-        out.torque_limits = numbers(format, &[r.torque_lower, r.torque_upper].concat());
+        out.torque_limits = numbers(
+            format,
+            &[r.joints.torque_lower, r.joints.torque_upper].concat(),
+        );
     }
     if fields.has("contacts") {
         out.contacts = Some(contacts(format, &r.contacts));
@@ -288,7 +291,7 @@ pub fn figure_frame(
         out.status = Some(status(r, &f.loads));
     }
     if fields.has("fatigue") {
-        let side = |k: usize| r.remaining.iter().map(move |left| left[k]);
+        let side = |k: usize| r.joints.remaining.iter().map(move |left| left[k]);
         let values: Vec<f64> = side(0).chain(side(1)).collect();
         out.fatigue = numbers(format, &values);
     }

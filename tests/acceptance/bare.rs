@@ -6,7 +6,10 @@ use sinew::sim::body::{Body, DOF_COUNT, Links, State};
 use sinew::sim::contact::Tissue;
 use sinew::sim::dynamics::Terms;
 use sinew::sim::figure::StrengthScale;
-use sinew::sim::figure::torque_step::{MotorCommand, StepInput, Stepper, TorqueStepper};
+use sinew::sim::figure::torque_step::{
+    ExternalForces, MotorCommand, StepInput, Stepper, TorqueRange, TorqueStepper,
+};
+use sinew::sim::figure::{Planning, TickContext};
 use sinew::sim::strength::{MuscleScale, Strength};
 use std::sync::Arc;
 
@@ -47,10 +50,14 @@ impl Bare {
     pub fn step(&mut self, state: &mut State, tissue: Option<&Tissue>) {
         self.terms.compute(&self.links, state, &[], self.gravity);
         let rates: [f64; DOF_COUNT] = std::array::from_fn(|j| state.velocity[6 + j]);
-        let (mut lower, mut upper) = ([0.0; DOF_COUNT], [0.0; DOF_COUNT]);
+        let mut available = TorqueRange {
+            lower: [0.0; DOF_COUNT],
+            upper: [0.0; DOF_COUNT],
+        };
         let angles = anatomical_angles(&state.posture);
+        let TorqueRange { lower, upper } = &mut available;
         self.strength
-            .range(&angles, &rates, &self.scale, &mut lower, &mut upper);
+            .range(&angles, &rates, &self.scale, lower, upper);
         let command = MotorCommand {
             acceleration: [0.0; DOF_COUNT],
             torque: [0.0; DOF_COUNT],
@@ -61,17 +68,22 @@ impl Bare {
             links: &self.links,
             strength: &self.strength,
             scale: &self.scale,
-            assist: None,
-            bar: None,
             terms: &self.terms,
             command: &command,
-            lower: &lower,
-            upper: &upper,
+            available: &available,
             tissue,
-            applied: &[],
-            gravity: self.gravity,
-            dt: self.dt,
-            substeps: 1,
+            forces: ExternalForces {
+                applied: &[],
+                bar: None,
+                assist: None,
+            },
+            world: &TickContext {
+                tick: 0,
+                dt: self.dt,
+                substeps: 1,
+                gravity: self.gravity,
+                planning: Planning::default(),
+            },
         };
         self.stepper.step(&input, state);
     }

@@ -9,7 +9,7 @@ use sinew::sim::body::{Posture, SegmentId, State};
 use sinew::sim::dynamics::Terms;
 use sinew::sim::figure::tasks::grip;
 use sinew::sim::figure::{
-    Constrained, Constraint, ControllerKind, Perturbation, StepperKind, setup::FigureOptions,
+    Constrained, Constraint, ControllerKind, FigureOptions, Perturbation, StepperKind,
 };
 use sinew::sim::math::{Mat3, Quat, Vec3};
 use sinew::sim::world::{ClipPlayback, Drive, WorldError};
@@ -137,7 +137,7 @@ fn a_hand_is_held_and_turned() {
             let v = terms(s).point_velocity(R_HAND.index(), grip(s.figure().body(), R_HAND));
             fastest = fastest.max(v.norm());
         });
-        let back = scene.figure().report().unwrap().joint_error;
+        let back = scene.figure().report().unwrap().joints.joint_error;
         let most = back.iter().fold(0.0f64, |m, e| m.max(e.abs())).to_degrees();
         println!("{kind:?}: back within {most:.3}°, at most {fastest:.2} m/s");
         assert!(most < 1.0 && fastest < 3.5, "{most} {fastest}");
@@ -197,9 +197,9 @@ fn a_hand_is_held_while_walking() {
             scene.world.step();
             upright(&scene, &format!("{held:?} at {now:.2} s"));
             let r = scene.figure().report().unwrap();
-            assert!(r.over_limit < 1e-9);
+            assert!(r.joints.over_limit < 1e-9);
             let arm = DOF_START[R_HAND.index() - 2]..DOF_START[R_HAND.index()] + 2;
-            for (j, e) in r.joint_error.iter().enumerate() {
+            for (j, e) in r.joints.joint_error.iter().enumerate() {
                 if !arm.contains(&j) {
                     joints += e * e;
                     ticks += 1.0;
@@ -262,7 +262,7 @@ fn the_centre_of_mass_goes_over_the_left_foot() {
         scene.run(4.0, |_| {});
         upright(&scene, "centre of mass");
         let r = scene.figure().report().unwrap();
-        let off = (r.com.x - foot.x).hypot(r.com.y - foot.y);
+        let off = (r.balance.com.x - foot.x).hypot(r.balance.com.y - foot.y);
         let right: f64 = r
             .contacts
             .iter()
@@ -293,7 +293,7 @@ fn a_wanted_centre_of_mass_outside_the_feet_is_kept_where_balance_allows() {
             scene.world.set_constraints(scene.key, &[c]).unwrap();
             scene.run(5.0, |s| upright(s, "centre of mass far away"));
             let r = scene.figure().report().unwrap();
-            let speed = r.com_velocity.norm();
+            let speed = r.balance.com_velocity.norm();
             assert!(
                 speed < 0.02,
                 "{kind:?} {far:?}: still moves with {speed} m/s"
@@ -350,7 +350,7 @@ fn what_cannot_be_reached_is_approached_and_throws_nobody_off_its_feet() {
                     .unwrap();
                 scene.run(4.0, |s| {
                     upright(s, &format!("{kind:?} {far:?} with {n}"));
-                    assert!(s.figure().report().unwrap().over_limit < 1e-9);
+                    assert!(s.figure().report().unwrap().joints.over_limit < 1e-9);
                 });
                 let now = (point(&scene, R_HAND, Vec3::zero()) - far).norm();
                 assert!(now < before + 0.02, "{kind:?} {far:?}: {before} {now}");

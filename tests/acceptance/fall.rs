@@ -80,7 +80,11 @@ fn falls_like_a_pendulum(strength: f64, toes: f64) {
             energy = energy.max(now.energy);
             if fell.is_none() {
                 let r = s.figure().report().unwrap();
-                bent = r.joint_error.iter().fold(bent, |m, e| m.max(e.abs()));
+                bent = r
+                    .joints
+                    .joint_error
+                    .iter()
+                    .fold(bent, |m, e| m.max(e.abs()));
                 slipped = r
                     .contacts
                     .iter()
@@ -200,7 +204,11 @@ fn fall(
         }
         let gain = (now.energy - start.energy) / start.energy;
         energy = (energy.0.min(gain), energy.1.max(gain));
-        bent = r.joint_error.iter().fold(bent, |m, e| m.max(e.abs()));
+        bent = r
+            .joints
+            .joint_error
+            .iter()
+            .fold(bent, |m, e| m.max(e.abs()));
         let t = s.tick();
         residual = residual.max(audit(t.links, &r.audit, t.gravity).relative);
         moved = now.com - start.com;

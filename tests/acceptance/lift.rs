@@ -83,22 +83,22 @@ fn lift(mass: f64, kind: ControllerKind, stepper: StepperKind, rate_hz: f64) -> 
     let (mut last, mut n) = (None::<[f64; DOF_COUNT]>, 0.0);
     scene.run(8.0, |s| {
         let r = s.figure().report().unwrap();
-        out.over = out.over.max(r.over_limit);
+        out.over = out.over.max(r.joints.over_limit);
         if out.fell.is_some() {
             return;
         }
-        if r.com.z < LOW {
+        if r.balance.com.z < LOW {
             out.fell = Some(s.world.time());
         }
         n += 1.0;
-        out.rms += r.joint_error.iter().map(|e| e * e).sum::<f64>() / DOF_COUNT as f64;
-        let at_limit = |j: &usize| r.saturated >> j & 1 == 1;
+        out.rms += r.joints.joint_error.iter().map(|e| e * e).sum::<f64>() / DOF_COUNT as f64;
+        let at_limit = |j: &usize| r.joints.saturated >> j & 1 == 1;
         if (0..DOF_COUNT).filter(|j| is_arm(*j)).any(|j| at_limit(&j)) {
             out.arm_saturated += 1.0 / rate_hz;
         }
-        out.saturated |= r.saturated != 0;
+        out.saturated |= r.joints.saturated != 0;
         for j in 0..DOF_COUNT {
-            let error = r.joint_error[j].abs().to_degrees();
+            let error = r.joints.joint_error[j].abs().to_degrees();
             if is_arm(j) {
                 out.arm = out.arm.max(error);
             } else if helps(j) {
@@ -106,12 +106,14 @@ fn lift(mass: f64, kind: ControllerKind, stepper: StepperKind, rate_hz: f64) -> 
             }
             out.speed = out.speed.max(s.figure().state().velocity[6 + j].abs());
             if let Some(last) = last {
-                let range = r.torque_upper[j] - r.torque_lower[j];
-                out.chatter += (r.torque[j] - last[j]).abs() / range / DOF_COUNT as f64;
+                let range = r.joints.torque_upper[j] - r.joints.torque_lower[j];
+                out.chatter += (r.joints.torque[j] - last[j]).abs() / range / DOF_COUNT as f64;
             }
         }
-        last = Some(r.torque);
-        out.margin = out.margin.min(r.margin.unwrap_or(f64::NEG_INFINITY));
+        last = Some(r.joints.torque);
+        out.margin = out
+            .margin
+            .min(r.balance.margin.unwrap_or(f64::NEG_INFINITY));
     });
     out.rms = (out.rms / n).sqrt().to_degrees();
     out.chatter /= n;

@@ -64,7 +64,10 @@ fn holds_by_statics(kind: ControllerKind) {
     let statics = inertial_forces(f.links(), &still(f.state().posture), &[0.0; NV], GRAVITY);
     let r = f.report().unwrap();
     for d in dof("r_shoulder_flexion")..=dof("r_wrist_deviation") {
-        let (got, want) = (r.torque[d] + r.ligament_torque[d], statics[6 + d]);
+        let (got, want) = (
+            r.joints.torque[d] + r.joints.ligament_torque[d],
+            statics[6 + d],
+        );
         println!("{kind:?} {}: {got:.4} N·m, statics {want:.4}", DOF_NAMES[d]);
         assert!(
             (got - want).abs() < 0.02,
@@ -82,7 +85,7 @@ fn holds_by_statics(kind: ControllerKind) {
     ] {
         let arm = held - poses[joint.index()].position;
         let want = KG * GRAVITY * arm.x; // the joints flex about −y
-        let got = r.torque[dof(name)] - without.torque[dof(name)];
+        let got = r.joints.torque[dof(name)] - without.joints.torque[dof(name)];
         println!("{kind:?} {name}: load adds {got:.3} N·m, lever says {want:.3}");
         assert!(
             (got - want).abs() < 0.03 * want,
@@ -189,14 +192,14 @@ fn a_dropped_load_is_forgotten() {
         let after = scene.figure().report().unwrap();
         assert!(!scene.figure().is_fallen() && scene.figure().perturbations().count() == 0);
         for d in dof("r_shoulder_flexion")..=dof("r_wrist_deviation") {
-            let off = (after.torque[d] - before.torque[d]).abs();
+            let off = (after.joints.torque[d] - before.joints.torque[d]).abs();
             assert!(
                 off < 0.05,
                 "{kind:?} {}: {off} N·m from before",
                 DOF_NAMES[d]
             );
         }
-        let moved = after.com - before.com;
+        let moved = after.balance.com - before.balance.com;
         println!(
             "{kind:?}: centre of mass {:.2e} m from before",
             moved.norm()

@@ -102,15 +102,15 @@ fn an_outstretched_arm_tires_and_sags_when_the_model_says() {
     let mut scene = arm_out(&body, 2.0, SCALE);
     scene.run(0.5, |_| ());
     let report = scene.figure().report().unwrap();
-    let load = report.torque[shoulder] / report.torque_upper[shoulder];
+    let load = report.joints.torque[shoulder] / report.joints.torque_upper[shoulder];
     assert!((0.4..0.7).contains(&load), "{load}");
     let expected = SHOULDER.endurance(load) / SCALE;
     let mut sagged = None;
     scene.run(2.0 * expected, |s| {
         let r = s.figure().report().unwrap();
-        let left = r.remaining[shoulder][0];
+        let left = r.joints.remaining[shoulder][0];
         assert!((0.0..=1.0).contains(&left));
-        if sagged.is_none() && r.torque[shoulder] > 0.999 * r.torque_upper[shoulder] {
+        if sagged.is_none() && r.joints.torque[shoulder] > 0.999 * r.joints.torque_upper[shoulder] {
             sagged = Some(s.world.time());
         }
     });
@@ -121,7 +121,7 @@ fn an_outstretched_arm_tires_and_sags_when_the_model_says() {
         "{sagged} against {expected}"
     );
     // Other muscles are fresh, and the figure stands.
-    let remaining = scene.figure().report().unwrap().remaining;
+    let remaining = scene.figure().report().unwrap().joints.remaining;
     assert!(remaining[dof("l_shoulder_flexion")][0] > 0.9);
     assert!(!scene.figure().is_fallen());
     // Rested again by a reset, and by turning fatigue off.
@@ -131,7 +131,7 @@ fn an_outstretched_arm_tires_and_sags_when_the_model_says() {
         .unwrap();
     scene.run(0.1, |_| ());
     let now = scene.figure().report().unwrap();
-    assert!(now.remaining.iter().flatten().all(|r| *r == 1.0));
+    assert!(now.joints.remaining.iter().flatten().all(|r| *r == 1.0));
     assert!(scene.figure().fatigue().is_none());
 }
 
@@ -171,7 +171,7 @@ fn weak_people_and_unwilling_ones_use_more_of_what_they_have() {
         scene.run(1.0, |_| ());
         let r = scene.figure().report().unwrap();
         let d = dof("r_shoulder_flexion");
-        r.torque[d] / r.torque_upper[d]
+        r.joints.torque[d] / r.joints.torque_upper[d]
     };
     let (weak, average, strong) = (use_of(10.0, 1.0), use_of(50.0, 1.0), use_of(90.0, 1.0));
     assert!(
@@ -204,7 +204,7 @@ fn the_same_crate_is_heavier_for_smaller_people() {
         let r = scene.figure().report().unwrap();
         let d = dof("r_shoulder_flexion");
         assert!(!scene.figure().is_fallen());
-        r.torque[d] / r.torque_upper[d]
+        r.joints.torque[d] / r.joints.torque_upper[d]
     };
     let shares = [
         use_of(&man()),

@@ -34,12 +34,13 @@ fn standing(kind: ControllerKind, steps: bool) -> Scene {
 fn bound(scene: &Scene, direction: Vec3) -> f64 {
     let r = scene.figure().report().unwrap();
     let edge = r
+        .balance
         .support_polygon
         .iter()
         .map(|c| vec3(c[0], c[1], 0.0).dot(direction))
         .fold(f64::MIN, f64::max);
     let mass = scene.figure().links().total_mass();
-    mass * (GRAVITY / r.com.z).sqrt() * (edge - r.com.dot(direction))
+    mass * (GRAVITY / r.balance.com.z).sqrt() * (edge - r.balance.com.dot(direction))
 }
 
 /// What became of a push.
@@ -53,7 +54,7 @@ struct Outcome {
 
 fn push(kind: ControllerKind, direction: Vec3, impulse: f64, steps: bool) -> Outcome {
     let mut scene = standing(kind, steps);
-    let start = scene.figure().report().unwrap().com;
+    let start = scene.figure().report().unwrap().balance.com;
     let now = scene.world.time();
     let what = Perturbation::Force {
         segment: CHEST,
@@ -66,17 +67,17 @@ fn push(kind: ControllerKind, direction: Vec3, impulse: f64, steps: bool) -> Out
     let mut fell_at = None;
     scene.run(6.0, |s| {
         let r = s.figure().report().unwrap();
-        if fell_at.is_none() && (s.figure().is_fallen() || r.com.z < 0.5) {
-            fell_at = Some(r.com);
+        if fell_at.is_none() && (s.figure().is_fallen() || r.balance.com.z < 0.5) {
+            fell_at = Some(r.balance.com);
         }
-        assert!(r.over_limit <= 1e-9, "torques stay within strength");
+        assert!(r.joints.over_limit <= 1e-9, "torques stay within strength");
         assert!(!r.flags.has(Flags::QUARANTINED));
     });
     let r = scene.figure().report().unwrap();
     Outcome {
         fell: fell_at.is_some(),
-        moved: fell_at.unwrap_or(r.com) - start,
-        speed: r.com_velocity.norm(),
+        moved: fell_at.unwrap_or(r.balance.com) - start,
+        speed: r.balance.com_velocity.norm(),
     }
 }
 

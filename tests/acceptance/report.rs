@@ -63,7 +63,7 @@ fn reports_its_own_state(kind: ControllerKind, kg: f64) {
         let carried = f.links().mass[R_HAND.index()] - body.segment(R_HAND).mass;
         assert!((carried - if s.world.time() > 0.31 { kg } else { 0.0 }).abs() < EXACT);
         let loads = [(R_HAND, load_point(&body, R_HAND), carried)];
-        let off = (r.com - com(&body, &loads, &state.posture)).norm();
+        let off = (r.balance.com - com(&body, &loads, &state.posture)).norm();
         assert!(off < EXACT, "{kind:?}: centre of mass off by {off} m");
         let moved = |time: f64| {
             let mut posture = state.posture;
@@ -71,7 +71,7 @@ fn reports_its_own_state(kind: ControllerKind, kg: f64) {
             com(&body, &loads, &posture)
         };
         let velocity = (moved(MOMENT) - moved(-MOMENT)) * (0.5 / MOMENT);
-        let off = (r.com_velocity - velocity).norm();
+        let off = (r.balance.com_velocity - velocity).norm();
         // The difference loses half of the digits.
         assert!(off < 1e-8, "{kind:?}: velocity off by {off} m/s");
         fastest = fastest.max(velocity.norm());
@@ -114,7 +114,7 @@ fn a_reset_puts_the_reported_centre_of_mass_where_the_figure_is_put() {
         scene.figure_mut().reset(still(posture));
         let r = scene.figure().report().unwrap();
         let loads = [(R_HAND, load_point(&body, R_HAND), kg)];
-        assert!((r.com - com(&body, &loads, &posture)).norm() < EXACT);
-        assert_eq!(r.com_velocity, Vec3::zero());
+        assert!((r.balance.com - com(&body, &loads, &posture)).norm() < EXACT);
+        assert_eq!(r.balance.com_velocity, Vec3::zero());
     }
 }

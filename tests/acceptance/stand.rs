@@ -36,12 +36,16 @@ fn stands_with(
     scene.run(10.0, |s| {
         let r = s.figure().report().unwrap();
         assert!(!r.flags.has(Flags::HANDED_OVER), "{:?} s", s.world.time());
-        let z = r.zmp.expect("it stands");
+        let z = r.balance.zmp.expect("it stands");
         let f: f64 = r.contacts.iter().map(|c| c.force.z).sum();
         ticks += 1.0;
         force += f;
-        off += (z.x - r.com.x).hypot(z.y - r.com.y);
-        drift = r.joint_error.iter().fold(drift, |m, e| m.max(e.abs()));
+        off += (z.x - r.balance.com.x).hypot(z.y - r.balance.com.y);
+        drift = r
+            .joints
+            .joint_error
+            .iter()
+            .fold(drift, |m, e| m.max(e.abs()));
         if s.world.time() > 1.0 {
             (least, most) = (least.min(f), most.max(f));
         }

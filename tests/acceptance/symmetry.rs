@@ -195,9 +195,9 @@ fn difference(plain: &Scene, other: &Scene, back: &Back<'_>) -> (f64, String) {
     for (p, q) in s.velocity.iter().zip(&t.velocity) {
         see("velocity", *p, *q, 10.0);
     }
-    let torque = (back.dofs)(&q.torque);
+    let torque = (back.dofs)(&q.joints.torque);
     for j in 0..DOF_COUNT {
-        see("torque", r.torque[j], torque[j], 100.0);
+        see("torque", r.joints.torque[j], torque[j], 100.0);
     }
     let weight = 735.0;
     for s in 0..SEGMENT_COUNT {
@@ -210,8 +210,14 @@ fn difference(plain: &Scene, other: &Scene, back: &Back<'_>) -> (f64, String) {
         let other = (back.vector)(sum(q, (back.segment)(s)));
         vectors(&mut see, "force", sum(r, s), other, weight);
     }
-    vectors(&mut see, "com", r.com, (back.point)(q.com), 1.0);
-    match (r.zmp, q.zmp) {
+    vectors(
+        &mut see,
+        "com",
+        r.balance.com,
+        (back.point)(q.balance.com),
+        1.0,
+    );
+    match (r.balance.zmp, q.balance.zmp) {
         (Some(x), Some(y)) => vectors(&mut see, "zmp", x, (back.point)(y), 1.0),
         (x, y) => assert_eq!(x.is_some(), y.is_some()),
     }

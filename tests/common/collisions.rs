@@ -79,7 +79,7 @@ impl Meter {
         let (mut sum, mut most, mut touching) = (Vec3::zero(), 0.0f64, false);
         for (_, f) in world.figures() {
             let r = f.report().unwrap();
-            assert!(r.over_limit <= 1e-9, "torques stay within strength");
+            assert!(r.joints.over_limit <= 1e-9, "torques stay within strength");
             assert!(!r.flags.has(Flags::QUARANTINED));
             for t in &r.touches {
                 touching = true;

@@ -30,9 +30,9 @@ impl Csv {
     pub(super) fn row(&mut self, time: f64, figure: &Figure) -> Result<()> {
         let report = figure.report().expect("a stepped figure has a report");
         let torques = Torques {
-            torque: &report.torque,
-            lower: &report.torque_lower,
-            upper: &report.torque_upper,
+            torque: &report.joints.torque,
+            lower: &report.joints.torque_lower,
+            upper: &report.joints.torque_upper,
         };
         row(&mut self.line, time, &figure.state().posture, Some(torques));
         self.flush_line()

@@ -135,17 +135,17 @@ impl Outcome {
     }
 
     fn observe(&mut self, r: &TickReport, before: &mut ([f64; DOF_COUNT], u64)) {
-        let mean = r.joint_error.iter().map(|e| e * e).sum::<f64>() / DOF_COUNT as f64;
-        let off = r.com - r.com_desired;
+        let mean = r.joints.joint_error.iter().map(|e| e * e).sum::<f64>() / DOF_COUNT as f64;
+        let off = r.balance.com - r.balance.com_desired;
         if self.ticks > 0 {
-            let at_limit = r.saturated | before.1;
+            let at_limit = r.joints.saturated | before.1;
             for j in (0..DOF_COUNT).filter(|j| at_limit >> j & 1 == 1) {
-                let range = r.torque_upper[j] - r.torque_lower[j];
-                self.chatter.0 += (r.torque[j] - before.0[j]).abs() / range;
+                let range = r.joints.torque_upper[j] - r.joints.torque_lower[j];
+                self.chatter.0 += (r.joints.torque[j] - before.0[j]).abs() / range;
                 self.chatter.1 += 1;
             }
         }
-        *before = (r.torque, r.saturated);
+        *before = (r.joints.torque, r.joints.saturated);
         self.ticks += 1;
         self.joints += mean;
         self.com += off.dot(off);

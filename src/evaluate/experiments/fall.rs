@@ -248,6 +248,7 @@ fn tick(world: &mut World, key: crate::sim::world::FigureKey, start: Vec3) -> (V
     let (com, energy) = com_and_energy(figure.links(), figure.state());
     let report = figure.report().expect("a stepped figure has a report");
     let bent = report
+        .joints
         .joint_error
         .iter()
         .fold(0.0f64, |m, e| m.max(e.abs()));

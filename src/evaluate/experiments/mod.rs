@@ -209,12 +209,12 @@ fn record(
         let (time_s, gravity) = (world.time(), world.params().gravity);
         let figure = world.figure(key).expect("nobody removes the figure");
         let r = figure.report().expect("a stepped figure has a report");
-        let height = *start.get_or_insert(r.com.z);
-        if r.com.z < FELL * height && out.fell_s.is_none() {
+        let height = *start.get_or_insert(r.balance.com.z);
+        if r.balance.com.z < FELL * height && out.fell_s.is_none() {
             out.fell_s = Some(time_s);
         }
-        out.over_limit = out.over_limit.max(r.over_limit);
-        let corners = &r.support_polygon;
+        out.over_limit = out.over_limit.max(r.joints.over_limit);
+        let corners = &r.balance.support_polygon;
         let range = |k: usize| {
             corners
                 .iter()
@@ -228,17 +228,24 @@ fn record(
         }
         let sample = Sample {
             time_s,
-            com: r.com,
-            com_desired: r.com_desired,
-            zmp: r.zmp,
+            com: r.balance.com,
+            com_desired: r.balance.com_desired,
+            zmp: r.balance.zmp,
             polygon: (!corners.is_empty()).then(|| {
                 let ([a, b], [c, d]) = (range(0), range(1));
                 [a, b, c, d]
             }),
-            error: (r.joint_error.iter().map(|e| e * e).sum::<f64>() / DOF_COUNT as f64).sqrt(),
-            joint_error: r.joint_error,
-            torque: std::array::from_fn(|j| [r.torque[j], r.torque_lower[j], r.torque_upper[j]]),
-            saturated: r.saturated,
+            error: (r.joints.joint_error.iter().map(|e| e * e).sum::<f64>() / DOF_COUNT as f64)
+                .sqrt(),
+            joint_error: r.joints.joint_error,
+            torque: std::array::from_fn(|j| {
+                [
+                    r.joints.torque[j],
+                    r.joints.torque_lower[j],
+                    r.joints.torque_upper[j],
+                ]
+            }),
+            saturated: r.joints.saturated,
             flags: r.flags,
             speed: rates.iter().fold(0.0, |m, v| m.max(v.abs())),
         };

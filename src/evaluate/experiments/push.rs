@@ -36,12 +36,13 @@ pub fn push(body: &Arc<Body>, pair: &Pair, direction: Vec3, share: f64, panels: 
     let figure = world.figure(key).expect("nobody removes the figure");
     let r = figure.report().expect("a stepped figure has a report");
     let edge = r
+        .balance
         .support_polygon
         .iter()
         .map(|c| c[0] * direction.x + c[1] * direction.y)
         .fold(f64::MIN, f64::max);
     let mass = figure.links().total_mass();
-    let bound = mass * (GRAVITY / r.com.z).sqrt() * (edge - r.com.dot(direction));
+    let bound = mass * (GRAVITY / r.balance.com.z).sqrt() * (edge - r.balance.com.dot(direction));
     let impulse = share * bound;
     let what = push_at_chest(direction * (impulse / LASTS), BEGINS, LASTS);
     world.perturb(key, what).expect("pushes are valid");

@@ -1,9 +1,8 @@
 //! Measures of reports whose content is known.
 
 use super::*;
-use crate::sim::body::NV;
 use crate::sim::body::topology::R_HAND;
-use crate::sim::figure::{Audit, ContactPoint};
+use crate::sim::figure::ContactPoint;
 use crate::sim::motion::Target;
 use crate::sim::strength::MuscleScale;
 
@@ -22,7 +21,9 @@ impl Stand {
     fn new() -> Self {
         let body = Body::adult_man();
         let still = Target::still(Posture::default());
-        let zero = [0.0; DOF_COUNT];
+        let mut report = TickReport::empty(&State::default(), 0, 0);
+        report.joints.torque_lower = [-1.0; DOF_COUNT];
+        report.joints.torque_upper = [1.0; DOF_COUNT];
         Self {
             links: Links::new(&body),
             strength: Strength::for_body(&body),
@@ -31,43 +32,7 @@ impl Stand {
                 now: still.clone(),
                 next: still,
             },
-            report: TickReport {
-                torque: zero,
-                ligament_torque: zero,
-                assist: [0.0; 6],
-                remaining: [[1.0; 2]; DOF_COUNT],
-                torque_lower: [-1.0; DOF_COUNT],
-                torque_upper: [1.0; DOF_COUNT],
-                over_limit: 0.0,
-                acceleration: [0.0; NV],
-                saturated: 0,
-                saturated_secondary: 0,
-                touches: Vec::new(),
-                contacts: Vec::new(),
-                main_support: None,
-                support_ratio: [0.0; SEGMENT_COUNT],
-                support_polygon: Vec::new(),
-                zmp: None,
-                margin: None,
-                com: Vec3::zero(),
-                com_velocity: Vec3::zero(),
-                com_desired: Vec3::zero(),
-                constraint_error: Vec::new(),
-                joint_error: zero,
-                penetration: 0.0,
-                control_iterations: 0,
-                step_iterations: 0,
-                flags: Flags::default(),
-                audit: Audit {
-                    state: State::default(),
-                    acceleration: [0.0; NV],
-                    torque: zero,
-                    ligament_torque: zero,
-                    contacts: Vec::new(),
-                    applied: Vec::new(),
-                    assist: [0.0; 6],
-                },
-            },
+            report,
             state: State::default(),
             body,
         }
@@ -125,16 +90,16 @@ fn perfect_rest_measures_zero() {
 fn tracking_measures_stop_with_the_fall() {
     let mut stand = Stand::new();
     let mut m = stand.metrics();
-    stand.report.joint_error = [1f64.to_radians(); DOF_COUNT];
+    stand.report.joints.joint_error = [1f64.to_radians(); DOF_COUNT];
     stand.target.next.posture.root_position.x = 0.1;
-    stand.report.margin = Some(0.02);
+    stand.report.balance.margin = Some(0.02);
     for _ in 0..59 {
         m.observe(stand.tick(), 1.0);
     }
     stand.report.flags.set(Flags::FALLEN);
     m.observe(stand.tick(), 1.0);
-    stand.report.joint_error = [1.0; DOF_COUNT];
-    stand.report.margin = Some(-1.0);
+    stand.report.joints.joint_error = [1.0; DOF_COUNT];
+    stand.report.balance.margin = Some(-1.0);
     stand.report.penetration = 0.003;
     m.observe(stand.tick(), 1.0);
     let r = m.finish(0);
@@ -197,7 +162,7 @@ fn utilisation_is_measured_against_the_strength_of_the_body() {
     stand.report.audit.torque[3] = 0.25 * upper[3];
     stand.report.audit.torque[4] = lower[4];
     stand.report.audit.torque[5] = 1.5 * upper[5];
-    stand.report.saturated = 1 << 7;
+    stand.report.joints.saturated = 1 << 7;
     let mut m = stand.metrics();
     m.observe(stand.tick(), 1.0);
     let r = m.finish(0);
@@ -226,9 +191,9 @@ fn utilisation_is_measured_against_the_strength_of_the_body() {
 fn non_finite_and_frozen_ticks_are_counted_and_measure_nothing() {
     let mut stand = Stand::new();
     let mut m = stand.metrics();
-    stand.report.joint_error[2] = f64::NAN;
+    stand.report.joints.joint_error[2] = f64::NAN;
     m.observe(stand.tick(), 1.0);
-    stand.report.joint_error[2] = 1.0;
+    stand.report.joints.joint_error[2] = 1.0;
     stand.report.flags.set(Flags::QUARANTINED);
     m.observe(stand.tick(), 1.0);
     let r = m.finish(0);

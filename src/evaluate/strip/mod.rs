@@ -95,9 +95,9 @@ impl Frame {
             desired: tick.target.next.posture,
             things: Vec::new(),
             contact,
-            com: report.com,
-            zmp: report.zmp,
-            polygon: report.support_polygon.clone(),
+            com: report.balance.com,
+            zmp: report.balance.zmp,
+            polygon: report.balance.support_polygon.clone(),
             utilisation: if frozen {
                 [0.0; DOF_COUNT]
             } else {

@@ -245,7 +245,7 @@ impl Course {
         self.impulse += (floor + help[2]) * dt;
         self.assist += force * dt;
         self.assist_max = self.assist_max.max(force);
-        self.limit_ticks += usize::from(report.saturated != 0);
+        self.limit_ticks += usize::from(report.joints.saturated != 0);
         if figure.is_fallen() {
             self.fell_at.get_or_insert(time);
         }

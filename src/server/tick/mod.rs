@@ -7,6 +7,7 @@
 pub mod clock;
 pub mod command;
 pub mod drives;
+pub mod planners;
 pub mod shard;
 pub mod stage_times;
 
@@ -74,6 +75,7 @@ pub fn run(mut shard: Shard, commands: &Receiver<Command>, outlet: &Outlet) {
         if shard.closing {
             break;
         }
+        shard.offer_plans();
         let commands_done = Instant::now();
 
         // Is a tick due?

@@ -8,7 +8,8 @@ mod perturbations;
 
 use super::clock::Clock;
 use super::drives::{Drive, Slot};
-use crate::server::engine::{self, FigureKey, ObstacleKey, World};
+use super::planners::Planners;
+use crate::server::engine::{self, FigureKey, ObstacleKey, Planning, World};
 use crate::wire::status::Fault;
 use crate::wire::types::{
     EventKind, FigureSettings, Overrun, RosterEntry, Snapshot, WorldCondition, WorldEvent,
@@ -53,6 +54,7 @@ pub struct Shard {
     settings: WorldSettings,
     created: SystemTime,
     limits: Limits,
+    planners: Arc<Planners>,
     world: World,
     members: Vec<Member>,
     obstacles: Vec<(String, ObstacleKey)>,
@@ -84,6 +86,7 @@ impl Shard {
         settings: WorldSettings,
         paused: bool,
         limits: Limits,
+        planners: Arc<Planners>,
     ) -> Result<Self, Fault> {
         let world = engine::new_world(&settings)?;
         let pace = &settings.pace;
@@ -92,6 +95,7 @@ impl Shard {
             id,
             created: SystemTime::now(),
             limits,
+            planners,
             world,
             members: Vec::new(),
             obstacles: Vec::new(),
@@ -247,7 +251,23 @@ impl Shard {
 
     /// One tick of the physics.
     pub(super) fn step_world(&mut self) {
+        // Steps that somebody waits for have no deadline: they are the same whatever the threads that plan do.
+        self.world.set_planning(if self.paused {
+            Planning::InTick
+        } else {
+            self.planners.planning()
+        });
         self.world.step();
+        let late = self.world.late_plans();
+        if late > 0 {
+            metrics::counter!("sinew_plans_late_total").increment(late as u64);
+            tracing::warn!(
+                world = &*self.id,
+                late,
+                "plans came too late for their tick"
+            );
+        }
+        self.offer_plans();
         let (tick, time) = (self.world.tick(), self.world.time());
         let mut events = std::mem::take(&mut self.events);
         for m in &self.members {
@@ -260,6 +280,14 @@ impl Shard {
             }));
         }
         self.events = events;
+    }
+
+    /// Hands what figures want to have planned to the threads that plan. A world that is stepped by hand plans in its
+    /// ticks.
+    pub(super) fn offer_plans(&self) {
+        if !self.paused {
+            self.planners.offer(self.world.plan_requests());
+        }
     }
 
     fn event(&mut self, figure: &str, kind: EventKind) {

@@ -3,6 +3,7 @@
 use crate::server::config::Config;
 use crate::server::fanout::hub::Hub;
 use crate::server::tick::command::{Command, Origin};
+use crate::server::tick::planners::Planners;
 use crate::server::tick::shard::{Limits, Shard};
 use crate::server::tick::stage_times::{Percentiles, STAGES};
 use crate::server::tick::{self, Outlet};
@@ -150,6 +151,7 @@ pub struct Registry {
     next: AtomicU64,
     draining: AtomicBool,
     config: Arc<Config>,
+    planners: Arc<Planners>,
 }
 
 impl Registry {
@@ -160,6 +162,7 @@ impl Registry {
             next: AtomicU64::new(1),
             draining: AtomicBool::new(false),
             config,
+            planners: Arc::new(Planners::start()),
         }
     }
 
@@ -207,7 +210,8 @@ impl Registry {
             history: self.config.history_ticks as usize,
             window: self.config.live_window_ms / 1e3,
         };
-        let mut shard = Shard::new(name.clone(), settings, paused, limits)?;
+        let planners = Arc::clone(&self.planners);
+        let mut shard = Shard::new(name.clone(), settings, paused, limits, planners)?;
         let (commands, queue) = sync_channel(self.config.command_queue as usize);
         let outlet = Arc::new(Outlet {
             latest: watch::Sender::new(shard.snapshot()),

@@ -4,7 +4,6 @@
 //! * [`obstacle`]: bodies that are no figures: fixed, led, or free.
 //! * [`broad`]: who may meet whom within a tick.
 //! * [`narrow`]: where two shapes are nearest.
-//! * [`touch`]: what a body says about what it touches.
 //! * [`island`]: one convex problem for all bodies that touch each other.
 
 pub mod broad;
@@ -12,7 +11,6 @@ pub mod island;
 pub mod narrow;
 pub mod obstacle;
 pub mod shape;
-pub mod touch;
 
+pub use crate::sim::touch::{MAX_TOUCHES, ObstacleKey, Other, Touch};
 pub use obstacle::{MAX_OBSTACLES, Mobility, Obstacle, ObstacleSetup, Shape};
-pub use touch::{MAX_TOUCHES, ObstacleKey, Other, Touch};

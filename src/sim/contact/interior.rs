@@ -19,8 +19,8 @@ use super::limits::MAX_LIMITS;
 use super::newton::{Motors, NewtonWorkspace, System};
 use super::rows::{CHAIN_WIDTH, ContactRows, add_point_stiffness};
 use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT};
-use crate::sim::figure::report::MAX_CONTACTS;
 use crate::sim::math::{Mat3, Vec3};
+use crate::sim::report::MAX_CONTACTS;
 
 /// Share of the way to the boundary that a step takes at most.
 pub(crate) const TO_BOUNDARY: f64 = 0.97;

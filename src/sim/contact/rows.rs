@@ -5,8 +5,8 @@ use crate::sim::body::topology::{DOF_LEN, DOF_START, NV, SEGMENT_COUNT};
 use crate::sim::dynamics::Kinematics;
 use crate::sim::dynamics::jacobian::for_each_column;
 use crate::sim::dynamics::mass_matrix::{CHAIN, DEPTH};
-use crate::sim::figure::report::MAX_CONTACTS;
 use crate::sim::math::{Mat3, Vec3};
+use crate::sim::report::MAX_CONTACTS;
 
 /// Padded length of a chain of velocity components.
 pub const CHAIN_WIDTH: usize = 24;

@@ -22,10 +22,11 @@ pub use tracking::Law;
 use crate::sim::body::topology::{L_HAND, R_HAND, SEGMENT_COUNT};
 use crate::sim::body::{Body, DOF_COUNT, NV, SegmentId};
 use crate::sim::dynamics::Terms;
-use crate::sim::figure::report::MAX_CONTACTS;
-use crate::sim::figure::{ControlParams, Flags};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::TargetPair;
+use crate::sim::report::Flags;
+use crate::sim::report::MAX_CONTACTS;
+use crate::sim::setup::ControlParams;
 use crate::sim::support::Support;
 
 /// Where a point should be and how it should move, world axes, at the start and at the end of the tick.

@@ -17,12 +17,12 @@ use crate::sim::contact::{
 };
 use crate::sim::dynamics::Terms;
 use crate::sim::dynamics::terms::WIDTH;
-use crate::sim::figure::Flags;
-use crate::sim::figure::report::MAX_CONTACTS;
 use crate::sim::math::curve::fall;
 use crate::sim::math::dense::{factor_columns, solve_lower, solve_upper};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::TargetPair;
+use crate::sim::report::Flags;
+use crate::sim::report::MAX_CONTACTS;
 use crate::sim::support::Polygon;
 use multiversion::multiversion;
 use tasks::pendulum_time;

@@ -3,8 +3,8 @@
 use super::rows::{ROW, Row, RowQr, Square, add_scaled, dot};
 use super::torque_limits::{Outcome, TOLERANCE, violates};
 use crate::sim::body::DOF_COUNT;
-use crate::sim::figure::Priority;
 use crate::sim::math::dense::cholesky_solve;
+use crate::sim::setup::Priority;
 
 /// Most rows of one task: positions of both hands, and eight constraints from outside with position and rotation.
 pub const MAX_ROWS: usize = 54;

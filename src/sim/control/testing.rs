@@ -7,10 +7,10 @@ use super::{
 use crate::sim::body::topology::{DOF_COUNT, L_FOOT, L_HAND, R_FOOT, R_HAND};
 use crate::sim::body::{Body, State};
 use crate::sim::dynamics::Terms;
-use crate::sim::figure::ControlParams;
 use crate::sim::math::vec3::vec3;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::{Target, TargetPair};
+use crate::sim::setup::ControlParams;
 use crate::sim::support::Support;
 use crate::sim::support::testing::{GRAVITY, mannequin, strength, terms};
 

@@ -2,8 +2,8 @@
 
 use super::rows::{ROW, Row, RowQr, Square, dot};
 use crate::sim::body::DOF_COUNT;
-use crate::sim::figure::Metric;
 use crate::sim::math::dense::eliminate;
+use crate::sim::setup::Metric;
 
 /// A torque may exceed its limit by this part of it (or of 1 N·m) before it counts as a violation.
 pub const TOLERANCE: f64 = 1e-9;

@@ -5,10 +5,10 @@ use crate::sim::body::angles::swing_twist;
 use crate::sim::body::state::{ball_rate_vector, ball_rates};
 use crate::sim::body::topology::{DOF_AXIS, DOF_LEN, DOF_START, JOINT, Joint};
 use crate::sim::body::{Body, DOF_COUNT, Posture, SEGMENT_COUNT, State};
-use crate::sim::figure::ControlParams;
 use crate::sim::math::dense::solve_3;
 use crate::sim::math::{Vec3, vec3::vec3};
 use crate::sim::motion::{Target, TargetPair};
+use crate::sim::setup::ControlParams;
 
 /// Position gain of the law with a horizon, times T²: critical damping.
 const CRITICAL: f64 = 0.25;

@@ -1,6 +1,6 @@
 //! Where a figure's desired motion comes from.
 
-use super::background::Plan;
+use super::plan_task::{PlanRequest, PlanTask};
 use crate::sim::body::Posture;
 use crate::sim::math::Vec3;
 use crate::sim::motion::clip::{Clip, PlanarTransform};
@@ -106,7 +106,7 @@ impl ClipPlayback {
 }
 
 /// A clip that begins as soon as its figure stands.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Queued {
     /// The clip, as it would play if it began now.
     pub play: ClipPlayback,
@@ -124,10 +124,15 @@ pub(super) struct Queued {
     /// It begins standing, where its figure is.
     pub led: bool,
     /// The way from that stand into the clip, if it does not begin so.
-    pub entry: Option<Plan<Option<WayIn>>>,
+    pub entry: Option<PlanTask<Option<WayIn>>>,
 }
 
 impl Queued {
+    /// Asks for the way into the clip, if it is to be planned.
+    pub fn request(&self) -> Option<PlanRequest> {
+        self.entry.as_ref()?.request(self.from)
+    }
+
     /// Begins at world time `time`, for a figure whose feet stand at `stance`.
     pub fn begin(mut self, time: f64, stance: (Vec3, f64)) -> (ClipPlayback, StepPlan) {
         self.play.start = time - self.first / self.play.speed;

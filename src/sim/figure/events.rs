@@ -1,9 +1,9 @@
 //! What happened to a figure in a tick, in words.
 
-use super::report::{Flags, TickReport};
 use crate::sim::body::SegmentId;
 use crate::sim::body::topology::{DOF_COUNT, SEGMENT_COUNT};
 use crate::sim::collide::Other;
+use crate::sim::report::{Flags, TickReport};
 use crate::sim::support::Support;
 
 /// Something worth telling.
@@ -139,7 +139,7 @@ impl Watcher {
         }
         self.supports = now;
         for dof in 0..DOF_COUNT {
-            let at_limit = report.saturated & (1 << dof) != 0;
+            let at_limit = report.joints.saturated & (1 << dof) != 0;
             if at_limit == self.saturated[dof] {
                 self.streak[dof] = 0;
                 continue;
@@ -156,7 +156,8 @@ impl Watcher {
             }
         }
         let balanced = !report.flags.has(Flags::BALANCE_LOST);
-        // Who lies on the ground has lost control no longer, and found no balance either: that is told when it stands.
+        // A figure that lies has not lost its balance any more, and has not found it either: `Recovered` waits until it
+        // stands.
         if balanced != self.balanced && !(balanced && fallen) {
             self.balanced = balanced;
             self.push(if balanced {

@@ -1,61 +1,50 @@
-//! Getting up (ALGORITHM §12): a figure that lies where its motion lay down gets up when the motion does, in its own
-//! way.
+//! Getting up: a figure that lies where its motion lay down gets up when the motion does.
 //!
-//! A recorded way up cannot be repeated as it is: it was made by another body, it leans on hands whose skin nobody
-//! recorded, and often it leaps. So the motion says *when*; *how* is the figure's own ([`crate::sim::get_up`]), at the
-//! pace at which it can follow.
+//! A recorded way of getting up cannot be repeated as it is. It was made by another body, it leans on hands whose skin
+//! was not recorded, and often it leaps. So the motion decides *when*. *How* is planned for the figure
+//! ([`crate::sim::get_up`]), at the pace at which it can follow.
 
-use super::report::MAX_CONTACTS;
 use super::tasks::TaskWorkspace;
 use crate::sim::body::topology::SegmentId;
-use crate::sim::body::{Body, Posture, SEGMENT_COUNT};
-use crate::sim::control::{OnFloor, PointTarget};
+use crate::sim::body::{Body, Posture};
+use crate::sim::control::OnFloor;
 use crate::sim::dynamics::Terms;
-use crate::sim::get_up::GetUpMotion;
+use crate::sim::figure::params::fall::FALLEN_HEIGHT;
+use crate::sim::figure::params::get_up::{
+    ATTEMPTS, FULL_PACE_COM, FULL_PACE_JOINTS, FULL_PACE_LYING_TURN, FULL_PACE_TURN, LEAST_PACE,
+    LEVEL, NO_PACE_COM, NO_PACE_JOINTS, NO_PACE_LYING_TURN, NO_PACE_TURN, STALLED_PACE,
+    STALLED_TIME, STILL_SPEED,
+};
+use crate::sim::get_up::{GetUpMotion, GetUpSolver};
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::TargetPair;
+use crate::sim::report::{MAX_CONTACTS, POINTS_PER_SEGMENT};
 
-/// Most contact points of one segment.
-const POINTS: usize = MAX_CONTACTS / SEGMENT_COUNT;
-/// A motion lies below this share of the standing height (of its centre of mass); above it, it gets up.
-const LOW: f64 = 0.45;
-/// It lies whose trunk rises less than this, and lies still below this speed, m/s.
-const LEVEL: f64 = 0.7;
-const STILL: f64 = 0.3;
-/// The way goes on at full pace below the first of both and waits at the second: rms of the joints, rad; turn of the
-/// pelvis, rad; distance of the centre of mass over the floor, m.
-const PACE: [(f64, f64); 3] = [(0.08, 0.2), (0.15, 0.4), (0.03, 0.08)];
-/// The same without the centre of mass for who lies and has nothing to lose: he waits less, and not for ever.
-const LYING_PACE: [(f64, f64); 2] = [(0.08, 0.2), (0.25, 0.6)];
-const LEAST_PACE: f64 = 0.25;
-/// A way that goes on slower than this for so long, s, leads nowhere.
-const STALLED: (f64, f64) = (0.05, 3.0);
-/// Attempts for one command.
-const ATTEMPTS: u32 = 3;
-
-/// What a fallen figure is about.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Phase {
-    /// Nothing.
-    Lying,
-    /// It gets up; the way has hardly gone on for so long, s.
-    Rising(f64),
-}
-
-/// How a fallen figure gets up.
-#[derive(Clone, Debug)]
+/// How a fallen figure gets up, and when.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct GetUp {
-    ascent: Box<GetUpMotion>,
-    phase: Phase,
-    /// The motion has lain down since the figure fell; attempts that are left once it gets up.
+    motion: GetUpMotion,
+    /// The commanded motion has lain down since the figure fell.
     lay: bool,
-    left: u32,
+    /// Attempts that are left once the commanded motion gets up.
+    attempts: u32,
     /// The last tick's motion was not the commanded one.
     own: bool,
-    /// Height of every contact point on the way, m.
-    heights: Box<[f64; MAX_CONTACTS]>,
-    /// Distance of the centre of mass from the way's over the floor, m.
+    /// How long the motion has hardly gone on, s.
+    stalled: f64,
+    /// Distance of the centre of mass from the motion's over the floor, m.
     off: f64,
+}
+
+/// What a fallen figure is to do next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum GetUpDecision {
+    /// Go on as it does.
+    Continue,
+    /// Begin to get up.
+    Begin,
+    /// Give up: it does not get on.
+    GiveUp,
 }
 
 /// How much two rotations differ but for a turn about the vertical, rad.
@@ -71,121 +60,127 @@ fn unlike(a: &Posture, b: &Posture) -> f64 {
 }
 
 impl GetUp {
-    /// Of a figure with this body, that stands like `at_ease` in the end. Allocates.
-    pub fn new(body: &Body, at_ease: &Posture) -> Self {
+    /// Of a figure with this body.
+    pub fn new(body: &Body) -> Self {
         Self {
-            ascent: Box::new(GetUpMotion::new(body, at_ease)),
-            phase: Phase::Lying,
+            motion: GetUpMotion::new(body),
             lay: false,
-            left: 0,
+            attempts: 0,
             own: false,
-            heights: Box::new([0.0; MAX_CONTACTS]),
+            stalled: 0.0,
             off: 0.0,
         }
     }
 
-    /// Forgets that anything was commanded.
+    /// Forgets that the commanded motion gets up.
     pub fn reset(&mut self) {
-        self.phase = Phase::Lying;
         self.lay = false;
-        self.left = 0;
+        self.attempts = 0;
     }
 
-    /// True while the figure follows its way up.
-    pub fn is_rising(&self) -> bool {
-        matches!(self.phase, Phase::Rising(_))
+    /// True once the motion is over.
+    pub fn is_over(&self) -> bool {
+        self.motion.is_over()
     }
 
-    /// True once it has gone its way to the end.
-    pub fn is_up(&self) -> bool {
-        self.is_rising() && self.ascent.is_over()
+    /// Name of the stage.
+    pub fn stage(&self) -> &'static str {
+        self.motion.stage()
     }
 
-    /// What it is about on its way.
-    pub fn stage(&self) -> Option<&'static str> {
-        self.is_rising().then(|| self.ascent.stage())
-    }
-
-    /// How it is meant to touch the floor, while it follows its way.
-    pub fn on_floor(&self) -> Option<OnFloor<'_>> {
-        self.is_rising().then_some(OnFloor {
-            heights: &self.heights,
-            lies: self.ascent.lies(),
-            rolls: self.ascent.rolls(),
-            slides: self.ascent.slides(),
-        })
-    }
-
-    /// Judges a fallen figure in the state of `terms`, whose motion had its centre of mass at `height` (share of the
-    /// standing one).
-    pub fn watch(&mut self, terms: &Terms, height: f64) {
-        match self.phase {
-            Phase::Lying if self.own => self.own = false,
-            Phase::Lying => {
-                if height < LOW {
-                    (self.lay, self.left) = (true, ATTEMPTS);
-                } else if self.lay && self.left > 0 && lies(terms) {
-                    self.left -= 1;
-                    self.own = true;
-                    self.off = 0.0;
-                    self.ascent.begin(terms);
-                    self.phase = Phase::Rising(0.0);
-                }
-            }
-            Phase::Rising(stalled) if stalled.max(self.ascent.waits()) > STALLED.1 => {
-                self.phase = Phase::Lying
-            }
-            Phase::Rising(_) => {}
+    /// How the body is meant to touch the floor.
+    pub fn on_floor<'a>(&'a self, heights: &'a [f64; MAX_CONTACTS]) -> OnFloor<'a> {
+        OnFloor {
+            heights,
+            lies: self.motion.lies(),
+            rolls: self.motion.rolls(),
+            slides: self.motion.slides(),
         }
     }
 
-    /// Desired motion of a tick of `dt` seconds, if it is the way's: at the pace at which the figure, in the state of
+    /// Decides about a fallen figure in the state of `terms`, whose motion had its centre of mass at `height` (share of
+    /// the standing one); `gets_up` if it does so already.
+    pub fn decide(
+        &mut self,
+        solver: &GetUpSolver,
+        terms: &Terms,
+        height: f64,
+        gets_up: bool,
+    ) -> GetUpDecision {
+        if gets_up {
+            return if self.stalled.max(self.motion.waits()) > STALLED_TIME {
+                GetUpDecision::GiveUp
+            } else {
+                GetUpDecision::Continue
+            };
+        }
+        if self.own {
+            self.own = false;
+        } else if height < FALLEN_HEIGHT {
+            (self.lay, self.attempts) = (true, ATTEMPTS);
+        } else if self.lay && self.attempts > 0 && lies(terms) {
+            self.attempts -= 1;
+            self.own = true;
+            self.off = 0.0;
+            self.stalled = 0.0;
+            self.motion.begin(solver, terms);
+            return GetUpDecision::Begin;
+        }
+        GetUpDecision::Continue
+    }
+
+    /// Desired motion of a tick of `dt` seconds while it gets up: at the pace at which the figure, in the state of
     /// `terms`, follows the last tick's `target`.
     pub fn targets(
         &mut self,
         body: &Body,
+        solver: &mut GetUpSolver,
         terms: &Terms,
         target: &Posture,
         dt: f64,
-    ) -> Option<TargetPair> {
-        let Phase::Rising(stalled) = self.phase else {
-            return None;
-        };
+    ) -> TargetPair {
         let state = &terms.state.posture;
         let turn = tilt(state.root_rotation, target.root_rotation);
-        let keeping =
-            |(full, none): (f64, f64), e: f64| ((none - e) / (none - full)).clamp(0.0, 1.0);
-        let pace = if self.ascent.rolls() {
+        let keeping = |full: f64, none: f64, e: f64| ((none - e) / (none - full)).clamp(0.0, 1.0);
+        let joints = || keeping(FULL_PACE_JOINTS, NO_PACE_JOINTS, unlike(state, target));
+        let pace = if self.motion.rolls() {
             1.0
-        } else if self.ascent.lies() {
-            (keeping(LYING_PACE[0], unlike(state, target)) * keeping(LYING_PACE[1], turn))
-                .max(LEAST_PACE)
+        } else if self.motion.lies() {
+            (joints() * keeping(FULL_PACE_LYING_TURN, NO_PACE_LYING_TURN, turn)).max(LEAST_PACE)
         } else {
-            keeping(PACE[0], unlike(state, target))
-                * keeping(PACE[1], turn)
-                * keeping(PACE[2], self.off)
+            joints()
+                * keeping(FULL_PACE_TURN, NO_PACE_TURN, turn)
+                * keeping(FULL_PACE_COM, NO_PACE_COM, self.off)
         };
-        let stalled = if pace < STALLED.0 { stalled + dt } else { 0.0 };
-        self.phase = Phase::Rising(stalled);
-        Some(self.ascent.advance(body, terms, dt, pace))
+        self.stalled = if pace < STALLED_PACE {
+            self.stalled + dt
+        } else {
+            0.0
+        };
+        self.motion.advance(body, solver, terms, dt, pace)
     }
 
-    /// Where the way has the contact points, with the target's kinematics in `tasks`.
-    pub fn touch(
+    /// Heights of the contact points that the motion means to touch the floor, with the target's kinematics in `tasks`;
+    /// infinite for the others. `off`: from the centre of mass to the desired one, m.
+    pub fn plan_contacts(
         &mut self,
         body: &Body,
-        terms: &Terms,
         tasks: &TaskWorkspace,
         target: &TargetPair,
-        com: &PointTarget,
+        off: Vec3,
+        heights: &mut [f64; MAX_CONTACTS],
     ) {
-        let off = com.now - terms.com;
         self.off = (off.x * off.x + off.y * off.y).sqrt();
-        self.heights.fill(f64::INFINITY);
-        for s in SegmentId::all().filter(|s| self.ascent.carries(*s)) {
-            let points = body.segment(s).contact_points.iter().take(POINTS);
+        heights.fill(f64::INFINITY);
+        for s in SegmentId::all().filter(|s| self.motion.carries(*s)) {
+            let points = body
+                .segment(s)
+                .contact_points
+                .iter()
+                .take(POINTS_PER_SEGMENT);
             for (vertex, p) in points.enumerate() {
-                self.heights[s.index() * POINTS + vertex] = tasks.desired_point(target, s, *p).z;
+                heights[s.index() * POINTS_PER_SEGMENT + vertex] =
+                    tasks.desired_point(target, s, *p).z;
             }
         }
     }
@@ -194,5 +189,5 @@ impl GetUp {
 /// True if it lies, and lies still.
 fn lies(terms: &Terms) -> bool {
     let up = terms.state.posture.root_rotation.rotate(Vec3::Z);
-    up.z.abs() < LEVEL && terms.com_velocity.norm() < STILL
+    up.z.abs() < LEVEL && terms.com_velocity.norm() < STILL_SPEED
 }

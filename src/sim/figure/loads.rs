@@ -1,7 +1,6 @@
 //! Loads and pushes of one figure: which act in a tick, and what taking up a load does to the body.
 
 use super::events::{FigureEvent, Watcher};
-use super::setup::{HeldLoad, Perturbation};
 use crate::sim::body::topology::{NV, SegmentId};
 use crate::sim::body::{Body, Links, State};
 use crate::sim::dynamics::crba::CompositeInertia;
@@ -9,11 +8,12 @@ use crate::sim::dynamics::jacobian::for_each_column;
 use crate::sim::dynamics::terms::AppliedForce;
 use crate::sim::dynamics::{Kinematics, MassMatrix, Terms, crba, factor, solve};
 use crate::sim::math::Vec3;
+use crate::sim::setup::{HeldLoad, Perturbation};
 
 /// Most perturbations a figure can have scheduled at once.
 pub const MAX_PERTURBATIONS: usize = 64;
 /// Most forces of other bodies in the audit of one figure.
-pub const MAX_EXTERNAL: usize = crate::sim::collide::touch::MAX_ISLAND_CONTACTS;
+pub const MAX_EXTERNAL: usize = crate::sim::touch::MAX_ISLAND_CONTACTS;
 /// Most applied forces in an audit: perturbations, a bar, other bodies.
 pub const MAX_APPLIED: usize = MAX_PERTURBATIONS + 2 + MAX_EXTERNAL;
 
@@ -107,8 +107,7 @@ impl Disturbances {
     /// Takes up and lets go loads that are due at `time`, and collects the forces of the tick that begins then.
     ///
     /// A load is taken up inelastically and momentum is conserved: `v⁺ = v⁻ − M'⁻¹ Σ J_pᵀ m (J_p v⁻ − v_load)` with M'
-    /// the loaded inertia (ALGORITHM §10, where the load is at rest). What is due before the first tick was carried all
-    /// along.
+    /// the loaded inertia. What is due before the first tick was carried all along.
     pub fn apply(
         &mut self,
         time: f64,
@@ -195,7 +194,6 @@ impl Disturbances {
         if !self.started {
             return;
         }
-        kin.set_state(links, state); // world inertias of the loaded segments
         kin.set_state(links, state); // world inertias of the loaded segments
         let mut impulse = [0.0; NV];
         let mut taken = false;

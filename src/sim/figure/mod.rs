@@ -1,7 +1,7 @@
 //! One figure, one tick. The stages are listed in [`step`].
 
+mod activity;
 pub mod assist;
-mod background;
 pub mod balance_loss;
 pub mod constraints;
 pub mod drive;
@@ -10,21 +10,23 @@ mod get_up;
 pub mod kinematic_step;
 mod load_compensation;
 pub mod loads;
-pub mod report;
-pub mod setup;
+pub mod params;
+pub mod plan_task;
+
 pub mod tasks;
 pub mod tick;
 pub mod torque_step;
 pub mod touches;
 
-pub use constraints::{Constrained, Constraint, MAX_CONSTRAINTS};
-pub use drive::{ClipPlayback, Drive, LivePlayback};
-pub use events::FigureEvent;
-pub use report::{Audit, ContactPoint, Flags, TickReport};
-pub use setup::{
+pub use crate::sim::report::{Audit, ContactPoint, Flags, TickReport};
+pub use crate::sim::setup::{
     ControlParams, ControllerKind, FigureOptions, FigureSetup, HeldLoad, Metric, Perturbation,
     Priority, Share, StepperKind, StrengthScale,
 };
+pub use constraints::{Constrained, Constraint, MAX_CONSTRAINTS};
+pub use drive::{ClipPlayback, Drive, LivePlayback};
+pub use events::FigureEvent;
+pub use plan_task::{PlanRequest, Planning};
 pub use tick::{Figure, TickContext};
 
 /// Identity of a figure in a world; never used again after removal.

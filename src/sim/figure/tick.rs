@@ -1,5 +1,15 @@
-//! One tick of one figure (ALGORITHM §10). The world calls `Figure::prepare` (stages 1–5), `simulate` (stage 6; `among`
-//! for figures that are near something) and `finish` (stages 7 and 8); their bodies are the list of stages.
+//! One tick of one figure (docs/tick.md). The world calls [`Figure::prepare`], then [`Figure::integrate`], or the
+//! substeps of [`cluster`] for figures that are near something, then [`Figure::finish`]. Their bodies are the list of
+//! stages:
+//!
+//! 1. `commands`: loads and pushes that are due.
+//! 2. `sense`: dynamics of the present state; `update_activity` and `update_desired_motion`: what it is to do.
+//! 3. `update_support`: what it stands on, and whether its balance is lost.
+//! 4. `limit_torques`: what muscles and tissue can give.
+//! 5. `solve_control`: tasks, then accelerations and torques within strength.
+//! 6. `integrate`: motors, joint limits and contact move the body.
+//! 7. `contain`: a state that is not finite is frozen.
+//! 8. `write_report`: what the tick showed.
 
 mod access;
 mod actuation;
@@ -8,39 +18,33 @@ mod fall_detection;
 mod motion_switch;
 mod playback;
 mod reporting;
+mod state;
 
-use motion_switch::MotionSwitch;
-use reporting::empty_report;
+pub(super) use motion_switch::ExitPlan;
 
+use crate::sim::figure::params::support::REST_SHARE;
+use state::{
+    BodyConstants, Controllers, DesiredMotion, Neighbours, Outcome, PhysicalState, Scratch,
+    StepperChoice, Steppers, Surroundings,
+};
+
+use super::activity::MotionState;
 use super::assist::Assist;
-use super::balance_loss::BalanceWatch;
-use super::constraints::Constraints;
-use super::drive::{Drive, Queued};
+use super::constraints::MAX_CONSTRAINTS;
 use super::events::Watcher;
-use super::get_up::GetUp;
 use super::kinematic_step::{Decision, KinematicStepper};
-use super::load_compensation::LoadCompensation;
-use super::loads::Disturbances;
-use super::report::{Flags, TickReport};
-use super::setup::{ControllerKind, FigureOptions, FigureSetup, Share};
-use super::tasks::{TaskPoints, TaskWorkspace};
-use super::torque_step::{MotorCommand, StepInput, Stepper, TorqueStepper};
-use super::touches::Touches;
+use super::loads::MAX_APPLIED;
+use super::plan_task::Planning;
+use super::tasks::TaskPoints;
+use super::torque_step::{ExternalForces, StepInput, Stepper, TorqueStepper};
+use crate::sim::body::State;
 use crate::sim::body::angles::anatomical_angles;
-use crate::sim::body::topology::DOF_COUNT;
-use crate::sim::body::{Body, Links, Posture, State};
-use crate::sim::collide::shape::BodyShape;
 use crate::sim::contact::Tissue;
-use crate::sim::control::{CentroidalTarget, Command, Modern, Paper};
-use crate::sim::dynamics::{Kinematics, Terms, center_of_mass};
-use crate::sim::math::Vec3;
-use crate::sim::motion::builtin::at_ease;
-use crate::sim::motion::{Target, TargetPair};
-use crate::sim::strength::fatigue::Fatigue;
-use crate::sim::strength::{MuscleScale, Strength};
+use crate::sim::control::{Command, Modern, MomentumTarget, Paper};
+use crate::sim::report::{Flags, TickReport};
+use crate::sim::setup::{ControllerKind, FigureSetup, Share};
 use crate::sim::support::Support;
-use crate::sim::track::{StepTracker, TaskTargets};
-use std::sync::Arc;
+use crate::sim::track::TaskTargets;
 
 /// What a tick needs to know about the world.
 #[derive(Clone, Copy, Debug)]
@@ -53,6 +57,8 @@ pub struct TickContext {
     pub substeps: u32,
     /// Magnitude of gravity, m/s².
     pub gravity: f64,
+    /// What a tick does that needs a plan which is not there.
+    pub planning: Planning,
 }
 
 impl TickContext {
@@ -62,262 +68,257 @@ impl TickContext {
     }
 }
 
-/// A part rests on something that carries this share of the weight.
-const RESTS: f64 = 0.02;
-
 /// One figure of a world.
 #[derive(Debug)]
 pub struct Figure {
+    /// What it was made of, with later changes.
     setup: FigureSetup,
-    strength: Arc<Strength>,
-    state: State,
-    last_good: State,
-    links: Links,
-    muscles: MuscleScale,
-    fatigue: Option<Box<Fatigue>>,
-    disturbances: Disturbances,
-    drive: Drive,
-    /// The drive brings it to a stand.
-    ending: bool,
-    /// The way out of its motion, while it is worked out.
-    leaving: Option<Box<MotionSwitch>>,
-    /// What it does as soon as it stands, or goes over to.
-    queued: Option<Box<Queued>>,
-    tracker: Box<StepTracker>,
-    target: TargetPair,
-    carrying: Box<LoadCompensation>,
-    terms: Terms,
-    support: Support,
-    tasks: TaskWorkspace,
-    constraints: Constraints,
-    paper: Box<Paper>,
-    modern: Box<Modern>,
-    motors: Command,
-    stepper: TorqueStepper,
-    kinematic: Box<KinematicStepper>,
-    /// Torques move the figure though accelerations should: for how long it has been calm since, s.
-    handed_over: Option<f64>,
-    /// The decision of the tick tips over an edge or a vertex.
-    tips: bool,
-    /// Accelerations moved the figure in the last tick.
-    prescribed: bool,
-    com_acceleration: Vec3,
-    standing_com_height: f64,
-    balance: BalanceWatch,
-    fallen: bool,
-    rising: GetUp,
-    frozen: bool,
-    report: TickReport,
-    reported: bool,
-    watcher: Watcher,
-    pending: Pending,
-    touches: Touches,
-    shape: Arc<BodyShape>,
-    /// Who it is near in this tick.
-    pub(crate) cluster: usize,
-    /// Put where it is since the last tick.
-    pub(crate) is_new: bool,
+    constants: BodyConstants,
+    physical: PhysicalState,
+    motion: MotionState,
+    desired: DesiredMotion,
+    surroundings: Surroundings,
+    stepping: StepperChoice,
+    controllers: Controllers,
+    steppers: Steppers,
+    scratch: Scratch,
+    outcome: Outcome,
+    pub(crate) neighbours: Neighbours,
 }
 
-/// What stage 6 works with.
-struct Stage<'a> {
+/// What moves the body in a tick: the steppers, what they read, and the state that they move.
+struct Integration<'a> {
     input: StepInput<'a>,
-    stepper: &'a mut TorqueStepper,
+    torque: &'a mut TorqueStepper,
     kinematic: &'a mut KinematicStepper,
-    controllers: (&'a Paper, &'a Modern),
+    paper: &'a Paper,
+    modern: &'a Modern,
     support: &'a Support,
     state: &'a mut State,
 }
 
-/// What the stages of a tick hand on.
-#[derive(Debug)]
-struct Pending {
-    command: MotorCommand,
-    lower: [f64; DOF_COUNT],
-    upper: [f64; DOF_COUNT],
-    tasks: TaskPoints,
-    before: State,
-    angles: [f64; DOF_COUNT],
-    rates: [f64; DOF_COUNT],
-    /// Stretched tissue, where it acts.
-    tissue: Option<Tissue>,
-    assist: Option<Assist>,
+/// What steps ask of the controller.
+#[derive(Clone, Copy, Debug, Default)]
+struct StepDemand {
+    /// Horizontal acceleration of the centre of mass that keeps the balance, world axes, m/s².
+    acceleration: Option<[f64; 2]>,
+    /// Angular momentum to be reached at lift-off.
+    momentum: Option<MomentumTarget>,
 }
 
 impl Figure {
     /// A figure on ground with friction coefficient `friction`; the world has validated the setup.
     pub(crate) fn new(setup: FigureSetup, friction: f64) -> Self {
-        let still = Target::still(setup.state.posture);
         Self {
-            strength: Arc::new(Strength::at_percentile(
-                &setup.body,
-                setup.strength.percentile,
-            )),
-            muscles: setup.strength.muscles(1.0),
-            fatigue: rested(&setup.options),
-            state: setup.state,
-            last_good: setup.state,
-            links: Links::new(&setup.body),
-            disturbances: Disturbances::default(),
-            drive: Drive::Hold(setup.state.posture),
-            ending: false,
-            leaving: None,
-            queued: None,
-            tracker: Box::new(StepTracker::new(&setup.body)),
-            target: TargetPair {
-                now: still.clone(),
-                next: still,
+            constants: BodyConstants::new(&setup.body, &setup.strength),
+            physical: PhysicalState::new(&setup),
+            motion: MotionState::hold(setup.state.posture),
+            desired: DesiredMotion::new(&setup),
+            surroundings: Surroundings::default(),
+            stepping: StepperChoice::default(),
+            controllers: Controllers {
+                paper: Box::default(),
+                modern: Box::new(Modern::new(friction)),
+                motors: Command::default(),
             },
-            carrying: Box::new(LoadCompensation::new(&setup.body)),
-            terms: Terms::default(),
-            support: Support::default(),
-            tasks: TaskWorkspace::default(),
-            constraints: Constraints::default(),
-            paper: Box::default(),
-            modern: Box::new(Modern::new(friction)),
-            motors: Command::default(),
-            stepper: TorqueStepper::new(friction),
-            kinematic: Box::new(KinematicStepper::new(friction)),
-            handed_over: None,
-            tips: false,
-            prescribed: false,
-            com_acceleration: Vec3::zero(),
-            standing_com_height: standing_com_height(&setup.body),
-            balance: BalanceWatch::default(),
-            fallen: false,
-            rising: GetUp::new(&setup.body, &at_ease(&setup.body)),
-            frozen: false,
-            report: empty_report(&setup.state),
-            reported: false,
-            watcher: Watcher::default(),
-            pending: Pending::new(&setup.state),
-            touches: Touches::default(),
-            shape: Arc::new(BodyShape::new(&setup.body)),
-            cluster: 0,
-            is_new: true,
+            steppers: Steppers {
+                torque: TorqueStepper::new(friction),
+                kinematic: Box::new(KinematicStepper::new(friction)),
+            },
+            scratch: Scratch::new(&setup),
+            outcome: Outcome {
+                report: TickReport::empty(&setup.state, MAX_CONSTRAINTS, MAX_APPLIED),
+                reported: false,
+                watcher: Watcher::default(),
+                late_plans: 0,
+            },
+            neighbours: Neighbours {
+                cluster: 0,
+                is_new: true,
+            },
             setup,
         }
     }
 
     /// Stages 1–5 of a tick: everything before the body moves. False for a frozen figure, whose tick ends here.
     pub(crate) fn prepare(&mut self, world: &TickContext) -> bool {
-        self.watcher.begin();
-        self.take_up(world); // 1. commands
-        if self.frozen {
-            self.report.flags = Flags::QUARANTINED;
+        self.outcome.watcher.begin();
+        self.outcome.late_plans = 0;
+        self.commands(world);
+        if self.physical.frozen {
+            self.outcome.report.flags = Flags::QUARANTINED;
             return false;
         }
-        self.look(world); // 2. dynamics of the state, desired motion
-        self.stand(world); // 3. supports, and whether they still balance it
-        self.flex(world); // 4. strength
-        self.decide(world); // 5. accelerations and torques within strength
+        self.sense(world);
+        self.update_activity(world);
+        self.update_desired_motion(world);
+        self.update_support(world);
+        self.limit_torques(world);
+        self.solve_control(world);
         true
     }
 
+    /// Stages 7 and 8 of a tick, after the body has moved.
+    pub(crate) fn finish(&mut self, world: &TickContext) {
+        self.surroundings.touches.end(&mut self.outcome.watcher);
+        self.tire(world.dt);
+        let frozen = self.contain();
+        self.write_report(world, frozen);
+        self.detect_fall();
+        let Outcome {
+            report, watcher, ..
+        } = &mut self.outcome;
+        watcher.observe(report, &self.surroundings.support, self.motion.has_fallen());
+    }
+
     /// Stage 1: loads and pushes that are due.
-    fn take_up(&mut self, world: &TickContext) {
-        self.disturbances.apply(
+    fn commands(&mut self, world: &TickContext) {
+        self.surroundings.disturbances.apply(
             world.time(),
             world.dt,
             &self.setup.body,
-            &mut self.links,
-            &mut self.state,
-            &mut self.watcher,
+            &mut self.physical.links,
+            &mut self.physical.state,
+            &mut self.outcome.watcher,
         );
     }
 
-    /// Stage 2: everything of the present state, and what is asked of it: of a fallen figure that it gets up, if its
-    /// motion does.
-    fn look(&mut self, world: &TickContext) {
-        let applied = self.disturbances.applied();
-        self.terms
-            .compute(&self.links, &self.state, applied, world.gravity);
+    /// Stage 2: dynamics of the present state.
+    fn sense(&mut self, world: &TickContext) {
+        let PhysicalState { links, state, .. } = &self.physical;
+        let applied = self.surroundings.disturbances.applied();
+        let terms = &mut self.scratch.terms;
+        terms.compute(links, state, applied, world.gravity);
+    }
+
+    /// Stage 2: switches between motions that are due; a fallen figure gets up if its motion does.
+    fn update_activity(&mut self, world: &TickContext) {
         self.leave_broken_stream(world.time());
-        self.begin_to_leave(world);
-        self.begin_queued(world.time());
-        self.get_up(world.time());
-        self.target = self.desired(world.time(), world.dt);
-        let steps = self.steps() && self.tracker.is_walking();
-        self.carrying.lean(
+        self.follow_exit_if_due(world);
+        self.begin_next_if_ready(world);
+        self.update_get_up(world.time());
+    }
+
+    /// Stage 2: desired motion of the tick.
+    fn update_desired_motion(&mut self, world: &TickContext) {
+        self.desired.target = self.sample_motion(world.time(), world.dt);
+        let steps = self.steps() && self.desired.tracker.is_walking();
+        self.desired.load_compensation.lean(
             &self.setup.body,
-            &self.links,
-            &mut self.target,
+            &self.physical.links,
+            &mut self.desired.target,
             steps,
             world.dt,
         );
-        // The paper's controller as published takes them where they are.
+        // The paper's controller as published takes velocities where they are.
         if self.setup.controller != ControllerKind::Paper {
-            self.target
-                .set_velocities_back(0.5 / f64::from(world.substeps));
+            let share = 0.5 / f64::from(world.substeps);
+            self.desired.target.set_velocities_back(share);
         }
     }
 
     /// Stage 3: what it holds, what it stands and rests on, and whether it keeps its balance.
-    fn stand(&mut self, world: &TickContext) {
-        let bar = self.stepper.forces.bar;
-        self.disturbances
-            .check_grip(world.time(), world.dt, &self.terms, world.gravity, bar);
-        let body = &self.setup.body;
-        self.support
-            .update(&self.terms, body, self.com_acceleration, world.gravity);
+    fn update_support(&mut self, world: &TickContext) {
+        let bar = self.steppers.torque.forces.bar;
         let least = self.least_rest(world);
-        self.support.rest_on(self.touches.rests(&self.terms, least));
+        let terms = &self.scratch.terms;
+        let Surroundings {
+            disturbances,
+            support,
+            touches,
+            ..
+        } = &mut self.surroundings;
+        disturbances.check_grip(world.time(), world.dt, terms, world.gravity, bar);
+        let acceleration = self.physical.com_acceleration;
+        support.update(terms, &self.setup.body, acceleration, world.gravity);
+        support.rest_on(touches.rests(terms, least));
         self.watch_balance(world);
     }
 
     /// Force from which a part counts as resting on something, N.
     fn least_rest(&self, world: &TickContext) -> f64 {
-        RESTS * self.terms.mass * world.gravity
+        REST_SHARE * self.scratch.terms.mass * world.gravity
     }
 
     /// Stage 4: what the muscles can give at these angles and rates, and what stretched tissue gives. The paper's body
-    /// has none.
-    fn flex(&mut self, world: &TickContext) {
-        let tissue = self.setup.controller != ControllerKind::Paper;
-        let p = &mut self.pending;
+    /// has no tissue.
+    fn limit_torques(&mut self, world: &TickContext) {
+        let strength = &self.constants.strength;
+        let state = &self.physical.state;
+        let results = &mut self.scratch.results;
         let h = world.dt / f64::from(world.substeps);
-        p.tissue = tissue.then(|| Tissue::new(&self.strength, &self.state, world.substeps, h));
-        p.angles = anatomical_angles(&self.state.posture);
-        p.rates = std::array::from_fn(|j| self.state.velocity[6 + j]);
-        self.muscles = self.available_strength();
-        let p = &mut self.pending;
-        self.strength.range(
-            &p.angles,
-            &p.rates,
-            &self.muscles,
-            &mut p.lower,
-            &mut p.upper,
+        results.tissue = (self.setup.controller != ControllerKind::Paper)
+            .then(|| Tissue::new(strength, state, world.substeps, h));
+        results.angles = anatomical_angles(&state.posture);
+        results.rates = std::array::from_fn(|j| state.velocity[6 + j]);
+        self.physical.muscles = self.available_strength();
+        let results = &mut self.scratch.results;
+        self.constants.strength.range(
+            &results.angles,
+            &results.rates,
+            &self.physical.muscles,
+            &mut results.available.lower,
+            &mut results.available.upper,
         );
     }
 
-    /// Stage 5: constraints and steps shift what is asked for, then the controller decides. What the figure leans on,
-    /// and what its stretched tissue gives, is known to it.
-    fn decide(&mut self, world: &TickContext) {
-        let bias = self.terms.h;
+    /// Stage 5: tasks of the tick, then the controller's decision. The controller counts on what the figure leans on
+    /// and on its stretched tissue.
+    fn solve_control(&mut self, world: &TickContext) {
+        let bias = self.scratch.terms.h;
         let least = self.least_rest(world);
         let modern = self.active_controller() == ControllerKind::Modern;
-        self.touches.lean(&mut self.terms, modern.then_some(least));
-        let tissue = self.pending.tissue.as_ref();
-        let inertia = tissue.map(|t| t.add_to(&mut self.terms));
-        let body = Arc::clone(&self.setup.body);
-        let mut tasks = self.tasks.points(&body, &self.links, &self.target);
-        self.constraints.begin(
+        let Scratch { terms, results, .. } = &mut self.scratch;
+        self.surroundings
+            .touches
+            .lean(terms, modern.then_some(least));
+        let inertia = results.tissue.as_ref().map(|t| t.add_to(terms));
+        let (tasks, steps) = self.plan_tasks(world);
+        self.stepping.prescribed = self.prescribes();
+        self.scratch.results.command = self.control(world, &tasks, steps);
+        self.update_hand_over(world.dt);
+        let Scratch { terms, results, .. } = &mut self.scratch;
+        terms.h = bias;
+        if let Some(inertia) = inertia {
+            Tissue::restore(&inertia, terms);
+        }
+        self.desired.com = tasks.com;
+        results.before = self.physical.state;
+        results.assist = Assist::new(&self.setup.body, self.setup.options.assist);
+    }
+
+    /// Centre of mass, hands and feet of the desired motion, changed by constraints and steps.
+    fn plan_tasks(&mut self, world: &TickContext) -> (TaskPoints, StepDemand) {
+        let body = &self.setup.body;
+        let Scratch {
+            terms,
+            tasks: buffers,
+            floor,
+            ..
+        } = &mut self.scratch;
+        let DesiredMotion {
+            target,
+            constraints,
+            get_up,
+            ..
+        } = &mut self.desired;
+        let support = &mut self.surroundings.support;
+        let mut tasks = buffers.points(body, &self.physical.links, target);
+        constraints.begin(
             world.time(),
-            &body,
-            &self.terms,
-            &self.support,
+            body,
+            terms,
+            support,
             &mut tasks.com,
             &tasks.hands,
-            |s, p| self.tasks.desired_point(&self.target, s, p),
+            |s, p| buffers.desired_point(target, s, p),
         );
-        self.support.plan_rests(&self.terms, |s, p| {
-            self.tasks.desired_point(&self.target, s, p)
-        });
-        if self.rising.is_rising() {
-            self.rising
-                .touch(&body, &self.terms, &self.tasks, &self.target, &tasks.com);
+        support.plan_rests(terms, |s, p| buffers.desired_point(target, s, p));
+        if self.motion.gets_up() {
+            let off = tasks.com.now - terms.com;
+            get_up.plan_contacts(body, buffers, target, off, floor);
         }
-        let (mut acceleration, mut momentum) = (None, None);
+        let mut steps = StepDemand::default();
         if self.steps() {
             let mut targets = TaskTargets {
                 com: &mut tasks.com,
@@ -326,169 +327,98 @@ impl Figure {
                 feet: &mut tasks.feet,
                 unplanned_steps: self.setup.params.protective_steps,
             };
-            acceleration = self.tracker.update_tasks(
-                &self.terms,
-                &self.support,
+            steps.acceleration = self.desired.tracker.update_tasks(
+                &self.scratch.terms,
+                &self.surroundings.support,
                 world.gravity,
                 world.dt,
                 &mut targets,
             );
-            momentum = self.lift_off_momentum();
+            steps.momentum = self.lift_off_momentum();
         }
-        self.prescribed = self.prescribes();
-        let (lower, upper) = (self.pending.lower, self.pending.upper);
-        let centroidal = CentroidalTarget {
-            com: &tasks.com,
-            acceleration,
-            momentum,
-        };
-        self.pending.command = self.control(world, &tasks, centroidal, (&lower, &upper));
-        self.judge_hand_over(world.dt);
-        self.terms.h = bias;
-        if let Some(inertia) = inertia {
-            Tissue::restore(&inertia, &mut self.terms);
-        }
-        self.pending.tasks = tasks;
-        self.pending.before = self.state;
-        self.pending.assist = Assist::new(&body, self.setup.options.assist);
+        (tasks, steps)
     }
 
     /// Stage 6: motors, limits and ground move the body, or its accelerations do.
-    pub(crate) fn simulate(&mut self, world: &TickContext) {
-        self.touches.begin();
-        let paper = self.setup.controller == ControllerKind::Paper;
-        let prescribed = self.prescribed;
-        let as_commanded = paper && self.setup.params.share == Share::Paper;
-        let within_strength = self.setup.params.hand_over;
-        let planted = self.target.next.planted;
-        if prescribed {
-            let Stage {
-                input,
-                kinematic,
-                controllers: (first, second),
-                support,
-                state,
-                ..
-            } = self.stage(world);
-            let decision = Decision {
-                command: if paper {
-                    first.command()
-                } else {
-                    second.command()
-                },
-                left_out: first.left_out().filter(|_| paper),
-                as_commanded,
-                within_strength,
-                support,
-                planted,
-            };
-            if kinematic.step(&input, &decision, state) {
+    pub(crate) fn integrate(&mut self, world: &TickContext) {
+        self.surroundings.touches.begin();
+        if self.stepping.prescribed {
+            if self.integrate_accelerations(world) {
                 return;
             }
             self.hand_over();
         }
-        let Stage {
+        let Integration {
             input,
-            stepper,
+            torque,
             kinematic,
             state,
             ..
-        } = self.stage(world);
+        } = self.integration(world);
         kinematic.reset();
-        stepper.step(&input, state);
+        torque.step(&input, state);
     }
 
-    /// What the steppers read, the steppers, and the state they move.
-    fn stage(&mut self, world: &TickContext) -> Stage<'_> {
-        let Self {
-            setup,
-            links,
-            strength,
-            muscles,
-            terms,
-            pending,
-            disturbances,
-            target,
-            stepper,
+    /// Applies the controller's accelerations. False if they are to be within strength and are not.
+    fn integrate_accelerations(&mut self, world: &TickContext) -> bool {
+        let is_paper = self.setup.controller == ControllerKind::Paper;
+        let as_commanded = is_paper && self.setup.params.share == Share::Paper;
+        let within_strength = self.setup.params.hand_over;
+        let planted = self.desired.target.next.planted;
+        let Integration {
+            input,
             kinematic,
             paper,
             modern,
             support,
             state,
             ..
-        } = self;
-        let input = StepInput {
-            body: &setup.body,
-            links,
-            strength,
-            scale: muscles,
-            terms,
-            command: &pending.command,
-            lower: &pending.lower,
-            upper: &pending.upper,
-            tissue: pending.tissue.as_ref(),
-            applied: disturbances.applied(),
-            bar: disturbances.bar(),
-            assist: pending.assist.as_ref().map(|a| (a, &*target)),
-            gravity: world.gravity,
-            dt: world.dt,
-            substeps: world.substeps,
-        };
-        Stage {
-            input,
-            stepper,
-            kinematic,
-            controllers: (paper, modern),
-            support,
-            state,
-        }
-    }
-
-    /// Stages 7 and 8: contain trouble, report.
-    pub(crate) fn finish(&mut self, world: &TickContext) {
-        self.touches.end(&mut self.watcher);
-        let (angles, rates) = (self.pending.angles, self.pending.rates);
-        self.tire(&angles, &rates, world.dt);
-        let frozen = self.contain();
-        self.fill_report(world, frozen);
-        self.judge_fall();
-        self.watcher
-            .observe(&self.report, &self.support, self.fallen);
-    }
-}
-
-impl Pending {
-    fn new(state: &State) -> Self {
-        let z = [0.0; DOF_COUNT];
-        Self {
-            command: MotorCommand {
-                acceleration: z,
-                torque: z,
-                saturation_speed: 1.0,
+        } = self.integration(world);
+        let decision = Decision {
+            command: if is_paper {
+                paper.command()
+            } else {
+                modern.command()
             },
-            lower: z,
-            upper: z,
-            tasks: TaskPoints::none(),
-            before: *state,
-            angles: z,
-            rates: z,
-            tissue: None,
-            assist: None,
+            left_out: paper.left_out().filter(|_| is_paper),
+            as_commanded,
+            within_strength,
+            support,
+            planted,
+        };
+        kinematic.step(&input, &decision, state)
+    }
+
+    /// What the steppers read, the steppers, and the state they move.
+    fn integration<'a>(&'a mut self, world: &'a TickContext) -> Integration<'a> {
+        let results = &self.scratch.results;
+        let disturbances = &self.surroundings.disturbances;
+        let input = StepInput {
+            world,
+            body: &self.setup.body,
+            links: &self.physical.links,
+            strength: &self.constants.strength,
+            scale: &self.physical.muscles,
+            terms: &self.scratch.terms,
+            command: &results.command,
+            available: &results.available,
+            tissue: results.tissue.as_ref(),
+            forces: ExternalForces {
+                applied: disturbances.applied(),
+                bar: disturbances.bar(),
+                assist: results.assist.as_ref().map(|a| (a, &self.desired.target)),
+            },
+        };
+        Integration {
+            input,
+            torque: &mut self.steppers.torque,
+            kinematic: &mut self.steppers.kinematic,
+            paper: &self.controllers.paper,
+            modern: &self.controllers.modern,
+            support: &self.surroundings.support,
+            state: &mut self.physical.state,
         }
     }
-}
-
-fn rested(options: &FigureOptions) -> Option<Box<Fatigue>> {
-    let scale = options.fatigue_time_scale;
-    (scale > 0.0).then(|| Box::new(Fatigue::rested(scale)))
-}
-
-/// Height of the centre of mass over the soles in the zero pose, m.
-fn standing_com_height(body: &Body) -> f64 {
-    let mut kin = Kinematics::default();
-    let links = Links::new(body);
-    kin.set_posture(&links, &Posture::default());
-    center_of_mass(&links, &kin).0.z + body.standing_root_height()
 }
 
 #[cfg(test)]

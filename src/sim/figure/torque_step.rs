@@ -1,4 +1,4 @@
-//! Full rigid-body dynamics driven by strength-limited motors, with contact and joint limits (ALGORITHM §14.3).
+//! Full rigid-body dynamics driven by strength-limited motors, with contact and joint limits.
 //!
 //! One substep solves, implicitly and all at once, for the velocity at its end: motors that pull towards the commanded
 //! motion within the strength of that instant, unilateral joint limits, and speculative frictional contact with the
@@ -8,7 +8,8 @@
 
 use super::assist::{Assist, Spring};
 use super::loads::{Bar, MAX_EXTERNAL};
-use super::report::{Audit, ContactPoint, Flags, MAX_CONTACTS};
+use super::params::{bar, contact, motors};
+use super::tick::TickContext;
 use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT, SegmentId};
 use crate::sim::body::{Body, Links, State};
 use crate::sim::collide::island::{Articulated, Parts};
@@ -22,26 +23,9 @@ use crate::sim::dynamics::terms::AppliedForce;
 use crate::sim::dynamics::{MassMatrix, Terms, factor, solve};
 use crate::sim::math::Vec3;
 use crate::sim::motion::TargetPair;
+use crate::sim::report::{Audit, ContactPoint, Flags, MAX_CONTACTS, POINTS_PER_SEGMENT};
 use crate::sim::strength::{MuscleScale, Strength};
 use multiversion::multiversion;
-
-/// Compliance of a contact, 1/kg: R of ALGORITHM §14.3.
-const CONTACT_COMPLIANCE: f64 = 1e-4;
-/// Contact points lower than this take part in the solve even if they move away, m.
-const SPECULATIVE_HEIGHT: f64 = 0.02;
-/// Share of a penetration beyond the slop that is taken back per substep.
-const PENETRATION_RETURN: f64 = 0.2;
-/// Penetration that is left alone, m: resting feet neither hover nor chatter.
-const PENETRATION_SLOP: f64 = 1e-4;
-/// Fastest push-out of a penetrating point, m/s.
-const PENETRATION_SPEED: f64 = 1.0;
-/// Most Newton iterations of one substep. 2 to 6 are typical; a foot that strikes while joints are near their limits
-/// takes up to 70, and a step cut short at 30 there flings light joints.
-const MAX_ITERATIONS: u32 = 80;
-/// Gain that is left for the second try of a substep that did not converge.
-const SOFTENING: f64 = 0.01;
-/// Residual at which a substep counts as solved, N·m·s.
-const TOLERANCE: f64 = 1e-6;
 
 /// What a stepper reads in one tick.
 #[derive(Clone, Copy, Debug)]
@@ -58,31 +42,37 @@ pub struct StepInput<'a> {
     pub terms: &'a Terms,
     /// What the motors are asked to do.
     pub command: &'a MotorCommand,
-    /// Least available torque at the start of the tick, N·m.
-    pub lower: &'a [f64; DOF_COUNT],
-    /// Largest available torque at the start of the tick, N·m.
-    pub upper: &'a [f64; DOF_COUNT],
+    /// Available torque at the start of the tick.
+    pub available: &'a TorqueRange,
     /// Stretched tissue as the controller counts on it; without it none acts.
     pub tissue: Option<&'a Tissue>,
+    /// Forces that neither muscles nor contact give.
+    pub forces: ExternalForces<'a>,
+    /// Tick, substeps and gravity.
+    pub world: &'a TickContext,
+}
+
+/// Torque that muscles can give, N·m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TorqueRange {
+    /// Least of each DOF.
+    pub lower: [f64; DOF_COUNT],
+    /// Largest of each DOF.
+    pub upper: [f64; DOF_COUNT],
+}
+
+/// Forces on the body that neither muscles nor contact give.
+#[derive(Clone, Copy, Debug)]
+pub struct ExternalForces<'a> {
     /// Forces of perturbations, constant over the tick.
     pub applied: &'a [AppliedForce],
     /// A bar between two points of the body, if two hands hold one load.
     pub bar: Option<&'a Bar>,
     /// Help towards the desired pose of the pelvis, if it is on.
     pub assist: Option<(&'a Assist, &'a TargetPair)>,
-    /// Magnitude of gravity, m/s².
-    pub gravity: f64,
-    /// Length of the tick, s.
-    pub dt: f64,
-    /// Number of substeps.
-    pub substeps: u32,
 }
 
-/// Rates (rad/s) and speeds (m/s) beyond this are braked: far above what bodies do (a pitcher's shoulder turns at 130
-/// rad/s), low enough that a substep resolves it and a push of any size leaves numbers that can be computed with.
-pub(super) const MAX_SPEED: f64 = 200.0;
-
-/// Who moves the body (ALGORITHM §15).
+/// What moves the body.
 pub trait Stepper {
     /// Advances `state` by one tick. Allocates nothing.
     fn step(&mut self, input: &StepInput<'_>, state: &mut State);
@@ -98,15 +88,6 @@ pub struct MotorCommand {
     /// Speed error at which a motor gives all it has, rad/s: 1 with a feed-forward torque, 0.005 for motors alone.
     pub saturation_speed: f64,
 }
-
-/// Motors alone: the rate error that saturates them, rad/s (ALGORITHM §14.3).
-pub const MOTORS_ALONE_SPEED: f64 = 0.005;
-/// A fallen figure: soft, and easy on the solver while many parts touch, rad/s.
-pub const FALLEN_SPEED: f64 = 0.5;
-/// With the paper controller's torque as feed-forward, rad/s.
-pub const FEED_FORWARD_SPEED: f64 = 1.0;
-/// With the modern controller's: legs that give a little when a foot lands, rad/s.
-pub const MODERN_SPEED: f64 = 3.0;
 
 /// The bar as a row of the solve.
 #[derive(Clone, Copy, Debug)]
@@ -142,7 +123,8 @@ impl BarRow {
             ends,
             direction,
             row,
-            wanted: (BAR_RETURN * (bar.length - length) / h).clamp(-BAR_SPEED, BAR_SPEED),
+            wanted: (bar::RETURN * (bar.length - length) / h)
+                .clamp(-bar::RETURN_SPEED, bar::RETURN_SPEED),
         }
     }
 
@@ -156,13 +138,6 @@ impl BarRow {
         }
     }
 }
-
-/// Share of an error of the bar's length that is taken back per substep, and how fast at most, m/s.
-const BAR_RETURN: f64 = 0.3;
-const BAR_SPEED: f64 = 0.5;
-/// Most solves for the impulse of a bar, and the rate of its length that is left, m/s.
-const BAR_ITERATIONS: u32 = 6;
-const BAR_TOLERANCE: f64 = 1e-6;
 
 /// Means over a tick and the last substep.
 #[derive(Clone, Debug)]
@@ -187,100 +162,139 @@ pub struct TickForces {
     pub audit: Audit,
 }
 
-/// Buffers of the stepper; made once per figure.
+impl TickForces {
+    /// Nothing, with room for so many contacts and applied forces.
+    pub fn new(contacts: usize, applied: usize) -> Self {
+        Self {
+            torque: [0.0; DOF_COUNT],
+            ligament_torque: [0.0; DOF_COUNT],
+            assist: [0.0; 6],
+            bar: Vec3::zero(),
+            contact: Vec::with_capacity(contacts),
+            over_limit: 0.0,
+            iterations: 0,
+            flags: Flags::default(),
+            audit: Audit::with_capacity(applied),
+        }
+    }
+}
+
+/// Moves a body by torques; made once per figure.
 #[derive(Clone, Debug)]
 pub struct TorqueStepper {
     /// Terms of the current substep.
     pub terms: Terms,
-    contacts: ContactRows,
-    slides: Slides,
-    limits: LimitRows,
-    motors: Motors,
-    newton: NewtonWorkspace,
-    hessian: MassMatrix<f64>,
-    /// M with the springs of the assist on its first six diagonal entries.
-    assisted: MassMatrix<f64>,
-    /// Impulse of the assist in the current substep.
-    assist: [f64; 6],
-    /// Impulse along the bar, N·s; positive pushes its ends apart.
-    bar_impulse: f64,
-    bar_forces: Option<[(SegmentId, Vec3, Vec3); 2]>,
-    /// Sum of contact impulses over the tick by segment × 8 + vertex, N·s, and where the point was when it first
-    /// touched.
-    impulse: Box<[(Vec3, Vec3); MAX_CONTACTS]>,
-    penetration: f64,
-    /// Joint rates at the start of the tick.
-    start: [f64; DOF_COUNT],
-    /// Strength of the current substep.
-    range: [[f64; DOF_COUNT]; 2],
-    /// Momentum of the current substep without motors, limits and contacts;
-    /// assist and bar included.
-    pushed: [f64; NV],
-    /// Velocity that solves the current substep.
-    solution: [f64; NV],
-    outcome: Outcome,
-    row: Option<BarRow>,
-    /// Impulse of other bodies in the current substep.
-    external: Option<[f64; NV]>,
-    /// Its forces: segment, world point, world force, N.
-    external_forces: Vec<(SegmentId, Vec3, Vec3)>,
+    problem: SubstepProblem,
+    solver: SubstepSolver,
+    solution: SubstepSolution,
+    external: ExternalContacts,
+    bar: BarImpulse,
+    means: TickMeans,
     /// Result of the last tick.
     pub forces: TickForces,
 }
 
-/// Most contact points of one segment.
-const POINTS_PER_SEGMENT: usize = MAX_CONTACTS / SEGMENT_COUNT;
+/// What a substep solves.
+#[derive(Clone, Debug)]
+struct SubstepProblem {
+    contacts: ContactRows,
+    slides: Slides,
+    limits: LimitRows,
+    motors: Motors,
+    row: Option<BarRow>,
+    /// Strength of the substep.
+    range: TorqueRange,
+}
+
+/// Buffers of the solver.
+#[derive(Clone, Debug, Default)]
+struct SubstepSolver {
+    newton: NewtonWorkspace,
+    hessian: MassMatrix<f64>,
+    /// M with the springs of the assist on its first six diagonal entries.
+    assisted: MassMatrix<f64>,
+}
+
+/// What solves a substep.
+#[derive(Clone, Debug)]
+struct SubstepSolution {
+    /// Velocity at its end.
+    velocity: [f64; NV],
+    /// Its momentum without motors, limits and contacts; assist and bar included.
+    pushed: [f64; NV],
+    /// Impulse of the assist.
+    assist: [f64; 6],
+    outcome: Outcome,
+}
+
+/// Contacts with other bodies in the current substep.
+#[derive(Clone, Debug)]
+struct ExternalContacts {
+    /// Their impulse in velocity components.
+    impulse: Option<[f64; NV]>,
+    /// Their forces: segment, world point, world force, N.
+    forces: Vec<(SegmentId, Vec3, Vec3)>,
+}
+
+/// What a bar between two points gives.
+#[derive(Clone, Copy, Debug, Default)]
+struct BarImpulse {
+    /// Impulse along the bar, N·s; positive pushes its ends apart. First guess of the next substep.
+    impulse: f64,
+    /// Its forces in the last substep of a tick: segment, world point, world force, N.
+    forces: Option<[(SegmentId, Vec3, Vec3); 2]>,
+}
+
+/// What is collected over the substeps of a tick.
+#[derive(Clone, Debug)]
+struct TickMeans {
+    /// Joint rates at the start of the tick.
+    start: [f64; DOF_COUNT],
+    /// Sum of contact impulses by segment × 8 + vertex, N·s, and where the point was when it first touched.
+    impulse: Box<[(Vec3, Vec3); MAX_CONTACTS]>,
+    penetration: f64,
+}
 
 impl TorqueStepper {
     /// A stepper on ground with friction coefficient `friction`.
     pub fn new(friction: f64) -> Self {
         Self {
             terms: Terms::default(),
-            contacts: ContactRows::new(friction),
-            slides: Slides::default(),
-            limits: LimitRows::new(),
-            motors: Motors::default(),
-            newton: NewtonWorkspace::default(),
-            hessian: MassMatrix::default(),
-            assisted: MassMatrix::default(),
-            assist: [0.0; 6],
-            bar_impulse: 0.0,
-            bar_forces: None,
-            impulse: Box::new([(Vec3::zero(), Vec3::zero()); MAX_CONTACTS]),
-            penetration: 0.0,
-            start: [0.0; DOF_COUNT],
-            range: [[0.0; DOF_COUNT]; 2],
-            pushed: [0.0; NV],
-            solution: [0.0; NV],
-            outcome: Outcome::default(),
-            row: None,
-            external: None,
-            external_forces: Vec::with_capacity(super::loads::MAX_APPLIED),
-            forces: TickForces {
-                torque: [0.0; DOF_COUNT],
-                ligament_torque: [0.0; DOF_COUNT],
-                assist: [0.0; 6],
-                bar: Vec3::zero(),
-                contact: Vec::with_capacity(MAX_CONTACTS),
-                over_limit: 0.0,
-                iterations: 0,
-                flags: Flags::default(),
-                audit: Audit {
-                    state: State::default(),
-                    acceleration: [0.0; NV],
-                    torque: [0.0; DOF_COUNT],
-                    ligament_torque: [0.0; DOF_COUNT],
-                    contacts: Vec::with_capacity(MAX_CONTACTS),
-                    applied: Vec::with_capacity(super::loads::MAX_APPLIED),
-                    assist: [0.0; 6],
+            problem: SubstepProblem {
+                contacts: ContactRows::new(friction),
+                slides: Slides::default(),
+                limits: LimitRows::new(),
+                motors: Motors::default(),
+                row: None,
+                range: TorqueRange {
+                    lower: [0.0; DOF_COUNT],
+                    upper: [0.0; DOF_COUNT],
                 },
             },
+            solver: SubstepSolver::default(),
+            solution: SubstepSolution {
+                velocity: [0.0; NV],
+                pushed: [0.0; NV],
+                assist: [0.0; 6],
+                outcome: Outcome::default(),
+            },
+            external: ExternalContacts {
+                impulse: None,
+                forces: Vec::with_capacity(super::loads::MAX_APPLIED),
+            },
+            bar: BarImpulse::default(),
+            means: TickMeans {
+                start: [0.0; DOF_COUNT],
+                impulse: Box::new([(Vec3::zero(), Vec3::zero()); MAX_CONTACTS]),
+                penetration: 0.0,
+            },
+            forces: TickForces::new(MAX_CONTACTS, super::loads::MAX_APPLIED),
         }
     }
 
     /// Deepest contact point below the surface at the start of any substep of the last tick, m.
     pub fn penetration(&self) -> f64 {
-        self.penetration
+        self.means.penetration
     }
 }
 
@@ -288,7 +302,7 @@ impl Stepper for TorqueStepper {
     /// Advances `state` by one tick of `dt` seconds in `substeps` substeps. Fills [`Self::forces`]. No allocation.
     fn step(&mut self, input: &StepInput<'_>, state: &mut State) {
         self.begin(state);
-        for i in 0..input.substeps {
+        for i in 0..input.world.substeps {
             self.open_substep(input, state, i);
             self.close_substep(input, state, i);
         }
@@ -299,7 +313,7 @@ impl Stepper for TorqueStepper {
 impl TorqueStepper {
     /// Starts a tick.
     pub(crate) fn begin(&mut self, state: &State) {
-        self.start = std::array::from_fn(|j| state.velocity[6 + j]);
+        self.means.start = std::array::from_fn(|j| state.velocity[6 + j]);
         let f = &mut self.forces;
         f.torque.fill(0.0);
         f.ligament_torque.fill(0.0);
@@ -309,8 +323,8 @@ impl TorqueStepper {
         f.iterations = 0;
         f.flags = Flags::default();
         f.contact.clear();
-        self.impulse.fill((Vec3::zero(), Vec3::zero()));
-        self.penetration = 0.0;
+        self.means.impulse.fill((Vec3::zero(), Vec3::zero()));
+        self.means.penetration = 0.0;
     }
 
     /// Substep `i`: everything that depends on the state, and the velocity at its end if nothing but the ground is
@@ -323,10 +337,14 @@ impl TorqueStepper {
             scale,
             command,
             tissue,
-            applied,
-            gravity,
-            dt,
-            substeps,
+            forces: ExternalForces { applied, .. },
+            world:
+                &TickContext {
+                    dt,
+                    substeps,
+                    gravity,
+                    ..
+                },
             ..
         } = *input;
         let h = dt / f64::from(substeps);
@@ -335,70 +353,79 @@ impl TorqueStepper {
         } else {
             self.terms.compute(links, state, applied, gravity);
         }
-        let angles = collect_limits(body, tissue.map(|_| strength), state, h, &mut self.limits);
+        let angles = collect_limits(
+            body,
+            tissue.map(|_| strength),
+            state,
+            h,
+            &mut self.problem.limits,
+        );
         let rates: [f64; DOF_COUNT] = std::array::from_fn(|j| state.velocity[6 + j]);
-        let [lower, upper] = &mut self.range;
+        let TorqueRange { lower, upper } = &mut self.problem.range;
         strength.range(&angles, &rates, scale, lower, upper);
         for j in 0..DOF_COUNT {
             // The gain follows strength: a motor gives all it has when it is `saturation_speed` off.
-            let k = 0.5 * (input.upper[j] - input.lower[j]) / command.saturation_speed;
-            let aim = self.start[j] + f64::from(i + 1) * h * command.acceleration[j];
-            self.motors.gain[j] = h * k;
-            self.motors.rest[j] = aim + command.torque[j] / k;
-            self.motors.lower[j] = h * lower[j];
-            self.motors.upper[j] = h * upper[j];
+            let k = 0.5 * (input.available.upper[j] - input.available.lower[j])
+                / command.saturation_speed;
+            let aim = self.means.start[j] + f64::from(i + 1) * h * command.acceleration[j];
+            self.problem.motors.gain[j] = h * k;
+            self.problem.motors.rest[j] = aim + command.torque[j] / k;
+            self.problem.motors.lower[j] = h * lower[j];
+            self.problem.motors.upper[j] = h * upper[j];
         }
         self.collect_contacts(body, h);
-        let spring = input.assist.map(|(assist, target)| {
+        let spring = input.forces.assist.map(|(assist, target)| {
             let s = f64::from(i) / f64::from(substeps);
             assist.spring(target, state, s, dt, h)
         });
-        self.row = input.bar.map(|bar| BarRow::new(bar, &self.terms, h));
-        self.external = None;
-        self.external_forces.clear();
+        self.problem.row = input.forces.bar.map(|bar| BarRow::new(bar, &self.terms, h));
+        self.external.impulse = None;
+        self.external.forces.clear();
         self.solve_substep(h, state, spring.as_ref());
     }
 
     /// What other bodies give in this substep, after an island has been solved for the velocity that it left in
     /// [`Self::parts`].
     pub(crate) fn touch(&mut self, impulse: [f64; NV], outcome: Outcome) {
-        self.external = Some(impulse);
-        self.outcome = Outcome {
-            iterations: self.outcome.iterations + outcome.iterations,
+        self.external.impulse = Some(impulse);
+        self.solution.outcome = Outcome {
+            iterations: self.solution.outcome.iterations + outcome.iterations,
             ..outcome
         };
     }
 
     /// One of the forces that [`Self::touch`] summed up: segment, world point, world force (N).
     pub(crate) fn push(&mut self, segment: SegmentId, at: Vec3, force: Vec3) {
-        if self.external_forces.len() < MAX_EXTERNAL {
-            self.external_forces.push((segment, at, force));
+        if self.external.forces.len() < MAX_EXTERNAL {
+            self.external.forces.push((segment, at, force));
         }
     }
 
     /// Closes substep `i` and moves.
     pub(crate) fn close_substep(&mut self, input: &StepInput<'_>, state: &mut State, i: u32) {
-        let h = input.dt / f64::from(input.substeps);
-        let last = i + 1 == input.substeps;
+        let (h, last) = (
+            input.world.dt / f64::from(input.world.substeps),
+            i + 1 == input.world.substeps,
+        );
         self.close(h, state);
-        if let Some(row) = self.row.take() {
-            self.account_bar(&row, h, input.dt, last);
+        if let Some(row) = self.problem.row.take() {
+            self.account_bar(&row, h, input.world.dt, last);
         }
-        self.account(h, input.dt, last, input.applied);
+        self.account(h, input.world.dt, last, input.forces.applied);
         let v = state.velocity;
         state.posture.integrate(&v, h);
     }
 
     /// Finishes a tick: mean forces of the points that touched the ground.
     pub(crate) fn end(&mut self, input: &StepInput<'_>) {
-        let (body, dt) = (input.body, input.dt);
+        let (body, dt) = (input.body, input.world.dt);
         for s in 0..SEGMENT_COUNT {
             for vertex in 0..body.segments[s]
                 .contact_points
                 .len()
                 .min(POINTS_PER_SEGMENT)
             {
-                let (p, position) = self.impulse[s * POINTS_PER_SEGMENT + vertex];
+                let (p, position) = self.means.impulse[s * POINTS_PER_SEGMENT + vertex];
                 if p.z > 0.0 {
                     let segment = SegmentId::new(s).expect("s < SEGMENT_COUNT");
                     self.forces.contact.push(ContactPoint {
@@ -420,7 +447,7 @@ impl TorqueStepper {
     /// would creep by ½h²J̇v, 0.3 mm a tick. What rests is therefore held where it is, not at rest. What lands or
     /// slides moves otherwise after the substep than before, and its J̇v says nothing.
     fn collect_contacts(&mut self, body: &Body, h: f64) {
-        self.contacts.clear();
+        self.problem.contacts.clear();
         let (t, root) = (&self.terms, self.terms.state.posture.root_position);
         for s in 0..SEGMENT_COUNT {
             let origin = root.z + t.kin.position[s].z;
@@ -432,9 +459,9 @@ impl TorqueStepper {
             {
                 let r = t.kin.rotation[s] * *p;
                 let z = origin + r.z;
-                self.penetration = self.penetration.max(-z);
+                self.means.penetration = self.means.penetration.max(-z);
                 let velocity = t.kin.velocity[s] + t.kin.omega[s].cross(r);
-                if z < SPECULATIVE_HEIGHT || z + h * velocity.z < 0.0 {
+                if z < contact::SPECULATIVE_HEIGHT || z + h * velocity.z < 0.0 {
                     let mut c = if velocity.norm() < slides::CREEP {
                         t.bias_at(s, r) * (0.5 * h)
                     } else {
@@ -443,12 +470,13 @@ impl TorqueStepper {
                     c.z += if z > 0.0 {
                         z / h
                     } else {
-                        -(PENETRATION_RETURN * (-z - PENETRATION_SLOP).max(0.0) / h)
-                            .min(PENETRATION_SPEED)
+                        -(contact::PENETRATION_RETURN * (-z - contact::PENETRATION_SLOP).max(0.0)
+                            / h)
+                            .min(contact::PENETRATION_SPEED)
                     };
-                    let slot = self.contacts.slot(&self.terms.kin, s);
-                    let inverse_r = 1.0 / CONTACT_COMPLIANCE;
-                    self.contacts.points.push(PointRow {
+                    let slot = self.problem.contacts.slot(&self.terms.kin, s);
+                    let inverse_r = 1.0 / contact::COMPLIANCE;
+                    self.problem.contacts.points.push(PointRow {
                         slot,
                         r,
                         c,
@@ -471,55 +499,62 @@ impl TorqueStepper {
             momentum[i] -= h * t.h[i]; // M v_free
         }
         let mut v = state.velocity;
-        self.assist = [0.0; 6];
-        self.outcome = Outcome::default();
-        self.slides.begin(&mut self.contacts, &v, &mut self.newton);
+        self.solution.assist = [0.0; 6];
+        self.solution.outcome = Outcome::default();
+        self.problem
+            .slides
+            .begin(&mut self.problem.contacts, &v, &mut self.solver.newton);
         loop {
-            let outcome = match self.row {
+            let outcome = match self.problem.row {
                 None => self.solve_with(&momentum, spring, &mut v),
                 Some(bar) => self.solve_barred(&momentum, spring, &bar, &mut v),
             };
-            self.outcome = Outcome {
-                iterations: self.outcome.iterations + outcome.iterations,
+            self.solution.outcome = Outcome {
+                iterations: self.solution.outcome.iterations + outcome.iterations,
                 ..outcome
             };
-            if !self.slides.again(&mut self.contacts, &self.newton) {
+            if !self
+                .problem
+                .slides
+                .again(&mut self.problem.contacts, &self.solver.newton)
+            {
                 break;
             }
         }
         let mut x = momentum;
         for i in 0..6 {
-            x[i] += self.assist[i];
+            x[i] += self.solution.assist[i];
         }
-        if let Some(bar) = &self.row {
-            bar.add(self.bar_impulse, &mut x);
+        if let Some(bar) = &self.problem.row {
+            bar.add(self.bar.impulse, &mut x);
         } else {
-            self.bar_impulse = 0.0;
+            self.bar.impulse = 0.0;
         }
-        (self.solution, self.pushed) = (v, x);
+        (self.solution.velocity, self.solution.pushed) = (v, x);
     }
 
     /// Recomputes the velocity from the impulses of the last iterate and writes it to `state.velocity`.
     fn close(&mut self, h: f64, state: &mut State) {
         let t = &self.terms;
-        let mut x = self.pushed;
+        let mut x = self.solution.pushed;
         for j in 0..DOF_COUNT {
-            x[6 + j] += self.newton.motor[j] + self.newton.limit[j];
+            x[6 + j] += self.solver.newton.motor[j] + self.solver.newton.limit[j];
         }
-        self.contacts
-            .add_transposed(&self.newton.force, 1.0, &mut x);
-        if let Some(external) = &self.external {
+        self.problem
+            .contacts
+            .add_transposed(&self.solver.newton.force, 1.0, &mut x);
+        if let Some(external) = &self.external.impulse {
             for (x, p) in x.iter_mut().zip(external) {
                 *x += p;
             }
         }
-        close_kernel(&t.mass_matrix, &mut self.hessian, &mut x);
+        close_kernel(&t.mass_matrix, &mut self.solver.hessian, &mut x);
         self.forces.audit.state = *state;
         for i in 0..NV {
             self.forces.audit.acceleration[i] = (x[i] - state.velocity[i]) / h;
         }
         state.velocity = x;
-        if state.brake(MAX_SPEED) {
+        if state.brake(contact::LARGEST_SPEED) {
             self.forces.flags.set(Flags::SPEED_BOUND);
         }
     }
@@ -549,40 +584,40 @@ impl TorqueStepper {
         let mut total = Outcome::default();
         let mut before: Option<(f64, f64)> = None;
         let mut slope = 0.0;
-        for _ in 0..BAR_ITERATIONS {
+        for _ in 0..bar::ITERATIONS {
             let mut b = *momentum;
-            bar.add(self.bar_impulse, &mut b);
+            bar.add(self.bar.impulse, &mut b);
             let outcome = self.solve_with(&b, spring, v);
             total = Outcome {
                 iterations: total.iterations + outcome.iterations,
                 ..outcome
             };
             let off = bar.rate(v) - bar.wanted;
-            if off.abs() < BAR_TOLERANCE {
+            if off.abs() < bar::TOLERANCE {
                 break;
             }
             let secant = before
-                .map(|(p, o)| (off - o) / (self.bar_impulse - p))
+                .map(|(p, o)| (off - o) / (self.bar.impulse - p))
                 .filter(|s| s.is_finite() && *s > 0.1 * slope && *s < 10.0 * slope);
             slope = secant.unwrap_or_else(|| {
                 // The last matrix that was factored: motors, limits and contacts as they stood then.
                 let mut x = [0.0; NV];
                 bar.add(1.0, &mut x);
-                solve(&self.hessian, &mut x);
+                solve(&self.solver.hessian, &mut x);
                 bar.rate(&x).max(1e-4)
             });
-            before = Some((self.bar_impulse, off));
-            self.bar_impulse -= off / slope;
+            before = Some((self.bar.impulse, off));
+            self.bar.impulse -= off / slope;
         }
         total
     }
 
     /// Adds the bar's forces to the means, and to the audit of the last substep.
     fn account_bar(&mut self, row: &BarRow, h: f64, dt: f64, last: bool) {
-        self.forces.bar += row.direction * (self.bar_impulse / dt);
+        self.forces.bar += row.direction * (self.bar.impulse / dt);
         if last {
-            let force = row.direction * (self.bar_impulse / h);
-            self.bar_forces = Some([
+            let force = row.direction * (self.bar.impulse / h);
+            self.bar.forces = Some([
                 (row.ends[0].0, row.ends[0].1, force * -1.0),
                 (row.ends[1].0, row.ends[1].1, force),
             ]);
@@ -602,21 +637,17 @@ impl TorqueStepper {
 
     /// One run of Newton's method with the motors as they are.
     fn solve_once(&mut self, momentum: &[f64; NV], v: &mut [f64; NV], assisted: bool) -> Outcome {
+        let SubstepSolver {
+            newton,
+            hessian,
+            assisted: springs,
+        } = &mut self.solver;
         let matrix = if assisted {
-            &self.assisted
+            springs
         } else {
             &self.terms.mass_matrix
         };
-        substep_kernel(
-            matrix,
-            &mut self.hessian,
-            momentum,
-            &self.motors,
-            &self.limits,
-            &self.contacts,
-            v,
-            &mut self.newton,
-        )
+        substep_kernel(matrix, &self.problem, momentum, v, hessian, newton)
     }
 
     /// Solves with the springs of the assist; a part whose impulse exceeds its bound becomes a constant one at the
@@ -630,14 +661,14 @@ impl TorqueStepper {
         let mut fixed: [Option<Vec3>; 2] = [None; 2];
         let mut total = Outcome::default();
         loop {
-            self.assisted.rows = self.terms.mass_matrix.rows;
+            self.solver.assisted.rows = self.terms.mass_matrix.rows;
             let mut b = *momentum;
             for (k, constant) in fixed.iter().enumerate() {
                 let add = constant.unwrap_or(spring.rest[k] * spring.gain[k]);
                 for (i, x) in add.to_array().into_iter().enumerate() {
                     b[3 * k + i] += x;
                     if constant.is_none() {
-                        self.assisted.rows[3 * k + i][3 * k + i] += spring.gain[k];
+                        self.solver.assisted.rows[3 * k + i][3 * k + i] += spring.gain[k];
                     }
                 }
             }
@@ -655,7 +686,7 @@ impl TorqueStepper {
                     again = true;
                 }
                 let acts = fixed[k].unwrap_or(impulse).to_array();
-                self.assist[3 * k..3 * k + 3].copy_from_slice(&acts);
+                self.solution.assist[3 * k..3 * k + 3].copy_from_slice(&acts);
             }
             if !again {
                 return total;
@@ -675,9 +706,9 @@ impl TorqueStepper {
     ) -> Outcome {
         for j in 0..DOF_COUNT {
             // The same torque at the speed the joint has now, and a hundredth of the gain around it.
-            let (m, now) = (&mut self.motors, self.terms.state.velocity[6 + j]);
+            let (m, now) = (&mut self.problem.motors, self.terms.state.velocity[6 + j]);
             let torque = (m.gain[j] * (m.rest[j] - now)).clamp(m.lower[j], m.upper[j]);
-            m.gain[j] *= SOFTENING;
+            m.gain[j] *= motors::SOFTENING;
             m.rest[j] = now + torque / m.gain[j];
         }
         let second = self.solve_once(momentum, v, assisted);
@@ -689,25 +720,26 @@ impl TorqueStepper {
 
     /// Adds a substep to the means of the tick, and keeps the last one.
     fn account(&mut self, h: f64, dt: f64, last: bool, applied: &[AppliedForce]) {
-        let (f, outcome, [lower, upper]) = (&mut self.forces, self.outcome, &self.range);
+        let (f, outcome) = (&mut self.forces, self.solution.outcome);
+        let TorqueRange { lower, upper } = &self.problem.range;
         f.iterations += outcome.iterations;
         if !outcome.converged {
             f.flags.set(Flags::STEP_BOUND);
         }
         for j in 0..DOF_COUNT {
-            let tau = self.newton.motor[j] / h;
-            f.torque[j] += self.newton.motor[j] / dt;
-            f.ligament_torque[j] += self.newton.limit[j] / dt;
+            let tau = self.solver.newton.motor[j] / h;
+            f.torque[j] += self.solver.newton.motor[j] / dt;
+            f.ligament_torque[j] += self.solver.newton.limit[j] / dt;
             f.over_limit = f
                 .over_limit
                 .max(tau / upper[j] - 1.0)
                 .max(tau / lower[j] - 1.0);
             f.audit.torque[j] = tau;
-            f.audit.ligament_torque[j] = self.newton.limit[j] / h;
+            f.audit.ligament_torque[j] = self.solver.newton.limit[j] / h;
         }
         for i in 0..6 {
-            f.assist[i] += self.assist[i] / dt;
-            f.audit.assist[i] = self.assist[i] / h;
+            f.assist[i] += self.solution.assist[i] / dt;
+            f.audit.assist[i] = self.solution.assist[i] / h;
         }
         f.over_limit = f.over_limit.max(0.0);
         let root = self.terms.state.posture.root_position;
@@ -721,16 +753,16 @@ impl TorqueStepper {
             }
             f.audit
                 .applied
-                .extend(self.bar_forces.take().into_iter().flatten());
-            f.audit.applied.extend(&self.external_forces);
+                .extend(self.bar.forces.take().into_iter().flatten());
+            f.audit.applied.extend(&self.external.forces);
         }
-        for (k, p) in self.contacts.points.iter().enumerate() {
-            let impulse = self.newton.force[k];
+        for (k, p) in self.problem.contacts.points.iter().enumerate() {
+            let impulse = self.solver.newton.force[k];
             if impulse.z <= 0.0 {
                 continue;
             }
             let position = root + self.terms.kin.position[p.segment] + p.r;
-            let slot = &mut self.impulse[p.segment * POINTS_PER_SEGMENT + p.vertex];
+            let slot = &mut self.means.impulse[p.segment * POINTS_PER_SEGMENT + p.vertex];
             if slot.0.z == 0.0 {
                 slot.1 = position;
             }
@@ -752,13 +784,13 @@ impl Articulated for TorqueStepper {
     fn parts(&mut self) -> Parts<'_> {
         Parts {
             m: &self.terms.mass_matrix,
-            hessian: &mut self.hessian,
-            b: &self.pushed,
-            motors: &self.motors,
-            limits: &self.limits,
-            contacts: &self.contacts,
-            newton: &mut self.newton,
-            x: &mut self.solution,
+            hessian: &mut self.solver.hessian,
+            b: &self.solution.pushed,
+            motors: &self.problem.motors,
+            limits: &self.problem.limits,
+            contacts: &self.problem.contacts,
+            newton: &mut self.solver.newton,
+            x: &mut self.solution.velocity,
         }
     }
 }
@@ -767,23 +799,21 @@ impl Articulated for TorqueStepper {
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 fn substep_kernel(
     m: &MassMatrix<f64>,
-    hessian: &mut MassMatrix<f64>,
+    problem: &SubstepProblem,
     momentum: &[f64; NV],
-    motors: &Motors,
-    limits: &LimitRows,
-    contacts: &ContactRows,
     v: &mut [f64; NV],
+    hessian: &mut MassMatrix<f64>,
     ws: &mut NewtonWorkspace,
 ) -> Outcome {
     minimise(
         &SparseSystem(m),
         hessian,
         momentum,
-        motors,
-        limits,
-        contacts,
-        MAX_ITERATIONS,
-        TOLERANCE,
+        &problem.motors,
+        &problem.limits,
+        &problem.contacts,
+        contact::ITERATIONS,
+        contact::TOLERANCE,
         v,
         ws,
     )

@@ -1,34 +1,23 @@
-//! The stages of the way up: what each is meant to look like, from where the body is.
+//! The stages of getting up: the goals of each, from where the body is.
 //!
 //! From the belly: arms out, toes tucked, hands beside the ribs, hips up and back over the knees, up on hands and
 //! knees, one hand after the other to the knees, knees off the floor, one hand after the other to the feet, heels down,
-//! up. Who lies on the back or on a side rolls over before: one foot set up, pushed over by it, leg and arm across. All
+//! up. A body that lies on its back or on a side rolls over before: one foot set up, pushed over by it, leg and arm across. All
 //! of it is written for rolling over the right side; the other is the mirror image.
 
 use super::goals::{Aim, Goals, swapped};
-use super::reference_pose::Looks;
+use super::reference_pose::ReferencePoses;
 use crate::sim::body::topology::DOF_COUNT;
+use crate::sim::get_up::params::layout::{
+    ARMS_APART, HAND_STEP_HEIGHT, HAND_STEP_TIME, SHANK, WRIST_HEIGHT,
+};
+use crate::sim::get_up::params::weights::{COM, FIRM, HAND, POSE};
 use crate::sim::math::Vec3;
 use std::f64::consts::FRAC_PI_2;
 
-/// Half the distance between the hands, reference body, m.
-const ARMS_APART: f64 = 0.25;
-/// A wrist is this high over a hand that lies flat, reference body, m.
-const WRIST: f64 = 0.045;
-/// The balls of the feet lie this far behind the knees of who kneels with tucked toes, reference body, m.
-const SHANK: f64 = 0.4;
-/// Weights: what carries, hands, centre of mass, looks.
-const FIRM: f64 = 10.0;
-const HAND: f64 = 5.0;
-const COM: f64 = 10.0;
-const LOOK: f64 = 0.01;
-
-/// How long a hand steps, s, and how high, reference body, m.
-const STEP: (f64, f64) = (1.0, 0.08);
-
 /// Where everything is.
 #[derive(Clone, Copy, Debug)]
-pub struct Here {
+pub struct Layout {
     /// Length over that of the reference body.
     pub scale: f64,
     /// The pelvis as it really is, and how far it is turned about the vertical, rad.
@@ -49,16 +38,16 @@ pub struct Stage {
     /// How long it takes, s.
     pub seconds: f64,
     /// Its goals.
-    pub goals: fn(&Here, &Looks) -> Goals,
+    pub goals: fn(&Layout, &ReferencePoses) -> Goals,
     /// What is on the floor.
-    pub down: Down,
+    pub down: FloorContacts,
     /// A hand that steps, and how high, m.
     pub step: Option<(usize, f64)>,
 }
 
 /// What is on the floor in a stage.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Down {
+pub struct FloorContacts {
     /// Whatever touches.
     pub whole: bool,
     /// What touches may slide.
@@ -68,34 +57,34 @@ pub struct Down {
     pub hands: [bool; 2],
 }
 
-const ROLLS: Down = Down {
+const ROLLS: FloorContacts = FloorContacts {
     whole: true,
     slides: true,
     ..LIES
 };
-const PUSHES: Down = Down {
+const PUSHES: FloorContacts = FloorContacts {
     balls: true,
     ..ROLLS
 };
-const LIES: Down = Down {
+const LIES: FloorContacts = FloorContacts {
     whole: false,
     slides: true,
     knees: true,
     balls: false,
     hands: [false; 2],
 };
-const KNEELS: Down = Down {
+const KNEELS: FloorContacts = FloorContacts {
     whole: false,
     slides: false,
     knees: true,
     balls: true,
     hands: [true; 2],
 };
-const SLIDES: Down = Down {
+const SLIDES: FloorContacts = FloorContacts {
     slides: true,
     ..KNEELS
 };
-const STANDS: Down = Down {
+const STANDS: FloorContacts = FloorContacts {
     whole: false,
     slides: false,
     knees: false,
@@ -103,11 +92,11 @@ const STANDS: Down = Down {
     hands: [false; 2],
 };
 /// On the balls of the feet and these hands.
-const fn leans(hands: [bool; 2]) -> Down {
-    Down { hands, ..STANDS }
+const fn leans(hands: [bool; 2]) -> FloorContacts {
+    FloorContacts { hands, ..STANDS }
 }
 
-fn look(angles: &[f64; DOF_COUNT], weight: f64) -> [Aim; DOF_COUNT] {
+fn pose_aims(angles: &[f64; DOF_COUNT], weight: f64) -> [Aim; DOF_COUNT] {
     angles.map(|a| Aim::new(a, weight))
 }
 
@@ -130,7 +119,7 @@ fn tucked(p: Vec3) -> [Aim; 3] {
     [x, y, Aim { weight: 0.1, ..z }]
 }
 
-impl Here {
+impl Layout {
     /// The mirror image.
     pub fn mirrored(&self) -> Self {
         let place = |p: Vec3| Vec3 { y: -p.y, ..p };
@@ -150,7 +139,7 @@ impl Here {
         let wrist = [
             Aim::new(x, HAND),
             Aim::new(y, HAND),
-            Aim::new(WRIST * self.scale, HAND),
+            Aim::new(WRIST_HEIGHT * self.scale, HAND),
         ];
         (wrist, Aim::new(0.0, HAND))
     }
@@ -203,8 +192,8 @@ impl Here {
 const fn stage(
     name: &'static str,
     seconds: f64,
-    goals: fn(&Here, &Looks) -> Goals,
-    down: Down,
+    goals: fn(&Layout, &ReferencePoses) -> Goals,
+    down: FloorContacts,
 ) -> Stage {
     Stage {
         name,
@@ -215,19 +204,27 @@ const fn stage(
     }
 }
 
-const fn stepping(name: &'static str, goals: fn(&Here, &Looks) -> Goals, side: usize) -> Stage {
+const fn stepping(
+    name: &'static str,
+    goals: fn(&Layout, &ReferencePoses) -> Goals,
+    side: usize,
+) -> Stage {
     let mut hands = [true; 2];
     hands[side] = false;
     Stage {
         name,
-        seconds: STEP.0,
+        seconds: HAND_STEP_TIME,
         goals,
         down: leans(hands),
-        step: Some((side, STEP.1)),
+        step: Some((side, HAND_STEP_HEIGHT)),
     }
 }
 
-const fn crawling(name: &'static str, goals: fn(&Here, &Looks) -> Goals, side: usize) -> Stage {
+const fn crawling(
+    name: &'static str,
+    goals: fn(&Layout, &ReferencePoses) -> Goals,
+    side: usize,
+) -> Stage {
     let mut out = stepping(name, goals, side);
     out.down.knees = true;
     out
@@ -274,12 +271,12 @@ pub const UP: &[Stage] = &[
 ];
 
 /// Lying as it lies: the left foot set up, the right arm out of the way, the left one across.
-fn gather(h: &Here, l: &Looks) -> Goals {
+fn gather(h: &Layout, l: &ReferencePoses) -> Goals {
     set_up(h, l, h.roll, 1.0)
 }
 
 /// Turned so far from lying on the belly, the left foot set up behind.
-fn set_up(h: &Here, l: &Looks, turn: f64, weight: f64) -> Goals {
+fn set_up(h: &Layout, l: &ReferencePoses, turn: f64, weight: f64) -> Goals {
     let mut out = roll(h, &l.gathered, turn);
     out.balls[0][2] = Aim::new(0.0, weight);
     out.tips[0] = Aim::new(0.0, weight);
@@ -288,14 +285,14 @@ fn set_up(h: &Here, l: &Looks, turn: f64, weight: f64) -> Goals {
 }
 
 /// Pushed over by the left foot, which stays where it is.
-fn push(h: &Here, l: &Looks) -> Goals {
+fn push(h: &Layout, l: &ReferencePoses) -> Goals {
     let mut out = set_up(h, l, 2.2, FIRM);
     out.balls[0] = stay(h.balls[0], FIRM);
     out
 }
 
 /// Turned so far from lying on the belly.
-fn roll(h: &Here, looks: &[f64; DOF_COUNT], turn: f64) -> Goals {
+fn roll(h: &Layout, pose: &[f64; DOF_COUNT], turn: f64) -> Goals {
     Goals {
         pelvis: h.pelvis.to_array().map(|x| Aim::new(x, FIRM)),
         turn: [
@@ -303,26 +300,26 @@ fn roll(h: &Here, looks: &[f64; DOF_COUNT], turn: f64) -> Goals {
             Aim::new(turn, 1.0),
             Aim::new(h.yaw, 0.3),
         ],
-        looks: look(looks, 0.03),
+        pose: pose_aims(pose, 0.03),
         ..Goals::default()
     }
 }
 
 /// Lying as it lay: arms out to the sides, feet off the floor so that the toes can be tucked.
-fn sprawl(h: &Here, l: &Looks) -> Goals {
+fn sprawl(h: &Layout, l: &ReferencePoses) -> Goals {
     let knees = h.knees.map(|p| stay(p, 1.0));
     Goals {
         pelvis: h.pelvis.to_array().map(|x| Aim::new(x, 1.0)),
         turn: h.level(FRAC_PI_2, 0.3),
         knees,
         chest: Aim::new(0.0, 1.0),
-        looks: look(&l.sprawled, 0.1),
+        pose: pose_aims(&l.sprawled, 0.1),
         ..Goals::default()
     }
 }
 
 /// Hands flat beside the ribs, toes tucked.
-fn plant(h: &Here, l: &Looks) -> Goals {
+fn plant(h: &Layout, l: &ReferencePoses) -> Goals {
     let k = middle(h.knees);
     let y = ARMS_APART * h.scale;
     let [left, right] = [y, -y].map(|y| h.flat(k.x + 0.6 * h.scale, k.y + y));
@@ -340,23 +337,23 @@ fn plant(h: &Here, l: &Looks) -> Goals {
         hands: [left.0, right.0],
         palms: [left.1, right.1],
         chest: Aim::new(0.0, FIRM),
-        looks: look(&l.planted, LOOK),
+        pose: pose_aims(&l.planted, POSE),
         ..Goals::default()
     }
 }
 
 /// The hips up, the chest still on the floor.
-fn draw(h: &Here, l: &Looks) -> Goals {
+fn draw(h: &Layout, l: &ReferencePoses) -> Goals {
     Goals {
         pelvis: h.place(middle(h.knees), 0.25, 0.34, 1.0),
         turn: h.level(1.85, 0.3),
         chest: Aim::new(0.01, FIRM),
-        looks: look(&l.drawn, LOOK),
+        pose: pose_aims(&l.drawn, POSE),
         ..kneeling(h)
     }
 }
 
-fn kneeling(h: &Here) -> Goals {
+fn kneeling(h: &Layout) -> Goals {
     let (hands, palms) = h.hands();
     Goals {
         turn: h.level(1.35, 1.0),
@@ -370,25 +367,25 @@ fn kneeling(h: &Here) -> Goals {
 }
 
 /// Hips back over the knees, which takes the weight off the bent arms.
-fn sink_back(h: &Here, l: &Looks) -> Goals {
+fn sink_back(h: &Layout, l: &ReferencePoses) -> Goals {
     Goals {
         pelvis: h.place(middle(h.knees), -0.12, 0.38, 1.0),
         turn: h.level(1.75, 0.3),
-        looks: look(&l.sunk, LOOK),
+        pose: pose_aims(&l.sunk, POSE),
         ..kneeling(h)
     }
 }
 
-fn on_all_fours(h: &Here, l: &Looks) -> Goals {
+fn on_all_fours(h: &Layout, l: &ReferencePoses) -> Goals {
     Goals {
         pelvis: h.place(middle(h.knees), 0.02, 0.46, 1.0),
-        looks: look(&l.on_all_fours, LOOK),
+        pose: pose_aims(&l.on_all_fours, POSE),
         ..kneeling(h)
     }
 }
 
 /// On knees and feet, and the hand that is not of `side`.
-fn crawl(h: &Here, l: &Looks, side: usize) -> Goals {
+fn crawl(h: &Layout, l: &ReferencePoses, side: usize) -> Goals {
     let shares = [
         (middle(h.knees), 0.6),
         (middle(h.balls), if side == 0 { 0.2 } else { 0.12 }),
@@ -397,17 +394,17 @@ fn crawl(h: &Here, l: &Looks, side: usize) -> Goals {
     Goals {
         pelvis: h.place(middle(h.knees), -0.15, 0.43, 0.3),
         com: h.over(&shares, COM),
-        looks: look(&l.on_all_fours, LOOK),
+        pose: pose_aims(&l.on_all_fours, POSE),
         ..kneeling(h)
     }
 }
 
-fn crawl_hand(h: &Here, l: &Looks, side: usize) -> Goals {
+fn crawl_hand(h: &Layout, l: &ReferencePoses, side: usize) -> Goals {
     h.step(crawl(h, l, side), side, 0.62)
 }
 
 /// On hands and the balls of the feet.
-fn leaning(h: &Here, shares: &[(Vec3, f64)]) -> Goals {
+fn leaning(h: &Layout, shares: &[(Vec3, f64)]) -> Goals {
     let (hands, palms) = h.hands();
     Goals {
         com: h.over(shares, COM),
@@ -420,18 +417,18 @@ fn leaning(h: &Here, shares: &[(Vec3, f64)]) -> Goals {
     }
 }
 
-fn bear(h: &Here, l: &Looks) -> Goals {
+fn bear(h: &Layout, l: &ReferencePoses) -> Goals {
     let shares = [(middle(h.balls), 0.6), (middle(h.hands), 0.4)];
     Goals {
         pelvis: h.place(middle(h.balls), 0.1, 0.66, 5.0),
         com: h.over(&shares, 3.0),
-        looks: look(&l.bear, LOOK),
+        pose: pose_aims(&l.bear, POSE),
         ..leaning(h, &shares)
     }
 }
 
 /// Away from the hand of one side.
-fn lean(h: &Here, l: &Looks, side: usize, at: (f64, f64)) -> Goals {
+fn lean(h: &Layout, l: &ReferencePoses, side: usize, at: (f64, f64)) -> Goals {
     let other = 1 - side;
     let shares = [
         (h.balls[side], 0.42),
@@ -440,29 +437,29 @@ fn lean(h: &Here, l: &Looks, side: usize, at: (f64, f64)) -> Goals {
     ];
     Goals {
         pelvis: h.place(middle(h.balls), at.0, at.1, 2.0),
-        looks: look(&l.bear, LOOK),
+        pose: pose_aims(&l.bear, POSE),
         ..leaning(h, &shares)
     }
 }
 
 /// The hand of one side steps to so far ahead of the feet.
-fn reach(h: &Here, l: &Looks, side: usize, at: (f64, f64), x: f64) -> Goals {
+fn reach(h: &Layout, l: &ReferencePoses, side: usize, at: (f64, f64), x: f64) -> Goals {
     h.step(lean(h, l, side, at), side, x)
 }
 
 /// The middle of the feet, ahead of the heels.
-fn soles(h: &Here) -> [(Vec3, f64); 1] {
+fn soles(h: &Layout) -> [(Vec3, f64); 1] {
     let mut p = middle(h.balls);
     p.x -= 0.06 * h.scale;
     [(p, 1.0)]
 }
 
 /// Heels down and all the weight on the feet, the hands still on the floor.
-fn fold(h: &Here, l: &Looks) -> Goals {
+fn fold(h: &Layout, l: &ReferencePoses) -> Goals {
     let mut out = Goals {
         pelvis: h.place(middle(h.balls), -0.27, 0.72, 0.5),
         heels: [Aim::new(0.0, FIRM); 2],
-        looks: look(&l.folded, LOOK),
+        pose: pose_aims(&l.folded, POSE),
         ..leaning(h, &soles(h))
     };
     for (hand, palm) in out.hands.iter_mut().zip(&mut out.palms) {
@@ -472,17 +469,17 @@ fn fold(h: &Here, l: &Looks) -> Goals {
     out
 }
 
-fn rise(h: &Here, l: &Looks) -> Goals {
+fn rise(h: &Layout, l: &ReferencePoses) -> Goals {
     Goals {
         hands: [[Aim::NONE; 3]; 2],
         palms: [Aim::NONE; 2],
         heels: [Aim::new(0.0, FIRM); 2],
         turn: h.level(0.0, 0.3),
-        looks: look(&l.at_ease, 0.05),
+        pose: pose_aims(&l.at_ease, 0.05),
         ..leaning(h, &soles(h))
     }
 }
 
-fn stand(h: &Here, l: &Looks) -> Goals {
+fn stand(h: &Layout, l: &ReferencePoses) -> Goals {
     rise(h, l)
 }

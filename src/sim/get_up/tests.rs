@@ -23,17 +23,18 @@ struct Seen {
 /// Follows the way of a straight body that is turned by `turn` rad from lying on its belly.
 fn follow(body: &Body, turn: f64, seconds: f64) -> Seen {
     let links = Links::new(body);
-    let mut way = GetUpMotion::new(body, &at_ease(body));
+    let mut with = GetUpSolver::new(body, &at_ease(body));
+    let mut way = GetUpMotion::new(body);
     let mut state = State::default();
     state.posture.root_position.z = 0.12;
     state.posture.root_rotation =
         Quat::exp(Vec3::Y * std::f64::consts::FRAC_PI_2) * Quat::exp(Vec3::Z * turn);
     let mut terms = Terms::default();
     terms.compute(&links, &state, &[], 9.81);
-    way.begin(&terms);
+    way.begin(&with, &terms);
     let mut seen = Seen::default();
     for tick in 0..(seconds / DT) as u32 {
-        let next = way.advance(body, &terms, DT, 1.0).next;
+        let next = way.advance(body, &mut with, &terms, DT, 1.0).next;
         state = next.state();
         terms.compute(&links, &state, &[], 9.81);
         let angles = anatomical_angles(&state.posture);
@@ -46,7 +47,7 @@ fn follow(body: &Body, turn: f64, seconds: f64) -> Seen {
         // It lies down on the floor first.
         if f64::from(tick) * DT > 1.0 {
             for s in SegmentId::all() {
-                seen.deep = seen.deep.max(-way.solver.lowest(&terms, s));
+                seen.deep = seen.deep.max(-with.solver.lowest(&terms, s));
             }
         }
     }

@@ -3,8 +3,8 @@
 use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::body::{Body, SEGMENT_COUNT, SegmentId};
 use crate::sim::dynamics::Terms;
-use crate::sim::figure::report::MAX_CONTACTS;
 use crate::sim::math::Vec3;
+use crate::sim::report::MAX_CONTACTS;
 
 /// A point that comes below this height touches, m.
 pub const ENTER_HEIGHT: f64 = 0.006;

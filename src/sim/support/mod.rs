@@ -22,10 +22,10 @@ pub use zmp::zmp;
 
 use crate::sim::body::topology::PELVIS;
 use crate::sim::body::{Body, SEGMENT_COUNT, SegmentId};
-use crate::sim::collide::touch::MAX_TOUCHES;
 use crate::sim::dynamics::Terms;
-use crate::sim::figure::report::MAX_CONTACTS;
 use crate::sim::math::Vec3;
+use crate::sim::report::MAX_CONTACTS;
+use crate::sim::touch::MAX_TOUCHES;
 
 /// Supports of one figure, computed once per tick and shared by controllers and steppers. Remembers what hysteresis
 /// needs.

@@ -14,7 +14,7 @@ use crate::sim::collide::{MAX_OBSTACLES, Obstacle, ObstacleKey, ObstacleSetup};
 use crate::sim::figure::loads::MAX_PERTURBATIONS;
 use crate::sim::figure::{
     Constraint, ControlParams, ControllerKind, FigureOptions, MAX_CONSTRAINTS, Perturbation,
-    StrengthScale, TickContext,
+    PlanRequest, Planning, StrengthScale, TickContext,
 };
 use crate::sim::math::hash::Fnv;
 
@@ -105,6 +105,7 @@ pub struct World {
     next_key: u64,
     obstacles: Vec<(ObstacleKey, Obstacle)>,
     next_obstacle: u64,
+    planning: Planning,
     neighbourhood: collisions::Neighbourhood,
 }
 
@@ -122,6 +123,7 @@ impl World {
             next_key: 1,
             obstacles: Vec::new(),
             next_obstacle: 1,
+            planning: Planning::InTick,
             neighbourhood: collisions::Neighbourhood::default(),
         })
     }
@@ -139,6 +141,7 @@ impl World {
             dt: self.dt(),
             substeps: self.params.substeps,
             gravity: self.params.gravity,
+            planning: self.planning,
         };
         let threads = self.params.threads;
         each(&mut self.figures, threads, |f| {
@@ -153,7 +156,7 @@ impl World {
         let (near, alone) = self.figures.split_at_mut(gathered);
         each(alone, threads, |f| {
             if !f.is_frozen() {
-                f.simulate(&context);
+                f.integrate(&context);
                 f.finish(&context);
             }
         });
@@ -172,6 +175,18 @@ impl World {
         self.tick += 1;
     }
 
+    /// What ticks do from now on that need a plan which is not there. Default: [`Planning::InTick`].
+    pub fn set_planning(&mut self, planning: Planning) {
+        self.planning = planning;
+    }
+    /// Problems that figures want to have solved by a later tick, and that no thread has accepted.
+    pub fn plan_requests(&self) -> impl Iterator<Item = PlanRequest> + '_ {
+        self.figures.iter().flat_map(|(_, f)| f.plan_requests())
+    }
+    /// Plans that the last tick needed and that were not there: 0 with [`Planning::InTick`].
+    pub fn late_plans(&self) -> usize {
+        self.figures.iter().map(|(_, f)| f.late_plans()).sum()
+    }
     /// Fixed properties.
     pub fn params(&self) -> &WorldParams {
         &self.params

@@ -251,13 +251,14 @@ impl Shard {
                 let Some((pair, reset)) = slot.sample(time) else {
                     continue;
                 };
-                if reset {
-                    let state = pair.now.state();
-                    // What came over the wire was checked there, so there is nothing left to refuse.
-                    let _ = engine::reset(&mut self.world, key, state);
-                }
+                let state = pair.now.state();
+                // First: a reset follows a stop that is still being planned.
                 if let Some(f) = self.world.figure_mut(key) {
                     f.set_drive(Motion::External(Box::new(pair)));
+                }
+                if reset {
+                    // What came over the wire was checked there, so there is nothing left to refuse.
+                    let _ = engine::reset(&mut self.world, key, state);
                 }
             }
         }

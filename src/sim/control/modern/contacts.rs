@@ -5,9 +5,9 @@ use super::{Hold, MEANT_FADE, Modern, POINTS, blend, soft, weight};
 use crate::sim::body::topology::{L_FOOT, L_HAND, L_TOES, R_FOOT, R_HAND, R_TOES, SEGMENT_COUNT};
 use crate::sim::contact::rows::PointRow;
 use crate::sim::control::ControlInput;
-use crate::sim::figure::report::MAX_CONTACTS;
 use crate::sim::math::Vec3;
 use crate::sim::math::curve::fall;
+use crate::sim::report::MAX_CONTACTS;
 use crate::sim::support::Rest;
 
 /// Time constant that brings a planted point to rest, s.

@@ -10,9 +10,9 @@ use crate::sim::control::goals::{MAX_GOALS, Pace};
 use crate::sim::control::{ContactPhase, ControlInput, FootTarget, Goal, PointTarget, com_law};
 use crate::sim::dynamics::Terms;
 use crate::sim::dynamics::terms::WIDTH;
-use crate::sim::figure::report::MAX_CONTACTS;
 use crate::sim::math::Vec3;
 use crate::sim::math::curve::fall;
+use crate::sim::report::MAX_CONTACTS;
 
 /// How constraints from outside are approached.
 const GOAL_PACE: Pace = Pace {

@@ -8,10 +8,10 @@ use crate::sim::control::ControlInput;
 use crate::sim::control::reroot::{only_main, shift};
 use crate::sim::control::rows::{Row, dot};
 use crate::sim::dynamics::terms::WIDTH;
-use crate::sim::figure::Share;
-use crate::sim::figure::report::MAX_CONTACTS;
 use crate::sim::math::dense::cholesky_solve;
 use crate::sim::math::{Quat, Vec3};
+use crate::sim::report::MAX_CONTACTS;
+use crate::sim::setup::Share;
 use crate::sim::support::zmp;
 
 /// While tilting, only points this close to the pivot line carry load, m.

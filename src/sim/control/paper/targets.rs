@@ -11,8 +11,8 @@ use crate::sim::control::spatial_targets::wish;
 use crate::sim::control::tracking::Law;
 use crate::sim::control::{ControlInput, Effector, Goal};
 use crate::sim::dynamics::terms::WIDTH;
-use crate::sim::figure::ControlParams;
 use crate::sim::math::{Quat, Vec3};
+use crate::sim::setup::ControlParams;
 
 /// Length that makes rotations of an end-effector comparable with its motion, m.
 const ROTATION_LENGTH: f64 = 0.3;

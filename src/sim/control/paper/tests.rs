@@ -6,9 +6,9 @@ use crate::sim::body::topology::{L_FOOT, R_FOOT};
 use crate::sim::control::rows::{dot, padded};
 use crate::sim::control::testing::{DT, Scene};
 use crate::sim::dynamics::terms::WIDTH;
-use crate::sim::figure::{Priority, Share};
 use crate::sim::math::Quat;
 use crate::sim::math::vec3::vec3;
+use crate::sim::setup::{Priority, Share};
 use crate::sim::support::testing::{
     GRAVITY, Rng, mannequin, on_floor, random_stance, random_state, standing,
 };

@@ -1,21 +1,23 @@
 //! A figure from outside: what it is, what it does, and changes between ticks.
 
-use super::{Figure, rested};
+use super::state::rested;
+use super::{ExitPlan, Figure};
 use crate::sim::body::topology::DOF_COUNT;
 use crate::sim::body::{Body, Links, State};
 use crate::sim::collide::shape::BodyShape;
 use crate::sim::control::Controller;
 use crate::sim::dynamics::Terms;
 use crate::sim::figure::constraints::Constraint;
-use crate::sim::figure::drive::{Drive, LivePlayback};
+use crate::sim::figure::drive::{Drive, LivePlayback, Queued};
 use crate::sim::figure::events::FigureEvent;
-use crate::sim::figure::report::TickReport;
-use crate::sim::figure::setup::{
-    ControlParams, ControllerKind, FigureOptions, FigureSetup, Perturbation, StrengthScale,
-};
+use crate::sim::figure::plan_task::PlanRequest;
 use crate::sim::figure::touches::Touches;
 use crate::sim::math::Vec3;
 use crate::sim::motion::{PlanarTransform, TargetPair};
+use crate::sim::report::TickReport;
+use crate::sim::setup::{
+    ControlParams, ControllerKind, FigureOptions, FigureSetup, Perturbation, StrengthScale,
+};
 use crate::sim::strength::fatigue::Fatigue;
 use crate::sim::strength::{MuscleScale, Strength};
 use crate::sim::track::{StepPlan, StepTracker};
@@ -36,68 +38,78 @@ impl Figure {
     }
     /// Strength curves of the body.
     pub fn strength(&self) -> &Strength {
-        &self.strength
+        &self.constants.strength
     }
     /// Factors on its muscles in the last tick: scale, effort, fatigue, and relaxation of a fallen figure.
     pub fn muscles(&self) -> &MuscleScale {
-        &self.muscles
+        &self.physical.muscles
     }
     /// Fatigue, if it is on.
     pub fn fatigue(&self) -> Option<&Fatigue> {
-        self.fatigue.as_deref()
+        self.physical.fatigue.as_deref()
     }
     /// State after the last tick.
     pub fn state(&self) -> &State {
-        &self.state
+        &self.physical.state
     }
     /// Mass properties with the present loads.
     pub fn links(&self) -> &Links {
-        &self.links
+        &self.physical.links
     }
     /// Report of the last tick; `None` before the first.
     pub fn report(&self) -> Option<&TickReport> {
-        self.reported.then_some(&self.report)
+        self.outcome.reported.then_some(&self.outcome.report)
     }
     /// Desired motion of the last tick.
     pub fn target(&self) -> &TargetPair {
-        &self.target
+        &self.desired.target
     }
     /// The shapes it collides with.
     pub fn shape(&self) -> &BodyShape {
-        &self.shape
+        &self.constants.shape
     }
     /// True while it is frozen after trouble.
     pub(crate) fn is_frozen(&self) -> bool {
-        self.frozen
+        self.physical.frozen
     }
     /// Where its segments are in the present substep.
     pub(crate) fn substep_terms(&self) -> &Terms {
-        &self.stepper.terms
+        &self.steppers.torque.terms
     }
     /// Where its segments were at the start of the tick.
     pub(crate) fn tick_terms(&self) -> &Terms {
-        &self.terms
+        &self.scratch.terms
     }
     /// Events of the last tick.
     pub fn events(&self) -> &[FigureEvent] {
-        self.watcher.events()
+        self.outcome.watcher.events()
     }
-    /// What it is about on its way up, while it gets up.
+    /// Problems that are to be planned and that no thread has accepted.
+    pub(crate) fn plan_requests(&self) -> impl Iterator<Item = PlanRequest> + '_ {
+        let exit = self.motion.exit().into_iter().flat_map(ExitPlan::requests);
+        let entry = self.motion.next().and_then(Queued::request);
+        exit.chain(entry)
+    }
+    /// Plans that the last tick needed and that were not there.
+    pub(crate) fn late_plans(&self) -> usize {
+        self.outcome.late_plans
+    }
+    /// Name of the stage of getting up, while it gets up.
     pub fn rising(&self) -> Option<&'static str> {
-        self.rising.stage()
+        self.motion.gets_up().then(|| self.desired.get_up.stage())
     }
     /// True once it lies on the ground, until it has risen again.
     pub fn is_fallen(&self) -> bool {
-        self.fallen
+        self.motion.has_fallen()
     }
     /// Where the desired motion comes from.
     pub fn drive(&self) -> &Drive {
-        &self.drive
+        self.motion.source()
     }
     /// Replaces the source of the desired motion from the next tick on, whatever the figure does. What waits is
     /// forgotten.
     pub fn set_drive(&mut self, drive: Drive) {
-        self.tracker.follow(match &drive {
+        self.desired.tracker.follow(match &drive {
             Drive::Clip(play) => {
                 let body = &self.setup.body;
                 let mut plan = StepPlan::new(body, &play.clip, play.looped);
@@ -109,96 +121,100 @@ impl Figure {
             Drive::Live(_) => Some((StepPlan::live(), 1.0, PlanarTransform::default())),
             _ => None,
         });
-        self.rising.reset();
-        self.drive = drive;
-        self.queued = None;
-        self.leaving = None;
-        self.ending = false;
+        self.desired.get_up.reset();
+        self.motion.follow(drive);
     }
     /// The stream that drives it with a window, if one does: to feed it. One that is being stopped has ended.
     pub fn stream_mut(&mut self) -> Option<&mut LivePlayback> {
-        match &mut self.drive {
-            Drive::Live(live) if self.leaving.is_none() => Some(live),
+        let stops = self.motion.exit().is_some();
+        match self.motion.source_mut() {
+            Drive::Live(live) if !stops => Some(live),
             _ => None,
         }
     }
     /// Its steps.
     pub fn tracker(&self) -> &StepTracker {
-        &self.tracker
+        &self.desired.tracker
     }
     /// Scheduled perturbations.
     pub fn perturbations(&self) -> impl Iterator<Item = &Perturbation> {
-        self.disturbances.scheduled()
+        self.surroundings.disturbances.scheduled()
     }
     /// Lets go of all loads and stops all pushes at the next tick.
     pub fn clear_perturbations(&mut self) {
-        self.disturbances.clear();
+        self.surroundings.disturbances.clear();
     }
     /// Schedules a checked perturbation; false if there is no room.
     pub(crate) fn schedule(&mut self, what: Perturbation) -> bool {
-        self.disturbances.add(what)
+        self.surroundings.disturbances.add(what)
     }
-    /// Puts the figure into a state and forgets its past; loads stay.
+    /// Puts the figure into a state and forgets its past; loads stay. A stop or transition that is being planned is
+    /// followed at once, and worked out here if it is not there.
     pub fn reset(&mut self, state: State) {
-        self.follow_way_out();
-        self.state = state;
-        self.is_new = true;
-        self.last_good = state;
-        self.fallen = false;
-        self.rising.reset();
-        self.frozen = false;
-        self.tracker.reset();
-        self.carrying.reset();
-        self.com_acceleration = Vec3::zero();
-        self.support.reset();
-        self.touches = Touches::default();
-        self.paper.reset();
-        self.modern.reset();
-        self.kinematic.reset();
-        self.handed_over = None;
-        self.balance.reset();
-        self.fatigue = rested(&self.setup.options);
-        self.report.remaining = [[1.0; 2]; DOF_COUNT];
+        self.follow_exit();
+        self.physical.state = state;
+        self.neighbours.is_new = true;
+        self.physical.last_good = state;
+        self.motion.lie_down();
+        self.motion.rise();
+        self.desired.get_up.reset();
+        self.physical.frozen = false;
+        self.desired.tracker.reset();
+        self.desired.load_compensation.reset();
+        self.physical.com_acceleration = Vec3::zero();
+        self.surroundings.support.reset();
+        self.surroundings.touches = Touches::default();
+        self.controllers.paper.reset();
+        self.controllers.modern.reset();
+        self.steppers.kinematic.reset();
+        self.stepping.handed_over = None;
+        self.surroundings.balance.reset();
+        self.physical.fatigue = rested(&self.setup.options);
+        self.outcome.report.joints.remaining = [[1.0; 2]; DOF_COUNT];
         // What the last tick said of the centre of mass was of another state. Loads that were taken off go with the
         // next tick.
-        let links = self.disturbances.loaded(&self.setup.body);
-        (self.report.com, self.report.com_velocity) = self.tasks.center_of_mass(&links, &state);
+        let links = self.surroundings.disturbances.loaded(&self.setup.body);
+        (
+            self.outcome.report.balance.com,
+            self.outcome.report.balance.com_velocity,
+        ) = self.scratch.tasks.center_of_mass(&links, &state);
     }
     /// Changes the scale of its strength. Another percentile makes new curves: about 20 µs, allocates.
     pub fn set_strength(&mut self, scale: StrengthScale) {
         if scale.percentile != self.setup.strength.percentile {
-            self.strength = Arc::new(Strength::at_percentile(&self.setup.body, scale.percentile));
+            self.constants.strength =
+                Arc::new(Strength::at_percentile(&self.setup.body, scale.percentile));
         }
         self.setup.strength = scale;
     }
     /// Changes fatigue and assist. Fatigue that goes on keeps its state; turned off it is forgotten.
     pub fn set_options(&mut self, options: FigureOptions) {
-        match (&mut self.fatigue, options.fatigue_time_scale > 0.0) {
+        match (&mut self.physical.fatigue, options.fatigue_time_scale > 0.0) {
             (Some(fatigue), true) => fatigue.time_scale = options.fatigue_time_scale,
             (fatigue, _) => {
                 *fatigue = rested(&options);
-                self.report.remaining = [[1.0; 2]; DOF_COUNT];
+                self.outcome.report.joints.remaining = [[1.0; 2]; DOF_COUNT];
             }
         }
         self.setup.options = options;
     }
     /// Constraints from outside, in the order in which they were given; those that have ended are gone.
     pub fn constraints(&self) -> &[Constraint] {
-        self.constraints.given()
+        self.desired.constraints.given()
     }
     /// Replaces all checked constraints at `time`, s.
     pub(crate) fn set_constraints(&mut self, constraints: &[Constraint], time: f64) {
-        self.constraints.replace(constraints, time);
+        self.desired.constraints.replace(constraints, time);
     }
     /// Takes all constraints off at once, without fading.
     pub fn clear_constraints(&mut self) {
-        self.constraints.forget();
+        self.desired.constraints.forget();
     }
     /// Changes controller and gains.
     pub fn set_controller(&mut self, controller: ControllerKind, params: ControlParams) {
         if controller != self.setup.controller {
-            self.paper.reset();
-            self.modern.reset();
+            self.controllers.paper.reset();
+            self.controllers.modern.reset();
         }
         self.setup.controller = controller;
         self.setup.params = params;
@@ -206,15 +222,15 @@ impl Figure {
     /// Hash of the state's bits (64-bit FNV-1a over little-endian words).
     pub fn state_hash(&self) -> u64 {
         let mut h = crate::sim::math::hash::Fnv::default();
-        let p = &self.state.posture;
+        let p = &self.physical.state.posture;
         h.f64s(&p.root_position.to_array());
         h.f64s(&p.root_rotation.to_xyzw());
         for q in &p.ball {
             h.f64s(&q.to_xyzw());
         }
         h.f64s(&p.hinge);
-        h.f64s(&self.state.velocity);
-        if let Some(fatigue) = &self.fatigue {
+        h.f64s(&self.physical.state.velocity);
+        if let Some(fatigue) = &self.physical.fatigue {
             fatigue.add_to(&mut h);
         }
         h.finish()

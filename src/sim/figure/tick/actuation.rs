@@ -1,6 +1,7 @@
 //! Stages 4 and 5: what the muscles can give, what the motion asks for, and the controller's answer.
 
-use super::{Figure, TickContext};
+use super::state::{Scratch, StageResults};
+use super::{Figure, StepDemand, TickContext};
 use crate::sim::body::topology::DOF_COUNT;
 use crate::sim::control::{
     CentroidalTarget, ContactPhase, ContactTargets, ControlInput, Controller, Law, MomentumTarget,
@@ -8,41 +9,37 @@ use crate::sim::control::{
 };
 use crate::sim::figure::assist::Assist;
 use crate::sim::figure::drive::Drive;
-use crate::sim::figure::setup::{ControlParams, ControllerKind, StrengthScale};
+use crate::sim::figure::params::{fall, motors};
 use crate::sim::figure::tasks::TaskPoints;
-use crate::sim::figure::torque_step::{
-    FALLEN_SPEED, FEED_FORWARD_SPEED, MODERN_SPEED, MOTORS_ALONE_SPEED, MotorCommand,
-};
+use crate::sim::figure::torque_step::MotorCommand;
 use crate::sim::motion::TargetPair;
+use crate::sim::setup::{ControlParams, ControllerKind, StrengthScale};
 use crate::sim::strength::MuscleScale;
 
-/// A fallen figure relaxes: share of its strength, and time constant of its demand, s (ALGORITHM §12).
-const FALLEN_STRENGTH: f64 = 0.3;
-const FALLEN_HORIZON: f64 = 0.3;
-
 impl Figure {
-    /// Desired motion of the tick: as the drive has it, or as its steps come out.
-    pub(super) fn desired(&mut self, time: f64, dt: f64) -> TargetPair {
-        if let Drive::Live(live) = &mut self.drive {
+    /// Desired motion of the tick: getting up, or the source of the motion, at the pace of its steps.
+    pub(super) fn sample_motion(&mut self, time: f64, dt: f64) -> TargetPair {
+        if let Drive::Live(live) = self.motion.source_mut() {
             live.motion.advance(live.stream_time(time + dt));
-            self.tracker.follow_stream(&live.motion);
+            self.desired.tracker.follow_stream(&live.motion);
         }
-        let last = self.target.next.posture;
-        let body = &self.setup.body;
-        if let Some(way) = self.rising.targets(body, &self.terms, &last, dt) {
-            return way;
+        if self.motion.gets_up() {
+            let last = self.desired.target.next.posture;
+            let (body, Scratch { terms, get_up, .. }) = (&self.setup.body, &mut self.scratch);
+            return self.desired.get_up.targets(body, get_up, terms, &last, dt);
         }
         if !self.steps() {
-            return self.drive.targets(time, dt);
+            return self.motion.source().targets(time, dt);
         }
-        let drive = &self.drive;
+        let drive = self.motion.source();
         let clip_time = |t: f64| match drive {
             Drive::Clip(play) => play.clip_time(t),
             Drive::Live(live) => live.stream_time(t),
             _ => t,
         };
-        self.tracker
-            .targets(time, dt, &self.terms, clip_time, |now, next| {
+        self.desired
+            .tracker
+            .targets(time, dt, &self.scratch.terms, clip_time, |now, next| {
                 drive.pair(now, next)
             })
     }
@@ -50,8 +47,8 @@ impl Figure {
     /// True if steps follow events: the modern controller, and a figure that is up. Full assist pins the pelvis to its
     /// path, so the motion keeps its clock and its place there.
     pub(super) fn steps(&self) -> bool {
-        !self.fallen
-            && !self.balance.lost()
+        !self.motion.has_fallen()
+            && !self.surroundings.balance.lost()
             && self.setup.controller == ControllerKind::Modern
             && self.setup.options.assist < 1.0
     }
@@ -59,23 +56,30 @@ impl Figure {
     /// Angular momentum that the motion has in its next flight, to be reached at lift-off; `None` if no flight begins
     /// soon, or if its momentum is not known.
     pub(super) fn lift_off_momentum(&mut self) -> Option<MomentumTarget> {
-        let flight = self.tracker.next_flight()?;
-        let spin = match &self.drive {
-            Drive::Clip(play) => self.tasks.spin(&self.links, &play.sample(flight.middle)),
+        let flight = self.desired.tracker.next_flight()?;
+        let spin = match self.motion.source() {
+            Drive::Clip(play) => self
+                .scratch
+                .tasks
+                .spin(&self.physical.links, &play.sample(flight.middle)),
             Drive::Live(live) => live.motion.spin_at(live.stream_time(flight.middle))?,
             Drive::Hold(_) | Drive::External(_) => return None,
         };
         Some(MomentumTarget {
-            value: self.tracker.turned(spin),
+            value: self.desired.tracker.turned(spin),
             within: flight.after,
         })
     }
 
     /// Factors on the muscles: a fallen figure relaxes, a tired one has less.
     pub(super) fn available_strength(&self) -> MuscleScale {
-        let fallen = if self.is_limp() { FALLEN_STRENGTH } else { 1.0 };
+        let fallen = if self.motion.is_limp() {
+            fall::STRENGTH
+        } else {
+            1.0
+        };
         let mut out = self.setup.strength.muscles(fallen);
-        if let Some(fatigue) = &self.fatigue {
+        if let Some(fatigue) = &self.physical.fatigue {
             for (scale, left) in out.0.iter_mut().zip(fatigue.remaining()) {
                 scale[0] *= left[0];
                 scale[1] *= left[1];
@@ -84,25 +88,27 @@ impl Figure {
         out
     }
 
-    /// Fatigue of a tick: loads are torques over what the rested person could give at full effort.
-    pub(super) fn tire(&mut self, angles: &[f64; DOF_COUNT], rates: &[f64; DOF_COUNT], dt: f64) {
-        let Some(fatigue) = &mut self.fatigue else {
+    /// Fatigue of a tick of `dt` seconds: loads are torques over what the rested person could give at full effort.
+    pub(super) fn tire(&mut self, dt: f64) {
+        let Some(fatigue) = &mut self.physical.fatigue else {
             return;
         };
         let rested = StrengthScale {
             effort: 1.0,
             ..self.setup.strength.clone()
         };
+        let StageResults { angles, rates, .. } = &self.scratch.results;
         let (mut lower, mut upper) = ([0.0; DOF_COUNT], [0.0; DOF_COUNT]);
-        self.strength
+        self.constants
+            .strength
             .range(angles, rates, &rested.muscles(1.0), &mut lower, &mut upper);
-        let torque = if self.prescribed {
-            &self.kinematic.forces.torque
+        let torque = if self.stepping.prescribed {
+            &self.steppers.kinematic.forces.torque
         } else {
-            &self.stepper.forces.torque
+            &self.steppers.torque.forces.torque
         };
         fatigue.step(torque, &lower, &upper, dt);
-        self.report.remaining = fatigue.remaining();
+        self.outcome.report.joints.remaining = fatigue.remaining();
     }
 
     /// Runs the controller in charge and turns its command into work for the motors.
@@ -110,46 +116,58 @@ impl Figure {
         &mut self,
         world: &TickContext,
         tasks: &TaskPoints,
-        centroidal: CentroidalTarget<'_>,
-        (lower, upper): (&[f64; DOF_COUNT], &[f64; DOF_COUNT]),
+        steps: StepDemand,
     ) -> MotorCommand {
         let (mut hands, mut free) = (tasks.hands, 0);
-        for hand in self.constraints.free_hands() {
+        for hand in self.desired.constraints.free_hands() {
             hands[free] = hand;
             free += 1;
         }
         let input = ControlInput {
-            carried: self.carrying.in_hands(),
-            terms: &self.terms,
+            carried: self.desired.load_compensation.in_hands(),
+            terms: &self.scratch.terms,
             body: &self.setup.body,
-            support: &self.support,
-            target: &self.target,
-            centroidal,
+            support: &self.surroundings.support,
+            target: &self.desired.target,
+            centroidal: CentroidalTarget {
+                com: &tasks.com,
+                acceleration: steps.acceleration,
+                momentum: steps.momentum,
+            },
             contacts: ContactTargets {
                 feet: &tasks.feet,
-                phase: centroidal
+                phase: steps
                     .momentum
                     .map_or(ContactPhase::Stance, |_| ContactPhase::LiftOff),
-                places_known: self.tracker.has_planned_footholds(),
-                floor: self.rising.on_floor(),
+                places_known: self.desired.tracker.has_planned_footholds(),
+                floor: self
+                    .motion
+                    .gets_up()
+                    .then(|| self.desired.get_up.on_floor(&self.scratch.floor)),
             },
             effectors: &hands[..free],
-            goals: self.constraints.goals(),
-            lower,
-            upper,
+            goals: self.desired.constraints.goals(),
+            lower: &self.scratch.results.available.lower,
+            upper: &self.scratch.results.available.upper,
             params: &self.setup.params,
             gravity: world.gravity,
             dt: world.dt,
             assist: Assist::new(&self.setup.body, self.setup.options.assist)
                 .map_or([0.0; 2], |a| a.planned()),
-            kinematic: self.prescribed,
+            kinematic: self.stepping.prescribed,
         };
         let (command, saturation_speed) = match self.active_controller() {
-            ControllerKind::Paper => (self.paper.control(&input), FEED_FORWARD_SPEED),
-            ControllerKind::Modern => (self.modern.control(&input), MODERN_SPEED),
+            ControllerKind::Paper => (
+                self.controllers.paper.control(&input),
+                motors::FEED_FORWARD_SPEED,
+            ),
+            ControllerKind::Modern => (
+                self.controllers.modern.control(&input),
+                motors::MODERN_SPEED,
+            ),
             ControllerKind::Motors => {
-                let horizon = if self.is_limp() {
-                    Some(FALLEN_HORIZON)
+                let horizon = if self.motion.is_limp() {
+                    Some(fall::HORIZON)
                 } else {
                     self.setup.params.horizon
                 };
@@ -160,19 +178,20 @@ impl Figure {
                 let law = Law::new(&params, world.dt);
                 let demand = tracking::initial_acceleration(
                     &self.setup.body,
-                    &self.state,
-                    &self.target,
+                    &self.physical.state,
+                    &self.desired.target,
                     &law,
                 );
-                self.motors
+                self.controllers
+                    .motors
                     .joint_acceleration
                     .copy_from_slice(&demand[..DOF_COUNT]);
                 (
-                    &self.motors,
-                    if self.is_limp() {
-                        FALLEN_SPEED
+                    &self.controllers.motors,
+                    if self.motion.is_limp() {
+                        fall::SATURATION_SPEED
                     } else {
-                        MOTORS_ALONE_SPEED
+                        motors::ALONE_SPEED
                     },
                 )
             }
@@ -182,11 +201,11 @@ impl Figure {
             torque: command.torque,
             saturation_speed,
         };
-        self.report.saturated = command.saturated;
-        self.report.saturated_secondary = command.saturated_secondary;
-        self.report.control_iterations = command.iterations;
-        self.report.flags = command.flags;
-        self.tips = command.pivot.is_some();
+        self.outcome.report.joints.saturated = command.saturated;
+        self.outcome.report.joints.saturated_secondary = command.saturated_secondary;
+        self.outcome.report.control_iterations = command.iterations;
+        self.outcome.report.flags = command.flags;
+        self.stepping.tips = command.pivot.is_some();
         out
     }
 }

@@ -1,23 +1,17 @@
-//! Judgements of a tick: is balance lost, has it fallen, who may move it, is its state sound.
+//! Detection of lost balance and of falls, the choice of the stepper, and containment of states that are not finite.
 
 use super::{Figure, TickContext};
 use crate::sim::body::SegmentId;
 use crate::sim::body::topology::{L_FOOT, L_TOES, NV, R_FOOT, R_TOES};
 use crate::sim::control::Controller;
-use crate::sim::figure::balance_loss::Reach;
+use crate::sim::figure::balance_loss::{Observation, Reach};
 use crate::sim::figure::events::FigureEvent;
-use crate::sim::figure::kinematic_step::{SPEED_CAP, other_part_arrives};
-use crate::sim::figure::report::Flags;
-use crate::sim::figure::setup::{ControllerKind, StepperKind};
+use crate::sim::figure::kinematic_step::other_part_arrives;
+use crate::sim::figure::params::fall::{FALLEN_HEIGHT, RISEN_HEIGHT};
+use crate::sim::figure::params::kinematic::{CALM_TIME, SPEED_CAP};
+use crate::sim::report::Flags;
+use crate::sim::setup::{ControllerKind, StepperKind};
 
-/// A figure has fallen when its CoM is below this share of its standing height and something other than a foot carries
-/// it.
-const FALLEN_HEIGHT: f64 = 0.45;
-/// It stands again when its CoM is above this share of the standing height.
-const RISEN_HEIGHT: f64 = 0.6;
-/// Torques give back to prescribed accelerations after the figure has stood this long on flat feet with strength to
-/// spare, s.
-const CALM_TIME: f64 = 0.5;
 /// Parts that a figure stands on.
 pub(super) const FEET: [SegmentId; 4] = [L_FOOT, L_TOES, R_FOOT, R_TOES];
 
@@ -26,15 +20,11 @@ impl Figure {
     /// themselves.
     pub(super) fn watch_balance(&mut self, world: &TickContext) {
         let s = &self.setup;
-        let falls = s.stepper == StepperKind::Kinematic && self.handed_over.is_none();
+        let falls = s.stepper == StepperKind::Kinematic && self.stepping.handed_over.is_none();
         let motors = s.controller == ControllerKind::Motors;
-        if self.rising.is_rising()
-            || falls
-            || motors
-            || !s.params.hand_over
-            || s.options.assist > 0.0
+        if self.motion.gets_up() || falls || motors || !s.params.hand_over || s.options.assist > 0.0
         {
-            self.balance.reset();
+            self.surroundings.balance.reset();
             return;
         }
         let modern = s.controller == ControllerKind::Modern;
@@ -43,32 +33,34 @@ impl Figure {
             false if modern => Reach::Body,
             _ => Reach::Paper,
         };
-        let height = self.terms.com.z / self.standing_com_height;
-        let before = self.balance.lost();
-        let off = self.tracker.off_plan().filter(|_| self.steps());
-        self.balance.observe(
-            &s.body,
-            &self.terms,
-            &self.support,
-            (world.gravity, world.dt),
-            (reach, height),
+        let height = self.scratch.terms.com.z / self.constants.standing_com_height;
+        let before = self.surroundings.balance.lost();
+        let off = self.desired.tracker.off_plan().filter(|_| self.steps());
+        self.surroundings.balance.observe(&Observation {
+            body: &s.body,
+            terms: &self.scratch.terms,
+            support: &self.surroundings.support,
+            gravity: world.gravity,
+            dt: world.dt,
+            reach,
+            height,
             off,
-        );
-        if before && !self.balance.lost() {
+        });
+        if before && !self.surroundings.balance.lost() {
             self.start_afresh();
         }
     }
 
     /// Controllers and steps forget what they knew of a figure that has fallen or stumbled since.
     pub(super) fn start_afresh(&mut self) {
-        self.modern.reset();
-        self.paper.reset();
-        self.tracker.reset();
+        self.controllers.modern.reset();
+        self.controllers.paper.reset();
+        self.desired.tracker.reset();
     }
 
     /// The chosen controller, or motors alone once balance is lost or the figure lies on the ground.
     pub(super) fn active_controller(&self) -> ControllerKind {
-        if self.is_limp() || self.balance.lost() {
+        if self.motion.is_limp() || self.surroundings.balance.lost() {
             ControllerKind::Motors
         } else {
             self.setup.controller
@@ -80,32 +72,35 @@ impl Figure {
     pub(super) fn prescribes(&self) -> bool {
         self.setup.stepper == StepperKind::Kinematic
             && self.setup.options.assist == 0.0
-            && self.disturbances.bar().is_none()
+            && self.surroundings.disturbances.bar().is_none()
             && self.active_controller() != ControllerKind::Motors
-            && self.handed_over.is_none()
-            && !self.rising.is_rising()
+            && self.stepping.handed_over.is_none()
+            && !self.motion.gets_up()
     }
 
     /// Prescribed accelerations on a tilting support create energy once joints saturate, and they know nothing of parts
-    /// other than feet: there torques take over (ALGORITHM §6), until the figure has stood calmly for a while. The
+    /// other than feet: there torques take over, until the figure has stood calmly for a while. The
     /// state is the same for both.
-    pub(super) fn judge_hand_over(&mut self, dt: f64) {
-        let r = &self.report;
-        if self.prescribed && self.setup.params.hand_over {
-            let saturated = (r.saturated | r.saturated_secondary) != 0;
-            let arrives = other_part_arrives(&self.setup.body, &self.terms, dt);
-            let fast = self.state.velocity[6..].iter().any(|v| v.abs() > SPEED_CAP);
-            if arrives || fast || (self.tips && saturated) || r.flags.has(Flags::OVERLOAD) {
-                self.prescribed = false;
-                self.handed_over = Some(0.0);
+    pub(super) fn update_hand_over(&mut self, dt: f64) {
+        let r = &self.outcome.report;
+        if self.stepping.prescribed && self.setup.params.hand_over {
+            let saturated = (r.joints.saturated | r.joints.saturated_secondary) != 0;
+            let arrives = other_part_arrives(&self.setup.body, &self.scratch.terms, dt);
+            let fast = self.physical.state.velocity[6..]
+                .iter()
+                .any(|v| v.abs() > SPEED_CAP);
+            if arrives || fast || (self.stepping.tips && saturated) || r.flags.has(Flags::OVERLOAD)
+            {
+                self.stepping.prescribed = false;
+                self.stepping.handed_over = Some(0.0);
             }
-        } else if let Some(calm) = self.handed_over {
-            let points = self.support.points();
+        } else if let Some(calm) = self.stepping.handed_over {
+            let points = self.surroundings.support.points();
             let flat = points.len() >= 3 && points.iter().all(|p| FEET.contains(&p.segment));
-            let upright = !self.fallen && !self.balance.lost();
-            let alone = self.touches.list().next().is_none();
-            let stands = flat && upright && alone && !self.tips && r.saturated == 0;
-            self.handed_over = match calm + dt {
+            let upright = !self.motion.has_fallen() && !self.surroundings.balance.lost();
+            let alone = self.surroundings.touches.list().next().is_none();
+            let stands = flat && upright && alone && !self.stepping.tips && r.joints.saturated == 0;
+            self.stepping.handed_over = match calm + dt {
                 t if !stands && t > 0.0 => Some(0.0),
                 t if t > CALM_TIME => None,
                 t => Some(t),
@@ -113,38 +108,38 @@ impl Figure {
         }
     }
 
-    /// True while it lies and does nothing about it.
-    pub(super) fn is_limp(&self) -> bool {
-        self.fallen && !self.rising.is_rising()
-    }
-
     /// Freezes a figure whose state is not finite at its last good state; the world goes on.
     pub(super) fn contain(&mut self) -> bool {
-        let good = self.state.is_finite();
+        let good = self.physical.state.is_finite();
         if good {
-            self.last_good = self.state;
+            self.physical.last_good = self.physical.state;
         } else {
-            self.state = self.last_good;
-            self.state.velocity = [0.0; NV];
-            self.frozen = true;
-            self.watcher.push(FigureEvent::Quarantined);
+            self.physical.state = self.physical.last_good;
+            self.physical.state.velocity = [0.0; NV];
+            self.physical.frozen = true;
+            self.outcome.watcher.push(FigureEvent::Quarantined);
         }
         !good
     }
 
-    /// Falls and rises (ALGORITHM §12).
-    pub(super) fn judge_fall(&mut self) {
-        let height = self.terms.com.z / self.standing_com_height;
+    /// Falls and rises.
+    pub(super) fn detect_fall(&mut self) {
+        let height = self.scratch.terms.com.z / self.constants.standing_com_height;
         let on_other = self
+            .outcome
             .report
             .contacts
             .iter()
             .any(|c| !FEET.contains(&c.segment))
-            || self.touches.list().any(|t| !FEET.contains(&t.segment));
-        if !self.fallen && height < FALLEN_HEIGHT && on_other {
-            self.fallen = true;
-        } else if self.fallen && height > RISEN_HEIGHT && !self.rising.is_rising() {
-            self.fallen = false;
+            || self
+                .surroundings
+                .touches
+                .list()
+                .any(|t| !FEET.contains(&t.segment));
+        if !self.motion.has_fallen() && height < FALLEN_HEIGHT && on_other {
+            self.motion.fall();
+        } else if self.motion.is_limp() && height > RISEN_HEIGHT {
+            self.motion.rise();
             self.start_afresh();
         }
     }

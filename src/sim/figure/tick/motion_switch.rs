@@ -2,9 +2,10 @@
 //! Both are worked out aside, and taken in a tick that is fixed when they are asked for.
 
 use super::{Figure, TickContext};
-use crate::sim::body::{Body, Posture};
-use crate::sim::figure::background::Plan;
+use crate::sim::body::Posture;
 use crate::sim::figure::drive::{ClipPlayback, Drive, LivePlayback, Queued};
+use crate::sim::figure::params::switch::{LEAD, MOST_LEAD, SLOW, STOP_AHEAD, STOP_TIME};
+use crate::sim::figure::plan_task::{PlanRequest, PlanTask, Planning};
 use crate::sim::motion::clip::{Clip, PlanarTransform};
 use crate::sim::plan::motion_transition;
 use crate::sim::plan::motion_transition::{WayIn, Ways};
@@ -13,59 +14,86 @@ use crate::sim::plan::splice::{Ends, RUN_UP, Sample};
 use crate::sim::track::StepPlan;
 use std::sync::Arc;
 
-/// How far ahead a clip is looked at for a place to stop, s.
-const STOP_AHEAD: f64 = 0.8;
-/// Samples (of joins) that still play before a motion is left: the time that there is to work out how.
-pub(super) const ASIDE: usize = 4;
-/// A body slower than this is led into the posture in which the next clip begins; a faster one comes to its ease first,
-/// m/s.
-const SLOW: f64 = 0.2;
-/// Time that the steps to a stand take, as is expected before they are worked out, s.
-const STANDS_AFTER: f64 = 2.2;
-
 /// A way to a stand, with what it asks of the ground.
 type End = Option<(f64, Clip)>;
 /// A way into a clip, and where that puts the clip's origin.
 type Over = Option<(WayIn, PlanarTransform)>;
 
-/// What a motion is stopped from if no planned way leads out of it.
-#[derive(Debug)]
-struct LastResort {
-    so_far: Vec<Sample>,
-    /// Sample up to which it still plays.
-    now: usize,
-    streamed: bool,
-    /// How it is to stand.
-    goal: Posture,
+/// What the exit from a motion is to lead to.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ExitGoal {
+    /// The posture in which the figure is to stand if it hardly moves or does not reach the clip from step to step; at
+    /// ease if not given.
+    pub posture: Option<Posture>,
+    /// The clip's origin is meant: the figure may not go over to it where it is.
+    pub fixed: bool,
+    /// World time before which the clip does not begin, s.
+    pub from: f64,
 }
 
-impl LastResort {
-    fn end(self, body: &Arc<Body>) -> Option<Clip> {
-        splice::stop(
-            body,
-            self.so_far,
-            self.now,
-            (Some(self.goal), self.streamed),
-        )
-    }
-}
-
-/// What is worked out aside when a motion is left.
-#[derive(Debug, Default)]
-pub(super) struct MotionSwitch {
+/// How a motion is left, while that is planned.
+#[derive(Clone, Debug)]
+pub(in crate::sim::figure) struct ExitPlan {
+    goal: ExitGoal,
+    /// Samples that there were to plan it.
+    lead: usize,
     /// Over to the clip that waits, best first.
-    over: Vec<Plan<Over>>,
-    /// To a stand.
-    ends: Vec<Plan<End>>,
-    /// What is tried if there is no such way: to stand as the next clip begins.
-    last_resort: Option<LastResort>,
-    /// World time of the first sample of the ways over, s.
+    over: Vec<PlanTask<Over>>,
+    /// World time of the first sample of these, s.
     known_from: f64,
+    /// To a stand.
+    ends: Vec<PlanTask<End>>,
+    /// To a stand like the beginning of the next clip, if there is no such way.
+    last_resort: Option<PlanTask<Option<Clip>>>,
     /// When the motion turns from its own way to that one, s.
     due: f64,
     /// World time of the first sample of the way to a stand, and time of the present motion then, s.
     begin: f64,
     before: f64,
+}
+
+impl ExitPlan {
+    /// Everything that is to be planned, the more urgent first.
+    pub fn requests(&self) -> impl Iterator<Item = PlanRequest> + '_ {
+        let over = self.over.iter().filter_map(|t| t.request(self.due));
+        let ends = self.ends.iter().filter_map(|t| t.request(self.due));
+        let last = self.last_resort.iter().filter_map(|t| t.request(self.due));
+        over.chain(ends).chain(last)
+    }
+
+    /// True if nothing that decides is still to be worked out.
+    fn is_ready(&self) -> bool {
+        for way in &self.over {
+            match way.result() {
+                Some(Some(_)) => return true,
+                _ if way.is_ready() => {}
+                _ => return false,
+            }
+        }
+        let found = |end: &PlanTask<End>| matches!(end.result(), Some(Some(_)));
+        self.ends.iter().all(PlanTask::is_ready)
+            && (self.ends.iter().any(found)
+                || self.last_resort.as_ref().is_none_or(PlanTask::is_ready))
+    }
+
+    fn at(due: f64, goal: ExitGoal, lead: usize) -> Self {
+        Self {
+            goal,
+            lead,
+            over: Vec::new(),
+            known_from: 0.0,
+            ends: Vec::new(),
+            last_resort: None,
+            due,
+            begin: 0.0,
+            before: 0.0,
+        }
+    }
+
+    /// True if it may lead over to the clip that waits.
+    pub fn leads_over(&self) -> bool {
+        !self.over.is_empty()
+    }
 }
 
 /// What a stop is planned from.
@@ -78,20 +106,6 @@ struct Given {
     streamed: bool,
 }
 
-impl MotionSwitch {
-    fn at(due: f64) -> Self {
-        Self {
-            due,
-            ..Self::default()
-        }
-    }
-
-    /// True if it may lead over to the clip that waits.
-    pub fn leads_over(&self) -> bool {
-        !self.over.is_empty()
-    }
-}
-
 impl Figure {
     /// Begins to work out how the motion is left for a clip that is to play from world time `from` on: over to it,
     /// unless its place is `fixed`, or to a stand at ease, or like `goal` if it hardly moves or stands in another way.
@@ -100,48 +114,52 @@ impl Figure {
     pub(super) fn leave(
         &mut self,
         play: &ClipPlayback,
-        (goal, fixed): (Option<Posture>, bool),
-        from: f64,
+        goal: ExitGoal,
+        lead: usize,
         time: f64,
     ) -> (f64, Option<f64>) {
-        let stands = match &self.drive {
-            Drive::Clip(end) if self.ending => end.start + end.clip.duration() + self.tracker.lag(),
-            Drive::Hold(_) if self.crouches() => time + STANDS_AFTER,
+        let stands = match self.motion.source() {
+            Drive::Clip(end) if self.motion.stops() => {
+                end.start + end.clip.duration() + self.desired.tracker.lag()
+            }
+            Drive::Hold(_) if self.crouches() => time + STOP_TIME,
             Drive::Hold(_) | Drive::External(_) => time,
-            Drive::Clip(_) | Drive::Live(_) => time + STANDS_AFTER,
+            Drive::Clip(_) | Drive::Live(_) => time + STOP_TIME,
         };
-        let pending = self.leaving.as_ref().map(|l| l.due);
+        let pending = self.motion.exit().map(|l| l.due);
         // A stream that is being stopped has ended.
-        if matches!(self.drive, Drive::Live(_)) && pending.is_some() {
+        if matches!(self.motion.source(), Drive::Live(_)) && pending.is_some() {
             return (stands, None);
         }
-        let mut leaving = MotionSwitch::at(pending.unwrap_or(time + ASIDE as f64 / splice::RATE));
-        let over = if fixed {
+        let due = pending.unwrap_or(time + lead as f64 / splice::RATE);
+        let mut leaving = ExitPlan::at(due, goal, lead);
+        let over = if goal.fixed {
             None
         } else {
-            self.ways_over(play, (leaving.due, from), time)
+            self.ways_over(play, (due, goal.from), time)
         };
         let entered = over.as_ref().map(|ways| {
-            leaving.known_from = time - self.tracker.lag() - motion_transition::RUN_UP;
+            leaving.known_from = time - self.desired.tracker.lag() - motion_transition::RUN_UP;
             let plan = |k| {
                 let ways = Arc::clone(ways);
-                Plan::new(move || ways.way(k))
+                PlanTask::new(move || ways.way(k))
             };
             leaving.over = (0..ways.moments().len()).map(plan).collect();
             let first = &ways.moments()[0];
             let at = time - motion_transition::RUN_UP + first.left as f64 / motion_transition::RATE;
             at - ways.enters(first) / play.speed
         });
-        let ends = !self.ending
-            && match &self.drive {
+        let ends = !self.motion.stops()
+            && match self.motion.source() {
                 Drive::Clip(_) | Drive::Live(_) => true,
                 Drive::Hold(_) => self.crouches(),
                 Drive::External(_) => false,
             };
         if ends {
-            self.plan_ends(&mut leaving, goal, over.as_ref(), time);
+            self.plan_ends(&mut leaving, over.as_ref(), time);
         }
-        self.leaving = (ends || leaving.leads_over()).then(|| Box::new(leaving));
+        self.motion
+            .plan_exit((ends || leaving.leads_over()).then_some(leaving));
         (stands, entered)
     }
 
@@ -153,16 +171,16 @@ impl Figure {
         (due, from): (f64, f64),
         time: f64,
     ) -> Option<Arc<Ways>> {
-        let Drive::Clip(now) = &self.drive else {
+        let Drive::Clip(now) = self.motion.source() else {
             return None;
         };
-        let walks = self.tracker.is_walking() && !self.rising.is_rising();
+        let walks = self.desired.tracker.is_walking() && !self.motion.gets_up();
         if !walks || play.clip.lead_in() <= 0.0 {
             return None;
         }
         let long = motion_transition::RUN_UP + motion_transition::AHEAD + motion_transition::BEYOND;
         let count = (long * motion_transition::RATE).round() as usize;
-        let first = time - self.tracker.lag() - motion_transition::RUN_UP;
+        let first = time - self.desired.tracker.lag() - motion_transition::RUN_UP;
         let known = (0..=count).map(|i| now.sample(first + i as f64 / motion_transition::RATE));
         let known = known.map(|t| (t.posture, t.planted)).collect();
         let sample = |t: f64| {
@@ -175,81 +193,99 @@ impl Figure {
     }
 
     /// Begins to work out how the motion is led to a stand at ease.
-    pub(super) fn leave_for_a_stand(&mut self, time: f64) {
-        let mut leaving = MotionSwitch::at(time + ASIDE as f64 / splice::RATE);
-        self.plan_ends(&mut leaving, None, None, time);
-        self.leaving = Some(Box::new(leaving));
+    pub(super) fn leave_for_a_stand(&mut self, lead: usize, time: f64) {
+        let goal = ExitGoal {
+            posture: None,
+            fixed: false,
+            from: time,
+        };
+        let mut leaving = ExitPlan::at(time + lead as f64 / splice::RATE, goal, lead);
+        self.plan_ends(&mut leaving, None, time);
+        self.motion.plan_exit(Some(leaving));
     }
 
     /// True if it hardly moves, or stands in its motion.
     pub(super) fn is_slow(&self) -> bool {
-        let v = self.terms.com_velocity;
-        (v.x * v.x + v.y * v.y).sqrt() < SLOW || !self.tracker.is_walking()
+        let v = self.scratch.terms.com_velocity;
+        (v.x * v.x + v.y * v.y).sqrt() < SLOW || !self.desired.tracker.is_walking()
     }
 
     /// Begins to work out the ends of the motion; they are left out if there is a way over.
-    fn plan_ends(
-        &mut self,
-        leaving: &mut MotionSwitch,
-        goal: Option<Posture>,
-        over: Option<&Arc<Ways>>,
-        time: f64,
-    ) {
+    fn plan_ends(&mut self, leaving: &mut ExitPlan, over: Option<&Arc<Ways>>, time: f64) {
         let after = ((leaving.due - time) * splice::RATE).round() as usize;
         let (given, so_far) = self.motion_until_stop(time, after);
         (leaving.begin, leaving.before) = (given.begin, given.before);
-        let slow = self.is_slow();
-        let plans = |so_far: Vec<Sample>, goal: Option<Posture>| -> Vec<Plan<End>> {
-            let how = (goal, given.streamed);
-            let ends = Arc::new(Ends::new(&self.setup.body, so_far, given.now, how));
-            let plan = |k| {
-                let (ends, over) = (Arc::clone(&ends), over.cloned());
-                Plan::new(move || {
-                    let needed = over.is_none_or(|o| !o.found());
-                    needed.then(|| ends.end(k)).flatten()
-                })
-            };
-            (0..Ends::MOST).map(plan).collect()
+        let (body, now, streamed) = (&self.setup.body, given.now, given.streamed);
+        let posture = leaving.goal.posture;
+        let slow = self.is_slow() && posture.is_some();
+        let how = (posture.filter(|_| slow), streamed);
+        let ends = Arc::new(Ends::new(body, so_far.clone(), now, how));
+        let plan = |k| {
+            let (ends, over) = (Arc::clone(&ends), over.cloned());
+            PlanTask::new(move || {
+                let needed = over.as_ref().is_none_or(|o| !o.found());
+                needed.then(|| ends.end(k)).flatten()
+            })
         };
-        if slow && goal.is_some() {
-            leaving.ends = plans(so_far, goal);
-        } else {
-            leaving.ends = plans(so_far.clone(), None);
-            leaving.last_resort = goal.map(|goal| LastResort {
-                so_far,
-                now: given.now,
-                streamed: given.streamed,
-                goal,
-            });
-        }
+        leaving.ends = (0..Ends::MOST).map(plan).collect();
+        let Some(posture) = posture.filter(|_| !slow) else {
+            return;
+        };
+        let (body, over, ends) = (Arc::clone(body), over.cloned(), leaving.ends.clone());
+        leaving.last_resort = Some(PlanTask::new(move || {
+            let found = ends.iter().any(|e| matches!(e.result(), Some(Some(_))));
+            if found || over.as_ref().is_some_and(|o| o.found()) {
+                return None;
+            }
+            splice::stop(&body, so_far.clone(), now, (Some(posture), streamed))
+        }));
     }
 
     /// A stream that breaks off in the middle of a step, its last posture held, is left by the steps to a stand.
     /// Allocates.
     pub(super) fn leave_broken_stream(&mut self, time: f64) {
         let broken = |live: &LivePlayback| live.motion.breaks_off();
-        let streams =
-            self.leaving.is_none() && matches!(&self.drive, Drive::Live(live) if broken(live));
-        if streams && self.steps() && self.tracker.is_walking() {
-            self.leave_for_a_stand(time);
+        let streams = self.motion.exit().is_none()
+            && matches!(self.motion.source(), Drive::Live(live) if broken(live));
+        if streams && self.steps() && self.desired.tracker.is_walking() {
+            self.leave_for_a_stand(LEAD, time);
         }
     }
 
-    /// Leaves the motion in the last tick that begins before the way out differs from it. Always in that one, however
-    /// long that took to work out.
-    pub(super) fn begin_to_leave(&mut self, world: &TickContext) {
-        let due = |l: &MotionSwitch| world.time() + world.dt > l.due + 1e-9;
-        if self.leaving.as_deref().is_some_and(due) {
-            self.follow_way_out();
-        }
-    }
-
-    /// Turns to the way out now, if one is being worked out.
-    pub(super) fn follow_way_out(&mut self) {
-        let Some(leaving) = self.leaving.take() else {
+    /// Leaves the motion in the last tick that begins before its exit differs from it. A tick that does not wait for
+    /// plans goes on without one that is not there: the way out begins with samples that the motion has passed by then,
+    /// so it is planned anew from a later one.
+    pub(super) fn follow_exit_if_due(&mut self, world: &TickContext) {
+        let due = |l: &&ExitPlan| world.time() + world.dt > l.due + 1e-9;
+        let Some(exit) = self.motion.exit().filter(due) else {
             return;
         };
-        let MotionSwitch {
+        if world.planning == Planning::InTick || exit.is_ready() {
+            self.follow_exit();
+            return;
+        }
+        let (goal, lead) = (exit.goal, (2 * exit.lead).min(MOST_LEAD));
+        self.outcome.late_plans += 1;
+        self.motion.plan_exit(None);
+        let time = world.time();
+        match self.motion.next().map(|q| q.play.clone()) {
+            Some(play) => {
+                let (due, _) = self.leave(&play, goal, lead, time);
+                self.motion.update_next(|q| q.due = due);
+                if self.motion.exit().is_none() {
+                    self.plan_entry(time);
+                }
+            }
+            None => self.leave_for_a_stand(lead, time),
+        }
+    }
+
+    /// Follows the exit that is planned now, if one is.
+    pub(super) fn follow_exit(&mut self) {
+        let Some(leaving) = self.motion.take_exit() else {
+            return;
+        };
+        let ExitPlan {
             over,
             ends,
             last_resort,
@@ -257,8 +293,9 @@ impl Figure {
             due,
             begin,
             before,
-        } = *leaving;
-        if let Some(way) = over.into_iter().find_map(Plan::take) {
+            ..
+        } = leaving;
+        if let Some(way) = over.into_iter().find_map(PlanTask::take) {
             self.go_over(way, known_from);
             return;
         }
@@ -267,57 +304,61 @@ impl Figure {
             self.plan_entry(due);
             return;
         }
-        let best = Ends::best(ends.into_iter().map(Plan::take));
-        let clip = best.or_else(|| last_resort?.end(&self.setup.body));
+        let best = Ends::best(ends.into_iter().map(PlanTask::take));
+        let clip = best.or_else(|| last_resort?.take());
         self.follow_end(clip, begin, before);
-        if let Some(q) = &mut self.queued {
-            q.due = match &self.drive {
-                Drive::Clip(end) => end.start + end.clip.duration() + self.tracker.lag(),
-                _ => due,
-            };
-        }
+        let stands = match self.motion.source() {
+            Drive::Clip(end) => end.start + end.clip.duration() + self.desired.tracker.lag(),
+            _ => due,
+        };
+        self.motion.update_next(|q| q.due = stands);
         self.plan_entry(due);
     }
 
     /// Goes over to the clip that waits. World time of the first sample of the way is `begin`, s.
     fn go_over(&mut self, (way, place): (WayIn, PlanarTransform), begin: f64) {
-        let (Some(queued), Drive::Clip(now)) = (self.queued.take(), &self.drive) else {
+        let next = self.motion.take_next();
+        let (Some(next), Drive::Clip(now)) = (next, self.motion.source()) else {
             return;
         };
-        let Queued { mut play, plan, .. } = *queued;
+        let Queued { mut play, plan, .. } = next;
         play.start = begin - way.begin / play.speed;
         play.origin = place;
         let plan = plan.entered_by(&self.setup.body, &way);
         let before = now.clip_time(play.start);
-        self.tracker
+        self.desired
+            .tracker
             .continue_with((plan, play.speed, place), before);
         play.way_in = Some(Arc::new(way));
-        self.drive = Drive::Clip(play);
-        self.ending = false;
+        self.motion.enter(Drive::Clip(play));
     }
 
     /// Turns to a clip that begins at world time `begin`, s, which is `before` of the present motion. Without one holds
     /// the motion as it is: a stand takes no movement, or is not possible.
     fn follow_end(&mut self, clip: Option<Clip>, begin: f64, before: f64) {
         let Some(clip) = clip else {
-            let (queued, posture) = (self.queued.take(), self.target.next.posture);
+            let (next, posture) = (self.motion.take_next(), self.desired.target.next.posture);
             self.set_drive(Drive::Hold(posture));
-            self.queued = queued;
+            if let Some(next) = next {
+                self.motion.queue(next);
+            }
             return;
         };
         let plan = StepPlan::new(&self.setup.body, &clip, false);
         let here = PlanarTransform::default();
-        self.tracker.continue_with((plan, 1.0, here), before);
-        self.drive = Drive::Clip(ClipPlayback::new(Arc::new(clip), begin));
-        self.ending = true;
+        self.desired
+            .tracker
+            .continue_with((plan, 1.0, here), before);
+        let steps = ClipPlayback::new(Arc::new(clip), begin);
+        self.motion.follow_to_stand(Drive::Clip(steps));
     }
 
     /// The motion under way, by the rate of joins, from the run-up that planning a stop at world time `time` needs to
     /// as far ahead as it is known. It still plays for `after` samples.
     fn motion_until_stop(&mut self, time: f64, after: usize) -> (Given, Vec<Sample>) {
-        let from = time - self.tracker.lag();
+        let from = time - self.desired.tracker.lag();
         let (begin, so_far) = self.motion_around(from, after as f64 / splice::RATE);
-        let (streamed, before) = match &self.drive {
+        let (streamed, before) = match self.motion.source() {
             Drive::Clip(play) => (false, play.clip_time(begin)),
             Drive::Live(live) => (true, live.stream_time(begin)),
             Drive::Hold(_) | Drive::External(_) => (false, 0.0),
@@ -333,7 +374,7 @@ impl Figure {
 
     /// Postures and planted feet, with the world time of the first, s.
     fn motion_around(&mut self, from: f64, still: f64) -> (f64, Vec<Sample>) {
-        match &mut self.drive {
+        match self.motion.source_mut() {
             Drive::Clip(play) => {
                 let count = (RUN_UP * splice::RATE) as usize;
                 let at = |i: usize| from + (i as f64 - count as f64) / splice::RATE;

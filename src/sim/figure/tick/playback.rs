@@ -1,31 +1,24 @@
 //! From one motion to another while the figure moves: from step to step where they fit, else by a stand for which what
 //! was asked for waits.
 
-use super::Figure;
 use super::fall_detection::FEET;
-use super::motion_switch::ASIDE;
+use super::motion_switch::ExitGoal;
+use super::state::Scratch;
+use super::{Figure, TickContext};
 use crate::sim::body::Posture;
 use crate::sim::control::Controller;
-use crate::sim::figure::background::Plan;
 use crate::sim::figure::drive::{ClipPlayback, Drive, Queued};
-use crate::sim::figure::setup::ControllerKind;
+use crate::sim::figure::get_up::GetUpDecision;
+use crate::sim::figure::params::get_up::UP_HEIGHT;
+use crate::sim::figure::params::switch::{
+    EARLIEST_BEGIN, ENTRY_TIME, LEAD, PATIENCE, STILL, UPRIGHT,
+};
+use crate::sim::figure::plan_task::{PlanTask, Planning};
 use crate::sim::motion::{Clip, Target};
 use crate::sim::plan::splice;
+use crate::sim::setup::ControllerKind;
 use crate::sim::track::StepPlan;
 use std::sync::Arc;
-
-/// A clip that waits begins so long before the motion that leads to it is over, if the figure has settled, s.
-const SOONER: f64 = 0.4;
-/// Its joints are where that motion leads them then, rad.
-const STILL: f64 = 0.05;
-/// It begins at the latest so long after that motion is over, s.
-const PATIENCE: f64 = 2.0;
-/// A clip that begins with the pelvis above this share of its standing height, on both feet, begins standing.
-const UPRIGHT: f64 = 0.9;
-/// Time that the way from a stand into a clip takes, as is expected before it is worked out, s.
-const LED_AFTER: f64 = 2.7;
-/// Who gets up stands once the centre of mass is above this share of its standing height.
-const UP: f64 = 0.75;
 
 /// How a clip begins.
 struct Beginning {
@@ -52,9 +45,9 @@ impl Figure {
         let begin = self.beginning(&play, time);
         let first = begin.first;
         let led = begin.upright && !fixed;
-        let rises = self.rising.is_rising();
+        let rises = self.motion.gets_up();
         let moves = rises || self.is_busy(time) || led && self.crouches();
-        let stands = !moves && !self.tracker.comes_to_stand(&self.terms);
+        let stands = !moves && !self.desired.tracker.comes_to_stand(&self.scratch.terms);
         let begins_so = |stand: &Posture| {
             let motion = play.motion();
             !led || motion.begins_as(&self.setup.body, first, stand)
@@ -64,25 +57,33 @@ impl Figure {
             self.set_drive(Drive::Clip(play));
             return start;
         }
-        let ease = *self.tracker.at_ease();
+        let ease = *self.desired.tracker.at_ease();
         let goal = if begin.rests { begin.posture } else { ease };
         let stand = match (moves, self.is_slow()) {
             (false, _) => self.comes_to(),
             (true, true) => goal,
             (true, false) => ease,
         };
-        let led_after = if begins_so(&stand) { 0.0 } else { LED_AFTER };
+        let led_after = if begins_so(&stand) { 0.0 } else { ENTRY_TIME };
         let from = play.start + first / play.speed;
         let (due, entered) = if moves {
             let goal = begin.upright.then_some(goal);
-            self.leave(&play, (goal, fixed), from, time)
+            let goal = ExitGoal {
+                posture: goal,
+                fixed,
+                from,
+            };
+            self.leave(&play, goal, LEAD, time)
         } else {
             (time, None)
         };
         let expected = entered.unwrap_or(due.max(from) + led_after - first / play.speed);
         let plan = StepPlan::new(&self.setup.body, &play.clip, play.looped);
-        let stance = self.tracker.stance_of(&self.setup.body, &begin.posture);
-        self.queued = Some(Box::new(Queued {
+        let stance = self
+            .desired
+            .tracker
+            .stance_of(&self.setup.body, &begin.posture);
+        self.motion.queue(Queued {
             plan,
             first,
             from,
@@ -91,8 +92,8 @@ impl Figure {
             led,
             entry: None,
             play,
-        }));
-        if self.leaving.is_none() {
+        });
+        if self.motion.exit().is_none() {
             self.plan_entry(time);
         }
         expected
@@ -121,49 +122,49 @@ impl Figure {
 
     /// The posture in which it stands when its motion is over.
     fn comes_to(&self) -> Posture {
-        if let Some(ease) = self.tracker.stop_posture() {
+        if let Some(ease) = self.desired.tracker.stop_posture() {
             return *ease;
         }
-        match &self.drive {
+        match self.motion.source() {
             Drive::Hold(posture) => *posture,
             Drive::Clip(play) => play.clip.sample(f64::INFINITY).posture,
-            Drive::External(_) | Drive::Live(_) => self.target.next.posture,
+            Drive::External(_) | Drive::Live(_) => self.desired.target.next.posture,
         }
     }
 
     /// True if the motion that ends moves no joint any more.
     fn has_come(&self, time: f64) -> bool {
-        let Drive::Clip(end) = &self.drive else {
+        let Drive::Clip(end) = self.motion.source() else {
             return true;
         };
-        let here = end.sample(time - self.tracker.lag()).posture;
+        let here = end.sample(time - self.desired.tracker.lag()).posture;
         let left = here.joint_difference(&self.comes_to());
-        self.tracker.stop_posture().is_some() || left.iter().all(|e| e.abs() < STILL)
+        self.desired.tracker.stop_posture().is_some() || left.iter().all(|e| e.abs() < STILL)
     }
 
     /// Begins to work out the way from the stand that its motion leads to into the clip that waits, if it takes one.
     pub(super) fn plan_entry(&mut self, time: f64) {
-        let Some(q) = &self.queued else { return };
-        let stands = !self.fallen && !self.crouches();
+        let Some(q) = self.motion.next() else { return };
+        let stands = !self.motion.has_fallen() && !self.crouches();
         let (next, first) = (q.play.motion(), q.first);
         let (body, stand) = (Arc::clone(&self.setup.body), self.comes_to());
         if !stands || !q.led || next.begins_as(&body, first, &stand) {
             return;
         }
         let way = move || next.from_stand(&body, first, &stand);
-        if let Some(q) = &mut self.queued {
-            q.from = q.from.max(time + ASIDE as f64 / splice::RATE);
-            q.entry = Some(Plan::new(way));
-        }
+        self.motion.update_next(|q| {
+            q.from = q.from.max(time + LEAD as f64 / splice::RATE);
+            q.entry = Some(PlanTask::new(way));
+        });
     }
 
     /// The clip that is to begin, if one waits or is gone over to.
     pub fn next_clip(&self) -> Option<&Arc<Clip>> {
         let coming = |play: &ClipPlayback| {
             let way = play.way_in.as_ref();
-            way.is_some_and(|w| self.tracker.phase() < w.enters)
+            way.is_some_and(|w| self.desired.tracker.phase() < w.enters)
         };
-        match (&self.queued, &self.drive) {
+        match (self.motion.next(), self.motion.source()) {
             (Some(q), _) => Some(&q.play.clip),
             (None, Drive::Clip(play)) if coming(play) => Some(&play.clip),
             _ => None,
@@ -172,68 +173,91 @@ impl Figure {
 
     /// True in the middle of a clip or of a step.
     fn is_busy(&self, time: f64) -> bool {
-        let plays = match &self.drive {
+        let plays = match self.motion.source() {
             Drive::Clip(play) => {
                 let over = play.clip.duration() + play.clip.lead_out();
-                play.looped || play.clip_time(time - self.tracker.lag()) < over
+                play.looped || play.clip_time(time - self.desired.tracker.lag()) < over
             }
-            Drive::Live(_) => self.tracker.is_walking(),
+            Drive::Live(_) => self.desired.tracker.is_walking(),
             Drive::Hold(_) | Drive::External(_) => false,
         };
-        plays || self.leaving.is_some() || self.tracker.recovery_step().is_some()
+        plays || self.motion.exit().is_some() || self.desired.tracker.recovery_step().is_some()
     }
 
     /// Begins the clip that waits, once the figure stands.
-    pub(super) fn begin_queued(&mut self, time: f64) {
-        let Some(q) = &self.queued else { return };
-        if self.leaving.is_some() {
+    pub(super) fn begin_next_if_ready(&mut self, world: &TickContext) {
+        let time = world.time();
+        let Some(q) = self.motion.next() else { return };
+        if self.motion.exit().is_some() {
             return;
         }
-        let ready = if self.rising.is_rising() || (self.balance.lost() && !self.fallen) {
+        let ready = if self.motion.gets_up()
+            || (self.surroundings.balance.lost() && !self.motion.has_fallen())
+        {
             false
         } else if !self.steps() || time > q.due + PATIENCE {
             true
         } else {
-            let soon = time >= q.from.max(q.due - SOONER) && self.tracker.is_settled(&self.terms);
+            let soon = time >= q.from.max(q.due - EARLIEST_BEGIN)
+                && self.desired.tracker.is_settled(&self.scratch.terms);
             soon && self.has_come(time)
         };
         if !ready {
             return;
         }
-        let stance = self.tracker.stance(&self.terms);
-        if let Some(mut q) = self.queued.take() {
-            if let Some(way) = q.entry.take().and_then(Plan::take) {
+        let planned = q.entry.as_ref().is_none_or(PlanTask::is_ready);
+        if !planned && world.planning == Planning::Aside {
+            self.outcome.late_plans += 1;
+            return;
+        }
+        let stance = self.desired.tracker.stance(&self.scratch.terms);
+        if let Some(mut q) = self.motion.take_next() {
+            if let Some(way) = q.entry.take().and_then(PlanTask::take) {
                 let begins = way.clip.sample(0.0).posture;
-                q.stance = Some(self.tracker.stance_of(&self.setup.body, &begins));
+                q.stance = Some(self.desired.tracker.stance_of(&self.setup.body, &begins));
                 q.first = way.begin;
                 q.plan = q.plan.entered_by(&self.setup.body, &way);
                 q.play.way_in = Some(Arc::new(way));
             }
             let (play, plan) = q.begin(time, stance);
-            self.tracker.follow(Some((plan, play.speed, play.origin)));
-            self.drive = Drive::Clip(play);
-            self.ending = false;
-            self.rising.reset();
+            self.desired
+                .tracker
+                .follow(Some((plan, play.speed, play.origin)));
+            self.motion.lie_down();
+            self.motion.enter(Drive::Clip(play));
+            self.desired.get_up.reset();
         }
     }
 
     /// A fallen figure gets up when its motion, which lay down, does: in its own way, after which it stands. What it is
     /// asked to do meanwhile waits.
-    pub(super) fn get_up(&mut self, time: f64) {
+    pub(super) fn update_get_up(&mut self, time: f64) {
         let able = self.setup.controller == ControllerKind::Modern;
-        if !self.fallen || !able || self.setup.options.assist >= 1.0 {
-            self.rising.reset();
+        if !self.motion.has_fallen() || !able || self.setup.options.assist >= 1.0 {
+            self.motion.lie_down();
+            self.desired.get_up.reset();
             return;
         }
-        let com = &self.pending.tasks.com.now;
-        let height = com.z / self.standing_com_height;
-        let before = self.rising.is_rising();
-        self.rising.watch(&self.terms, height);
-        if before != self.rising.is_rising() {
-            self.modern.reset();
-            self.ending = !before;
+        let height = self.desired.com.now.z / self.constants.standing_com_height;
+        let get_up = &mut self.desired.get_up;
+        let Scratch {
+            terms,
+            get_up: solver,
+            ..
+        } = &self.scratch;
+        match get_up.decide(solver, terms, height, self.motion.gets_up()) {
+            GetUpDecision::Continue => {}
+            GetUpDecision::Begin => {
+                self.controllers.modern.reset();
+                self.motion.begin_to_get_up();
+            }
+            GetUpDecision::GiveUp => {
+                self.controllers.modern.reset();
+                self.motion.give_up();
+            }
         }
-        if self.rising.is_up() && self.stands_on_feet() {
+        let is_up = self.motion.gets_up() && self.desired.get_up.is_over();
+        if is_up && self.stands_on_feet() {
             self.stand_up();
             self.plan_entry(time);
         }
@@ -241,38 +265,40 @@ impl Figure {
 
     /// It stands: it holds what it has come to.
     fn stand_up(&mut self) {
-        self.drive = Drive::Hold(self.target.next.posture);
-        self.rising.reset();
-        self.leaving = None;
-        self.tracker.follow(None);
-        self.fallen = false;
+        self.motion.stand_up(self.desired.target.next.posture);
+        self.desired.get_up.reset();
+        self.desired.tracker.follow(None);
         self.start_afresh();
     }
 
     /// True if only its feet touch, as its way has it, and it is up.
     fn stands_on_feet(&self) -> bool {
-        let points = self.support.points();
-        self.terms.com.z > UP * self.standing_com_height
-            && self.target.next.planted == [true; 2]
+        let points = self.surroundings.support.points();
+        self.scratch.terms.com.z > UP_HEIGHT * self.constants.standing_com_height
+            && self.desired.target.next.planted == [true; 2]
             && points.iter().all(|p| FEET.contains(&p.segment))
-            && self.support.rests().is_empty()
+            && self.surroundings.support.rests().is_empty()
     }
 
     /// Comes to a stand from world time `time` on: a walk is ended by the steps that takes, everything else is held as
     /// it is. The steps are worked out aside, while the motion goes on. Allocates.
     pub fn stop(&mut self, time: f64) {
-        self.queued = None;
-        // Ends may have been left out for a way over.
-        self.leaving = self.leaving.take().filter(|l| !l.leads_over());
+        self.motion.take_next();
+        // Stops may have been left out for a way over.
+        let exit = self.motion.take_exit().filter(|l| !l.leads_over());
+        self.motion.plan_exit(exit);
         // It does so already: a step that is under way is finished.
-        if self.ending || self.leaving.is_some() || matches!(self.drive, Drive::Hold(_)) {
+        if self.motion.stops()
+            || self.motion.exit().is_some()
+            || matches!(self.motion.source(), Drive::Hold(_))
+        {
             return;
         }
-        if !self.steps() || !self.tracker.is_walking() {
-            let posture = self.target.next.posture;
+        if !self.steps() || !self.desired.tracker.is_walking() {
+            let posture = self.desired.target.next.posture;
             self.set_drive(Drive::Hold(posture));
             return;
         }
-        self.leave_for_a_stand(time);
+        self.leave_for_a_stand(LEAD, time);
     }
 }

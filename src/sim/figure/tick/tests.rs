@@ -1,11 +1,16 @@
-//! What a figure does when its numbers break.
+//! What a figure does when its numbers break, and when its plans are late.
 
 use super::*;
-use crate::sim::figure::FigureEvent;
+use crate::sim::body::Body;
+use crate::sim::figure::{ClipPlayback, Drive, FigureEvent, FigureKey};
+use crate::sim::math::Vec3;
+use crate::sim::motion::Clip;
+use crate::sim::motion::builtin::builtin;
 use crate::sim::world::{World, WorldParams};
+use std::sync::Arc;
 
 #[test]
-fn a_figure_that_is_not_finite_is_frozen_told_once_and_harms_nobody() {
+fn a_figure_that_is_not_finite_is_frozen_reported_once_and_changes_no_other() {
     let body = Arc::new(Body::adult_man());
     let hashes = |broken: bool| {
         let mut world = World::new(WorldParams::default()).unwrap();
@@ -23,7 +28,7 @@ fn a_figure_that_is_not_finite_is_frozen_told_once_and_harms_nobody() {
         let all: Vec<u64> = (0..60)
             .map(|tick| {
                 if broken && tick == 20 {
-                    world.figure_mut(victim).unwrap().state.velocity[7] = f64::NAN;
+                    world.figure_mut(victim).unwrap().physical.state.velocity[7] = f64::NAN;
                 }
                 world.step();
                 let f = world.figure(victim).unwrap();
@@ -53,4 +58,64 @@ fn a_figure_that_is_not_finite_is_frozen_told_once_and_harms_nobody() {
     }
     let f = world.figure(victim).unwrap();
     assert!(!f.report().unwrap().flags.has(Flags::QUARANTINED) && !f.is_fallen());
+}
+
+/// A figure that has walked for a second, and its clip.
+fn walking(planning: Planning) -> (World, FigureKey, Arc<Clip>) {
+    let body = Arc::new(Body::adult_man());
+    let clip = Arc::new(builtin(&body, "walk").unwrap());
+    let mut world = World::new(WorldParams::default()).unwrap();
+    world.set_planning(planning);
+    let state = clip.sample(0.0).state();
+    let setup = FigureSetup::new(body, ControllerKind::Modern, state);
+    let key = world.add_figure(setup).unwrap();
+    world
+        .figure_mut(key)
+        .unwrap()
+        .set_drive(Drive::Clip(ClipPlayback {
+            looped: true,
+            ..ClipPlayback::new(Arc::clone(&clip), 0.0)
+        }));
+    (0..60).for_each(|_| world.step());
+    (world, key, clip)
+}
+
+/// Stops it, and steps on; requests of the ticks from `solved` on are solved. Plans that were late, and the tick in
+/// which it turned to its way to a stand.
+fn stopped(planning: Planning, solved: usize) -> (usize, Option<usize>, u64) {
+    let (mut world, key, clip) = walking(planning);
+    let time = world.time();
+    world.figure_mut(key).unwrap().stop(time);
+    let (mut late, mut turned) = (0, None);
+    for tick in 0..90 {
+        if tick >= solved {
+            world.plan_requests().for_each(|r| r.solve());
+        }
+        world.step();
+        late += world.late_plans();
+        let stays = match world.figure(key).unwrap().drive() {
+            Drive::Clip(play) => Arc::ptr_eq(&play.clip, &clip),
+            _ => false,
+        };
+        if !stays {
+            turned = turned.or(Some(tick));
+        }
+    }
+    (late, turned, world.state_hash())
+}
+
+#[test]
+fn plans_that_are_there_in_time_count_in_the_tick_that_was_fixed_for_them() {
+    let in_tick = stopped(Planning::InTick, usize::MAX);
+    assert_eq!((in_tick.0, in_tick.1), (0, Some(4)));
+    assert_eq!(stopped(Planning::Aside, 0), in_tick);
+    assert_eq!(stopped(Planning::Aside, 4), in_tick);
+}
+
+#[test]
+fn a_tick_waits_for_no_plan_and_takes_a_later_one() {
+    let (late, turned, _) = stopped(Planning::Aside, usize::MAX);
+    assert!(late > 2 && turned.is_none(), "it walks on");
+    let (late, turned, _) = stopped(Planning::Aside, 20);
+    assert!(late > 0 && turned.is_some_and(|t| t > 20 && t < 60));
 }

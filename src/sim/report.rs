@@ -1,11 +1,13 @@
 //! What one tick of one figure did: enough to check it from outside.
 
 use crate::sim::body::{DOF_COUNT, NV, SEGMENT_COUNT, SegmentId, State};
-use crate::sim::collide::touch::Touch;
 use crate::sim::math::Vec3;
+use crate::sim::touch::{MAX_TOUCHES, Touch};
 
-/// Most contact points one figure can have at once: 8 per segment.
-pub const MAX_CONTACTS: usize = 8 * SEGMENT_COUNT;
+/// Most contact points of one segment.
+pub const POINTS_PER_SEGMENT: usize = 8;
+/// Most contact points one figure can have at once.
+pub const MAX_CONTACTS: usize = POINTS_PER_SEGMENT * SEGMENT_COUNT;
 
 /// One touching point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,7 +32,7 @@ impl Flags {
     pub const FLIGHT: Self = Self(1);
     /// The zero-moment point is outside the support polygon.
     pub const TIPPING: Self = Self(1 << 1);
-    /// The overload rule replaced the active set (ALGORITHM §8).
+    /// The overload rule replaced the active set.
     pub const OVERLOAD: Self = Self(1 << 2);
     /// A pseudo-inverse was damped because its rows were nearly dependent.
     pub const DAMPED: Self = Self(1 << 3);
@@ -143,35 +145,33 @@ impl Clone for Audit {
     }
 }
 
-/// What one tick of one figure did. Torques and forces are means over the tick.
+/// Joints in one tick: torques are means over it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct TickReport {
+pub struct JointReport {
     /// Muscle torque, N·m.
     pub torque: [f64; DOF_COUNT],
     /// Ligament torque (joint limits), N·m.
     pub ligament_torque: [f64; DOF_COUNT],
-    /// Assist on the pelvis: moment about its origin (N·m), then force (N), world axes; zero unless it is on.
-    pub assist: [f64; 6],
-    /// What fatigue has left of the strength at the end of the tick, positive and negative direction of each DOF; 1
-    /// when it is off.
-    pub remaining: [[f64; 2]; DOF_COUNT],
     /// Least available torque at the start of the tick, N·m (negative).
     pub torque_lower: [f64; DOF_COUNT],
     /// Largest available torque at the start of the tick, N·m.
     pub torque_upper: [f64; DOF_COUNT],
+    /// What fatigue has left of the strength at the end of the tick, positive and negative direction of each DOF; 1
+    /// when it is off.
+    pub remaining: [[f64; 2]; DOF_COUNT],
     /// Largest violation of the strength of any substep relative to that limit (0 when none).
     pub over_limit: f64,
-    /// Acceleration over the tick, layout of `State::velocity`.
-    pub acceleration: [f64; NV],
     /// DOFs in the saturated set K of the primary constraint (bit = DOF); for other controllers: DOFs at their limit.
     pub saturated: u64,
     /// DOFs in the saturated set L of the secondary constraints.
     pub saturated_secondary: u64,
-    /// Touching points with their mean force.
-    pub contacts: Vec<ContactPoint>,
-    /// Parts that touch other figures and obstacles, by segment, then by what is touched; at most
-    /// [`MAX_TOUCHES`](crate::sim::collide::touch::MAX_TOUCHES).
-    pub touches: Vec<Touch>,
+    /// Joint error `desired ⊖ actual` at the start of the tick, rad.
+    pub joint_error: [f64; DOF_COUNT],
+}
+
+/// What carried the body in one tick, and where its centre of mass was.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BalanceReport {
     /// Main supporting segment, if any.
     pub main_support: Option<SegmentId>,
     /// Support ratio (2) per segment (0 where it does not support).
@@ -188,11 +188,27 @@ pub struct TickReport {
     pub com_velocity: Vec3,
     /// Desired centre of mass at the end of the tick, world, m.
     pub com_desired: Vec3,
+}
+
+/// What one tick of one figure did. Torques and forces are means over the tick.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TickReport {
+    /// Torques, limits and errors of the joints.
+    pub joints: JointReport,
+    /// Supports, zero-moment point and centre of mass.
+    pub balance: BalanceReport,
+    /// Assist on the pelvis: moment about its origin (N·m), then force (N), world axes; zero unless it is on.
+    pub assist: [f64; 6],
+    /// Acceleration over the tick, layout of `State::velocity`.
+    pub acceleration: [f64; NV],
+    /// Touching points with their mean force.
+    pub contacts: Vec<ContactPoint>,
+    /// Parts that touch other figures and obstacles, by segment, then by what is touched; at most
+    /// [`MAX_TOUCHES`].
+    pub touches: Vec<Touch>,
     /// What is missing of each constraint that a client gave, at the start of the tick: distance along the axes that
     /// count (m), angle (rad).
     pub constraint_error: Vec<[f64; 2]>,
-    /// Joint error `desired ⊖ actual` at the start of the tick, rad.
-    pub joint_error: [f64; DOF_COUNT],
     /// Largest depth of any contact point below the surface at the start of any substep, m.
     pub penetration: f64,
     /// Iterations of the controller.
@@ -203,4 +219,48 @@ pub struct TickReport {
     pub flags: Flags,
     /// The last substep, for checks from outside.
     pub audit: Audit,
+}
+
+impl TickReport {
+    /// An empty one of a figure in `state`, with room for every contact and touch, and for so many constraints and
+    /// applied forces.
+    pub fn empty(state: &State, constraints: usize, applied: usize) -> Self {
+        let z = [0.0; DOF_COUNT];
+        Self {
+            joints: JointReport {
+                torque: z,
+                ligament_torque: z,
+                torque_lower: z,
+                torque_upper: z,
+                remaining: [[1.0; 2]; DOF_COUNT],
+                over_limit: 0.0,
+                saturated: 0,
+                saturated_secondary: 0,
+                joint_error: z,
+            },
+            balance: BalanceReport {
+                main_support: None,
+                support_ratio: [0.0; SEGMENT_COUNT],
+                support_polygon: Vec::with_capacity(MAX_CONTACTS),
+                zmp: None,
+                margin: None,
+                com: Vec3::zero(),
+                com_velocity: Vec3::zero(),
+                com_desired: Vec3::zero(),
+            },
+            assist: [0.0; 6],
+            acceleration: [0.0; NV],
+            contacts: Vec::with_capacity(MAX_CONTACTS),
+            touches: Vec::with_capacity(MAX_TOUCHES),
+            constraint_error: Vec::with_capacity(constraints),
+            penetration: 0.0,
+            control_iterations: 0,
+            step_iterations: 0,
+            flags: Flags::default(),
+            audit: Audit {
+                state: *state,
+                ..Audit::with_capacity(applied)
+            },
+        }
+    }
 }

@@ -1,0 +1,71 @@
+//! Threads that solve what figures want to have planned, for all worlds of a server.
+//!
+//! The queue is bounded. A request that finds no room stays with its figure and is offered again in the next tick.
+
+use crate::server::engine::{PlanRequest, Planning};
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
+
+/// Most threads that plan.
+const MOST_THREADS: usize = 4;
+/// Most requests that wait for one of them.
+const MOST_WAITING: usize = 256;
+
+/// The threads that plan. They end when this is dropped and the queue is empty.
+#[derive(Debug)]
+pub struct Planners {
+    queue: SyncSender<PlanRequest>,
+    threads: usize,
+}
+
+impl Planners {
+    /// Starts the threads: one per processor, at most four. A machine that has none to spare plans in its ticks.
+    pub fn start() -> Self {
+        let (queue, waiting) = sync_channel(MOST_WAITING);
+        let waiting = Arc::new(Mutex::new(waiting));
+        let count = thread::available_parallelism().map_or(1, usize::from);
+        let mut threads = 0;
+        for _ in 0..count.min(MOST_THREADS) {
+            let waiting = Arc::clone(&waiting);
+            let spawned = thread::Builder::new()
+                .name("planner".into())
+                .spawn(move || serve(&waiting));
+            match spawned {
+                Ok(_) => threads += 1,
+                Err(e) => tracing::warn!("no thread to plan on: {e}"),
+            }
+        }
+        Self { queue, threads }
+    }
+
+    /// What ticks do that need a plan: they wait for none, unless there is no thread that works it out.
+    pub fn planning(&self) -> Planning {
+        if self.threads > 0 {
+            Planning::Aside
+        } else {
+            Planning::InTick
+        }
+    }
+
+    /// Hands over as many requests as there is room for. Never waits.
+    pub fn offer(&self, requests: impl Iterator<Item = PlanRequest>) {
+        for request in requests {
+            if self.queue.try_send(request.clone()).is_err() {
+                return;
+            }
+            request.accept();
+        }
+    }
+}
+
+fn serve(waiting: &Mutex<Receiver<PlanRequest>>) {
+    loop {
+        let next = waiting
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .recv();
+        let Ok(request) = next else { return };
+        request.solve();
+    }
+}

@@ -1,0 +1,257 @@
+//! What a figure consists of. [`PhysicalState`], [`MotionState`](crate::sim::figure::activity::MotionState),
+//! [`DesiredMotion`], [`Surroundings`] and [`StepperChoice`] are its state: they pass from tick to tick and decide what
+//! comes next. [`Scratch`] holds nothing that a tick needs of the one before. Controllers and steppers keep their
+//! buffers with a first guess for the next tick.
+
+use crate::sim::body::angles::anatomical_angles;
+use crate::sim::body::topology::DOF_COUNT;
+use crate::sim::body::{Body, Links, Posture, State};
+use crate::sim::collide::shape::BodyShape;
+use crate::sim::contact::Tissue;
+use crate::sim::control::{Command, Modern, Paper, PointTarget};
+use crate::sim::dynamics::{Kinematics, Terms, center_of_mass};
+use crate::sim::figure::assist::Assist;
+use crate::sim::figure::balance_loss::BalanceWatch;
+use crate::sim::figure::constraints::Constraints;
+use crate::sim::figure::events::Watcher;
+use crate::sim::figure::get_up::GetUp;
+use crate::sim::figure::kinematic_step::KinematicStepper;
+use crate::sim::figure::load_compensation::LoadCompensation;
+use crate::sim::figure::loads::Disturbances;
+use crate::sim::figure::tasks::{TaskPoints, TaskWorkspace};
+use crate::sim::figure::torque_step::{MotorCommand, TorqueRange, TorqueStepper};
+use crate::sim::figure::touches::Touches;
+use crate::sim::get_up::GetUpSolver;
+use crate::sim::math::Vec3;
+use crate::sim::motion::builtin::at_ease;
+use crate::sim::motion::{Target, TargetPair};
+use crate::sim::report::{MAX_CONTACTS, TickReport};
+use crate::sim::setup::{FigureOptions, FigureSetup, StrengthScale};
+use crate::sim::strength::fatigue::Fatigue;
+use crate::sim::strength::{MuscleScale, Strength};
+use crate::sim::support::Support;
+use crate::sim::track::StepTracker;
+use std::sync::Arc;
+
+/// What follows from the body alone.
+#[derive(Debug)]
+pub(super) struct BodyConstants {
+    /// Strength curves.
+    pub strength: Arc<Strength>,
+    /// The shapes it collides with.
+    pub shape: Arc<BodyShape>,
+    /// Height of the centre of mass over the soles in the zero pose, m.
+    pub standing_com_height: f64,
+}
+
+impl BodyConstants {
+    pub fn new(body: &Body, scale: &StrengthScale) -> Self {
+        let mut kin = Kinematics::default();
+        let links = Links::new(body);
+        kin.set_posture(&links, &Posture::default());
+        let height = center_of_mass(&links, &kin).0.z + body.standing_root_height();
+        Self {
+            strength: Arc::new(Strength::at_percentile(body, scale.percentile)),
+            shape: Arc::new(BodyShape::new(body)),
+            standing_com_height: height,
+        }
+    }
+}
+
+/// Body and muscles: where they are, and what they can give.
+#[derive(Clone, Debug)]
+pub(super) struct PhysicalState {
+    /// Positions and velocities.
+    pub state: State,
+    /// The last one that was finite.
+    pub last_good: State,
+    /// The state was not finite: the figure stays at its last good one.
+    pub frozen: bool,
+    /// Mass properties with the present loads.
+    pub links: Links,
+    /// Factors on the muscles in the last tick.
+    pub muscles: MuscleScale,
+    /// Fatigue, if it is on.
+    pub fatigue: Option<Box<Fatigue>>,
+    /// Acceleration of the centre of mass in the last tick, world axes, m/s².
+    pub com_acceleration: Vec3,
+}
+
+impl PhysicalState {
+    pub fn new(setup: &FigureSetup) -> Self {
+        Self {
+            state: setup.state,
+            last_good: setup.state,
+            frozen: false,
+            links: Links::new(&setup.body),
+            muscles: setup.strength.muscles(1.0),
+            fatigue: rested(&setup.options),
+            com_acceleration: Vec3::zero(),
+        }
+    }
+}
+
+/// Fatigue of a rested figure, if it is on.
+pub(super) fn rested(options: &FigureOptions) -> Option<Box<Fatigue>> {
+    let scale = options.fatigue_time_scale;
+    (scale > 0.0).then(|| Box::new(Fatigue::rested(scale)))
+}
+
+/// The desired motion of a tick, and what changes it from what its source says.
+#[derive(Clone, Debug)]
+pub(super) struct DesiredMotion {
+    /// Desired motion of the tick.
+    pub target: TargetPair,
+    /// Desired centre of mass, world, m and m/s.
+    pub com: PointTarget,
+    /// Steps: contact by events, and footholds.
+    pub tracker: Box<StepTracker>,
+    /// What a load changes.
+    pub load_compensation: Box<LoadCompensation>,
+    /// Constraints that clients gave.
+    pub constraints: Constraints,
+    /// Getting up from the floor.
+    pub get_up: Box<GetUp>,
+}
+
+impl DesiredMotion {
+    pub fn new(setup: &FigureSetup) -> Self {
+        let still = Target::still(setup.state.posture);
+        Self {
+            target: TargetPair {
+                now: still.clone(),
+                next: still,
+            },
+            com: TaskPoints::none().com,
+            tracker: Box::new(StepTracker::new(&setup.body)),
+            load_compensation: Box::new(LoadCompensation::new(&setup.body)),
+            constraints: Constraints::default(),
+            get_up: Box::new(GetUp::new(&setup.body)),
+        }
+    }
+}
+
+/// What acts on the figure from outside, and how it stands on it.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Surroundings {
+    /// Loads and pushes.
+    pub disturbances: Disturbances,
+    /// What it stands on.
+    pub support: Support,
+    /// What it touches besides the ground.
+    pub touches: Touches,
+    /// Whether its balance is lost.
+    pub balance: BalanceWatch,
+}
+
+/// Which stepper moves the figure: accelerations can be handed over to torques for a while.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct StepperChoice {
+    /// Torques move the figure though accelerations should: for how long it has been calm since, s.
+    pub handed_over: Option<f64>,
+    /// Accelerations move it in this tick.
+    pub prescribed: bool,
+    /// The controller's decision tips over an edge or a vertex of the support.
+    pub tips: bool,
+}
+
+/// The controllers, of which one is in charge.
+#[derive(Debug)]
+pub(super) struct Controllers {
+    pub paper: Box<Paper>,
+    pub modern: Box<Modern>,
+    /// Command of motors alone.
+    pub motors: Command,
+}
+
+/// The steppers, of which one moves the body.
+#[derive(Debug)]
+pub(super) struct Steppers {
+    pub torque: TorqueStepper,
+    pub kinematic: Box<KinematicStepper>,
+}
+
+/// Buffers of a tick, and what its stages hand on to each other.
+#[derive(Debug)]
+pub(super) struct Scratch {
+    /// Dynamics of the state at the start of the tick.
+    pub terms: Terms,
+    /// Kinematics of the desired motion.
+    pub tasks: TaskWorkspace,
+    /// Inverse kinematics of getting up.
+    pub get_up: Box<GetUpSolver>,
+    /// Heights at which getting up has the contact points, m.
+    pub floor: Box<[f64; MAX_CONTACTS]>,
+    /// What later stages need of earlier ones.
+    pub results: StageResults,
+}
+
+impl Scratch {
+    pub fn new(setup: &FigureSetup) -> Self {
+        Self {
+            terms: Terms::default(),
+            tasks: TaskWorkspace::default(),
+            get_up: Box::new(GetUpSolver::new(&setup.body, &at_ease(&setup.body))),
+            floor: Box::new([0.0; MAX_CONTACTS]),
+            results: StageResults::new(&setup.state),
+        }
+    }
+}
+
+/// What the stages of a tick hand on.
+#[derive(Debug)]
+pub(super) struct StageResults {
+    /// Anatomical angles, rad, and rates of the joints, rad/s, at the start of the tick.
+    pub angles: [f64; DOF_COUNT],
+    pub rates: [f64; DOF_COUNT],
+    /// Available torque at these.
+    pub available: TorqueRange,
+    /// Stretched tissue, where it acts.
+    pub tissue: Option<Tissue>,
+    /// What the motors are asked to do.
+    pub command: MotorCommand,
+    /// Help towards the desired pose of the pelvis, if it is on.
+    pub assist: Option<Assist>,
+    /// State at the start of the tick.
+    pub before: State,
+}
+
+impl StageResults {
+    fn new(state: &State) -> Self {
+        let z = [0.0; DOF_COUNT];
+        Self {
+            angles: anatomical_angles(&state.posture),
+            rates: z,
+            available: TorqueRange { lower: z, upper: z },
+            tissue: None,
+            command: MotorCommand {
+                acceleration: z,
+                torque: z,
+                saturation_speed: 1.0,
+            },
+            assist: None,
+            before: *state,
+        }
+    }
+}
+
+/// What the last tick showed.
+#[derive(Debug)]
+pub(super) struct Outcome {
+    pub report: TickReport,
+    /// There was a tick.
+    pub reported: bool,
+    /// Events.
+    pub watcher: Watcher,
+    /// Plans that it needed and that were not there.
+    pub late_plans: usize,
+}
+
+/// What the world notes of the figure when it looks for neighbours.
+#[derive(Debug)]
+pub(crate) struct Neighbours {
+    /// The cluster of figures and obstacles that it is near in this tick.
+    pub cluster: usize,
+    /// Put where it is since the last tick.
+    pub is_new: bool,
+}
