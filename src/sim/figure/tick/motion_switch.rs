@@ -7,9 +7,9 @@ use crate::sim::figure::background::Plan;
 use crate::sim::figure::drive::{ClipPlayback, Drive, LivePlayback, Queued};
 use crate::sim::motion::clip::{Clip, PlanarTransform};
 use crate::sim::plan::motion_transition;
-use crate::sim::plan::motion_transition::{WayIn, Ways};
+use crate::sim::plan::motion_transition::{TransitionCandidates, TransitionClip};
 use crate::sim::plan::splice;
-use crate::sim::plan::splice::{Ends, RUN_UP, Sample};
+use crate::sim::plan::splice::{RUN_UP, Sample, StopCandidates};
 use crate::sim::track::StepPlan;
 use std::sync::Arc;
 
@@ -26,7 +26,7 @@ const STANDS_AFTER: f64 = 2.2;
 /// A way to a stand, with what it asks of the ground.
 type End = Option<(f64, Clip)>;
 /// A way into a clip, and where that puts the clip's origin.
-type Over = Option<(WayIn, PlanarTransform)>;
+type Over = Option<(TransitionClip, PlanarTransform)>;
 
 /// What a motion is stopped from if no planned way leads out of it.
 #[derive(Debug)]
@@ -152,7 +152,7 @@ impl Figure {
         play: &ClipPlayback,
         (due, from): (f64, f64),
         time: f64,
-    ) -> Option<Arc<Ways>> {
+    ) -> Option<Arc<TransitionCandidates>> {
         let Drive::Clip(now) = &self.drive else {
             return None;
         };
@@ -170,7 +170,7 @@ impl Figure {
             (ahead * motion_transition::RATE - 1e-6).ceil() as usize
         };
         let from = (sample(due), sample(from));
-        let ways = Ways::new(&self.setup.body, known, from, play.motion());
+        let ways = TransitionCandidates::new(&self.setup.body, known, from, play.motion());
         (!ways.moments().is_empty()).then(|| Arc::new(ways))
     }
 
@@ -192,7 +192,7 @@ impl Figure {
         &mut self,
         leaving: &mut MotionSwitch,
         goal: Option<Posture>,
-        over: Option<&Arc<Ways>>,
+        over: Option<&Arc<TransitionCandidates>>,
         time: f64,
     ) {
         let after = ((leaving.due - time) * splice::RATE).round() as usize;
@@ -201,7 +201,12 @@ impl Figure {
         let slow = self.is_slow();
         let plans = |so_far: Vec<Sample>, goal: Option<Posture>| -> Vec<Plan<End>> {
             let how = (goal, given.streamed);
-            let ends = Arc::new(Ends::new(&self.setup.body, so_far, given.now, how));
+            let ends = Arc::new(StopCandidates::new(
+                &self.setup.body,
+                so_far,
+                given.now,
+                how,
+            ));
             let plan = |k| {
                 let (ends, over) = (Arc::clone(&ends), over.cloned());
                 Plan::new(move || {
@@ -209,7 +214,7 @@ impl Figure {
                     needed.then(|| ends.end(k)).flatten()
                 })
             };
-            (0..Ends::MOST).map(plan).collect()
+            (0..StopCandidates::MOST).map(plan).collect()
         };
         if slow && goal.is_some() {
             leaving.ends = plans(so_far, goal);
@@ -267,7 +272,7 @@ impl Figure {
             self.plan_entry(due);
             return;
         }
-        let best = Ends::best(ends.into_iter().map(Plan::take));
+        let best = StopCandidates::best(ends.into_iter().map(Plan::take));
         let clip = best.or_else(|| last_resort?.end(&self.setup.body));
         self.follow_end(clip, begin, before);
         if let Some(q) = &mut self.queued {
@@ -280,7 +285,7 @@ impl Figure {
     }
 
     /// Goes over to the clip that waits. World time of the first sample of the way is `begin`, s.
-    fn go_over(&mut self, (way, place): (WayIn, PlanarTransform), begin: f64) {
+    fn go_over(&mut self, (way, place): (TransitionClip, PlanarTransform), begin: f64) {
         let (Some(queued), Drive::Clip(now)) = (self.queued.take(), &self.drive) else {
             return;
         };
