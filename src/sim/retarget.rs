@@ -229,15 +229,15 @@ pub fn retarget(
             *v = (*v + placing.shift) * scale;
         }
         let others = ankle.iter_mut().chain(feet.iter_mut().flatten());
-        slowed.shorten(&mut pelvis, others);
-        slowed.calm(&mut pelvis, rate);
+        slowed.shorten_path(&mut pelvis, others);
+        slowed.damp_bounces(&mut pelvis, rate);
         for v in feet.iter_mut().flatten().flatten() {
             *v = *v * (1.0 / scale);
         }
     }
     let mut label = label_feet([&feet[0], &feet[1]], rate);
     if let Some(slowed) = &seen.slowed {
-        slowed.step(&mut ankle, &mut foot, &mut label, rate);
+        slowed.replace_flights(&mut ankle, &mut foot, &mut label, rate);
     }
 
     // Segments, then joints.

@@ -6,7 +6,7 @@ use crate::sim::math::Vec3;
 use crate::sim::motion::clip::{Clip, PlanarTransform};
 use crate::sim::motion::{Target, TargetPair};
 use crate::sim::plan::StreamPlan;
-use crate::sim::plan::motion_transition::{Next, WayIn};
+use crate::sim::plan::motion_transition::{NextClip, TransitionClip};
 use crate::sim::track::StepPlan;
 use crate::sim::track::planned_to_world::Anchor;
 use std::sync::Arc;
@@ -26,7 +26,7 @@ pub struct ClipPlayback {
     pub origin: PlanarTransform,
     /// How the figure came into it, if that was out of another motion without standing in between, or from a stand that
     /// is not like its beginning.
-    pub way_in: Option<Arc<WayIn>>,
+    pub way_in: Option<Arc<TransitionClip>>,
 }
 
 /// A stream that is prepared while it comes.
@@ -73,8 +73,8 @@ impl ClipPlayback {
     }
 
     /// The motion, without place and time.
-    pub(super) fn motion(&self) -> Next {
-        Next {
+    pub(super) fn motion(&self) -> NextClip {
+        NextClip {
             clip: Arc::clone(&self.clip),
             speed: self.speed,
             looped: self.looped,
@@ -124,7 +124,7 @@ pub(super) struct Queued {
     /// It begins standing, where its figure is.
     pub led: bool,
     /// The way from that stand into the clip, if it does not begin so.
-    pub entry: Option<PlanTask<Option<WayIn>>>,
+    pub entry: Option<PlanTask<Option<TransitionClip>>>,
 }
 
 impl Queued {

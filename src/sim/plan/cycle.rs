@@ -120,7 +120,7 @@ const HOW: PrepareOptions = PrepareOptions {
 
 /// Feet on the floor: the planted ones, and those that a former preparation set free because the leg could not hold
 /// them exactly.
-pub(crate) fn label(
+pub(crate) fn relabel_prepared(
     body: &Body,
     rate: f64,
     postures: &[Posture],
@@ -156,7 +156,7 @@ fn through_standing(body: &Body, clip: &Clip) -> Option<Clip> {
     let (postures, planted): (Vec<_>, Vec<_>) =
         clip.samples().take(count).map(|(p, f)| (*p, f)).unzip();
     let first = *postures.first()?;
-    let label = label(body, rate, &postures, &planted);
+    let label = relabel_prepared(body, rate, &postures, &planted);
     let mut draft = Draft::of_postures(body, rate, postures, label);
     if draft.end_like(body, &first) == 0 {
         return None;
@@ -185,7 +185,7 @@ fn closed(body: &Body, clip: &Clip, i: usize, j: usize) -> Option<Clip> {
         postures.push(t.posture);
         planted.push(t.planted);
     }
-    let label = label(body, rate, &postures, &planted);
+    let label = relabel_prepared(body, rate, &postures, &planted);
     let draft = Draft::of_postures(body, rate, postures, label);
     let prepared = prepare(body, &draft, HOW);
     let lead = lead + around * round;

@@ -27,7 +27,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The clip that is to follow, in its own place and time.
 #[derive(Clone, Debug)]
-pub struct Next {
+pub struct NextClip {
     /// The clip.
     pub clip: Arc<Clip>,
     /// Clip seconds per second.
@@ -36,7 +36,7 @@ pub struct Next {
     pub looped: bool,
 }
 
-impl Next {
+impl NextClip {
     /// The motion at clip time `t`, s.
     fn sample(&self, t: f64) -> Target {
         if self.looped {
@@ -67,7 +67,7 @@ impl Next {
 /// The way from a motion or a stand into a clip, in the place and time of the clip: it plays instead of what the clip
 /// has before `until`.
 #[derive(Clone, Debug)]
-pub struct WayIn {
+pub struct TransitionClip {
     /// The motion: first the one that is left, at last the clip itself.
     pub clip: Clip,
     /// Clip time of its first sample, s.
@@ -79,7 +79,7 @@ pub struct WayIn {
     pub until: f64,
 }
 
-impl WayIn {
+impl TransitionClip {
     /// True if it comes out of another motion, not from a stand.
     pub fn leads_over(&self) -> bool {
         self.enters > self.begin
@@ -88,17 +88,17 @@ impl WayIn {
 
 /// The ways from a motion into a clip, at the moments that are most alike. Each can be worked out on its own; the first
 /// one that a body can go is taken.
-pub struct Ways {
+pub struct TransitionCandidates {
     body: Arc<Body>,
     known: Vec<Sample>,
     now: usize,
-    next: Next,
+    next: NextClip,
     moments: Vec<Moment>,
     /// First way that a body can go, as far as is known: those after it are not wanted.
     found: AtomicUsize,
 }
 
-impl Ways {
+impl TransitionCandidates {
     /// * `known`: the motion from at least [`transition::RUN_UP`] ago to [`transition::AHEAD`] and
     ///   [`transition::BEYOND`] ahead, samples at [`stop::RATE`]; it goes on at least up to sample `now`.
     /// * `from`: the first sample at which it may be left.
@@ -106,7 +106,7 @@ impl Ways {
         body: &Arc<Body>,
         known: Vec<Sample>,
         (now, from): (usize, usize),
-        next: Next,
+        next: NextClip,
     ) -> Self {
         let long = (next.skipped() / next.speed * stop::RATE) as usize;
         // With a sample before and after, for rates.
@@ -135,7 +135,7 @@ impl Ways {
 
     /// The way at the `k`-th moment, and where it puts the origin of the clip; `None` if a body cannot go it, or if one
     /// before it is found already.
-    pub fn way(&self, k: usize) -> Option<(WayIn, crate::sim::motion::PlanarTransform)> {
+    pub fn way(&self, k: usize) -> Option<(TransitionClip, crate::sim::motion::PlanarTransform)> {
         let moment = self.moments.get(k)?;
         if k > self.found.load(Ordering::Relaxed) {
             return None;

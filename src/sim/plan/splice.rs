@@ -5,7 +5,7 @@
 //! locked and the zero-moment point is kept across it. Planned once when a figure is told to do something else;
 //! allocates, 10 to 20 ms for each end.
 
-use super::cycle::label;
+use super::cycle::relabel_prepared;
 use super::feasibility::infeasibility;
 use super::foot_lock::{turn, yaw_pitch};
 use super::prepare::{Draft, PrepareOptions, prepare_in};
@@ -34,7 +34,7 @@ pub type Sample = (Posture, [bool; 2]);
 /// The ends of a motion by the steps that bring it to a stand: the moments of the step to come are tried as the
 /// beginning of the end, in turn, until one asks little of the ground; else the one that asks least is taken. Each can
 /// be worked out on its own.
-pub struct Ends {
+pub struct StopCandidates {
     body: Arc<Body>,
     known: Vec<Sample>,
     now: usize,
@@ -53,7 +53,7 @@ struct KnownMotion {
     now: usize,
 }
 
-impl Ends {
+impl StopCandidates {
     /// Most ends that are tried.
     pub const MOST: usize = (stop::SEARCH_TIME * stop::RATE) as usize / stop::SEARCH_STRIDE + 1;
 
@@ -85,7 +85,7 @@ impl Ends {
             }
             let (known, now) = (twice_as_fine(&self.known)?, 2 * self.now);
             let (mut postures, planted): (Vec<_>, Vec<_>) = known.iter().copied().unzip();
-            let mut label = label(&self.body, stop::RATE, &postures, &planted);
+            let mut label = relabel_prepared(&self.body, stop::RATE, &postures, &planted);
             if (now..label.len()).all(|i| label[i] != [true; 2]) {
                 finish_step(&mut postures, &mut label);
             }
@@ -136,15 +136,15 @@ impl Ends {
     }
 }
 
-/// Ends a motion by the steps that bring it to a stand ([`Ends`]).
+/// Ends a motion by the steps that bring it to a stand ([`StopCandidates`]).
 pub fn stop(
     body: &Arc<Body>,
     known: Vec<Sample>,
     now: usize,
     how: (Option<Posture>, bool),
 ) -> Option<Clip> {
-    let ends = Ends::new(body, known, now, how);
-    Ends::best((0..Ends::MOST).map(|k| ends.end(k)))
+    let ends = StopCandidates::new(body, known, now, how);
+    StopCandidates::best((0..StopCandidates::MOST).map(|k| ends.end(k)))
 }
 
 impl KnownMotion {

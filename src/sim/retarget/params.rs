@@ -126,7 +126,7 @@ pub mod size {
         /// Leg (hip to ankle) over stature, both sexes; about 0.495 for men and 0.465 for women.
         LEG_OF_STATURE: f64 = 0.485, "1", 0.46..=0.5, "de Leva 1996";
         /// Hips to shoulders over stature.
-        TRUNK_OF_STATURE: f64 = 0.29, "1", 0.26..=0.32, "de Leva 1996";
+        TRUNK_OF_STATURE: f64 = 0.29, "1", 0.26..=0.32, "estimate, no source known";
         /// Weight of the leg in the stature; the trunk has the rest.
         LEG_WEIGHT: f64 = 0.7, "1", 0.3..=1.0, "tests/corpus";
         /// The rest.

@@ -200,7 +200,7 @@ impl RunToWalk {
     /// does.
     ///
     /// A run that turns keeps its length: only along a line is it plain what lies before what.
-    pub(crate) fn shorten<'a>(
+    pub(crate) fn shorten_path<'a>(
         &self,
         pelvis: &mut [Vec3],
         others: impl Iterator<Item = &'a mut Vec<Vec3>>,
@@ -223,7 +223,7 @@ impl RunToWalk {
     /// Calms the heights of the body, m: a runner flies up from each step and sinks into his knees in the next, and
     /// knees that bend as far in a walk, one leg alone and for longer, take more strength than the walk. What is left
     /// of a bounce shrinks with the square of the pace.
-    pub(crate) fn calm(&self, pelvis: &mut [Vec3], rate_hz: f64) {
+    pub(crate) fn damp_bounces(&self, pelvis: &mut [Vec3], rate_hz: f64) {
         let mut middle: Vec<f64> = pelvis.iter().map(|p| p.z).collect();
         low_pass(&mut middle, run_to_walk::BOUNCE_CUTOFF, rate_hz);
         let heights = pelvis.iter_mut().map(|p| &mut p.z);
@@ -235,7 +235,7 @@ impl RunToWalk {
     /// Leaves no flight in the runs and gives the feet swings between their places.
     ///
     /// * `ankle`, `foot`: left and right, per sample, m and `world_from_foot`; `label`: on the floor, as recorded.
-    pub(crate) fn step(
+    pub(crate) fn replace_flights(
         &self,
         ankle: &mut [Vec<Vec3>; 2],
         foot: &mut [Vec<Quat>; 2],
@@ -505,7 +505,7 @@ mod tests {
         // A foot that stands on the way stays where it is while the pelvis passes.
         let n = pelvis.len();
         let mut foot = vec![vec3(2.0, 0.1, 0.0); n];
-        slowed.shorten(&mut pelvis, [&mut foot].into_iter());
+        slowed.shorten_path(&mut pelvis, [&mut foot].into_iter());
         assert!(foot.iter().all(|p| (*p - foot[0]).norm() < 1e-9));
         assert!((*pelvis.last().unwrap() - *recorded.last().unwrap()).norm() < 0.02);
         for (i, v) in speeds(&pelvis, RATE).into_iter().enumerate().skip(10) {
@@ -525,7 +525,7 @@ mod tests {
         let slowed = slowed(&recorded).unwrap();
         let before = slowed.points(&recorded);
         let mut after = before.clone();
-        slowed.calm(&mut after, RATE);
+        slowed.damp_bounces(&mut after, RATE);
         let most = |of: &[Vec3], from: f64, to: f64| {
             let within = |k: f64| (from..to).contains(&(k / RATE));
             let at = of.iter().zip(&slowed.times).filter(|(_, k)| within(**k));
@@ -584,7 +584,7 @@ mod tests {
                 ankle[s][i] = vec3(u.floor() + (u.fract() - 0.25).max(0.0), 0.0, 0.08);
             }
         }
-        slowed.step(&mut ankle, &mut foot, &mut label, RATE);
+        slowed.replace_flights(&mut ankle, &mut foot, &mut label, RATE);
         assert!(label.iter().all(|l| l[0] || l[1]), "somebody stands");
         assert!(label.iter().any(|l| *l != [true; 2]), "and somebody swings");
         for s in 0..2 {

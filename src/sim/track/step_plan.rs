@@ -12,7 +12,7 @@ use crate::sim::motion::clip::PlanarTransform;
 use crate::sim::motion::leg_ik::forward;
 use crate::sim::plan::contact_labels::runs;
 use crate::sim::plan::foot_lock::Sole;
-use crate::sim::plan::motion_transition::WayIn;
+use crate::sim::plan::motion_transition::TransitionClip;
 use crate::sim::plan::pelvis_shift::mass_track;
 use crate::sim::plan::stream;
 use crate::sim::plan::stream::StreamPlan;
@@ -177,7 +177,7 @@ impl StepPlan {
 
     /// The same for a figure that comes into the clip by a way of its own; one into its lead-in leaves what is left of
     /// that.
-    pub fn entered_by(mut self, body: &Body, way: &WayIn) -> Self {
+    pub fn entered_by(mut self, body: &Body, way: &TransitionClip) -> Self {
         if let Some(mut lead) = self.lead.take_if(|l| way.until < l.until) {
             lead.plan = lead.plan.entered_by(body, way);
             self.lead = Some(lead);

@@ -8,16 +8,16 @@ use crate::sim::figure::params::switch::{LEAD, MOST_LEAD, SLOW, STOP_AHEAD, STOP
 use crate::sim::figure::plan_task::{PlanRequest, PlanTask, Planning};
 use crate::sim::motion::clip::{Clip, PlanarTransform};
 use crate::sim::plan::motion_transition;
-use crate::sim::plan::motion_transition::{WayIn, Ways};
+use crate::sim::plan::motion_transition::{TransitionCandidates, TransitionClip};
 use crate::sim::plan::splice;
-use crate::sim::plan::splice::{Ends, RUN_UP, Sample};
+use crate::sim::plan::splice::{RUN_UP, Sample, StopCandidates};
 use crate::sim::track::StepPlan;
 use std::sync::Arc;
 
 /// A way to a stand, with what it asks of the ground.
 type End = Option<(f64, Clip)>;
 /// A way into a clip, and where that puts the clip's origin.
-type Over = Option<(WayIn, PlanarTransform)>;
+type Over = Option<(TransitionClip, PlanarTransform)>;
 
 /// What the exit from a motion is to lead to.
 #[derive(Clone, Copy, Debug)]
@@ -170,7 +170,7 @@ impl Figure {
         play: &ClipPlayback,
         (due, from): (f64, f64),
         time: f64,
-    ) -> Option<Arc<Ways>> {
+    ) -> Option<Arc<TransitionCandidates>> {
         let Drive::Clip(now) = self.motion.source() else {
             return None;
         };
@@ -188,7 +188,7 @@ impl Figure {
             (ahead * motion_transition::RATE - 1e-6).ceil() as usize
         };
         let from = (sample(due), sample(from));
-        let ways = Ways::new(&self.setup.body, known, from, play.motion());
+        let ways = TransitionCandidates::new(&self.setup.body, known, from, play.motion());
         (!ways.moments().is_empty()).then(|| Arc::new(ways))
     }
 
@@ -211,7 +211,12 @@ impl Figure {
     }
 
     /// Begins to work out the ends of the motion; they are left out if there is a way over.
-    fn plan_ends(&mut self, leaving: &mut ExitPlan, over: Option<&Arc<Ways>>, time: f64) {
+    fn plan_ends(
+        &mut self,
+        leaving: &mut ExitPlan,
+        over: Option<&Arc<TransitionCandidates>>,
+        time: f64,
+    ) {
         let after = ((leaving.due - time) * splice::RATE).round() as usize;
         let (given, so_far) = self.motion_until_stop(time, after);
         (leaving.begin, leaving.before) = (given.begin, given.before);
@@ -219,7 +224,7 @@ impl Figure {
         let posture = leaving.goal.posture;
         let slow = self.is_slow() && posture.is_some();
         let how = (posture.filter(|_| slow), streamed);
-        let ends = Arc::new(Ends::new(body, so_far.clone(), now, how));
+        let ends = Arc::new(StopCandidates::new(body, so_far.clone(), now, how));
         let plan = |k| {
             let (ends, over) = (Arc::clone(&ends), over.cloned());
             PlanTask::new(move || {
@@ -227,7 +232,7 @@ impl Figure {
                 needed.then(|| ends.end(k)).flatten()
             })
         };
-        leaving.ends = (0..Ends::MOST).map(plan).collect();
+        leaving.ends = (0..StopCandidates::MOST).map(plan).collect();
         let Some(posture) = posture.filter(|_| !slow) else {
             return;
         };
@@ -304,7 +309,7 @@ impl Figure {
             self.plan_entry(due);
             return;
         }
-        let best = Ends::best(ends.into_iter().map(PlanTask::take));
+        let best = StopCandidates::best(ends.into_iter().map(PlanTask::take));
         let clip = best.or_else(|| last_resort?.take());
         self.follow_end(clip, begin, before);
         let stands = match self.motion.source() {
@@ -316,7 +321,7 @@ impl Figure {
     }
 
     /// Goes over to the clip that waits. World time of the first sample of the way is `begin`, s.
-    fn go_over(&mut self, (way, place): (WayIn, PlanarTransform), begin: f64) {
+    fn go_over(&mut self, (way, place): (TransitionClip, PlanarTransform), begin: f64) {
         let next = self.motion.take_next();
         let (Some(next), Drive::Clip(now)) = (next, self.motion.source()) else {
             return;

@@ -5,19 +5,19 @@
 //! throws arms and trunk about, drags feet that are other_support, and asks for a velocity that nobody has who stands.
 
 use super::candidates::{Features, far};
-use super::{Next, WayIn};
+use super::{NextClip, TransitionClip};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::{Vec3, trig};
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::clip::Clip;
-use crate::sim::plan::cycle::label;
+use crate::sim::plan::cycle::relabel_prepared;
 use crate::sim::plan::foot_lock::FootPlacement;
 use crate::sim::plan::params::{balance, stop, transition};
 use crate::sim::plan::prepare::{Draft, prepare_in};
 use crate::sim::plan::splice::{SEAM_OPTIONS, Sample, blend_from_played};
 use crate::sim::plan::turned_on_floor;
 
-impl Next {
+impl NextClip {
     /// True if nobody who stands like `stand` need do anything before the clip begins at clip time `first`, s. No
     /// platform-dependent rounding, since it is asked in the tick.
     pub fn begins_as(&self, body: &Body, first: f64, stand: &Posture) -> bool {
@@ -41,7 +41,7 @@ impl Next {
     }
 
     /// The way from standing like `stand` into the clip, which begins at clip time `first`, s. `None` if there is none.
-    pub fn from_stand(&self, body: &Body, first: f64, stand: &Posture) -> Option<WayIn> {
+    pub fn from_stand(&self, body: &Body, first: f64, stand: &Posture) -> Option<TransitionClip> {
         let samples = |seconds: f64| (seconds * stop::RATE).round() as usize;
         let (held, seen) = (
             samples(stop::BLEND_TIME),
@@ -53,7 +53,7 @@ impl Next {
             .map(|t| (t.posture, t.planted))
             .collect();
         let (mut postures, planted): (Vec<_>, Vec<_>) = known.iter().copied().unzip();
-        let mut label = label(body, stop::RATE, &postures, &planted);
+        let mut label = relabel_prepared(body, stop::RATE, &postures, &planted);
         known.reverse();
         postures.reverse();
         label.reverse();
@@ -70,7 +70,7 @@ impl Next {
         let clip =
             Clip::from_postures(self.clip.name(), rate, whole.postures, whole.planted).ok()?;
         let begin = first - added as f64 / rate;
-        Some(WayIn {
+        Some(TransitionClip {
             clip,
             begin,
             enters: begin,

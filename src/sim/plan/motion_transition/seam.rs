@@ -6,7 +6,7 @@
 //! support.
 
 use super::candidates::Moment;
-use super::{Next, WayIn};
+use super::{NextClip, TransitionClip};
 use crate::sim::body::angles::clamp_to_limits;
 use crate::sim::body::topology::{DOF_START, L_THIGH, L_UPPER_ARM, NV};
 use crate::sim::body::{Body, Posture};
@@ -15,7 +15,7 @@ use crate::sim::math::{Vec3, trig};
 use crate::sim::motion::clip::Clip;
 use crate::sim::motion::leg_ik::{forward, knee_axis, solve_leg_in_plane};
 use crate::sim::plan::ankle_torque_limit::AnkleTorqueLimit;
-use crate::sim::plan::cycle::label;
+use crate::sim::plan::cycle::relabel_prepared;
 use crate::sim::plan::envelope::smoothest_below;
 use crate::sim::plan::feasibility::infeasibility;
 use crate::sim::plan::foot_lock::{FootPlacement, FootPose, LockedFoot, Sole};
@@ -89,7 +89,7 @@ impl Seam {
     fn new(
         body: &Body,
         (known, at): (&[Sample], usize),
-        next: &Next,
+        next: &NextClip,
         (moment, enters): (&Moment, f64),
         count: usize,
     ) -> Self {
@@ -101,7 +101,7 @@ impl Seam {
         let left = [at - 1, at, at + 1].map(|i| known[i].0);
         Self {
             soles: [Sole::new(body, 0), Sole::new(body, 1)],
-            label: label(body, stop::RATE, &postures, &planted).split_off(1),
+            label: relabel_prepared(body, stop::RATE, &postures, &planted).split_off(1),
             feet: postures.iter().map(|p| feet_of(body, p)).collect(),
             from: [0, 1, 2].map(|k: usize| feet_of(body, &left[k])),
             left,
@@ -331,9 +331,9 @@ pub(super) fn transition_at(
     body: &Body,
     known: &[Sample],
     now: usize,
-    next: &Next,
+    next: &NextClip,
     (moment, enters): (&Moment, f64),
-) -> Option<(f64, WayIn)> {
+) -> Option<(f64, TransitionClip)> {
     let at = moment.left;
     let count = samples_in(transition::LONGEST) + transition::STEADY + 2;
     let seam = Seam::new(body, (known, at), next, (moment, enters), count);
@@ -343,7 +343,7 @@ pub(super) fn transition_at(
     let held = now.max(at.saturating_sub(samples_in(transition::SHIFT_AHEAD)));
     let cut = held.saturating_sub(samples_in(transition::MARGIN));
     let (mut postures, planted): (Vec<_>, Vec<_>) = known[cut..at].iter().copied().unzip();
-    let mut label = label(body, stop::RATE, &postures, &planted);
+    let mut label = relabel_prepared(body, stop::RATE, &postures, &planted);
     let mut poses: Vec<[FootPose; 2]> = postures.iter().map(|p| feet_of(body, p)).collect();
     postures.extend(seam.postures(count));
     label.extend_from_slice(&seam.label[..count]);
@@ -392,7 +392,7 @@ pub(super) fn transition_at(
     all.iter_mut().for_each(|p| back.apply_posture(p));
     let clip = Clip::from_postures(next.clip.name(), stop::RATE / next.speed, all, planted).ok()?;
     let seconds = |samples: usize| samples as f64 * next.speed / stop::RATE;
-    let way = WayIn {
+    let way = TransitionClip {
         clip,
         begin: enters - seconds(at),
         enters,

@@ -18,7 +18,7 @@ fn walked(body: &Body, from: f64) -> (Arc<Clip>, Vec<Sample>) {
     let clip = builtin(body, "walk").unwrap();
     let lead = (2.4 * clip.rate_hz()) as usize;
     let clip = Arc::new(clip.with_ends(lead, 0));
-    let next = Next {
+    let next = NextClip {
         clip: Arc::clone(&clip),
         speed: 1.0,
         looped: false,
@@ -27,13 +27,13 @@ fn walked(body: &Body, from: f64) -> (Arc<Clip>, Vec<Sample>) {
     (clip, next.samples(from, count))
 }
 
-fn into(body: &Arc<Body>, known: &[Sample], clip: &Arc<Clip>, speed: f64) -> Ways {
-    let next = Next {
+fn into(body: &Arc<Body>, known: &[Sample], clip: &Arc<Clip>, speed: f64) -> TransitionCandidates {
+    let next = NextClip {
         clip: Arc::clone(clip),
         speed,
         looped: false,
     };
-    Ways::new(body, known.to_vec(), (NOW, NOW), next)
+    TransitionCandidates::new(body, known.to_vec(), (NOW, NOW), next)
 }
 
 /// Largest difference of two postures, m and rad.
@@ -76,7 +76,7 @@ fn a_way_ends_as_the_clip_does_and_no_foot_slides_on_it() {
 }
 
 /// From its last moment on the way is the clip, and moves like it.
-fn ends_as(way: &WayIn, clip: &Clip, speed: f64) {
+fn ends_as(way: &TransitionClip, clip: &Clip, speed: f64) {
     for t in [way.until, way.until + 0.1 * speed] {
         let (a, b) = (way.clip.sample(t - way.begin), clip.sample(t));
         assert!(apart(&a.posture, &b.posture) < 1e-4, "at {speed}, {t} s");
@@ -86,7 +86,7 @@ fn ends_as(way: &WayIn, clip: &Clip, speed: f64) {
     }
 }
 
-fn no_foot_slides(body: &Body, way: &WayIn) {
+fn no_foot_slides(body: &Body, way: &TransitionClip) {
     let soles = [0, 1].map(|s| Sole::new(body, s));
     let mut stood: [Option<Vec3>; 2] = [None; 2];
     for (posture, planted) in way.clip.samples() {
@@ -107,7 +107,7 @@ fn who_stands_is_led_into_what_begins_otherwise() {
     let body = Arc::new(Body::adult_man());
     let ease = at_ease(&body);
     let lift = builtin(&body, "lift").unwrap();
-    let next = |clip: &Clip, speed: f64| Next {
+    let next = |clip: &Clip, speed: f64| NextClip {
         clip: Arc::new(clip.clone()),
         speed,
         looped: false,
