@@ -7,6 +7,7 @@
 //! can be gone at any pace.
 
 mod goals;
+pub mod params;
 mod reference_pose;
 mod solver;
 mod stages;
@@ -23,21 +24,12 @@ use crate::sim::math::exp::exp;
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::{PlanarTransform, Target, TargetPair};
 use goals::Goals;
+use params::layout::{NEAR_HEIGHT, ON_SIDE, PRONE, REFERENCE_LEG, TOUCH_HEIGHT, UPDATE_TIME};
 use reference_pose::ReferencePoses;
 use solver::{BALL, HANDS, KNEE, SHANKS, Solver, TOES};
 use stages::{FloorContacts, Layout, Stage};
 
-/// Leg length (hip to ankle) that distances are written for, m.
-const REFERENCE_LEG: f64 = 0.867;
-/// Time constant with which what is on the floor counts as where it really is, s.
-const TAKE_OVER: f64 = 0.3;
-/// Lower than the first it is on the floor, than the second it will be as soon as it is leant on, m.
-const TOUCH: f64 = 0.02;
-const NEARLY: f64 = 0.05;
-/// Who looks down this much lies on the belly; who is turned less than this from there lies on the side.
-const PRONE: f64 = 0.7;
-const ON_ITS_SIDE: f64 = 1.9;
-/// The stage in which who lies on the side begins.
+/// The stage in which a body that lies on its side begins.
 const SIDE: usize = 2;
 
 /// What getting up needs of a body, with the buffers of its inverse kinematics.
@@ -80,7 +72,7 @@ pub struct GetUpMotion {
     velocity: [f64; NV],
 }
 
-/// How far who looks to `front` is turned from lying on the belly, rad: π on the back, π/2 on the right side.
+/// How far a body that faces `front` is turned from lying on its belly, rad: π on the back, π/2 on the right side.
 fn roll(front: Vec3) -> f64 {
     trig::atan2(front.y, -front.z)
 }
@@ -132,7 +124,7 @@ impl GetUpMotion {
         let chest = terms.segment_position(CHEST.index());
         let front = p.root_rotation.rotate(Vec3::X);
         let prone = front.z < -PRONE;
-        // Who does not lie straight rolls about the trunk.
+        // A body that does not lie straight rolls about its trunk.
         let back = if prone {
             (knees[0] + knees[1]) * 0.5
         } else {
@@ -160,7 +152,7 @@ impl GetUpMotion {
         self.turns_over = !prone;
         self.stages = if prone { stages::UP } else { stages::OVER };
         self.mirrored = !prone && self.here.roll < 0.0;
-        let first = if !prone && self.here.roll.abs() < ON_ITS_SIDE {
+        let first = if !prone && self.here.roll.abs() < ON_SIDE {
             SIDE
         } else {
             0
@@ -313,7 +305,7 @@ impl GetUpMotion {
 
     /// What is on the floor counts where it is.
     fn update_layout(&mut self, with: &GetUpSolver, terms: &Terms, dt: f64) {
-        let share = 1.0 - exp(-dt / TAKE_OVER);
+        let share = 1.0 - exp(-dt / UPDATE_TIME);
         let real = &terms.state.posture;
         self.here.pelvis = inverse(self.place, real.root_position);
         let heading = if self.stages[self.stage].down.whole {
@@ -333,7 +325,7 @@ impl GetUpMotion {
             let toes = with.solver.lowest(terms, TOES[side]);
             let h = &mut self.here;
             let take = |place: &mut Vec3, real: Vec3, low: f64, down: bool| {
-                if down && low < TOUCH {
+                if down && low < TOUCH_HEIGHT {
                     *place += (real - *place) * share;
                 }
             };
@@ -362,7 +354,7 @@ impl GetUpMotion {
 /// True if all that a stage leans on is on the floor.
 fn is_down(solver: &Solver, terms: &Terms, down: FloorContacts) -> bool {
     (0..2).all(|side| {
-        let low = |s: SegmentId| solver.lowest(terms, s) < NEARLY;
+        let low = |s: SegmentId| solver.lowest(terms, s) < NEAR_HEIGHT;
         down.whole
             || (!down.knees || !down.balls || low(SHANKS[side]))
                 && (!down.balls || low(TOES[side]))

@@ -4,8 +4,10 @@ use crate::sim::body::{DOF_COUNT, NV, SEGMENT_COUNT, SegmentId, State};
 use crate::sim::math::Vec3;
 use crate::sim::touch::{MAX_TOUCHES, Touch};
 
-/// Most contact points one figure can have at once: 8 per segment.
-pub const MAX_CONTACTS: usize = 8 * SEGMENT_COUNT;
+/// Most contact points of one segment.
+pub const POINTS_PER_SEGMENT: usize = 8;
+/// Most contact points one figure can have at once.
+pub const MAX_CONTACTS: usize = POINTS_PER_SEGMENT * SEGMENT_COUNT;
 
 /// One touching point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,7 +32,7 @@ impl Flags {
     pub const FLIGHT: Self = Self(1);
     /// The zero-moment point is outside the support polygon.
     pub const TIPPING: Self = Self(1 << 1);
-    /// The overload rule replaced the active set (ALGORITHM §8).
+    /// The overload rule replaced the active set.
     pub const OVERLOAD: Self = Self(1 << 2);
     /// A pseudo-inverse was damped because its rows were nearly dependent.
     pub const DAMPED: Self = Self(1 << 3);

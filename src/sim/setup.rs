@@ -15,9 +15,9 @@ pub struct FigureSetup {
     pub body: Arc<Body>,
     /// Scale of its strength.
     pub strength: StrengthScale,
-    /// Who computes accelerations and torques.
+    /// What computes accelerations and torques.
     pub controller: ControllerKind,
-    /// Who moves the body.
+    /// What moves the body.
     pub stepper: StepperKind,
     /// Choices and gains.
     pub params: ControlParams,
@@ -43,28 +43,28 @@ impl FigureSetup {
     }
 }
 
-/// Who computes accelerations and torques.
+/// What computes accelerations and torques.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ControllerKind {
-    /// The paper's controller, equations (4)–(17), with the safeguards of ALGORITHM §7–9.
+    /// The paper's controller, equations (4)–(17), with safeguards (docs/equations.md).
     Paper,
-    /// Whole-body quadratic program solved through its dual, ALGORITHM §14.1–14.2.
+    /// Whole-body quadratic program solved through its dual (docs/equations.md).
     Modern,
-    /// Strength-limited motors alone, ALGORITHM §14.3; what is left after balance is lost.
+    /// Strength-limited motors alone (docs/equations.md); what is left after balance is lost.
     Motors,
 }
 
-/// Who moves the body.
+/// What moves the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StepperKind {
-    /// Torques drive full rigid-body dynamics with contact, ALGORITHM §14.3.
+    /// Torques drive full rigid-body dynamics with contact (docs/equations.md).
     Torque,
     /// The controller's accelerations are applied as they are; the support holds, tips about an edge or a vertex, or
-    /// flies (ALGORITHM §6). For the paper's controller. Motors alone need torques: with them this is `Torque`.
+    /// flies. For the paper's controller. Motors alone need torques: with them this is `Torque`.
     Kinematic,
 }
 
-/// Norm in which the change of acceleration is least (10), ALGORITHM §8.
+/// Norm in which the change of acceleration is least (10).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Metric {
     /// `W = I`, the paper's.
@@ -84,7 +84,7 @@ pub enum Priority {
     Nested,
 }
 
-/// How the ground reaction is shared between supports, ALGORITHM §5.
+/// How the ground reaction is shared between supports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Share {
     /// Ratios (2) times the total force.
@@ -93,7 +93,7 @@ pub enum Share {
     Balanced,
 }
 
-/// Choices and gains of the tracking controllers. Defaults are those of ALGORITHM.
+/// Choices and gains of the tracking controllers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ControlParams {
     /// Blend of position and velocity demand in (4) per 1/30 s; used when `horizon` is `None`.
@@ -110,14 +110,14 @@ pub struct ControlParams {
     pub to_limit: bool,
     /// Tilting support (S1).
     pub tilt: bool,
-    /// Keep the demanded CoM acceleration feasible for the ZMP (ALGORITHM §9).
+    /// Keep the demanded CoM acceleration feasible for the ZMP.
     pub zmp_feasible: bool,
     /// Control both hands as end-effectors.
     pub track_hands: bool,
     /// Control the centre of mass.
     pub track_com: bool,
     /// Hand over what cannot go on: to torques, while the kinematic stepper's prescribed accelerations cannot
-    /// (ALGORITHM §6); to motors alone, while balance is lost (ALGORITHM §14.3).
+    /// go on; to motors alone, while balance is lost.
     pub hand_over: bool,
     /// Step when the capture point has left the feet (modern controller).
     pub protective_steps: bool,

@@ -1,29 +1,19 @@
 //! Help that physics does not give: a bounded wrench on the pelvis towards its desired pose, off unless asked for and
 //! always reported.
 //!
-//! An implicit spring on the velocity of the pelvis, solved together with motors, joint limits and contacts
-//! (docs/adr/0011): its impulse over a substep is `κ (v* − v⁺)`, where v* brings the pelvis back to the desired pose,
+//! An implicit spring on the velocity of the pelvis, solved together with motors, joint limits and contacts.
+//! Its impulse over a substep is `κ (v* − v⁺)`, where v* brings the pelvis back to the desired pose,
 //! and it is cut in norm. Force and moment, and their bounds, grow with the figure's `assist` (0…1); at 1 they hold the
 //! pelvis on its path within millimetres whatever the legs do.
 
 use crate::sim::body::{Body, State};
+use crate::sim::figure::params::assist::{
+    INERTIA, LARGEST_FORCE, LARGEST_MOMENT, PLANNED_COST, RETURN, RETURN_RATE, RETURN_SPEED,
+    STIFFNESS,
+};
 use crate::sim::math::Vec3;
 use crate::sim::motion::TargetPair;
 
-/// κ of the force over the body mass at assist 1.
-const STIFFNESS: f64 = 50.0;
-/// Part of a pose error that is taken back per substep.
-const RETURN: f64 = 0.5;
-/// Fastest way back to the desired pose, m/s and rad/s.
-const RETURN_SPEED: f64 = 1.5;
-const RETURN_RATE: f64 = 3.0;
-/// Largest force over the body's weight, and moment over weight times stature, at assist 1.
-const MOST_FORCE: f64 = 2.0;
-const MOST_MOMENT: f64 = 0.5;
-/// Inertia about the pelvis over mass times stature squared.
-const INERTIA: f64 = 0.05;
-/// What a plan may use without regret at assist 1: half the largest force or moment costs this much.
-const PLANNED_COST: f64 = 10.0;
 /// Gravity that "weight" refers to, m/s².
 const GRAVITY: f64 = 9.81;
 
@@ -50,7 +40,8 @@ pub struct Spring {
     pub most: [f64; 2],
 }
 
-fn capped(v: Vec3, most: f64) -> Vec3 {
+/// `v`, with its norm cut to `most`.
+pub(super) fn capped(v: Vec3, most: f64) -> Vec3 {
     let n = v.norm();
     if n > most { v * (most / n) } else { v }
 }
@@ -62,8 +53,8 @@ impl Assist {
         let weight = p.mass * GRAVITY;
         (share > 0.0).then_some(Self {
             share,
-            most_force: share * MOST_FORCE * weight,
-            most_moment: share * MOST_MOMENT * weight * p.height,
+            most_force: share * LARGEST_FORCE * weight,
+            most_moment: share * LARGEST_MOMENT * weight * p.height,
             stiffness: [
                 share * STIFFNESS * INERTIA * p.mass * p.height * p.height,
                 share * STIFFNESS * p.mass,

@@ -1,16 +1,14 @@
 //! Is balance lost for good? Then the controller, which would bend ankles and knees to keep soles flat that cannot stay
-//! flat, hands over to motors alone (ALGORITHM §14.3): the figure falls as the body it is.
+//! flat, hands over to motors alone: the figure falls as the body it is.
 
 use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::body::{Body, SegmentId};
 use crate::sim::dynamics::Terms;
+use crate::sim::figure::params::balance::{
+    BODY_REACH, LEAST_HEIGHT, LOWEST_STEP, PAPER_REACH, RECOVERY_TIME, STEP_REACH,
+};
 use crate::sim::report::MAX_CONTACTS;
 use crate::sim::support::{Polygon, Support};
-
-/// A body this low (share of its standing height) does not step any more.
-const LOW: f64 = 0.7;
-/// Balance is found again once the capture point has been inside for this long, s.
-const FOUND_TIME: f64 = 0.3;
 
 /// What brings the capture point back from where, m.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,11 +24,33 @@ pub enum Reach {
 impl Reach {
     fn length(self, height: f64) -> f64 {
         match self {
-            Self::Body => 0.04,
-            Self::Step if height > LOW => 0.6,
-            Self::Paper | Self::Step => 0.15,
+            Self::Body => BODY_REACH,
+            Self::Step if height > LOWEST_STEP => STEP_REACH,
+            Self::Paper | Self::Step => PAPER_REACH,
         }
     }
+}
+
+/// What balance is judged by.
+#[derive(Clone, Copy, Debug)]
+pub struct Observation<'a> {
+    /// The body.
+    pub body: &'a Body,
+    /// Dynamics of its state.
+    pub terms: &'a Terms,
+    /// What it stands on.
+    pub support: &'a Support,
+    /// Magnitude of gravity, m/s².
+    pub gravity: f64,
+    /// Length of the tick, s.
+    pub dt: f64,
+    /// What may bring the capture point back.
+    pub reach: Reach,
+    /// Height of the centre of mass, as a share of the standing one.
+    pub height: f64,
+    /// Distance of the capture point from where the motion has it, m, while that motion walks: a walk falls from foot
+    /// to foot, and has lost nothing as long as it falls where the next foot is going to be.
+    pub off: Option<f64>,
 }
 
 /// Watches the capture point.
@@ -62,34 +82,33 @@ impl BalanceWatch {
         (self.lost, self.inside) = (false, 0.0);
     }
 
-    /// Looks at the state in `terms`, at the start of a tick of `dt` seconds. Allocates nothing.
-    ///
-    /// * `reach`: what may bring it back.
-    /// * `height`: of the centre of mass, as a share of the standing one.
-    /// * `off`: distance of the capture point from where the motion has it, m, while that motion walks: who walks falls
-    ///   from foot to foot, and has lost nothing as long as it falls where the next foot is going to be.
-    pub fn observe(
-        &mut self,
-        body: &Body,
-        terms: &Terms,
-        support: &Support,
-        (gravity, dt): (f64, f64),
-        (reach, height): (Reach, f64),
-        off: Option<f64>,
-    ) {
+    /// Observes the state at the start of a tick. Allocates nothing.
+    pub fn observe(&mut self, seen: &Observation<'_>) {
+        let Observation {
+            body,
+            terms,
+            support,
+            gravity,
+            ..
+        } = *seen;
         if (support.points().is_empty() && support.rests().is_empty()) || gravity <= 0.0 {
             return; // Flight: nothing to lose balance over.
         }
         let (c, v) = (terms.com, terms.com_velocity);
-        let time = (c.z.max(0.05) / gravity).sqrt();
+        let time = (c.z.max(LEAST_HEIGHT) / gravity).sqrt();
         let capture = [c.x + v.x * time, c.y + v.y * time];
         self.cover(body, terms, support);
         let outside = self.polygon.closest(capture).map_or(0.0, |c| -c.margin);
-        if outside.min(off.unwrap_or(f64::INFINITY)) > reach.length(height) {
+        let off = seen.off.unwrap_or(f64::INFINITY);
+        if outside.min(off) > seen.reach.length(seen.height) {
             (self.lost, self.inside) = (true, 0.0);
         } else if self.lost {
-            self.inside = if outside > 0.0 { 0.0 } else { self.inside + dt };
-            self.lost = self.inside < FOUND_TIME;
+            self.inside = if outside > 0.0 {
+                0.0
+            } else {
+                self.inside + seen.dt
+            };
+            self.lost = self.inside < RECOVERY_TIME;
         }
     }
 
@@ -140,9 +159,27 @@ mod tests {
         (body, t, support)
     }
 
+    fn seen<'a>(
+        body: &'a Body,
+        terms: &'a Terms,
+        support: &'a Support,
+        reach: Reach,
+    ) -> Observation<'a> {
+        Observation {
+            body,
+            terms,
+            support,
+            gravity: GRAVITY,
+            dt: DT,
+            reach,
+            height: 1.0,
+            off: None,
+        }
+    }
+
     fn lost_after(watch: &mut BalanceWatch, speed: f64, reach: Reach) -> bool {
         let (body, t, support) = moving(speed);
-        watch.observe(&body, &t, &support, (GRAVITY, DT), (reach, 1.0), None);
+        watch.observe(&seen(&body, &t, &support, reach));
         watch.lost()
     }
 
@@ -182,8 +219,10 @@ mod tests {
         let (body, t, support) = moving(5.0);
         let lost = |off: f64| {
             let mut watch = BalanceWatch::default();
-            let reach = (Reach::Step, 1.0);
-            watch.observe(&body, &t, &support, (GRAVITY, DT), reach, Some(off));
+            watch.observe(&Observation {
+                off: Some(off),
+                ..seen(&body, &t, &support, Reach::Step)
+            });
             watch.lost()
         };
         assert!(!lost(0.0) && !lost(0.59) && lost(0.61));
@@ -197,7 +236,7 @@ mod tests {
         state.posture.root_position.z += 1.0;
         support.update(&terms(&body, &state), &body, Vec3::zero(), GRAVITY);
         let mut watch = BalanceWatch::default();
-        watch.observe(&body, &t, &support, (GRAVITY, DT), (Reach::Body, 1.0), None);
+        watch.observe(&seen(&body, &t, &support, Reach::Body));
         assert!(!watch.lost());
     }
 }

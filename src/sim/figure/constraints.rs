@@ -8,6 +8,9 @@ use crate::sim::body::{Body, SegmentId};
 use crate::sim::control::goals::MAX_GOALS;
 use crate::sim::control::{Effector, Goal, PointTarget};
 use crate::sim::dynamics::Terms;
+use crate::sim::figure::params::constraints::{
+    COM_INSET, COM_LEASH, STREAM_INTERVAL, STREAM_SMOOTHING, STREAM_SPEED, TRUNK_REACH,
+};
 use crate::sim::math::ease::smoothstep;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::support::{Polygon, Support};
@@ -16,22 +19,6 @@ use crate::sim::support::{Polygon, Support};
 pub const MAX_CONSTRAINTS: usize = 8;
 /// Largest `ease`, s.
 pub const MAX_EASE: f64 = 60.0;
-/// How far inside of what carries it the wanted centre of mass is kept, m. Feet count from the heel to the ball: toes
-/// cannot carry a body for long.
-pub const COM_INSET: f64 = 0.03;
-/// How far from where the motion has it a point of trunk, head or legs is led, m: beyond, whole-body motion cannot keep
-/// balance.
-pub const TRUNK_REACH: f64 = 0.15;
-/// How far ahead of the present place the centre of mass is asked for, m: 2.5 m/s² and 0.25 m/s with the controllers'
-/// law.
-const COM_LEASH: f64 = 0.1;
-
-/// Places that are given anew within this time are one place that moves, s; slower than this, m/s: faster ones have
-/// jumped.
-const STREAMED: f64 = 0.1;
-const STREAM_SPEED: f64 = 5.0;
-/// Time constant with which its velocity is taken from them, s.
-const STREAM_SMOOTHING: f64 = 0.015;
 
 /// What a constraint is on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -105,7 +92,7 @@ impl Stream {
             velocity: Vec3::zero(),
             at: time,
         };
-        if let Some(b) = before.filter(|b| time - b.at <= STREAMED) {
+        if let Some(b) = before.filter(|b| time - b.at <= STREAM_INTERVAL) {
             let elapsed = time - b.at;
             next.velocity = b.velocity;
             if elapsed > 0.0 {
@@ -257,7 +244,7 @@ impl Constraints {
 
     /// How fast the wanted place of a part moves, m/s: zero unless it is given again and again.
     fn velocity(&self, on: Constrained, time: f64) -> Vec3 {
-        let fresh = |s: &&Stream| s.on == on && time - s.at <= STREAMED;
+        let fresh = |s: &&Stream| s.on == on && time - s.at <= STREAM_INTERVAL;
         let stream = self.streams.iter().find(fresh);
         stream.map_or(Vec3::zero(), |s| s.velocity)
     }

@@ -156,7 +156,8 @@ impl Watcher {
             }
         }
         let balanced = !report.flags.has(Flags::BALANCE_LOST);
-        // Who lies on the ground has lost control no longer, and found no balance either: that is told when it stands.
+        // A figure that lies has not lost its balance any more, and has not found it either: `Recovered` waits until it
+        // stands.
         if balanced != self.balanced && !(balanced && fallen) {
             self.balanced = balanced;
             self.push(if balanced {

@@ -1,37 +1,24 @@
-//! Getting up (ALGORITHM §12): a figure that lies where its motion lay down gets up when the motion does, in its own
-//! way.
+//! Getting up: a figure that lies where its motion lay down gets up when the motion does.
 //!
-//! A recorded way up cannot be repeated as it is: it was made by another body, it leans on hands whose skin nobody
-//! recorded, and often it leaps. So the motion says *when*; *how* is the figure's own ([`crate::sim::get_up`]), at the
-//! pace at which it can follow.
+//! A recorded way of getting up cannot be repeated as it is. It was made by another body, it leans on hands whose skin
+//! was not recorded, and often it leaps. So the motion decides *when*. *How* is planned for the figure
+//! ([`crate::sim::get_up`]), at the pace at which it can follow.
 
 use super::tasks::TaskWorkspace;
 use crate::sim::body::topology::SegmentId;
-use crate::sim::body::{Body, Posture, SEGMENT_COUNT};
+use crate::sim::body::{Body, Posture};
 use crate::sim::control::OnFloor;
 use crate::sim::dynamics::Terms;
+use crate::sim::figure::params::fall::FALLEN_HEIGHT;
+use crate::sim::figure::params::get_up::{
+    ATTEMPTS, FULL_PACE_COM, FULL_PACE_JOINTS, FULL_PACE_LYING_TURN, FULL_PACE_TURN, LEAST_PACE,
+    LEVEL, NO_PACE_COM, NO_PACE_JOINTS, NO_PACE_LYING_TURN, NO_PACE_TURN, STALLED_PACE,
+    STALLED_TIME, STILL_SPEED,
+};
 use crate::sim::get_up::{GetUpMotion, GetUpSolver};
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::TargetPair;
-use crate::sim::report::MAX_CONTACTS;
-
-/// Most contact points of one segment.
-const POINTS: usize = MAX_CONTACTS / SEGMENT_COUNT;
-/// A motion lies below this share of the standing height (of its centre of mass); above it, it gets up.
-const LOW: f64 = 0.45;
-/// It lies whose trunk rises less than this, and lies still below this speed, m/s.
-const LEVEL: f64 = 0.7;
-const STILL: f64 = 0.3;
-/// The way goes on at full pace below the first of both and waits at the second: rms of the joints, rad; turn of the
-/// pelvis, rad; distance of the centre of mass over the floor, m.
-const PACE: [(f64, f64); 3] = [(0.08, 0.2), (0.15, 0.4), (0.03, 0.08)];
-/// The same without the centre of mass for who lies and has nothing to lose: he waits less, and not for ever.
-const LYING_PACE: [(f64, f64); 2] = [(0.08, 0.2), (0.25, 0.6)];
-const LEAST_PACE: f64 = 0.25;
-/// A way that goes on slower than this for so long, s, leads nowhere.
-const STALLED: (f64, f64) = (0.05, 3.0);
-/// Attempts for one command.
-const ATTEMPTS: u32 = 3;
+use crate::sim::report::{MAX_CONTACTS, POINTS_PER_SEGMENT};
 
 /// How a fallen figure gets up, and when.
 #[derive(Clone, Copy, Debug)]
@@ -121,7 +108,7 @@ impl GetUp {
         gets_up: bool,
     ) -> GetUpDecision {
         if gets_up {
-            return if self.stalled.max(self.motion.waits()) > STALLED.1 {
+            return if self.stalled.max(self.motion.waits()) > STALLED_TIME {
                 GetUpDecision::GiveUp
             } else {
                 GetUpDecision::Continue
@@ -129,7 +116,7 @@ impl GetUp {
         }
         if self.own {
             self.own = false;
-        } else if height < LOW {
+        } else if height < FALLEN_HEIGHT {
             (self.lay, self.attempts) = (true, ATTEMPTS);
         } else if self.lay && self.attempts > 0 && lies(terms) {
             self.attempts -= 1;
@@ -154,19 +141,18 @@ impl GetUp {
     ) -> TargetPair {
         let state = &terms.state.posture;
         let turn = tilt(state.root_rotation, target.root_rotation);
-        let keeping =
-            |(full, none): (f64, f64), e: f64| ((none - e) / (none - full)).clamp(0.0, 1.0);
+        let keeping = |full: f64, none: f64, e: f64| ((none - e) / (none - full)).clamp(0.0, 1.0);
+        let joints = || keeping(FULL_PACE_JOINTS, NO_PACE_JOINTS, unlike(state, target));
         let pace = if self.motion.rolls() {
             1.0
         } else if self.motion.lies() {
-            (keeping(LYING_PACE[0], unlike(state, target)) * keeping(LYING_PACE[1], turn))
-                .max(LEAST_PACE)
+            (joints() * keeping(FULL_PACE_LYING_TURN, NO_PACE_LYING_TURN, turn)).max(LEAST_PACE)
         } else {
-            keeping(PACE[0], unlike(state, target))
-                * keeping(PACE[1], turn)
-                * keeping(PACE[2], self.off)
+            joints()
+                * keeping(FULL_PACE_TURN, NO_PACE_TURN, turn)
+                * keeping(FULL_PACE_COM, NO_PACE_COM, self.off)
         };
-        self.stalled = if pace < STALLED.0 {
+        self.stalled = if pace < STALLED_PACE {
             self.stalled + dt
         } else {
             0.0
@@ -187,9 +173,14 @@ impl GetUp {
         self.off = (off.x * off.x + off.y * off.y).sqrt();
         heights.fill(f64::INFINITY);
         for s in SegmentId::all().filter(|s| self.motion.carries(*s)) {
-            let points = body.segment(s).contact_points.iter().take(POINTS);
+            let points = body
+                .segment(s)
+                .contact_points
+                .iter()
+                .take(POINTS_PER_SEGMENT);
             for (vertex, p) in points.enumerate() {
-                heights[s.index() * POINTS + vertex] = tasks.desired_point(target, s, *p).z;
+                heights[s.index() * POINTS_PER_SEGMENT + vertex] =
+                    tasks.desired_point(target, s, *p).z;
             }
         }
     }
@@ -198,5 +189,5 @@ impl GetUp {
 /// True if it lies, and lies still.
 fn lies(terms: &Terms) -> bool {
     let up = terms.state.posture.root_rotation.rotate(Vec3::Z);
-    up.z.abs() < LEVEL && terms.com_velocity.norm() < STILL
+    up.z.abs() < LEVEL && terms.com_velocity.norm() < STILL_SPEED
 }

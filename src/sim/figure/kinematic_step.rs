@@ -1,10 +1,10 @@
-//! The paper's own way to move a figure (ALGORITHM §6, §10): the controller's accelerations are applied as they are,
+//! The paper's own way to move a figure: the controller's accelerations are applied as they are,
 //! and the support holds still, rotates about the minimum-moment point, or flies.
 //!
 //! Nothing here can push back: what the ground would have to give follows from inverse dynamics and is shared among the
 //! touching points. What they cannot give shows as a residual of the audit; it is not hidden.
 
-use super::torque_step::{MAX_SPEED, StepInput, TickForces};
+use super::torque_step::{StepInput, TickForces};
 use crate::sim::body::topology::{DOF_COUNT, L_FOOT, L_TOES, NV, R_FOOT, R_TOES, SEGMENT_COUNT};
 use crate::sim::body::{Body, Posture, SegmentId, State};
 use crate::sim::contact::limits::LimitRows;
@@ -16,32 +16,14 @@ use crate::sim::control::reroot::shift;
 use crate::sim::dynamics::factor::{factor, solve};
 use crate::sim::dynamics::terms::WIDTH;
 use crate::sim::dynamics::{Kinematics, MassMatrix, Terms};
+use crate::sim::figure::params::contact::LARGEST_SPEED;
+use crate::sim::figure::params::kinematic::{
+    ARRIVAL_TICKS, COMPLIANCE, IMPACT_HEIGHT, IMPACT_SPEED, ITERATIONS, LIMIT_TOLERANCE,
+    NEARLY_FLAT, PIVOT_REACH, SETTLE, TOLERANCE,
+};
 use crate::sim::math::{Quat, Vec3};
-use crate::sim::report::{ContactPoint, Flags, MAX_CONTACTS};
+use crate::sim::report::{ContactPoint, Flags, MAX_CONTACTS, POINTS_PER_SEGMENT};
 use crate::sim::support::{Pivot, Sharing, Support, SupportPoint, tipping_acceleration};
-
-/// A point that arrives faster than this strikes the ground; a slower one settles, m/s.
-const IMPACT_SPEED: f64 = 0.05;
-/// Points below this height take part in an impact, m.
-const IMPACT_HEIGHT: f64 = 0.006;
-/// While tilting, only points this close to the pivot line carry load, m.
-const PIVOT_REACH: f64 = 0.012;
-/// Softness of a touching point in an impact, 1/kg.
-const COMPLIANCE: f64 = 1e-6;
-/// Bound and residual (N·m·s) of an impact's iterations.
-const IMPACT_ITERATIONS: u32 = 80;
-const IMPACT_TOLERANCE: f64 = 1e-9;
-/// Torque beyond strength that counts as rounding, relative to the limit.
-const LIMIT_TOLERANCE: f64 = 1e-9;
-/// A foot tilted less than this when it comes to hold is laid flat, 1 − cos of the angle (3°).
-const NEARLY_FLAT: f64 = 1.4e-3;
-/// Part of the remaining tilt that is laid flat per tick.
-const SETTLE: f64 = 0.2;
-/// Contact points of one segment that are looked at, as in the other stepper.
-const POINTS_PER_SEGMENT: usize = MAX_CONTACTS / SEGMENT_COUNT;
-/// Joint speed that the motors may reach under prescribed accelerations; beyond it torques take over, rad/s (ALGORITHM
-/// §12).
-pub const SPEED_CAP: f64 = 15.0;
 
 /// What this stepper reads beside the common input.
 #[derive(Clone, Copy, Debug)]
@@ -149,7 +131,7 @@ impl KinematicStepper {
         for (v, a) in state.velocity.iter_mut().zip(&command.acceleration) {
             *v += input.world.dt * a;
         }
-        if state.brake(MAX_SPEED) {
+        if state.brake(LARGEST_SPEED) {
             self.forces.flags.set(Flags::SPEED_BOUND);
         }
         self.advance(input, main, command.pivot, &start, input.world.dt, state);
@@ -342,8 +324,8 @@ impl KinematicStepper {
             &self.motors,
             &self.limits,
             &self.contacts,
-            IMPACT_ITERATIONS,
-            IMPACT_TOLERANCE,
+            ITERATIONS,
+            TOLERANCE,
             &mut v,
             &mut self.newton,
         );
@@ -476,7 +458,7 @@ pub fn other_part_arrives(body: &Body, terms: &Terms, dt: f64) -> bool {
         let points = &body.segments[s].contact_points;
         points.iter().take(POINTS_PER_SEGMENT).any(|p| {
             let z = terms.point_world(s, *p).z;
-            z + 2.0 * dt * terms.point_velocity(s, *p).z.min(0.0) < IMPACT_HEIGHT
+            z + ARRIVAL_TICKS * dt * terms.point_velocity(s, *p).z.min(0.0) < IMPACT_HEIGHT
         })
     })
 }

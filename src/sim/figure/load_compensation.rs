@@ -9,34 +9,20 @@
 
 mod arm;
 
+use super::assist::capped;
 use crate::sim::body::topology::{
     ABDOMEN, CHEST, HEAD, JOINT, Joint, L_FOOT, L_TOES, L_UPPER_ARM, PARENT, R_FOOT, R_TOES,
     R_UPPER_ARM, SEGMENT_COUNT,
 };
 use crate::sim::body::{Body, Links, NV, Posture, SegmentId};
+use crate::sim::figure::params::load::{
+    LARGEST_LEAN, LARGEST_SHIFT, LEAN, ONSET_TIME, RATE_SPAN, SAME_LOAD, SHIFT_GAIN, SHIFT_ROUNDS,
+};
 use crate::sim::math::exp::exp;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::leg_ik::{forward, solve_leg};
 use crate::sim::motion::{Target, TargetPair};
 use arm::{ARMS, Arm, Habit, Poses};
-
-/// Lean of the trunk per shift of the centre of mass, rad/m, and most of it, rad: it does about half, and the pelvis
-/// the rest.
-const LEAN: f64 = 1.8;
-const MOST_LEAN: f64 = 0.25;
-/// The pelvis is shifted by no more than this, m.
-const MOST_SHIFT: f64 = 0.12;
-/// Time constant, twice, with which a load that was taken up or let go makes itself felt, s.
-const FELT: f64 = 0.2;
-/// A load that differs by less than this from what is felt is felt as it is, kg and kg·m.
-const SAME: f64 = 1e-6;
-/// Pelvis and trunk move by this much more than the centre of mass, because the feet stay.
-const LEAD: f64 = 1.15;
-/// Rounds in which the shift of the pelvis is found: each leaves a tenth of what was off.
-const ROUNDS: usize = 3;
-/// The rates of a changed motion are taken over so long before and after a moment, s: short enough to be those of the
-/// moment, long enough for what mirrored and turned bodies round differently to stay below 1e-9 in their torques.
-const INSTANT: f64 = 5e-4;
 
 /// Masses and first moments of mass of the segments with a load, segment frames, kg and kg·m.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,8 +62,8 @@ impl Masses {
 
     fn is_near(&self, other: &Self) -> bool {
         (0..SEGMENT_COUNT).all(|s| {
-            (self.mass[s] - other.mass[s]).abs() < SAME
-                && (self.moment[s] - other.moment[s]).norm() < SAME
+            (self.mass[s] - other.mass[s]).abs() < SAME_LOAD
+                && (self.moment[s] - other.moment[s]).norm() < SAME_LOAD
         })
     }
 }
@@ -158,7 +144,7 @@ impl LoadCompensation {
             hung,
             ahead,
         };
-        let around = |t: f64| [t - INSTANT, t, t + INSTANT].map(felt);
+        let around = |t: f64| [t - RATE_SPAN, t, t + RATE_SPAN].map(felt);
         lean.change(&mut target.now, &around(0.0));
         lean.change(&mut target.next, &around(dt));
         self.habits = Some([0, 1].map(|k| before[k].after(dt, hung[k], Arm::of(&next, ARMS[k]))));
@@ -170,11 +156,14 @@ impl LoadCompensation {
 
     /// What will be felt `ahead` seconds from now of what is carried then: halfway, and in full.
     fn felt_in(&self, carried: &Masses, ahead: f64) -> (Masses, Masses) {
-        let left = exp(-ahead / FELT);
+        let left = exp(-ahead / ONSET_TIME);
         let none = (carried, 0.0);
         (
             carried.toward((&self.halfway, left), none),
-            carried.toward((&self.felt, left), (&self.halfway, left * ahead / FELT)),
+            carried.toward(
+                (&self.felt, left),
+                (&self.halfway, left * ahead / ONSET_TIME),
+            ),
         )
     }
 }
@@ -194,10 +183,10 @@ impl Lean<'_> {
             p.integrate(&target.velocity, seconds);
             p
         };
-        let from = self.leaned(&moved(-INSTANT), before);
-        let way = from.difference(&self.leaned(&moved(INSTANT), after));
+        let from = self.leaned(&moved(-RATE_SPAN), before);
+        let way = from.difference(&self.leaned(&moved(RATE_SPAN), after));
         target.posture = self.leaned(&target.posture, felt);
-        target.velocity = std::array::from_fn::<f64, NV, _>(|i| way[i] * (0.5 / INSTANT));
+        target.velocity = std::array::from_fn::<f64, NV, _>(|i| way[i] * (0.5 / RATE_SPAN));
     }
 
     /// The posture in which the body with what is `felt` has its centre of mass where the unloaded one has it in
@@ -220,9 +209,9 @@ impl Lean<'_> {
         tilt(&mut out, &poses, by);
         let goal = self.real.center(&poses) + by;
         let mut shift = Vec3::zero();
-        for _ in 0..ROUNDS {
+        for _ in 0..SHIFT_ROUNDS {
             let off = goal - self.real.center(&forward(self.body, &out));
-            shift = capped(shift + Vec3 { z: 0.0, ..off } * LEAD, MOST_SHIFT);
+            shift = capped(shift + Vec3 { z: 0.0, ..off } * SHIFT_GAIN, LARGEST_SHIFT);
             out.root_position = posture.root_position + shift;
             for (left, foot, toes) in [(true, L_FOOT, L_TOES), (false, R_FOOT, R_TOES)] {
                 if let Joint::Hinge1(toe) = JOINT[toes.index()] {
@@ -237,7 +226,7 @@ impl Lean<'_> {
 
 /// Tilts the trunk towards `by`, half of it in the waist; head and arms keep the directions they have in `poses`.
 fn tilt(posture: &mut Posture, poses: &Poses, by: Vec3) {
-    let tilt = capped(Vec3::Z.cross(by) * LEAN, MOST_LEAN);
+    let tilt = capped(Vec3::Z.cross(by) * LEAN, LARGEST_LEAN);
     let mut turned = poses.map(|(_, rotation)| rotation);
     turned[ABDOMEN.index()] = Quat::exp(tilt * 0.5) * turned[ABDOMEN.index()];
     turned[CHEST.index()] = Quat::exp(tilt) * turned[CHEST.index()];
@@ -246,12 +235,6 @@ fn tilt(posture: &mut Posture, poses: &Poses, by: Vec3) {
             posture.ball[b] = (turned[PARENT[s]].conjugate() * turned[s]).normalized();
         }
     }
-}
-
-/// Capped in norm.
-fn capped(v: Vec3, most: f64) -> Vec3 {
-    let n = v.norm();
-    if n > most { v * (most / n) } else { v }
 }
 
 #[cfg(test)]

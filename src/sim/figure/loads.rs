@@ -107,8 +107,7 @@ impl Disturbances {
     /// Takes up and lets go loads that are due at `time`, and collects the forces of the tick that begins then.
     ///
     /// A load is taken up inelastically and momentum is conserved: `v⁺ = v⁻ − M'⁻¹ Σ J_pᵀ m (J_p v⁻ − v_load)` with M'
-    /// the loaded inertia (ALGORITHM §10, where the load is at rest). What is due before the first tick was carried all
-    /// along.
+    /// the loaded inertia. What is due before the first tick was carried all along.
     pub fn apply(
         &mut self,
         time: f64,
@@ -195,7 +194,6 @@ impl Disturbances {
         if !self.started {
             return;
         }
-        kin.set_state(links, state); // world inertias of the loaded segments
         kin.set_state(links, state); // world inertias of the loaded segments
         let mut impulse = [0.0; NV];
         let mut taken = false;

@@ -10,6 +10,7 @@ mod get_up;
 pub mod kinematic_step;
 mod load_compensation;
 pub mod loads;
+pub mod params;
 pub mod plan_task;
 
 pub mod tasks;

@@ -1,9 +1,9 @@
 //! Plans that take too long for a tick. A figure states a problem in one tick and takes the result in a later one that
 //! is fixed beforehand.
 //!
-//! Nothing here runs on its own. Whoever steps the world may solve the problems meanwhile, on threads of its own
-//! ([`World::plan_requests`](crate::sim::world::World::plan_requests)). What nobody has solved by then is solved by the
-//! tick that takes it ([`Planning::InTick`]), or is taken later ([`Planning::Aside`]).
+//! Nothing here runs on its own. The caller that steps the world may solve the problems meanwhile, on threads of its own
+//! ([`World::plan_requests`](crate::sim::world::World::plan_requests)). A problem that is not solved by then is solved by
+//! the tick that takes it ([`Planning::InTick`]), or planned anew for a later tick ([`Planning::Aside`]).
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -25,7 +25,7 @@ struct Shared<T> {
     work: Box<dyn Fn() -> T + Send + Sync>,
     /// `None` if the work panicked: whoever takes it sees that panic.
     result: OnceLock<Option<T>>,
-    /// Somebody has undertaken to solve it.
+    /// A thread will solve it.
     accepted: AtomicBool,
 }
 
@@ -83,7 +83,7 @@ impl<T: Clone + Send + Sync + 'static> PlanTask<T> {
         self.0.result.get()?.as_ref()
     }
 
-    /// The result, worked out now if it is not there. Waits for nobody.
+    /// The result, worked out now if it is not there. Never waits for another thread that is at it.
     pub fn take(self) -> T {
         match self.result() {
             Some(out) => out.clone(),
@@ -91,7 +91,7 @@ impl<T: Clone + Send + Sync + 'static> PlanTask<T> {
         }
     }
 
-    /// Asks for somebody who solves it by world time `needed_at`, s, unless somebody has undertaken that.
+    /// A request to solve it by world time `needed_at`, s, unless one was accepted.
     pub fn request(&self, needed_at: f64) -> Option<PlanRequest> {
         let problem: Arc<dyn Problem> = self.0.clone();
         let open = !self.is_ready() && !self.0.accepted.load(Ordering::Relaxed);
@@ -102,7 +102,7 @@ impl<T: Clone + Send + Sync + 'static> PlanTask<T> {
     }
 }
 
-/// A problem that somebody else may solve.
+/// A problem that another thread may solve.
 #[derive(Clone)]
 pub struct PlanRequest {
     /// World time at which the result is needed, s.
@@ -119,7 +119,7 @@ impl std::fmt::Debug for PlanRequest {
 }
 
 impl PlanRequest {
-    /// Undertakes to solve it: it is not requested again.
+    /// Accepts it: it is not requested again.
     pub fn accept(&self) {
         if let Some(problem) = self.problem.upgrade() {
             problem.accept();

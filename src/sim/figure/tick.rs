@@ -22,6 +22,7 @@ mod state;
 
 pub(super) use motion_switch::ExitPlan;
 
+use crate::sim::figure::params::support::REST_SHARE;
 use state::{
     BodyConstants, Controllers, DesiredMotion, Neighbours, Outcome, PhysicalState, Scratch,
     StepperChoice, Steppers, Surroundings,
@@ -66,9 +67,6 @@ impl TickContext {
         self.tick as f64 * self.dt
     }
 }
-
-/// A part rests on something that carries this share of the weight.
-const RESTS: f64 = 0.02;
 
 /// One figure of a world.
 #[derive(Debug)]
@@ -239,7 +237,7 @@ impl Figure {
 
     /// Force from which a part counts as resting on something, N.
     fn least_rest(&self, world: &TickContext) -> f64 {
-        RESTS * self.scratch.terms.mass * world.gravity
+        REST_SHARE * self.scratch.terms.mass * world.gravity
     }
 
     /// Stage 4: what the muscles can give at these angles and rates, and what stretched tissue gives. The paper's body

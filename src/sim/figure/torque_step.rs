@@ -1,4 +1,4 @@
-//! Full rigid-body dynamics driven by strength-limited motors, with contact and joint limits (ALGORITHM §14.3).
+//! Full rigid-body dynamics driven by strength-limited motors, with contact and joint limits.
 //!
 //! One substep solves, implicitly and all at once, for the velocity at its end: motors that pull towards the commanded
 //! motion within the strength of that instant, unilateral joint limits, and speculative frictional contact with the
@@ -8,6 +8,7 @@
 
 use super::assist::{Assist, Spring};
 use super::loads::{Bar, MAX_EXTERNAL};
+use super::params::{bar, contact, motors};
 use super::tick::TickContext;
 use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT, SegmentId};
 use crate::sim::body::{Body, Links, State};
@@ -22,27 +23,9 @@ use crate::sim::dynamics::terms::AppliedForce;
 use crate::sim::dynamics::{MassMatrix, Terms, factor, solve};
 use crate::sim::math::Vec3;
 use crate::sim::motion::TargetPair;
-use crate::sim::report::{Audit, ContactPoint, Flags, MAX_CONTACTS};
+use crate::sim::report::{Audit, ContactPoint, Flags, MAX_CONTACTS, POINTS_PER_SEGMENT};
 use crate::sim::strength::{MuscleScale, Strength};
 use multiversion::multiversion;
-
-/// Compliance of a contact, 1/kg: R of ALGORITHM §14.3.
-const CONTACT_COMPLIANCE: f64 = 1e-4;
-/// Contact points lower than this take part in the solve even if they move away, m.
-const SPECULATIVE_HEIGHT: f64 = 0.02;
-/// Share of a penetration beyond the slop that is taken back per substep.
-const PENETRATION_RETURN: f64 = 0.2;
-/// Penetration that is left alone, m: resting feet neither hover nor chatter.
-const PENETRATION_SLOP: f64 = 1e-4;
-/// Fastest push-out of a penetrating point, m/s.
-const PENETRATION_SPEED: f64 = 1.0;
-/// Most Newton iterations of one substep. 2 to 6 are typical; a foot that strikes while joints are near their limits
-/// takes up to 70, and a step cut short at 30 there flings light joints.
-const MAX_ITERATIONS: u32 = 80;
-/// Gain that is left for the second try of a substep that did not converge.
-const SOFTENING: f64 = 0.01;
-/// Residual at which a substep counts as solved, N·m·s.
-const TOLERANCE: f64 = 1e-6;
 
 /// What a stepper reads in one tick.
 #[derive(Clone, Copy, Debug)]
@@ -89,11 +72,7 @@ pub struct ExternalForces<'a> {
     pub assist: Option<(&'a Assist, &'a TargetPair)>,
 }
 
-/// Rates (rad/s) and speeds (m/s) beyond this are braked: far above what bodies do (a pitcher's shoulder turns at 130
-/// rad/s), low enough that a substep resolves it and a push of any size leaves numbers that can be computed with.
-pub(super) const MAX_SPEED: f64 = 200.0;
-
-/// Who moves the body (ALGORITHM §15).
+/// What moves the body.
 pub trait Stepper {
     /// Advances `state` by one tick. Allocates nothing.
     fn step(&mut self, input: &StepInput<'_>, state: &mut State);
@@ -109,15 +88,6 @@ pub struct MotorCommand {
     /// Speed error at which a motor gives all it has, rad/s: 1 with a feed-forward torque, 0.005 for motors alone.
     pub saturation_speed: f64,
 }
-
-/// Motors alone: the rate error that saturates them, rad/s (ALGORITHM §14.3).
-pub const MOTORS_ALONE_SPEED: f64 = 0.005;
-/// A fallen figure: soft, and easy on the solver while many parts touch, rad/s.
-pub const FALLEN_SPEED: f64 = 0.5;
-/// With the paper controller's torque as feed-forward, rad/s.
-pub const FEED_FORWARD_SPEED: f64 = 1.0;
-/// With the modern controller's: legs that give a little when a foot lands, rad/s.
-pub const MODERN_SPEED: f64 = 3.0;
 
 /// The bar as a row of the solve.
 #[derive(Clone, Copy, Debug)]
@@ -153,7 +123,8 @@ impl BarRow {
             ends,
             direction,
             row,
-            wanted: (BAR_RETURN * (bar.length - length) / h).clamp(-BAR_SPEED, BAR_SPEED),
+            wanted: (bar::RETURN * (bar.length - length) / h)
+                .clamp(-bar::RETURN_SPEED, bar::RETURN_SPEED),
         }
     }
 
@@ -167,13 +138,6 @@ impl BarRow {
         }
     }
 }
-
-/// Share of an error of the bar's length that is taken back per substep, and how fast at most, m/s.
-const BAR_RETURN: f64 = 0.3;
-const BAR_SPEED: f64 = 0.5;
-/// Most solves for the impulse of a bar, and the rate of its length that is left, m/s.
-const BAR_ITERATIONS: u32 = 6;
-const BAR_TOLERANCE: f64 = 1e-6;
 
 /// Means over a tick and the last substep.
 #[derive(Clone, Debug)]
@@ -290,9 +254,6 @@ struct TickMeans {
     impulse: Box<[(Vec3, Vec3); MAX_CONTACTS]>,
     penetration: f64,
 }
-
-/// Most contact points of one segment.
-const POINTS_PER_SEGMENT: usize = MAX_CONTACTS / SEGMENT_COUNT;
 
 impl TorqueStepper {
     /// A stepper on ground with friction coefficient `friction`.
@@ -500,7 +461,7 @@ impl TorqueStepper {
                 let z = origin + r.z;
                 self.means.penetration = self.means.penetration.max(-z);
                 let velocity = t.kin.velocity[s] + t.kin.omega[s].cross(r);
-                if z < SPECULATIVE_HEIGHT || z + h * velocity.z < 0.0 {
+                if z < contact::SPECULATIVE_HEIGHT || z + h * velocity.z < 0.0 {
                     let mut c = if velocity.norm() < slides::CREEP {
                         t.bias_at(s, r) * (0.5 * h)
                     } else {
@@ -509,11 +470,12 @@ impl TorqueStepper {
                     c.z += if z > 0.0 {
                         z / h
                     } else {
-                        -(PENETRATION_RETURN * (-z - PENETRATION_SLOP).max(0.0) / h)
-                            .min(PENETRATION_SPEED)
+                        -(contact::PENETRATION_RETURN * (-z - contact::PENETRATION_SLOP).max(0.0)
+                            / h)
+                            .min(contact::PENETRATION_SPEED)
                     };
                     let slot = self.problem.contacts.slot(&self.terms.kin, s);
-                    let inverse_r = 1.0 / CONTACT_COMPLIANCE;
+                    let inverse_r = 1.0 / contact::COMPLIANCE;
                     self.problem.contacts.points.push(PointRow {
                         slot,
                         r,
@@ -592,7 +554,7 @@ impl TorqueStepper {
             self.forces.audit.acceleration[i] = (x[i] - state.velocity[i]) / h;
         }
         state.velocity = x;
-        if state.brake(MAX_SPEED) {
+        if state.brake(contact::LARGEST_SPEED) {
             self.forces.flags.set(Flags::SPEED_BOUND);
         }
     }
@@ -622,7 +584,7 @@ impl TorqueStepper {
         let mut total = Outcome::default();
         let mut before: Option<(f64, f64)> = None;
         let mut slope = 0.0;
-        for _ in 0..BAR_ITERATIONS {
+        for _ in 0..bar::ITERATIONS {
             let mut b = *momentum;
             bar.add(self.bar.impulse, &mut b);
             let outcome = self.solve_with(&b, spring, v);
@@ -631,7 +593,7 @@ impl TorqueStepper {
                 ..outcome
             };
             let off = bar.rate(v) - bar.wanted;
-            if off.abs() < BAR_TOLERANCE {
+            if off.abs() < bar::TOLERANCE {
                 break;
             }
             let secant = before
@@ -675,21 +637,17 @@ impl TorqueStepper {
 
     /// One run of Newton's method with the motors as they are.
     fn solve_once(&mut self, momentum: &[f64; NV], v: &mut [f64; NV], assisted: bool) -> Outcome {
+        let SubstepSolver {
+            newton,
+            hessian,
+            assisted: springs,
+        } = &mut self.solver;
         let matrix = if assisted {
-            &self.solver.assisted
+            springs
         } else {
             &self.terms.mass_matrix
         };
-        substep_kernel(
-            matrix,
-            &mut self.solver.hessian,
-            momentum,
-            &self.problem.motors,
-            &self.problem.limits,
-            &self.problem.contacts,
-            v,
-            &mut self.solver.newton,
-        )
+        substep_kernel(matrix, &self.problem, momentum, v, hessian, newton)
     }
 
     /// Solves with the springs of the assist; a part whose impulse exceeds its bound becomes a constant one at the
@@ -750,7 +708,7 @@ impl TorqueStepper {
             // The same torque at the speed the joint has now, and a hundredth of the gain around it.
             let (m, now) = (&mut self.problem.motors, self.terms.state.velocity[6 + j]);
             let torque = (m.gain[j] * (m.rest[j] - now)).clamp(m.lower[j], m.upper[j]);
-            m.gain[j] *= SOFTENING;
+            m.gain[j] *= motors::SOFTENING;
             m.rest[j] = now + torque / m.gain[j];
         }
         let second = self.solve_once(momentum, v, assisted);
@@ -841,23 +799,21 @@ impl Articulated for TorqueStepper {
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 fn substep_kernel(
     m: &MassMatrix<f64>,
-    hessian: &mut MassMatrix<f64>,
+    problem: &SubstepProblem,
     momentum: &[f64; NV],
-    motors: &Motors,
-    limits: &LimitRows,
-    contacts: &ContactRows,
     v: &mut [f64; NV],
+    hessian: &mut MassMatrix<f64>,
     ws: &mut NewtonWorkspace,
 ) -> Outcome {
     minimise(
         &SparseSystem(m),
         hessian,
         momentum,
-        motors,
-        limits,
-        contacts,
-        MAX_ITERATIONS,
-        TOLERANCE,
+        &problem.motors,
+        &problem.limits,
+        &problem.contacts,
+        contact::ITERATIONS,
+        contact::TOLERANCE,
         v,
         ws,
     )

@@ -5,21 +5,14 @@ use crate::sim::body::SegmentId;
 use crate::sim::collide::{MAX_TOUCHES, Other, Touch};
 use crate::sim::dynamics::Terms;
 use crate::sim::dynamics::jacobian::for_each_column;
+use crate::sim::figure::params::support::{
+    LARGEST_REACTION, REACTION_GAIN, SPOT_FORGOTTEN, SPOT_SIZE,
+};
 use crate::sim::math::Vec3;
 use crate::sim::support::Rest;
 
-/// Part of a reaction that a controller takes in per tick: a blow is over before it is known, a seat is known after
-/// some ticks.
-const LEARN: f64 = 0.15;
-/// Largest reaction a controller counts on, N.
-const MOST: f64 = 2000.0;
-
 /// Places by which one part rests on one thing: buttocks and thighs do not turn on a stool as on a point.
 const SPOTS: usize = 4;
-/// Contacts closer than this are one place, m.
-const SPOT_SIZE: f64 = 0.05;
-/// A place that is not pressed any more is forgotten below this, N.
-const FORGOTTEN: f64 = 1.0;
 
 /// One contact of a substep, as one figure sees it.
 #[derive(Clone, Copy, Debug)]
@@ -120,7 +113,7 @@ impl Entry {
                 })
             });
             let before = before.unwrap_or_default();
-            spot.expected = before + (spot.force - before) * LEARN;
+            spot.expected = before + (spot.force - before) * REACTION_GAIN;
         }
         for (spot, _) in old
             .into_iter()
@@ -128,8 +121,8 @@ impl Entry {
             .zip(taken)
             .filter(|(_, taken)| !taken)
         {
-            let expected = spot.expected * (1.0 - LEARN);
-            if self.count < SPOTS && expected.norm() > FORGOTTEN {
+            let expected = spot.expected * (1.0 - REACTION_GAIN);
+            if self.count < SPOTS && expected.norm() > SPOT_FORGOTTEN {
                 self.spots[self.count] = Spot {
                     local: spot.local,
                     expected,
@@ -140,13 +133,13 @@ impl Entry {
         }
         let before = old.map_or_else(Vec3::zero, |o| o.expected);
         if old.is_some() {
-            self.expected = before + (self.touch.force - before) * LEARN;
+            self.expected = before + (self.touch.force - before) * REACTION_GAIN;
         }
         let size = self.expected.norm();
-        if size > MOST {
-            self.expected = self.expected * (MOST / size);
+        if size > LARGEST_REACTION {
+            self.expected = self.expected * (LARGEST_REACTION / size);
             for spot in &mut self.spots[..self.count] {
-                spot.expected = spot.expected * (MOST / size);
+                spot.expected = spot.expected * (LARGEST_REACTION / size);
             }
         }
     }

@@ -57,7 +57,7 @@ pub struct Goals {
     /// Height of the front of the chest.
     pub chest: Aim,
     /// Anatomical angles.
-    pub looks: [Aim; DOF_COUNT],
+    pub pose: [Aim; DOF_COUNT],
 }
 
 impl Default for Goals {
@@ -73,7 +73,7 @@ impl Default for Goals {
             hands: [[Aim::NONE; 3]; 2],
             palms: [Aim::NONE; 2],
             chest: Aim::NONE,
-            looks: [Aim::NONE; DOF_COUNT],
+            pose: [Aim::NONE; DOF_COUNT],
         }
     }
 }
@@ -128,7 +128,7 @@ impl Goals {
             hands: swapped(self.hands).map(place),
             palms: swapped(self.palms),
             chest: self.chest,
-            looks: mirrored(&self.looks),
+            pose: mirrored(&self.pose),
         }
     }
 
@@ -137,7 +137,7 @@ impl Goals {
         for (aim, at) in self.turn.iter_mut().zip(turn) {
             aim.at = at;
         }
-        for (aim, at) in self.looks.iter_mut().zip(angles) {
+        for (aim, at) in self.pose.iter_mut().zip(angles) {
             aim.at = *at;
         }
     }
@@ -157,7 +157,7 @@ impl Goals {
             hands: pair(&self.hands, &to.hands),
             palms: all(&self.palms, &to.palms, u),
             chest: self.chest.mix(to.chest, u),
-            looks: all(&self.looks, &to.looks, u),
+            pose: all(&self.pose, &to.pose, u),
         }
     }
 }

@@ -19,7 +19,7 @@ pub struct ReferencePoses {
 }
 
 /// Joint angles in degrees by name; a name without side means both.
-fn looks(list: &[(&str, f64)]) -> [f64; DOF_COUNT] {
+fn pose(list: &[(&str, f64)]) -> [f64; DOF_COUNT] {
     const ARMS: [(&str, f64); 3] = [
         ("shoulder_abduction", 12.0),
         ("elbow_pronation", 75.0),
@@ -40,7 +40,7 @@ fn looks(list: &[(&str, f64)]) -> [f64; DOF_COUNT] {
 impl ReferencePoses {
     pub fn new(at_ease: [f64; DOF_COUNT]) -> Self {
         Self {
-            sprawled: looks(&[
+            sprawled: pose(&[
                 ("shoulder_flexion", -10.0),
                 ("shoulder_abduction", 70.0),
                 ("shoulder_rotation", -75.0),
@@ -52,7 +52,7 @@ impl ReferencePoses {
                 ("ankle_flexion", 25.0),
                 ("toe_extension", 50.0),
             ]),
-            gathered: looks(&[
+            gathered: pose(&[
                 ("elbow_pronation", 0.0),
                 ("wrist_flexion", 0.0),
                 ("r_shoulder_flexion", 165.0),
@@ -64,7 +64,7 @@ impl ReferencePoses {
                 ("neck_rotation", -40.0),
                 ("neck_flexion", 10.0),
             ]),
-            rolled: looks(&[
+            rolled: pose(&[
                 ("elbow_pronation", 0.0),
                 ("wrist_flexion", 0.0),
                 ("r_shoulder_flexion", 165.0),
@@ -78,7 +78,7 @@ impl ReferencePoses {
                 ("thorax_rotation", -15.0),
                 ("waist_rotation", -15.0),
             ]),
-            tipped: looks(&[
+            tipped: pose(&[
                 ("elbow_pronation", 0.0),
                 ("wrist_flexion", 0.0),
                 ("r_shoulder_flexion", 165.0),
@@ -89,14 +89,14 @@ impl ReferencePoses {
                 ("l_knee_flexion", 40.0),
                 ("neck_rotation", -20.0),
             ]),
-            planted: looks(&[
+            planted: pose(&[
                 ("shoulder_flexion", -35.0),
                 ("elbow_flexion", 100.0),
                 ("toe_extension", 50.0),
                 ("ankle_flexion", 15.0),
                 ("neck_flexion", -30.0),
             ]),
-            drawn: looks(&[
+            drawn: pose(&[
                 ("shoulder_flexion", -10.0),
                 ("elbow_flexion", 110.0),
                 ("toe_extension", 50.0),
@@ -105,7 +105,7 @@ impl ReferencePoses {
                 ("hip_flexion", 60.0),
                 ("knee_flexion", 60.0),
             ]),
-            sunk: looks(&[
+            sunk: pose(&[
                 ("shoulder_flexion", 130.0),
                 ("elbow_flexion", 30.0),
                 ("toe_extension", 50.0),
@@ -114,7 +114,7 @@ impl ReferencePoses {
                 ("hip_flexion", 110.0),
                 ("knee_flexion", 110.0),
             ]),
-            on_all_fours: looks(&[
+            on_all_fours: pose(&[
                 ("shoulder_flexion", 100.0),
                 ("elbow_flexion", 20.0),
                 ("toe_extension", 50.0),
@@ -123,7 +123,7 @@ impl ReferencePoses {
                 ("hip_flexion", 90.0),
                 ("knee_flexion", 90.0),
             ]),
-            bear: looks(&[
+            bear: pose(&[
                 ("shoulder_flexion", 110.0),
                 ("elbow_flexion", 10.0),
                 ("toe_extension", 40.0),
@@ -134,7 +134,7 @@ impl ReferencePoses {
                 ("thorax_flexion", 10.0),
                 ("neck_flexion", -20.0),
             ]),
-            folded: looks(&[
+            folded: pose(&[
                 ("shoulder_flexion", 85.0),
                 ("elbow_flexion", 10.0),
                 ("ankle_flexion", 25.0),

@@ -9,6 +9,11 @@ use crate::sim::body::topology::{
 use crate::sim::body::{Body, Links, Posture, State};
 use crate::sim::dynamics::Terms;
 use crate::sim::dynamics::terms::WIDTH;
+use crate::sim::get_up::params::layout::NEAR_HEIGHT;
+use crate::sim::get_up::params::solver::{
+    APPROACH, FASTEST, LIMIT_MARGIN, LIMIT_ROUNDS, RATE_TOLERANCE, STEADY_TIME,
+};
+use crate::sim::get_up::params::weights::{DAMPING, FINGERS, FLOOR, JOINT_LIMIT, STEADY};
 use crate::sim::math::{Quat, Vec3};
 
 /// Left and right.
@@ -16,27 +21,11 @@ pub const SHANKS: [SegmentId; 2] = [L_SHANK, R_SHANK];
 pub const FEET: [SegmentId; 2] = [L_FOOT, R_FOOT];
 pub const TOES: [SegmentId; 2] = [L_TOES, R_TOES];
 pub const HANDS: [SegmentId; 2] = [L_HAND, R_HAND];
-/// Points of the shank on which one kneels, of the toes under the ball of the foot, of the chest that carry who lies on
-/// it.
+/// Point of the shank on which a body kneels, and points of the toes under the ball of the foot.
 pub const KNEE: usize = 0;
 pub const BALL: [usize; 2] = [0, 1];
 /// Points of a palm that lies flat: finger tip, knuckles, palm.
 const PALM: [usize; 4] = [0, 1, 3, 4];
-/// Time constant with which goals are approached, s.
-const APPROACH: f64 = 0.1;
-/// Weights: change of a rate within [`STEADY_TIME`], a rate, the trunk's level, nothing in the floor, fingers to the
-/// front.
-const STEADY: f64 = 1e-3;
-const STEADY_TIME: f64 = 0.05;
-const DAMPING: f64 = 3e-4;
-const FLOOR: f64 = 30.0;
-const FINGERS: f64 = 0.3;
-/// Fastest joints, rad/s. Limits are approached within [`APPROACH`] and joints stay this far from them, rad.
-const FASTEST: f64 = 3.0;
-const MARGIN: f64 = 0.02;
-/// Rounds of finding the joints at their limits, and the weight that holds them there.
-const LIMIT_ROUNDS: usize = 4;
-const LIMIT_WEIGHT: f64 = 1e3;
 
 /// Normal equations of a tick, and what they are built with.
 #[derive(Clone, Debug)]
@@ -80,7 +69,7 @@ impl Solver {
             self.pull(i, v[i], steady);
             self.pull(i, 0.0, DAMPING);
         }
-        self.look(q, goals);
+        self.hold_pose(q, goals);
         self.hold_trunk(body, q, goals);
         for side in 0..2 {
             self.hold_limbs(body, side, goals);
@@ -88,7 +77,7 @@ impl Solver {
         self.stay_above(body, v, dt);
         *v = self.solve(body, q);
         q.integrate(v, dt);
-        clamp_to_limits(body, q, MARGIN);
+        clamp_to_limits(body, q, LIMIT_MARGIN);
     }
 
     /// Adds a goal for a rate: `row · v = rate`.
@@ -125,12 +114,12 @@ impl Solver {
         }
     }
 
-    fn look(&mut self, q: &Posture, goals: &Goals) {
+    fn hold_pose(&mut self, q: &Posture, goals: &Goals) {
         let mut wanted = *q;
-        set_anatomical_angles(&mut wanted, &goals.looks.map(|a| a.at));
+        set_anatomical_angles(&mut wanted, &goals.pose.map(|a| a.at));
         let to = q.joint_difference(&wanted);
-        for (j, look) in goals.looks.iter().enumerate() {
-            self.pull(6 + j, to[j] / APPROACH, look.weight);
+        for (j, aim) in goals.pose.iter().enumerate() {
+            self.pull(6 + j, to[j] / APPROACH, aim.weight);
         }
     }
 
@@ -193,7 +182,7 @@ impl Solver {
         for s in SegmentId::all() {
             for p in &body.segment(s).contact_points {
                 let z = self.terms.point_world(s.index(), *p).z;
-                if z > 0.05 {
+                if z > NEAR_HEIGHT {
                     continue;
                 }
                 let mut rows = [[0.0; WIDTH]; 3];
@@ -215,14 +204,14 @@ impl Solver {
             let mut found = false;
             for d in 0..DOF_COUNT {
                 let room = [
-                    (body.lower[d] + MARGIN - angles[d]) / APPROACH,
-                    (body.upper[d] - MARGIN - angles[d]) / APPROACH,
+                    (body.lower[d] + LIMIT_MARGIN - angles[d]) / APPROACH,
+                    (body.upper[d] - LIMIT_MARGIN - angles[d]) / APPROACH,
                 ];
                 let limit = out[6 + d].clamp(
                     room[0].clamp(-FASTEST, FASTEST),
                     room[1].clamp(-FASTEST, FASTEST),
                 );
-                if held[d].is_none() && (out[6 + d] - limit).abs() > 1e-9 {
+                if held[d].is_none() && (out[6 + d] - limit).abs() > RATE_TOLERANCE {
                     held[d] = Some(limit);
                     found = true;
                 }
@@ -241,8 +230,8 @@ impl Solver {
         a.copy_from_slice(&self.matrix[..]);
         for (d, to) in held.iter().enumerate() {
             if let Some(to) = to {
-                a[6 + d][6 + d] += LIMIT_WEIGHT;
-                x[6 + d] += LIMIT_WEIGHT * to;
+                a[6 + d][6 + d] += JOINT_LIMIT;
+                x[6 + d] += JOINT_LIMIT * to;
             }
         }
         for i in 0..NV {

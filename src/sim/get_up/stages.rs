@@ -1,30 +1,19 @@
-//! The stages of the way up: what each is meant to look like, from where the body is.
+//! The stages of getting up: the goals of each, from where the body is.
 //!
 //! From the belly: arms out, toes tucked, hands beside the ribs, hips up and back over the knees, up on hands and
 //! knees, one hand after the other to the knees, knees off the floor, one hand after the other to the feet, heels down,
-//! up. Who lies on the back or on a side rolls over before: one foot set up, pushed over by it, leg and arm across. All
+//! up. A body that lies on its back or on a side rolls over before: one foot set up, pushed over by it, leg and arm across. All
 //! of it is written for rolling over the right side; the other is the mirror image.
 
 use super::goals::{Aim, Goals, swapped};
 use super::reference_pose::ReferencePoses;
 use crate::sim::body::topology::DOF_COUNT;
+use crate::sim::get_up::params::layout::{
+    ARMS_APART, HAND_STEP_HEIGHT, HAND_STEP_TIME, SHANK, WRIST_HEIGHT,
+};
+use crate::sim::get_up::params::weights::{COM, FIRM, HAND, POSE};
 use crate::sim::math::Vec3;
 use std::f64::consts::FRAC_PI_2;
-
-/// Half the distance between the hands, reference body, m.
-const ARMS_APART: f64 = 0.25;
-/// A wrist is this high over a hand that lies flat, reference body, m.
-const WRIST: f64 = 0.045;
-/// The balls of the feet lie this far behind the knees of who kneels with tucked toes, reference body, m.
-const SHANK: f64 = 0.4;
-/// Weights: what carries, hands, centre of mass, looks.
-const FIRM: f64 = 10.0;
-const HAND: f64 = 5.0;
-const COM: f64 = 10.0;
-const LOOK: f64 = 0.01;
-
-/// How long a hand steps, s, and how high, reference body, m.
-const STEP: (f64, f64) = (1.0, 0.08);
 
 /// Where everything is.
 #[derive(Clone, Copy, Debug)]
@@ -107,7 +96,7 @@ const fn leans(hands: [bool; 2]) -> FloorContacts {
     FloorContacts { hands, ..STANDS }
 }
 
-fn look(angles: &[f64; DOF_COUNT], weight: f64) -> [Aim; DOF_COUNT] {
+fn pose_aims(angles: &[f64; DOF_COUNT], weight: f64) -> [Aim; DOF_COUNT] {
     angles.map(|a| Aim::new(a, weight))
 }
 
@@ -150,7 +139,7 @@ impl Layout {
         let wrist = [
             Aim::new(x, HAND),
             Aim::new(y, HAND),
-            Aim::new(WRIST * self.scale, HAND),
+            Aim::new(WRIST_HEIGHT * self.scale, HAND),
         ];
         (wrist, Aim::new(0.0, HAND))
     }
@@ -224,10 +213,10 @@ const fn stepping(
     hands[side] = false;
     Stage {
         name,
-        seconds: STEP.0,
+        seconds: HAND_STEP_TIME,
         goals,
         down: leans(hands),
-        step: Some((side, STEP.1)),
+        step: Some((side, HAND_STEP_HEIGHT)),
     }
 }
 
@@ -303,7 +292,7 @@ fn push(h: &Layout, l: &ReferencePoses) -> Goals {
 }
 
 /// Turned so far from lying on the belly.
-fn roll(h: &Layout, looks: &[f64; DOF_COUNT], turn: f64) -> Goals {
+fn roll(h: &Layout, pose: &[f64; DOF_COUNT], turn: f64) -> Goals {
     Goals {
         pelvis: h.pelvis.to_array().map(|x| Aim::new(x, FIRM)),
         turn: [
@@ -311,7 +300,7 @@ fn roll(h: &Layout, looks: &[f64; DOF_COUNT], turn: f64) -> Goals {
             Aim::new(turn, 1.0),
             Aim::new(h.yaw, 0.3),
         ],
-        looks: look(looks, 0.03),
+        pose: pose_aims(pose, 0.03),
         ..Goals::default()
     }
 }
@@ -324,7 +313,7 @@ fn sprawl(h: &Layout, l: &ReferencePoses) -> Goals {
         turn: h.level(FRAC_PI_2, 0.3),
         knees,
         chest: Aim::new(0.0, 1.0),
-        looks: look(&l.sprawled, 0.1),
+        pose: pose_aims(&l.sprawled, 0.1),
         ..Goals::default()
     }
 }
@@ -348,7 +337,7 @@ fn plant(h: &Layout, l: &ReferencePoses) -> Goals {
         hands: [left.0, right.0],
         palms: [left.1, right.1],
         chest: Aim::new(0.0, FIRM),
-        looks: look(&l.planted, LOOK),
+        pose: pose_aims(&l.planted, POSE),
         ..Goals::default()
     }
 }
@@ -359,7 +348,7 @@ fn draw(h: &Layout, l: &ReferencePoses) -> Goals {
         pelvis: h.place(middle(h.knees), 0.25, 0.34, 1.0),
         turn: h.level(1.85, 0.3),
         chest: Aim::new(0.01, FIRM),
-        looks: look(&l.drawn, LOOK),
+        pose: pose_aims(&l.drawn, POSE),
         ..kneeling(h)
     }
 }
@@ -382,7 +371,7 @@ fn sink_back(h: &Layout, l: &ReferencePoses) -> Goals {
     Goals {
         pelvis: h.place(middle(h.knees), -0.12, 0.38, 1.0),
         turn: h.level(1.75, 0.3),
-        looks: look(&l.sunk, LOOK),
+        pose: pose_aims(&l.sunk, POSE),
         ..kneeling(h)
     }
 }
@@ -390,7 +379,7 @@ fn sink_back(h: &Layout, l: &ReferencePoses) -> Goals {
 fn on_all_fours(h: &Layout, l: &ReferencePoses) -> Goals {
     Goals {
         pelvis: h.place(middle(h.knees), 0.02, 0.46, 1.0),
-        looks: look(&l.on_all_fours, LOOK),
+        pose: pose_aims(&l.on_all_fours, POSE),
         ..kneeling(h)
     }
 }
@@ -405,7 +394,7 @@ fn crawl(h: &Layout, l: &ReferencePoses, side: usize) -> Goals {
     Goals {
         pelvis: h.place(middle(h.knees), -0.15, 0.43, 0.3),
         com: h.over(&shares, COM),
-        looks: look(&l.on_all_fours, LOOK),
+        pose: pose_aims(&l.on_all_fours, POSE),
         ..kneeling(h)
     }
 }
@@ -433,7 +422,7 @@ fn bear(h: &Layout, l: &ReferencePoses) -> Goals {
     Goals {
         pelvis: h.place(middle(h.balls), 0.1, 0.66, 5.0),
         com: h.over(&shares, 3.0),
-        looks: look(&l.bear, LOOK),
+        pose: pose_aims(&l.bear, POSE),
         ..leaning(h, &shares)
     }
 }
@@ -448,7 +437,7 @@ fn lean(h: &Layout, l: &ReferencePoses, side: usize, at: (f64, f64)) -> Goals {
     ];
     Goals {
         pelvis: h.place(middle(h.balls), at.0, at.1, 2.0),
-        looks: look(&l.bear, LOOK),
+        pose: pose_aims(&l.bear, POSE),
         ..leaning(h, &shares)
     }
 }
@@ -470,7 +459,7 @@ fn fold(h: &Layout, l: &ReferencePoses) -> Goals {
     let mut out = Goals {
         pelvis: h.place(middle(h.balls), -0.27, 0.72, 0.5),
         heels: [Aim::new(0.0, FIRM); 2],
-        looks: look(&l.folded, LOOK),
+        pose: pose_aims(&l.folded, POSE),
         ..leaning(h, &soles(h))
     };
     for (hand, palm) in out.hands.iter_mut().zip(&mut out.palms) {
@@ -486,7 +475,7 @@ fn rise(h: &Layout, l: &ReferencePoses) -> Goals {
         palms: [Aim::NONE; 2],
         heels: [Aim::new(0.0, FIRM); 2],
         turn: h.level(0.0, 0.3),
-        looks: look(&l.at_ease, 0.05),
+        pose: pose_aims(&l.at_ease, 0.05),
         ..leaning(h, &soles(h))
     }
 }

@@ -179,7 +179,7 @@ impl World {
     pub fn set_planning(&mut self, planning: Planning) {
         self.planning = planning;
     }
-    /// Problems that figures want to have solved by a later tick, and that nobody has undertaken to solve.
+    /// Problems that figures want to have solved by a later tick, and that no thread has accepted.
     pub fn plan_requests(&self) -> impl Iterator<Item = PlanRequest> + '_ {
         self.figures.iter().flat_map(|(_, f)| f.plan_requests())
     }

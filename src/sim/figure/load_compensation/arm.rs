@@ -9,24 +9,13 @@ use crate::sim::body::topology::{
     SEGMENT_COUNT,
 };
 use crate::sim::body::{Body, Posture, SegmentId};
+use crate::sim::figure::params::load::{
+    BENT_ELBOW, HABIT_TIME, HALF_SWING, HANGS_ELBOW, HANGS_SWING, QUICK, RAISED_SWING,
+};
 use crate::sim::math::ease::fall;
 use crate::sim::math::exp::exp;
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::leg_ik::forward;
-
-/// Load with which an arm swings half as far, kg: about the mass of an arm.
-const HALF_SWING: f64 = 4.0;
-/// What an arm does within this time it does quickly, s.
-const QUICKLY: f64 = 0.7;
-/// An arm hangs whose hand is less than the first angle before or behind its shoulder, and whose elbow is bent by less
-/// than the first of these; from the second on it does not, rad. (Forearms that are held level carry something in front
-/// of the body.) What an arm had less of its swing comes back while it is raised from the one to the other: the farther
-/// apart they are, the less it has to hurry.
-const HANGS: (f64, f64) = (0.7, 1.6);
-const STRETCHED: (f64, f64) = (0.9, 1.5);
-/// Time constant with which an arm gets used to hanging, or to something else, s: one that comes down between two
-/// movements goes on as the motion has it.
-const GETS_USED: f64 = 0.7;
 
 /// Upper arm, forearm and hand, left and right.
 pub(super) const ARMS: [[SegmentId; 3]; 2] = [
@@ -103,8 +92,8 @@ impl Habit {
     /// What it is `seconds` later, when the motion has the arm `held` like this and, all the time, hanging by so much.
     pub(super) fn after(&self, seconds: f64, hung: f64, held: Arm) -> Self {
         Self {
-            hangs: hung + (self.hangs - hung) * exp(-seconds / GETS_USED),
-            held: self.held.toward(&held, 1.0 - exp(-seconds / QUICKLY)),
+            hangs: hung + (self.hangs - hung) * exp(-seconds / HABIT_TIME),
+            held: self.held.toward(&held, 1.0 - exp(-seconds / QUICK)),
         }
     }
 }
@@ -147,7 +136,7 @@ pub(super) fn hang(
 
 /// How much an arm with these angles of swing and elbow hangs, 0…1.
 fn hanging(swing: f64, elbow: f64) -> f64 {
-    fall(swing.abs(), HANGS) * fall(elbow.abs(), STRETCHED)
+    fall(swing.abs(), (HANGS_SWING, RAISED_SWING)) * fall(elbow.abs(), (HANGS_ELBOW, BENT_ELBOW))
 }
 
 /// Angle of an arm before the vertical through its shoulder, rad, as the pelvis looks.
@@ -243,7 +232,7 @@ mod tests {
             // 1 − less · iωτ/(1 + iωτ): what is left of a swing whose quick part, a high-pass of the first order,
             // becomes less.
             let less = load / (load + HALF_SWING);
-            let x = std::f64::consts::TAU * QUICKLY;
+            let x = std::f64::consts::TAU * QUICK;
             let quick = [x * x, x].map(|part| part / (1.0 + x * x));
             let meant = (1.0 - less * quick[0]).hypot(less * quick[1]);
             let share = swings(load, 0.4, 1.0) / empty;

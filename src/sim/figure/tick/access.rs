@@ -84,7 +84,7 @@ impl Figure {
     pub fn events(&self) -> &[FigureEvent] {
         self.outcome.watcher.events()
     }
-    /// Problems that are being planned and that nobody has undertaken to solve.
+    /// Problems that are to be planned and that no thread has accepted.
     pub(crate) fn plan_requests(&self) -> impl Iterator<Item = PlanRequest> + '_ {
         let exit = self.motion.exit().into_iter().flat_map(ExitPlan::requests);
         let entry = self.motion.next().and_then(Queued::request);
@@ -94,7 +94,7 @@ impl Figure {
     pub(crate) fn late_plans(&self) -> usize {
         self.outcome.late_plans
     }
-    /// What it is about on its way up, while it gets up.
+    /// Name of the stage of getting up, while it gets up.
     pub fn rising(&self) -> Option<&'static str> {
         self.motion.gets_up().then(|| self.desired.get_up.stage())
     }

@@ -6,17 +6,12 @@ use crate::sim::body::topology::DOF_COUNT;
 use crate::sim::control::{ControlInput, Controller, Law, TakeOff, tracking};
 use crate::sim::figure::assist::Assist;
 use crate::sim::figure::drive::Drive;
+use crate::sim::figure::params::{fall, motors};
 use crate::sim::figure::tasks::TaskPoints;
-use crate::sim::figure::torque_step::{
-    FALLEN_SPEED, FEED_FORWARD_SPEED, MODERN_SPEED, MOTORS_ALONE_SPEED, MotorCommand,
-};
+use crate::sim::figure::torque_step::MotorCommand;
 use crate::sim::motion::TargetPair;
 use crate::sim::setup::{ControlParams, ControllerKind, StrengthScale};
 use crate::sim::strength::MuscleScale;
-
-/// A fallen figure relaxes: share of its strength, and time constant of its demand, s (ALGORITHM §12).
-const FALLEN_STRENGTH: f64 = 0.3;
-const FALLEN_HORIZON: f64 = 0.3;
 
 impl Figure {
     /// Desired motion of the tick: getting up, or the source of the motion, at the pace of its steps.
@@ -76,7 +71,7 @@ impl Figure {
     /// Factors on the muscles: a fallen figure relaxes, a tired one has less.
     pub(super) fn available_strength(&self) -> MuscleScale {
         let fallen = if self.motion.is_limp() {
-            FALLEN_STRENGTH
+            fall::STRENGTH
         } else {
             1.0
         };
@@ -152,11 +147,17 @@ impl Figure {
                 .then(|| self.desired.get_up.on_floor(&self.scratch.floor)),
         };
         let (command, saturation_speed) = match self.active_controller() {
-            ControllerKind::Paper => (self.controllers.paper.control(&input), FEED_FORWARD_SPEED),
-            ControllerKind::Modern => (self.controllers.modern.control(&input), MODERN_SPEED),
+            ControllerKind::Paper => (
+                self.controllers.paper.control(&input),
+                motors::FEED_FORWARD_SPEED,
+            ),
+            ControllerKind::Modern => (
+                self.controllers.modern.control(&input),
+                motors::MODERN_SPEED,
+            ),
             ControllerKind::Motors => {
                 let horizon = if self.motion.is_limp() {
-                    Some(FALLEN_HORIZON)
+                    Some(fall::HORIZON)
                 } else {
                     self.setup.params.horizon
                 };
@@ -178,9 +179,9 @@ impl Figure {
                 (
                     &self.controllers.motors,
                     if self.motion.is_limp() {
-                        FALLEN_SPEED
+                        fall::SATURATION_SPEED
                     } else {
-                        MOTORS_ALONE_SPEED
+                        motors::ALONE_SPEED
                     },
                 )
             }

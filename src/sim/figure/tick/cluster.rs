@@ -24,7 +24,7 @@ impl Figure {
         self.stepping.prescribed = false;
         self.stepping.handed_over = Some(0.0);
     }
-    /// Shows where the segments are before it is known who moves them.
+    /// Shows where the segments are before it is known which stepper moves them.
     pub(crate) fn show(&mut self) {
         self.steppers.torque.terms.clone_from(&self.scratch.terms);
     }

@@ -1,23 +1,17 @@
-//! Judgements of a tick: is balance lost, has it fallen, who may move it, is its state sound.
+//! Detection of lost balance and of falls, the choice of the stepper, and containment of states that are not finite.
 
 use super::{Figure, TickContext};
 use crate::sim::body::SegmentId;
 use crate::sim::body::topology::{L_FOOT, L_TOES, NV, R_FOOT, R_TOES};
 use crate::sim::control::Controller;
-use crate::sim::figure::balance_loss::Reach;
+use crate::sim::figure::balance_loss::{Observation, Reach};
 use crate::sim::figure::events::FigureEvent;
-use crate::sim::figure::kinematic_step::{SPEED_CAP, other_part_arrives};
+use crate::sim::figure::kinematic_step::other_part_arrives;
+use crate::sim::figure::params::fall::{FALLEN_HEIGHT, RISEN_HEIGHT};
+use crate::sim::figure::params::kinematic::{CALM_TIME, SPEED_CAP};
 use crate::sim::report::Flags;
 use crate::sim::setup::{ControllerKind, StepperKind};
 
-/// A figure has fallen when its CoM is below this share of its standing height and something other than a foot carries
-/// it.
-const FALLEN_HEIGHT: f64 = 0.45;
-/// It stands again when its CoM is above this share of the standing height.
-const RISEN_HEIGHT: f64 = 0.6;
-/// Torques give back to prescribed accelerations after the figure has stood this long on flat feet with strength to
-/// spare, s.
-const CALM_TIME: f64 = 0.5;
 /// Parts that a figure stands on.
 pub(super) const FEET: [SegmentId; 4] = [L_FOOT, L_TOES, R_FOOT, R_TOES];
 
@@ -42,14 +36,16 @@ impl Figure {
         let height = self.scratch.terms.com.z / self.constants.standing_com_height;
         let before = self.surroundings.balance.lost();
         let off = self.desired.tracker.off_plan().filter(|_| self.steps());
-        self.surroundings.balance.observe(
-            &s.body,
-            &self.scratch.terms,
-            &self.surroundings.support,
-            (world.gravity, world.dt),
-            (reach, height),
+        self.surroundings.balance.observe(&Observation {
+            body: &s.body,
+            terms: &self.scratch.terms,
+            support: &self.surroundings.support,
+            gravity: world.gravity,
+            dt: world.dt,
+            reach,
+            height,
             off,
-        );
+        });
         if before && !self.surroundings.balance.lost() {
             self.start_afresh();
         }
@@ -83,7 +79,7 @@ impl Figure {
     }
 
     /// Prescribed accelerations on a tilting support create energy once joints saturate, and they know nothing of parts
-    /// other than feet: there torques take over (ALGORITHM §6), until the figure has stood calmly for a while. The
+    /// other than feet: there torques take over, until the figure has stood calmly for a while. The
     /// state is the same for both.
     pub(super) fn update_hand_over(&mut self, dt: f64) {
         let r = &self.outcome.report;
@@ -126,7 +122,7 @@ impl Figure {
         !good
     }
 
-    /// Falls and rises (ALGORITHM §12).
+    /// Falls and rises.
     pub(super) fn detect_fall(&mut self) {
         let height = self.scratch.terms.com.z / self.constants.standing_com_height;
         let on_other = self

@@ -4,6 +4,7 @@
 use super::{Figure, TickContext};
 use crate::sim::body::Posture;
 use crate::sim::figure::drive::{ClipPlayback, Drive, LivePlayback, Queued};
+use crate::sim::figure::params::switch::{LEAD, MOST_LEAD, SLOW, STOP_AHEAD, STOP_TIME};
 use crate::sim::figure::plan_task::{PlanRequest, PlanTask, Planning};
 use crate::sim::motion::clip::{Clip, PlanarTransform};
 use crate::sim::plan::motion_transition;
@@ -12,18 +13,6 @@ use crate::sim::plan::splice;
 use crate::sim::plan::splice::{Ends, RUN_UP, Sample};
 use crate::sim::track::StepPlan;
 use std::sync::Arc;
-
-/// How far ahead a clip is looked at for a place to stop, s.
-const STOP_AHEAD: f64 = 0.8;
-/// Samples (of joins) that still play before a motion is left: the time that there is to work out how.
-pub(super) const ASIDE: usize = 4;
-/// The same after plans that came late: twice as many each time, up to this.
-const MOST_ASIDE: usize = 24;
-/// A body slower than this is led into the posture in which the next clip begins; a faster one comes to its ease first,
-/// m/s.
-const SLOW: f64 = 0.2;
-/// Time that the steps to a stand take, as is expected before they are worked out, s.
-const STANDS_AFTER: f64 = 2.2;
 
 /// A way to a stand, with what it asks of the ground.
 type End = Option<(f64, Clip)>;
@@ -133,9 +122,9 @@ impl Figure {
             Drive::Clip(end) if self.motion.stops() => {
                 end.start + end.clip.duration() + self.desired.tracker.lag()
             }
-            Drive::Hold(_) if self.crouches() => time + STANDS_AFTER,
+            Drive::Hold(_) if self.crouches() => time + STOP_TIME,
             Drive::Hold(_) | Drive::External(_) => time,
-            Drive::Clip(_) | Drive::Live(_) => time + STANDS_AFTER,
+            Drive::Clip(_) | Drive::Live(_) => time + STOP_TIME,
         };
         let pending = self.motion.exit().map(|l| l.due);
         // A stream that is being stopped has ended.
@@ -259,7 +248,7 @@ impl Figure {
         let streams = self.motion.exit().is_none()
             && matches!(self.motion.source(), Drive::Live(live) if broken(live));
         if streams && self.steps() && self.desired.tracker.is_walking() {
-            self.leave_for_a_stand(ASIDE, time);
+            self.leave_for_a_stand(LEAD, time);
         }
     }
 
@@ -275,7 +264,7 @@ impl Figure {
             self.follow_exit();
             return;
         }
-        let (goal, lead) = (exit.goal, (2 * exit.lead).min(MOST_ASIDE));
+        let (goal, lead) = (exit.goal, (2 * exit.lead).min(MOST_LEAD));
         self.outcome.late_plans += 1;
         self.motion.plan_exit(None);
         let time = world.time();

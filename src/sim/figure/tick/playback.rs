@@ -2,32 +2,23 @@
 //! was asked for waits.
 
 use super::fall_detection::FEET;
-use super::motion_switch::{ASIDE, ExitGoal};
+use super::motion_switch::ExitGoal;
 use super::state::Scratch;
 use super::{Figure, TickContext};
 use crate::sim::body::Posture;
 use crate::sim::control::Controller;
 use crate::sim::figure::drive::{ClipPlayback, Drive, Queued};
 use crate::sim::figure::get_up::GetUpDecision;
+use crate::sim::figure::params::get_up::UP_HEIGHT;
+use crate::sim::figure::params::switch::{
+    EARLIEST_BEGIN, ENTRY_TIME, LEAD, PATIENCE, STILL, UPRIGHT,
+};
 use crate::sim::figure::plan_task::{PlanTask, Planning};
 use crate::sim::motion::{Clip, Target};
 use crate::sim::plan::splice;
 use crate::sim::setup::ControllerKind;
 use crate::sim::track::StepPlan;
 use std::sync::Arc;
-
-/// A clip that waits begins so long before the motion that leads to it is over, if the figure has settled, s.
-const SOONER: f64 = 0.4;
-/// Its joints are where that motion leads them then, rad.
-const STILL: f64 = 0.05;
-/// It begins at the latest so long after that motion is over, s.
-const PATIENCE: f64 = 2.0;
-/// A clip that begins with the pelvis above this share of its standing height, on both feet, begins standing.
-const UPRIGHT: f64 = 0.9;
-/// Time that the way from a stand into a clip takes, as is expected before it is worked out, s.
-const LED_AFTER: f64 = 2.7;
-/// Who gets up stands once the centre of mass is above this share of its standing height.
-const UP: f64 = 0.75;
 
 /// How a clip begins.
 struct Beginning {
@@ -73,7 +64,7 @@ impl Figure {
             (true, true) => goal,
             (true, false) => ease,
         };
-        let led_after = if begins_so(&stand) { 0.0 } else { LED_AFTER };
+        let led_after = if begins_so(&stand) { 0.0 } else { ENTRY_TIME };
         let from = play.start + first / play.speed;
         let (due, entered) = if moves {
             let goal = begin.upright.then_some(goal);
@@ -82,7 +73,7 @@ impl Figure {
                 fixed,
                 from,
             };
-            self.leave(&play, goal, ASIDE, time)
+            self.leave(&play, goal, LEAD, time)
         } else {
             (time, None)
         };
@@ -162,7 +153,7 @@ impl Figure {
         }
         let way = move || next.from_stand(&body, first, &stand);
         self.motion.update_next(|q| {
-            q.from = q.from.max(time + ASIDE as f64 / splice::RATE);
+            q.from = q.from.max(time + LEAD as f64 / splice::RATE);
             q.entry = Some(PlanTask::new(way));
         });
     }
@@ -207,7 +198,7 @@ impl Figure {
         } else if !self.steps() || time > q.due + PATIENCE {
             true
         } else {
-            let soon = time >= q.from.max(q.due - SOONER)
+            let soon = time >= q.from.max(q.due - EARLIEST_BEGIN)
                 && self.desired.tracker.is_settled(&self.scratch.terms);
             soon && self.has_come(time)
         };
@@ -283,7 +274,7 @@ impl Figure {
     /// True if only its feet touch, as its way has it, and it is up.
     fn stands_on_feet(&self) -> bool {
         let points = self.surroundings.support.points();
-        self.scratch.terms.com.z > UP * self.constants.standing_com_height
+        self.scratch.terms.com.z > UP_HEIGHT * self.constants.standing_com_height
             && self.desired.target.next.planted == [true; 2]
             && points.iter().all(|p| FEET.contains(&p.segment))
             && self.surroundings.support.rests().is_empty()
@@ -308,6 +299,6 @@ impl Figure {
             self.set_drive(Drive::Hold(posture));
             return;
         }
-        self.leave_for_a_stand(ASIDE, time);
+        self.leave_for_a_stand(LEAD, time);
     }
 }

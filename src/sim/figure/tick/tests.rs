@@ -10,7 +10,7 @@ use crate::sim::world::{World, WorldParams};
 use std::sync::Arc;
 
 #[test]
-fn a_figure_that_is_not_finite_is_frozen_told_once_and_harms_nobody() {
+fn a_figure_that_is_not_finite_is_frozen_reported_once_and_changes_no_other() {
     let body = Arc::new(Body::adult_man());
     let hashes = |broken: bool| {
         let mut world = World::new(WorldParams::default()).unwrap();

@@ -1,6 +1,6 @@
 //! The bodies of one cluster, and where they are in the present substep.
 
-use super::Who;
+use super::Participant;
 use crate::sim::body::SegmentId;
 use crate::sim::collide::narrow::PosedBox;
 use crate::sim::collide::shape::Capsule;
@@ -25,33 +25,35 @@ impl Cast<'_> {
     }
 
     /// Velocity of a world point of a part.
-    pub fn velocity(&self, who: Who, part: usize, p: Vec3) -> Vec3 {
-        match who {
-            Who::Figure(i) => {
+    pub fn velocity(&self, participant: Participant, part: usize, p: Vec3) -> Vec3 {
+        match participant {
+            Participant::Figure(i) => {
                 let t = self.figures[i].1.substep_terms();
                 t.kin.velocity[part] + t.kin.omega[part].cross(p - t.segment_position(part))
             }
-            Who::Free(i) => self.free[i].1.point_velocity(p),
-            Who::Firm(i) => self.firm[i].1.point_velocity(p),
-            Who::Ground => Vec3::zero(),
+            Participant::Free(i) => self.free[i].1.point_velocity(p),
+            Participant::Firm(i) => self.firm[i].1.point_velocity(p),
+            Participant::Ground => Vec3::zero(),
         }
     }
 
     /// How reports name a body.
-    pub fn other(&self, who: Who, part: usize) -> Option<Other> {
-        match who {
-            Who::Figure(i) => Some(Other::Figure(self.figures[i].0.0, SegmentId::new(part)?)),
-            Who::Free(i) => Some(Other::Obstacle(self.free[i].0)),
-            Who::Firm(i) => Some(Other::Obstacle(self.firm[i].0)),
-            Who::Ground => None,
+    pub fn other(&self, participant: Participant, part: usize) -> Option<Other> {
+        match participant {
+            Participant::Figure(i) => {
+                Some(Other::Figure(self.figures[i].0.0, SegmentId::new(part)?))
+            }
+            Participant::Free(i) => Some(Other::Obstacle(self.free[i].0)),
+            Participant::Firm(i) => Some(Other::Obstacle(self.firm[i].0)),
+            Participant::Ground => None,
         }
     }
 
     /// The obstacle behind a body, and for how long it has moved since its pose was stored.
-    pub fn obstacle(&self, who: Who, led_for: f64) -> Option<Posed> {
-        match who {
-            Who::Free(i) => Some(Posed::new(&self.free[i].1, 0.0)),
-            Who::Firm(i) => Some(Posed::new(&self.firm[i].1, led_for)),
+    pub fn obstacle(&self, participant: Participant, led_for: f64) -> Option<Posed> {
+        match participant {
+            Participant::Free(i) => Some(Posed::new(&self.free[i].1, 0.0)),
+            Participant::Firm(i) => Some(Posed::new(&self.firm[i].1, led_for)),
             _ => None,
         }
     }

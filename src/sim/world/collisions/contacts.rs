@@ -1,7 +1,7 @@
 //! The points at which two parts are nearest, or will be at the end of the substep.
 
 use super::cast::{Cast, Posed, PosedShape, posed};
-use super::{Candidate, Cluster, Who};
+use super::{Candidate, Cluster, Participant};
 use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES, SEGMENT_COUNT};
 use crate::sim::collide::narrow::{self, Near};
 use crate::sim::collide::shape::Capsule;
@@ -19,7 +19,7 @@ const POINTS_FLAT: usize = 8;
 /// The few points of two parts that will be nearest, or deepest, at the end of the substep.
 struct Best<'a, const N: usize> {
     cast: &'a Cast<'a>,
-    who: [Who; 2],
+    participant: [Participant; 2],
     part: [usize; 2],
     h: f64,
     /// Points with their gap now or at the end, whichever is less.
@@ -27,17 +27,20 @@ struct Best<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> Best<'a, N> {
-    fn new(cast: &'a Cast<'a>, who: [Who; 2], part: [usize; 2], h: f64) -> Self {
+    fn new(cast: &'a Cast<'a>, participant: [Participant; 2], part: [usize; 2], h: f64) -> Self {
         Self {
             cast,
-            who,
+            participant,
             part,
             h,
             list: [None; N],
         }
     }
     fn push(&mut self, near: Near) {
-        let [a, b] = [0, 1].map(|k| self.cast.velocity(self.who[k], self.part[k], near.position));
+        let [a, b] = [0, 1].map(|k| {
+            self.cast
+                .velocity(self.participant[k], self.part[k], near.position)
+        });
         let rate = (a - b).dot(near.normal);
         let end = near.gap.min(near.gap + self.h * rate);
         if near.gap >= NEARBY && end >= 0.0 {
@@ -129,10 +132,10 @@ impl Cluster {
     pub(super) fn find_contacts(&mut self, cast: &Cast<'_>, h: f64, led_for: f64) {
         self.candidates.clear();
         for k in 0..self.pairs.len() {
-            let who = self.pairs[k];
-            match who {
-                [Who::Figure(i), Who::Figure(j)] => self.figures(cast, [i, j], h),
-                [Who::Figure(i), b] => {
+            let participant = self.pairs[k];
+            match participant {
+                [Participant::Figure(i), Participant::Figure(j)] => self.figures(cast, [i, j], h),
+                [Participant::Figure(i), b] => {
                     if let Some(o) = cast.obstacle(b, led_for) {
                         self.figure_at(cast, i, (b, &o), h);
                     }
@@ -142,7 +145,7 @@ impl Cluster {
                         continue;
                     };
                     let y = match b {
-                        Who::Ground => Posed::ground(cast.friction),
+                        Participant::Ground => Posed::ground(cast.friction),
                         _ => match cast.obstacle(b, led_for) {
                             Some(y) => y,
                             None => continue,
@@ -159,7 +162,7 @@ impl Cluster {
         for (near, _) in best.list.iter().flatten() {
             self.report.depth = self.report.depth.max(-near.gap);
             self.candidates.push(Candidate {
-                who: best.who,
+                participant: best.participant,
                 part: best.part,
                 near: *near,
                 mu,
@@ -178,8 +181,8 @@ impl Cluster {
                 if d.dot(d) > reach * reach {
                     continue;
                 }
-                let who = [Who::Figure(i), Who::Figure(j)];
-                let mut best = Best::<POINTS_ROUND>::new(cast, who, [s, t], h);
+                let participant = [Participant::Figure(i), Participant::Figure(j)];
+                let mut best = Best::<POINTS_ROUND>::new(cast, participant, [s, t], h);
                 for c in &a.shape().capsules[s] {
                     let c = posed(a.substep_terms(), s, c);
                     for e in &b.shape().capsules[t] {
@@ -192,7 +195,7 @@ impl Cluster {
         }
     }
 
-    fn figure_at(&mut self, cast: &Cast<'_>, i: usize, (b, o): (Who, &Posed), h: f64) {
+    fn figure_at(&mut self, cast: &Cast<'_>, i: usize, (b, o): (Participant, &Posed), h: f64) {
         let f = &cast.figures[i].1;
         for s in 0..SEGMENT_COUNT {
             let (p, radius, speed) = ball(f, s);
@@ -200,8 +203,8 @@ impl Cluster {
             if clearance(p, radius, &o.shape) > NEARBY + h * (speed + other) {
                 continue;
             }
-            let who = [Who::Figure(i), b];
-            let mut best = Best::<POINTS_FLAT>::new(cast, who, [s, 0], h);
+            let participant = [Participant::Figure(i), b];
+            let mut best = Best::<POINTS_FLAT>::new(cast, participant, [s, 0], h);
             if is_foot(s) {
                 // Soles are flat: their own points carry, as on the ground.
                 let t = f.substep_terms();
@@ -220,7 +223,7 @@ impl Cluster {
         }
     }
 
-    fn obstacles(&mut self, cast: &Cast<'_>, [(a, x), (b, y)]: [(Who, &Posed); 2], h: f64) {
+    fn obstacles(&mut self, cast: &Cast<'_>, [(a, x), (b, y)]: [(Participant, &Posed); 2], h: f64) {
         let mut best = Best::<POINTS_FLAT>::new(cast, [a, b], [0, 0], h);
         match (&x.shape, &y.shape) {
             (PosedShape::Round(c), other) => round_at(c, other, |near| best.push(near)),

@@ -1,7 +1,7 @@
 //! Solves every island of bodies that touch, and lets the impulses act.
 
 use super::cast::Cast;
-use super::{Candidate, Cluster, Who, find, unite};
+use super::{Candidate, Cluster, Participant, find, unite};
 use crate::sim::body::SegmentId;
 use crate::sim::body::topology::NV;
 use crate::sim::collide::island::Island;
@@ -31,15 +31,15 @@ impl Cluster {
         }
         let nf = cast.figures.len();
         let total = nf + cast.free.len();
-        let index = |who: Who| match who {
-            Who::Figure(i) => Some(i),
-            Who::Free(i) => Some(nf + i),
+        let index = |participant: Participant| match participant {
+            Participant::Figure(i) => Some(i),
+            Participant::Free(i) => Some(nf + i),
             _ => None,
         };
         self.parent.clear();
         self.parent.extend(0..total);
         for c in &self.candidates {
-            if let (Some(i), Some(j)) = (index(c.who[0]), index(c.who[1])) {
+            if let (Some(i), Some(j)) = (index(c.participant[0]), index(c.participant[1])) {
                 unite(&mut self.parent, i, j);
             }
         }
@@ -50,7 +50,8 @@ impl Cluster {
             let parent = &mut self.parent;
             self.block.clear();
             self.block.resize(total, None);
-            let mut mine = |c: &Candidate| index(c.who[0]).is_some_and(|i| find(parent, i) == root);
+            let mut mine =
+                |c: &Candidate| index(c.participant[0]).is_some_and(|i| find(parent, i) == root);
             // Too many: the deepest stay.
             let count = self.candidates.iter().filter(|c| mine(c)).count();
             if count == 0 {
@@ -75,7 +76,7 @@ impl Cluster {
                 }
                 let mut block = [None; 2];
                 for side in 0..2 {
-                    let Some(i) = index(c.who[side]) else {
+                    let Some(i) = index(c.participant[side]) else {
                         continue;
                     };
                     block[side] = Some(match self.block[i] {
@@ -97,17 +98,17 @@ impl Cluster {
 
     fn finish_island(&mut self, world: &TickContext, cast: &mut Cast<'_>, h: f64, substep: u32) {
         let nf = cast.figures.len();
-        let before = |cast: &Cast<'_>, who: (usize, usize), p: Vec3| {
-            let body = if who.0 < nf {
-                Who::Figure(who.0)
-            } else if who.0 < nf + cast.free.len() {
-                Who::Free(who.0 - nf)
-            } else if who.0 == usize::MAX {
-                Who::Ground
+        let before = |cast: &Cast<'_>, participant: (usize, usize), p: Vec3| {
+            let body = if participant.0 < nf {
+                Participant::Figure(participant.0)
+            } else if participant.0 < nf + cast.free.len() {
+                Participant::Free(participant.0 - nf)
+            } else if participant.0 == usize::MAX {
+                Participant::Ground
             } else {
-                Who::Firm(who.0 - nf - cast.free.len())
+                Participant::Firm(participant.0 - nf - cast.free.len())
             };
-            (body, cast.velocity(body, who.1, p))
+            (body, cast.velocity(body, participant.1, p))
         };
         let outcome = self.island.solve(cast.figures);
         let r = &mut self.report;
@@ -137,20 +138,22 @@ impl Cluster {
             r.contacts += 1;
             let (a, va) = before(cast, c.ends[0], c.position);
             let (b, vb) = before(cast, c.ends[1], c.position);
-            let gravity = |who: Who| match who {
-                Who::Free(_) => Vec3::Z * (h * world.gravity),
+            let gravity = |participant: Participant| match participant {
+                Participant::Free(_) => Vec3::Z * (h * world.gravity),
                 _ => Vec3::zero(),
             };
             let u0 = va + gravity(a) - vb - gravity(b);
             let after = c.work_after();
             r.work += 0.5 * impulse.dot(u0) + 0.5 * after;
             r.driven += 0.5 * after.max(0.0);
-            for (who, part, sign, other) in [
+            for (participant, part, sign, other) in [
                 (a, c.ends[0].1, 1.0, (b, c.ends[1].1)),
                 (b, c.ends[1].1, -1.0, (a, c.ends[0].1)),
             ] {
                 let of = other.0;
-                if let (Who::Figure(i), Some(other)) = (who, cast.other(of, other.1)) {
+                if let (Participant::Figure(i), Some(other)) =
+                    (participant, cast.other(of, other.1))
+                {
                     let what = Contacting {
                         segment: SegmentId::new(part).expect("parts of figures are segments"),
                         other,
@@ -158,7 +161,7 @@ impl Cluster {
                         impulse: impulse * sign,
                         normal: c.frame[2] * sign,
                         depth: (-c.gap).max(0.0),
-                        firm: matches!(of, Who::Firm(_)),
+                        firm: matches!(of, Participant::Firm(_)),
                     };
                     cast.figures[i].1.record(&what, h, world.dt);
                 }
@@ -196,12 +199,15 @@ fn add_contact(
     cast: &Cast<'_>,
     c: &Candidate,
     block: [Option<usize>; 2],
-    index: impl Fn(Who) -> Option<usize>,
+    index: impl Fn(Participant) -> Option<usize>,
     h: f64,
 ) {
     let n = &c.near;
     let nf = cast.figures.len();
-    let fleshy = c.who.iter().any(|w| matches!(w, Who::Figure(_)));
+    let fleshy = c
+        .participant
+        .iter()
+        .any(|w| matches!(w, Participant::Figure(_)));
     let slop = if fleshy { FLESH } else { SLOP };
     let approach = if n.gap > 0.0 {
         n.gap / h
@@ -210,12 +216,12 @@ fn add_contact(
     };
     // What moves by itself brings its velocity along; the second body is the one that can be firm.
     let firm = match block[1] {
-        None => cast.velocity(c.who[1], c.part[1], n.position),
+        None => cast.velocity(c.participant[1], c.part[1], n.position),
         Some(_) => Vec3::zero(),
     };
     let end = |side: usize| {
-        let body = index(c.who[side]).unwrap_or(match c.who[side] {
-            Who::Firm(k) => nf + cast.free.len() + k,
+        let body = index(c.participant[side]).unwrap_or(match c.participant[side] {
+            Participant::Firm(k) => nf + cast.free.len() + k,
             _ => usize::MAX,
         });
         (body, c.part[side])
@@ -226,13 +232,13 @@ fn add_contact(
         (n.position, n.normal, n.gap),
         (approach, firm, c.mu),
         1.0 / COMPLIANCE,
-        |side, visit| match c.who[side] {
-            Who::Figure(i) => {
+        |side, visit| match c.participant[side] {
+            Participant::Figure(i) => {
                 let t = cast.figures[i].1.substep_terms();
                 let r = n.position - t.state.posture.root_position;
                 for_each_column(&t.kin, c.part[side], r, |k, _, v| visit(k, v));
             }
-            Who::Free(i) => {
+            Participant::Free(i) => {
                 let r = n.position - cast.free[i].1.setup().position;
                 for (k, e) in [Vec3::X, Vec3::Y, Vec3::Z].into_iter().enumerate() {
                     visit(k, e.cross(r));

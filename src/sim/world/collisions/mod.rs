@@ -1,7 +1,7 @@
-//! Stage 6 of a tick for everything that is near something else: who is near whom, what touches, and one solve for all
+//! Stage 6 of a tick for everything that is near something else: which bodies are near each other, what touches, and one solve for all
 //! that touch.
 //!
-//! * [`neighbourhood`]: who is near whom, and the clusters that follow.
+//! * [`neighbourhood`]: pairs of bodies that are near each other, and the clusters that follow.
 //! * [`cast`]: the bodies of one cluster and where they are.
 //! * [`contacts`]: the points at which parts are nearest.
 //! * [`islands`]: the solve, and its impulses on everyone.
@@ -58,7 +58,7 @@ impl CollisionReport {
 
 /// A body of a cluster.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Who {
+enum Participant {
     Figure(usize),
     Free(usize),
     /// Fixed or led.
@@ -69,7 +69,7 @@ enum Who {
 /// Two parts that are near.
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
-    who: [Who; 2],
+    participant: [Participant; 2],
     part: [usize; 2],
     near: Near,
     mu: f64,
@@ -80,7 +80,7 @@ struct Candidate {
 struct Cluster {
     figures: (usize, usize),
     free: (usize, usize),
-    pairs: Vec<[Who; 2]>,
+    pairs: Vec<[Participant; 2]>,
     candidates: Vec<Candidate>,
     parent: Vec<usize>,
     block: Vec<Option<usize>>,
@@ -147,14 +147,14 @@ impl Cluster {
         }
         self.find_contacts(cast, 2.0 * world.dt, 0.0);
         self.report.depth = 0.0; // found again, at the start of the first substep
-        for who in self.candidates.iter().flat_map(|c| c.who) {
-            if let Who::Figure(i) = who
+        for participant in self.candidates.iter().flat_map(|c| c.participant) {
+            if let Participant::Figure(i) = participant
                 && cast.figures[i].1.is_prescribed()
             {
                 cast.figures[i].1.hand_over();
             }
         }
-        let apart = |who: &Who| matches!(who, Who::Figure(i) if cast.figures[*i].1.is_prescribed());
+        let apart = |participant: &Participant| matches!(participant, Participant::Figure(i) if cast.figures[*i].1.is_prescribed());
         self.pairs.retain(|pair| !pair.iter().any(apart));
         for (_, f) in cast.figures.iter_mut().filter(|(_, f)| f.is_prescribed()) {
             f.integrate(world);

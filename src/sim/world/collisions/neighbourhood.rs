@@ -1,7 +1,7 @@
-//! Who is near whom, and the clusters that follow.
+//! Pairs of bodies that are near each other, and the clusters that follow.
 
 use super::cast::{Cast, posed};
-use super::{Cluster, CollisionReport, Who, find, unite};
+use super::{Cluster, CollisionReport, Participant, find, unite};
 use crate::sim::body::topology::SEGMENT_COUNT;
 use crate::sim::collide::broad::{self, Bounds};
 use crate::sim::collide::narrow;
@@ -15,7 +15,7 @@ const SLACK: f64 = 0.05;
 /// Figures that are put deeper into each other than this pass through each other until they have parted, m.
 const THROUGH: f64 = 0.03;
 
-/// Who is near whom, and the clusters that follow.
+/// Pairs of bodies that are near each other, and the clusters that follow.
 #[derive(Debug, Default)]
 pub(in super::super) struct Neighbourhood {
     bounds: Vec<Bounds>,
@@ -97,7 +97,7 @@ impl Neighbourhood {
         self.count > 0
     }
 
-    /// Finds who may meet whom and orders `figures` and `obstacles` by cluster; what is alone comes last, and obstacles
+    /// Finds the pairs that may meet and orders `figures` and `obstacles` by cluster; what is alone comes last, and obstacles
     /// that do not move freely after all that do. Returns how many figures are in clusters.
     pub(in super::super) fn gather(
         &mut self,
@@ -242,18 +242,18 @@ impl Neighbourhood {
             place[i] = self.label[before].iter().filter(|m| *m == l).count();
         }
         for (i, j) in &self.pairs {
-            let who = |k: usize| {
+            let participant = |k: usize| {
                 if k < nf {
-                    Who::Figure(place[k])
+                    Participant::Figure(place[k])
                 } else if self.label[k] == ALONE {
-                    Who::Firm(place[k])
+                    Participant::Firm(place[k])
                 } else {
-                    Who::Free(place[k])
+                    Participant::Free(place[k])
                 }
             };
-            let (a, b) = (who(*i), who(*j));
+            let (a, b) = (participant(*i), participant(*j));
             // Figures come first by index; of two obstacles the one that moves.
-            let (a, b, k) = if matches!(a, Who::Firm(_)) {
+            let (a, b, k) = if matches!(a, Participant::Firm(_)) {
                 (b, a, *j)
             } else {
                 (a, b, *i)
@@ -264,7 +264,7 @@ impl Neighbourhood {
             if *l != ALONE {
                 self.clusters[*l]
                     .pairs
-                    .push([Who::Free(place[k]), Who::Ground]);
+                    .push([Participant::Free(place[k]), Participant::Ground]);
             }
         }
         figures.sort_unstable_by_key(|(k, f)| (f.neighbours.cluster, *k));

@@ -1,0 +1,305 @@
+//! Every tunable number of a figure and its steppers.
+
+use crate::sim::params::Param;
+
+/// Supports, reactions, and other bodies.
+pub mod support {
+    crate::sim::params::params! {
+        /// A part rests on something that carries this share of the weight.
+        REST_SHARE: f64 = 0.02, "1", 0.005..=0.1, "docs/tick.md";
+        /// Part of a reaction that a controller takes in per tick: a blow is over before it is known, a seat is
+        /// known after some ticks.
+        REACTION_GAIN: f64 = 0.15, "1", 0.05..=1.0, "docs/adr/0009-collisions.md";
+        /// Largest reaction that a controller counts on.
+        LARGEST_REACTION: f64 = 2000.0, "N", 500..=5000, "docs/adr/0009-collisions.md";
+        /// Contacts closer than this are one place.
+        SPOT_SIZE: f64 = 0.05, "m", 0.01..=0.2, "docs/adr/0009-collisions.md";
+        /// A place that is not pressed any more is forgotten below this.
+        SPOT_FORGOTTEN: f64 = 1.0, "N", 0.1..=10, "numerical";
+    }
+}
+
+/// Whether balance is lost for good.
+pub mod balance {
+    crate::sim::params::params! {
+        /// Arms and trunk bring the capture point back from so far outside the support.
+        BODY_REACH: f64 = 0.04, "m", 0..=0.1, "docs/locomotion.md#recovery";
+        /// The paper's controller keeps trying up to here: on an edge of the feet.
+        PAPER_REACH: f64 = 0.15, "m", 0.04..=0.3, "docs/tick.md";
+        /// Steps bring the capture point back from so far outside the support.
+        STEP_REACH: f64 = 0.6, "m", 0.2..=1.0, "docs/locomotion.md#recovery";
+        /// A body with its centre of mass below this share of its standing height does not step any more.
+        LOWEST_STEP: f64 = 0.7, "1", 0.5..=0.9, "docs/locomotion.md#recovery";
+        /// Balance is found again once the capture point has been inside for so long.
+        RECOVERY_TIME: f64 = 0.3, "s", 0.1..=1.0, "docs/locomotion.md#recovery";
+        /// Least height of the centre of mass that the capture point is computed with.
+        LEAST_HEIGHT: f64 = 0.05, "m", 0.01..=0.2, "numerical";
+    }
+}
+
+/// Falling, lying, and standing again.
+pub mod fall {
+    crate::sim::params::params! {
+        /// A figure has fallen, and a motion lies, when the centre of mass is below this share of its standing
+        /// height.
+        FALLEN_HEIGHT: f64 = 0.45, "1", 0.3..=0.6, "docs/tick.md";
+        /// A fallen figure stands again when its centre of mass is above this share of the standing height.
+        RISEN_HEIGHT: f64 = 0.6, "1", 0.45..=0.8, "docs/tick.md";
+        /// Share of its strength that a fallen figure uses: it relaxes.
+        STRENGTH: f64 = 0.3, "1", 0.1..=1.0, "docs/tick.md";
+        /// Time constant of what a fallen figure demands of its joints.
+        HORIZON: f64 = 0.3, "s", 0.1..=1.0, "docs/tick.md";
+        /// Rate error at which a motor of a fallen figure gives all it has: soft, and easy on the solver while
+        /// many parts touch.
+        SATURATION_SPEED: f64 = 0.5, "rad/s", 0.1..=3.0, "numerical";
+    }
+}
+
+/// When a fallen figure gets up, and how fast.
+pub mod get_up {
+    crate::sim::params::params! {
+        /// The figure has got up once its centre of mass is above this share of its standing height.
+        UP_HEIGHT: f64 = 0.75, "1", 0.6..=0.95, "docs/locomotion.md#getting-up";
+        /// A trunk lies whose axis rises by less than this, as a sine.
+        LEVEL: f64 = 0.7, "1", 0.3..=0.9, "docs/locomotion.md#getting-up";
+        /// A body lies still below this speed of its centre of mass.
+        STILL_SPEED: f64 = 0.3, "m/s", 0.05..=1.0, "docs/locomotion.md#getting-up";
+        /// Getting up goes on at full pace below this error: root mean square of the joints.
+        FULL_PACE_JOINTS: f64 = 0.08, "rad", 0.01..=1.0, "docs/locomotion.md#getting-up";
+        /// It waits above this error: root mean square of the joints.
+        NO_PACE_JOINTS: f64 = 0.2, "rad", 0.02..=2.0, "docs/locomotion.md#getting-up";
+        /// Getting up goes on at full pace below this error: turn of the pelvis.
+        FULL_PACE_TURN: f64 = 0.15, "rad", 0.01..=1.0, "docs/locomotion.md#getting-up";
+        /// It waits above this error: turn of the pelvis.
+        NO_PACE_TURN: f64 = 0.4, "rad", 0.02..=2.0, "docs/locomotion.md#getting-up";
+        /// Getting up goes on at full pace below this error: distance of the centre of mass over the floor.
+        FULL_PACE_COM: f64 = 0.03, "m", 0.01..=1.0, "docs/locomotion.md#getting-up";
+        /// It waits above this error: distance of the centre of mass over the floor.
+        NO_PACE_COM: f64 = 0.08, "m", 0.02..=2.0, "docs/locomotion.md#getting-up";
+        /// `FULL_PACE_TURN` of a body that lies: it has nothing to lose.
+        FULL_PACE_LYING_TURN: f64 = 0.25, "rad", 0.05..=1.0, "docs/locomotion.md#getting-up";
+        /// `NO_PACE_TURN` of a body that lies.
+        NO_PACE_LYING_TURN: f64 = 0.6, "rad", 0.1..=2.0, "docs/locomotion.md#getting-up";
+        /// A body that lies goes on at least at this pace: it does not wait for ever.
+        LEAST_PACE: f64 = 0.25, "1", 0.05..=1.0, "docs/locomotion.md#getting-up";
+        /// Getting up stalls below this pace.
+        STALLED_PACE: f64 = 0.05, "1", 0..=0.5, "docs/locomotion.md#getting-up";
+        /// An attempt that has stalled, or waited, for so long is given up.
+        STALLED_TIME: f64 = 3.0, "s", 1..=10, "docs/locomotion.md#getting-up";
+        /// Attempts for one motion that gets up.
+        ATTEMPTS: u32 = 3, "rounds", 1..=10, "docs/locomotion.md#getting-up";
+    }
+}
+
+/// From one motion to another.
+pub mod switch {
+    crate::sim::params::params! {
+        /// Samples of 1/60 s that still play before a motion is left: the time that there is to plan how.
+        LEAD: usize = 4, "samples", 2..=12, "docs/locomotion.md#stops";
+        /// The same after plans that came late: twice as many each time, up to this.
+        MOST_LEAD: usize = 24, "samples", 4..=40, "docs/locomotion.md#stops";
+        /// How far ahead a clip is looked at for a place to stop.
+        STOP_AHEAD: f64 = 0.8, "s", 0.4..=2.0, "docs/locomotion.md#stops";
+        /// A body slower than this is led into the posture in which the next clip begins; a faster one stands at
+        /// ease first.
+        SLOW: f64 = 0.2, "m/s", 0.05..=0.5, "docs/locomotion.md#stops";
+        /// Time that the steps to a stand take, as is expected before they are planned.
+        STOP_TIME: f64 = 2.2, "s", 1..=4, "docs/locomotion.md#stops";
+        /// Time that the way from a stand into a clip takes, as is expected before it is planned.
+        ENTRY_TIME: f64 = 2.7, "s", 1..=5, "docs/locomotion.md#stops";
+        /// A clip that waits begins at most so long before the motion that leads to it is over, if the figure has
+        /// settled.
+        EARLIEST_BEGIN: f64 = 0.4, "s", 0..=1, "docs/locomotion.md#stops";
+        /// The joints have come to where a motion leads them when they are closer than this.
+        STILL: f64 = 0.05, "rad", 0.01..=0.2, "docs/locomotion.md#stops";
+        /// A clip that waits begins at the latest so long after the motion that leads to it is over.
+        PATIENCE: f64 = 2.0, "s", 0.5..=5, "docs/locomotion.md#stops";
+        /// A posture stands upright with the pelvis above this share of its standing height.
+        UPRIGHT: f64 = 0.9, "1", 0.8..=1.0, "docs/locomotion.md#stops";
+    }
+}
+
+/// What a load changes in a motion that steps.
+pub mod load {
+    crate::sim::params::params! {
+        /// Lean of the trunk per shift of the centre of mass: it does about half, and the pelvis the rest.
+        LEAN: f64 = 1.8, "rad/m", 0..=3, "docs/locomotion.md#loads";
+        /// Largest lean of the trunk.
+        LARGEST_LEAN: f64 = 0.25, "rad", 0..=0.5, "docs/locomotion.md#loads";
+        /// Largest shift of the pelvis.
+        LARGEST_SHIFT: f64 = 0.12, "m", 0..=0.2, "docs/locomotion.md#loads";
+        /// Time constant, twice, with which a load that was taken up or let go has its effect.
+        ONSET_TIME: f64 = 0.2, "s", 0.05..=1, "docs/locomotion.md#loads";
+        /// A load that differs by less than this, in kg and kg·m, from its effect has all of it.
+        SAME_LOAD: f64 = 1e-6, "kg", 0..=1e-3, "numerical";
+        /// Pelvis and trunk move by this much more than the centre of mass, because the feet stay.
+        SHIFT_GAIN: f64 = 1.15, "1", 1..=1.5, "derivation";
+        /// Rounds in which the shift of the pelvis is found: each leaves a tenth of the error.
+        SHIFT_ROUNDS: usize = 3, "rounds", 1..=6, "numerical";
+        /// Rates of a changed motion are differences over so long before and after a moment: short enough to be
+        /// those of the moment, long enough for what mirrored bodies round differently to stay below 1e-9 in their
+        /// torques.
+        RATE_SPAN: f64 = 5e-4, "s", 1e-5..=5e-3, "numerical";
+        /// Load with which an arm swings half as far: about the mass of an arm.
+        HALF_SWING: f64 = 4.0, "kg", 1..=10, "docs/locomotion.md#loads";
+        /// What an arm does within this time counts as quick.
+        QUICK: f64 = 0.7, "s", 0.2..=2, "docs/locomotion.md#loads";
+        /// An arm hangs whose hand is less than this before or behind its shoulder.
+        HANGS_SWING: f64 = 0.7, "rad", 0.3..=1.2, "docs/locomotion.md#loads";
+        /// It does not hang from this angle on. What its swing had less comes back while it is raised from the one
+        /// to the other.
+        RAISED_SWING: f64 = 1.6, "rad", 1.0..=2.5, "docs/locomotion.md#loads";
+        /// An arm hangs whose elbow is bent by less than this.
+        HANGS_ELBOW: f64 = 0.9, "rad", 0.3..=1.2, "docs/locomotion.md#loads";
+        /// It does not hang from this angle on: a forearm that is held level carries something in front of the
+        /// body.
+        BENT_ELBOW: f64 = 1.5, "rad", 1.0..=2.5, "docs/locomotion.md#loads";
+        /// Time constant with which an arm gets used to hanging: one that comes down between two movements goes on
+        /// as the motion has it.
+        HABIT_TIME: f64 = 0.7, "s", 0.2..=2, "docs/locomotion.md#loads";
+    }
+}
+
+/// Constraints that clients give.
+pub mod constraints {
+    crate::sim::params::params! {
+        /// How far inside of what carries it the wanted centre of mass is kept. Feet count from the heel to the
+        /// ball: toes cannot carry a body for long.
+        COM_INSET: f64 = 0.03, "m", 0..=0.1, "docs/tick.md";
+        /// How far from where the motion has it a point of trunk, head or legs is led: beyond, whole-body motion
+        /// cannot keep balance.
+        TRUNK_REACH: f64 = 0.15, "m", 0.05..=0.4, "docs/tick.md";
+        /// How far ahead of the present place the centre of mass is asked for: 2.5 m/s² and 0.25 m/s with the
+        /// controllers' law.
+        COM_LEASH: f64 = 0.1, "m", 0.02..=0.3, "docs/tick.md";
+        /// Places that are given anew within this time are one place that moves.
+        STREAM_INTERVAL: f64 = 0.1, "s", 0.02..=0.5, "docs/tick.md";
+        /// A place that moves faster than this has jumped.
+        STREAM_SPEED: f64 = 5.0, "m/s", 1..=10, "docs/tick.md";
+        /// Time constant with which the velocity of such a place is taken from its differences.
+        STREAM_SMOOTHING: f64 = 0.015, "s", 0..=0.1, "docs/tick.md";
+    }
+}
+
+/// Help on the pelvis that physics does not give.
+pub mod assist {
+    crate::sim::params::params! {
+        /// κ of the force over the body mass at assist 1.
+        STIFFNESS: f64 = 50.0, "1", 10..=200, "docs/tick.md";
+        /// Part of a pose error that is taken back per substep.
+        RETURN: f64 = 0.5, "1", 0.1..=1, "numerical";
+        /// Fastest way back to the desired position.
+        RETURN_SPEED: f64 = 1.5, "m/s", 0.5..=5, "numerical";
+        /// Fastest way back to the desired rotation.
+        RETURN_RATE: f64 = 3.0, "rad/s", 1..=10, "numerical";
+        /// Largest force over the body's weight at assist 1.
+        LARGEST_FORCE: f64 = 2.0, "1", 0.5..=5, "docs/tick.md";
+        /// Largest moment over weight times stature at assist 1.
+        LARGEST_MOMENT: f64 = 0.5, "1", 0.1..=2, "docs/tick.md";
+        /// Inertia about the pelvis over mass times stature squared.
+        INERTIA: f64 = 0.05, "1", 0.02..=0.1, "derivation";
+        /// What half the largest force or moment costs a plan at assist 1.
+        PLANNED_COST: f64 = 10.0, "1", 1..=100, "docs/tick.md";
+    }
+}
+
+/// How stiff motors are: the rate error at which a motor gives all it has.
+pub mod motors {
+    crate::sim::params::params! {
+        /// Motors alone.
+        ALONE_SPEED: f64 = 0.005, "rad/s", 0.001..=0.1, "numerical";
+        /// With the torque of the paper's controller as feed-forward.
+        FEED_FORWARD_SPEED: f64 = 1.0, "rad/s", 0.1..=5, "docs/tick.md";
+        /// With that of the modern controller: legs give a little when a foot lands.
+        MODERN_SPEED: f64 = 3.0, "rad/s", 0.5..=10, "docs/tick.md";
+        /// Gain that is left for the second try of a substep that did not converge.
+        SOFTENING: f64 = 0.01, "1", 1e-3..=0.5, "numerical";
+    }
+}
+
+/// Contact with the ground in a substep.
+pub mod contact {
+    crate::sim::params::params! {
+        /// Compliance R of a contact.
+        COMPLIANCE: f64 = 1e-4, "1/kg", 1e-6..=1e-2, "docs/equations.md";
+        /// Contact points lower than this take part in the solve even if they move away.
+        SPECULATIVE_HEIGHT: f64 = 0.02, "m", 0.005..=0.05, "docs/tick.md";
+        /// Share of a penetration beyond the slop that is taken back per substep.
+        PENETRATION_RETURN: f64 = 0.2, "1", 0.05..=1, "numerical";
+        /// Penetration that is left alone: resting feet neither hover nor chatter.
+        PENETRATION_SLOP: f64 = 1e-4, "m", 0..=1e-3, "numerical";
+        /// Fastest push-out of a penetrating point.
+        PENETRATION_SPEED: f64 = 1.0, "m/s", 0.1..=5, "numerical";
+        /// Most Newton iterations of one substep. 2 to 6 are typical; a foot that strikes while joints are near
+        /// their limits takes up to 70, and a step cut short at 30 there flings light joints.
+        ITERATIONS: u32 = 80, "rounds", 20..=200, "numerical";
+        /// Residual at which a substep counts as solved.
+        TOLERANCE: f64 = 1e-6, "N·m·s", 1e-9..=1e-4, "numerical";
+        /// Rates, and speeds in m/s, beyond this are braked: far above what bodies do (a pitcher's shoulder turns
+        /// at 130 rad/s), low enough that a substep resolves it.
+        LARGEST_SPEED: f64 = 200.0, "rad/s", 140..=1000, "docs/tick.md";
+    }
+}
+
+/// A load in two hands: a bar of fixed length between them.
+pub mod bar {
+    crate::sim::params::params! {
+        /// Share of an error of the bar's length that is taken back per substep.
+        RETURN: f64 = 0.3, "1", 0.05..=1, "numerical";
+        /// Fastest way back to its length.
+        RETURN_SPEED: f64 = 0.5, "m/s", 0.1..=2, "numerical";
+        /// Most solves for the impulse of a bar.
+        ITERATIONS: u32 = 6, "rounds", 2..=20, "numerical";
+        /// Rate of the bar's length that is left.
+        TOLERANCE: f64 = 1e-6, "m/s", 1e-9..=1e-4, "numerical";
+    }
+}
+
+/// The kinematic stepper: prescribed accelerations and inelastic impacts.
+pub mod kinematic {
+    crate::sim::params::params! {
+        /// A point that arrives faster than this strikes the ground; a slower one settles.
+        IMPACT_SPEED: f64 = 0.05, "m/s", 0.01..=0.2, "docs/adr/0012-kinematic-stepper.md";
+        /// Points below this height take part in an impact.
+        IMPACT_HEIGHT: f64 = 0.006, "m", 0.001..=0.02, "docs/tick.md";
+        /// While tilting, only points this close to the pivot line carry load.
+        PIVOT_REACH: f64 = 0.012, "m", 0.001..=0.05, "docs/adr/0012-kinematic-stepper.md";
+        /// Compliance of a touching point in an impact.
+        COMPLIANCE: f64 = 1e-6, "1/kg", 1e-9..=1e-4, "numerical";
+        /// Most iterations of an impact.
+        ITERATIONS: u32 = 80, "rounds", 20..=200, "numerical";
+        /// Residual of an impact.
+        TOLERANCE: f64 = 1e-9, "N·m·s", 1e-12..=1e-6, "numerical";
+        /// Torque beyond strength that counts as rounding, relative to the limit.
+        LIMIT_TOLERANCE: f64 = 1e-9, "1", 0..=1e-6, "numerical";
+        /// A foot tilted less than this when it comes to hold is laid flat: 1 − cos of 3°.
+        NEARLY_FLAT: f64 = 1.4e-3, "1", 0..=0.01, "docs/adr/0012-kinematic-stepper.md";
+        /// Part of the remaining tilt that is laid flat per tick.
+        SETTLE: f64 = 0.2, "1", 0.05..=1, "docs/adr/0012-kinematic-stepper.md";
+        /// Joint speed that prescribed accelerations may reach; beyond it torques take over.
+        SPEED_CAP: f64 = 15.0, "rad/s", 5..=50, "docs/adr/0012-kinematic-stepper.md";
+        /// Torques give back to prescribed accelerations after the figure has stood so long on flat feet with
+        /// strength to spare.
+        CALM_TIME: f64 = 0.5, "s", 0.1..=2, "docs/adr/0012-kinematic-stepper.md";
+        /// A part other than a foot arrives that would reach the floor within so many ticks.
+        ARRIVAL_TICKS: f64 = 2.0, "1", 1..=5, "docs/adr/0012-kinematic-stepper.md";
+    }
+}
+
+/// All groups with their names.
+pub fn groups() -> [(&'static str, &'static [Param]); 12] {
+    [
+        ("support", support::ALL),
+        ("balance", balance::ALL),
+        ("fall", fall::ALL),
+        ("get_up", get_up::ALL),
+        ("switch", switch::ALL),
+        ("load", load::ALL),
+        ("constraints", constraints::ALL),
+        ("assist", assist::ALL),
+        ("motors", motors::ALL),
+        ("contact", contact::ALL),
+        ("bar", bar::ALL),
+        ("kinematic", kinematic::ALL),
+    ]
+}
