@@ -52,7 +52,7 @@ impl GetUpSolver {
 /// The motion of one figure that gets up.
 #[derive(Clone, Copy, Debug)]
 pub struct GetUpMotion {
-    here: Layout,
+    layout: Layout,
     /// Where the way lies in the world.
     place: PlanarTransform,
     stages: &'static [Stage],
@@ -94,7 +94,7 @@ impl GetUpMotion {
             body.joint_offset[L_FOOT.index()].norm() + body.joint_offset[L_SHANK.index()].norm();
         let o = [Vec3::zero(); 2];
         Self {
-            here: Layout {
+            layout: Layout {
                 scale: leg / REFERENCE_LEG,
                 pelvis: Vec3::zero(),
                 roll: 0.0,
@@ -141,27 +141,27 @@ impl GetUpMotion {
         let back = Quat::exp(Vec3::Z * -self.place.yaw);
         self.posture.root_rotation = (back * p.root_rotation).normalized();
         self.velocity = [0.0; NV];
-        self.here.yaw = 0.0;
-        self.here.roll = roll(back.rotate(front));
+        self.layout.yaw = 0.0;
+        self.layout.roll = roll(back.rotate(front));
         for side in 0..2 {
-            self.here.knees[side] = self.real(with, terms, (SHANKS[side], KNEE));
-            self.here.balls[side] = self.ball(with, terms, side);
-            self.here.hands[side] =
+            self.layout.knees[side] = self.real(with, terms, (SHANKS[side], KNEE));
+            self.layout.balls[side] = self.ball(with, terms, side);
+            self.layout.hands[side] =
                 inverse(self.place, terms.segment_position(HANDS[side].index()));
         }
         self.turns_over = !prone;
         self.stages = if prone { stages::UP } else { stages::OVER };
-        self.mirrored = !prone && self.here.roll < 0.0;
-        let first = if !prone && self.here.roll.abs() < ON_SIDE {
+        self.mirrored = !prone && self.layout.roll < 0.0;
+        let first = if !prone && self.layout.roll.abs() < ON_SIDE {
             SIDE
         } else {
             0
         };
-        self.here.pelvis = self.posture.root_position;
+        self.layout.pelvis = self.posture.root_position;
         let up = self.posture.root_rotation.rotate(Vec3::Z);
         self.now = self.goals(&with.poses, first);
         self.now.begin(
-            [trig::atan2(up.x, up.z), self.here.roll, 0.0],
+            [trig::atan2(up.x, up.z), self.layout.roll, 0.0],
             &anatomical_angles(&self.posture),
         );
         self.enter(first);
@@ -171,9 +171,9 @@ impl GetUpMotion {
     fn goals(&self, poses: &ReferencePoses, stage: usize) -> Goals {
         let goals = self.stages[stage].goals;
         if self.mirrored {
-            goals(&self.here.mirrored(), poses).mirrored()
+            goals(&self.layout.mirrored(), poses).mirrored()
         } else {
-            goals(&self.here, poses)
+            goals(&self.layout, poses)
         }
     }
 
@@ -291,7 +291,7 @@ impl GetUpMotion {
         self.now = self.from.mix(&self.goals(&with.poses, self.stage), share);
         let mut goals = self.now;
         if let Some((side, height)) = stage.step {
-            let rise = arc(height * self.here.scale, u);
+            let rise = arc(height * self.layout.scale, u);
             goals.hands[side][2].at += rise;
             goals.palms[side].at += rise;
         }
@@ -307,15 +307,15 @@ impl GetUpMotion {
     fn update_layout(&mut self, with: &GetUpSolver, terms: &Terms, dt: f64) {
         let share = 1.0 - exp(-dt / UPDATE_TIME);
         let real = &terms.state.posture;
-        self.here.pelvis = inverse(self.place, real.root_position);
+        self.layout.pelvis = inverse(self.place, real.root_position);
         let heading = if self.stages[self.stage].down.whole {
             real.root_rotation.rotate(Vec3::Z)
         } else {
             real.root_rotation.rotate(Vec3::Y).cross(Vec3::Z)
         };
         let yaw = trig::atan2(heading.y, heading.x) - self.place.yaw;
-        let off = trig::wrapped(yaw - self.here.yaw);
-        self.here.yaw += share * off;
+        let off = trig::wrapped(yaw - self.layout.yaw);
+        self.layout.yaw += share * off;
         let down = self.stages[self.stage].down;
         for side in 0..2 {
             let knee = self.real(with, terms, (SHANKS[side], KNEE));
@@ -323,7 +323,7 @@ impl GetUpMotion {
             let wrist = inverse(self.place, terms.segment_position(HANDS[side].index()));
             let palm = with.solver.lowest(terms, HANDS[side]);
             let toes = with.solver.lowest(terms, TOES[side]);
-            let h = &mut self.here;
+            let h = &mut self.layout;
             let take = |place: &mut Vec3, real: Vec3, low: f64, down: bool| {
                 if down && low < TOUCH_HEIGHT {
                     *place += (real - *place) * share;

@@ -94,7 +94,7 @@ fn a_figure_sits_down_and_gets_up() {
             let r = f.report().unwrap();
             let carried: f64 = r.touches.iter().map(|t| t.force.z).sum();
             seated += u64::from(carried > 0.1 * 75.0 * 9.81);
-            let square = r.joint_error.iter().map(|e| e * e).sum::<f64>() / 39.0;
+            let square = r.joints.joint_error.iter().map(|e| e * e).sum::<f64>() / 39.0;
             // It has settled on the stool, and has not begun to get up.
             let still = (210..390).contains(&tick);
             for (sum, count) in &mut error[..if still { 2 } else { 1 }] {
@@ -112,7 +112,7 @@ fn a_figure_sits_down_and_gets_up() {
                 }
             }
         }
-        let up = world.figure(key).unwrap().report().unwrap().com.z;
+        let up = world.figure(key).unwrap().report().unwrap().balance.com.z;
         let [whole, sitting] = error.map(|(sum, count): (f64, f64)| (sum / count).sqrt());
         println!(
             "{text}: seated for {:.2} s, {:.2}° rms, {:.2}° while it sits, feet creep {:.1} mm",

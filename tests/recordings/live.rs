@@ -82,7 +82,7 @@ fn watch(world: &mut World, seconds: f64, mut each: impl FnMut(&mut World, f64))
         world.step();
         let f = world.figure(key).unwrap();
         let r = f.report().unwrap();
-        assert!(r.over_limit <= 1e-9 && !r.flags.has(Flags::QUARANTINED));
+        assert!(r.joints.over_limit <= 1e-9 && !r.flags.has(Flags::QUARANTINED));
         // Nobody is ahead of what has come, or knows for good where he is going to land.
         if matches!(f.drive(), Drive::Live(_)) {
             assert!(f.tracker().lag() > -1e-9 && !f.tracker().has_planned_footholds());
@@ -91,8 +91,8 @@ fn watch(world: &mut World, seconds: f64, mut each: impl FnMut(&mut World, f64))
             out.fell = Some(time);
             break;
         }
-        count += r.joint_error.len() as f64;
-        out.joints += r.joint_error.iter().map(|e| e * e).sum::<f64>();
+        count += r.joints.joint_error.len() as f64;
+        out.joints += r.joints.joint_error.iter().map(|e| e * e).sum::<f64>();
         let e = f.tracker().capture().error;
         out.capture = out.capture.max(e[0].hypot(e[1]));
     }

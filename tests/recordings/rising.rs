@@ -35,7 +35,7 @@ fn watch(mut scene: Scene, seconds: f64) -> Outcome {
         assert!(f.state().is_finite());
         assert!(!r.flags.has(Flags::QUARANTINED));
         assert!(r.assist.iter().all(|a| *a == 0.0));
-        (over, depth) = (over.max(r.over_limit), depth.max(r.penetration));
+        (over, depth) = (over.max(r.joints.over_limit), depth.max(r.penetration));
         if f.events().contains(&FigureEvent::GotUp) {
             up = Some(s.world.time());
         }
@@ -102,7 +102,7 @@ fn who_lies_as_his_motion_lies_gets_up_when_it_does_and_stays_up() {
     );
     assert!(standing > 5.0, "stands for {standing:.1} s only");
     assert!(!f.is_fallen() && !report.flags.has(Flags::BALANCE_LOST));
-    assert!(report.com.z > 0.9, "{}", report.com.z);
+    assert!(report.balance.com.z > 0.9, "{}", report.balance.com.z);
     assert!(report.contacts.iter().all(|c| FEET.contains(&c.segment)));
     assert!(out.over < 1e-9, "{}", out.over);
     assert!(out.depth < 0.02, "{}", out.depth);
@@ -113,7 +113,7 @@ fn who_is_too_weak_stays_down() {
     let out = get_up(&man(), 0.3, 30.0);
     assert!(out.up.is_none());
     let f = out.scene.figure();
-    assert!(f.is_fallen() && f.report().unwrap().com.z < 0.3);
+    assert!(f.is_fallen() && f.report().unwrap().balance.com.z < 0.3);
     assert!(out.over < 1e-9, "{}", out.over);
 }
 

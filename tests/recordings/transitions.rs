@@ -156,7 +156,7 @@ fn passes(body: &Arc<Body>, first: &Played, second: Option<&Played>, at: f64) ->
         world.step();
         let figure = world.figure(key).unwrap();
         let report = figure.report().unwrap();
-        assert!(report.over_limit <= 1e-9);
+        assert!(report.joints.over_limit <= 1e-9);
         if figure.is_fallen() {
             out.fell = Some(world.time() - time);
             return out;
@@ -171,8 +171,8 @@ fn passes(body: &Arc<Body>, first: &Played, second: Option<&Played>, at: f64) ->
         if world.time() < time + out.began + SEAM {
             let [x, y] = figure.tracker().capture().error;
             out.capture = out.capture.max(x.hypot(y));
-            let square: f64 = report.joint_error.iter().map(|e| e * e).sum();
-            let rms = (square / report.joint_error.len() as f64).sqrt();
+            let square: f64 = report.joints.joint_error.iter().map(|e| e * e).sum();
+            let rms = (square / report.joints.joint_error.len() as f64).sqrt();
             out.joints = out.joints.max(rms);
         }
         assert!(world.time() < time + 60.0, "the other clip never begins");

@@ -12,7 +12,7 @@
 //!
 //! A motion that is replaced as a whole ([`MotionState::follow`]) ends a switch, and getting up, at once.
 
-use super::drive::{Drive, Queued};
+use super::drive::{Drive, QueuedClip};
 use super::tick::ExitPlan;
 use crate::sim::body::Posture;
 
@@ -39,7 +39,7 @@ pub(super) struct Switch {
     /// The present motion leads to a stand.
     pub stops: bool,
     /// The clip that begins next.
-    pub next: Option<Box<Queued>>,
+    pub next: Option<Box<QueuedClip>>,
 }
 
 impl Switch {
@@ -107,7 +107,7 @@ impl MotionState {
     }
 
     /// The clip that begins next.
-    pub fn next(&self) -> Option<&Queued> {
+    pub fn next(&self) -> Option<&QueuedClip> {
         self.switch()?.next.as_deref()
     }
 
@@ -145,17 +145,17 @@ impl MotionState {
     }
 
     /// A clip is to begin next.
-    pub fn queue(&mut self, next: Queued) {
+    pub fn queue(&mut self, next: QueuedClip) {
         self.change(|s| s.next = Some(Box::new(next)));
     }
 
     /// Changes the clip that begins next.
-    pub fn update_next(&mut self, update: impl FnOnce(&mut Queued)) {
+    pub fn update_next(&mut self, update: impl FnOnce(&mut QueuedClip)) {
         self.change(|s| s.next.as_deref_mut().map(update));
     }
 
     /// Takes the clip that begins next, to begin it or to forget it.
-    pub fn take_next(&mut self) -> Option<Queued> {
+    pub fn take_next(&mut self) -> Option<QueuedClip> {
         self.change(|s| s.next.take()).map(|next| *next)
     }
 

@@ -107,7 +107,7 @@ impl ClipPlayback {
 
 /// A clip that begins as soon as its figure stands.
 #[derive(Clone, Debug)]
-pub(super) struct Queued {
+pub(super) struct QueuedClip {
     /// The clip, as it would play if it began now.
     pub play: ClipPlayback,
     /// Its steps.
@@ -127,7 +127,7 @@ pub(super) struct Queued {
     pub entry: Option<PlanTask<Option<TransitionClip>>>,
 }
 
-impl Queued {
+impl QueuedClip {
     /// Asks for the way into the clip, if it is to be planned.
     pub fn request(&self) -> Option<PlanRequest> {
         self.entry.as_ref()?.request(self.from)

@@ -1,4 +1,4 @@
-//! How a load changes a motion that steps: whoever carries leans to the other side and lets the arm hang.
+//! How a load changes a motion that steps: the trunk leans to the other side, and the arm hangs.
 //!
 //! A motion is prepared for an unloaded body. With a load its centre of mass lies elsewhere, by m/M of the way to the
 //! load: 10 kg in one hand move it 5 cm to that side, half a foot's width from where every step of the motion has its
@@ -68,8 +68,8 @@ impl Masses {
     }
 }
 
-/// What is felt at a moment.
-struct Felt {
+/// The effect of a load at a moment.
+struct LoadEffect {
     load: Masses,
     /// What the arms had done lately when the tick began, how much they hung then, 0…1, and how long ago that was, s.
     before: [Habit; 2],
@@ -77,13 +77,13 @@ struct Felt {
     ahead: f64,
 }
 
-/// What one figure carries and how it feels it.
+/// What one figure carries, and its effect on the motion.
 #[derive(Clone, Debug)]
 pub(super) struct LoadCompensation {
     unloaded: Masses,
     /// What it carries as it follows from loads that come and go at once: after one time constant, and after both.
     halfway: Masses,
-    felt: Masses,
+    effect: Masses,
     /// What each arm has done lately; `None` before something is carried.
     habits: Option<[Habit; 2]>,
 }
@@ -95,7 +95,7 @@ impl LoadCompensation {
         Self {
             unloaded,
             halfway: unloaded,
-            felt: unloaded,
+            effect: unloaded,
             habits: None,
         }
     }
@@ -103,19 +103,19 @@ impl LoadCompensation {
     /// What the left and the right hand of a figure that steps feel, kg. One that stays where it is lifts its loads as
     /// the motion has it.
     pub fn in_hands(&self) -> [f64; 2] {
-        ARMS.map(|[.., hand]| self.felt.mass[hand.index()] - self.unloaded.mass[hand.index()])
+        ARMS.map(|[.., hand]| self.effect.mass[hand.index()] - self.unloaded.mass[hand.index()])
     }
 
     /// Forgets the past.
     pub fn reset(&mut self) {
-        (self.halfway, self.felt) = (self.unloaded, self.unloaded);
+        (self.halfway, self.effect) = (self.unloaded, self.unloaded);
         self.habits = None;
     }
 
     /// Changes the desired motion of a tick of `dt` seconds for a body with the present loads, `links`; `steps` if the
     /// motion steps: one that stays where it is has room in its feet and is left alone. No allocation; nothing is done
     /// without a load.
-    pub fn lean(
+    pub fn compensate(
         &mut self,
         body: &Body,
         links: &Links,
@@ -125,7 +125,7 @@ impl LoadCompensation {
     ) {
         let real = Masses::of(links);
         let carried = if steps { real } else { self.unloaded };
-        if carried == self.unloaded && self.felt == self.unloaded {
+        if carried == self.unloaded && self.effect == self.unloaded {
             self.habits = None;
             return;
         }
@@ -138,30 +138,30 @@ impl LoadCompensation {
         let before = self.habits.unwrap_or(now);
         let hung = now.map(|h| h.hangs);
         let next = target.next.posture;
-        let felt = |ahead: f64| Felt {
-            load: self.felt_in(&carried, ahead).1,
+        let effect = |ahead: f64| LoadEffect {
+            load: self.effect_after(&carried, ahead).1,
             before,
             hung,
             ahead,
         };
-        let around = |t: f64| [t - RATE_SPAN, t, t + RATE_SPAN].map(felt);
+        let around = |t: f64| [t - RATE_SPAN, t, t + RATE_SPAN].map(effect);
         lean.change(&mut target.now, &around(0.0));
         lean.change(&mut target.next, &around(dt));
         self.habits = Some([0, 1].map(|k| before[k].after(dt, hung[k], Arm::of(&next, ARMS[k]))));
-        (self.halfway, self.felt) = self.felt_in(&carried, dt);
-        if self.felt.is_near(&carried) && self.halfway.is_near(&carried) {
-            (self.halfway, self.felt) = (carried, carried);
+        (self.halfway, self.effect) = self.effect_after(&carried, dt);
+        if self.effect.is_near(&carried) && self.halfway.is_near(&carried) {
+            (self.halfway, self.effect) = (carried, carried);
         }
     }
 
-    /// What will be felt `ahead` seconds from now of what is carried then: halfway, and in full.
-    fn felt_in(&self, carried: &Masses, ahead: f64) -> (Masses, Masses) {
+    /// Effect `ahead` seconds from now of what is carried then: after one time constant, and after both.
+    fn effect_after(&self, carried: &Masses, ahead: f64) -> (Masses, Masses) {
         let left = exp(-ahead / ONSET_TIME);
         let none = (carried, 0.0);
         (
             carried.toward((&self.halfway, left), none),
             carried.toward(
-                (&self.felt, left),
+                (&self.effect, left),
                 (&self.halfway, left * ahead / ONSET_TIME),
             ),
         )
@@ -176,35 +176,36 @@ struct Lean<'a> {
 }
 
 impl Lean<'_> {
-    /// Changes a target and its rates for what is felt an instant before, now, and an instant later.
-    fn change(&self, target: &mut Target, [before, felt, after]: &[Felt; 3]) {
+    /// Changes a target and its rates for the effect of a load an instant before, now, and an instant later.
+    fn change(&self, target: &mut Target, [before, effect, after]: &[LoadEffect; 3]) {
         let moved = |seconds: f64| {
             let mut p = target.posture;
             p.integrate(&target.velocity, seconds);
             p
         };
-        let from = self.leaned(&moved(-RATE_SPAN), before);
-        let way = from.difference(&self.leaned(&moved(RATE_SPAN), after));
-        target.posture = self.leaned(&target.posture, felt);
+        let from = self.compensated(&moved(-RATE_SPAN), before);
+        let way = from.difference(&self.compensated(&moved(RATE_SPAN), after));
+        target.posture = self.compensated(&target.posture, effect);
         target.velocity = std::array::from_fn::<f64, NV, _>(|i| way[i] * (0.5 / RATE_SPAN));
     }
 
-    /// The posture in which the body with what is `felt` has its centre of mass where the unloaded one has it in
+    /// The posture in which the body with the load that has `effect` has its centre of mass where the unloaded one has it in
     /// `posture`.
-    fn leaned(&self, posture: &Posture, felt: &Felt) -> Posture {
+    fn compensated(&self, posture: &Posture, effect: &LoadEffect) -> Posture {
         let planned = forward(self.body, posture);
         let mut out = *posture;
         for (k, arm) in ARMS.into_iter().enumerate() {
             let hand = arm[2].index();
-            let load = felt.load.mass[hand] - self.unloaded.mass[hand];
+            let load = effect.load.mass[hand] - self.unloaded.mass[hand];
             if load > 0.0 {
-                let habit = felt.before[k].after(felt.ahead, felt.hung[k], Arm::of(posture, arm));
+                let habit =
+                    effect.before[k].after(effect.ahead, effect.hung[k], Arm::of(posture, arm));
                 arm::slow(&mut out, arm, load, &habit);
                 arm::hang(self.body, &mut out, &planned, arm, load, &habit);
             }
         }
         let poses = forward(self.body, &out);
-        let by = self.unloaded.center(&planned) - felt.load.center(&poses);
+        let by = self.unloaded.center(&planned) - effect.load.center(&poses);
         let by = Vec3 { z: 0.0, ..by };
         tilt(&mut out, &poses, by);
         let goal = self.real.center(&poses) + by;
@@ -265,11 +266,11 @@ mod tests {
 
     /// Has carried `links` for long.
     fn used_to(body: &Body, clip: &Clip, links: &Links) -> LoadCompensation {
-        let mut carrying = LoadCompensation::new(body);
+        let mut compensation = LoadCompensation::new(body);
         for _ in 0..600 {
-            carrying.lean(body, links, &mut at(clip, 1.0, DT), true, DT);
+            compensation.compensate(body, links, &mut at(clip, 1.0, DT), true, DT);
         }
-        carrying
+        compensation
     }
 
     #[test]
@@ -278,14 +279,14 @@ mod tests {
         let clip = walk(&body);
         for (hand, mass) in [(R_HAND, 5.0), (L_HAND, 10.0), (R_HAND, 15.0)] {
             let links = with_load(&body, hand, mass);
-            let mut carrying = used_to(&body, &clip, &links);
+            let mut compensation = used_to(&body, &clip, &links);
             for k in 0..20 {
                 let before = at(&clip, 0.2 + 0.1 * f64::from(k), DT);
                 let mut after = before.clone();
-                carrying.lean(&body, &links, &mut after, true, DT);
+                compensation.compensate(&body, &links, &mut after, true, DT);
                 let (p, q) = (&before.now.posture, &after.now.posture);
                 let (p, q) = (forward(&body, p), forward(&body, q));
-                let off = Masses::of(&links).center(&q) - carrying.unloaded.center(&p);
+                let off = Masses::of(&links).center(&q) - compensation.unloaded.center(&p);
                 assert!(off.x.hypot(off.y) < 1e-3, "{mass} kg: {off:?}");
                 let shift = after.now.posture.root_position - before.now.posture.root_position;
                 assert!(shift.norm() > 1.5e-3 * mass && shift.norm() < 0.08);
@@ -303,12 +304,12 @@ mod tests {
     fn rates_are_those_of_the_posture_also_while_a_load_comes() {
         let body = Body::adult_man();
         let links = with_load(&body, R_HAND, 12.0);
-        let mut carrying = LoadCompensation::new(&body);
+        let mut compensation = LoadCompensation::new(&body);
         let dt = 1e-4;
         let clip = walk(&body);
         for k in 0..40 {
             let mut pair = at(&clip, 0.7 + f64::from(k) * dt, dt);
-            carrying.lean(&body, &links, &mut pair, true, dt);
+            compensation.compensate(&body, &links, &mut pair, true, dt);
             let way = pair.now.posture.difference(&pair.next.posture);
             for i in 0..NV {
                 let mean = 0.5 * (pair.now.velocity[i] + pair.next.velocity[i]);
@@ -324,15 +325,15 @@ mod tests {
         let (bare, links) = (Links::new(&body), with_load(&body, R_HAND, 15.0));
         for (links, steps) in [(&bare, true), (&links, false)] {
             let mut pair = at(&clip, 1.0, DT);
-            LoadCompensation::new(&body).lean(&body, links, &mut pair, steps, DT);
+            LoadCompensation::new(&body).compensate(&body, links, &mut pair, steps, DT);
             assert_eq!(pair, at(&clip, 1.0, DT));
         }
-        let mut carrying = used_to(&body, &clip, &links);
+        let mut compensation = used_to(&body, &clip, &links);
         let mut last = f64::INFINITY;
         for _ in 0..600 {
             let mut pair = at(&clip, 1.0, DT);
             let planned = pair.now.posture.root_position;
-            carrying.lean(&body, &bare, &mut pair, true, DT);
+            compensation.compensate(&body, &bare, &mut pair, true, DT);
             let off = (pair.now.posture.root_position - planned).norm();
             assert!(off <= last + 1e-9, "it does not overshoot");
             last = off;
@@ -345,7 +346,7 @@ mod tests {
         let body = Body::adult_man();
         let clip = walk(&body);
         let links = with_load(&body, R_HAND, 10.0);
-        let mut carrying = used_to(&body, &clip, &links);
+        let mut compensation = used_to(&body, &clip, &links);
         let (Joint::Ball(shoulder), Joint::Hinge2(elbow)) =
             (JOINT[R_UPPER_ARM.index()], JOINT[R_FOREARM.index()])
         else {
@@ -360,7 +361,7 @@ mod tests {
         let mut pair = before.clone();
         for _ in 0..1800 {
             pair = before.clone();
-            carrying.lean(&body, &links, &mut pair, true, DT);
+            compensation.compensate(&body, &links, &mut pair, true, DT);
         }
         let arms = before.now.posture.hinge[..8].iter();
         for (is, meant) in pair.now.posture.hinge.iter().zip(arms) {

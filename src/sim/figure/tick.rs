@@ -161,7 +161,7 @@ impl Figure {
     /// Stages 7 and 8 of a tick, after the body has moved.
     pub(crate) fn finish(&mut self, world: &TickContext) {
         self.surroundings.touches.end(&mut self.outcome.watcher);
-        self.tire(world.dt);
+        self.update_fatigue(world.dt);
         let frozen = self.contain();
         self.write_report(world, frozen);
         self.detect_fall();
@@ -203,7 +203,7 @@ impl Figure {
     fn update_desired_motion(&mut self, world: &TickContext) {
         self.desired.target = self.sample_motion(world.time(), world.dt);
         let steps = self.steps() && self.desired.tracker.is_walking();
-        self.desired.load_compensation.lean(
+        self.desired.load_compensation.compensate(
             &self.setup.body,
             &self.physical.links,
             &mut self.desired.target,
@@ -271,7 +271,7 @@ impl Figure {
         let Scratch { terms, results, .. } = &mut self.scratch;
         self.surroundings
             .touches
-            .lean(terms, modern.then_some(least));
+            .add_reactions(terms, modern.then_some(least));
         let inertia = results.tissue.as_ref().map(|t| t.add_to(terms));
         let (tasks, steps) = self.plan_tasks(world);
         self.stepping.prescribed = self.prescribes();

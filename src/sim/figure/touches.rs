@@ -265,7 +265,7 @@ impl Touches {
 
     /// Counts the expected reactions among the forces in `terms.h`; those of level rests that carry more than `least`
     /// N, if given, are left to a controller that chooses them.
-    pub fn lean(&self, terms: &mut Terms, least: Option<f64>) {
+    pub fn add_reactions(&self, terms: &mut Terms, least: Option<f64>) {
         for e in &self.now {
             let chosen = least.is_some_and(|l| Rest::level(e.touch.normal) && e.carries(l));
             if chosen || e.expected == Vec3::zero() {

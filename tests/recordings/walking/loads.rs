@@ -125,7 +125,7 @@ fn who_waves_a_load_about_does_not_fall_over_it() {
             world.step();
             let figure = world.figure(key).unwrap();
             assert!(!figure.is_fallen(), "{name} falls at {} s", world.time());
-            let error = figure.report().unwrap().joint_error;
+            let error = figure.report().unwrap().joints.joint_error;
             let others = error.iter().enumerate().filter(|(j, _)| !arm.contains(j));
             for (_, e) in others {
                 sum += e * e;
@@ -175,7 +175,7 @@ fn an_arm_too_weak_for_its_load_gives_way_and_not_the_trunk_under_it() {
             let figure = world.figure(key).unwrap();
             assert!(!figure.is_fallen(), "{mass} kg at {} s", world.time());
             // Waist and thorax.
-            let error = &figure.report().unwrap().joint_error[..6];
+            let error = &figure.report().unwrap().joints.joint_error[..6];
             bent = error.iter().fold(bent, |most, e| most.max(e.abs()));
         }
         let bent = bent.to_degrees();

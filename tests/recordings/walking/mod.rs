@@ -67,9 +67,9 @@ fn run(world: &mut World, key: FigureKey, name: &str, seconds: f64, from: f64) -
             "{name} falls at {:.2} s",
             tick as f64 / RATE
         );
-        assert!(r.over_limit <= 1e-9 && !r.flags.has(Flags::QUARANTINED));
-        sum += r.joint_error.iter().map(|e| e * e).sum::<f64>();
-        count += r.joint_error.len();
+        assert!(r.joints.over_limit <= 1e-9 && !r.flags.has(Flags::QUARANTINED));
+        sum += r.joints.joint_error.iter().map(|e| e * e).sum::<f64>();
+        count += r.joints.joint_error.len();
         let e = figure.tracker().capture().error;
         // The way in is a start from standing; the bound is that of steady walking.
         if tick as f64 / RATE > from {

@@ -31,7 +31,7 @@ fn survives(body: &Arc<Body>, clip: &Arc<Clip>, at: f64, impulse: Vec3) -> bool 
     for _ in 0..((at + 4.0) * RATE) as usize {
         world.step();
         let figure = world.figure(key).unwrap();
-        assert!(figure.report().unwrap().over_limit <= 1e-9);
+        assert!(figure.report().unwrap().joints.over_limit <= 1e-9);
         if figure.is_fallen() {
             return false;
         }
@@ -194,7 +194,7 @@ fn puts_down(body: &Arc<Body>, clip: &Arc<Clip>, looped: bool, seconds: f64, pus
             !figure.is_fallen(),
             "falls at {now:.2} s, pushed by {push:?}"
         );
-        assert!(figure.report().unwrap().over_limit <= 1e-9);
+        assert!(figure.report().unwrap().joints.over_limit <= 1e-9);
         let step = figure.tracker().recovery_step();
         assert_eq!(figure.tracker().has_planned_footholds(), step.is_none());
         let alone = step.is_some_and(|step| step.purpose == Purpose::RecoverWithRaisedFoot);
@@ -220,7 +220,7 @@ fn puts_down(body: &Arc<Body>, clip: &Arc<Clip>, looped: bool, seconds: f64, pus
     }
     assert!(pushed, "it never stands on one foot for a second");
     let figure = world.figure(key).unwrap();
-    let off = figure.report().unwrap().joint_error;
+    let off = figure.report().unwrap().joints.joint_error;
     let rms = (off.iter().map(|e| e * e).sum::<f64>() / off.len() as f64).sqrt();
     // It is back in the motion, which has not waited longer than 3 s for each foot.
     let lag = figure.tracker().lag();

@@ -8,7 +8,7 @@ use crate::sim::collide::shape::BodyShape;
 use crate::sim::control::Controller;
 use crate::sim::dynamics::Terms;
 use crate::sim::figure::constraints::Constraint;
-use crate::sim::figure::drive::{Drive, LivePlayback, Queued};
+use crate::sim::figure::drive::{Drive, LivePlayback, QueuedClip};
 use crate::sim::figure::events::FigureEvent;
 use crate::sim::figure::plan_task::PlanRequest;
 use crate::sim::figure::touches::Touches;
@@ -87,7 +87,7 @@ impl Figure {
     /// Problems that are to be planned and that no thread has accepted.
     pub(crate) fn plan_requests(&self) -> impl Iterator<Item = PlanRequest> + '_ {
         let exit = self.motion.exit().into_iter().flat_map(ExitPlan::requests);
-        let entry = self.motion.next().and_then(Queued::request);
+        let entry = self.motion.next().and_then(QueuedClip::request);
         exit.chain(entry)
     }
     /// Plans that the last tick needed and that were not there.

@@ -89,7 +89,7 @@ impl Figure {
     }
 
     /// Fatigue of a tick of `dt` seconds: loads are torques over what the rested person could give at full effort.
-    pub(super) fn tire(&mut self, dt: f64) {
+    pub(super) fn update_fatigue(&mut self, dt: f64) {
         let Some(fatigue) = &mut self.physical.fatigue else {
             return;
         };

@@ -3,7 +3,7 @@
 
 use super::{Figure, TickContext};
 use crate::sim::body::Posture;
-use crate::sim::figure::drive::{ClipPlayback, Drive, LivePlayback, Queued};
+use crate::sim::figure::drive::{ClipPlayback, Drive, LivePlayback, QueuedClip};
 use crate::sim::figure::params::switch::{LEAD, MOST_LEAD, SLOW, STOP_AHEAD, STOP_TIME};
 use crate::sim::figure::plan_task::{PlanRequest, PlanTask, Planning};
 use crate::sim::motion::clip::{Clip, PlanarTransform};
@@ -15,7 +15,7 @@ use crate::sim::track::StepPlan;
 use std::sync::Arc;
 
 /// A way to a stand, with what it asks of the ground.
-type End = Option<(f64, Clip)>;
+type Stop = Option<(f64, Clip)>;
 /// A way into a clip, and where that puts the clip's origin.
 type Over = Option<(TransitionClip, PlanarTransform)>;
 
@@ -42,7 +42,7 @@ pub(in crate::sim::figure) struct ExitPlan {
     /// World time of the first sample of these, s.
     known_from: f64,
     /// To a stand.
-    ends: Vec<PlanTask<End>>,
+    stops: Vec<PlanTask<Stop>>,
     /// To a stand like the beginning of the next clip, if there is no such way.
     last_resort: Option<PlanTask<Option<Clip>>>,
     /// When the motion turns from its own way to that one, s.
@@ -56,7 +56,7 @@ impl ExitPlan {
     /// Everything that is to be planned, the more urgent first.
     pub fn requests(&self) -> impl Iterator<Item = PlanRequest> + '_ {
         let over = self.over.iter().filter_map(|t| t.request(self.due));
-        let ends = self.ends.iter().filter_map(|t| t.request(self.due));
+        let ends = self.stops.iter().filter_map(|t| t.request(self.due));
         let last = self.last_resort.iter().filter_map(|t| t.request(self.due));
         over.chain(ends).chain(last)
     }
@@ -70,9 +70,9 @@ impl ExitPlan {
                 _ => return false,
             }
         }
-        let found = |end: &PlanTask<End>| matches!(end.result(), Some(Some(_)));
-        self.ends.iter().all(PlanTask::is_ready)
-            && (self.ends.iter().any(found)
+        let found = |end: &PlanTask<Stop>| matches!(end.result(), Some(Some(_)));
+        self.stops.iter().all(PlanTask::is_ready)
+            && (self.stops.iter().any(found)
                 || self.last_resort.as_ref().is_none_or(PlanTask::is_ready))
     }
 
@@ -82,7 +82,7 @@ impl ExitPlan {
             lead,
             over: Vec::new(),
             known_from: 0.0,
-            ends: Vec::new(),
+            stops: Vec::new(),
             last_resort: None,
             due,
             begin: 0.0,
@@ -156,7 +156,7 @@ impl Figure {
                 Drive::External(_) => false,
             };
         if ends {
-            self.plan_ends(&mut leaving, over.as_ref(), time);
+            self.plan_stops(&mut leaving, over.as_ref(), time);
         }
         self.motion
             .plan_exit((ends || leaving.leads_over()).then_some(leaving));
@@ -200,7 +200,7 @@ impl Figure {
             from: time,
         };
         let mut leaving = ExitPlan::at(time + lead as f64 / splice::RATE, goal, lead);
-        self.plan_ends(&mut leaving, None, time);
+        self.plan_stops(&mut leaving, None, time);
         self.motion.plan_exit(Some(leaving));
     }
 
@@ -211,7 +211,7 @@ impl Figure {
     }
 
     /// Begins to work out the ends of the motion; they are left out if there is a way over.
-    fn plan_ends(
+    fn plan_stops(
         &mut self,
         leaving: &mut ExitPlan,
         over: Option<&Arc<TransitionCandidates>>,
@@ -232,11 +232,11 @@ impl Figure {
                 needed.then(|| ends.end(k)).flatten()
             })
         };
-        leaving.ends = (0..StopCandidates::MOST).map(plan).collect();
+        leaving.stops = (0..StopCandidates::MOST).map(plan).collect();
         let Some(posture) = posture.filter(|_| !slow) else {
             return;
         };
-        let (body, over, ends) = (Arc::clone(body), over.cloned(), leaving.ends.clone());
+        let (body, over, ends) = (Arc::clone(body), over.cloned(), leaving.stops.clone());
         leaving.last_resort = Some(PlanTask::new(move || {
             let found = ends.iter().any(|e| matches!(e.result(), Some(Some(_))));
             if found || over.as_ref().is_some_and(|o| o.found()) {
@@ -292,7 +292,7 @@ impl Figure {
         };
         let ExitPlan {
             over,
-            ends,
+            stops,
             last_resort,
             known_from,
             due,
@@ -305,11 +305,11 @@ impl Figure {
             return;
         }
         // One that ends already goes on to do so.
-        if ends.is_empty() {
+        if stops.is_empty() {
             self.plan_entry(due);
             return;
         }
-        let best = StopCandidates::best(ends.into_iter().map(PlanTask::take));
+        let best = StopCandidates::best(stops.into_iter().map(PlanTask::take));
         let clip = best.or_else(|| last_resort?.take());
         self.follow_end(clip, begin, before);
         let stands = match self.motion.source() {
@@ -326,7 +326,7 @@ impl Figure {
         let (Some(next), Drive::Clip(now)) = (next, self.motion.source()) else {
             return;
         };
-        let Queued { mut play, plan, .. } = next;
+        let QueuedClip { mut play, plan, .. } = next;
         play.start = begin - way.begin / play.speed;
         play.origin = place;
         let plan = plan.entered_by(&self.setup.body, &way);

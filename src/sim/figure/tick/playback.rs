@@ -7,7 +7,7 @@ use super::state::Scratch;
 use super::{Figure, TickContext};
 use crate::sim::body::Posture;
 use crate::sim::control::Controller;
-use crate::sim::figure::drive::{ClipPlayback, Drive, Queued};
+use crate::sim::figure::drive::{ClipPlayback, Drive, QueuedClip};
 use crate::sim::figure::get_up::GetUpDecision;
 use crate::sim::figure::params::get_up::UP_HEIGHT;
 use crate::sim::figure::params::switch::{
@@ -83,7 +83,7 @@ impl Figure {
             .desired
             .tracker
             .stance_of(&self.setup.body, &begin.posture);
-        self.motion.queue(Queued {
+        self.motion.queue(QueuedClip {
             plan,
             first,
             from,
