@@ -4,7 +4,7 @@
 //! cargo run --release --example collisions -- out
 //! ```
 use sinew::evaluate::Tick;
-use sinew::evaluate::strip::{Frame, StripOptions, Thing, View, draw, evenly_spaced, svg};
+use sinew::evaluate::strip::{Frame, StripOptions, Thing, View, draw, evenly_spaced, raster, svg};
 use sinew::sim::body::topology::CHEST;
 use sinew::sim::body::{Body, State};
 use sinew::sim::collide::{Mobility, ObstacleSetup, Shape};
@@ -129,11 +129,8 @@ fn main() -> std::io::Result<()> {
         let drawing = draw(&body, &frames, &options);
         let path = Path::new(&folder).join(format!("{name}.svg"));
         std::fs::write(&path, svg::write(&drawing))?;
-        #[cfg(feature = "net")]
-        {
-            let png = sinew::evaluate::strip::raster::png(&drawing).expect("it fits in memory");
-            std::fs::write(path.with_extension("png"), png)?;
-        }
+        let png = raster::png(&drawing).expect("it fits in memory");
+        std::fs::write(path.with_extension("png"), png)?;
     }
     Ok(())
 }

@@ -12,6 +12,7 @@ pub mod experiments;
 pub mod forecast;
 pub mod metrics;
 pub mod noise;
+#[cfg(feature = "net")]
 pub mod plot;
 pub mod pose;
 pub mod report;

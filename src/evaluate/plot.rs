@@ -2,7 +2,10 @@
 //! colour-blind eyes.
 
 use super::strip::Rgba;
-use std::fmt::Write;
+use super::strip::svg::{css, tenth};
+use ::svg::node::element::path::Data;
+use ::svg::node::element::{ClipPath, Group, Path, Rectangle, Text};
+use ::svg::{Document, Node};
 
 /// Blue, vermilion, green, purple, sky, ink: told apart with any colour vision.
 pub const COLOURS: [Rgba; 6] = [
@@ -20,8 +23,12 @@ const RIGHT: f64 = 12.0;
 const TOP: f64 = 44.0;
 const LEGEND_LINE: f64 = 15.0;
 const BOTTOM: f64 = 34.0;
+/// Height of the middle of the legend's first line.
+const FIRST_LINE: f64 = 30.0;
 /// More points than this say nothing more at this size.
 const MOST_POINTS: usize = 400;
+const BAND: Rgba = Rgba::hex(0xd9_e2ec);
+const GRID: Rgba = Rgba::hex(0xe6_e4de);
 
 /// A line through points; a point that is not finite leaves a gap.
 #[derive(Clone, Debug, PartialEq)]
@@ -126,136 +133,132 @@ impl Plot {
             Some(r) => Axis::new(r, 0.0, HEIGHT - BOTTOM, self.top()),
             None => Axis::new(extent(ys), 0.05, HEIGHT - BOTTOM, self.top()),
         };
-        let mut out = String::new();
-        self.write(&mut out, &x, &y)
-            .expect("a string takes any text");
-        out
+        let (top, bottom) = (self.top(), HEIGHT - BOTTOM);
+        let paper = Rectangle::new().set("width", "100%").set("height", "100%");
+        let inside = Rectangle::new()
+            .set("x", LEFT)
+            .set("y", top)
+            .set("width", WIDTH - LEFT - RIGHT)
+            .set("height", bottom - top);
+        let middle = 0.5 * (top + bottom);
+        let turned = format!("translate(13 {middle}) rotate(-90)");
+        let mut out = Document::new()
+            .set("viewBox", (0, 0, WIDTH, HEIGHT))
+            .set("width", WIDTH)
+            .set("height", HEIGHT)
+            .set("font-family", "system-ui, sans-serif")
+            .set("font-size", 11)
+            .set("fill", "#33373d")
+            .add(paper.set("fill", "#fbfbf9"))
+            .add(ClipPath::new().set("id", "c").add(inside))
+            .add(
+                text(&self.title, "start", [LEFT, 15.0])
+                    .set("font-size", 13)
+                    .set("font-weight", 600),
+            )
+            .add(text(&self.x, "end", [WIDTH - RIGHT, HEIGHT - 5.0]))
+            .add(text(&self.y, "middle", [0.0, 0.0]).set("transform", turned));
+        for v in x.ticks(8) {
+            let at = x.at(v);
+            out.append(line([[at, top], [at, bottom]], GRID, 1.0, false));
+            out.append(text(&number(v), "middle", [at, bottom + 14.0]));
+        }
+        for v in y.ticks(5) {
+            let at = y.at(v);
+            out.append(line([[LEFT, at], [WIDTH - RIGHT, at]], GRID, 1.0, false));
+            out.append(text(&number(v), "end", [LEFT - 6.0, at + 4.0]));
+        }
+        let mut data = Group::new()
+            .set("clip-path", "url(#c)")
+            .set("stroke-linejoin", "round");
+        for b in &self.bands {
+            let p = thinned(&b.points);
+            let upper = p.iter().rev().map(|q| [x.at(q[0]), y.near(q[2])]);
+            let lower = p.iter().map(|q| [x.at(q[0]), y.near(q[1])]);
+            let area = Path::new().set("d", path(lower.chain(upper)).close());
+            data.append(area.set("fill", css(BAND)));
+        }
+        for c in &self.curves {
+            let points = thinned(&c.points);
+            let points = points.iter().map(|q| [x.at(q[0]), y.near(q[1])]);
+            data.append(line(points, c.colour, 1.6, c.dashed));
+        }
+        out.append(data);
+        for ([x, y], (label, colour, width, dashed)) in self.legend() {
+            out.append(line([[x, y], [x + 18.0, y]], colour, width, dashed));
+            out.append(text(label, "start", [x + 23.0, y + 4.0]));
+        }
+        format!("{out}\n")
     }
 
     /// Upper end of the axes: below the lines of the legend.
     fn top(&self) -> f64 {
-        let labels = self.bands.iter().map(|b| &b.label);
-        let labels = labels.chain(self.curves.iter().map(|c| &c.label));
-        let (mut at, mut top) = (LEFT, TOP);
-        for long in labels.filter(|l| !l.is_empty()).map(|l| room(l)) {
-            if at > LEFT && at + long > WIDTH {
-                (at, top) = (LEFT, top + LEGEND_LINE);
-            }
-            at += long;
-        }
-        top
+        let last = self.legend().last().map_or(FIRST_LINE, |(at, _)| at[1]);
+        TOP + last - FIRST_LINE
     }
 
-    fn write(&self, out: &mut String, x: &Axis, y: &Axis) -> std::fmt::Result {
-        writeln!(
-            out,
-            r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" width="{WIDTH}" height="{HEIGHT}" font-family="system-ui, sans-serif" font-size="11" fill="#33373d"><rect width="100%" height="100%" fill="#fbfbf9"/><clipPath id="c"><rect x="{LEFT}" y="{}" width="{}" height="{}"/></clipPath>"##,
-            self.top(),
-            WIDTH - LEFT - RIGHT,
-            HEIGHT - self.top() - BOTTOM
-        )?;
-        let (top, bottom) = (self.top(), HEIGHT - BOTTOM);
-        for v in x.ticks(8) {
-            let at = x.at(v);
-            writeln!(
-                out,
-                r##"<path d="M{at:.1} {top}V{bottom}" stroke="#e6e4de"/><text x="{at:.1}" y="{}" text-anchor="middle">{}</text>"##,
-                bottom + 14.0,
-                number(v)
-            )?;
-        }
-        for v in y.ticks(5) {
-            let at = y.at(v);
-            writeln!(
-                out,
-                r##"<path d="M{LEFT} {at:.1}H{}" stroke="#e6e4de"/><text x="{}" y="{:.1}" text-anchor="end">{}</text>"##,
-                WIDTH - RIGHT,
-                LEFT - 6.0,
-                at + 4.0,
-                number(v)
-            )?;
-        }
-        writeln!(
-            out,
-            r##"<text x="{LEFT}" y="15" font-size="13" font-weight="600">{}</text><text x="{}" y="{}" text-anchor="end">{}</text><text transform="translate(13 {}) rotate(-90)" text-anchor="middle">{}</text><g clip-path="url(#c)" fill="none" stroke-width="1.6" stroke-linejoin="round">"##,
-            escaped(&self.title),
-            WIDTH - RIGHT,
-            HEIGHT - 5.0,
-            escaped(&self.x),
-            0.5 * (top + bottom),
-            escaped(&self.y)
-        )?;
-        for b in &self.bands {
-            let p = thinned(&b.points);
-            let mut d = String::new();
-            for (i, q) in p.iter().enumerate() {
-                let c = if i == 0 { 'M' } else { 'L' };
-                write!(d, "{c}{:.1} {:.1}", x.at(q[0]), y.near(q[1]))?;
-            }
-            for q in p.iter().rev() {
-                write!(d, "L{:.1} {:.1}", x.at(q[0]), y.near(q[2]))?;
-            }
-            writeln!(out, r##"<path d="{d}Z" fill="#d9e2ec"/>"##)?;
-        }
-        for c in &self.curves {
-            let mut d = String::new();
-            let mut pen = 'M';
-            for q in thinned(&c.points) {
-                if q[1].is_finite() {
-                    write!(d, "{pen}{:.1} {:.1}", x.at(q[0]), y.near(q[1]))?;
-                    pen = 'L';
-                } else {
-                    pen = 'M';
-                }
-            }
-            let dash = if c.dashed {
-                r#" stroke-dasharray="5 4""#
-            } else {
-                ""
-            };
-            writeln!(out, r#"<path d="{d}" stroke="{}"{dash}/>"#, css(c.colour))?;
-        }
-        out.push_str("</g>\n");
-        self.write_legend(out)?;
-        out.push_str("</svg>\n");
-        Ok(())
-    }
-
-    fn write_legend(&self, out: &mut String) -> std::fmt::Result {
-        let (mut at, mut line) = (LEFT, 30.0);
-        let bands = self
-            .bands
-            .iter()
-            .map(|b| (&b.label, "#d9e2ec".to_owned(), 8.0, ""));
-        let curves = self.curves.iter().map(|c| {
-            let dash = if c.dashed {
-                r#" stroke-dasharray="5 4""#
-            } else {
-                ""
-            };
-            (&c.label, css(c.colour), 2.0, dash)
-        });
-        for (label, colour, width, dash) in bands.chain(curves).filter(|(l, ..)| !l.is_empty()) {
-            let long = room(label);
+    /// Where the entries of the legend are, pixels, and what they are.
+    fn legend(&self) -> Vec<([f64; 2], Entry<'_>)> {
+        let bands = self.bands.iter().map(|b| (&b.label[..], BAND, 8.0, false));
+        let curves = self.curves.iter();
+        let curves = curves.map(|c| (&c.label[..], c.colour, 2.0, c.dashed));
+        let (mut at, mut line) = (LEFT, FIRST_LINE);
+        let entries = bands.chain(curves).filter(|e| !e.0.is_empty());
+        let placed = entries.map(|entry| {
+            // Pixels that the label takes at most.
+            let long = 35.0 + 6.0 * entry.0.chars().count() as f64;
             if at > LEFT && at + long > WIDTH {
                 (at, line) = (LEFT, line + LEGEND_LINE);
             }
-            writeln!(
-                out,
-                r#"<path d="M{at:.0} {line}h18" stroke="{colour}" stroke-width="{width}"{dash}/><text x="{:.0}" y="{}">{}</text>"#,
-                at + 23.0,
-                line + 4.0,
-                escaped(label)
-            )?;
             at += long;
-        }
-        Ok(())
+            ([at - long, line], entry)
+        });
+        placed.collect()
     }
 }
 
-/// Pixels that a label takes in the legend, at most.
-fn room(label: &str) -> f64 {
-    35.0 + 6.0 * label.chars().count() as f64
+/// An entry of the legend: text, colour, width of its line in pixels, dashed.
+type Entry<'a> = (&'a str, Rgba, f64, bool);
+
+fn text(content: &str, anchor: &str, [x, y]: [f64; 2]) -> Text {
+    let [x, y] = [x, y].map(tenth);
+    Text::new(content)
+        .set("x", x)
+        .set("y", y)
+        .set("text-anchor", anchor)
+}
+
+/// A path through points, with gaps where they are not finite.
+fn path(points: impl IntoIterator<Item = [f64; 2]>) -> Data {
+    let (mut data, mut pen_down) = (Data::new(), false);
+    for [x, y] in points {
+        let finite = x.is_finite() && y.is_finite();
+        let at = (tenth(x), tenth(y));
+        data = match (finite, pen_down) {
+            (true, true) => data.line_to(at),
+            (true, false) => data.move_to(at),
+            (false, _) => data,
+        };
+        pen_down = finite;
+    }
+    data
+}
+
+fn line(
+    points: impl IntoIterator<Item = [f64; 2]>,
+    colour: Rgba,
+    width: f64,
+    dashed: bool,
+) -> Path {
+    let mut line = Path::new()
+        .set("d", path(points))
+        .set("fill", "none")
+        .set("stroke", css(colour))
+        .set("stroke-width", width);
+    if dashed {
+        line.assign("stroke-dasharray", "5 4");
+    }
+    line
 }
 
 /// A scale from values to pixels.
@@ -279,7 +282,12 @@ impl Axis {
     }
     /// The same, but not farther outside than the plot is high: files stay readable when data run away.
     fn near(&self, v: f64) -> f64 {
-        self.at(v).clamp(-HEIGHT, 2.0 * HEIGHT)
+        let at = self.at(v);
+        if at.is_finite() {
+            at.clamp(-HEIGHT, 2.0 * HEIGHT)
+        } else {
+            f64::NAN
+        }
     }
     /// Round values inside the range, about `count` of them.
     fn ticks(&self, count: usize) -> Vec<f64> {
@@ -312,7 +320,7 @@ fn thinned<T: Copy>(points: &[T]) -> Vec<T> {
     points.iter().step_by(step).copied().collect()
 }
 
-pub(super) fn number(v: f64) -> String {
+fn number(v: f64) -> String {
     let text = format!("{v:.3}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" {
@@ -320,16 +328,6 @@ pub(super) fn number(v: f64) -> String {
     } else {
         text.into()
     }
-}
-
-fn css(c: Rgba) -> String {
-    format!("#{:02x}{:02x}{:02x}", c.0[0], c.0[1], c.0[2])
-}
-
-pub(super) fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
 }
 
 #[cfg(test)]

@@ -6,11 +6,10 @@
 //! [`svg`] and [`raster`] are its two writers.
 
 mod drawing;
-#[cfg(feature = "net")]
-mod font;
 mod panel;
 #[cfg(feature = "net")]
 pub mod raster;
+#[cfg(feature = "net")]
 pub mod svg;
 mod things;
 

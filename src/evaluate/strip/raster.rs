@@ -1,268 +1,259 @@
 //! Paints a drawing into pixels and writes PNG.
 
 use super::drawing::{Anchor, Drawing, Item, Rgba};
-use super::font;
+use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_width};
+use tiny_skia::{
+    Color, FillRule, FilterQuality, GradientStop, LineCap, LineJoin, LinearGradient, Paint, Path,
+    PathBuilder, Pixmap, PixmapPaint, Point, Shader, SpreadMode, Stroke, Transform,
+};
 
-/// Samples per pixel and direction: edges are smoothed by averaging.
-const SAMPLES: usize = 3;
+/// Solids are painted this many times larger and then averaged, so that their triangles leave no seams.
+const OVERSAMPLING: f32 = 2.0;
+/// Share of a glyph's height that is above the base line.
+const ASCENT: f64 = 0.78;
 
 /// The drawing as a PNG file (8-bit RGB), `drawing.width` × `drawing.height` pixels.
 ///
 /// # Errors
 /// When the picture is empty or larger than PNG allows.
 pub fn png(drawing: &Drawing) -> Result<Vec<u8>, png::EncodingError> {
-    let mut canvas = Canvas::new(drawing);
-    for item in &drawing.items {
-        canvas.paint(item);
+    let (width, height) = (drawing.width.ceil() as u32, drawing.height.ceil() as u32);
+    let mut canvas = Pixmap::new(width, height)
+        .ok_or_else(|| std::io::Error::other("a picture of no pixels, or of too many"))?;
+    canvas.fill(color(drawing.background, 1.0));
+    for run in drawing
+        .items
+        .chunk_by(|a, b| matches!((a, b), (Item::Solid { .. }, Item::Solid { .. })))
+    {
+        match &run[0] {
+            Item::Solid { .. } => paint_solids(&mut canvas, run),
+            item => paint_flat(&mut canvas, item),
+        }
     }
-    let (width, height, pixels) = canvas.averaged();
+    let pixels = canvas.pixels().iter();
+    let rgb: Vec<u8> = pixels
+        .flat_map(|p| [p.red(), p.green(), p.blue()])
+        .collect();
     let mut out = Vec::new();
-    let mut encoder = png::Encoder::new(&mut out, width as u32, height as u32);
+    let mut encoder = png::Encoder::new(&mut out, width, height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
     let mut writer = encoder.write_header()?;
-    writer.write_image_data(&pixels)?;
+    writer.write_image_data(&rgb)?;
     writer.finish()?;
     Ok(out)
 }
 
-/// Samples: colour and nearness.
-struct Canvas {
-    width: usize,
-    height: usize,
-    colour: Vec<[u8; 3]>,
-    nearness: Vec<f32>,
+/// A colour with its brightness scaled by `light`.
+fn color(Rgba(c): Rgba, light: f64) -> Color {
+    let [r, g, b] = [0, 1, 2].map(|i| (f64::from(c[i]) * light).clamp(0.0, 255.0) as u8);
+    Color::from_rgba8(r, g, b, c[3])
 }
 
-impl Canvas {
-    fn new(drawing: &Drawing) -> Self {
-        let (width, height) = (
-            drawing.width.ceil() as usize * SAMPLES,
-            drawing.height.ceil() as usize * SAMPLES,
-        );
-        let [r, g, b, _] = drawing.background.0;
-        Self {
+fn paint(shader: Shader<'static>, anti_alias: bool) -> Paint<'static> {
+    Paint {
+        shader,
+        anti_alias,
+        ..Paint::default()
+    }
+}
+
+/// A colour whose brightness between the corners of a triangle is that of the corners (Gouraud).
+fn shade(colour: Rgba, corners: [[f64; 3]; 3], light: [f64; 3]) -> Paint<'static> {
+    let [a, u, v] = [corners[0], corners[1], corners[2]];
+    let (u, v) = ([u[0] - a[0], u[1] - a[1]], [v[0] - a[0], v[1] - a[1]]);
+    let (du, dv) = (light[1] - light[0], light[2] - light[0]);
+    let area = u[0] * v[1] - u[1] * v[0];
+    let slope = [
+        (du * v[1] - dv * u[1]) / area,
+        (dv * u[0] - du * v[0]) / area,
+    ];
+    let square = slope[0] * slope[0] + slope[1] * slope[1];
+    let [low, high] = [f64::min, f64::max]
+        .map(|pick: fn(f64, f64) -> f64| pick(pick(light[0], light[1]), light[2]));
+    // The point on the gradient through the first corner that is this bright.
+    let at = |l: f64| {
+        let [x, y] = [0, 1].map(|i| a[i] + slope[i] * (l - light[0]) / square);
+        Point::from_xy(x as f32, y as f32)
+    };
+    let stops = vec![
+        GradientStop::new(0.0, color(colour, low)),
+        GradientStop::new(1.0, color(colour, high)),
+    ];
+    let even = || Shader::SolidColor(color(colour, 0.5 * (low + high)));
+    let gradient = (high - low > 0.01)
+        .then(|| {
+            LinearGradient::new(
+                at(low),
+                at(high),
+                stops,
+                SpreadMode::Pad,
+                Transform::identity(),
+            )
+        })
+        .flatten();
+    paint(gradient.unwrap_or_else(even), false)
+}
+
+/// A path through points, closed or open; `None` if there is nothing to paint.
+fn path(points: impl IntoIterator<Item = [f64; 2]>, close: bool) -> Option<Path> {
+    let mut path = PathBuilder::new();
+    for [x, y] in points.into_iter().map(|p| p.map(|x| x as f32)) {
+        if path.is_empty() {
+            path.move_to(x, y);
+        } else {
+            path.line_to(x, y);
+        }
+    }
+    if close {
+        path.close();
+    }
+    path.finish()
+}
+
+fn fill(canvas: &mut Pixmap, path: &Path, colour: Rgba) {
+    let paint = paint(Shader::SolidColor(color(colour, 1.0)), true);
+    canvas.fill_path(path, &paint, FillRule::Winding, Transform::identity(), None);
+}
+
+fn stroke(canvas: &mut Pixmap, path: &Path, (colour, width): (Rgba, f64)) {
+    let stroke = Stroke {
+        width: width as f32,
+        line_cap: LineCap::Round,
+        line_join: LineJoin::Round,
+        ..Stroke::default()
+    };
+    let paint = paint(Shader::SolidColor(color(colour, 1.0)), true);
+    canvas.stroke_path(path, &paint, &stroke, Transform::identity(), None);
+}
+
+fn paint_flat(canvas: &mut Pixmap, item: &Item) {
+    let (path, filled, outline) = match item {
+        Item::Polygon {
+            points,
+            fill,
+            stroke,
+        } => (path(points.iter().copied(), true), Some(*fill), *stroke),
+        Item::Line {
+            from,
+            to,
             width,
-            height,
-            colour: vec![[r, g, b]; width * height],
-            nearness: vec![f32::NEG_INFINITY; width * height],
-        }
+            colour,
+        } => (path([*from, *to], false), None, Some((*colour, *width))),
+        Item::Circle {
+            centre,
+            radius,
+            fill,
+            stroke,
+        } => (
+            PathBuilder::from_circle(centre[0] as f32, centre[1] as f32, *radius as f32),
+            Some(*fill),
+            *stroke,
+        ),
+        Item::Text {
+            at,
+            size,
+            anchor,
+            colour,
+            text,
+        } => return write(canvas, text, *at, *size, *anchor, *colour),
+        Item::Solid { .. } => return,
+    };
+    let Some(path) = path else { return };
+    if let Some(colour) = filled {
+        fill(canvas, &path, colour);
     }
-
-    fn averaged(&self) -> (usize, usize, Vec<u8>) {
-        let (w, h) = (self.width / SAMPLES, self.height / SAMPLES);
-        let mut out = Vec::with_capacity(w * h * 3);
-        for y in 0..h {
-            for x in 0..w {
-                let mut sum = [0u32; 3];
-                for sy in 0..SAMPLES {
-                    let row = (y * SAMPLES + sy) * self.width + x * SAMPLES;
-                    for c in &self.colour[row..row + SAMPLES] {
-                        for i in 0..3 {
-                            sum[i] += u32::from(c[i]);
-                        }
-                    }
-                }
-                out.extend(sum.map(|s| (s / (SAMPLES * SAMPLES) as u32) as u8));
-            }
-        }
-        (w, h, out)
+    if let Some(outline) = outline {
+        stroke(canvas, &path, outline);
     }
+}
 
-    fn paint(&mut self, item: &Item) {
-        match item {
-            Item::Polygon {
-                points,
-                fill,
-                stroke,
-            } => {
-                self.polygon(points, *fill);
-                if let Some((colour, width)) = stroke {
-                    for i in 0..points.len() {
-                        self.line(points[i], points[(i + 1) % points.len()], *width, *colour);
-                    }
-                }
-            }
-            Item::Line {
-                from,
-                to,
-                width,
-                colour,
-            } => self.line(*from, *to, *width, *colour),
-            Item::Circle {
-                centre,
-                radius,
-                fill,
-                stroke,
-            } => {
-                let (colour, width) = stroke.unwrap_or((*fill, 0.0));
-                self.disc(*centre, radius + width / 2.0, radius - width / 2.0, colour);
-                self.disc(*centre, radius - width / 2.0, 0.0, *fill);
-            }
-            Item::Text {
-                at,
-                size,
-                anchor,
-                colour,
-                text,
-            } => {
-                let shift = match anchor {
-                    Anchor::Start => 0.0,
-                    Anchor::Middle => font::width(text, *size) / 2.0,
-                };
-                for [from, to] in font::strokes(text, [at[0] - shift, at[1]], *size) {
-                    self.line(from, to, size * 0.085, *colour);
-                }
-            }
-            Item::Solid {
-                vertices,
-                light,
-                triangles,
-                colour,
-                ..
-            } => {
-                for t in triangles {
-                    let corner = t.map(|i| vertices[i as usize]);
-                    let lit = t.map(|i| light[i as usize]);
-                    self.triangle(corner, lit, *colour);
-                }
-            }
-        }
-    }
-
-    /// Sample columns and rows that the box touches.
-    fn bounds(&self, low: [f64; 2], high: [f64; 2]) -> [std::ops::Range<usize>; 2] {
-        let s = SAMPLES as f64;
-        // Casting saturates, so that far outside points are harmless.
-        let range = |a: f64, b: f64, n: usize| {
-            let end = ((b * s).ceil().max(0.0) as usize).min(n);
-            ((a * s).floor().max(0.0) as usize).min(end)..end
+/// Paints solids that cover each other by depth: their triangles that face the viewer, the farthest first.
+fn paint_solids(canvas: &mut Pixmap, solids: &[Item]) {
+    let mut triangles = Vec::new();
+    for item in solids {
+        let Item::Solid {
+            vertices,
+            light,
+            triangles: corners,
+            colour,
+            ..
+        } = item
+        else {
+            continue;
         };
-        [
-            range(low[0], high[0], self.width),
-            range(low[1], high[1], self.height),
-        ]
-    }
-
-    /// Centre of a sample in pixels.
-    fn centre(x: usize, y: usize) -> [f64; 2] {
-        [
-            (x as f64 + 0.5) / SAMPLES as f64,
-            (y as f64 + 0.5) / SAMPLES as f64,
-        ]
-    }
-
-    fn blend(&mut self, x: usize, y: usize, c: Rgba) {
-        let to = &mut self.colour[y * self.width + x];
-        let a = u32::from(c.0[3]);
-        for i in 0..3 {
-            to[i] = ((u32::from(to[i]) * (255 - a) + u32::from(c.0[i]) * a + 127) / 255) as u8;
-        }
-    }
-
-    fn polygon(&mut self, points: &[[f64; 2]], fill: Rgba) {
-        if points.len() < 3 || fill.0[3] == 0 {
-            return;
-        }
-        let low = [0, 1].map(|i| points.iter().map(|p| p[i]).fold(f64::INFINITY, f64::min));
-        let high = [0, 1].map(|i| {
-            points
-                .iter()
-                .map(|p| p[i])
-                .fold(f64::NEG_INFINITY, f64::max)
-        });
-        let [_, rows] = self.bounds(low, high);
-        let mut crossings = Vec::new();
-        for y in rows {
-            let py = Self::centre(0, y)[1];
-            crossings.clear();
-            for i in 0..points.len() {
-                let (a, b) = (points[i], points[(i + 1) % points.len()]);
-                if (a[1] <= py) != (b[1] <= py) {
-                    crossings.push(a[0] + (py - a[1]) / (b[1] - a[1]) * (b[0] - a[0]));
-                }
-            }
-            crossings.sort_by(f64::total_cmp);
-            for span in crossings.chunks_exact(2) {
-                let [columns, _] = self.bounds([span[0], 0.0], [span[1], 0.0]);
-                for x in columns {
-                    let px = Self::centre(x, y)[0];
-                    if px >= span[0] && px < span[1] {
-                        self.blend(x, y, fill);
-                    }
-                }
+        for t in corners {
+            let [a, b, c] = t.map(|i| vertices[i as usize]);
+            let turn = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+            if turn < 0.0 {
+                let lit = t.map(|i| light[i as usize]);
+                triangles.push((
+                    a[2] + b[2] + c[2],
+                    [a, b, c],
+                    shade(*colour, [a, b, c], lit),
+                ));
             }
         }
     }
-
-    fn line(&mut self, from: [f64; 2], to: [f64; 2], width: f64, colour: Rgba) {
-        let r = width / 2.0;
-        let low = [0, 1].map(|i| from[i].min(to[i]) - r);
-        let high = [0, 1].map(|i| from[i].max(to[i]) + r);
-        let d = [to[0] - from[0], to[1] - from[1]];
-        let length2 = (d[0] * d[0] + d[1] * d[1]).max(1e-12);
-        let [columns, rows] = self.bounds(low, high);
-        for y in rows {
-            for x in columns.clone() {
-                let p = Self::centre(x, y);
-                let e = [p[0] - from[0], p[1] - from[1]];
-                let u = ((e[0] * d[0] + e[1] * d[1]) / length2).clamp(0.0, 1.0);
-                let off = [e[0] - u * d[0], e[1] - u * d[1]];
-                if off[0] * off[0] + off[1] * off[1] <= r * r {
-                    self.blend(x, y, colour);
-                }
-            }
+    triangles.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // A layer over the part of the picture that they cover.
+    let corners = || triangles.iter().flat_map(|t| t.1);
+    let end = [canvas.width(), canvas.height()].map(f64::from);
+    let [low, high] = [f64::min, f64::max].map(|pick: fn(f64, f64) -> f64| {
+        [0, 1].map(|i| corners().map(|p| p[i].clamp(0.0, end[i])).reduce(pick))
+    });
+    let ([Some(x0), Some(y0)], [Some(x1), Some(y1)]) = (low, high) else {
+        return;
+    };
+    let (x0, y0) = (x0.floor() as f32, y0.floor() as f32);
+    let size = [x1.ceil() as f32 - x0, y1.ceil() as f32 - y0];
+    let [width, height] = size.map(|n| (n * OVERSAMPLING) as u32);
+    let Some(mut layer) = Pixmap::new(width, height) else {
+        return;
+    };
+    let larger = Transform::from_translate(-x0, -y0).post_scale(OVERSAMPLING, OVERSAMPLING);
+    for (_, corners, paint) in &triangles {
+        if let Some(path) = path(corners.map(|[x, y, _]| [x, y]), true) {
+            layer.fill_path(&path, paint, FillRule::Winding, larger, None);
         }
     }
+    let averaged = PixmapPaint {
+        quality: FilterQuality::Bilinear,
+        ..PixmapPaint::default()
+    };
+    let share = 1.0 / OVERSAMPLING;
+    let smaller = Transform::from_row(share, 0.0, 0.0, share, x0, y0);
+    canvas.draw_pixmap(0, 0, layer.as_ref(), &averaged, smaller, None);
+}
 
-    fn disc(&mut self, centre: [f64; 2], outer: f64, inner: f64, colour: Rgba) {
-        if colour.0[3] == 0 {
-            return;
+/// Writes one line of text on the base line `at`, in the glyphs that are nearest to `size`.
+fn write(canvas: &mut Pixmap, text: &str, at: [f64; 2], size: f64, anchor: Anchor, colour: Rgba) {
+    let height = if size < 14.0 {
+        RasterHeight::Size16
+    } else {
+        RasterHeight::Size20
+    };
+    let advance = get_raster_width(FontWeight::Regular, height) as f64;
+    let left = match anchor {
+        Anchor::Start => at[0],
+        Anchor::Middle => at[0] - 0.5 * advance * text.chars().count() as f64,
+    };
+    let top = at[1] - ASCENT * height.val() as f64;
+    for (k, c) in text.chars().enumerate() {
+        let Some(glyph) = get_raster(c, FontWeight::Regular, height) else {
+            continue;
+        };
+        let Some(mut ink) = Pixmap::new(glyph.width() as u32, glyph.height() as u32) else {
+            continue;
+        };
+        for (p, share) in ink.pixels_mut().iter_mut().zip(glyph.pixels()) {
+            let mut c = color(colour, 1.0);
+            c.apply_opacity(f32::from(*share) / 255.0);
+            *p = c.premultiply().to_color_u8();
         }
-        let [columns, rows] = self.bounds(centre.map(|c| c - outer), centre.map(|c| c + outer));
-        for y in rows {
-            for x in columns.clone() {
-                let p = Self::centre(x, y);
-                let r = (p[0] - centre[0]).hypot(p[1] - centre[1]);
-                if r <= outer && r >= inner {
-                    self.blend(x, y, colour);
-                }
-            }
-        }
-    }
-
-    fn triangle(&mut self, v: [[f64; 3]; 3], light: [f64; 3], colour: Rgba) {
-        let area =
-            (v[1][0] - v[0][0]) * (v[2][1] - v[0][1]) - (v[1][1] - v[0][1]) * (v[2][0] - v[0][0]);
-        if area.abs() < 1e-9 || !area.is_finite() {
-            return;
-        }
-        let low = [0, 1].map(|i| v[0][i].min(v[1][i]).min(v[2][i]));
-        let high = [0, 1].map(|i| v[0][i].max(v[1][i]).max(v[2][i]));
-        let [columns, rows] = self.bounds(low, high);
-        for y in rows {
-            for x in columns.clone() {
-                let p = Self::centre(x, y);
-                // Barycentric coordinates: share of each corner.
-                let share = |a: usize, b: usize| {
-                    ((v[b][0] - v[a][0]) * (p[1] - v[a][1])
-                        - (v[b][1] - v[a][1]) * (p[0] - v[a][0]))
-                        / area
-                };
-                let w = [share(1, 2), share(2, 0), share(0, 1)];
-                if w.iter().any(|s| *s < 0.0) {
-                    continue;
-                }
-                let mix = |f: [f64; 3]| w[0] * f[0] + w[1] * f[1] + w[2] * f[2];
-                let near = mix([v[0][2], v[1][2], v[2][2]]) as f32;
-                let at = y * self.width + x;
-                if near > self.nearness[at] {
-                    self.nearness[at] = near;
-                    let b = mix(light);
-                    self.colour[at] =
-                        [0, 1, 2].map(|i| (f64::from(colour.0[i]) * b).clamp(0.0, 255.0) as u8);
-                }
-            }
-        }
+        let x = (left + k as f64 * advance).round() as i32;
+        let y = top.round() as i32;
+        let paint = PixmapPaint::default();
+        canvas.draw_pixmap(x, y, ink.as_ref(), &paint, Transform::identity(), None);
     }
 }

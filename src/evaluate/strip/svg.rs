@@ -1,40 +1,33 @@
 //! Writes a drawing as SVG.
 
 use super::drawing::{Anchor, Drawing, Item, Rgba};
-use std::fmt::Write;
+use ::svg::node::element::path::Data;
+use ::svg::node::element::{Circle, Path, Rectangle, Text};
+use ::svg::{Document, Node};
 
 /// The drawing as a self-contained SVG document.
 pub fn write(drawing: &Drawing) -> String {
-    let mut out = String::new();
-    let (w, h) = (drawing.width, drawing.height);
-    // Writing to a string cannot fail.
-    let _ = writeln!(
-        out,
-        r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {w:.0} {h:.0}" width="{w:.0}" height="{h:.0}" font-family="system-ui, sans-serif" stroke-linejoin="round" stroke-linecap="round">"#
-    );
-    let _ = writeln!(
-        out,
-        r#"<rect width="100%" height="100%"{}/>"#,
-        fill(drawing.background)
-    );
+    let (w, h) = (drawing.width.round(), drawing.height.round());
+    let mut out = Document::new()
+        .set("viewBox", (0, 0, w, h))
+        .set("width", w)
+        .set("height", h)
+        .set("font-family", "system-ui, sans-serif")
+        .set("stroke-linejoin", "round")
+        .set("stroke-linecap", "round");
+    let mut paper = Rectangle::new().set("width", "100%").set("height", "100%");
+    fill(&mut paper, drawing.background);
+    out.append(paper);
     // Solids follow one another in the list; a flat picture shows the nearer ones last.
-    let mut items = drawing.items.iter().peekable();
-    while let Some(item) = items.next() {
-        if let Item::Solid { .. } = item {
-            let mut solids = vec![item];
-            while let Some(next) = items.next_if(|i| matches!(i, Item::Solid { .. })) {
-                solids.push(next);
-            }
-            solids.sort_by(|a, b| nearness(a).total_cmp(&nearness(b)));
-            for solid in solids {
-                write_item(&mut out, solid);
-            }
-        } else {
-            write_item(&mut out, item);
-        }
+    for run in drawing
+        .items
+        .chunk_by(|a, b| matches!((a, b), (Item::Solid { .. }, Item::Solid { .. })))
+    {
+        let mut run: Vec<&Item> = run.iter().collect();
+        run.sort_by(|a, b| nearness(a).total_cmp(&nearness(b)));
+        run.into_iter().for_each(|item| append(&mut out, item));
     }
-    out.push_str("</svg>\n");
-    out
+    format!("{out}\n")
 }
 
 /// Mean nearness of a solid's vertices.
@@ -47,48 +40,41 @@ fn nearness(item: &Item) -> f64 {
     }
 }
 
-fn write_item(out: &mut String, item: &Item) {
-    let _ = match item {
+fn append(out: &mut Document, item: &Item) {
+    match item {
         Item::Polygon {
             points,
             fill: f,
             stroke: s,
-        } => {
-            writeln!(
-                out,
-                r#"<path d="{}"{}{}/>"#,
-                path(points),
-                fill(*f),
-                stroke(*s)
-            )
-        }
+        } => append_polygon(out, points, *f, *s),
         Item::Line {
             from,
             to,
             width,
             colour,
-        } => writeln!(
-            out,
-            r#"<path d="M{:.1} {:.1}L{:.1} {:.1}" fill="none"{}/>"#,
-            from[0],
-            from[1],
-            to[0],
-            to[1],
-            stroke(Some((*colour, *width)))
-        ),
+        } => {
+            let line = Data::new().move_to(tenths(*from)).line_to(tenths(*to));
+            let mut line = Path::new().set("d", line).set("fill", "none");
+            stroke(&mut line, *colour, *width);
+            out.append(line);
+        }
         Item::Circle {
             centre,
             radius,
             fill: f,
             stroke: s,
-        } => writeln!(
-            out,
-            r#"<circle cx="{:.1}" cy="{:.1}" r="{radius:.1}"{}{}/>"#,
-            centre[0],
-            centre[1],
-            fill(*f),
-            stroke(*s)
-        ),
+        } => {
+            let (x, y) = tenths(*centre);
+            let mut circle = Circle::new()
+                .set("cx", x)
+                .set("cy", y)
+                .set("r", tenth(*radius));
+            fill(&mut circle, *f);
+            if let Some((colour, width)) = s {
+                stroke(&mut circle, *colour, *width);
+            }
+            out.append(circle);
+        }
         Item::Text {
             at,
             size,
@@ -96,87 +82,84 @@ fn write_item(out: &mut String, item: &Item) {
             colour,
             text,
         } => {
-            let anchor = match anchor {
-                Anchor::Start => "start",
-                Anchor::Middle => "middle",
-            };
-            writeln!(
-                out,
-                r#"<text x="{:.1}" y="{:.1}" font-size="{size:.0}" text-anchor="{anchor}"{}>{}</text>"#,
-                at[0],
-                at[1],
-                fill(*colour),
-                escape(text)
-            )
+            let (x, y) = tenths(*at);
+            let mut line = Text::new(text)
+                .set("x", x)
+                .set("y", y)
+                .set("font-size", *size)
+                .set(
+                    "text-anchor",
+                    match anchor {
+                        Anchor::Start => "start",
+                        Anchor::Middle => "middle",
+                    },
+                );
+            fill(&mut line, *colour);
+            out.append(line);
         }
         Item::Solid {
             outline, colour, ..
         } => {
-            let edge = Rgba([0, 1, 2, 3].map(|i| {
-                if i < 3 {
-                    (f64::from(colour.0[i]) * 0.68) as u8
-                } else {
-                    255
-                }
-            }));
-            writeln!(
-                out,
-                r#"<path d="{}"{}{}/>"#,
-                path(outline),
-                fill(*colour),
-                stroke(Some((edge, 1.0)))
-            )
+            let [r, g, b, _] = colour.0.map(|c| (f64::from(c) * 0.68) as u8);
+            let edge = Rgba([r, g, b, 255]);
+            append_polygon(out, outline, *colour, Some((edge, 1.0)));
         }
-    };
+    }
 }
 
-fn path(points: &[[f64; 2]]) -> String {
-    let mut out = String::new();
+fn append_polygon(
+    out: &mut Document,
+    points: &[[f64; 2]],
+    filled: Rgba,
+    outline: Option<(Rgba, f64)>,
+) {
+    let mut data = Data::new();
     for (i, p) in points.iter().enumerate() {
-        let _ = write!(
-            out,
-            "{}{:.1} {:.1}",
-            if i == 0 { 'M' } else { 'L' },
-            p[0],
-            p[1]
-        );
+        data = match i {
+            0 => data.move_to(tenths(*p)),
+            _ => data.line_to(tenths(*p)),
+        };
     }
-    out.push('Z');
-    out
-}
-
-fn colour(c: Rgba) -> String {
-    format!("#{:02x}{:02x}{:02x}", c.0[0], c.0[1], c.0[2])
-}
-
-fn opacity(name: &str, c: Rgba) -> String {
-    if c.0[3] == 255 {
-        String::new()
-    } else {
-        format!(r#" {name}-opacity="{:.2}""#, f64::from(c.0[3]) / 255.0)
+    let mut path = Path::new().set("d", data.close());
+    fill(&mut path, filled);
+    if let Some((colour, width)) = outline {
+        stroke(&mut path, colour, width);
     }
+    out.append(path);
 }
 
-fn fill(c: Rgba) -> String {
+/// Rounded to a tenth of a pixel.
+pub(crate) fn tenth(x: f64) -> f32 {
+    ((x * 10.0).round() / 10.0) as f32
+}
+
+fn tenths(p: [f64; 2]) -> (f32, f32) {
+    (tenth(p[0]), tenth(p[1]))
+}
+
+fn fill(node: &mut impl Node, c: Rgba) {
     if c.0[3] == 0 {
-        r#" fill="none""#.to_owned()
+        node.assign("fill", "none");
     } else {
-        format!(r#" fill="{}"{}"#, colour(c), opacity("fill", c))
+        paint(node, "fill", c);
     }
 }
 
-fn stroke(s: Option<(Rgba, f64)>) -> String {
-    s.map_or_else(String::new, |(c, w)| {
-        format!(
-            r#" stroke="{}" stroke-width="{w:.1}"{}"#,
-            colour(c),
-            opacity("stroke", c)
-        )
-    })
+fn stroke(node: &mut impl Node, c: Rgba, width: f64) {
+    paint(node, "stroke", c);
+    node.assign("stroke-width", tenth(width));
 }
 
-fn escape(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
+/// A colour without its opacity, as in style sheets.
+pub(crate) fn css(Rgba([r, g, b, _]): Rgba) -> String {
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+fn paint(node: &mut impl Node, what: &str, colour: Rgba) {
+    node.assign(what, css(colour));
+    let a = colour.0[3];
+    if a < 255 {
+        let opacity = (f32::from(a) / 2.55).round() / 100.0;
+        node.assign(format!("{what}-opacity"), opacity);
+    }
 }
