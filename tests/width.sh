@@ -7,11 +7,11 @@
 #   Markdown                       rows of tables, and sections between "<!-- survey … begin" and "<!-- survey … end"
 #   addresses                      a line whose last word is an address that begins before the margin
 #
-# Works from any directory.
+#   tests/width.sh [FOLDER]    FOLDER: another checkout; works from any directory
 set -eu
 
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
-cd "$root"
+cd "${1:-$root}"
 git ls-files -z --cached --others --exclude-standard -- . \
     ':!*.bvh' ':!*.json' ':!*.png' ':!*.jpg' ':!*.svg' ':!*.bin' ':!*.lock' \
     ':!src/wire/gen' ':!clients/web/src/gen' ':!clients/web/dist' \

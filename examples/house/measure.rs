@@ -9,8 +9,6 @@ use syn::visit::{self, Visit};
 pub const FIELDS: usize = 12;
 /// Most parameters of a function, without `self`; a tuple counts as its parts.
 pub const PARAMETERS: usize = 7;
-/// Widest line, in characters.
-pub const COLUMNS: usize = 120;
 
 /// Modules that plan and follow motions; as they are named now, and as they were before they had modules of their own.
 const LOCOMOTION: &[&str] = &[
@@ -229,7 +227,8 @@ impl<'a> Visit<'a> for Reader {
     }
 
     fn visit_item_macro(&mut self, item: &'a syn::ItemMacro) {
-        if !item.mac.path.is_ident("params") {
+        let name = item.mac.path.segments.last();
+        if name.is_none_or(|name| name.ident != "params") {
             return;
         }
         // NAME: type = value, "unit", min..=max, "source";
@@ -290,9 +289,8 @@ fn read(root: &Path, path: &Path) -> Source {
     reader.out
 }
 
-/// Files below `folder` with one of these extensions, sorted; without what is generated or built.
-pub fn files(folder: &Path, extensions: &[&str]) -> Vec<PathBuf> {
-    const NOT_OURS: &[&str] = &["gen", "dist", "node_modules", "target", ".venv", ".git"];
+/// Files below `folder` with this ending, sorted; without what is generated.
+fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
     let mut found = Vec::new();
     let mut folders = vec![folder.to_owned()];
     while let Some(folder) = folders.pop() {
@@ -300,10 +298,10 @@ pub fn files(folder: &Path, extensions: &[&str]) -> Vec<PathBuf> {
             let path = entry.path();
             let name = entry.file_name().to_string_lossy().into_owned();
             if path.is_dir() {
-                if !NOT_OURS.contains(&name.as_str()) {
+                if name != "gen" {
                     folders.push(path);
                 }
-            } else if extensions.iter().any(|e| name.ends_with(e)) && !name.contains("_pb") {
+            } else if name.ends_with(ending) {
                 found.push(path);
             }
         }
@@ -318,39 +316,18 @@ pub fn sources(root: &Path) -> Vec<Source> {
         p.file_name()
             .is_some_and(|n| n == "tests.rs" || n == "testing.rs")
     };
-    let all = files(&root.join("src"), &[".rs"]);
+    let all = files(&root.join("src"), ".rs");
     all.iter()
         .filter(|p| !is_test(p))
         .map(|p| read(root, p))
         .collect()
 }
 
-/// Lines of our own sources and documents that are wider than [`COLUMNS`], as `file:line`. Tables of Markdown and lines
-/// that are one link are as wide as they must be.
-pub fn wide_lines(root: &Path) -> Vec<String> {
-    const WRITTEN: &[&str] = &["docs/paper", "docs/walking", "docs/survey"];
-    let mut wide = Vec::new();
-    for path in files(
-        root,
-        &[
-            ".rs", ".md", ".py", ".ts", ".proto", ".sh", ".toml", "Makefile", ".css",
-        ],
-    ) {
-        let name = path
-            .strip_prefix(root)
-            .expect("below the root")
-            .to_string_lossy()
-            .into_owned();
-        if WRITTEN.iter().any(|w| name.starts_with(w)) {
-            continue;
-        }
-        let text = fs::read_to_string(&path).unwrap_or_default();
-        for (i, line) in text.lines().enumerate() {
-            let table = name.ends_with(".md") && line.trim_start().starts_with('|');
-            if line.chars().count() > COLUMNS && !table && line.trim().contains(' ') {
-                wide.push(format!("{name}:{}", i + 1));
-            }
-        }
-    }
-    wide
+/// Number of decision records; their index is none.
+pub fn decisions(root: &Path) -> usize {
+    let records = files(&root.join("docs/adr"), ".md");
+    records
+        .iter()
+        .filter(|p| p.file_name().is_some_and(|n| n != "README.md"))
+        .count()
 }

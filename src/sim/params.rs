@@ -28,7 +28,10 @@ pub struct Param {
 /// }
 /// ```
 macro_rules! params {
-    ($($(#[doc = $doc:literal])+ $name:ident: $type:ty = $value:expr, $unit:literal, $min:literal..=$max:literal, $source:literal;)+) => {
+    ($(
+        $(#[doc = $doc:literal])+
+        $name:ident: $type:ty = $value:expr, $unit:literal, $min:literal..=$max:literal, $source:literal;
+    )+) => {
         $($(#[doc = $doc])+ pub(crate) const $name: $type = $value;)+
 
         /// Everything that is declared here, in order.
@@ -46,8 +49,6 @@ pub(crate) use params;
 
 #[cfg(test)]
 mod tests {
-    use super::params;
-
     params! {
         /// A length.
         LENGTH: f64 = 0.5, "m", 0.1..=1.0, "a test";

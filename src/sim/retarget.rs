@@ -170,7 +170,8 @@ pub fn retarget(
     let sides_swapped = scene.settle_sides(&mut map);
     if sides_swapped {
         feet.swap(0, 1);
-        warnings.push("left and right were exchanged: the file names them the other way round than its feet and knees point".into());
+        warnings.push("left and right were exchanged: the file names them the other way round than its feet and knees \
+            point".into());
     }
 
     // Scale, floor, heading.

@@ -112,7 +112,8 @@ pub fn mjcf_with(body: &Body, links: &Links, gravity: f64, actuation: &Actuation
     let mut o = String::with_capacity(1 << 15);
     o.push_str("<mujoco model=\"sinew_human\">\n");
     o.push_str(
-        "  <compiler angle=\"radian\" autolimits=\"false\" inertiafromgeom=\"false\" balanceinertia=\"false\" fusestatic=\"false\"/>\n",
+        "  <compiler angle=\"radian\" autolimits=\"false\" inertiafromgeom=\"false\" balanceinertia=\"false\" \
+         fusestatic=\"false\"/>\n",
     );
     let _ = writeln!(
         o,
@@ -298,7 +299,8 @@ pub fn urdf_with(body: &Body, links: &Links, actuation: &Actuation) -> String {
         let j = p.inertia;
         let _ = writeln!(
             o,
-            "  <link name=\"{}\">\n    <inertial>\n      <origin xyz=\"{}\" rpy=\"0 0 0\"/>\n      <mass value=\"{}\"/>",
+            "  <link name=\"{}\">\n    <inertial>\n      <origin xyz=\"{}\" rpy=\"0 0 0\"/>\n      <mass \
+             value=\"{}\"/>",
             SEGMENT_NAMES[i],
             vector(p.com),
             list(&[p.mass])
@@ -335,7 +337,8 @@ pub fn urdf_with(body: &Body, links: &Links, actuation: &Actuation) -> String {
             };
             let _ = writeln!(
                 o,
-                "  <joint name=\"{}\" type=\"revolute\">\n    <origin xyz=\"{}\" rpy=\"0 0 0\"/>\n    <parent link=\"{parent}\"/>\n    <child link=\"{child}\"/>\n    <axis xyz=\"{}\"/>",
+                "  <joint name=\"{}\" type=\"revolute\">\n    <origin xyz=\"{}\" rpy=\"0 0 0\"/>\n    <parent \
+                 link=\"{parent}\"/>\n    <child link=\"{child}\"/>\n    <axis xyz=\"{}\"/>",
                 DOF_NAMES[k],
                 vector(origin),
                 list(&DOF_AXIS[k].vector())

@@ -6,7 +6,9 @@
 //! limits and cones, with multipliers that tend to zero where t and f are free:
 //!
 //! ```text
-//! A x − b − t − Jᵀf = 0      t/g − rest + x = z₁ − z₂,  z₁ (t − lower) = z₂ (upper − t) = μ      R f + J x + c = λ,  f ∘ λ = μ
+//! A x − b − t − Jᵀf = 0
+//! t/g − rest + x = z₁ − z₂,   z₁ (t − lower) = z₂ (upper − t) = μ
+//! R f + J x + c = λ,          f ∘ λ = μ
 //! ```
 //!
 //! Eliminating them leaves Newton's matrix with other slopes: `1/(1/g + z₁/(t − lower) + z₂/(upper − t))` for a motor

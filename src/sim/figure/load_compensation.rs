@@ -189,8 +189,8 @@ impl Lean<'_> {
         target.velocity = std::array::from_fn::<f64, NV, _>(|i| way[i] * (0.5 / RATE_SPAN));
     }
 
-    /// The posture in which the body with the load that has `effect` has its centre of mass where the unloaded one has it in
-    /// `posture`.
+    /// The posture in which the body with the load that has `effect` has its centre of mass where the unloaded one has
+    /// it in `posture`.
     fn compensated(&self, posture: &Posture, effect: &LoadEffect) -> Posture {
         let planned = forward(self.body, posture);
         let mut out = *posture;

@@ -1,9 +1,9 @@
 //! Plans that take too long for a tick. A figure states a problem in one tick and takes the result in a later one that
 //! is fixed beforehand.
 //!
-//! Nothing here runs on its own. The caller that steps the world may solve the problems meanwhile, on threads of its own
-//! ([`World::plan_requests`](crate::sim::world::World::plan_requests)). A problem that is not solved by then is solved by
-//! the tick that takes it ([`Planning::InTick`]), or planned anew for a later tick ([`Planning::Aside`]).
+//! Nothing here runs on its own. The caller that steps the world may solve the problems meanwhile, on threads of its
+//! own ([`World::plan_requests`](crate::sim::world::World::plan_requests)). A problem that is not solved by then is
+//! solved by the tick that takes it ([`Planning::InTick`]), or planned anew for a later tick ([`Planning::Aside`]).
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -2,8 +2,8 @@
 //!
 //! From the belly: arms out, toes tucked, hands beside the ribs, hips up and back over the knees, up on hands and
 //! knees, one hand after the other to the knees, knees off the floor, one hand after the other to the feet, heels down,
-//! up. A body that lies on its back or on a side rolls over before: one foot set up, pushed over by it, leg and arm across. All
-//! of it is written for rolling over the right side; the other is the mirror image.
+//! up. A body that lies on its back or on a side rolls over before: one foot set up, pushed over by it, leg and arm
+//! across. All of it is written for rolling over the right side; the other is the mirror image.
 
 use super::goals::{Aim, Goals, swapped};
 use super::reference_pose::ReferencePoses;

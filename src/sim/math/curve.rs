@@ -1,7 +1,7 @@
 //! Curves between two values: polynomials that join with a given slope and curvature.
 //!
-//! [`min_jerk`], [`fade`] and [`quintic`] are the same polynomial with different boundary conditions. Each keeps its own
-//! order of operations, so that recorded motions keep their bits.
+//! [`min_jerk`], [`fade`] and [`quintic`] are the same polynomial with different boundary conditions. Each keeps its
+//! own order of operations, so that recorded motions keep their bits.
 
 use crate::sim::math::Vec3;
 

@@ -18,8 +18,8 @@ fn less_sum(s: f64, a: &[f64], b: &[f64]) -> f64 {
     s - a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>()
 }
 
-/// Cholesky factor L of the leading `n`×`n` block, in place: row i of `a` becomes row i of L up to its diagonal. A pivot
-/// that rounding made non-positive is treated as infinitely stiff.
+/// Cholesky factor L of the leading `n`×`n` block, in place: row i of `a` becomes row i of L up to its diagonal. A
+/// pivot that rounding made non-positive is treated as infinitely stiff.
 #[inline(always)]
 fn factor_rows_with<const W: usize>(
     a: &mut [[f64; W]],

@@ -18,6 +18,7 @@ use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::filter::low_pass;
 use crate::sim::plan::params::{contact, pitch, swing};
 use stances::Track;
+use std::ops::Range;
 
 /// A foot that stands as the body's sole allows, and how much was changed for that.
 #[derive(Clone, Debug)]
@@ -139,7 +140,7 @@ pub fn lock_foot(
     for (i, j, on) in runs(&out.planted.clone()) {
         if !on {
             let flies = [off((i + long).min(n - 1)), off(j.saturating_sub(long))];
-            swing(sole, &mut out, (recorded, &toes), (i, j), flies, rate_hz);
+            swing(sole, &mut out, (recorded, &toes), i..j, flies, rate_hz);
         }
     }
     out
@@ -192,18 +193,18 @@ struct End {
     offset: [FootOffset; 3],
 }
 
-/// Fills the samples `i..j` of a swing between the locks on either side; `flies`: at its beginning and at its end the
+/// Fills the samples of a swing between the locks on either side; `flies`: at its beginning and at its end the
 /// other foot is in the air as well.
 fn swing(
     sole: &Sole,
     out: &mut LockedFoot,
     (recorded, toes): (RecordedFoot<'_>, &[f64]),
-    (i, j): (usize, usize),
+    samples: Range<usize>,
     flies: [bool; 2],
     rate_hz: f64,
 ) {
     let RecordedFoot { ankles, rotations } = recorded;
-    let n = ankles.len();
+    let (i, j, n) = (samples.start, samples.end, ankles.len());
     let recorded_pose = |k: usize| FootPose {
         ankle: ankles[k],
         rotation: rotations[k],

@@ -179,7 +179,8 @@ pub enum RetargetError {
     },
     /// No usual unit gives a human stature.
     #[error(
-        "the figure measures {measured:.4} file units from sole to crown, which no usual unit makes 1.3 to 2.0 m; give unit_m"
+        "the figure measures {measured:.4} file units from sole to crown, which no usual unit makes 1.3 to 2.0 m; give \
+         unit_m"
     )]
     Unit {
         /// Stature in file units.
@@ -187,7 +188,8 @@ pub enum RetargetError {
     },
     /// The given unit gives no human stature.
     #[error(
-        "with unit_m = {unit_m} the figure measures {stature:.3} m ({measured:.4} file units); people measure 0.7 to 2.6 m"
+        "with unit_m = {unit_m} the figure measures {stature:.3} m ({measured:.4} file units); people measure 0.7 to \
+         2.6 m"
     )]
     Stature {
         /// Unit as given.
@@ -245,7 +247,8 @@ impl RetargetReport {
             ));
         }
         if !from_rest {
-            w.push("the file's zero pose is no standing person: the mean of its most upright frames was taken for calibration".into());
+            w.push("the file's zero pose is no standing person: the mean of its most upright frames was taken for \
+                calibration".into());
         }
         if !self.bridged.is_empty() {
             let frames: usize = self.bridged.iter().map(|b| b.count).sum();
@@ -289,7 +292,8 @@ impl RetargetReport {
         }
         if self.freed > warning::FREED_SHARE {
             w.push(format!(
-                "planted feet were let go in {:.0} % of the samples: the legs' limits do not let them stand as recorded",
+                "planted feet were let go in {:.0} % of the samples: the legs' limits do not let them stand as \
+                 recorded",
                 100.0 * self.freed
             ));
         }

@@ -108,7 +108,8 @@ pub const ANDERSON_DEVIATION: [[[f64; 3]; 2]; 6] = [
 pub const MOST_DEVIATIONS: f64 = 2.0;
 /// Origin of the percentile factor.
 pub const PERCENTILE_ORIGIN: Origin = Origin {
-    source: "standard deviations of Anderson 2007; 5th and 95th percentiles of Stobbe 1982; a coefficient of variation of 0.25 elsewhere",
+    source: "standard deviations of Anderson 2007; 5th and 95th percentiles of Stobbe 1982; a coefficient of variation \
+        of 0.25 elsewhere",
     tag: "S1 (legs), R",
     note: "the same percentile in every group; normal or piecewise log-normal between the given ones",
 };
@@ -202,7 +203,8 @@ pub const ANDERSON: [[[AndersonRow; 3]; 2]; 6] = [
 pub const ANDERSON_ORIGIN: Origin = Origin {
     source: "Anderson, Madigan & Nussbaum 2007, J. Biomech. 40:3105, Table 3",
     tag: "S1",
-    note: "level of the young group times the age trend; shapes interpolated between the age groups; eccentric branch replaced by a plateau 1.1 + 0.2 C6",
+    note: "level of the young group times the age trend; shapes interpolated between the age groups; eccentric branch \
+        replaced by a plateau 1.1 + 0.2 C6",
 };
 /// Velocity shape of plantarflexion, whose published curve never reaches zero.
 pub const PLANTARFLEXION_ORIGIN: Origin = Origin {

@@ -457,8 +457,9 @@ fn the_kernel_solves_the_problem_that_an_interior_point_method_solves() {
     }
     counts.sort_unstable();
     let text = format!(
-        "{ROUNDS} compared ({saturated} saturated, {sliding} at the cone, {flying} in flight); iterations: median {}, 99 % {}, {} at most, {jammed} through the interior; \
-         cost {cost:.1e}, torque {torque:.1e} of its range, force {force:.1e} of the weight, acceleration {acceleration:.1e} of the largest",
+        "{ROUNDS} compared ({saturated} saturated, {sliding} at the cone, {flying} in flight); iterations: median {}, \
+         99 % {}, {} at most, {jammed} through the interior; cost {cost:.1e}, torque {torque:.1e} of its range, force \
+         {force:.1e} of the weight, acceleration {acceleration:.1e} of the largest",
         counts[ROUNDS / 2],
         counts[ROUNDS * 99 / 100],
         counts[ROUNDS - 1],

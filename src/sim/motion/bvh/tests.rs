@@ -3,9 +3,10 @@
 use super::*;
 use proptest::prelude::*;
 
-const PLAIN: &str = "HIERARCHY\nROOT Hips\n{\n\tOFFSET 0 1 0\n\tCHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n\
-    \tJOINT Leg\n\t{\n\t\tOFFSET 0 -2 0\n\t\tCHANNELS 3 Xrotation Yrotation Zrotation\n\t\tEnd Site\n\t\t{\n\t\t\tOFFSET 0 -3 0\n\t\t}\n\t}\n}\n\
-    MOTION\nFrames: 2\nFrame Time: 0.01\n1 2 3 0 0 0 0 0 0\n1 2 3 90 0 0 90 0 0\n";
+const PLAIN: &str = "HIERARCHY\nROOT Hips\n{\n\tOFFSET 0 1 0\n\tCHANNELS 6 Xposition Yposition Zposition Zrotation \
+    Xrotation Yrotation\n\tJOINT Leg\n\t{\n\t\tOFFSET 0 -2 0\n\t\tCHANNELS 3 Xrotation Yrotation Zrotation\n\t\tEnd \
+    Site\n\t\t{\n\t\t\tOFFSET 0 -3 0\n\t\t}\n\t}\n}\nMOTION\nFrames: 2\nFrame Time: 0.01\n1 2 3 0 0 0 0 0 0\n1 2 3 90 \
+    0 0 90 0 0\n";
 
 fn close(a: Vec3, b: [f64; 3]) {
     assert!((a - Vec3::from_array(b)).norm() < 1e-12, "{a:?} {b:?}");

@@ -1,5 +1,5 @@
-//! Stage 6 of a tick for everything that is near something else: which bodies are near each other, what touches, and one solve for all
-//! that touch.
+//! Stage 6 of a tick for everything that is near something else: which bodies are near each other, what touches, and
+//! one solve for all that touch.
 //!
 //! * [`neighbourhood`]: pairs of bodies that are near each other, and the clusters that follow.
 //! * [`cast`]: the bodies of one cluster and where they are.
@@ -154,7 +154,10 @@ impl Cluster {
                 cast.figures[i].1.hand_over();
             }
         }
-        let apart = |participant: &Participant| matches!(participant, Participant::Figure(i) if cast.figures[*i].1.is_prescribed());
+        let apart = |participant: &Participant| match participant {
+            Participant::Figure(i) => cast.figures[*i].1.is_prescribed(),
+            _ => false,
+        };
         self.pairs.retain(|pair| !pair.iter().any(apart));
         for (_, f) in cast.figures.iter_mut().filter(|(_, f)| f.is_prescribed()) {
             f.integrate(world);

@@ -97,8 +97,8 @@ impl Neighbourhood {
         self.count > 0
     }
 
-    /// Finds the pairs that may meet and orders `figures` and `obstacles` by cluster; what is alone comes last, and obstacles
-    /// that do not move freely after all that do. Returns how many figures are in clusters.
+    /// Finds the pairs that may meet and orders `figures` and `obstacles` by cluster; what is alone comes last, and
+    /// obstacles that do not move freely after all that do. Returns how many figures are in clusters.
     pub(in super::super) fn gather(
         &mut self,
         figures: &mut [(FigureKey, Box<Figure>)],

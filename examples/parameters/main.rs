@@ -1,0 +1,9 @@
+//! Writes the page of all tunable numbers: `cargo run --example parameters > docs/parameters.md`.
+//!
+//! `tests/pages.rs` compares the page with what this prints.
+
+mod page;
+
+fn main() {
+    print!("{}", page::page());
+}
