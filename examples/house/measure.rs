@@ -36,7 +36,6 @@ const LOCOMOTION: &[&str] = &[
 ];
 /// What lies in `sim/motion` and reads, keeps or samples motions, without planning them.
 const READING: &[&str] = &[
-    "sim/motion/mod",
     "sim/motion/bvh",
     "sim/motion/bvh_write",
     "sim/motion/skeleton_map",
@@ -87,7 +86,7 @@ impl Source {
 
     /// True if it plans or follows motions.
     pub fn is_locomotion(&self) -> bool {
-        self.is_in(LOCOMOTION) && !self.is_in(READING)
+        self.is_in(LOCOMOTION) && !self.is_in(READING) && self.module != "sim/motion"
     }
 
     /// True if its types are held to [`FIELDS`].

@@ -19,7 +19,7 @@ use tables::{Table, joint_limits};
 pub(super) use tables::limit_changes;
 
 /// Reflected inertia on every joint DOF, kg·m²: keeps toes and wrists at their torque limit from accelerating at 10⁴
-/// rad/s² (ALGORITHM §2).
+/// rad/s² (`docs/model.md`).
 pub const ARMATURE: f64 = 0.02;
 
 pub use super::age::AGE_RANGE;

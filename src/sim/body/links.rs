@@ -36,7 +36,7 @@ impl Links<f64> {
         }
     }
 
-    /// Welds a point mass (kg) to `segment` at `point` (segment frame, m): ALGORITHM §10, load as inertia.
+    /// Welds a point mass (kg) to `segment` at `point` (segment frame, m): `docs/model.md`, load as inertia.
     pub fn add_load(&mut self, segment: SegmentId, point: Vec3, mass: f64) {
         let i = segment.index();
         self.mass[i] += mass;

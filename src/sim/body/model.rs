@@ -63,7 +63,7 @@ pub struct Body {
     pub lower: [f64; DOF_COUNT],
     /// Largest anatomical angle of each DOF, rad.
     pub upper: [f64; DOF_COUNT],
-    /// Reflected inertia added to the diagonal of the inertia matrix, kg·m² (safeguard, ALGORITHM §2; 0 = paper).
+    /// Reflected inertia added to the diagonal of the inertia matrix, kg·m² (safeguard, `docs/model.md`; 0 = paper).
     pub armature: [f64; DOF_COUNT],
 }
 

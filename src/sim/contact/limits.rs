@@ -10,7 +10,7 @@ use crate::sim::dynamics::Terms;
 use crate::sim::math::Vec3;
 use crate::sim::strength::Strength;
 
-/// Stiffness of a limit row, kg·m²: an impulse per rad/s that is still missing (ALGORITHM §14.3).
+/// Stiffness of a limit row, kg·m²: an impulse per rad/s that is still missing (`docs/equations.md`, 14.3).
 pub const LIMIT_STIFFNESS: f64 = 1e3;
 /// Share of a limit violation that is taken back per substep.
 const RETURN_SHARE: f64 = 0.2;

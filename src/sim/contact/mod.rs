@@ -1,5 +1,5 @@
-//! The convex kernel of ALGORITHM §14: one semi-smooth Newton method for the simulator's substep and for the modern
-//! controller.
+//! The convex kernel of `docs/equations.md`, 14: one semi-smooth Newton method for the simulator's substep and for the
+//! modern controller.
 //!
 //! Minimise ½ xᵀA x − bᵀx + Σ motors(x_j) + Σ limits(aᵀx) + Σ cones(J_k x + c_k) over x ∈ R⁴⁵. The simulator reads x as
 //! velocity and A as inertia; the controller reads x as the price of the dynamics. Every iterate respects strength and

@@ -1,4 +1,4 @@
-//! Semi-smooth Newton method with exact line search, warm start and a bound on its work (ALGORITHM §14.2).
+//! Semi-smooth Newton method with exact line search, warm start and a bound on its work (`docs/equations.md`, 14.2).
 
 use super::interior::Interior;
 use super::limits::LimitRows;

@@ -13,7 +13,7 @@ pub enum Region {
     Stick,
 }
 
-/// Nearest point of the cone to `u` (ALGORITHM §14.2).
+/// Nearest point of the cone to `u` (`docs/equations.md`, 14.2).
 #[inline(always)]
 pub fn project(u: Vec3, mu: f64) -> (Vec3, Region) {
     let t = (u.x * u.x + u.y * u.y).sqrt();

@@ -1,5 +1,5 @@
-//! Keeps the demanded acceleration of the centre of mass within what the support polygon can give (ALGORITHM §9,
-//! safeguard).
+//! Keeps the demanded acceleration of the centre of mass within what the support polygon can give
+//! (`docs/equations.md#repairs`, safeguard).
 
 use crate::sim::math::Vec3;
 use crate::sim::support::Polygon;

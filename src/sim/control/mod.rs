@@ -1,6 +1,6 @@
 //! Tracking controllers: accelerations and torques that follow the desired motion within strength.
 //!
-//! [`Paper`] is Oshita & Makinouchi 2000, Eqs. (4)–(17), with the repairs of ALGORITHM §4–9.
+//! [`Paper`] is Oshita & Makinouchi 2000, Eqs. (4)–(17), with the repairs of `docs/equations.md#repairs`.
 
 pub mod feasible_com;
 pub mod goals;

@@ -1,4 +1,4 @@
-//! Modern mode: whole-body tracking as one convex program, solved through its dual (ALGORITHM §14.1–14.2).
+//! Modern mode: whole-body tracking as one convex program, solved through its dual (`docs/equations.md`, 14.1–14.2).
 //!
 //! Unknowns are the 45 accelerations, 39 torques and the forces of the planned contact points; the dual has 45 unknowns
 //! and is the same kernel as the simulator's substep. Torques stay within strength and forces within friction at every
@@ -33,8 +33,8 @@ mod roll;
 mod tasks;
 
 /// Weights in units of force: the cost of a task is about (inertia × acceleration error)², so that a foot's hundred
-/// rad/s² cost less than one m/s² of the body (WALKING §5). Hands, joints and planted feet were set on recorded motion:
-/// docs/adr/0004.
+/// rad/s² cost less than one m/s² of the body (`docs/locomotion.md#balance`). Hands, joints and planted feet were set
+/// on recorded motion: docs/adr/0004.
 mod weight {
     pub(super) const COM: [f64; 3] = [1000.0, 1000.0, 300.0];
     /// Upwards at lift-off: what is missing then cannot be made up for in the air.

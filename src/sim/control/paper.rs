@@ -1,8 +1,8 @@
 //! The controller of Oshita & Makinouchi 2000, Eqs. (4)–(17): track, stay within strength, keep centre of mass and
 //! hands.
 //!
-//! Two passes (ALGORITHM §9): first with the support at rest; if the zero-moment point of that solution leaves the
-//! support polygon, once more with the support free to tip about its edge (S1).
+//! Two passes (`docs/tick.md`, stage 5): first with the support at rest; if the zero-moment point of that solution
+//! leaves the support polygon, once more with the support free to tip about its edge (S1).
 //!
 //! [`Paper::decide`] chooses the pass that counts; [`Paper::pass`] is the list of equations. Beside it: `supports`
 //! (which feet carry, and how they share), `targets` (centre of mass, hands and other points), and the siblings of this
@@ -30,7 +30,7 @@ use supports::Planned;
 const OVERLOAD_ENTER: u32 = 23;
 /// Overload ends below this many members (0.3 n).
 const OVERLOAD_LEAVE: u32 = 12;
-/// A support that turns faster than this is tipping, rad/s (ALGORITHM §6).
+/// A support that turns faster than this is tipping, rad/s (`docs/equations.md#repairs`).
 const AT_REST: f64 = 1e-3;
 /// Clamped torques beyond this relative excess are worth a flag.
 const CLAMP_NOTICE: f64 = 1e-6;
@@ -292,8 +292,9 @@ impl Paper {
         (0..ROW).for_each(|d| initial[d] += x[d]);
     }
 
-    /// The overload rule (ALGORITHM §8). With motors behind it, the intent of (4) and (12) as it is, to be clipped; for
-    /// accelerations that are applied as they are, those of the clipped torques (W = H²) without secondary constraints.
+    /// The overload rule (`docs/equations.md#repairs`). With motors behind it, the intent of (4) and (12) as it is, to
+    /// be clipped; for accelerations that are applied as they are, those of the clipped torques (W = H²) without
+    /// secondary constraints.
     fn overloaded(
         &mut self,
         input: &ControlInput<'_>,

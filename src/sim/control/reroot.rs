@@ -1,5 +1,5 @@
-//! Dynamics seen from the support (ALGORITHM §4): accelerations and torques as affine functions of the joint
-//! accelerations.
+//! Dynamics seen from the support (`docs/equations.md#repairs`): accelerations and torques as affine functions of the
+//! joint accelerations.
 //!
 //! The state is always rooted at the pelvis; "the support is the root" (paper §3.1) is a projection. With
 //! `v̇ = N θ̈ + b` and the unknown wrench at the support removed by `Nᵀ`, torques are `τ = H θ̈ + c₀` (6). The same

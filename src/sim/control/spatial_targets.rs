@@ -1,4 +1,4 @@
-//! Secondary constraints: centre of mass and end-effectors, Eqs. (12)–(16) (ALGORITHM §9).
+//! Secondary constraints: centre of mass and end-effectors, Eqs. (12)–(16) (`docs/equations.md#the-paper`).
 
 use super::rows::{ROW, Row, RowQr, Square, add_scaled, dot};
 use super::torque_limits::{Outcome, TOLERANCE, violates};

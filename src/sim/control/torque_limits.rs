@@ -1,4 +1,5 @@
-//! Primary constraint: available torque, Eqs. (7)–(11), by an active set that only grows (ALGORITHM §8).
+//! Primary constraint: available torque, Eqs. (7)–(11), by an active set that only grows
+//! (`docs/equations.md#the-paper`).
 
 use super::rows::{ROW, Row, RowQr, Square, dot};
 use crate::sim::body::DOF_COUNT;
@@ -199,7 +200,7 @@ impl TorqueLimits {
 mod tests {
     use super::*;
 
-    /// The example of ALGORITHM §17 in the first two DOFs; the others are unit inertias without torque.
+    /// An example with two limits in the first two DOFs; the others are unit inertias without torque.
     fn example(metric: Metric) -> (Row, Row, Outcome) {
         let mut h = Box::new([[0.0; ROW]; DOF_COUNT]);
         (0..DOF_COUNT).for_each(|j| h[j][j] = 1.0);

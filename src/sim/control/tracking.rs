@@ -1,4 +1,4 @@
-//! Initial accelerations from the desired motion, Eq. (4), and the same law for points (ALGORITHM §7).
+//! Initial accelerations from the desired motion, Eq. (4), and the same law for points (`docs/equations.md#repairs`).
 
 use super::rows::{ROW, Row};
 use crate::sim::body::angles::swing_twist;

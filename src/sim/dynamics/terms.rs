@@ -1,5 +1,5 @@
-//! Everything of one state that controllers and steppers share: inertia, bias, centre of mass, Jacobians (ALGORITHM §1,
-//! §4).
+//! Everything of one state that controllers and steppers share: inertia, bias, centre of mass, Jacobians
+//! (`docs/notation.md`, §4).
 
 use super::crba::{CompositeInertia, crba};
 use super::jacobian::{bias_accelerations, for_each_column};
@@ -254,7 +254,7 @@ impl Terms {
         (rows, bias)
     }
     /// Force and moment about the world origin that the ground must supply for the acceleration `vdot` (first six rows
-    /// of `M v̇ + h`, ALGORITHM §4).
+    /// of `M v̇ + h`, `docs/notation.md`).
     pub fn ground_wrench(&self, vdot: &[f64; NV]) -> (Vec3, Vec3) {
         let row = |i: usize| self.h[i] + (0..NV).map(|j| self.m[i][j] * vdot[j]).sum::<f64>();
         let moment = Vec3 {

@@ -24,6 +24,13 @@ pub fn smootherstep(u: f64) -> f64 {
     u * u * u * (10.0 - 15.0 * u + 6.0 * u * u)
 }
 
+/// [`smootherstep`] from 0 at `start` to 1 at `end`, by Horner's rule: it rounds differently, and the built-in motions
+/// keep their bits.
+pub fn ramp(t: f64, start: f64, end: f64) -> f64 {
+    let u = ((t - start) / (end - start)).clamp(0.0, 1.0);
+    u * u * u * (10.0 + u * (-15.0 + 6.0 * u))
+}
+
 /// 0 at the first bound and before, 1 at the second and beyond, C¹ between.
 #[inline]
 pub fn rise(x: f64, (none, full): (f64, f64)) -> f64 {

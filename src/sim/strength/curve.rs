@@ -1,9 +1,9 @@
 //! How much of its isometric peak a muscle group gives at an angle and at a speed: the factors f_len and f_vel of
 //! equation (5).
 //!
-//! Whatever data a curve is made from, it is continuous, positive, and gives less the faster it shortens (ALGORITHM
-//! §3). Published fits that break this are repaired here (Anderson 2007: eccentric branch, plantarflexion, cosine
-//! beyond its half wave). Evaluated within the tick: no allocation and no platform libm.
+//! Whatever data a curve is made from, it is continuous, positive, and gives less the faster it shortens
+//! (`docs/model.md#strength`). Published fits that break this are repaired here (Anderson 2007: eccentric branch,
+//! plantarflexion, cosine beyond its half wave). Evaluated within the tick: no allocation and no platform libm.
 
 use crate::sim::math::trig;
 

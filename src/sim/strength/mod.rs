@@ -18,7 +18,7 @@ use crate::sim::math::exp::{exp, ln};
 use curve::{AngleFactor, Muscle, VelocityFactor};
 use tables::{Action, AndersonRow, Group, Leg, Origin, Tissue};
 
-/// Ligaments act within this angle before a limit, rad (4°): ALGORITHM §3.
+/// Ligaments act within this angle before a limit, rad (4°): `docs/model.md#strength`.
 pub const LIGAMENT_ZONE: f64 = 4.0 / 180.0 * std::f64::consts::PI;
 const PER_ZONE: f64 = 1.0 / LIGAMENT_ZONE;
 /// At and past a limit, ligaments oppose it with this multiple of the isometric peak that drives into it.
@@ -224,7 +224,7 @@ impl Strength {
         }
     }
 
-    /// Torque available at this instant, N·m, equation (5) with ligaments (ALGORITHM §3).
+    /// Torque available at this instant, N·m, equation (5) with ligaments (`docs/model.md#strength`).
     ///
     /// τ_max = T⁺ f_len(θ) f_vel(θ̇), τ_min = −T⁻ f_len(θ) f_vel(−θ̇). Within [`LIGAMENT_ZONE`] of a limit the torque
     /// that opposes it grows linearly to [`LIGAMENT_FACTOR`] times the isometric peak that drives into it; ligaments do

@@ -138,8 +138,8 @@ fn children_have_measured_strength() {
     }
 }
 
-/// The straight-arm limit of a child lies below a woman's; scaled from adults it is about 2 kg (BIOMECHANICS calls 2.7
-/// kg optimistic).
+/// The straight-arm limit of a child lies below a woman's; scaled from adults it is about 2 kg (a published guess is
+/// 2.7 kg optimistic).
 #[test]
 fn straight_arm_of_a_child_holds_less_than_a_womans() {
     let limit = |b: &Body| {
@@ -322,8 +322,7 @@ fn all_36_rows_are_usable_after_repair() {
     }
 }
 
-/// The isometric torques per leg that the published table gives (BIOMECHANICS §1.1, derived there with another
-/// program).
+/// The isometric torques per leg that the published table gives, derived with another program.
 #[test]
 fn legs_have_the_published_strength() {
     let reference = [

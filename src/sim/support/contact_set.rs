@@ -1,4 +1,4 @@
-//! Which contact points of which segments touch the floor, with hysteresis (ALGORITHM §5).
+//! Which contact points of which segments touch the floor, with hysteresis (`docs/tick.md`, stage 3).
 
 use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::body::{Body, SEGMENT_COUNT, SegmentId};

@@ -1,4 +1,4 @@
-//! Sharing of the ground reaction between contact points: balanced (S2) and the paper's (ALGORITHM §5).
+//! Sharing of the ground reaction between contact points: balanced (S2) and the paper's (`docs/equations.md#repairs`).
 //!
 //! Balanced sharing looks, among all point forces with the right total wrench W, for the least ones in a norm weighted
 //! by the support ratios: f = D Aᵀ (A D Aᵀ)⁺ W with A = [… [p_k]×; 1 …]. Only the wrench per segment matters

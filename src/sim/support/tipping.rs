@@ -1,4 +1,4 @@
-//! Minimum-moment point and the axes about which a support tips (ALGORITHM §6).
+//! Minimum-moment point and the axes about which a support tips (`docs/equations.md#repairs`).
 
 use super::{Feature, Polygon};
 use crate::sim::body::SegmentId;
@@ -125,7 +125,7 @@ pub fn tipping_acceleration(terms: &Terms, pivot: &Pivot, force: Vec3, moment: V
 }
 
 /// Pelvis velocity (angular, linear) for unit rotation of the whole stiff body about the pivot along each free axis:
-/// the base rows of `E` (ALGORITHM §4). Unused entries are zero.
+/// the base rows of `E` (`docs/equations.md#repairs`). Unused entries are zero.
 pub(crate) fn base_directions(terms: &Terms, pivot: &Pivot) -> [[f64; 6]; 2] {
     let arm = terms.segment_position(0) - pivot.point;
     let mut e = [[0.0; 6]; 2];

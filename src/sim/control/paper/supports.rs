@@ -69,7 +69,7 @@ impl Planned {
 }
 
 impl Paper {
-    /// Lets contacts other than those of S carry their share of the ground reaction (ALGORITHM §5).
+    /// Lets contacts other than those of S carry their share of the ground reaction (`docs/equations.md#repairs`).
     pub(super) fn share(&mut self, input: &ControlInput<'_>, initial: &Row, mode: Mode) {
         self.left_out = None;
         let (terms, support) = (input.terms, input.support);
@@ -128,8 +128,8 @@ impl Paper {
         }
     }
 
-    /// Kinematic loops (ALGORITHM §5): a second planted foot stays where it was put down. Its leg takes θ̈_initial
-    /// there, and its rows may not change afterwards.
+    /// Kinematic loops (`docs/equations.md#repairs`): a second planted foot stays where it was put down. Its leg takes
+    /// θ̈_initial there, and its rows may not change afterwards.
     pub(super) fn hold_planted_feet(
         &mut self,
         input: &ControlInput<'_>,

@@ -6,9 +6,10 @@
 //! feet are a smooth function of time: flat, rolling over the ball before they lift, swinging, landing on the heel.
 
 use super::RATE;
-use super::shape::{COM_AHEAD, Foot, Measures, Plan, posture, ramp};
+use super::shape::{COM_AHEAD, Foot, Measures, Plan, posture};
 use super::standing::{at_ease, stand};
 use crate::sim::body::{Body, Posture, SEGMENT_COUNT};
+use crate::sim::math::curve::ramp;
 use crate::sim::math::{Quat, Vec3};
 use std::f64::consts::{PI, TAU};
 

@@ -9,7 +9,6 @@ use crate::sim::body::topology::{
     R_HAND, R_UPPER_ARM,
 };
 use crate::sim::body::{Body, Posture};
-use crate::sim::math::curve::smootherstep;
 use crate::sim::math::{Quat, Vec3};
 
 /// Leg length (hip to ankle) that distances in plans are written for, m.
@@ -177,11 +176,6 @@ pub fn reach_right(body: &Body, plan: &mut Plan, target: Vec3, axis: Vec3) {
             plan.angles[d..d + count].copy_from_slice(&found[d..d + count]);
         }
     }
-}
-
-/// Smooth step from 0 to 1 over `start…end`, flat to second order at both ends.
-pub fn ramp(t: f64, start: f64, end: f64) -> f64 {
-    smootherstep((t - start) / (end - start))
 }
 
 /// Index of a DOF by name. Panics on an unknown name: that is a bug here.

@@ -1,10 +1,11 @@
 //! Motions with both feet planted flat.
 
 use super::RATE;
-use super::shape::{COM_AHEAD, Measures, Plan, posture, ramp, reach_right, set};
+use super::shape::{COM_AHEAD, Measures, Plan, posture, reach_right, set};
 use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::Vec3;
+use crate::sim::math::curve::ramp;
 use std::f64::consts::TAU;
 
 /// See [`super::LIFT_GRASP`].
