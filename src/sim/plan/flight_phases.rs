@@ -239,7 +239,7 @@ fn roll(sole: &Sole, at: &FootPlacement, ankle: Vec3) -> (f64, f64) {
     for a in -run::HEEL_STEPS..=run::HEEL_STEPS {
         let up = f64::from(a) * run::HEEL_STEP;
         let pitch = at.pitch - up;
-        if pitch < contact::LEAST_PITCH || pitch > -run::LEAST_RAISE {
+        if !(contact::LEAST_PITCH..=-run::LEAST_RAISE).contains(&pitch) {
             continue;
         }
         for b in 0..=run::TIP_STEPS {

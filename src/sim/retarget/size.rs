@@ -81,7 +81,7 @@ pub(super) fn unit(given: Option<f64>, measured: f64) -> Result<(f64, f64), Reta
     match given {
         Some(unit_m) => {
             let stature = measured * unit_m;
-            if !(stature >= size::LEAST_STATURE && stature <= size::MOST_STATURE) {
+            if !(size::LEAST_STATURE..=size::MOST_STATURE).contains(&stature) {
                 return Err(RetargetError::Stature {
                     unit_m,
                     stature,

@@ -323,9 +323,9 @@ impl StepTracker {
         let v = terms.com_velocity;
         let goes_on = self.followed.is_some() && !self.is_stopping();
         let to_come = |side: usize| !self.feet[side].down || self.next(side).is_some();
-        !self.recovers()
+        let steps = self.recovers() || goes_on && (0..2).any(to_come);
+        !steps
             && !self.recovery.misplaced
-            && !(goes_on && (0..2).any(to_come))
             && (v.x * v.x + v.y * v.y).sqrt() < SETTLED_SPEED
             && self.capture.off() < SETTLED_OFFSET
     }

@@ -308,16 +308,16 @@ pub mod step_plan {
 /// All groups with their names.
 pub fn groups() -> [(&'static str, &'static [Param]); 11] {
     [
-        ("track::common", common::ALL),
-        ("track::world_map", world_map::ALL),
-        ("track::contact", contact::ALL),
-        ("track::flight", flight::ALL),
-        ("track::capture", capture::ALL),
-        ("track::swing", swing::ALL),
-        ("track::leg_collision", leg_collision::ALL),
-        ("track::step_timing", step_timing::ALL),
-        ("track::recovery", recovery::ALL),
-        ("track::support_recovery", support_recovery::ALL),
-        ("track::step_plan", step_plan::ALL),
+        ("common", common::ALL),
+        ("world_map", world_map::ALL),
+        ("contact", contact::ALL),
+        ("flight", flight::ALL),
+        ("capture", capture::ALL),
+        ("swing", swing::ALL),
+        ("leg_collision", leg_collision::ALL),
+        ("step_timing", step_timing::ALL),
+        ("recovery", recovery::ALL),
+        ("support_recovery", support_recovery::ALL),
+        ("step_plan", step_plan::ALL),
     ]
 }
