@@ -226,7 +226,7 @@ fn files_have_the_promised_content() {
     }
     let picture = std::fs::read_to_string(&svg).expect("a picture");
     assert_eq!(picture.matches("<svg ").count(), 1);
-    assert_eq!(picture.matches(" s</text>").count(), 3, "three panels");
+    assert_eq!(picture.matches(" s\n</text>").count(), 3, "three panels");
     assert!(
         std::fs::read(&png)
             .expect("a picture")
