@@ -31,14 +31,28 @@ async function world(address: string, id: string, clips: string[]): Promise<Sine
   return api;
 }
 
+/** The scene of a paused world once it is drawn: a slow machine draws its last pictures late. */
+async function atRest(page: Page): Promise<Buffer> {
+  const stage = page.locator("#stage");
+  let last = await stage.screenshot();
+  await expect
+    .poll(async () => {
+      await page.waitForTimeout(400);
+      const before = last;
+      last = await stage.screenshot();
+      return differing(page, before, last);
+    })
+    .toBe(0);
+  return last;
+}
+
 /** Pixels of the scene that the desired motion changes, in a paused world. */
 async function ghostPixels(page: Page): Promise<number> {
-  const stage = page.locator("#stage");
-  await page.waitForTimeout(700);
-  const on = await stage.screenshot();
+  const on = await atRest(page);
   await page.keyboard.press("g");
-  await page.waitForTimeout(700);
-  const without = await stage.screenshot();
+  const drawn = Number(await page.evaluate(() => document.body.dataset.drawn));
+  await page.waitForFunction((n) => Number(document.body.dataset.drawn) > n + 1, drawn);
+  const without = await atRest(page);
   await page.keyboard.press("g");
   return differing(page, on, without);
 }

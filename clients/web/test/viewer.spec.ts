@@ -84,11 +84,13 @@ test("a push fells the figure, and it stands up again", async ({ page, server })
   await page.mouse.up();
   await expect(page.locator("#captions")).toContainText(/Pushed man: \d+ N·s/);
   await expect(fact(page, "state")).toHaveText("fallen");
-  await expect(page.locator("#fallen")).toContainText("man has fallen");
+  // A hard push makes him fall against the others, who may fall, too; the key stands up the one that is chosen.
+  const message = page.locator("#fallen li").filter({ hasText: /^man has fallen/ });
+  await expect(message).toHaveCount(1);
   await shot(page, "fall");
   await page.keyboard.press("r");
   await expect(fact(page, "state")).toHaveText("standing");
-  await expect(page.locator("#fallen")).toBeHidden();
+  await expect(message).toHaveCount(0);
 });
 
 test("a BVH file dropped on the page is understood and plays; a bad one says why not", async ({ page, server }) => {
