@@ -82,6 +82,7 @@ const TICK_MODULES: &[&str] = &[
     "sim::contact",
     "sim::collide",
     "sim::figure",
+    "sim::track",
     "sim::get_up",
     "sim::plan::stream",
     "sim::world",

@@ -9,16 +9,17 @@ use measure::{FIELDS, Item, PARAMETERS, Source, decisions, sources};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Functions that decide from positions or forces which foot stands, under their names of now and before.
+/// Functions that decide from positions, speeds or forces which foot stands, under their names of now and before. A new
+/// one has to be added here.
 const CLASSIFIERS: &[&str] = &[
     "label_feet",
     "label_runs",
     "label",
-    "carried",
-    "steady",
     "touch",
-    "classify",
-    "contact_plan",
+    "carried",
+    "supporting_feet",
+    "relabel_prepared",
+    "planted_between",
 ];
 
 fn list(title: &str, items: &[&Item]) {
@@ -35,9 +36,14 @@ fn main() {
     let all = sources(&root);
     let locomotion: Vec<&Source> = all.iter().filter(|s| s.is_locomotion()).collect();
     let house: Vec<&Source> = all.iter().filter(|s| s.is_of_the_house()).collect();
+    let labelling: Vec<&Source> = all
+        .iter()
+        .filter(|s| !s.module.starts_with("sim/figure"))
+        .filter(|s| s.is_locomotion() || s.module == "server/engine")
+        .collect();
     let sim: Vec<&Source> = all
         .iter()
-        .filter(|s| s.module.starts_with("/sim") || s.module.starts_with("sim"))
+        .filter(|s| s.module.starts_with("sim/"))
         .collect();
 
     println!(
@@ -71,7 +77,7 @@ fn main() {
     let show = |title: &str, items: &[Item]| list(title, &items.iter().collect::<Vec<_>>());
     show(
         "classifiers of contacts",
-        &named(&locomotion, &|n| CLASSIFIERS.contains(&n)),
+        &named(&labelling, &|n| CLASSIFIERS.contains(&n)),
     );
     show("convex hulls", &named(&sim, &|n| n.contains("hull")));
     show(

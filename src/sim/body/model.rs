@@ -1,4 +1,4 @@
-//! The immutable description of one body: who it is, its segments, joint offsets and limits. Validated on construction.
+//! The immutable description of one body: person, segments, joint offsets and limits. Validated on construction.
 
 use super::topology::{DOF_COUNT, DOF_NAMES, JOINT_NAMES, SEGMENT_COUNT, SEGMENT_NAMES, SegmentId};
 use crate::sim::math::{Sym3, Vec3};
@@ -11,7 +11,7 @@ pub enum Sex {
     Female,
 }
 
-/// Who a body stands for.
+/// The person that a body stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Profile {
     /// Which tables are used.
@@ -53,7 +53,7 @@ pub struct Segment {
 /// An immutable body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Body {
-    /// Who it stands for.
+    /// The person that it stands for.
     pub profile: Profile,
     /// Segments in topology order.
     pub segments: Vec<Segment>,

@@ -1,4 +1,4 @@
-//! Who may meet whom: sweep and prune along x, in a fixed order.
+//! Which bodies may meet: sweep and prune along x, in a fixed order.
 
 use crate::sim::math::Vec3;
 

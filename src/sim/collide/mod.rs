@@ -2,7 +2,7 @@
 //!
 //! * [`shape`]: capsules fitted to the segments, and the shapes of obstacles.
 //! * [`obstacle`]: bodies that are no figures: fixed, led, or free.
-//! * [`broad`]: who may meet whom within a tick.
+//! * [`broad`]: which bodies may meet within a tick.
 //! * [`narrow`]: where two shapes are nearest.
 //! * [`island`]: one convex problem for all bodies that touch each other.
 

@@ -130,7 +130,7 @@ pub struct Obstacle {
     pub(crate) spin: Vec3,
     /// Mean force on it over the last tick, world axes, N.
     pub(crate) force: Vec3,
-    /// Who it is near in this tick.
+    /// The cluster of bodies that it is near in this tick.
     pub(crate) cluster: usize,
 }
 

@@ -215,7 +215,8 @@ pub(crate) fn to_world(turn: Option<&Mat3>, mu: f64, f: Vec3) -> Vec3 {
     turn.map_or(f, |t| *t * f)
 }
 
-/// Complementarity that the next step aims at. Whoever was stopped by a boundary first gets back to the middle.
+/// Complementarity that the next step aims at. After a step that a boundary stopped it is larger, so that the next one
+/// leads back to the middle.
 #[inline(always)]
 pub(crate) fn aim(gap: f64, last_step: f64) -> f64 {
     match last_step {

@@ -51,7 +51,7 @@ mod weight {
     pub(super) const SWING_ROTATION: f64 = 4.0;
     pub(super) const PLANTED_ROTATION: f64 = 1.0;
     pub(super) const PELVIS: f64 = 20.0;
-    /// The same of who lies and rolls over.
+    /// The same of a figure that lies and rolls over.
     pub(super) const ROLLING: f64 = 300.0;
     pub(super) const HOLD: f64 = 5000.0;
     pub(super) const BASE: f64 = 1e-6;
@@ -97,7 +97,7 @@ const POLISHED: f64 = 1e-2;
 /// Most iterations of all kinds; residual of the equations of motion at which it stops, N·m.
 const MAX_ITERATIONS: u32 = 60;
 const TOLERANCE: f64 = 1e-3;
-/// Who works on the floor is meant to touch it with a point that the motion has below the first height, not at all
+/// On the floor a point is meant to touch if the motion has it below the first height, not at all
 /// above the second, m.
 const MEANT_FADE: (f64, f64) = (0.004, 0.012);
 /// Points of one segment.

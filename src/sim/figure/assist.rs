@@ -12,10 +12,7 @@ use crate::sim::figure::params::assist::{
     STIFFNESS,
 };
 use crate::sim::math::Vec3;
-use crate::sim::motion::TargetPair;
-
-/// Gravity that "weight" refers to, m/s².
-const GRAVITY: f64 = 9.81;
+use crate::sim::motion::{GRAVITY, TargetPair};
 
 /// What an assisted figure is given in one tick.
 #[derive(Clone, Copy, Debug, PartialEq)]

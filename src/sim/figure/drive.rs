@@ -34,7 +34,8 @@ pub struct ClipPlayback {
 pub struct LivePlayback {
     /// The stream.
     pub motion: StreamPlan,
-    /// Time of the stream minus world time, s. Whoever feeds it keeps it so that its window lies behind what has come.
+    /// Time of the stream minus world time, s. The caller that feeds the stream keeps it so that the window lies behind
+    /// what has come.
     pub offset: f64,
 }
 
@@ -130,7 +131,7 @@ pub(super) struct QueuedClip {
 impl QueuedClip {
     /// Asks for the way into the clip, if it is to be planned.
     pub fn request(&self) -> Option<PlanRequest> {
-        self.entry.as_ref()?.request(self.from)
+        self.entry.as_ref()?.request()
     }
 
     /// Begins at world time `time`, for a figure whose feet stand at `stance`.

@@ -23,7 +23,7 @@ pub enum Planning {
 struct Shared<T> {
     /// Depends on nothing but what it was made of, so that it may be done twice.
     work: Box<dyn Fn() -> T + Send + Sync>,
-    /// `None` if the work panicked: whoever takes it sees that panic.
+    /// `None` if the work panicked: the tick that takes it sees that panic.
     result: OnceLock<Option<T>>,
     /// A thread will solve it.
     accepted: AtomicBool,
@@ -91,44 +91,35 @@ impl<T: Clone + Send + Sync + 'static> PlanTask<T> {
         }
     }
 
-    /// A request to solve it by world time `needed_at`, s, unless one was accepted.
-    pub fn request(&self, needed_at: f64) -> Option<PlanRequest> {
+    /// A request to solve it, unless one was accepted.
+    pub fn request(&self) -> Option<PlanRequest> {
         let problem: Arc<dyn Problem> = self.0.clone();
         let open = !self.is_ready() && !self.0.accepted.load(Ordering::Relaxed);
-        open.then(|| PlanRequest {
-            needed_at,
-            problem: Arc::downgrade(&problem),
-        })
+        open.then(|| PlanRequest(Arc::downgrade(&problem)))
     }
 }
 
 /// A problem that another thread may solve.
 #[derive(Clone)]
-pub struct PlanRequest {
-    /// World time at which the result is needed, s.
-    pub needed_at: f64,
-    problem: Weak<dyn Problem>,
-}
+pub struct PlanRequest(Weak<dyn Problem>);
 
 impl std::fmt::Debug for PlanRequest {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("PlanRequest")
-            .field("needed_at", &self.needed_at)
-            .finish_non_exhaustive()
+        f.write_str("PlanRequest")
     }
 }
 
 impl PlanRequest {
     /// Accepts it: it is not requested again.
     pub fn accept(&self) {
-        if let Some(problem) = self.problem.upgrade() {
+        if let Some(problem) = self.0.upgrade() {
             problem.accept();
         }
     }
 
     /// Solves it, on any thread, unless its figure does not want it any more.
     pub fn solve(&self) {
-        if let Some(problem) = self.problem.upgrade() {
+        if let Some(problem) = self.0.upgrade() {
             problem.solve();
         }
     }
@@ -144,9 +135,9 @@ mod tests {
         let done = Arc::new(AtomicUsize::new(0));
         let count = Arc::clone(&done);
         let task = PlanTask::new(move || count.fetch_add(1, Ordering::Relaxed));
-        let request = task.request(1.0).unwrap();
+        let request = task.request().unwrap();
         request.accept();
-        assert!(task.request(1.0).is_none() && !task.is_ready());
+        assert!(task.request().is_none() && !task.is_ready());
         request.solve();
         request.solve();
         assert!(task.is_ready() && task.result() == Some(&0));
@@ -157,7 +148,7 @@ mod tests {
     #[test]
     fn a_panic_is_the_one_of_whoever_takes_the_plan() {
         let task = PlanTask::new(|| -> u32 { panic!("no plan") });
-        task.request(0.0).unwrap().solve();
+        task.request().unwrap().solve();
         assert!(task.is_ready() && task.result().is_none());
         assert!(catch_unwind(AssertUnwindSafe(|| task.take())).is_err());
     }
@@ -165,7 +156,7 @@ mod tests {
     #[test]
     fn a_plan_that_is_not_wanted_any_more_is_not_begun() {
         let task = PlanTask::new(|| -> u32 { unreachable!("begun") });
-        let request = task.request(0.0).unwrap();
+        let request = task.request().unwrap();
         drop(task);
         request.solve();
     }

@@ -14,5 +14,5 @@ pub use bvh_write::write_bvh;
 pub use clip::{Clip, ClipError, PlanarTransform};
 pub use target::{Target, TargetPair};
 
-/// Gravity that motions are made and planned for, m/s².
+/// Gravity that motions are made and planned for, and that a share of the weight refers to, m/s².
 pub(crate) const GRAVITY: f64 = 9.81;

@@ -1,7 +1,7 @@
 //! What one foot can hold alone: the zero-moment points that its ankle is strong enough for.
 //!
-//! Soles reach farther than the muscles over them: in an adult man the toes end 20 cm before the ankle, but his calf
-//! holds his weight no farther than 14 cm before it. A motion planned up to the edge of the sole leaves no torque for
+//! Soles reach farther than the muscles over them: in an adult man the toes end 20 cm before the ankle, but the calf
+//! holds the weight no farther than 14 cm before it. A motion planned up to the edge of the sole leaves no torque for
 //! the body to correct anything with.
 
 use super::foot_lock::{FootPlacement, Sole};
@@ -20,7 +20,7 @@ pub struct Over {
     pub speed: f64,
     /// From the zero-moment point to the centre of mass, over the floor, m.
     pub lean: [f64; 2],
-    /// What a runner's foot carries, in units of the weight; absent for who walks.
+    /// What a runner's foot carries, in units of the weight; absent in a walk.
     pub load: Option<f64>,
 }
 
@@ -82,7 +82,7 @@ impl AnkleTorqueLimit {
         if let Some(load) = load {
             front = self.front / load.max(ankle::LEAST_LOAD);
         }
-        // Who runs is over it before that matters.
+        // A runner is over the ball of the foot before that matters.
         if at.is_on_ball() && load.is_none() {
             front = front.max(sole.toe_joint.x + ankle::BALL);
         }
@@ -212,7 +212,7 @@ mod tests {
             sole.footprint(&AT, &mut whole);
             assert_eq!(support(&one, &sole, [0.0, 0.0], ankle::FAST), hull(&whole));
         }
-        // Nothing changes for who is strong enough, and there is no jump where that ends.
+        // Nothing changes while the ankle is strong enough, and there is no jump where that ends.
         let at = |age: f64| AnkleTorqueLimit::new(&old(age));
         let young = at(30.0);
         assert!(young.lacks == 0.0 && at(70.0).lacks > 0.02);

@@ -54,7 +54,7 @@ pub fn runs<T: PartialEq + Copy>(flags: &[T]) -> Vec<(usize, usize, T)> {
 pub fn label_feet(points: [&[Vec<Vec3>]; 2], rate_hz: f64) -> Vec<[bool; 2]> {
     let n = points[0].first().map_or(0, Vec::len);
     let mut feet = points.map(|p| label_foot(p, n, rate_hz));
-    // Someone must stand unless it is a flight: a very short gap is closed by the foot that lands.
+    // One foot stands unless it is a flight: a very short gap is closed by the foot that lands.
     let none: Vec<bool> = (0..n).map(|i| !feet[0][i] && !feet[1][i]).collect();
     for (i, j, gap) in runs(&none) {
         if gap && i > 0 && j < n && ((j - i) as f64) < contact::SHORTEST_FLIGHT * rate_hz {

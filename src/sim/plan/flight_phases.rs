@@ -109,7 +109,7 @@ pub(crate) struct FlightPhases {
 }
 
 impl FlightPhases {
-    /// `None` if nobody runs.
+    /// `None` if the motion does not run.
     ///
     /// * `upper`: the motion; `label`: left and right foot on the floor, per sample.
     pub(crate) fn of(upper: &[Posture], label: &[[bool; 2]], rate_hz: f64) -> Option<Self> {
@@ -145,7 +145,7 @@ impl FlightPhases {
     }
 
     /// What the pelvis is raised by, per sample, at most `most` (m): as little as lets the mass fall freely where
-    /// nobody stands, and be pushed evenly where a foot does. Newton's method on the samples that are held down; each
+    /// no foot stands, and be pushed evenly where a foot does. Newton's method on the samples that are held down; each
     /// round is one banded solve, O(n).
     pub(crate) fn heights(&self, most: &[f64]) -> Vec<f64> {
         let bend = (leg::DROP_TIME * self.rate_hz).powi(4);

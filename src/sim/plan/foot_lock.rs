@@ -27,7 +27,7 @@ pub struct LockedFoot {
     pub poses: Vec<FootPose>,
     /// True where the foot is locked to the floor.
     pub planted: Vec<bool>,
-    /// Where it stands, per sample; zero other_support.
+    /// Where it stands, per sample; zero elsewhere.
     pub placements: Vec<FootPlacement>,
     /// How far the recorded foot point strayed in stance, m: largest distance between any sample and the anchor.
     pub slide_before: f64,
@@ -165,7 +165,7 @@ fn stance_pitch(raw: &[f64], rate_hz: f64) -> Vec<f64> {
             .filter(|k| raw[*k].abs() < pitch::MIDSTANCE)
             .collect();
         if let Some(&mid) = flat.get(flat.len() / 2) {
-            // Who walks backwards, or dances, comes down on the toes and may leave from the heel.
+            // Walking backwards, or in a dance, a foot comes down on the toes and may leave from the heel.
             let toes_first = raw[0] < -pitch::MIDSTANCE;
             let heel_last = raw[n - 1] > pitch::MIDSTANCE;
             for (k, p) in p.iter_mut().enumerate() {

@@ -2,10 +2,10 @@
 //!
 //! As in motion graphs (Kovar, Gleicher & Pighin 2002) the coming part of the one is searched for moments that are like
 //! the beginning of the other; what makes them like is said in terms of the body that has to go over: the capture point
-//! over the foot that stands, where the other foot is, and the joints ([`search`]). At such a moment the second motion
-//! is put on the standing foot, the difference between the two fades, and both are prepared together as one draft, so
-//! that no planted foot slides and the zero-moment point stays in the support ([`way`]). Who stands when it begins, but
-//! not as the clip begins, is led into it from there ([`stand`]).
+//! over the foot that stands, where the other foot is, and the joints ([`candidates`]). At such a moment the second
+//! motion is put on the standing foot, the difference between the two fades, and both are prepared together as one
+//! draft, so that no planted foot slides and the zero-moment point stays in the support ([`seam`]). A body that stands,
+//! but not as the clip begins, is led into the clip from there ([`from_stand`]).
 
 mod candidates;
 mod from_stand;

@@ -21,7 +21,7 @@ pub(crate) const SEAM_OPTIONS: PrepareOptions = PrepareOptions {
     balance: true,
     runs: true,
     // A foot that an ankle at its limit moves by millimetres goes on standing: taken off the floor it would step in
-    // place, and nobody who is being stopped has time for that.
+    // place, and a stop has no time for that.
     held: leg::SEAM_HELD,
 };
 

@@ -20,7 +20,7 @@ impl Scene<'_> {
         let ankle = self.place(map.sides[s].foot);
         let hip = self.place(map.sides[s].thigh);
         let speed = speeds(ankle, self.rate);
-        // Under a standing or squatting body only: feet of someone who lies are slow and low, and not flat.
+        // Under a standing or squatting body only: feet of a lying person are slow and low, and not flat.
         let slow: Vec<usize> = (0..self.count)
             .filter(|i| {
                 speed[*i] < floor::SLOW && hip[*i].z - ankle[*i].z > floor::HIP_HEIGHT * leg

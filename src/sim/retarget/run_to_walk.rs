@@ -1,11 +1,11 @@
 //! Runs that are walked: a run slowed down and shortened until a body whose muscles cannot run takes the same steps.
 //!
-//! A run needs 1.3 to 1.5 times the strength that is measured in people's joints: hip, knee and ankle are at their
-//! limits together, and at take-off the ankle turns so fast that it gives a third of what it holds
-//! (`docs/locomotion.md#runs`). What can be kept of it is its steps, their order, rhythm and headings, and what trunk
-//! and arms do. Time runs as much slower as makes its steps last as long as walked ones, the way is shortened along
-//! with them until it is walked at a walk's speed (and until nobody leans more than such a speed can be braked with),
-//! every foot stays down until the other one has landed, and between its places it swings as a walking foot does.
+//! A run needs more strength than is measured in people's joints: hip, knee and ankle are at their limits together, and
+//! at take-off the ankle turns so fast that it gives far less than it holds (`docs/locomotion.md#runs`). What can be
+//! kept of it is its steps, their order, rhythm and headings, and what trunk and arms do. Time runs as much slower as
+//! makes its steps last as long as walked ones, the way is shortened along with them until it is walked at a walk's
+//! speed (and until the body leans no more than it can brake from such a speed), every foot stays down until the other
+//! one has landed, and between its places it swings as a walking foot does.
 
 use crate::sim::math::curve::{arc, smootherstep};
 use crate::sim::math::{Quat, Vec3};
@@ -220,7 +220,7 @@ impl RunToWalk {
         }
     }
 
-    /// Calms the heights of the body, m: a runner flies up from each step and sinks into his knees in the next, and
+    /// Calms the heights of the body, m: a runner flies up from each step and sinks into the knees in the next, and
     /// knees that bend as far in a walk, one leg alone and for longer, take more strength than the walk. What is left
     /// of a bounce shrinks with the square of the pace.
     pub(crate) fn damp_bounces(&self, pelvis: &mut [Vec3], rate_hz: f64) {

@@ -313,7 +313,10 @@ impl StepTracker {
     pub fn off_plan(&self) -> Option<f64> {
         let [x, y] = self.capture.error;
         let swings = self.feet.iter().filter(|foot| !foot.down);
-        let led = swings.map(|foot| (x - foot.shift[0]).hypot(y - foot.shift[1]));
+        let led = swings.map(|foot| {
+            let (dx, dy) = (x - foot.shift[0], y - foot.shift[1]);
+            (dx * dx + dy * dy).sqrt()
+        });
         (self.is_stepping() || self.leans_to_jump()).then(|| led.fold(self.capture.off(), f64::min))
     }
 

@@ -36,9 +36,9 @@ const EASE: (f64, f64, f64) = (5.0, 0.5, 0.2);
 /// What is kept of the last tick's contact force.
 pub(super) const FORCE_MEMORY: f64 = 0.98;
 /// Weight with which a part that rests on a seat is held there when it carries all it may count for, and that share of
-/// the weight. Little while the motion does not need the seat: who is nailed to it topples with it. Else as much along
-/// the surface and across it as in the second: a plan in which the body sinks into its seat, or slides over it, lets
-/// the feet push with forces that the floor does not give, and they creep.
+/// the weight. Little while the motion does not need the seat: a body that is pinned to it topples with it. Else as
+/// much along the surface and across it as in the second: a plan in which the body sinks into its seat, or slides over
+/// it, lets the feet push with forces that the floor does not give, and they creep.
 const REST_HOLD: f64 = 5.0;
 const NEEDED_HOLD: (f64, f64) = (50.0, 500.0);
 const REST_FULL: f64 = 0.2;
@@ -108,7 +108,7 @@ impl Modern {
                     slides = floor.slides[s];
                     let meant = fall(floor.heights[s * POINTS + vertex], MEANT_FADE);
                     fade = fall(z, FLOOR_FADE);
-                    // Who rolls over carries itself with whatever touches, also where that is about to come off.
+                    // A body that rolls over is carried by whatever touches, also where that is about to come off.
                     if floor.rolls {
                         held = meant;
                     } else {

@@ -26,7 +26,7 @@ const HAND_FEEDBACK: f64 = 20.0;
 const SWING_FEEDBACK: f64 = 60.0;
 /// Horizon of swinging feet as a share of the one that is set (0.1 s): 400/s² and 40/s.
 const SWING_SHARPNESS: f64 = 0.25;
-/// Factor on the weight of the centre of mass of who lies: it is where the floor holds it.
+/// Factor on the weight of the centre of mass of a lying figure: it is where the floor holds it.
 const LYING: f64 = 1e-3;
 /// How much more balance counts where the capture point is farthest off.
 const DANGER_FACTOR: f64 = 10.0;
@@ -137,10 +137,10 @@ impl Modern {
         }
     }
 
-    /// Factor on the weight of the centre of mass. Who cannot step and is about to fall lets the posture go rather than
-    /// the balance. Who sits has no balance to keep, and would bend to put its centre of mass where another seat would
-    /// have had it; not so while the motion is getting up, which takes a centre of mass over the feet. Who sits down
-    /// lets himself fall onto the seat as the motion does.
+    /// Factor on the weight of the centre of mass. A figure that cannot step and is about to fall gives up its posture
+    /// rather than its balance. A figure that sits has no balance to keep, and would bend to put its centre of mass
+    /// where another seat would have had it; not so while the motion is getting up, which takes a centre of mass over
+    /// the feet. A figure that sits down falls onto the seat as the motion does.
     fn urgency(&mut self, input: &ControlInput<'_>) -> f64 {
         let planted = [input.target.now.planted, input.target.next.planted];
         if let Some(floor) = input.contacts.floor {

@@ -55,9 +55,9 @@ pub(in crate::sim::figure) struct ExitPlan {
 impl ExitPlan {
     /// Everything that is to be planned, the more urgent first.
     pub fn requests(&self) -> impl Iterator<Item = PlanRequest> + '_ {
-        let over = self.over.iter().filter_map(|t| t.request(self.due));
-        let ends = self.stops.iter().filter_map(|t| t.request(self.due));
-        let last = self.last_resort.iter().filter_map(|t| t.request(self.due));
+        let over = self.over.iter().filter_map(|t| t.request());
+        let ends = self.stops.iter().filter_map(|t| t.request());
+        let last = self.last_resort.iter().filter_map(|t| t.request());
         over.chain(ends).chain(last)
     }
 

@@ -15,7 +15,7 @@ fn what_gravity_takes_in_flight_a_stance_gives() {
             let gained: f64 = (i..j).map(|k| push[k].unwrap() / RATE).sum();
             let lost = GRAVITY * 16.0 / RATE;
             assert!((gained - lost).abs() < 1e-9, "{gained} {lost}");
-            // Nobody is pulled down, and the last push is a weak one.
+            // The floor does not pull, and the last push is a weak one.
             assert!((i..j).all(|k| push[k].unwrap() > -GRAVITY));
             assert!(push[j - 1].unwrap() < 0.5 * push[i + 8].unwrap());
         }

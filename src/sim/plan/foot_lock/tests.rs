@@ -217,7 +217,7 @@ fn a_step_of_which_the_label_saw_only_the_middle_takes_the_time_that_it_needs() 
     assert_eq!(swing(&after), (first, first + needed));
     let little: Vec<bool> = (0..n).map(|i| (last..last + 4).contains(&i)).collect();
     assert_eq!(swing(&little), (first, last + 2));
-    // Nobody else stands: it stays as it is.
+    // The other foot does not stand: this one stays as it is.
     assert_eq!(swing(&vec![false; n]), (first, last));
 }
 

@@ -2,7 +2,8 @@
 //!
 //! It is an end of the beginning of the clip, backwards ([`crate::sim::plan::stop`]): the steps that would bring the
 //! reversed motion to that very stand, prepared together with what comes after them. A clip that begins at once instead
-//! throws arms and trunk about, drags feet that are other_support, and asks for a velocity that nobody has who stands.
+//! throws arms and trunk about, drags feet that stand elsewhere, and asks for a velocity that a standing body does not
+//! have.
 
 use super::candidates::{Features, far};
 use super::{NextClip, TransitionClip};
@@ -18,7 +19,7 @@ use crate::sim::plan::splice::{SEAM_OPTIONS, Sample, blend_from_played};
 use crate::sim::plan::turned_on_floor;
 
 impl NextClip {
-    /// True if nobody who stands like `stand` need do anything before the clip begins at clip time `first`, s. No
+    /// True if a body that stands like `stand` need do nothing before the clip begins at clip time `first`, s. No
     /// platform-dependent rounding, since it is asked in the tick.
     pub fn begins_as(&self, body: &Body, first: f64, stand: &Posture) -> bool {
         let sample = |t: f64| (self.sample(t).posture, [true; 2]);

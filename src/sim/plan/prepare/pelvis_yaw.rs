@@ -15,7 +15,7 @@ use crate::sim::plan::{THIGHS, ball_joint};
 const WAY: [f64; 2] = [1.0, -1.0];
 /// Adds to `yaw` (rad per sample, anticlockwise seen from above) what the hips of planted feet lack in rotation.
 ///
-/// Only in stances in which a hip turns further than from limit to limit: other_support another heading of the foot is
+/// Only in stances in which a hip turns further than from limit to limit: elsewhere another heading of the foot is
 /// enough. The hip of the other foot, if that is planted as well, is not turned beyond its limits. O(n · window).
 pub(super) fn add(
     body: &Body,

@@ -139,7 +139,7 @@ pub(in crate::sim::plan) fn limit_ankle_torques(
 }
 
 /// What else than the feet may carry the body: a seat where the pelvis is low, hands where both feet stay for a while.
-/// Who steps walks on his feet.
+/// A body that steps is carried by its feet.
 pub(in crate::sim::plan) fn other_support(
     body: &Body,
     upper: &[Posture],

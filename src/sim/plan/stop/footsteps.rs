@@ -203,7 +203,7 @@ pub(super) fn footsteps(
         let found = StepOptions::all(spare, in_air, turn).filter_map(tried);
         found.min_by(|a, b| a.price().total_cmp(&b.price()))
     };
-    // Who falls to a side where his feet cannot get turns there.
+    // A body that falls to a side which its feet cannot reach turns there.
     let aside = turn(from.heading, from.velocity.y.atan2(from.velocity.x));
     let turns = if aside.abs() < stop::MOST_ASIDE {
         stop::TURNS

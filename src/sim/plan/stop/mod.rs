@@ -71,7 +71,7 @@ fn steps_to_stand(body: &Body, draft: &Draft, goal: Goal<'_>, spare: f64) -> Opt
         Goal::Stand | Goal::Origin | Goal::AtRest => StandingPose::of(body, &at_ease(body)),
         Goal::Like(posture) | Goal::Rest(posture) => StandingPose::of(body, posture),
     };
-    // Who sits or lies is not led to a stand; who squats stands on his feet.
+    // A body that sits or lies is not led to a stand; one that squats stands on its feet.
     let stands = from.stands(&soles, frequency(&from, &stand));
     if !stands && from.posture.root_position.z < stop::UPRIGHT * body.standing_root_height() {
         return None;

@@ -226,7 +226,7 @@ impl Foot {
     ) -> Option<i64> {
         let before = j > 0 && self.down[Self::slot(j - 1)];
         let on = |i: i64| self.on[Self::slot(i)];
-        // Nobody comes down on a foot as steep as that; who leaves the floor may be so for a moment.
+        // A foot does not come down as steep as that; one that leaves the floor may be so for a moment.
         let now = standing(j);
         let most = if before {
             1.0
@@ -242,7 +242,7 @@ impl Foot {
         } else {
             before && upright
         };
-        // Someone must stand unless it is a flight: the foot that lands comes earlier.
+        // One foot stands unless it is a flight: the foot that lands comes earlier.
         down |= upright && !other.touches(j) && self.lands(j, last);
         let given_up = if down {
             self.give_up(j, &now, other, &standing)

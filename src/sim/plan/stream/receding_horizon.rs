@@ -167,7 +167,7 @@ impl Balance {
     /// answers to a shift Δ by Δ − Δ̈/ω², as the preparation of clips does
     /// ([`pelvis_shift`](crate::sim::plan::pelvis_shift::pelvis_shift)); but Δ goes on from where it is, and beyond the
     /// window it falls, as a pendulum at rest does, to what zero-moment points lack on average: bodies that are built
-    /// otherwise than the recorded one, or carry nothing where he does, are off in the same way all the time. A few
+    /// otherwise than the recorded one, or carry nothing where it does, are off in the same way all the time. A few
     /// alternations are enough, since every sample takes part in as many problems as the window is long.
     ///
     /// * `so_far`: Δ of the last two samples that were put out, the newer one last, m; `None` in the beginning, where

@@ -28,7 +28,7 @@ impl RepeatedSamples {
             self.repeated += 1;
             return;
         }
-        // Who moves again after a while begins anew.
+        // A stream that moves again after a silence begins anew.
         if self.breaks_off() {
             self.velocity = [0.0; 2];
         }

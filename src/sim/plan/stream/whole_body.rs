@@ -51,7 +51,7 @@ impl StreamPlan {
             s.lift[side] = posed.lift;
         }
         let mut drop = self.needs(f, |s, side| (s.feet[side].ankle, s.down[side]));
-        // Who looks ahead comes down in time.
+        // The pelvis comes down in time for what is known to come.
         for i in f + 1..=labelled.min(f + leg::STREAM_AHEAD) {
             let ankle = |s: &Sample, side: usize| {
                 let sole = &self.soles[side];
@@ -84,7 +84,7 @@ impl StreamPlan {
     fn lacks(&self, i: i64, side: usize, ankle: Vec3) -> f64 {
         let (hip, most) = self.hip(i, side);
         let far = hip + Vec3::Z * self.lowering.at - ankle;
-        // Who has left a foot behind rises on its toes; who stands over it comes down.
+        // Over a foot left behind the body rises on the toes; over a foot below it the pelvis comes down.
         let ahead = self.at(i).smooth.root_rotation.rotate(Vec3::X);
         let behind = (far.x * ahead.x + far.y * ahead.y) / leg::STREAM_TRAILING;
         far.norm() - most - leg::STREAM_SPARED * (1.0 - behind.clamp(0.0, 1.0))
