@@ -6,8 +6,8 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use sinew::sim::body::{Body, Links, NV, State};
 use sinew::sim::dynamics::lanes::{aba_x8, crba_x8, factor_solve_x8, rnea_x8};
 use sinew::sim::dynamics::{
-    AbaWorkspace, CompositeInertia, Kinematics, MassMatrix, RneaWorkspace, Terms, aba, crba,
-    factor, rnea, solve,
+    AbaWorkspace, CompositeInertia, ExternalForces, Kinematics, MassMatrix, RneaWorkspace, Terms,
+    aba, crba, factor, rnea, solve,
 };
 use sinew::sim::math::{F64x8, Lane};
 use std::hint::black_box;
@@ -119,8 +119,7 @@ fn one_figure(c: &mut Criterion) {
                 &kin,
                 &states[n].velocity,
                 &accelerations[n],
-                GRAVITY,
-                &[],
+                ExternalForces::gravity(GRAVITY),
                 &mut ws,
                 &mut tau,
             );
@@ -159,8 +158,7 @@ fn one_figure(c: &mut Criterion) {
                 &kin,
                 &states[n].velocity,
                 &accelerations[n],
-                GRAVITY,
-                &[],
+                ExternalForces::gravity(GRAVITY),
                 &mut aba_ws,
                 &mut out,
             );
@@ -197,8 +195,7 @@ fn eight_figures(c: &mut Criterion) {
                 black_box(&links),
                 &states[n],
                 &accelerations[n],
-                gravity,
-                &[],
+                ExternalForces::gravity(gravity),
                 &mut kin,
                 &mut ws,
                 &mut tau,
@@ -228,8 +225,7 @@ fn eight_figures(c: &mut Criterion) {
                 &kin,
                 &states[n].velocity,
                 &accelerations[n],
-                gravity,
-                &[],
+                ExternalForces::gravity(gravity),
                 &mut aba_ws,
                 &mut out,
             );

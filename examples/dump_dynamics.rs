@@ -15,8 +15,8 @@ use sinew::sim::body::export::{EXPORT_GRAVITY, mjcf_with, urdf_with};
 use sinew::sim::body::topology::{DOF_AXIS, DOF_NAMES, DOF_SEGMENT, JOINT, JOINT_NAMES, Joint};
 use sinew::sim::body::{Body, DOF_COUNT, NV, SEGMENT_COUNT, State};
 use sinew::sim::dynamics::{
-    AbaWorkspace, Kinematics, RneaWorkspace, Terms, aba, factor, kinetic_energy, momentum, rnea,
-    solve,
+    AbaWorkspace, ExternalForces, Kinematics, RneaWorkspace, Terms, aba, factor, kinetic_energy,
+    momentum, rnea, solve,
 };
 use sinew::sim::math::Vec3;
 use sinew::sim::strength::Strength;
@@ -148,8 +148,7 @@ fn write_model(
             &kin,
             &state.velocity,
             &vdot,
-            EXPORT_GRAVITY,
-            &[],
+            ExternalForces::gravity(EXPORT_GRAVITY),
             &mut work,
             &mut tau,
         );
@@ -161,8 +160,7 @@ fn write_model(
             &kin,
             &state.velocity,
             &forces,
-            EXPORT_GRAVITY,
-            &[],
+            ExternalForces::gravity(EXPORT_GRAVITY),
             &mut AbaWorkspace::default(),
             &mut by_aba,
         );

@@ -4,7 +4,8 @@
 use sinew::sim::body::{Body, Links, NV, State};
 use sinew::sim::dynamics::lanes::rnea_x8;
 use sinew::sim::dynamics::{
-    CompositeInertia, Kinematics, MassMatrix, RneaWorkspace, Terms, crba, factor, rnea, solve,
+    CompositeInertia, ExternalForces, Kinematics, MassMatrix, RneaWorkspace, Terms, crba, factor,
+    rnea, solve,
 };
 use sinew::sim::figure::ControllerKind;
 use sinew::sim::math::{F64x8, Lane};
@@ -69,8 +70,7 @@ fn main() {
                     &kin,
                     &state.velocity,
                     &acceleration,
-                    GRAVITY,
-                    &[],
+                    ExternalForces::gravity(GRAVITY),
                     &mut ws,
                     &mut tau,
                 );
@@ -92,8 +92,7 @@ fn main() {
                     black_box(&links),
                     black_box(&states),
                     &acceleration,
-                    gravity,
-                    &[],
+                    ExternalForces::gravity(gravity),
                     &mut kin,
                     &mut ws,
                     &mut tau,

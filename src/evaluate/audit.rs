@@ -238,7 +238,7 @@ mod tests {
     use super::*;
     use crate::sim::body::SegmentId;
     use crate::sim::dynamics::tests::{random_links, random_state};
-    use crate::sim::dynamics::{External, Kinematics, RneaWorkspace, rnea};
+    use crate::sim::dynamics::{External, ExternalForces, Kinematics, RneaWorkspace, rnea};
     use crate::sim::figure::ContactPoint;
     use rand::{Rng, SeedableRng};
     use rand_pcg::Pcg64Mcg;
@@ -293,8 +293,10 @@ mod tests {
                 &kin,
                 &state.velocity,
                 &acceleration,
-                9.81,
-                external,
+                ExternalForces {
+                    gravity: 9.81,
+                    on_segments: external,
+                },
                 &mut RneaWorkspace::default(),
                 &mut tau,
             );
@@ -349,8 +351,7 @@ mod tests {
                 &kin,
                 &state.velocity,
                 &a,
-                9.81,
-                &[],
+                ExternalForces::gravity(9.81),
                 &mut RneaWorkspace::default(),
                 &mut tau,
             );

@@ -11,7 +11,7 @@ use crate::sim::body::topology::{
     DOF_LEN, DOF_NAMES, DOF_SEGMENT, DOF_START, L_FOOT, L_TOES, PARENT, R_FOOT, R_TOES,
 };
 use crate::sim::body::{Body, DOF_COUNT, Links, SEGMENT_COUNT, SegmentId};
-use crate::sim::dynamics::{Kinematics, RneaWorkspace, center_of_mass, rnea};
+use crate::sim::dynamics::{ExternalForces, Kinematics, RneaWorkspace, center_of_mass, rnea};
 use crate::sim::figure::StrengthScale;
 use crate::sim::math::Vec3;
 use crate::sim::math::nnls::nnls;
@@ -367,8 +367,7 @@ impl<'a> Looker<'a> {
             &self.kin,
             &target.velocity,
             &target.acceleration,
-            GRAVITY,
-            &[],
+            ExternalForces::gravity(GRAVITY),
             &mut self.workspace,
             &mut tau,
         );

@@ -6,7 +6,9 @@ use sinew::sim::body::topology::{
     DOF_LEN, DOF_SEGMENT, DOF_START, IS_ANCESTOR, JOINT, Joint, L_SHANK, L_THIGH, SEGMENT_NAMES,
 };
 use sinew::sim::body::{Body, DOF_COUNT, Links, NV, Posture, SEGMENT_COUNT, SegmentId, State};
-use sinew::sim::dynamics::{AbaWorkspace, Kinematics, aba, kinetic_energy, momentum};
+use sinew::sim::dynamics::{
+    AbaWorkspace, ExternalForces, Kinematics, aba, kinetic_energy, momentum,
+};
 use sinew::sim::math::{Quat, Sym3, Vec3};
 
 const ROUNDING: f64 = 1e-12;
@@ -21,8 +23,7 @@ fn forward(links: &Links, state: &State, tau: &[f64; NV]) -> [f64; NV] {
         &kin,
         &state.velocity,
         tau,
-        GRAVITY,
-        &[],
+        ExternalForces::gravity(GRAVITY),
         &mut work,
         &mut vdot,
     );

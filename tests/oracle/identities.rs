@@ -9,8 +9,8 @@ use super::{GRAVITY, inverse, relative, terms};
 use nalgebra::{DMatrix, DVector};
 use sinew::sim::body::{Links, NV, SEGMENT_COUNT, SegmentId, State};
 use sinew::sim::dynamics::{
-    AbaWorkspace, External, Kinematics, RneaWorkspace, aba, center_of_mass, factor, kinetic_energy,
-    momentum, rnea, solve,
+    AbaWorkspace, External, ExternalForces, Kinematics, RneaWorkspace, aba, center_of_mass, factor,
+    kinetic_energy, momentum, rnea, solve,
 };
 use sinew::sim::math::{Quat, Vec3};
 
@@ -117,8 +117,10 @@ fn forward_dynamics_undoes_inverse_dynamics() {
                 &kin,
                 &state.velocity,
                 a,
-                GRAVITY,
-                external,
+                ExternalForces {
+                    gravity: GRAVITY,
+                    on_segments: external,
+                },
                 &mut ws,
                 &mut tau,
             );
@@ -128,8 +130,10 @@ fn forward_dynamics_undoes_inverse_dynamics() {
                 &kin,
                 &state.velocity,
                 &tau,
-                GRAVITY,
-                external,
+                ExternalForces {
+                    gravity: GRAVITY,
+                    on_segments: external,
+                },
                 &mut work,
                 &mut back,
             );

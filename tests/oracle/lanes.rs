@@ -9,8 +9,8 @@ use sinew::sim::body::topology::{BALL_COUNT, HINGE_COUNT};
 use sinew::sim::body::{Links, NV, Posture, SEGMENT_COUNT, State};
 use sinew::sim::dynamics::jacobian::{bias_accelerations, for_each_column};
 use sinew::sim::dynamics::{
-    AbaWorkspace, CompositeInertia, External, Kinematics, MassMatrix, RneaWorkspace, aba,
-    center_of_mass, crba, factor, kinetic_energy, lanes, momentum, rnea, solve,
+    AbaWorkspace, CompositeInertia, External, ExternalForces, Kinematics, MassMatrix,
+    RneaWorkspace, aba, center_of_mass, crba, factor, kinetic_energy, lanes, momentum, rnea, solve,
 };
 use sinew::sim::math::{F64x8, Lane, Mat3, Sym3, Vec3};
 
@@ -78,8 +78,10 @@ fn kernels<L: Lane>(input: &Input<L>) -> Out<L> {
         &kin,
         &state.velocity,
         vdot,
-        g,
-        external,
+        ExternalForces {
+            gravity: g,
+            on_segments: external,
+        },
         &mut ws,
         &mut tau,
     );
@@ -106,8 +108,10 @@ fn kernels<L: Lane>(input: &Input<L>) -> Out<L> {
         &kin,
         &state.velocity,
         &tau,
-        g,
-        external,
+        ExternalForces {
+            gravity: g,
+            on_segments: external,
+        },
         &mut AbaWorkspace::default(),
         &mut acc,
     );
@@ -221,8 +225,10 @@ fn dispatch_to_wide_instructions_gives_the_same_bits() {
             &all.links,
             &all.state,
             &all.vdot,
-            g,
-            &all.external,
+            ExternalForces {
+                gravity: g,
+                on_segments: &all.external,
+            },
             &mut kin,
             &mut ws,
             &mut tau,
@@ -238,8 +244,10 @@ fn dispatch_to_wide_instructions_gives_the_same_bits() {
             &kin,
             &all.state.velocity,
             &tau,
-            g,
-            &all.external,
+            ExternalForces {
+                gravity: g,
+                on_segments: &all.external,
+            },
             &mut AbaWorkspace::default(),
             &mut acc,
         );
@@ -251,8 +259,10 @@ fn dispatch_to_wide_instructions_gives_the_same_bits() {
             &kin1,
             &all.state.velocity,
             &all.vdot,
-            g,
-            &all.external,
+            ExternalForces {
+                gravity: g,
+                on_segments: &all.external,
+            },
             &mut ws,
             &mut tau1,
         );
@@ -269,8 +279,10 @@ fn dispatch_to_wide_instructions_gives_the_same_bits() {
             &kin1,
             &all.state.velocity,
             &tau1,
-            g,
-            &all.external,
+            ExternalForces {
+                gravity: g,
+                on_segments: &all.external,
+            },
             &mut AbaWorkspace::default(),
             &mut acc1,
         );

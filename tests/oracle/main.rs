@@ -18,7 +18,7 @@ mod reference;
 mod vectors;
 
 use sinew::sim::body::{Links, NV, State};
-use sinew::sim::dynamics::{Kinematics, RneaWorkspace, Terms, rnea};
+use sinew::sim::dynamics::{ExternalForces, Kinematics, RneaWorkspace, Terms, rnea};
 
 /// Standard gravity of the tests, m/s².
 const GRAVITY: f64 = 9.81;
@@ -41,8 +41,7 @@ fn inverse(links: &Links, state: &State, vdot: &[f64; NV], gravity: f64) -> [f64
         &kin,
         &state.velocity,
         vdot,
-        gravity,
-        &[],
+        ExternalForces::gravity(gravity),
         &mut ws,
         &mut tau,
     );

@@ -397,7 +397,7 @@ mod tests {
     use super::*;
     use crate::sim::body::topology::{L_FOOT, NV, PELVIS, R_FOOT, R_HAND, R_TOES, SEGMENT_COUNT};
     use crate::sim::body::{Links, State};
-    use crate::sim::dynamics::{External, RneaWorkspace, rnea};
+    use crate::sim::dynamics::{External, ExternalForces, RneaWorkspace, rnea};
     use crate::sim::support::testing::{
         GRAVITY, Rng, mannequin, random_stance, random_state, standing, terms,
     };
@@ -433,8 +433,10 @@ mod tests {
             &t.kin,
             &state.velocity,
             vdot,
-            GRAVITY,
-            &external,
+            ExternalForces {
+                gravity: GRAVITY,
+                on_segments: &external,
+            },
             &mut RneaWorkspace::default(),
             &mut tau,
         );

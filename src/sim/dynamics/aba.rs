@@ -1,7 +1,7 @@
 //! Forward dynamics in O(n): the articulated-body algorithm. Independent of CRBA and the factor; they check each other.
 
 use super::kinematics::Kinematics;
-use super::rnea::External;
+use super::rnea::{External, ExternalForces};
 use crate::sim::body::Links;
 use crate::sim::body::topology::{
     DOF_COUNT, DOF_LEN, DOF_START, JOINT, Joint, NV, PARENT, SEGMENT_COUNT,
@@ -134,12 +134,11 @@ pub fn aba<L: Lane>(
     kin: &Kinematics<L>,
     velocity: &[L; NV],
     tau: &[L; NV],
-    gravity: L,
-    external: &[External<L>],
+    external: ExternalForces<'_, L>,
     ws: &mut AbaWorkspace<L>,
     vdot: &mut [L; NV],
 ) {
-    set_bodies(links, kin, external, ws);
+    set_bodies(links, kin, external.on_segments, ws);
     eliminate_joints(links, kin, velocity, tau, ws);
     let root = solve_root(
         &ws.inertia[0],
@@ -150,7 +149,7 @@ pub fn aba<L: Lane>(
     // Back from spatial to classical acceleration of the pelvis origin.
     let classical = root.l + kin.omega[0].cross(kin.velocity[0]);
     (vdot[0], vdot[1], vdot[2]) = (root.a.x, root.a.y, root.a.z);
-    (vdot[3], vdot[4], vdot[5]) = (classical.x, classical.y, classical.z - gravity);
+    (vdot[3], vdot[4], vdot[5]) = (classical.x, classical.y, classical.z - external.gravity);
     for s in 1..SEGMENT_COUNT {
         let (p, d0) = (PARENT[s], DOF_START[s]);
         let mut a = acc[p].plus(ws.drift[s]);

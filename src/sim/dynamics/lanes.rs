@@ -8,7 +8,7 @@ use super::crba::{CompositeInertia, crba};
 use super::factor::{factor, solve};
 use super::kinematics::Kinematics;
 use super::mass_matrix::MassMatrix;
-use super::rnea::{External, RneaWorkspace, rnea};
+use super::rnea::{ExternalForces, RneaWorkspace, rnea};
 use crate::sim::body::topology::NV;
 use crate::sim::body::{Links, State};
 use crate::sim::math::F64x8;
@@ -20,23 +20,13 @@ pub fn rnea_x8(
     links: &Links<F64x8>,
     state: &State<F64x8>,
     vdot: &[F64x8; NV],
-    gravity: F64x8,
-    external: &[External<F64x8>],
+    external: ExternalForces<'_, F64x8>,
     kin: &mut Kinematics<F64x8>,
     ws: &mut RneaWorkspace<F64x8>,
     tau: &mut [F64x8; NV],
 ) {
     kin.set_state(links, state);
-    rnea(
-        links,
-        kin,
-        &state.velocity,
-        vdot,
-        gravity,
-        external,
-        ws,
-        tau,
-    );
+    rnea(links, kin, &state.velocity, vdot, external, ws, tau);
 }
 
 /// [`crba`] for eight figures.
@@ -64,10 +54,9 @@ pub fn aba_x8(
     kin: &Kinematics<F64x8>,
     velocity: &[F64x8; NV],
     tau: &[F64x8; NV],
-    gravity: F64x8,
-    external: &[External<F64x8>],
+    external: ExternalForces<'_, F64x8>,
     ws: &mut AbaWorkspace<F64x8>,
     vdot: &mut [F64x8; NV],
 ) {
-    aba(links, kin, velocity, tau, gravity, external, ws, vdot);
+    aba(links, kin, velocity, tau, external, ws, vdot);
 }

@@ -25,5 +25,5 @@ pub use factor::{factor, solve};
 pub use integrals::{Momentum, center_of_mass, kinetic_energy, momentum, rotor_energy};
 pub use kinematics::Kinematics;
 pub use mass_matrix::MassMatrix;
-pub use rnea::{External, RneaWorkspace, rnea};
+pub use rnea::{External, ExternalForces, RneaWorkspace, rnea};
 pub use terms::Terms;

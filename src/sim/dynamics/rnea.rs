@@ -14,6 +14,25 @@ pub struct External<L = f64> {
     pub force: Vec3<L>,
 }
 
+/// All that acts on a body from outside: gravity, and forces on its segments.
+#[derive(Clone, Copy, Debug)]
+pub struct ExternalForces<'a, L = f64> {
+    /// Magnitude of gravity, m/s², acting along −z.
+    pub gravity: L,
+    /// One per segment, or empty where nothing else acts.
+    pub on_segments: &'a [External<L>],
+}
+
+impl<L> ExternalForces<'_, L> {
+    /// Gravity alone, m/s².
+    pub fn gravity(gravity: L) -> Self {
+        Self {
+            gravity,
+            on_segments: &[],
+        }
+    }
+}
+
 /// Accelerations and forces of all segments on the way.
 #[derive(Clone, Debug)]
 pub struct RneaWorkspace<L = f64> {
@@ -43,8 +62,7 @@ impl<L: Lane> Default for RneaWorkspace<L> {
 ///
 /// * `kin`: state, see [`Kinematics::set_state`].
 /// * `velocity`, `vdot`: layout of `State::velocity`.
-/// * `gravity`: magnitude, m/s², acting along −z.
-/// * `external`: one per segment, or empty.
+/// * `external`: F, and gravity.
 /// * `tau`: result: moment (N·m, about the pelvis origin) and force (N) that must act on the pelvis, world axes, then
 ///   joint torques.
 ///
@@ -55,8 +73,7 @@ pub fn rnea<L: Lane>(
     kin: &Kinematics<L>,
     velocity: &[L; NV],
     vdot: &[L; NV],
-    gravity: L,
-    external: &[External<L>],
+    external: ExternalForces<'_, L>,
     ws: &mut RneaWorkspace<L>,
     tau: &mut [L; NV],
 ) {
@@ -68,7 +85,7 @@ pub fn rnea<L: Lane>(
     ws.acceleration[0] = Vec3 {
         x: vdot[3],
         y: vdot[4],
-        z: vdot[5] + gravity,
+        z: vdot[5] + external.gravity,
     };
     for s in 1..SEGMENT_COUNT {
         let (p, d) = (PARENT[s], DOF_START[s]);
@@ -87,7 +104,7 @@ pub fn rnea<L: Lane>(
         ws.force[s] = a * links.mass[s] + al.cross(h) + w.cross(w.cross(h));
         ws.moment[s] = i * al + w.cross(i * w) + h.cross(a);
     }
-    for (s, e) in external.iter().enumerate().take(SEGMENT_COUNT) {
+    for (s, e) in external.on_segments.iter().enumerate().take(SEGMENT_COUNT) {
         ws.force[s] -= e.force;
         ws.moment[s] -= e.moment;
     }

@@ -5,7 +5,7 @@ use super::crba::{CompositeInertia, crba};
 use super::jacobian::{bias_accelerations, for_each_column};
 use super::kinematics::Kinematics;
 use super::mass_matrix::MassMatrix;
-use super::rnea::{External, RneaWorkspace, rnea};
+use super::rnea::{External, ExternalForces, RneaWorkspace, rnea};
 use crate::sim::body::topology::{NV, SEGMENT_COUNT, SegmentId};
 use crate::sim::body::{Links, State};
 use crate::sim::math::{Mat3, Vec3};
@@ -146,8 +146,10 @@ impl Terms {
             &self.kin,
             &state.velocity,
             &zero,
-            gravity,
-            external,
+            ExternalForces {
+                gravity,
+                on_segments: external,
+            },
             &mut self.scratch,
             &mut self.h,
         );

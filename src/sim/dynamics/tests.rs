@@ -46,7 +46,15 @@ fn inverse_forward_and_factor_agree() {
         let (mut kin, mut ws, mut tau) =
             (Kinematics::default(), RneaWorkspace::default(), [0.0; NV]);
         kin.set_state(&l, &s);
-        rnea(&l, &kin, &s.velocity, &a, 9.81, &[], &mut ws, &mut tau);
+        rnea(
+            &l,
+            &kin,
+            &s.velocity,
+            &a,
+            ExternalForces::gravity(9.81),
+            &mut ws,
+            &mut tau,
+        );
         let mut t = Terms::default();
         t.compute(&l, &s, &[], 9.81);
         let scale = tau.iter().fold(1.0f64, |m, x| m.max(x.abs()));
@@ -62,8 +70,7 @@ fn inverse_forward_and_factor_agree() {
             &kin,
             &s.velocity,
             &tau,
-            9.81,
-            &[],
+            ExternalForces::gravity(9.81),
             &mut AbaWorkspace::default(),
             &mut back,
         );
@@ -115,8 +122,7 @@ fn eight_lanes_carry_the_bits_of_one() {
         &links,
         &state,
         &a,
-        F64x8([9.81; 8]),
-        &[],
+        ExternalForces::gravity(F64x8([9.81; 8])),
         &mut kin,
         &mut ws,
         &mut tau,
@@ -131,8 +137,7 @@ fn eight_lanes_carry_the_bits_of_one() {
         &kin,
         &state.velocity,
         &tau,
-        F64x8([9.81; 8]),
-        &[],
+        ExternalForces::gravity(F64x8([9.81; 8])),
         &mut AbaWorkspace::default(),
         &mut acc,
     );
@@ -140,7 +145,15 @@ fn eight_lanes_carry_the_bits_of_one() {
         let (mut kin1, mut ws1, mut tau1) =
             (Kinematics::default(), RneaWorkspace::default(), [0.0; NV]);
         kin1.set_state(l, s);
-        rnea(l, &kin1, &s.velocity, a1, 9.81, &[], &mut ws1, &mut tau1);
+        rnea(
+            l,
+            &kin1,
+            &s.velocity,
+            a1,
+            ExternalForces::gravity(9.81),
+            &mut ws1,
+            &mut tau1,
+        );
         let (mut ci1, mut m1, mut x1, mut acc1) = (
             CompositeInertia::default(),
             MassMatrix::default(),
@@ -155,8 +168,7 @@ fn eight_lanes_carry_the_bits_of_one() {
             &kin1,
             &s.velocity,
             &tau1,
-            9.81,
-            &[],
+            ExternalForces::gravity(9.81),
             &mut AbaWorkspace::default(),
             &mut acc1,
         );
