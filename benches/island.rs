@@ -3,7 +3,8 @@
 #![allow(missing_docs)] // criterion's macro writes undocumented functions
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use sinew::sim::collide::island::{Articulated, Island, Parts};
+use sinew::sim::collide::island::{Articulated, ContactLaw, Island, Parts};
+use sinew::sim::collide::narrow::Near;
 use sinew::sim::math::Vec3;
 
 /// Nobody: the island is of free bodies alone.
@@ -49,9 +50,17 @@ fn fill(island: &mut Island, bodies: usize, contacts: usize) {
         island.add_contact(
             [Some(a), Some(b)],
             [(a, 0), (b, 0)],
-            (r, normal, 0.0),
-            (-0.2, Vec3::zero(), 0.5),
-            1e4,
+            Near {
+                position: r,
+                normal,
+                gap: 0.0,
+            },
+            ContactLaw {
+                approach: -0.2,
+                firm: Vec3::zero(),
+                mu: 0.5,
+                inverse_r: 1e4,
+            },
             |_, visit| {
                 for (k, e) in [Vec3::X, Vec3::Y, Vec3::Z].into_iter().enumerate() {
                     visit(k, e.cross(r));

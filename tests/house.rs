@@ -16,7 +16,7 @@ const TUNABLE: usize = 478;
 const ELSEWHERE: usize = 47;
 /// Types with more than [`FIELDS`] fields, and functions with more than [`PARAMETERS`] parameters. The goal is 0.
 const LARGE_TYPES: usize = 2;
-const LONG_SIGNATURES: usize = 4;
+const LONG_SIGNATURES: usize = 0;
 /// Most decision records.
 const DECISIONS: usize = 20;
 

@@ -18,8 +18,8 @@
 
 use super::cone::{Cone, squared};
 use super::limits::MAX_LIMITS;
-use super::newton::{Motors, NewtonWorkspace, System};
-use super::rows::{CHAIN_WIDTH, ContactRows, add_point_stiffness};
+use super::newton::{Motors, NewtonWorkspace, Problem, System};
+use super::rows::{CHAIN_WIDTH, add_point_stiffness};
 use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT};
 use crate::sim::math::{Mat3, Vec3};
 use crate::sim::report::MAX_CONTACTS;
@@ -227,18 +227,22 @@ pub(crate) fn aim(gap: f64, last_step: f64) -> f64 {
 }
 
 /// Leads `x` near the minimum, wherever it was, in at most `iterations` iterations; returns how many there were.
-/// Bounded work, no allocation.
+/// Bounded work, no allocation. The problem has no joint limits.
 #[inline(always)]
 pub(crate) fn approach<S: System>(
-    system: &S,
-    hessian: &mut S::Hessian,
-    b: &[f64; NV],
-    motors: &Motors,
-    contacts: &ContactRows,
+    problem: &Problem<'_, S>,
     iterations: u32,
+    hessian: &mut S::Hessian,
     x: &mut [f64; NV],
     ws: &mut NewtonWorkspace,
 ) -> u32 {
+    let Problem {
+        system,
+        b,
+        motors,
+        contacts,
+        ..
+    } = problem;
     let n = contacts.points.len();
     let mu = contacts.friction;
     let NewtonWorkspace {

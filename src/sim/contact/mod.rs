@@ -17,7 +17,7 @@ pub mod sparse;
 
 pub use dense::DenseSystem;
 pub use limits::{LimitRow, LimitRows, Tissue, collect_limits};
-pub use newton::{Motors, NewtonWorkspace, Outcome, minimise};
+pub use newton::{Motors, NewtonWorkspace, Outcome, Problem, StopRule, minimise};
 pub use rows::ContactRows;
 pub use slides::Slides;
 pub use sparse::SparseSystem;

@@ -24,6 +24,30 @@ pub trait System {
     fn solve(g: &mut Self::Hessian, x: &mut [f64; NV]) -> bool;
 }
 
+/// The convex problem of `docs/equations.md`, 14: ½ xᵀA x − bᵀx + motors + limits + contacts.
+#[derive(Debug)]
+pub struct Problem<'a, S> {
+    /// A.
+    pub system: S,
+    /// b.
+    pub b: &'a [f64; NV],
+    /// Motors.
+    pub motors: &'a Motors,
+    /// Joint limits.
+    pub limits: &'a LimitRows,
+    /// Contacts.
+    pub contacts: &'a ContactRows,
+}
+
+/// When a minimisation ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StopRule {
+    /// Most iterations.
+    pub iterations: u32,
+    /// Residual at which the problem counts as solved, in the units of b.
+    pub tolerance: f64,
+}
+
 /// Saturating springs on the 39 joint components: `t_j = clip(g_j (r_j − x_j), lower_j, upper_j)`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motors {
@@ -121,36 +145,41 @@ const LINE_SEARCH: usize = 12;
 
 /// Minimises the problem from `x`, which holds the last iterate afterwards. Bounded work, no allocation.
 ///
-/// The forces left in `ws` are those of the last iterate. The residual is in the units of `b`.
+/// * `hessian`: storage of Newton's matrix and its factor.
+/// * `ws`: holds the forces of the last iterate afterwards.
+///
+/// The residual is in the units of b.
 #[inline(always)]
 pub fn minimise<S: System>(
-    system: &S,
+    problem: &Problem<'_, S>,
+    stop: StopRule,
     hessian: &mut S::Hessian,
-    b: &[f64; NV],
-    motors: &Motors,
-    limits: &LimitRows,
-    contacts: &ContactRows,
-    max_iterations: u32,
-    tolerance: f64,
     x: &mut [f64; NV],
     ws: &mut NewtonWorkspace,
 ) -> Outcome {
+    let Problem {
+        system,
+        b,
+        motors,
+        limits,
+        contacts,
+    } = problem;
     let n = contacts.points.len();
     let mut ax = [0.0; NV];
     system.mul(x, &mut ax);
     contacts.velocities(x, &mut ws.velocity);
     let mut out = Outcome::default();
     loop {
-        let (grad, slope) = gradient(&ax, b, motors, limits, contacts, x, ws);
+        let (grad, slope) = gradient(problem, &ax, x, ws);
         out.residual = largest(&grad);
-        out.converged = out.residual < tolerance;
-        if out.converged || out.iterations >= max_iterations || !out.residual.is_finite() {
+        out.converged = out.residual < stop.tolerance;
+        if out.converged || out.iterations >= stop.iterations || !out.residual.is_finite() {
             return out;
         }
         out.iterations += 1;
 
         system.load(hessian);
-        add_slopes::<S>(hessian, &slope, limits, contacts, x, ws);
+        add_slopes(problem, &slope, x, ws, hessian);
         let mut d: [f64; NV] = std::array::from_fn(|i| -grad[i]);
         if !S::solve(hessian, &mut d) {
             return out;
@@ -196,15 +225,19 @@ pub fn minimise<S: System>(
 /// Gradient `A x − b − t − limits − Jᵀf`, and the slope of each motor; what motors, limits and contacts give goes to
 /// `ws`.
 #[inline(always)]
-fn gradient(
+fn gradient<S>(
+    problem: &Problem<'_, S>,
     ax: &[f64; NV],
-    b: &[f64; NV],
-    motors: &Motors,
-    limits: &LimitRows,
-    contacts: &ContactRows,
     x: &[f64; NV],
     ws: &mut NewtonWorkspace,
 ) -> ([f64; NV], [f64; DOF_COUNT]) {
+    let Problem {
+        b,
+        motors,
+        limits,
+        contacts,
+        ..
+    } = problem;
     let mut grad = [0.0; NV];
     let mut slope = [0.0; DOF_COUNT];
     for i in 0..6 {
@@ -238,13 +271,15 @@ fn gradient(
 /// Makes `A` the Newton matrix: adds the slopes of motors, limits and contacts where the last gradient was taken.
 #[inline(always)]
 fn add_slopes<S: System>(
-    hessian: &mut S::Hessian,
+    problem: &Problem<'_, S>,
     slope: &[f64; DOF_COUNT],
-    limits: &LimitRows,
-    contacts: &ContactRows,
     x: &[f64; NV],
     ws: &NewtonWorkspace,
+    hessian: &mut S::Hessian,
 ) {
+    let Problem {
+        limits, contacts, ..
+    } = problem;
     for j in 0..DOF_COUNT {
         S::add(hessian, 6 + j, 6 + j, slope[j]);
     }

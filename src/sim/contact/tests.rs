@@ -173,38 +173,32 @@ fn newton_reaches_the_minimum_and_both_storages_agree() {
         let mut b = [0.0; NV];
         t.mass_matrix.mul(&state.velocity, &mut b);
         let (mut x, mut ws) = (state.velocity, NewtonWorkspace::default());
-        let sparse = SparseSystem(&t.mass_matrix);
-        let o = minimise(
-            &sparse,
-            &mut t.mass_matrix.clone(),
-            &b,
-            &motors,
-            &limits,
-            &contacts,
-            60,
-            1e-9,
-            &mut x,
-            &mut ws,
-        );
+        let stop = StopRule {
+            iterations: 60,
+            tolerance: 1e-9,
+        };
+        let sparse = Problem {
+            system: SparseSystem(&t.mass_matrix),
+            b: &b,
+            motors: &motors,
+            limits: &limits,
+            contacts: &contacts,
+        };
+        let o = minimise(&sparse, stop, &mut t.mass_matrix.clone(), &mut x, &mut ws);
         assert!(
             o.converged,
             "case {case}: residual {:e} after {}",
             o.residual, o.iterations
         );
         let (mut y, mut ws2) = (state.velocity, NewtonWorkspace::default());
-        let dense = DenseSystem(&t.m);
-        let o2 = minimise(
-            &dense,
-            &mut t.m.clone(),
-            &b,
-            &motors,
-            &limits,
-            &contacts,
-            60,
-            1e-9,
-            &mut y,
-            &mut ws2,
-        );
+        let dense = Problem {
+            system: DenseSystem(&t.m),
+            b: &b,
+            motors: &motors,
+            limits: &limits,
+            contacts: &contacts,
+        };
+        let o2 = minimise(&dense, stop, &mut t.m.clone(), &mut y, &mut ws2);
         assert!(o2.converged);
         for i in 0..NV {
             assert!((x[i] - y[i]).abs() < 1e-8, "component {i}");

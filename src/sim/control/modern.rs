@@ -13,7 +13,8 @@ use crate::sim::body::topology::{
 use crate::sim::contact::dense::Dense;
 use crate::sim::contact::rows::{CHAIN_WIDTH, add_point_stiffness};
 use crate::sim::contact::{
-    ContactRows, DenseSystem, LimitRows, Motors, NewtonWorkspace, Outcome, interior, minimise,
+    ContactRows, DenseSystem, LimitRows, Motors, NewtonWorkspace, Outcome, Problem, StopRule,
+    interior, minimise,
 };
 use crate::sim::dynamics::Terms;
 use crate::sim::dynamics::terms::WIDTH;
@@ -459,44 +460,28 @@ fn kernel(c: &mut Modern, t: &Terms, diagonal: &[f64; NV], linear: &mut [f64; WI
         }
     }
     // 3. Newton on the dual; 4. v̇ = P⁻¹(p + M x).
-    let system = DenseSystem(&c.a);
-    let mut outcome = minimise(
-        &system,
-        &mut c.hessian,
-        &b,
-        &c.motors,
-        &c.limits,
-        &c.contacts,
-        NEWTON_ITERATIONS,
-        TOLERANCE,
-        &mut c.price,
-        &mut c.newton,
-    );
+    let problem = Problem {
+        system: DenseSystem(&c.a),
+        b: &b,
+        motors: &c.motors,
+        limits: &c.limits,
+        contacts: &c.contacts,
+    };
+    let (hessian, price, newton) = (&mut c.hessian, &mut c.price, &mut c.newton);
+    let stop = StopRule {
+        iterations: NEWTON_ITERATIONS,
+        tolerance: TOLERANCE,
+    };
+    let mut outcome = minimise(&problem, stop, hessian, price, newton);
     if !outcome.converged {
         // Jammed between the corners of motors and cones, as happens far from the last tick's problem.
-        let used = interior::approach(
-            &system,
-            &mut c.hessian,
-            &b,
-            &c.motors,
-            &c.contacts,
-            INTERIOR_ITERATIONS,
-            &mut c.price,
-            &mut c.newton,
-        );
+        let used = interior::approach(&problem, INTERIOR_ITERATIONS, hessian, price, newton);
         let before = outcome.iterations + used;
-        outcome = minimise(
-            &system,
-            &mut c.hessian,
-            &b,
-            &c.motors,
-            &c.limits,
-            &c.contacts,
-            MAX_ITERATIONS.saturating_sub(before),
-            POLISHED * TOLERANCE,
-            &mut c.price,
-            &mut c.newton,
-        );
+        let stop = StopRule {
+            iterations: MAX_ITERATIONS.saturating_sub(before),
+            tolerance: POLISHED * TOLERANCE,
+        };
+        outcome = minimise(&problem, stop, hessian, price, newton);
         outcome.iterations += before;
         outcome.converged = outcome.residual < TOLERANCE;
     }

@@ -14,7 +14,7 @@ mod targets;
 use super::reroot::SupportMap;
 use super::rows::{ROW, Row, RowQr};
 use super::spatial_targets::{SpatialLimits, Task, wish};
-use super::torque_limits::{Outcome, TOLERANCE, TorqueLimits, violates};
+use super::torque_limits::{JointTorques, Outcome, TOLERANCE, TorqueLimits, violates};
 use super::tracking::{Law, initial_acceleration};
 use super::{Command, ControlInput, Controller};
 use crate::sim::body::{DOF_COUNT, SegmentId};
@@ -198,15 +198,14 @@ impl Paper {
 
         let tau0 = self.map.torque(&initial);
         let held = &self.held[..self.held_count];
-        let mut first = self.limits.solve(
-            &self.map.h,
-            &tau0,
-            input.lower,
-            input.upper,
-            params.metric,
-            held,
-            OVERLOAD_ENTER as usize,
-        );
+        let torques = JointTorques {
+            h: &self.map.h,
+            tau: &tau0,
+            lower: input.lower,
+            upper: input.upper,
+        };
+        let most = OVERLOAD_ENTER as usize;
+        let mut first = self.limits.solve(torques, params.metric, held, most);
         let mut second = Outcome {
             complete: true,
             ..Outcome::default()
@@ -220,16 +219,14 @@ impl Paper {
             let wishes = [&self.com_task, &self.hand_task, &self.led_task];
             if wishes.iter().any(|t| !t.is_empty()) {
                 let tau1 = self.map.torque(&qdd);
-                second = self.spatial.solve(
-                    &self.map.h,
-                    &tau1,
-                    input.lower,
-                    input.upper,
-                    &mut x,
-                    params.to_limit,
-                    &self.held[..self.held_count],
-                    OVERLOAD_ENTER as usize,
-                );
+                let torques = JointTorques {
+                    h: &self.map.h,
+                    tau: &tau1,
+                    lower: input.lower,
+                    upper: input.upper,
+                };
+                let held = &self.held[..self.held_count];
+                second = (self.spatial).solve(torques, &mut x, params.to_limit, held, most);
                 (0..ROW).for_each(|d| qdd[d] += x[d]); // Eq. 17
             }
         }
@@ -306,10 +303,13 @@ impl Paper {
         let mut qdd = *initial;
         let mut out = Outcome::default();
         if input.kinematic {
-            let (h, n) = (&self.map.h, DOF_COUNT);
-            out = self
-                .limits
-                .solve(h, tau0, input.lower, input.upper, Metric::Torque, &[], n);
+            let torques = JointTorques {
+                h: &self.map.h,
+                tau: tau0,
+                lower: input.lower,
+                upper: input.upper,
+            };
+            out = (self.limits).solve(torques, Metric::Torque, &[], DOF_COUNT);
             (0..ROW).for_each(|d| qdd[d] += self.limits.change[d]);
         } else {
             let x = self.wish(input, law, initial, mode);

@@ -1,7 +1,7 @@
 //! Secondary constraints: centre of mass and end-effectors, Eqs. (12)–(16) (`docs/equations.md#the-paper`).
 
-use super::rows::{ROW, Row, RowQr, Square, add_scaled, dot};
-use super::torque_limits::{Outcome, TOLERANCE, violates};
+use super::rows::{ROW, Row, RowQr, add_scaled, dot};
+use super::torque_limits::{JointTorques, Outcome, TOLERANCE};
 use crate::sim::body::DOF_COUNT;
 use crate::sim::math::dense::cholesky_solve;
 use crate::sim::setup::Priority;
@@ -233,20 +233,19 @@ impl SpatialLimits {
     /// τ₁ — or goes to the violated limit with `to_limit`. At 39 members Δ₂ = 0 (or what the limits ask for): the loop
     /// cannot fail.
     ///
+    /// * `torques`: τ₁ of the accelerations so far, H, and the limits.
     /// * `held`: rows that keep the value they have for `x` (kinematic loops), dropped when there is no room.
     /// * `most`: larger sets are given up.
     #[inline(always)]
     pub fn solve(
         &mut self,
-        h: &Square,
-        tau1: &Row,
-        lower: &[f64; DOF_COUNT],
-        upper: &[f64; DOF_COUNT],
+        torques: JointTorques<'_>,
         x: &mut Row,
         to_limit: bool,
         held: &[Row],
         most: usize,
     ) -> Outcome {
+        let JointTorques { h, tau: tau1, .. } = torques;
         let wish = *x;
         let mut out = Outcome::default();
         let (mut order, mut goal, mut k, mut fixed) = ([0; DOF_COUNT], [0.0; 2 * ROW], 0, 0);
@@ -254,14 +253,13 @@ impl SpatialLimits {
         loop {
             let first = k;
             for j in 0..DOF_COUNT {
-                let tau = tau1[j] + dot(&h[j], x);
+                let tau = torques.changed(j, x);
                 // Members of K sit on their limit to rounding: leave them twice the tolerance.
-                if out.set >> j & 1 == 0 && violates(tau, lower[j], upper[j], 2.0 * TOLERANCE) {
+                if out.set >> j & 1 == 0 && torques.violates(j, tau, 2.0 * TOLERANCE) {
                     out.set |= 1 << j;
                     order[k] = j;
                     if to_limit {
-                        let limit = if tau > upper[j] { upper[j] } else { lower[j] };
-                        goal[k] = limit - tau1[j];
+                        goal[k] = torques.violated(j, tau) - tau1[j];
                     }
                     k += 1;
                 }
@@ -369,7 +367,7 @@ mod tests {
                 }
                 h[i][i] += 0.05;
             }
-            let (lower, upper) = ([-4.0; 39], [5.0; 39]);
+            let (lower, upper) = (&[-4.0; 39], &[5.0; 39]);
             let mut tau1 = [0.0; ROW];
             (0..39).for_each(|j| tau1[j] = rng.between(-4.0, 5.0));
             (tau1[0], tau1[1]) = (5.0, -4.0);
@@ -378,19 +376,21 @@ mod tests {
             (0..39).for_each(|j| x[j] = scale * rng.unit());
             for to_limit in [false, true] {
                 let (mut s, mut d) = (SpatialLimits::default(), x);
-                let o = s.solve(&h, &tau1, &lower, &upper, &mut d, to_limit, &[], 39);
+                let torques = JointTorques {
+                    h: &h,
+                    tau: &tau1,
+                    lower,
+                    upper,
+                };
+                let o = s.solve(torques, &mut d, to_limit, &[], 39);
                 assert!(o.complete && o.rounds <= 39);
                 for j in 0..39 {
-                    let change = dot(&h[j], &d);
+                    let tau = torques.changed(j, &d);
                     if !to_limit && o.set >> j & 1 == 1 {
+                        let change = dot(&h[j], &d);
                         assert!(change.abs() < 1e-9 * scale.max(1.0), "H_L Δ₂ = 0");
                     }
-                    assert!(!violates(
-                        tau1[j] + change,
-                        lower[j],
-                        upper[j],
-                        3e-9 * scale.max(1.0)
-                    ));
+                    assert!(!torques.violates(j, tau, 3e-9 * scale.max(1.0)));
                 }
             }
         }

@@ -17,6 +17,41 @@ pub(crate) fn violates(torque: f64, lower: f64, upper: f64, slack: f64) -> bool 
         && torque >= lower - slack * lower.abs().max(1.0))
 }
 
+/// Torques `τ + H Δ` of the joints under a change Δ of their accelerations, and what the joints have.
+#[derive(Clone, Copy, Debug)]
+pub struct JointTorques<'a> {
+    /// H, rad/s² → N·m.
+    pub h: &'a Square,
+    /// τ: torques without a change, N·m.
+    pub tau: &'a Row,
+    /// Least available torques, N·m.
+    pub lower: &'a [f64; DOF_COUNT],
+    /// Largest available torques, N·m.
+    pub upper: &'a [f64; DOF_COUNT],
+}
+
+impl JointTorques<'_> {
+    /// Torque of joint `j` after the change.
+    #[inline(always)]
+    pub(crate) fn changed(&self, j: usize, change: &Row) -> f64 {
+        self.tau[j] + dot(&self.h[j], change)
+    }
+    /// True if `torque` of joint `j` is outside its limits by more than `slack` times the limit.
+    #[inline(always)]
+    pub(crate) fn violates(&self, j: usize, torque: f64, slack: f64) -> bool {
+        violates(torque, self.lower[j], self.upper[j], slack)
+    }
+    /// The limit that `torque` of joint `j` violates.
+    #[inline(always)]
+    pub(crate) fn violated(&self, j: usize, torque: f64) -> f64 {
+        if torque > self.upper[j] {
+            self.upper[j]
+        } else {
+            self.lower[j]
+        }
+    }
+}
+
 /// What an active set ended with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Outcome {
@@ -58,7 +93,7 @@ impl TorqueLimits {
     ///
     /// τ = τ₀ + HΔ; K = K ∪ {violators}; H_K Δ = τ_lim,K − τ₀,K; Δ = H_K⁺(…) — Oshita & Makinouchi 2000, Eqs. 7–11
     ///
-    /// * `h`: rad/s² → N·m; `tau0`: torques of the initial accelerations; `lower`, `upper`: available torques, N·m.
+    /// * `torques`: τ₀ of the initial accelerations, H, and the limits.
     /// * `held`: rows that must not change (kinematic loops); respected by [`Metric::Identity`] while there is room for
     ///   them.
     /// * `most`: larger sets are given up (`complete` = false).
@@ -67,10 +102,7 @@ impl TorqueLimits {
     #[inline(always)]
     pub fn solve(
         &mut self,
-        h: &Square,
-        tau0: &Row,
-        lower: &[f64; DOF_COUNT],
-        upper: &[f64; DOF_COUNT],
+        torques: JointTorques<'_>,
         metric: Metric,
         held: &[Row],
         most: usize,
@@ -78,20 +110,20 @@ impl TorqueLimits {
         self.change = [0.0; ROW];
         let mut out = Outcome::default();
         if metric == Metric::Torque {
-            return self.clip(h, tau0, lower, upper);
+            return self.clip(torques);
         }
+        let JointTorques { h, tau: tau0, .. } = torques;
         self.qr.clear();
         let (mut k, mut fixed) = (0, 0);
         loop {
             let first = k;
             for j in 0..DOF_COUNT {
-                let tau = tau0[j] + dot(&h[j], &self.change);
-                if out.set >> j & 1 == 0 && violates(tau, lower[j], upper[j], TOLERANCE) {
+                let tau = torques.changed(j, &self.change);
+                if out.set >> j & 1 == 0 && torques.violates(j, tau, TOLERANCE) {
                     out.set |= 1 << j;
                     self.order[k] = j;
                     // The limit that is violated now, also for those that join late.
-                    let limit = if tau > upper[j] { upper[j] } else { lower[j] };
-                    self.goal[k] = limit - tau0[j];
+                    self.goal[k] = torques.violated(j, tau) - tau0[j];
                     k += 1;
                 }
             }
@@ -159,17 +191,17 @@ impl TorqueLimits {
 
     /// W = H²: only the saturated torques change, HΔ = clip(τ₀) − τ₀. No iteration.
     #[inline(always)]
-    fn clip(
-        &mut self,
-        h: &Square,
-        tau0: &Row,
-        lower: &[f64; DOF_COUNT],
-        upper: &[f64; DOF_COUNT],
-    ) -> Outcome {
+    fn clip(&mut self, torques: JointTorques<'_>) -> Outcome {
+        let JointTorques {
+            h,
+            tau: tau0,
+            lower,
+            upper,
+        } = torques;
         let mut out = Outcome::default();
         let mut excess = [0.0; ROW];
         for j in 0..DOF_COUNT {
-            if violates(tau0[j], lower[j], upper[j], TOLERANCE) {
+            if torques.violates(j, tau0[j], TOLERANCE) {
                 out.set |= 1 << j;
                 excess[j] = tau0[j].max(lower[j]).min(upper[j]) - tau0[j];
             }
@@ -200,6 +232,18 @@ impl TorqueLimits {
 mod tests {
     use super::*;
 
+    const LOWER: [f64; DOF_COUNT] = [-4.0; DOF_COUNT];
+    const UPPER: [f64; DOF_COUNT] = [4.0; DOF_COUNT];
+
+    fn limited<'a>(h: &'a Square, tau: &'a Row) -> JointTorques<'a> {
+        JointTorques {
+            h,
+            tau,
+            lower: &LOWER,
+            upper: &UPPER,
+        }
+    }
+
     /// An example with two limits in the first two DOFs; the others are unit inertias without torque.
     fn example(metric: Metric) -> (Row, Row, Outcome) {
         let mut h = Box::new([[0.0; ROW]; DOF_COUNT]);
@@ -208,7 +252,7 @@ mod tests {
         let mut tau0 = [0.0; ROW];
         (tau0[0], tau0[1]) = (5.0, 1.0);
         let mut t = TorqueLimits::default();
-        let out = t.solve(&h, &tau0, &[-4.0; 39], &[4.0; 39], metric, &[], 39);
+        let out = t.solve(limited(&h, &tau0), metric, &[], 39);
         let mut dtau = [0.0; ROW];
         (0..DOF_COUNT).for_each(|j| dtau[j] = dot(&h[j], &t.change));
         (t.change, dtau, out)
@@ -230,34 +274,15 @@ mod tests {
         let mut h = Box::new([[0.0; ROW]; DOF_COUNT]);
         (0..DOF_COUNT).for_each(|j| h[j][j] = 1.0);
         let mut t = TorqueLimits::default();
-        let limit = [4.0; 39];
-        let o = t.solve(
-            &h,
-            &[9.0; ROW],
-            &[-4.0; 39],
-            &limit,
-            Metric::Identity,
-            &[],
-            20,
-        );
+        let o = t.solve(limited(&h, &[9.0; ROW]), Metric::Identity, &[], 20);
         assert!(!o.complete);
-        let o = t.solve(
-            &h,
-            &[9.0; ROW],
-            &[-4.0; 39],
-            &limit,
-            Metric::Identity,
-            &[],
-            39,
-        );
+        let o = t.solve(limited(&h, &[9.0; ROW]), Metric::Identity, &[], 39);
         assert!(o.complete && o.set.count_ones() == 39);
         let mut tau0 = [0.0; ROW];
         tau0[3] = f64::NAN;
         for metric in [Metric::Identity, Metric::Inertia, Metric::Torque] {
-            assert!(
-                !t.solve(&h, &tau0, &[-4.0; 39], &limit, metric, &[], 39)
-                    .complete
-            );
+            let o = t.solve(limited(&h, &tau0), metric, &[], 39);
+            assert!(!o.complete);
         }
     }
 
@@ -271,15 +296,7 @@ mod tests {
         let mut tau0 = [0.0; ROW];
         tau0[0] = 5.0;
         let mut t = TorqueLimits::default();
-        let o = t.solve(
-            &h,
-            &tau0,
-            &[-4.0; 39],
-            &[4.0; 39],
-            Metric::Identity,
-            &held,
-            39,
-        );
+        let o = t.solve(limited(&h, &tau0), Metric::Identity, &held, 39);
         assert!(o.complete && dot(&held[0], &t.change).abs() < 1e-15);
         assert!((tau0[0] + dot(&h[0], &t.change) - 4.0).abs() < 1e-14);
     }

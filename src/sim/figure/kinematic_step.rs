@@ -8,7 +8,7 @@ use super::torque_step::{StepInput, TickForces};
 use crate::sim::body::topology::{DOF_COUNT, L_FOOT, L_TOES, NV, R_FOOT, R_TOES, SEGMENT_COUNT};
 use crate::sim::body::{Body, Posture, SegmentId, State};
 use crate::sim::contact::limits::LimitRows;
-use crate::sim::contact::newton::{Motors, NewtonWorkspace, minimise};
+use crate::sim::contact::newton::{Motors, NewtonWorkspace, Problem, StopRule, minimise};
 use crate::sim::contact::rows::{ContactRows, PointRow};
 use crate::sim::contact::sparse::SparseSystem;
 use crate::sim::control::Command;
@@ -317,18 +317,18 @@ impl KinematicStepper {
         let mut momentum = [0.0; NV];
         terms.mass_matrix.mul(&state.velocity, &mut momentum);
         let mut v = state.velocity;
-        let outcome = minimise(
-            &SparseSystem(&terms.mass_matrix),
-            &mut self.hessian,
-            &momentum,
-            &self.motors,
-            &self.limits,
-            &self.contacts,
-            ITERATIONS,
-            TOLERANCE,
-            &mut v,
-            &mut self.newton,
-        );
+        let problem = Problem {
+            system: SparseSystem(&terms.mass_matrix),
+            b: &momentum,
+            motors: &self.motors,
+            limits: &self.limits,
+            contacts: &self.contacts,
+        };
+        let stop = StopRule {
+            iterations: ITERATIONS,
+            tolerance: TOLERANCE,
+        };
+        let outcome = minimise(&problem, stop, &mut self.hessian, &mut v, &mut self.newton);
         self.contacts
             .add_transposed(&self.newton.force, 1.0, &mut momentum);
         self.hessian.rows = terms.mass_matrix.rows;

@@ -15,8 +15,8 @@ use crate::sim::body::{Body, Links, State};
 use crate::sim::collide::island::{Articulated, Parts};
 use crate::sim::contact::rows::PointRow;
 use crate::sim::contact::{
-    ContactRows, LimitRows, Motors, NewtonWorkspace, Outcome, Slides, SparseSystem, Tissue,
-    collect_limits, minimise, slides,
+    ContactRows, LimitRows, Motors, NewtonWorkspace, Outcome, Problem, Slides, SparseSystem,
+    StopRule, Tissue, collect_limits, minimise, slides,
 };
 use crate::sim::dynamics::jacobian::for_each_column;
 use crate::sim::dynamics::terms::AppliedForce;
@@ -805,18 +805,18 @@ fn substep_kernel(
     hessian: &mut MassMatrix<f64>,
     ws: &mut NewtonWorkspace,
 ) -> Outcome {
-    minimise(
-        &SparseSystem(m),
-        hessian,
-        momentum,
-        &problem.motors,
-        &problem.limits,
-        &problem.contacts,
-        contact::ITERATIONS,
-        contact::TOLERANCE,
-        v,
-        ws,
-    )
+    let problem = Problem {
+        system: SparseSystem(m),
+        b: momentum,
+        motors: &problem.motors,
+        limits: &problem.limits,
+        contacts: &problem.contacts,
+    };
+    let stop = StopRule {
+        iterations: contact::ITERATIONS,
+        tolerance: contact::TOLERANCE,
+    };
+    minimise(&problem, stop, hessian, v, ws)
 }
 
 /// `x ← M⁻¹ x`.

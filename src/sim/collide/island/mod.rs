@@ -15,6 +15,7 @@ mod interior;
 mod newton;
 
 use crate::sim::body::topology::{DOF_COUNT, NV};
+use crate::sim::collide::narrow::Near;
 use crate::sim::contact::cone::Cone;
 use crate::sim::contact::projection::{Region, project};
 use crate::sim::contact::{ContactRows, LimitRows, Motors, NewtonWorkspace};
@@ -136,6 +137,19 @@ impl Contact {
     }
 }
 
+/// How a contact pushes and holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactLaw {
+    /// It pushes where the two approach faster than this, m/s.
+    pub approach: f64,
+    /// Velocity of a second side without block, world, m/s.
+    pub firm: Vec3,
+    /// Friction coefficient.
+    pub mu: f64,
+    /// 1/R, kg.
+    pub inverse_r: f64,
+}
+
 /// Two unit vectors that make a right-handed frame with `n`.
 pub fn tangents(n: Vec3) -> [Vec3; 2] {
     let other = if n.x.abs() < 0.6 { Vec3::X } else { Vec3::Y };
@@ -228,20 +242,19 @@ impl Island {
         k
     }
 
-    /// A contact that pushes where the two approach faster than `approach` (m/s); `firm` is the velocity of a second
-    /// side without block. `visit` is called for each side that has a block and gives the velocity of the contact's
-    /// point, world axes, for a unit of each velocity component of that body, each once.
+    /// A contact between two sides; `block` and `ends` as in [`Contact`]. `visit` is called for each side that has a
+    /// block and gives the velocity of the contact's point, world axes, for a unit of each velocity component of that
+    /// body, each once.
     pub fn add_contact(
         &mut self,
         block: [Option<usize>; 2],
         ends: [(usize, usize); 2],
-        (position, normal, gap): (Vec3, Vec3, f64),
-        (approach, firm, mu): (f64, Vec3, f64),
-        inverse_r: f64,
+        near: Near,
+        law: ContactLaw,
         mut visit: impl FnMut(usize, &mut dyn FnMut(usize, Vec3)),
     ) {
-        let t = tangents(normal);
-        let frame = [t[0], t[1], normal];
+        let t = tangents(near.normal);
+        let frame = [t[0], t[1], near.normal];
         let mut rows = [[[0.0; NV]; 3]; 2];
         let mut used = [([0; NV], 0); 2];
         for (side, sign) in [(0, 1.0), (1, -1.0)] {
@@ -259,21 +272,21 @@ impl Island {
             }
         }
         let firm = Vec3 {
-            x: -frame[0].dot(firm),
-            y: -frame[1].dot(firm),
-            z: -frame[2].dot(firm),
+            x: -frame[0].dot(law.firm),
+            y: -frame[1].dot(law.firm),
+            z: -frame[2].dot(law.firm),
         };
-        let local = firm + Vec3::Z * approach;
+        let local = firm + Vec3::Z * law.approach;
         self.contacts.push(Contact {
             block,
             ends,
-            position,
+            position: near.position,
             frame,
-            gap,
+            gap: near.gap,
             c: local,
             firm,
-            mu,
-            inverse_r,
+            mu: law.mu,
+            inverse_r: law.inverse_r,
             impulse: Vec3::zero(),
             rows,
             used,

@@ -143,7 +143,13 @@ fn limits_hold_after_both_stages_for_any_scale_of_the_demand_and_every_metric() 
             (0..DOF_COUNT).for_each(|d| initial[d] = 5.0 * scale * rng.unit());
             let tau0 = map.torque(&initial);
             for metric in [Metric::Identity, Metric::Inertia, Metric::Torque] {
-                let o = first.solve(&map.h, &tau0, &s.lower, &s.upper, metric, &[], DOF_COUNT);
+                let torques = |tau| JointTorques {
+                    h: &map.h,
+                    tau,
+                    lower: &s.lower,
+                    upper: &s.upper,
+                };
+                let o = first.solve(torques(&tau0), metric, &[], DOF_COUNT);
                 assert!(o.complete && o.rounds <= 39);
                 worst_rounds = worst_rounds.max(o.rounds);
                 let mut qdd = initial;
@@ -167,7 +173,7 @@ fn limits_hold_after_both_stages_for_any_scale_of_the_demand_and_every_metric() 
                 }
                 let mut x = [0.0; ROW];
                 (0..DOF_COUNT).for_each(|d| x[d] = scale * rng.unit());
-                let o = second.solve(&map.h, &tau1, &s.lower, &s.upper, &mut x, false, &[], 39);
+                let o = second.solve(torques(&tau1), &mut x, false, &[], 39);
                 assert!(o.complete && o.rounds <= 39);
                 (0..ROW).for_each(|d| qdd[d] += x[d]);
                 let tau2 = map.torque(&qdd);

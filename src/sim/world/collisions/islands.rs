@@ -4,7 +4,7 @@ use super::cast::Cast;
 use super::{Candidate, Cluster, Participant, find, unite};
 use crate::sim::body::SegmentId;
 use crate::sim::body::topology::NV;
-use crate::sim::collide::island::Island;
+use crate::sim::collide::island::{ContactLaw, Island};
 use crate::sim::dynamics::jacobian::for_each_column;
 use crate::sim::figure::TickContext;
 use crate::sim::figure::touches::Contacting;
@@ -229,9 +229,13 @@ fn add_contact(
     island.add_contact(
         block,
         [end(0), end(1)],
-        (n.position, n.normal, n.gap),
-        (approach, firm, c.mu),
-        1.0 / COMPLIANCE,
+        *n,
+        ContactLaw {
+            approach,
+            firm,
+            mu: c.mu,
+            inverse_r: 1.0 / COMPLIANCE,
+        },
         |side, visit| match c.participant[side] {
             Participant::Figure(i) => {
                 let t = cast.figures[i].1.substep_terms();

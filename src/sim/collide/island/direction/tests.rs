@@ -2,6 +2,8 @@
 //! bodies, random contacts between them and with fixed things; both ways, and the equation that they solve.
 
 use super::*;
+use crate::sim::collide::island::ContactLaw;
+use crate::sim::collide::narrow::Near;
 use crate::sim::contact::{ContactRows, LimitRows, Motors, NewtonWorkspace};
 use crate::sim::dynamics::Terms;
 use crate::sim::dynamics::mass_matrix::MassMatrix;
@@ -76,9 +78,17 @@ pub(in super::super) fn scene(rng: &mut Rng, count: usize) -> (Island, Vec<Puppe
         island.add_contact(
             block,
             [(a, 0), (b, 0)],
-            (r, normal, 0.0),
-            (-0.5 * rng.unit().abs() - 0.5, Vec3::zero(), 0.6),
-            1e4,
+            Near {
+                position: r,
+                normal,
+                gap: 0.0,
+            },
+            ContactLaw {
+                approach: -0.5 * rng.unit().abs() - 0.5,
+                firm: Vec3::zero(),
+                mu: 0.6,
+                inverse_r: 1e4,
+            },
             |side, visit| {
                 let k = if side == 0 { a } else { b };
                 if k % 2 == 0 {
