@@ -10,7 +10,7 @@ use crate::sim::body::Body;
 use crate::sim::body::angles::anatomical_angles;
 use crate::sim::body::topology::DOF_NAMES;
 use crate::sim::motion::write_bvh;
-use crate::sim::retarget::RetargetOptions;
+use crate::sim::retarget::{Preparation, RetargetOptions};
 use anyhow::{Context, Result};
 use serde_json::json;
 use std::path::PathBuf;
@@ -42,9 +42,13 @@ pub struct ConvertArgs {
 pub fn run(args: &ConvertArgs) -> Result<()> {
     let format = extension("convert", &args.to, &["bvh", "csv", "json"])?;
     let body = args.body.build()?;
+    let ordinary = args.recording.options();
     let options = RetargetOptions {
-        lock_feet: !args.no_foot_lock,
-        ..args.recording.options()
+        preparation: Preparation {
+            lock_feet: !args.no_foot_lock,
+            ..ordinary.preparation
+        },
+        ..ordinary
     };
     let source = load(&args.clip, &body, &options)?;
     let text = match format {

@@ -7,7 +7,7 @@ use super::terminal::{print, print_line};
 use crate::sim::body::Body;
 use crate::sim::plan::feasibility::{Consistency, Spread, consistency};
 use crate::sim::plan::prepare::ZmpOutside;
-use crate::sim::retarget::{RetargetOptions, RetargetReport, UpAxis};
+use crate::sim::retarget::{Preparation, RetargetOptions, RetargetReport, UpAxis};
 use anyhow::{Context, Result};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -98,14 +98,17 @@ fn consistencies(
     };
     let at = |i: usize| {
         let t = (i as f64 + 0.5) / rate;
-        let phase = report.phases.iter().find(|p| t < p.end);
+        let phase = report.feet.phases.iter().find(|p| t < p.end);
         phase.map_or([false; 2], |p| p.planted)
     };
     let label: Vec<_> = (0..clip.len()).map(at).collect();
     let bare = RetargetOptions {
-        lock_feet: false,
-        balance: false,
-        ends: false,
+        preparation: Preparation {
+            lock_feet: false,
+            balance: false,
+            ends: false,
+            ..options.preparation
+        },
         ..options.clone()
     };
     let recorded = load(&source.spec, body, &bare)?.clip;
@@ -183,39 +186,43 @@ pub fn to_json(r: &RetargetReport) -> Value {
         })
     };
     json!({
-        "mapped": r.mapped.iter().map(|m| json!({ "segment": m.segment, "bones": m.bones })).collect::<Vec<_>>(),
-        "missing": r.missing,
-        "by_structure": r.by_structure,
-        "sides_swapped": r.sides_swapped,
-        "unit_m": r.unit_m,
-        "unit_given": r.unit_given,
-        "up": up_name(r.up),
-        "stature_m": r.stature,
-        "scale": r.scale,
-        "source_rate_hz": r.source_rate_hz,
-        "rate_hz": r.rate_hz,
-        "skipped_frames": r.skipped_frames,
-        "floor_offset_m": r.floor_offset,
-        "floor_slope": r.floor_slope,
-        "origin": { "x_m": r.origin.x, "y_m": r.origin.y, "yaw_deg": r.origin.yaw.to_degrees() },
-        "clamped": r.clamped.iter().map(|c| json!({
+        "mapped": r.skeleton.mapped.iter().map(|m| json!({
+            "segment": m.segment, "bones": m.bones
+        })).collect::<Vec<_>>(),
+        "missing": r.skeleton.missing,
+        "by_structure": r.skeleton.by_structure,
+        "sides_swapped": r.skeleton.sides_swapped,
+        "unit_m": r.size.unit_m,
+        "unit_given": r.size.unit_given,
+        "up": up_name(r.size.up),
+        "stature_m": r.size.stature,
+        "scale": r.size.scale,
+        "source_rate_hz": r.frames.source_rate_hz,
+        "rate_hz": r.frames.rate_hz,
+        "skipped_frames": r.frames.skipped_frames,
+        "floor_offset_m": r.place.floor_offset,
+        "floor_slope": r.place.floor_slope,
+        "origin": { "x_m": r.place.origin.x, "y_m": r.place.origin.y, "yaw_deg": r.place.origin.yaw.to_degrees() },
+        "clamped": r.joints.clamped.iter().map(|c| json!({
             "dof": c.dof, "max_deg": c.max.to_degrees(), "share": c.fraction
         })).collect::<Vec<_>>(),
-        "knee_off_axis_deg": r.knee_off_axis.map(f64::to_degrees),
-        "elbow_off_axis_deg": r.elbow_off_axis.map(f64::to_degrees),
-        "foot_slide_mm": { "recorded": 1e3 * r.foot_slide.0, "prepared": 1e3 * r.foot_slide.1 },
-        "penetration_mm": { "recorded": 1e3 * r.penetration.0, "prepared": 1e3 * r.penetration.1 },
-        "phases": r.phases.iter().map(|p| json!({
+        "knee_off_axis_deg": r.joints.knee_off_axis.map(f64::to_degrees),
+        "elbow_off_axis_deg": r.joints.elbow_off_axis.map(f64::to_degrees),
+        "foot_slide_mm": { "recorded": 1e3 * r.feet.slide.0, "prepared": 1e3 * r.feet.slide.1 },
+        "penetration_mm": { "recorded": 1e3 * r.feet.penetration.0, "prepared": 1e3 * r.feet.penetration.1 },
+        "phases": r.feet.phases.iter().map(|p| json!({
             "from_s": p.start, "to_s": p.end, "left": p.planted[0], "right": p.planted[1]
         })).collect::<Vec<_>>(),
-        "bridged": r.bridged.iter().map(|b| json!({
+        "bridged": r.frames.bridged.iter().map(|b| json!({
             "bone": b.bone, "first_frame": b.first, "frames": b.count
         })).collect::<Vec<_>>(),
-        "smoothing_rms_mm": 1e3 * r.smoothing_rms,
-        "zmp_outside": { "recorded": outside(&r.zmp_outside.0), "prepared": outside(&r.zmp_outside.1) },
-        "shift_max_mm": 1e3 * r.shift_max,
-        "pelvis_drop_max_mm": 1e3 * r.pelvis_drop_max,
-        "carried_share": r.carried,
+        "smoothing_rms_mm": 1e3 * r.frames.smoothing_rms,
+        "zmp_outside": {
+            "recorded": outside(&r.balance.zmp_outside.0), "prepared": outside(&r.balance.zmp_outside.1)
+        },
+        "shift_max_mm": 1e3 * r.pelvis.shift,
+        "pelvis_drop_max_mm": 1e3 * r.pelvis.drop,
+        "carried_share": r.balance.carried,
         "warnings": r.warnings,
     })
 }
@@ -246,13 +253,13 @@ type Line = (&'static str, String);
 
 /// How the file was understood.
 fn reading(r: &RetargetReport) -> Vec<Line> {
-    let bones: usize = r.mapped.iter().map(|m| m.bones.len()).sum();
-    let how = if r.by_structure {
+    let bones: usize = r.skeleton.mapped.iter().map(|m| m.bones.len()).sum();
+    let how = if r.skeleton.by_structure {
         "by structure"
     } else {
         "by name"
     };
-    let swapped = if r.sides_swapped {
+    let swapped = if r.skeleton.sides_swapped {
         ", left and right swapped"
     } else {
         ""
@@ -261,41 +268,46 @@ fn reading(r: &RetargetReport) -> Vec<Line> {
         "skeleton",
         format!(
             "{bones} bones mapped {how} to {} segments{swapped}",
-            r.mapped.len()
+            r.skeleton.mapped.len()
         ),
     )];
-    if !r.missing.is_empty() {
-        lines.push(("missing", r.missing.join(", ")));
+    if !r.skeleton.missing.is_empty() {
+        lines.push(("missing", r.skeleton.missing.join(", ")));
     }
-    let given = if r.unit_given { "given" } else { "estimated" };
+    let given = if r.size.unit_given {
+        "given"
+    } else {
+        "estimated"
+    };
     lines.push((
         "size",
         format!(
             "1 file unit = {} ({given}), {} axis up, stature {:.2} m, scaled by {:.3}",
-            metres(r.unit_m),
-            up_name(r.up),
-            r.stature,
-            r.scale
+            metres(r.size.unit_m),
+            up_name(r.size.up),
+            r.size.stature,
+            r.size.scale
         ),
     ));
     lines.push((
         "rate",
         format!(
             "recorded at {}, resampled to {}, {} frames skipped",
-            hertz(r.source_rate_hz),
-            hertz(r.rate_hz),
-            r.skipped_frames
+            hertz(r.frames.source_rate_hz),
+            hertz(r.frames.rate_hz),
+            r.frames.skipped_frames
         ),
     ));
     lines.push((
         "floor",
         format!(
             "height {} mm, slope {}",
-            fixed(1e3 * r.floor_offset, 1),
-            rounded(r.floor_slope, 2)
+            fixed(1e3 * r.place.floor_offset, 1),
+            rounded(r.place.floor_slope, 2)
         ),
     ));
     let phases: Vec<String> = r
+        .feet
         .phases
         .iter()
         .map(|p| format!("{} {:.2}-{:.2}", p.letter(), p.start, p.end))
@@ -314,11 +326,11 @@ fn preparation(r: &RetargetReport) -> Vec<Line> {
             1e3 * after
         )
     };
-    let (z0, z1) = &r.zmp_outside;
+    let (z0, z1) = &r.balance.zmp_outside;
     let pair = |v: [f64; 2]| format!("{:.1}° and {:.1}°", v[0].to_degrees(), v[1].to_degrees());
     vec![
-        ("foot skate", before_after(r.foot_slide)),
-        ("penetration", before_after(r.penetration)),
+        ("foot skate", before_after(r.feet.slide)),
+        ("penetration", before_after(r.feet.penetration)),
         (
             "balance",
             format!(
@@ -334,17 +346,17 @@ fn preparation(r: &RetargetReport) -> Vec<Line> {
             "changed",
             format!(
                 "smoothing {:.1} mm rms, pelvis shifted by up to {:.0} mm and lowered by up to {:.0} mm",
-                1e3 * r.smoothing_rms,
-                1e3 * r.shift_max,
-                1e3 * r.pelvis_drop_max
+                1e3 * r.frames.smoothing_rms,
+                1e3 * r.pelvis.shift,
+                1e3 * r.pelvis.drop
             ),
         ),
         (
             "off axis",
             format!(
                 "knees {}, elbows {}",
-                pair(r.knee_off_axis),
-                pair(r.elbow_off_axis)
+                pair(r.joints.knee_off_axis),
+                pair(r.joints.elbow_off_axis)
             ),
         ),
     ]
@@ -353,7 +365,7 @@ fn preparation(r: &RetargetReport) -> Vec<Line> {
 /// What was out of order.
 fn oddities(r: &RetargetReport) -> Vec<Line> {
     let mut lines = Vec::new();
-    for c in &r.clamped {
+    for c in &r.joints.clamped {
         lines.push((
             "clamped",
             format!(
@@ -364,7 +376,7 @@ fn oddities(r: &RetargetReport) -> Vec<Line> {
             ),
         ));
     }
-    for b in &r.bridged {
+    for b in &r.frames.bridged {
         lines.push((
             "bridged",
             format!(
@@ -373,12 +385,12 @@ fn oddities(r: &RetargetReport) -> Vec<Line> {
             ),
         ));
     }
-    if r.carried > 0.0 {
+    if r.balance.carried > 0.0 {
         lines.push((
             "other support",
             format!(
                 "{:.0} % of the clip is supported by other body parts than the feet",
-                100.0 * r.carried
+                100.0 * r.balance.carried
             ),
         ));
     }

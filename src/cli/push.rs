@@ -12,7 +12,7 @@ use crate::sim::body::{Body, Profile};
 use crate::sim::math::Quat;
 use crate::sim::motion::{Bvh, Clip, PlanarTransform};
 use crate::sim::plan::cycle;
-use crate::sim::retarget::RetargetOptions;
+use crate::sim::retarget::{Preparation, RetargetOptions};
 use crate::wire::convert::{self, motion::figure_motion};
 use crate::wire::frame::values;
 use crate::wire::pb;
@@ -214,9 +214,7 @@ fn prepared(args: &Args, bvh: &Bvh, body: &Body) -> anyhow::Result<Clip> {
     let path = args.clip.display();
     let (clip, warnings) = if args.raw {
         let options = args.file.apply(RetargetOptions {
-            lock_feet: false,
-            balance: false,
-            ends: false,
+            preparation: Preparation::NONE,
             ..Default::default()
         });
         let fitted = crate::sim::retarget::retarget(bvh, body, &options)

@@ -21,7 +21,7 @@ use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES};
 use crate::sim::figure::{Constraint, ControlParams, FigureOptions, StrengthScale};
 use crate::sim::motion::{Clip, write_bvh};
 use crate::sim::plan::cycle;
-use crate::sim::retarget::RetargetOptions;
+use crate::sim::retarget::{Preparation, RetargetOptions};
 use crate::sim::strength::fatigue::MAX_TIME_SCALE;
 use crate::sim::world::{
     ClipPlayback, Drive, Figure, FigureEvent, FigureKey, FigureSetup, World, WorldParams,
@@ -234,8 +234,8 @@ pub fn run(args: &RunArgs) -> Result<Outcome> {
     // Bad parameters are worth knowing before clips are read.
     World::new(scenario.params).map_err(usage)?;
     let options = args.file.apply(RetargetOptions {
-        walk_runs: !args.keep_runs,
         tempo: args.tempo,
+        preparation: Preparation::walking(!args.keep_runs),
         ..RetargetOptions::default()
     });
     for then in &args.then {

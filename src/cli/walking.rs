@@ -13,8 +13,8 @@ use crate::sim::math::Vec3;
 use crate::sim::motion::builtin::builtin;
 use crate::sim::motion::{Bvh, Clip};
 use crate::sim::plan::cycle;
-use crate::sim::retarget::RetargetOptions;
 use crate::sim::retarget::retarget;
+use crate::sim::retarget::{Preparation, RetargetOptions};
 use anyhow::{Context, Result};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -119,11 +119,11 @@ pub fn run(args: &WalkingArgs) -> Result<()> {
 fn motions(spec: &str, body: &Body) -> Result<Vec<Motion>> {
     let read = |kind: &str, walk_runs| -> Result<(Motion, bool)> {
         let options = RetargetOptions {
-            walk_runs,
+            preparation: Preparation::walking(walk_runs),
             ..RetargetOptions::default()
         };
         let source = load(spec, body, &options)?;
-        let runs = source.retarget.is_some_and(|r| r.runs.is_some());
+        let runs = source.retarget.is_some_and(|r| r.runs.speed.is_some());
         let motion = Motion {
             name: format!("{}{kind}", source.name),
             spec: spec.to_owned(),
@@ -142,7 +142,10 @@ fn motions(spec: &str, body: &Body) -> Result<Vec<Motion>> {
 
 fn introduction(page: &mut Page, study: &Study) {
     page.say("# Walking: measurements");
-    let plain = study.clips.iter().filter(|m| m.options.walk_runs);
+    let plain = study
+        .clips
+        .iter()
+        .filter(|m| m.options.preparation.walk_runs);
     let names: Vec<&str> = plain.map(|m| m.name.as_str()).collect();
     page.say(&format!(
         "Recorded motion in torque simulation with the body `adult-man` (30 years, 1.75 m, 75 kg) at measured \
@@ -418,7 +421,7 @@ fn sensitivity(page: &mut Page, study: &Study) -> Result<()> {
         }
         let bytes = std::fs::read(spec).with_context(|| format!("cannot read {spec}"))?;
         let bvh = Bvh::parse(&bytes)?;
-        let unit = retarget(&bvh, &study.body, options)?.report.unit_m;
+        let unit = retarget(&bvh, &study.body, options)?.report.size.unit_m;
         let (mut stood, mut least, mut most) = (0, f64::INFINITY, 0.0f64);
         for seed in 0..COPIES {
             let mut rng = Pcg64Mcg::seed_from_u64(u64::from(seed));

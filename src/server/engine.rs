@@ -17,7 +17,7 @@ use crate::sim::figure::{
 };
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::{Bvh, PlanarTransform, Target};
-use crate::sim::retarget::{RetargetOptions, UpAxis};
+use crate::sim::retarget::{FileFacts, Preparation, RetargetOptions, UpAxis};
 use crate::sim::strength::Strength;
 use crate::sim::world::{FigureSetup, WorldError, WorldParams};
 use crate::wire::status::Fault;
@@ -144,15 +144,20 @@ pub fn retarget(
     let defaults = RetargetOptions::default();
     let options = RetargetOptions {
         name: name.to_owned(),
-        unit_m: reading.unit_m,
-        up: reading.z_up.map(|z| if z { UpAxis::Z } else { UpAxis::Y }),
-        rate_hz: reading.rate_hz,
         floor: reading.floor.unwrap_or(defaults.floor),
-        lock_feet: reading.lock_feet.unwrap_or(defaults.lock_feet),
         cutoff_hz: reading.cutoff_hz.unwrap_or(defaults.cutoff_hz),
-        // What is uploaded is simulated, and measured strength does not run.
-        walk_runs: reading.walk_runs.unwrap_or(true),
         tempo,
+        file: FileFacts {
+            unit_m: reading.unit_m,
+            up: reading.z_up.map(|z| if z { UpAxis::Z } else { UpAxis::Y }),
+            rate_hz: reading.rate_hz,
+        },
+        preparation: Preparation {
+            lock_feet: reading.lock_feet.unwrap_or(defaults.preparation.lock_feet),
+            // What is uploaded is simulated, and measured strength does not run.
+            walk_runs: reading.walk_runs.unwrap_or(true),
+            ..defaults.preparation
+        },
         ..defaults
     };
     let out = crate::sim::retarget::retarget(bvh, body, &options).map_err(|e| e.to_string())?;
@@ -163,34 +168,37 @@ pub fn retarget(
     };
     let report = ReadingReport {
         mapped: r
+            .skeleton
             .mapped
             .iter()
             .map(|m| (bone(m.segment), m.bones.clone()))
             .collect(),
-        missing: r.missing.iter().map(|s| bone(s)).collect(),
-        by_structure: r.by_structure,
-        sides_swapped: r.sides_swapped,
-        unit_m: r.unit_m,
-        up_axis: match r.up {
+        missing: r.skeleton.missing.iter().map(|s| bone(s)).collect(),
+        by_structure: r.skeleton.by_structure,
+        sides_swapped: r.skeleton.sides_swapped,
+        unit_m: r.size.unit_m,
+        up_axis: match r.size.up {
             UpAxis::Y => "y",
             UpAxis::Z => "z",
         }
         .to_owned(),
-        stature_m: r.stature,
-        scale: r.scale,
-        source_rate_hz: r.source_rate_hz,
-        run_speed: r.runs,
-        runs_walked: r.walked,
-        floor_offset_m: r.floor_offset,
+        stature_m: r.size.stature,
+        scale: r.size.scale,
+        source_rate_hz: r.frames.source_rate_hz,
+        run_speed: r.runs.speed,
+        runs_walked: r.runs.walked,
+        floor_offset_m: r.place.floor_offset,
         clamped: r
+            .joints
             .clamped
             .iter()
             .map(|c| (c.dof.to_owned(), c.fraction, c.max))
             .collect(),
-        foot_slide_m: [r.foot_slide.0, r.foot_slide.1],
-        bridged: r.bridged.iter().map(|b| b.count).sum(),
-        dropped: r.skipped_frames,
+        foot_slide_m: [r.feet.slide.0, r.feet.slide.1],
+        bridged: r.frames.bridged.iter().map(|b| b.count).sum(),
+        dropped: r.frames.skipped_frames,
         phases: r
+            .feet
             .phases
             .iter()
             .flat_map(|p| {

@@ -20,7 +20,9 @@ mod segments;
 mod size;
 
 pub use report::{
-    Bridged, ClampedDof, MappedBone, Origin, RetargetError, RetargetReport, Retargeted,
+    BalanceReport, Bridged, ClampedDof, FootReport, FrameReport, JointReport, MappedBone, Origin,
+    PelvisReport, PlaceReport, RetargetError, RetargetReport, Retargeted, RunReport, SizeReport,
+    SkeletonReport,
 };
 
 use super::motion::bvh::Bvh;
@@ -58,18 +60,66 @@ pub enum UpAxis {
     Z,
 }
 
-/// What the caller knows better than the file, and what to do with the motion. `Default` guesses everything and
-/// prepares fully.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RetargetOptions {
-    /// Name of the clip.
-    pub name: String,
+/// What the caller knows better than the file. `Default` guesses everything.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FileFacts {
     /// Metres per unit of the file; guessed from stature if absent.
     pub unit_m: Option<f64>,
     /// Up axis; guessed from where the head is if absent.
     pub up: Option<UpAxis>,
     /// True frame rate of the file, Hz, where its frame time is wrong.
     pub rate_hz: Option<f64>,
+}
+
+/// What is done so that a body can follow the motion on its feet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Preparation {
+    /// Lock planted feet.
+    pub lock_feet: bool,
+    /// Shift the trunk so that the zero-moment point stays over the planted feet.
+    pub balance: bool,
+    /// Let the motion begin and end standing, with steps before its first and after its last frame where it takes them.
+    pub ends: bool,
+    /// Walk what the recording runs: slower and with shorter steps. The muscles that are measured in people's joints do
+    /// not run.
+    pub walk_runs: bool,
+}
+
+impl Preparation {
+    /// The recording as it fits the body.
+    pub const NONE: Self = Self {
+        lock_feet: false,
+        balance: false,
+        ends: false,
+        walk_runs: false,
+    };
+
+    /// Everything; runs are walked if `walk_runs` says so.
+    pub const fn walking(walk_runs: bool) -> Self {
+        Self {
+            lock_feet: true,
+            balance: true,
+            ends: true,
+            walk_runs,
+        }
+    }
+}
+
+impl Default for Preparation {
+    /// Everything; runs are kept.
+    fn default() -> Self {
+        Self::walking(false)
+    }
+}
+
+/// What the caller knows better than the file, and what to do with the motion. `Default` guesses everything and
+/// prepares fully.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RetargetOptions {
+    /// Name of the clip.
+    pub name: String,
+    /// What the file does not say, or says wrongly.
+    pub file: FileFacts,
     /// Rate of the clip at tempo 1, Hz; absent: the file's own rate if that is 60…240, else 120.
     pub output_rate_hz: Option<f64>,
     /// Body size over recorded size, for paths and heights; absent: ratio of leg lengths. Two people of one recording
@@ -77,42 +127,30 @@ pub struct RetargetOptions {
     pub scale: Option<f64>,
     /// Bring the recorded floor to z = 0 (level and height). Otherwise z = 0 of the file is the floor.
     pub floor: bool,
-    /// Lock planted feet.
-    pub lock_feet: bool,
-    /// Shift the trunk so that the zero-moment point stays over the planted feet.
-    pub balance: bool,
-    /// Walk what the recording runs: slower and with shorter steps. The muscles that are measured in people's joints do
-    /// not run.
-    pub walk_runs: bool,
     /// Cut-off of the zero-phase low-pass, Hz.
     pub cutoff_hz: f64,
     /// Times as fast as it was recorded, [`TEMPI`]: feet and postures are those of the recording, steps and balance are
     /// prepared for this pace.
     pub tempo: f64,
-    /// Let the motion begin and end standing, with steps before its first and after its last frame where it takes them.
-    pub ends: bool,
     /// Keep the file's place and heading (x forward = the file's z where y is up). Otherwise the clip starts at the
     /// origin facing +x.
     pub keep_origin: bool,
+    /// What is done for the feet and for balance.
+    pub preparation: Preparation,
 }
 
 impl Default for RetargetOptions {
     fn default() -> Self {
         Self {
             name: "clip".into(),
-            unit_m: None,
-            up: None,
-            rate_hz: None,
+            file: FileFacts::default(),
             output_rate_hz: None,
             scale: None,
             floor: true,
-            lock_feet: true,
-            balance: true,
-            ends: true,
-            walk_runs: false,
             tempo: 1.0,
             cutoff_hz: 6.0,
             keep_origin: false,
+            preparation: Preparation::default(),
         }
     }
 }
@@ -142,9 +180,12 @@ pub fn retarget(
     let (mut places, turns) = take.forward();
 
     // Metres, z up; even samples, smooth.
-    let up = options.up.unwrap_or_else(|| guess_up(&places, &take, &map));
+    let up = options
+        .file
+        .up
+        .unwrap_or_else(|| guess_up(&places, &take, &map));
     let measured = measure(bvh, &places, &take, &map)?;
-    let (unit_m, stature) = unit(options.unit_m, measured.stature)?;
+    let (unit_m, stature) = unit(options.file.unit_m, measured.stature)?;
     let root = RootPath::of(&take, &map, up, measured.leg);
     if let Some(warning) = root.warning() {
         let how = (root, up, measured.leg);
@@ -284,60 +325,78 @@ pub fn retarget(
     draft.rate_hz = rate;
     let phases = phases(&draft.label, rate);
     let how = PrepareOptions {
-        lock_feet: options.lock_feet && options.floor,
-        balance: options.balance,
+        lock_feet: options.preparation.lock_feet && options.floor,
+        balance: options.preparation.balance,
         runs: fastest_run.is_some(),
         held: leg::HELD,
     };
     let prepared = prepare(body, &draft, how);
-    let (postures, planted, lead_in, lead_out) = if options.ends && how.lock_feet {
+    let (postures, planted, lead_in, lead_out) = if options.preparation.ends && how.lock_feet {
         with_ends(body, &draft, &prepared, how)
     } else {
         (prepared.postures, prepared.planted, 0, 0)
     };
 
     let mut report = RetargetReport {
-        mapped: mapped_bones(bvh, &map),
-        missing: missing_segments(&map),
-        by_structure: map.by_structure,
-        sides_swapped,
-        unit_m,
-        unit_given: options.unit_m.is_some(),
-        up,
-        stature,
-        scale,
-        source_rate_hz: source_rate,
-        rate_hz: rate,
-        skipped_frames,
-        floor_offset: floor_height - ankle_height / scale,
-        floor_slope: ground.slope,
-        origin,
-        clamped: (0..DOF_COUNT)
-            .filter(|d| prepared.clamped[*d].0 > 0.0)
-            .map(|d| ClampedDof {
-                dof: DOF_NAMES[d],
-                max: prepared.clamped[d].0,
-                fraction: prepared.clamped[d].1,
-            })
-            .collect(),
-        knee_off_axis: frames.knee_off_axis,
-        elbow_off_axis: arms.off_axis,
-        wrist_bias: arms.wrist_bias,
-        pronation_shift: arms.pronation_shift,
-        freed: prepared.freed,
-        foot_slide: prepared.slide,
-        penetration: prepared.penetration,
-        phases,
-        bridged,
-        smoothing_rms: seen.smoothing_rms,
-        runs: fastest_run,
-        walked: seen.slowed.is_some(),
-        zmp_outside: prepared.zmp,
-        shift_max: prepared.shift_max,
-        pelvis_drop_max: prepared.drop_max,
-        pelvis_tilt_max: prepared.tilt_max,
-        pelvis_raise_max: prepared.raise_max,
-        carried: prepared.carried,
+        skeleton: SkeletonReport {
+            mapped: mapped_bones(bvh, &map),
+            missing: missing_segments(&map),
+            by_structure: map.by_structure,
+            sides_swapped,
+        },
+        size: SizeReport {
+            unit_m,
+            unit_given: options.file.unit_m.is_some(),
+            up,
+            stature,
+            scale,
+        },
+        frames: FrameReport {
+            source_rate_hz: source_rate,
+            rate_hz: rate,
+            skipped_frames,
+            bridged,
+            smoothing_rms: seen.smoothing_rms,
+        },
+        place: PlaceReport {
+            floor_offset: floor_height - ankle_height / scale,
+            floor_slope: ground.slope,
+            origin,
+        },
+        joints: JointReport {
+            clamped: (0..DOF_COUNT)
+                .filter(|d| prepared.clamped[*d].0 > 0.0)
+                .map(|d| ClampedDof {
+                    dof: DOF_NAMES[d],
+                    max: prepared.clamped[d].0,
+                    fraction: prepared.clamped[d].1,
+                })
+                .collect(),
+            knee_off_axis: frames.knee_off_axis,
+            elbow_off_axis: arms.off_axis,
+            wrist_bias: arms.wrist_bias,
+            pronation_shift: arms.pronation_shift,
+        },
+        feet: FootReport {
+            phases,
+            slide: prepared.slide,
+            penetration: prepared.penetration,
+            freed: prepared.freed,
+        },
+        balance: BalanceReport {
+            zmp_outside: prepared.zmp,
+            carried: prepared.carried,
+        },
+        pelvis: PelvisReport {
+            shift: prepared.shift_max,
+            drop: prepared.drop_max,
+            tilt: prepared.tilt_max,
+            raise: prepared.raise_max,
+        },
+        runs: RunReport {
+            speed: fastest_run,
+            walked: seen.slowed.is_some(),
+        },
         warnings,
     };
     report.note_warnings(calibration.from_rest);
@@ -432,7 +491,7 @@ fn check(bvh: &Bvh, options: &RetargetOptions) -> Result<f64, RetargetError> {
     if frames > MAX_FRAMES {
         return Err(RetargetError::TooLong { frames });
     }
-    let source_rate = options.rate_hz.unwrap_or(1.0 / bvh.frame_time);
+    let source_rate = options.file.rate_hz.unwrap_or(1.0 / bvh.frame_time);
     if !(source_rate >= RATES.0 && source_rate <= RATES.1) {
         return Err(RetargetError::Rate {
             rate_hz: source_rate,
@@ -453,8 +512,8 @@ fn check_options(o: &RetargetOptions) -> Result<(), RetargetError> {
         }),
         _ => Ok(()),
     };
-    check("unit_m", o.unit_m, 1e-6, 1e6)?;
-    check("rate_hz", o.rate_hz, RATES.0, RATES.1)?;
+    check("unit_m", o.file.unit_m, 1e-6, 1e6)?;
+    check("rate_hz", o.file.rate_hz, RATES.0, RATES.1)?;
     check("output_rate_hz", o.output_rate_hz, 30.0, 240.0)?;
     check("scale", o.scale, 0.05, 20.0)?;
     check("tempo", Some(o.tempo), TEMPI.0, TEMPI.1)?;

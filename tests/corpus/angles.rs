@@ -254,12 +254,12 @@ fn the_centre_of_mass_goes_where_it_went() {
     let body = man();
     for f in fits() {
         let truth = f.truth();
-        let scale = f.fitted.report.scale;
+        let scale = f.fitted.report.size.scale;
         let clip = &f.fitted.clip;
         // The clip begins facing x.
         let back = Quat::from_axis_angle(
             Vec3::Z,
-            f.dialect.facing.to_radians() - f.fitted.report.origin.yaw,
+            f.dialect.facing.to_radians() - f.fitted.report.place.origin.yaw,
         );
         let at = |i: usize| center_of_mass(&body, &forward(&body, clip.posture(i)));
         let row = |t: f64| {

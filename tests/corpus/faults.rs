@@ -14,12 +14,12 @@ fn held() -> impl Iterator<Item = &'static Fit> {
 #[test]
 fn held_first_frames_are_left_out() {
     let wrong: Vec<String> = held()
-        .filter(|f| f.fitted.report.skipped_frames != f.dialect.held)
+        .filter(|f| f.fitted.report.frames.skipped_frames != f.dialect.held)
         .map(|f| {
             format!(
                 "{}: {} frames left out of {} held",
                 f.what(),
-                f.fitted.report.skipped_frames,
+                f.fitted.report.frames.skipped_frames,
                 f.dialect.held
             )
         })
@@ -90,6 +90,7 @@ fn every_long_clamp_is_a_warning() {
     for f in all_fits() {
         let r = &f.fitted.report;
         for c in r
+            .joints
             .clamped
             .iter()
             .filter(|c| c.max.to_degrees() > 5.0 && c.fraction > 0.05)

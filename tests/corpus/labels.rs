@@ -63,7 +63,7 @@ fn agreement(truth: &Truth, phases: &[ContactPhase]) -> Agreement {
 }
 
 pub fn labelled(f: &Fit) -> Agreement {
-    agreement(&f.truth(), &f.fitted.report.phases)
+    agreement(&f.truth(), &f.fitted.report.feet.phases)
 }
 
 #[test]
@@ -130,7 +130,7 @@ fn touch_downs_are_labelled_when_they_are() {
 #[test]
 fn flights_are_labelled_and_only_flights() {
     for f in fits() {
-        let phases = &f.fitted.report.phases;
+        let phases = &f.fitted.report.feet.phases;
         let flights = f.truth().flights();
         // A noisy file may lose its feet for some frames where one foot takes over from the other.
         let shortest = if f.noisy() { 0.10 } else { 0.04 };

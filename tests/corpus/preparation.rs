@@ -105,7 +105,7 @@ pub fn lowest(f: &Fit) -> (f64, f64) {
 
 /// Largest error of the distance between successive footholds, m, against the truth in the body's size.
 fn foothold_error(body: &Body, f: &Fit) -> f64 {
-    let (clip, scale) = (&f.fitted.clip, f.fitted.report.scale);
+    let (clip, scale) = (&f.fitted.clip, f.fitted.report.size.scale);
     let at: Vec<(Vec3, Vec3)> = f
         .truth()
         .footholds()
@@ -146,7 +146,7 @@ fn footholds_are_those_of_the_truth_in_the_bodys_size() {
 #[test]
 fn the_zero_moment_point_stays_inside_the_planted_feet() {
     for f in fits().filter(|f| f.motion.script.kind != "run") {
-        let z = f.fitted.report.zmp_outside.1;
+        let z = f.fitted.report.balance.zmp_outside.1;
         let most = if f.motion.script.kind == "jump" {
             0.004
         } else {
@@ -159,7 +159,7 @@ fn the_zero_moment_point_stays_inside_the_planted_feet() {
 #[test]
 fn feet_carry_every_motion_but_the_one_on_the_floor() {
     for f in fits() {
-        let carried = f.fitted.report.carried;
+        let carried = f.fitted.report.balance.carried;
         if f.motion.script.kind == "floor" {
             assert!(carried > 0.35 && carried < 0.75, "{}: {carried}", f.what());
         } else {
@@ -218,7 +218,7 @@ fn a_mirrored_recording_gives_the_mirrored_motion() {
         let file = bvh(name, "vrm");
         let (plain, mirror) = (fit(&file), fit(&file.mirrored()));
         // The names stay: what is called left is on the right.
-        assert!(mirror.report.sides_swapped, "{name}");
+        assert!(mirror.report.skeleton.sides_swapped, "{name}");
         assert_eq!(plain.clip.len(), mirror.clip.len(), "{name}");
         for i in 0..plain.clip.len() {
             let q = mirror.clip.posture(i);
@@ -241,7 +241,7 @@ fn a_turned_recording_gives_the_same_motion() {
         let plain = fit(&bvh(name, "vrm"));
         for facing in [90.0, -147.0] {
             let mut d = dialect("vrm");
-            d.rate = plain.report.source_rate_hz.round();
+            d.rate = plain.report.frames.source_rate_hz.round();
             d.facing = facing;
             let turned = fit(&Bvh::parse(&dialect::write(m, &d, 1)).unwrap());
             assert_eq!(plain.clip.len(), turned.clip.len(), "{name}");

@@ -95,25 +95,34 @@ fn unit_axes_rate_and_bones_are_recognised_in_every_dialect() {
         let (what, d, r) = (f.what(), &f.dialect, &f.fitted.report);
         let stature = f.motion.script.actor.stature();
         assert!(
-            (r.unit_m / d.unit - 1.0).abs() < 1e-9,
+            (r.size.unit_m / d.unit - 1.0).abs() < 1e-9,
             "{what}: unit {} m",
-            r.unit_m
+            r.size.unit_m
         );
-        assert_eq!(r.up, if d.z_up { UpAxis::Z } else { UpAxis::Y }, "{what}");
+        assert_eq!(
+            r.size.up,
+            if d.z_up { UpAxis::Z } else { UpAxis::Y },
+            "{what}"
+        );
         assert!(
-            (r.source_rate_hz / d.rate - 1.0).abs() < 1e-5,
+            (r.frames.source_rate_hz / d.rate - 1.0).abs() < 1e-5,
             "{what}: {} Hz",
-            r.source_rate_hz
+            r.frames.source_rate_hz
         );
         // Stature is guessed from legs and trunk; the actors have other proportions than the guess.
         assert!(
-            (r.stature / stature - 1.0).abs() < 0.06,
+            (r.size.stature / stature - 1.0).abs() < 0.06,
             "{what}: stature {} m, {stature} in truth",
-            r.stature
+            r.size.stature
         );
-        assert_eq!(r.mapped.len(), 18, "{what}: {:?}", r.mapped);
+        assert_eq!(
+            r.skeleton.mapped.len(),
+            18,
+            "{what}: {:?}",
+            r.skeleton.mapped
+        );
         assert!(
-            r.missing.is_empty() && !r.by_structure && !r.sides_swapped,
+            r.skeleton.missing.is_empty() && !r.skeleton.by_structure && !r.skeleton.sides_swapped,
             "{what}: {:?}",
             r.warnings
         );
@@ -126,13 +135,13 @@ fn the_floor_is_found() {
     for f in fits() {
         let r = &f.fitted.report;
         // The report counts from where the body's ankle would be in the recording's size; the actor's is higher.
-        let expected = f.dialect.faults.floor + f.motion.script.actor.ankle - ankle / r.scale;
-        let off = r.floor_offset - expected;
+        let expected = f.dialect.faults.floor + f.motion.script.actor.ankle - ankle / r.size.scale;
+        let off = r.place.floor_offset - expected;
         assert!(
             off.abs() < 3e-3,
             "{}: floor at {} m, off by {off} m",
             f.what(),
-            r.floor_offset
+            r.place.floor_offset
         );
     }
 }
@@ -141,11 +150,11 @@ fn the_floor_is_found() {
 fn only_the_run_is_taken_for_one() {
     for f in fits() {
         assert_eq!(
-            f.fitted.report.runs.is_some(),
+            f.fitted.report.runs.speed.is_some(),
             f.motion.script.kind == "run",
             "{}: {:?}",
             f.what(),
-            f.fitted.report.runs
+            f.fitted.report.runs.speed
         );
     }
 }

@@ -5,9 +5,9 @@ use crate::dialect::Dialect;
 use crate::plan::Motion;
 use sinew::sim::body::Body;
 use sinew::sim::motion::Bvh;
-pub use sinew::sim::retarget::RetargetOptions;
 use sinew::sim::retarget::Retargeted;
 use sinew::sim::retarget::retarget;
+pub use sinew::sim::retarget::{Preparation, RetargetOptions};
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
@@ -120,9 +120,7 @@ pub fn fitted(motion: &str, dialect: &str, body: &Body, options: &RetargetOption
 /// Retargeting alone: angles of the recording, nothing prepared.
 pub fn bare() -> RetargetOptions {
     RetargetOptions {
-        lock_feet: false,
-        balance: false,
-        ends: false,
+        preparation: Preparation::NONE,
         ..RetargetOptions::default()
     }
 }

@@ -8,7 +8,7 @@ use sinew::sim::motion::builtin::builtin;
 use sinew::sim::motion::leg_ik::forward;
 use sinew::sim::motion::{Bvh, Clip};
 use sinew::sim::plan::foot_lock::Sole;
-use sinew::sim::retarget::retarget;
+use sinew::sim::retarget::{Preparation, retarget};
 use sinew::sim::retarget::{RetargetOptions, Retargeted};
 use std::fmt::Write;
 
@@ -193,7 +193,10 @@ pub fn turned(postures: &[Posture], turn: Quat) -> Vec<Posture> {
 /// Only what the recording shows: no steps before or after it.
 pub fn bare() -> RetargetOptions {
     RetargetOptions {
-        ends: false,
+        preparation: Preparation {
+            ends: false,
+            ..Preparation::default()
+        },
         ..RetargetOptions::default()
     }
 }

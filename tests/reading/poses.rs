@@ -38,7 +38,7 @@ fn a_rest_pose_that_only_the_root_shows_is_left_out() {
                 with.rows.insert(0, pose.clone());
             }
             let r = with.read(&body, &bare());
-            assert_eq!(r.report.skipped_frames, held, "{name}");
+            assert_eq!(r.report.frames.skipped_frames, held, "{name}");
             assert!(
                 r.report.warnings.iter().any(|w| w.contains("hold a pose")),
                 "{name}"
@@ -63,7 +63,7 @@ fn a_rest_pose_that_is_blended_into_the_motion_is_left_out() {
     }
     file.rows[0] = rest;
     let r = file.read(&body, &bare());
-    let skipped = r.report.skipped_frames;
+    let skipped = r.report.frames.skipped_frames;
     assert!((1..=7).contains(&skipped), "{skipped} frames");
     same(&plain, &r, skipped);
 }
@@ -86,12 +86,12 @@ fn motion_that_begins_at_once_is_kept() {
             row[3 + 3 * L_UPPER_ARM.index() + 1] -= 90.0 * u * u * (3.0 - 2.0 * u);
         }
         assert_eq!(
-            punch.read(&body, &bare()).report.skipped_frames,
+            punch.read(&body, &bare()).report.frames.skipped_frames,
             0,
             "{rate} Hz"
         );
     }
-    assert_eq!(cut.read(&body, &bare()).report.skipped_frames, 0);
+    assert_eq!(cut.read(&body, &bare()).report.frames.skipped_frames, 0);
 }
 
 #[test]
@@ -104,7 +104,7 @@ fn frames_in_which_all_channels_are_zero_are_bridged() {
         holes.rows[i].fill(0.0);
     }
     let r = holes.read(&body, &bare());
-    let root: Vec<(usize, usize)> = (r.report.bridged.iter())
+    let root: Vec<(usize, usize)> = (r.report.frames.bridged.iter())
         .filter(|b| b.bone == "hips")
         .map(|b| (b.first, b.count))
         .collect();

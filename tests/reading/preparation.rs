@@ -9,7 +9,7 @@ use sinew::sim::math::curve::smoothstep;
 use sinew::sim::math::vec3::vec3;
 use sinew::sim::math::{Quat, Vec3};
 use sinew::sim::motion::leg_ik::{forward, solve_leg};
-use sinew::sim::retarget::RetargetOptions;
+use sinew::sim::retarget::{Preparation, RetargetOptions};
 
 /// Stands, squats down so far that the pelvis is `height` m over the floor and leans by `lean` rad, and stands up
 /// again; the feet stay.
@@ -132,7 +132,10 @@ fn leap(body: &Body, way: f64, turn: f64) -> Vec<Posture> {
 fn what_is_fast_but_no_run_is_not_walked() {
     let body = Body::adult_man();
     let options = |walk_runs| RetargetOptions {
-        walk_runs,
+        preparation: Preparation {
+            walk_runs,
+            ..bare().preparation
+        },
         ..bare()
     };
     for (what, turn, reason) in [
@@ -147,7 +150,7 @@ fn what_is_fast_but_no_run_is_not_walked() {
             "{what} is changed"
         );
         assert!(
-            asked.report.runs.is_none() && !asked.report.walked,
+            asked.report.runs.speed.is_none() && !asked.report.runs.walked,
             "{what}"
         );
         let said = |w: &String| w.contains(reason) && w.contains("no run, kept as recorded");

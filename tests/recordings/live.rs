@@ -13,16 +13,14 @@ use sinew::sim::motion::leg_ik::forward;
 use sinew::sim::plan::cycle;
 use sinew::sim::plan::feasibility::consistency;
 use sinew::sim::plan::stream::{RATE, StreamPlan};
-use sinew::sim::retarget::RetargetOptions;
+use sinew::sim::retarget::{Preparation, RetargetOptions};
 use sinew::sim::world::{ClipPlayback, Drive, LivePlayback, World, WorldParams};
 use std::sync::Arc;
 
 /// A recording as it would be streamed.
 fn bare(body: &Body, name: &str) -> Arc<Clip> {
     let options = RetargetOptions {
-        lock_feet: false,
-        balance: false,
-        ends: false,
+        preparation: Preparation::NONE,
         ..RetargetOptions::default()
     };
     recorded_with(body, name, &options)

@@ -9,7 +9,7 @@ use sinew::sim::body::{Body, Sex};
 use sinew::sim::figure::{ControllerKind, FigureEvent, Flags, Perturbation};
 use sinew::sim::math::Vec3;
 use sinew::sim::plan::stream::{RATE, StreamPlan};
-use sinew::sim::retarget::RetargetOptions;
+use sinew::sim::retarget::{Preparation, RetargetOptions};
 use sinew::sim::world::{ClipPlayback, Drive, LivePlayback, WorldParams};
 use std::sync::Arc;
 
@@ -219,9 +219,7 @@ fn a_queued_clip_that_lies_and_rises_commands_getting_up() {
 fn who_lies_under_a_stream_gets_up_when_it_does() {
     let body = man();
     let raw = RetargetOptions {
-        lock_feet: false,
-        balance: false,
-        ends: false,
+        preparation: Preparation::NONE,
         ..RetargetOptions::default()
     };
     let clip = recorded_with(&body, "get-up", &raw);

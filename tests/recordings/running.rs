@@ -19,7 +19,7 @@ fn the_feet_of_a_run_stand_as_long_as_they_carry() {
     for (name, until, flight) in [("run", 1.0, 0.1..0.17), ("quick-stop", 0.7, 0.02..0.08)] {
         let bvh = Bvh::parse(&mocap::read(&format!("{name}.bvh"))).unwrap();
         let r = retarget(&bvh, &body, &RetargetOptions::default()).unwrap();
-        let phases = &r.report.phases;
+        let phases = &r.report.feet.phases;
         let text: Vec<String> = (phases.iter())
             .map(|p| format!("{}{:.3}", p.letter(), p.end - p.start))
             .collect();

@@ -9,7 +9,7 @@ use sinew::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use sinew::sim::figure::ControllerKind;
 use sinew::sim::motion::Clip;
 use sinew::sim::plan::cycle;
-use sinew::sim::retarget::RetargetOptions;
+use sinew::sim::retarget::{Preparation, RetargetOptions};
 use sinew::sim::world::{ClipPlayback, Drive, FigureKey, World, WorldParams};
 use std::sync::Arc;
 
@@ -188,7 +188,7 @@ fn clips_follow_each_other_from_step_to_step() {
     let [walk, turn, around, carry, salsa] =
         ["walk", "turn", "walk-around", "carry", "salsa-a"].map(|n| recorded(&body, n));
     let walked = RetargetOptions {
-        walk_runs: true,
+        preparation: Preparation::walking(true),
         ..RetargetOptions::default()
     };
     let run = recorded_with(&body, "run", &walked);

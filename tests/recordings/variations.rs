@@ -9,15 +9,15 @@ use sinew::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use sinew::sim::body::{Body, Posture};
 use sinew::sim::motion::Bvh;
 use sinew::sim::motion::leg_ik::forward;
-use sinew::sim::retarget::RetargetOptions;
 use sinew::sim::retarget::retarget;
+use sinew::sim::retarget::{Preparation, RetargetOptions};
 use std::sync::Arc;
 
 /// The recording as a server prepares it for a pace.
 fn at(tempo: f64) -> RetargetOptions {
     RetargetOptions {
         tempo,
-        walk_runs: true,
+        preparation: Preparation::walking(true),
         ..RetargetOptions::default()
     }
 }
@@ -74,8 +74,11 @@ fn recordings_are_followed_at_the_pace_they_are_prepared_for() {
 fn the_pace_changes_the_rate_and_not_the_samples_of_the_recording() {
     let body = man();
     let bare = |tempo| RetargetOptions {
-        ends: false,
-        balance: false,
+        preparation: Preparation {
+            ends: false,
+            balance: false,
+            ..at(tempo).preparation
+        },
         ..at(tempo)
     };
     let [slow, fast] = [0.5, 2.0].map(|tempo| recorded_with(&body, "turn", &bare(tempo)));

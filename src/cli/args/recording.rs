@@ -1,6 +1,6 @@
 //! How a recording is read.
 
-use crate::sim::retarget::{RetargetOptions, UpAxis};
+use crate::sim::retarget::{FileFacts, Preparation, RetargetOptions, UpAxis};
 use clap::ValueEnum;
 
 /// Which axis of the file points up.
@@ -37,8 +37,11 @@ impl FileArgs {
     #[must_use]
     pub fn apply(&self, options: RetargetOptions) -> RetargetOptions {
         RetargetOptions {
-            unit_m: self.unit,
-            up: self.up.map(UpAxis::from),
+            file: FileFacts {
+                unit_m: self.unit,
+                up: self.up.map(UpAxis::from),
+                ..options.file
+            },
             ..options
         }
     }
@@ -82,9 +85,12 @@ impl RecordingArgs {
     /// The ordinary preparation of a file that is read so.
     pub fn options(&self) -> RetargetOptions {
         self.file.apply(RetargetOptions {
-            rate_hz: self.file_rate,
-            walk_runs: self.walk_runs,
             tempo: self.tempo,
+            file: FileFacts {
+                rate_hz: self.file_rate,
+                ..FileFacts::default()
+            },
+            preparation: Preparation::walking(self.walk_runs),
             ..RetargetOptions::default()
         })
     }

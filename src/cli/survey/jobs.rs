@@ -16,7 +16,7 @@ use crate::sim::figure::{FigureOptions, Perturbation, StrengthScale};
 use crate::sim::motion::builtin::{BUILTIN_NAMES, builtin};
 use crate::sim::motion::{Bvh, Clip};
 use crate::sim::plan::feasibility::consistency;
-use crate::sim::retarget::retarget;
+use crate::sim::retarget::{Preparation, retarget};
 use crate::sim::retarget::{RetargetOptions, RetargetReport};
 use crate::sim::strength::Strength;
 use crate::sim::world::WorldParams;
@@ -332,21 +332,18 @@ fn job(
 /// Fits a recording, or a copy of it with noise, to the body: as it is, and prepared.
 fn fit(args: &SurveyArgs, body: &Body, bytes: &[u8], copy: u32) -> Result<Fitted> {
     let as_recorded = RetargetOptions {
-        lock_feet: false,
-        balance: false,
-        ends: false,
-        walk_runs: false,
+        preparation: Preparation::NONE,
         ..RetargetOptions::default()
     };
     let options = RetargetOptions {
-        walk_runs: !args.keep_runs,
+        preparation: Preparation::walking(!args.keep_runs),
         ..RetargetOptions::default()
     };
     let mut bvh = Bvh::parse(bytes).context("not a BVH file")?;
     let mut recorded = retarget(&bvh, body, &as_recorded).context("does not fit the body")?;
     if copy > 0 {
         let mut rng = Pcg64Mcg::seed_from_u64(seed(bytes, copy, 0));
-        let distance = args.noise.metres / recorded.report.unit_m;
+        let distance = args.noise.metres / recorded.report.size.unit_m;
         let random = || rng.random_range(-1.0..=1.0);
         let text = noisy(bytes, &bvh, distance, args.noise.degrees, random)
             .context("has no motion that could have noise")?;
@@ -356,7 +353,7 @@ fn fit(args: &SurveyArgs, body: &Body, bytes: &[u8], copy: u32) -> Result<Fitted
     let prepared = retarget(&bvh, body, &options).context("does not fit the body")?;
     Ok(Fitted {
         reference: Reference {
-            phases: recorded.report.phases.clone(),
+            phases: recorded.report.feet.phases.clone(),
             recorded: Arc::new(recorded.clip),
             prepared: Arc::new(prepared.clip),
         },
@@ -396,7 +393,7 @@ fn measured(
     Measured {
         kind: survey::kind::kind(body, &raw, &label, recorded.rate_hz()),
         clip_s: short(recorded.duration()),
-        walked: fitted.prepared.as_ref().is_some_and(|r| r.walked),
+        walked: fitted.prepared.as_ref().is_some_and(|r| r.runs.walked),
         prepared_off_m: short(reference.prepared_off(body)),
         warnings: fitted
             .prepared

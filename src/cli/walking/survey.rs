@@ -97,7 +97,7 @@ pub(super) fn survey(page: &mut Page, study: &Study) -> Result<()> {
     let mut rows = Vec::new();
     let mut stood = vec![0; cases.len()];
     for motion in &study.clips {
-        if motion.spec.starts_with("builtin:") || !motion.options.walk_runs {
+        if motion.spec.starts_with("builtin:") || !motion.options.preparation.walk_runs {
             continue;
         }
         let bytes =

@@ -73,9 +73,9 @@ pub struct Origin {
     pub yaw: f64,
 }
 
-/// What retargeting found, guessed and changed.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RetargetReport {
+/// How the skeleton of the file was understood.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SkeletonReport {
     /// Segments and their bones.
     pub mapped: Vec<MappedBone>,
     /// Segments without a bone; they keep their neutral angle.
@@ -84,6 +84,11 @@ pub struct RetargetReport {
     pub by_structure: bool,
     /// True if the file's left and right were exchanged, told by position.
     pub sides_swapped: bool,
+}
+
+/// Size of the recorded person, and of the body against it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SizeReport {
     /// Metres per unit of the file.
     pub unit_m: f64,
     /// True if the caller gave the unit.
@@ -94,18 +99,37 @@ pub struct RetargetReport {
     pub stature: f64,
     /// Body size over recorded size.
     pub scale: f64,
+}
+
+/// Frames of the file, and samples of the clip.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrameReport {
     /// Frame rate of the file as used, Hz.
     pub source_rate_hz: f64,
     /// Rate of the clip, Hz.
     pub rate_hz: f64,
     /// Frames left out at the start (T-pose).
     pub skipped_frames: usize,
+    /// Glitches.
+    pub bridged: Vec<Bridged>,
+    /// Root mean square distance that smoothing moved the joints, m.
+    pub smoothing_rms: f64,
+}
+
+/// Where the motion was recorded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlaceReport {
     /// Height of the recorded floor over z = 0 of the file, m, before scaling.
     pub floor_offset: f64,
     /// Slope of the recorded floor that was levelled.
     pub floor_slope: f64,
     /// Place and heading of the first frame.
     pub origin: Origin,
+}
+
+/// What of the recorded joint angles is no body's, or not this body's.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointReport {
     /// Angles that had to be clamped.
     pub clamped: Vec<ClampedDof>,
     /// 95th percentile of the angle by which the left and right shank leave the plane of the knee hinge, rad.
@@ -117,35 +141,74 @@ pub struct RetargetReport {
     /// Constant angle taken out of the pronation of the left and right forearm, rad: as recorded its range is no
     /// forearm's.
     pub pronation_shift: [f64; 2],
+}
+
+/// How the feet stand.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FootReport {
+    /// Which feet the recording has on the floor, without gaps.
+    pub phases: Vec<ContactPhase>,
+    /// Largest distance of a planted foot from its place, m: as recorded, and prepared.
+    pub slide: (f64, f64),
+    /// Largest depth of a sole under the floor in stance, m: as recorded, and prepared.
+    pub penetration: (f64, f64),
     /// Fraction of foot samples in stance that were declared free because the leg's limits do not let it hold the foot
     /// in place.
     pub freed: f64,
-    /// Largest distance of a planted foot from its place, m: as recorded, and prepared.
-    pub foot_slide: (f64, f64),
-    /// Largest depth of a sole under the floor in stance, m: as recorded, and prepared.
-    pub penetration: (f64, f64),
-    /// Which feet the recording has on the floor, without gaps.
-    pub phases: Vec<ContactPhase>,
-    /// Glitches.
-    pub bridged: Vec<Bridged>,
-    /// Root mean square distance that smoothing moved the joints, m.
-    pub smoothing_rms: f64,
+}
+
+/// What carries the body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BalanceReport {
     /// Zero-moment point outside the support polygon before and after balancing.
     pub zmp_outside: (ZmpOutside, ZmpOutside),
-    /// Largest shift of the pelvis for balance, m.
-    pub shift_max: f64,
-    /// Largest lowering of the pelvis so that planted legs reach, m.
-    pub pelvis_drop_max: f64,
-    /// Largest angle by which the pelvis is tilted back where hips do not flex as far as recorded, rad.
-    pub pelvis_tilt_max: f64,
-    /// Largest raise of the pelvis where legs do not fold as far as recorded, m.
-    pub pelvis_raise_max: f64,
     /// Fraction of the clip in which something other than the feet carries the body (chair, hands, back).
     pub carried: f64,
-    /// Speed over the floor of the fastest run, m/s, if the recording runs anywhere, and whether it is walked.
-    pub runs: Option<f64>,
-    /// See `runs`.
+}
+
+/// Largest changes of the pelvis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PelvisReport {
+    /// Shift for balance, m.
+    pub shift: f64,
+    /// Lowering so that planted legs reach, m.
+    pub drop: f64,
+    /// Angle by which it is tilted back where hips do not flex as far as recorded, rad.
+    pub tilt: f64,
+    /// Raise where legs do not fold as far as recorded, m.
+    pub raise: f64,
+}
+
+/// Running in the recording.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RunReport {
+    /// Speed over the floor of the fastest run, m/s, if the recording runs anywhere.
+    pub speed: Option<f64>,
+    /// True if it is walked.
     pub walked: bool,
+}
+
+/// What retargeting found, guessed and changed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RetargetReport {
+    /// Bones.
+    pub skeleton: SkeletonReport,
+    /// Units, axes and scale.
+    pub size: SizeReport,
+    /// Frames and samples.
+    pub frames: FrameReport,
+    /// Floor, place and heading.
+    pub place: PlaceReport,
+    /// Joint angles.
+    pub joints: JointReport,
+    /// Contacts of the feet.
+    pub feet: FootReport,
+    /// Support of the body.
+    pub balance: BalanceReport,
+    /// Path of the pelvis.
+    pub pelvis: PelvisReport,
+    /// Running.
+    pub runs: RunReport,
     /// What a user should know.
     pub warnings: Vec<String>,
 }
@@ -234,24 +297,24 @@ impl RetargetReport {
     /// Adds a sentence for each finding that a reader should know.
     pub(super) fn note_warnings(&mut self, from_rest: bool) {
         let w = &mut self.warnings;
-        if self.by_structure {
+        if self.skeleton.by_structure {
             w.push(
                 "bone names told nothing: the shape of the skeleton decided which bone is which"
                     .into(),
             );
         }
-        if !self.missing.is_empty() {
+        if !self.skeleton.missing.is_empty() {
             w.push(format!(
                 "no bone for {}: held at the neutral angle",
-                self.missing.join(", ")
+                self.skeleton.missing.join(", ")
             ));
         }
         if !from_rest {
             w.push("the file's zero pose is no standing person: the mean of its most upright frames was taken for \
                 calibration".into());
         }
-        if !self.bridged.is_empty() {
-            let frames: usize = self.bridged.iter().map(|b| b.count).sum();
+        if !self.frames.bridged.is_empty() {
+            let frames: usize = self.frames.bridged.iter().map(|b| b.count).sum();
             w.push(format!("{frames} frames with jumps were bridged"));
         }
         let notable = |c: &&ClampedDof| {
@@ -262,7 +325,7 @@ impl RetargetReport {
             .iter()
             .any(|least| c.max > least.0 && c.fraction > least.1)
         };
-        for c in self.clamped.iter().filter(notable) {
+        for c in self.joints.clamped.iter().filter(notable) {
             w.push(format!(
                 "{} cut by up to {:.0}° in {:.0} % of the clip",
                 c.in_words(),
@@ -270,7 +333,10 @@ impl RetargetReport {
                 100.0 * c.fraction
             ));
         }
-        for (side, shift) in ["left", "right"].into_iter().zip(self.pronation_shift) {
+        for (side, shift) in ["left", "right"]
+            .into_iter()
+            .zip(self.joints.pronation_shift)
+        {
             if shift.abs() > warning::CLAMP {
                 w.push(format!(
                     "{side} forearm: its rotation was taken {:.0}° off, as recorded it is no forearm's",
@@ -278,35 +344,36 @@ impl RetargetReport {
                 ));
             }
         }
-        if self.pelvis_tilt_max > warning::CLAMP {
+        if self.pelvis.tilt > warning::CLAMP {
             w.push(format!(
                 "the pelvis is tilted back by up to {:.0}° where hips do not flex as far as recorded",
-                self.pelvis_tilt_max.to_degrees()
+                self.pelvis.tilt.to_degrees()
             ));
         }
-        if self.pelvis_raise_max > warning::PELVIS_RAISE {
+        if self.pelvis.raise > warning::PELVIS_RAISE {
             w.push(format!(
                 "the pelvis is raised by up to {:.0} cm where legs do not fold as far as recorded",
-                100.0 * self.pelvis_raise_max
+                100.0 * self.pelvis.raise
             ));
         }
-        if self.freed > warning::FREED_SHARE {
+        if self.feet.freed > warning::FREED_SHARE {
             w.push(format!(
                 "planted feet were let go in {:.0} % of the samples: the legs' limits do not let them stand as \
                  recorded",
-                100.0 * self.freed
+                100.0 * self.feet.freed
             ));
         }
-        if self.carried > warning::CARRIED_SHARE {
+        if self.balance.carried > warning::CARRIED_SHARE {
             w.push(format!(
                 "in {:.0} % of the clip something other than the feet carries the body (chair, hands, back)",
-                100.0 * self.carried
+                100.0 * self.balance.carried
             ));
         }
         let off = self
+            .joints
             .knee_off_axis
             .iter()
-            .chain(&self.elbow_off_axis)
+            .chain(&self.joints.elbow_off_axis)
             .copied()
             .fold(0.0, f64::max);
         if off > warning::LARGE_CLAMP {

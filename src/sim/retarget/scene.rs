@@ -156,8 +156,7 @@ impl<'a> Scene<'a> {
             .filter(|s| s.gait == Gait::Run)
             .map(|s| s.samples)
             .collect();
-        let slowed = options
-            .walk_runs
+        let slowed = (options.preparation.walk_runs)
             .then(|| RunToWalk::new(&way, feet, &runs, (source_rate, rate)))
             .flatten();
         let slower = slowed.as_ref().map_or(1.0, |s| s.stretch(count as f64));

@@ -3,14 +3,14 @@
 use super::{STANDING, take, text};
 use sinew::sim::body::{Body, Posture};
 use sinew::sim::plan::feasibility::consistency;
-use sinew::sim::retarget::RetargetOptions;
+use sinew::sim::retarget::{Preparation, RetargetOptions};
 
 #[test]
 fn standing_motions_keep_the_zero_moment_point_over_the_feet() {
     for body in [Body::adult_man(), Body::adult_woman()] {
         for name in STANDING {
             let r = take(&text(name), &body, &RetargetOptions::default()).unwrap();
-            let (before, after) = r.report.zmp_outside;
+            let (before, after) = r.report.balance.zmp_outside;
             assert!(
                 after.p95 == 0.0 && after.mean <= before.mean,
                 "{name}: {before:?} {after:?}"
@@ -34,15 +34,15 @@ fn balancing_and_locking_make_a_walk_consistent() {
     let body = Body::adult_man();
     for name in ["walk", "turn", "salsa-a"] {
         let r = take(&text(name), &body, &RetargetOptions::default()).unwrap();
-        let (before, after) = r.report.zmp_outside;
+        let (before, after) = r.report.balance.zmp_outside;
         assert!(
             after.mean < 0.01 && after.mean < 0.25 * before.mean,
             "{name}: {before:?} {after:?}"
         );
         assert!(
-            r.report.foot_slide.0 > 0.02 && r.report.shift_max < 0.1,
+            r.report.feet.slide.0 > 0.02 && r.report.pelvis.shift < 0.1,
             "{name}: {:?}",
-            r.report.foot_slide
+            r.report.feet.slide
         );
     }
 }
@@ -53,9 +53,7 @@ fn balancing_and_locking_make_a_walk_consistent() {
 fn preparation_makes_motions_consistent_with_the_dynamics() {
     let body = Body::adult_man();
     let bare = RetargetOptions {
-        lock_feet: false,
-        balance: false,
-        ends: false,
+        preparation: Preparation::NONE,
         ..RetargetOptions::default()
     };
     // Share of the weight that the ground lacks (rms) and distance of the zero-moment point from the soles (rms, m);
@@ -68,7 +66,7 @@ fn preparation_makes_motions_consistent_with_the_dynamics() {
     ] {
         let of = |options: &RetargetOptions| {
             let out = take(&text(name), &body, options).unwrap();
-            let phases = take(&text(name), &body, &bare).unwrap().report.phases;
+            let phases = take(&text(name), &body, &bare).unwrap().report.feet.phases;
             let clip = out.clip;
             let at = |i: usize| (i as f64 + 0.5) / clip.rate_hz();
             let label: Vec<[bool; 2]> = (0..clip.len())

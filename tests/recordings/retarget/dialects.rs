@@ -5,7 +5,7 @@ use super::{same, take};
 use sinew::sim::body::Body;
 use sinew::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use sinew::sim::motion::leg_ik::forward;
-use sinew::sim::retarget::{RetargetOptions, UpAxis};
+use sinew::sim::retarget::{FileFacts, Preparation, RetargetOptions, UpAxis};
 
 /// Names of the CMU skeleton's limbs in other dialects. CMU's `LeftHand` only twists the forearm; its `LeftFingerBase`
 /// is the wrist.
@@ -163,7 +163,11 @@ fn names_of_other_dialects_give_the_same_motion() {
             &RetargetOptions::default(),
         )
         .unwrap();
-        assert!(!r.report.by_structure, "{}: names were enough", d.0);
+        assert!(
+            !r.report.skeleton.by_structure,
+            "{}: names were enough",
+            d.0
+        );
         same(&plain, &r, d.0);
     }
 }
@@ -218,13 +222,16 @@ fn generic_suffix_names_and_no_names_at_all_are_understood() {
     };
     // Steps that are added at the ends follow the whole body's mass, arms included: they are no matter of names.
     let bare = RetargetOptions {
-        ends: false,
+        preparation: Preparation {
+            ends: false,
+            ..Preparation::default()
+        },
         ..RetargetOptions::default()
     };
     let plain = take(&source.text(), &body, &bare).unwrap();
     let r = take(&nameless.text(), &body, &bare).unwrap();
     assert!(
-        r.report.by_structure
+        r.report.skeleton.by_structure
             && r.report
                 .warnings
                 .iter()
@@ -262,9 +269,9 @@ fn units_axes_and_extra_joints_change_nothing() {
         )
         .unwrap();
         assert!(
-            (r.report.unit_m - unit).abs() < 1e-12,
+            (r.report.size.unit_m - unit).abs() < 1e-12,
             "{what}: guessed {}",
-            r.report.unit_m
+            r.report.size.unit_m
         );
         same(&plain, &r, what);
     }
@@ -274,7 +281,7 @@ fn units_axes_and_extra_joints_change_nothing() {
         &RetargetOptions::default(),
     )
     .unwrap();
-    assert_eq!(r.report.up, UpAxis::Z);
+    assert_eq!(r.report.size.up, UpAxis::Z);
     same(&plain, &r, "z up");
     same(
         &plain,
@@ -287,13 +294,16 @@ fn units_axes_and_extra_joints_change_nothing() {
         "dead root",
     );
     let given = RetargetOptions {
-        unit_m: Some(0.05),
+        file: FileFacts {
+            unit_m: Some(0.05),
+            ..FileFacts::default()
+        },
         ..Default::default()
     };
     let r = take(&source.text(), &body, &given).unwrap();
     assert!(
-        r.report.unit_given
-            && (r.report.scale / plain.report.scale * 0.05 / cmu - 1.0).abs() < 1e-9
+        r.report.size.unit_given
+            && (r.report.size.scale / plain.report.size.scale * 0.05 / cmu - 1.0).abs() < 1e-9
     );
 }
 
@@ -312,6 +322,9 @@ fn sides_named_the_wrong_way_round_are_told_by_position() {
         }
     });
     let r = take(&swapped.text(), &body, &RetargetOptions::default()).unwrap();
-    assert!(r.report.sides_swapped && r.report.warnings.iter().any(|w| w.contains("exchanged")));
+    assert!(
+        r.report.skeleton.sides_swapped
+            && r.report.warnings.iter().any(|w| w.contains("exchanged"))
+    );
     same(&plain, &r, "swapped sides");
 }

@@ -3,7 +3,7 @@
 use super::source::Source;
 use super::{same, take, text};
 use sinew::sim::body::Body;
-use sinew::sim::retarget::{RetargetError, RetargetOptions};
+use sinew::sim::retarget::{FileFacts, RetargetError, RetargetOptions};
 
 #[test]
 fn poses_before_the_motion_and_glitches_are_taken_out() {
@@ -17,7 +17,7 @@ fn poses_before_the_motion_and_glitches_are_taken_out() {
             &RetargetOptions::default(),
         )
         .unwrap();
-        assert_eq!(r.report.skipped_frames, held);
+        assert_eq!(r.report.frames.skipped_frames, held);
         assert!(r.report.warnings.iter().any(|w| w.contains("hold a pose")));
         same(&plain, &r, "T-pose first");
     }
@@ -37,6 +37,7 @@ fn poses_before_the_motion_and_glitches_are_taken_out() {
     let r = take(&bad.text(), &body, &RetargetOptions::default()).unwrap();
     let found: Vec<(&str, usize, usize)> = r
         .report
+        .frames
         .bridged
         .iter()
         .map(|b| (b.bone.as_str(), b.first, b.count))
@@ -52,7 +53,7 @@ fn slow_recordings_become_smooth_and_wrong_frame_times_can_be_corrected() {
     slow.rows = slow.rows.into_iter().step_by(5).collect();
     slow.frame_time *= 5.0;
     let r = take(&slow.text(), &body, &RetargetOptions::default()).unwrap();
-    assert!((r.report.source_rate_hz - 24.0).abs() < 0.01 && r.clip.rate_hz() == 120.0);
+    assert!((r.report.frames.source_rate_hz - 24.0).abs() < 0.01 && r.clip.rate_hz() == 120.0);
     let plain = take(&text("walk"), &body, &RetargetOptions::default()).unwrap();
     for i in (30..plain.clip.len().min(r.clip.len()) - 30).step_by(10) {
         let d = (plain.clip.posture(i).root_position - r.clip.posture(i).root_position).norm();
@@ -66,7 +67,10 @@ fn slow_recordings_become_smooth_and_wrong_frame_times_can_be_corrected() {
         assert!(d < most, "sample {i}: {d}");
     }
     let half = RetargetOptions {
-        rate_hz: Some(60.0),
+        file: FileFacts {
+            rate_hz: Some(60.0),
+            ..FileFacts::default()
+        },
         ..Default::default()
     };
     let r = take(&text("walk"), &body, &half).unwrap();
@@ -87,7 +91,10 @@ fn errors_name_what_is_missing() {
     let e = go(
         &source,
         &RetargetOptions {
-            unit_m: Some(1.0),
+            file: FileFacts {
+                unit_m: Some(1.0),
+                ..FileFacts::default()
+            },
             ..Default::default()
         },
     );
@@ -98,7 +105,10 @@ fn errors_name_what_is_missing() {
     let e = go(
         &source,
         &RetargetOptions {
-            rate_hz: Some(5000.0),
+            file: FileFacts {
+                rate_hz: Some(5000.0),
+                ..FileFacts::default()
+            },
             ..Default::default()
         },
     );

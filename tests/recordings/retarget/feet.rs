@@ -8,7 +8,7 @@ use sinew::sim::math::Vec3;
 use sinew::sim::motion::leg_ik::forward;
 use sinew::sim::plan::contact_labels::ContactPhase;
 use sinew::sim::plan::foot_lock::Sole;
-use sinew::sim::retarget::RetargetOptions;
+use sinew::sim::retarget::{Preparation, RetargetOptions};
 
 /// Heel, toe joint and tip of the toes of both feet, and the lowest point of either sole.
 fn soles(body: &Body, posture: &Posture) -> [([Vec3; 3], f64); 2] {
@@ -79,14 +79,14 @@ fn planted_feet_neither_slide_nor_sink() {
                 }
             }
             assert!(
-                r.report.foot_slide.1 < 1e-3 && r.report.penetration.1 < 1e-3,
+                r.report.feet.slide.1 < 1e-3 && r.report.feet.penetration.1 < 1e-3,
                 "{name}: {:?}",
                 r.report
             );
             assert!(
-                r.report.freed < 0.12,
+                r.report.feet.freed < 0.12,
                 "{name}: {} of the samples let go",
-                r.report.freed
+                r.report.feet.freed
             );
         }
     }
@@ -120,6 +120,7 @@ fn contact_phases_agree_with_the_statistics() {
         // Both feet leave or land within a few frames of each other in a jump: such slivers are no phases of their own.
         let ours: Vec<&ContactPhase> = r
             .report
+            .feet
             .phases
             .iter()
             .filter(|p| p.end - p.start > 0.03)
@@ -156,6 +157,7 @@ fn contact_phases_agree_with_the_statistics() {
         let r = take(&text(name), &body, &RetargetOptions::default()).unwrap();
         let both: f64 = r
             .report
+            .feet
             .phases
             .iter()
             .filter(|p| p.letter() == 'D')
@@ -201,7 +203,7 @@ fn swinging_feet_clear_the_floor() {
 fn no_sole_is_in_the_floor_on_the_way_in_and_out_either() {
     let body = Body::adult_man();
     let options = RetargetOptions {
-        walk_runs: true,
+        preparation: Preparation::walking(true),
         ..RetargetOptions::default()
     };
     // Who lies has feet that nothing holds up.

@@ -16,7 +16,7 @@ use sinew::sim::body::topology::{DOF_NAMES, L_FOOT, L_THIGH, R_FOOT, R_THIGH};
 use sinew::sim::math::Vec3;
 use sinew::sim::motion::Bvh;
 use sinew::sim::motion::leg_ik::forward;
-use sinew::sim::retarget::retarget;
+use sinew::sim::retarget::{Preparation, retarget};
 use sinew::sim::retarget::{RetargetError, RetargetOptions, Retargeted, UpAxis};
 
 /// Clips in which the person stands on the spot: they must stay on their feet.
@@ -84,27 +84,32 @@ fn every_clip_becomes_a_motion_of_every_body() {
                 clip.duration()
             );
             assert!(
-                (report.unit_m / known["scale_m_per_unit"].as_f64().unwrap() - 1.0).abs() < 1e-3,
+                (report.size.unit_m / known["scale_m_per_unit"].as_f64().unwrap() - 1.0).abs()
+                    < 1e-3,
                 "{name}: unit {}",
-                report.unit_m
+                report.size.unit_m
             );
-            assert_eq!(report.up, UpAxis::Y, "{name}");
-            assert!(!report.sides_swapped && !report.by_structure, "{name}");
+            assert_eq!(report.size.up, UpAxis::Y, "{name}");
             assert!(
-                (1.3..2.0).contains(&report.stature),
+                !report.skeleton.sides_swapped && !report.skeleton.by_structure,
+                "{name}"
+            );
+            assert!(
+                (1.3..2.0).contains(&report.size.stature),
                 "{name}: {}",
-                report.stature
+                report.size.stature
             );
             assert!(
-                report.mapped.len() + report.missing.len() >= 18,
+                report.skeleton.mapped.len() + report.skeleton.missing.len() >= 18,
                 "{name}: {:?}",
-                report.mapped
+                report.skeleton.mapped
             );
             assert!(
                 report
+                    .joints
                     .knee_off_axis
                     .iter()
-                    .chain(&report.elbow_off_axis)
+                    .chain(&report.joints.elbow_off_axis)
                     .all(|a| *a < 0.35),
                 "{name}"
             );
@@ -157,7 +162,10 @@ fn two_people_of_one_recording_keep_their_distance() {
     let body = Body::adult_man();
     let options = RetargetOptions {
         keep_origin: true,
-        balance: false,
+        preparation: Preparation {
+            balance: false,
+            ..Preparation::default()
+        },
         ..Default::default()
     };
     let [a, b] = ["salsa-a", "salsa-b"].map(|n| take(&text(n), &body, &options).unwrap());
@@ -175,7 +183,7 @@ fn two_people_of_one_recording_keep_their_distance() {
             gap(i)
         );
     }
-    let o = a.report.origin;
+    let o = a.report.place.origin;
     let at = a.clip.posture(0).root_position;
     assert!((at.x - o.x).hypot(at.y - o.y) < 0.02, "{at:?} {o:?}");
 }

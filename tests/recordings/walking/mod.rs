@@ -24,8 +24,8 @@ use sinew::sim::math::Vec3;
 use sinew::sim::motion::leg_ik::forward;
 use sinew::sim::motion::{Bvh, Clip};
 use sinew::sim::plan::cycle;
-use sinew::sim::retarget::RetargetOptions;
 use sinew::sim::retarget::retarget;
+use sinew::sim::retarget::{Preparation, RetargetOptions};
 use sinew::sim::world::{ClipPlayback, Drive, FigureKey, World, WorldParams};
 use std::ops::Range;
 use std::sync::Arc;
@@ -194,7 +194,7 @@ fn what_a_heel_carried_the_toes_carry_when_it_rises() {
 fn feet_stay_where_they_land_and_come_down_softly() {
     let body = man();
     let options = RetargetOptions {
-        walk_runs: true,
+        preparation: Preparation::walking(true),
         ..RetargetOptions::default()
     };
     // Furthest slide in a stance, m, by the load on each point, and largest push of the floor, weights: what the
@@ -268,7 +268,7 @@ fn copies(body: &Body, name: &str, seeds: Range<u64>) -> Vec<(u64, Clip)> {
     let bytes = mocap::read(&format!("{name}.bvh"));
     let plain = Bvh::parse(&bytes).unwrap();
     let options = RetargetOptions::default();
-    let unit = retarget(&plain, body, &options).unwrap().report.unit_m;
+    let unit = retarget(&plain, body, &options).unwrap().report.size.unit_m;
     let copy = |seed| {
         let mut rng = Pcg64Mcg::seed_from_u64(seed);
         let random = || rng.random_range(-1.0..=1.0);
@@ -369,7 +369,7 @@ fn who_ends_on_both_feet_stands_on_both_whatever_the_noise() {
 fn a_run_that_is_walked_comes_to_a_stand() {
     let body = man();
     let options = |walk_runs| RetargetOptions {
-        walk_runs,
+        preparation: Preparation::walking(walk_runs),
         ..RetargetOptions::default()
     };
     // What does not run is not changed.

@@ -4,8 +4,8 @@
 use super::walk;
 use crate::common::{man, mocap};
 use sinew::sim::motion::Bvh;
-use sinew::sim::retarget::RetargetOptions;
 use sinew::sim::retarget::retarget;
+use sinew::sim::retarget::{Preparation, RetargetOptions};
 use std::sync::Arc;
 
 /// The frames of a recording from `from` on for `seconds`, as a file of its own.
@@ -36,7 +36,7 @@ fn with_frames(name: &str, of: impl Fn(Vec<&str>, f64) -> Vec<&str>) -> Bvh {
 fn recordings_are_followed_backwards_too() {
     let body = man();
     let options = RetargetOptions {
-        walk_runs: true,
+        preparation: Preparation::walking(true),
         ..RetargetOptions::default()
     };
     for (name, bounds) in [
