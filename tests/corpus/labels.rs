@@ -1,130 +1,201 @@
-//! When feet stand: the labels of the retargeter against the truth.
+//! When feet stand: the labels of a recording, and the planted feet of the motion that is made of it, against the
+//! truth.
 
-use crate::recorded::{Fit, Truth, fits};
+use crate::recorded::{Fit, fits};
 use sinew::sim::plan::contact_labels::ContactPhase;
+use std::collections::BTreeMap;
 
-/// How well labels agree with the truth.
-pub struct Agreement {
-    pub precision: f64,
-    pub recall: f64,
-    /// Error of each touch-down, s: label minus truth.
-    pub touch_downs: Vec<f64>,
-    /// Touch-downs of the truth without a label nearby.
-    pub missed: usize,
-}
-
-/// A label this far from a touch-down belongs to another one, s.
-const NEAR: f64 = 0.15;
+/// Samples per second at which contact is compared.
+const RATE: f64 = 240.0;
+/// A touch-down or lift-off that is farther off is in another phase of the gait, s: double support takes 0.1 to 0.2 s.
+const ON_TIME: f64 = 0.1;
+/// Speeds this near to the ends of a cut recording are not those of its motion, s.
+const END: f64 = 0.05;
 
 fn planted(phases: &[ContactPhase], t: f64) -> [bool; 2] {
     let phase = phases.iter().find(|p| t >= p.start && t < p.end);
     phase.map_or([false; 2], |p| p.planted)
 }
 
-fn agreement(truth: &Truth, phases: &[ContactPhase]) -> Agreement {
-    let (mut both, mut labelled, mut true_ones) = (0.0, 0.0, 0.0);
-    let end = phases.last().map_or(0.0, |p| p.end);
-    let mut t = 0.0;
-    while t < end {
-        let (a, b) = (planted(phases, t), truth.planted(t));
-        for side in 0..2 {
-            both += f64::from(a[side] && b[side]);
-            labelled += f64::from(a[side]);
-            true_ones += f64::from(b[side]);
-        }
-        t += 1.0 / 240.0;
+/// What the labels of a recording say at a time.
+pub fn labelled(f: &Fit, t: f64) -> [bool; 2] {
+    planted(&f.fitted.report.feet.phases, t)
+}
+
+/// What the prepared motion has on the floor at a time.
+fn prepared(f: &Fit, t: f64) -> [bool; 2] {
+    f.fitted.clip.sample(t).planted
+}
+
+/// Contact time of feet, s: in both, as found, and in truth.
+#[derive(Clone, Copy, Default)]
+pub struct Overlap {
+    both: f64,
+    found: f64,
+    truth: f64,
+}
+
+impl Overlap {
+    fn add(&mut self, other: Self) {
+        self.both += other.both;
+        self.found += other.found;
+        self.truth += other.truth;
     }
-    let mut onsets: [Vec<f64>; 2] = Default::default();
-    for pair in phases.windows(2) {
-        for side in 0..2 {
-            if !pair[0].planted[side] && pair[1].planted[side] {
-                onsets[side].push(pair[1].start);
-            }
-        }
+    pub fn precision(&self) -> f64 {
+        self.both / self.found
     }
-    let mut touch_downs = Vec::new();
-    let mut missed = 0;
-    for h in truth.footholds().iter().filter(|h| h.from > 0.05) {
-        let nearest = onsets[h.side]
-            .iter()
-            .map(|t| t - h.from)
-            .min_by(|a, b| a.abs().total_cmp(&b.abs()));
-        match nearest.filter(|e| e.abs() < NEAR) {
-            Some(e) => touch_downs.push(e),
-            None => missed += 1,
-        }
-    }
-    Agreement {
-        precision: both / labelled,
-        recall: both / true_ones,
-        touch_downs,
-        missed,
+    pub fn recall(&self) -> f64 {
+        self.both / self.truth
     }
 }
 
-pub fn labelled(f: &Fit) -> Agreement {
-    agreement(&f.truth(), &f.fitted.report.feet.phases)
+/// What was found about the contacts of a recording.
+pub struct Agreement {
+    pub overlap: Overlap,
+    /// Touch-downs and lift-offs of the truth: found minus truth, s; none where no contact overlaps with the true one.
+    pub events: [Vec<Option<f64>>; 2],
+    /// Contacts that overlap with none of the truth.
+    invented: usize,
+}
+
+/// Stretches in which `on` holds, s.
+fn contacts(on: impl Fn(f64) -> bool, end: f64) -> Vec<(f64, f64)> {
+    let count = (end * RATE) as usize;
+    let (mut out, mut from) = (Vec::new(), None);
+    for i in 0..=count {
+        let t = i as f64 / RATE;
+        match (i < count && on(t), from) {
+            (true, None) => from = Some(t),
+            (false, Some(start)) => {
+                out.push((start, t));
+                from = None;
+            }
+            _ => {}
+        }
+    }
+    out
+}
+
+pub fn agreement(f: &Fit, found: impl Fn(&Fit, f64) -> [bool; 2]) -> Agreement {
+    let truth = f.truth();
+    let end = f.fitted.report.feet.phases.last().map_or(0.0, |p| p.end);
+    let mut out = Agreement {
+        overlap: Overlap::default(),
+        events: Default::default(),
+        invented: 0,
+    };
+    for side in 0..2 {
+        let ours = contacts(|t| found(f, t)[side], end);
+        let theirs: Vec<(f64, f64)> = (truth.footholds().iter())
+            .filter(|h| h.side == side)
+            .map(|h| (h.from, h.until.min(end)))
+            .collect();
+        let shared = |a: &(f64, f64), b: &(f64, f64)| (a.1.min(b.1) - a.0.max(b.0)).max(0.0);
+        let long = |all: &[(f64, f64)]| all.iter().map(|(a, b)| b - a).sum::<f64>();
+        let both = ours
+            .iter()
+            .flat_map(|a| theirs.iter().map(move |b| shared(a, b)));
+        out.overlap.add(Overlap {
+            both: both.sum(),
+            found: long(&ours),
+            truth: long(&theirs),
+        });
+        for t in &theirs {
+            let best = ours
+                .iter()
+                .max_by(|a, b| shared(a, t).total_cmp(&shared(b, t)));
+            let best = best.filter(|o| shared(o, t) > 0.0);
+            if t.0 > END {
+                out.events[0].push(best.map(|o| o.0 - t.0));
+            }
+            if t.1 < end - END {
+                out.events[1].push(best.map(|o| o.1 - t.1));
+            }
+        }
+        let unknown = |o: &&(f64, f64)| theirs.iter().all(|t| shared(o, t) == 0.0);
+        out.invented += ours.iter().filter(unknown).count();
+    }
+    out
 }
 
 #[test]
 fn standing_feet_are_labelled_as_planted() {
     for f in fits() {
-        let a = labelled(f);
-        let (what, kind) = (f.what(), f.motion.script.kind);
+        let recall = agreement(f, labelled).overlap.recall();
         // Feet of the jog are fast until the sole is flat.
-        let least = match (kind, f.noisy()) {
+        let least = match (f.motion.script.kind, f.noisy()) {
             ("run", _) => 0.90,
             (_, true) => 0.95,
             _ => 0.985,
         };
-        assert!(a.recall > least, "{what}: recall {}", a.recall);
+        assert!(recall > least, "{}: recall {recall}", f.what());
     }
 }
 
 #[test]
 fn feet_in_the_air_are_not_labelled_as_planted() {
     for f in fits() {
-        let a = labelled(f);
-        // A label begins up to a tenth of a second before the touch-down, where the foot is low and slow, and ends
-        // after the lift-off. The feet that turn on the spot and that are put down slowly after the kick are labelled
-        // in the air too.
-        let least = match (f.motion.script.name.as_str(), f.motion.script.kind) {
-            ("turn", _) => 0.75,
-            (_, "stand" | "floor") => 0.997,
-            (_, "jump") => 0.98,
+        let precision = agreement(f, labelled).overlap.precision();
+        // A foot is low and slow for up to a tenth of a second before its touch-down and after its lift-off. The feet
+        // that turn on the spot are so all the time.
+        let least = match f.motion.script.kind {
+            "turn" => 0.75,
+            "stand" | "floor" => 0.997,
+            "jump" => 0.98,
             _ => 0.90,
         };
+        assert!(precision > least, "{}: precision {precision}", f.what());
+    }
+}
+
+/// Contact time of each kind of motion as a figure is told of it: nine tenths of it are true, and nine tenths of the
+/// truth are told.
+#[test]
+fn prepared_feet_stand_when_they_stood() {
+    let mut kinds: BTreeMap<&str, Overlap> = BTreeMap::new();
+    // The feet of a body that lies down carry nothing, and the prepared motion says so.
+    for f in fits().filter(|f| f.motion.script.kind != "floor") {
+        let kind = kinds.entry(f.motion.script.kind).or_default();
+        kind.add(agreement(f, prepared).overlap);
+    }
+    assert!(kinds.len() >= 6, "{:?}", kinds.keys());
+    for (kind, o) in kinds {
+        let (precision, recall) = (o.precision(), o.recall());
         assert!(
-            a.precision > least,
-            "{}: precision {}",
-            f.what(),
-            a.precision
+            precision > 0.9 && recall > 0.9,
+            "{kind}: precision {precision}, recall {recall}"
         );
     }
 }
 
+/// Touch-downs and lift-offs are on time: of the labels nine of ten, and of the prepared motion, whose feet take the
+/// steps that labels have missed, nineteen of twenty. No contact is invented there.
 #[test]
-fn touch_downs_are_labelled_when_they_are() {
-    let mut count = 0;
-    for f in fits().filter(|f| !["turn", "kick"].contains(&f.motion.script.name.as_str())) {
-        let a = labelled(f);
-        let what = f.what();
-        assert_eq!(a.missed, 0, "{what}: touch-downs without a label");
-        let worst = a.touch_downs.iter().fold(0.0f64, |m, e| m.max(e.abs()));
-        let mean = a.touch_downs.iter().sum::<f64>() / a.touch_downs.len().max(1) as f64;
-        // Slow feet are labelled before they touch.
-        let (most, early) = match f.motion.script.name.as_str() {
-            "walk-slow" | "walk-crouched" => (0.12, 0.07),
-            _ => (0.09, 0.06),
-        };
-        assert!(worst < most, "{what}: a touch-down is {worst} s off");
-        assert!(
-            mean > -early && mean < 0.03,
-            "{what}: touch-downs are {mean} s late on average"
-        );
-        count += a.touch_downs.len();
+fn feet_touch_down_and_lift_off_when_they_did() {
+    type Contact = fn(&Fit, f64) -> [bool; 2];
+    let sources: [(&str, Contact, f64); 2] = [
+        ("labels", labelled, 0.9),
+        ("prepared motion", prepared, 0.95),
+    ];
+    for (what, found, least) in sources {
+        let mut all: [Vec<Option<f64>>; 2] = Default::default();
+        let mut invented = 0;
+        for f in fits() {
+            let a = agreement(f, found);
+            for (all, events) in all.iter_mut().zip(a.events) {
+                all.extend(events);
+            }
+            invented += a.invented;
+        }
+        for (event, errors) in ["touch-downs", "lift-offs"].into_iter().zip(&all) {
+            let on_time = |e: &&Option<f64>| e.is_some_and(|e| e.abs() < ON_TIME);
+            let share = errors.iter().filter(on_time).count() as f64 / errors.len() as f64;
+            assert!(errors.len() > 240, "{} {event}", errors.len());
+            assert!(share > least, "{what}: {share} of the {event} are on time");
+            assert!(errors.iter().all(Option::is_some), "{what}: {event} missed");
+        }
+        assert!(invented <= all[0].len() / 50, "{what}: {invented} invented");
     }
-    assert!(count > 240, "{count} touch-downs");
 }
 
 #[test]

@@ -7,8 +7,10 @@
 //! * `faults`: what is wrong with a file is left out, solved again or said.
 //! * `reading`: joint positions, unit, axes, rate, held poses.
 //! * `angles`: joint angles and centre of mass of the fitted motion.
-//! * `labels`: when feet stand.
-//! * `preparation`: feet that stand still where they should, zero-moment point, symmetries.
+//! * `labels`: when feet stand: touch-downs, lift-offs, contact time.
+//! * `preparation`: feet that stand still where they should, zero-moment point.
+//! * `symmetry`: mirrored and turned files and motions give mirrored and turned plans.
+//! * `boundaries`: where starts, stops, loops and transitions begin and end.
 //! * `tracking`: motions that the default figure follows.
 
 #![allow(clippy::unwrap_used)]
@@ -34,10 +36,13 @@ mod tracks;
 mod truth;
 
 mod angles;
+mod boundaries;
 mod faults;
 mod files;
 mod labels;
+mod plans;
 mod preparation;
 mod reading;
 mod recorded;
+mod symmetry;
 mod tracking;
