@@ -10,7 +10,7 @@ RUFF := .venv/bin/ruff format --quiet --config clients/python/pyproject.toml cli
 oracle load python viewer generate fmt: export PATH := $(ROOT)/.venv/bin:$(PATH)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test recordings ci setup lint physics rust release oracle python viewer load soak generate fmt
+.PHONY: help run test recordings ci setup lint physics rust survey release oracle python viewer load soak generate fmt
 
 help: ## what there is
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(ROOT)/Makefile
@@ -18,7 +18,7 @@ help: ## what there is
 run: ## the demo server
 	cd $(ROOT) && $(CARGO) run --release
 
-PARTS := setup lint physics rust release load oracle python viewer
+PARTS := setup lint physics rust survey release load oracle python viewer
 
 test: $(PARTS) ## every test that needs nothing from outside the repository; installs what they need
 	@echo "make test: passed: $(PARTS)."
@@ -27,6 +27,7 @@ test: $(PARTS) ## every test that needs nothing from outside the repository; ins
 recordings: ## the tests that need real motion capture in SINEW_MOCAP_DIR
 	@$(ROOT)/tests/recordings/check.sh
 	cd $(ROOT) && $(CARGO) test --locked --test recordings
+	@$(ROOT)/tests/survey.sh
 	@echo "make recordings: passed, with $(SINEW_MOCAP_DIR)."
 
 ci: ## what CI runs
@@ -46,6 +47,9 @@ physics: ## the physics compiles without a network crate in sight
 
 rust: ## Rust tests
 	cd $(ROOT) && $(CARGO) test --locked --no-fail-fast
+
+survey: ## every measure of every clip of tests/corpus against the stored one
+	$(ROOT)/tests/survey.sh $(ROOT)/tests/corpus
 
 release: ## whole figures in the profile that is shipped, which rounds and inlines differently
 	cd $(ROOT) && $(CARGO) test --release --locked --no-default-features --test acceptance

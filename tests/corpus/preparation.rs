@@ -86,6 +86,38 @@ fn soles_stay_out_of_the_floor() {
     }
 }
 
+/// Least height to which a whole swing raises the sole, m (docs/locomotion.md#foot-lock).
+const CLEARANCE: f64 = 0.015;
+
+#[test]
+fn swinging_feet_clear_the_floor() {
+    let body = man();
+    let soles = soles(&body);
+    let mut swings = 0;
+    // In a noisy file a foot may lose the floor for a moment where it stands.
+    for f in fits().filter(|f| f.motion.script.kind == "walk" && !f.noisy()) {
+        let clip = &f.fitted.clip;
+        for side in 0..2 {
+            let (mut top, mut stood) = (0.0f64, false);
+            for (posture, planted) in clip.samples() {
+                if !planted[side] {
+                    let points = sole(&body, &soles, posture, side);
+                    let low = points.iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
+                    top = top.max(low);
+                    continue;
+                }
+                // A swing that the clip begins in is not whole.
+                if stood && top > 0.0 {
+                    assert!(top > CLEARANCE, "{}: foot {side} by {top} m", f.what());
+                    swings += 1;
+                }
+                (top, stood) = (0.0, true);
+            }
+        }
+    }
+    assert!(swings > 150, "{swings}");
+}
+
 /// Height of the lowest contact point of the feet over a whole clip, m, and its time, s.
 pub fn lowest(f: &Fit) -> (f64, f64) {
     let body = man();

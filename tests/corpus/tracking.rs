@@ -1,8 +1,10 @@
 //! Motions that the default figure follows to the end.
 
 use crate::common::Scene;
+use crate::plans;
 use crate::recorded::{Fit, fits, man};
 use sinew::evaluate::RunReport;
+use sinew::evaluate::experiments::walk::{Walk, Walker, walk};
 use sinew::sim::figure::ControllerKind;
 use std::sync::Arc;
 
@@ -69,4 +71,29 @@ fn walks_are_followed() {
 #[test]
 fn the_jump_ends_on_its_feet() {
     follows(&["jump"], 3.0, 40.0);
+}
+
+/// Fastest walk that figures follow today, m/s (docs/limits.md).
+const BRISK: f64 = 1.4;
+
+/// Walks that are cut out of their recordings begin and end with steps that nobody recorded.
+#[test]
+fn strides_are_walked_from_standing_to_standing() {
+    let body = Arc::new(man());
+    for name in plans::walks() {
+        let clip = plans::strides(name);
+        let way = clip.advance();
+        if way.x.hypot(way.y) / clip.duration() > BRISK {
+            continue;
+        }
+        let w = walk(&Walker::new(&body), &Walk::once(&clip));
+        let text = format!(
+            "{name}: {:.2} deg, capture point {:.0} mm, slides {:.1} mm",
+            w.report.tracking_joint_rms_deg,
+            1e3 * w.capture[1],
+            1e3 * w.slip
+        );
+        println!("{text}");
+        assert!(w.stood(), "{text}: fell at {:?} s", w.fell_s);
+    }
 }

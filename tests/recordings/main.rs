@@ -1,6 +1,7 @@
 //! Tests that need real motion capture, which is not part of the repository. `make recordings` runs them;
 //! docs/corpus.md says which files they read and where such files come from. Without the files they fail, and the
-//! message names the variable and the page.
+//! message names the variable and the page. They claim properties of all recordings; single clips are guarded by
+//! `make survey`, which compares every measure of every clip with what is stored (docs/testing.md).
 //!
 //! * `bvh`: the reader against joint positions from an independent reader.
 //! * `retarget`: recordings become motions that a body can follow, in whatever dialect they are written.

@@ -19,9 +19,6 @@ use sinew::sim::motion::leg_ik::forward;
 use sinew::sim::retarget::{Preparation, retarget};
 use sinew::sim::retarget::{RetargetError, RetargetOptions, Retargeted, UpAxis};
 
-/// Clips in which the person stands on the spot: they must stay on their feet.
-const STANDING: [&str; 4] = ["idle", "lift", "punch", "wave"];
-
 fn text(name: &str) -> String {
     String::from_utf8(mocap::read(&format!("{name}.bvh"))).unwrap()
 }
