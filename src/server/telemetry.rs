@@ -39,6 +39,10 @@ fn describe() {
         "sinew_commands_refused_total",
         "Requests that found the queue of a world full."
     );
+    describe_counter!(
+        "sinew_commands_deferred_total",
+        "Times that a request waited one more tick because its tick had no time for it."
+    );
     describe_counter!("sinew_connections_total", "Connections accepted.");
     describe_counter!("sinew_faults_total", "Requests refused, by reason.");
 }

@@ -6,11 +6,14 @@
 //! each case is counted. Clock of arrival and playout is world time, so that pausing or slowing a world does not starve
 //! its drivers.
 
-use crate::sim::body::{NV, Posture};
+use crate::server::engine;
+use crate::sim::body::{Body, NV, Posture};
 use crate::sim::motion::{Target, TargetPair};
 use crate::sim::plan::stream::is_same;
 use crate::wire::types::{Delay, DriveSettings, Supply};
+use std::cell::Cell;
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 /// Most frames that are held: over four seconds at 120 Hz.
 pub const CAPACITY: usize = 512;
@@ -40,10 +43,11 @@ pub struct Frame {
     pub posture: Posture,
     /// Desired velocity.
     pub velocity: Option<Box<[f64; NV]>>,
-    /// Planted feet.
-    pub planted: [bool; 2],
-    /// True if the driver said which feet are planted.
-    pub labelled: bool,
+    /// Planted feet, if the driver named them.
+    pub planted: Option<[bool; 2]>,
+    /// Planted feet as they are guessed when the frame comes into use: that takes kinematics, and most frames of a
+    /// driver who sends too many are never used.
+    pub guess: Cell<Option<[bool; 2]>>,
 }
 
 /// Counters of one buffer.
@@ -69,7 +73,8 @@ pub struct JitterBuffer {
     origin: Option<(i64, f64)>,
     /// World time minus (first arrival + source time since then) of recent frames.
     transit: VecDeque<f64>,
-    jitter: f64,
+    /// p99 of the jitter; `None` while frames have come since it was measured.
+    jitter: Option<f64>,
     /// Present delay of playout behind the ideal clock, s; may be negative when frames come early.
     delay: Option<f64>,
     /// Playout time of the last answer, s since the first frame.
@@ -83,6 +88,7 @@ pub struct JitterBuffer {
     blend: Option<(Box<[f64; NV]>, f64)>,
     /// Where to relax from and since when (playout s).
     stand: Posture,
+    body: Arc<Body>,
     /// Newest time that was handed to a window, playout s, and the next sample of its grid.
     head: Option<f64>,
     next: i64,
@@ -104,35 +110,46 @@ pub enum Due<'a> {
 const SLEW: f64 = 0.1;
 const LEAP: f64 = 0.5;
 
-/// Position on a curve in the tangent space of `base`, as a target: value, first and second derivative.
-fn on_curve(
-    base: &Posture,
-    x: &[f64; NV],
-    v: [f64; NV],
-    a: [f64; NV],
-    planted: [bool; 2],
-) -> Target {
+/// The desired motion at one instant.
+struct Answer {
+    /// Everything but the planted feet.
+    target: Target,
+    supply: Supply,
+    /// Frame at or before that instant.
+    frame: usize,
+    /// Frame whose planted feet count; `None`: both are.
+    feet: Option<usize>,
+}
+
+/// Position on a curve in the tangent space of `base`: value, first and second derivative.
+fn on_curve(base: &Posture, x: &[f64; NV], v: [f64; NV], a: [f64; NV]) -> Target {
     let mut posture = *base;
     posture.integrate(x, 1.0);
     Target {
         posture,
         velocity: v,
         acceleration: a,
-        planted,
+        planted: [true; 2],
     }
 }
 
 impl JitterBuffer {
-    /// An empty buffer for ticks of `tick` seconds. `now` is what is asked of the figure at present, `stand` its quiet
-    /// standing posture.
-    pub fn new(settings: DriveSettings, tick: f64, now: Target, stand: Posture) -> Self {
+    /// An empty buffer for ticks of `tick` seconds of a figure with this body. `now` is what is asked of the figure at
+    /// present, `stand` its quiet standing posture.
+    pub fn new(
+        settings: DriveSettings,
+        tick: f64,
+        body: Arc<Body>,
+        now: Target,
+        stand: Posture,
+    ) -> Self {
         Self {
             settings,
             tick,
             frames: VecDeque::new(),
             origin: None,
             transit: VecDeque::new(),
-            jitter: 0.0,
+            jitter: Some(0.0),
             delay: None,
             played: f64::NEG_INFINITY,
             supply: Supply::None,
@@ -141,6 +158,7 @@ impl JitterBuffer {
             last: now,
             blend: None,
             stand,
+            body,
             head: None,
             next: 0,
             held: VecDeque::with_capacity(CAPACITY),
@@ -152,11 +170,6 @@ impl JitterBuffer {
         self.frames
             .back()
             .map_or(&self.last.posture, |f| &f.posture)
-    }
-
-    /// Newest frame.
-    pub fn newest(&self) -> Option<&Frame> {
-        self.frames.back()
     }
 
     /// Counters.
@@ -174,9 +187,9 @@ impl JitterBuffer {
         self.applied
     }
 
-    /// p99 of the arrival jitter, s.
+    /// p99 of the arrival jitter up to the last tick, s.
     pub fn jitter(&self) -> f64 {
-        self.jitter
+        self.jitter.unwrap_or_else(|| self.measured())
     }
 
     /// Delay between arrival and use, s.
@@ -234,31 +247,54 @@ impl JitterBuffer {
             self.transit.pop_front();
         }
         self.transit.push_back(now - world0 - at);
-        self.measure();
+        self.jitter = None;
         if at < self.played {
             self.counts.late += 1;
         }
         self.frames.push_back(frame);
     }
 
-    fn measure(&mut self) {
+    fn measured(&self) -> f64 {
         let base = self.fastest();
         let mut late: Vec<f64> = self.transit.iter().map(|t| t - base).collect();
+        if late.is_empty() {
+            return 0.0;
+        }
         let rank = (late.len() - 1) * 99 / 100;
         let (_, p99, _) = late.select_nth_unstable_by(rank, f64::total_cmp);
-        self.jitter = *p99;
+        *p99
+    }
+
+    /// Feet that a frame plants: as the driver says, or guessed from the frame before.
+    fn planted(&self, i: usize) -> [bool; 2] {
+        let frame = &self.frames[i];
+        if let Some(known) = frame.planted.or(frame.guess.get()) {
+            return known;
+        }
+        let (before, dt) = match i.checked_sub(1).map(|b| &self.frames[b]) {
+            Some(b) => (
+                &b.posture,
+                (frame.source_ns as f64 - b.source_ns as f64) * 1e-9,
+            ),
+            None => (&frame.posture, 1.0),
+        };
+        let guess = engine::planted_between(&self.body, before, &frame.posture, dt);
+        frame.guess.set(Some(guess));
+        guess
     }
 
     /// Playout time at world time `t`, s since the first frame; moves the adaptive delay on.
     fn playout(&mut self, t: f64) -> Option<f64> {
         let (_, world0) = self.origin?;
+        let jitter = self.jitter();
+        self.jitter = Some(jitter);
         let delay = match self.settings.delay {
             Delay::Fixed(d) => d,
             Delay::Adaptive { most } => {
                 let base = self.fastest();
                 let frame = 1.0 / self.settings.rate_hz;
                 // Interpolation needs the next frame to be there as well.
-                let wanted = base + (self.jitter + frame + self.tick).min(most);
+                let wanted = base + (jitter + frame + self.tick).min(most);
                 match self.delay {
                     None => wanted,
                     Some(d) if wanted > d => wanted,
@@ -315,12 +351,23 @@ impl JitterBuffer {
     }
 
     /// The desired motion at playout time `p`.
-    fn at(&self, p: f64) -> (Target, Supply, usize) {
+    fn at(&self, p: f64) -> Answer {
         let after = self.frames.partition_point(|f| self.seconds(f) <= p + SAME);
         if after == 0 {
-            return (Target::still(self.last.posture), Supply::Waiting, 0);
+            return Answer {
+                target: Target::still(self.last.posture),
+                supply: Supply::Waiting,
+                frame: 0,
+                feet: None,
+            };
         }
         let i = after - 1;
+        let answer = |target, supply, feet| Answer {
+            target,
+            supply,
+            frame: i,
+            feet,
+        };
         let from = &self.frames[i];
         let since = (p - self.seconds(from)).max(0.0);
         let v0 = self.velocity(i);
@@ -348,21 +395,21 @@ impl JitterBuffer {
                     (v1[k] - v0[k]) / h
                 };
             }
-            let planted = if u < 0.5 { from.planted } else { to.planted };
+            let feet = if u < 0.5 { i } else { i + 1 };
             let supply = if since <= SAME {
                 Supply::Present
             } else {
                 Supply::Interpolated
             };
-            return (on_curve(&from.posture, &x, v, a, planted), supply, i);
+            return answer(on_curve(&from.posture, &x, v, a), supply, Some(feet));
         }
         let limit = self.settings.extrapolation;
         if since <= SAME {
             let still = [0.0; NV];
-            return (
-                on_curve(&from.posture, &still, v0, still, from.planted),
+            return answer(
+                on_curve(&from.posture, &still, v0, still),
                 Supply::Present,
-                i,
+                Some(i),
             );
         }
         // The last velocity fades out linearly over the limit.
@@ -375,16 +422,16 @@ impl JitterBuffer {
         if since < limit {
             let v = v0.map(|v| v * (1.0 - u / limit));
             let a = v0.map(|v| -v / limit);
-            return (
-                on_curve(&from.posture, &x, v, a, from.planted),
+            return answer(
+                on_curve(&from.posture, &x, v, a),
                 Supply::Extrapolated,
-                i,
+                Some(i),
             );
         }
-        let held = on_curve(&from.posture, &x, [0.0; NV], [0.0; NV], from.planted);
+        let held = on_curve(&from.posture, &x, [0.0; NV], [0.0; NV]);
         let over = since - limit - self.settings.hold;
         if over <= 0.0 {
-            return (held, Supply::Held, i);
+            return answer(held, Supply::Held, Some(i));
         }
         let d = held.posture.difference(&self.standing(&held.posture));
         let u = (over / RELAX).min(1.0);
@@ -394,17 +441,27 @@ impl JitterBuffer {
             6.0 * u * (1.0 - u) * moving,
             (6.0 - 12.0 * u) * moving * moving,
         );
-        (
+        answer(
             on_curve(
                 &held.posture,
                 &d.map(|d| d * s),
                 d.map(|d| d * s1),
                 d.map(|d| d * s2),
-                [true; 2],
             ),
             Supply::Relaxed,
-            i,
+            None,
         )
+    }
+
+    /// As [`JitterBuffer::at`], with planted feet; and the frame at or before that instant.
+    fn target(&self, p: f64) -> (Target, Supply, usize) {
+        let answer = self.at(p);
+        let planted = answer.feet.map_or([true; 2], |i| self.planted(i));
+        let target = Target {
+            planted,
+            ..answer.target
+        };
+        (target, answer.supply, answer.frame)
     }
 
     /// Quiet standing where the held posture has its pelvis.
@@ -422,7 +479,7 @@ impl JitterBuffer {
     /// still to come: what was asked of the figure before then goes on.
     pub fn sample(&mut self, t: f64) -> Option<TargetPair> {
         let p = self.playout(t)?;
-        let (mut now, supply, i) = self.at(p);
+        let (mut now, supply, i) = self.target(p);
         self.supply = supply;
         let began = self.applied.is_none();
         match supply {
@@ -435,7 +492,7 @@ impl JitterBuffer {
         }
         self.played = p;
         self.applied = Some((self.frames[i].sequence, self.frames[i].source_ns));
-        let (mut next, _, _) = self.at(p + self.tick);
+        let (mut next, _, _) = self.target(p + self.tick);
         // A jump, at the start or after a gap, is spread over time.
         if !(began && self.settings.reset) {
             let jump = Box::new(now.posture.difference(&self.last.posture));
@@ -480,7 +537,7 @@ impl JitterBuffer {
         let (Some(newest), Some(head)) = (self.frames.back(), self.head) else {
             return false;
         };
-        self.seconds(newest) > head && !is_same(&self.at(head).0.posture, &newest.posture)
+        self.seconds(newest) > head && !is_same(&self.at(head).target.posture, &newest.posture)
     }
 
     /// Hands the samples of a grid of `rate` per second to a window that lies `window` seconds behind them, as far as
@@ -505,7 +562,7 @@ impl JitterBuffer {
             return None;
         }
         self.head = Some(p);
-        self.supply = self.at(p.max(0.0)).1;
+        self.supply = self.at(p.max(0.0)).supply;
         let k = match self.supply {
             Supply::Present => 0,
             Supply::Interpolated => 1,
@@ -519,14 +576,13 @@ impl JitterBuffer {
         // Time that leaps, or a silence, is not made up for sample by sample.
         let first = self.next.max(last.saturating_sub(CAPACITY as i64));
         for g in first..=last {
-            let (target, supply, i) = self.at(g as f64 / rate);
-            match supply {
+            let answer = self.at(g as f64 / rate);
+            match answer.supply {
                 Supply::Present | Supply::Interpolated | Supply::Extrapolated => {
-                    let frame = &self.frames[i];
-                    give(Due::Sample(
-                        &target.posture,
-                        frame.labelled.then_some(target.planted),
-                    ));
+                    let frame = &self.frames[answer.frame];
+                    // A window finds out for itself what the driver does not say.
+                    let planted = frame.planted.and(answer.feet).map(|i| self.planted(i));
+                    give(Due::Sample(&answer.target.posture, planted));
                     let known = self.held.back().is_none_or(|h| h.1 < frame.sequence);
                     if known {
                         if self.held.len() == CAPACITY {

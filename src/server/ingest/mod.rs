@@ -2,3 +2,4 @@
 
 pub mod admission;
 pub mod jitter_buffer;
+pub mod mailbox;

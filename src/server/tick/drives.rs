@@ -1,14 +1,15 @@
 //! Who drives which figure live: at most one driver per figure, kept for a grace time when the driver is gone.
 
 use crate::server::engine::{self, Figure, FigureKey, LivePlayback};
-use crate::server::ingest::admission::Admission;
 use crate::server::ingest::jitter_buffer::{Due, Frame, JitterBuffer};
+use crate::server::ingest::mailbox::Mailbox;
 use crate::sim::body::State;
 use crate::sim::motion::TargetPair;
 use crate::sim::plan::StreamPlan;
 use crate::sim::plan::stream::RATE;
 use crate::wire::status::Fault;
 use crate::wire::types::{DriveSettings, Feedback, FigureFeedback, MotionSample, Supply};
+use std::cell::Cell;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -24,7 +25,7 @@ pub struct Slot {
     pub key: Option<FigureKey>,
     /// Its desired motion.
     pub buffer: JitterBuffer,
-    /// Its body, to tell planted feet.
+    /// Its body, for a new window.
     pub body: Arc<crate::sim::body::Body>,
     /// The window that prepares its motion, if there is one.
     pub window: Option<Window>,
@@ -69,11 +70,8 @@ pub struct Drive {
     pub slots: Vec<Slot>,
     /// When the figures are given up; `None` while a stream is open.
     pub expires: Option<Instant>,
-    /// Largest sequence taken.
-    pub received: i64,
-    /// Batches refused.
-    pub refused: u64,
-    admission: Admission,
+    /// Where its motion waits for the next tick.
+    pub mailbox: Arc<Mailbox>,
 }
 
 impl Drive {
@@ -85,15 +83,15 @@ impl Drive {
         slots: Vec<Slot>,
         now: Instant,
     ) -> Self {
+        let figures = slots.iter().map(|s| s.figure.clone()).collect();
+        let mailbox = Mailbox::new(driver.clone(), figures, connection, now);
         let mut drive = Self {
             driver,
             connection,
             settings,
             slots,
             expires: None,
-            received: -1,
-            refused: 0,
-            admission: Admission::new(now),
+            mailbox: Arc::new(mailbox),
         };
         drive.touch(connection, now);
         drive
@@ -103,6 +101,7 @@ impl Drive {
     pub fn touch(&mut self, connection: Option<u64>, now: Instant) {
         if connection.is_some() || self.connection.is_none() {
             self.connection = connection;
+            self.mailbox.hand_to(connection);
         }
         self.expires = self
             .connection
@@ -113,6 +112,7 @@ impl Drive {
     /// Notes that the stream was lost: the figures are kept for the grace time.
     pub fn lost(&mut self, now: Instant) {
         self.connection = None;
+        self.mailbox.hand_to(None);
         self.expires = Some(now + Duration::from_secs_f64(self.settings.grace));
     }
 
@@ -143,14 +143,20 @@ impl Drive {
         }
     }
 
-    /// Takes a batch at world time `time`; false if it came too fast and was dropped.
-    pub fn take(&mut self, batch: Vec<MotionSample>, time: f64, now: Instant) -> bool {
-        if !self.admission.admit(now) {
-            self.refused += 1;
-            return false;
+    /// Takes what came since the last tick at world time `time`, in order of sequence: calls that meet in one tick
+    /// overtake each other on their way.
+    pub fn collect(&mut self, time: f64, now: Instant) {
+        let taken = self.mailbox.take();
+        if taken.pushed {
+            self.touch(None, now);
         }
-        for sample in batch {
-            self.received = self.received.max(sample.sequence);
+        let mut samples: Vec<MotionSample> = taken
+            .deliveries
+            .into_iter()
+            .flat_map(|d| d.samples)
+            .collect();
+        samples.sort_by_key(|s| s.sequence);
+        for sample in samples {
             for f in sample.figures {
                 let slot = &mut self.slots[f.slot];
                 let mut posture = f.posture;
@@ -159,36 +165,27 @@ impl Drive {
                     posture.root_position = newest.root_position;
                     posture.root_rotation = newest.root_rotation;
                 }
-                let planted = f.planted.unwrap_or_else(|| match slot.buffer.newest() {
-                    Some(last) => {
-                        let dt = (sample.source_ns as f64 - last.source_ns as f64) * 1e-9;
-                        engine::planted_between(&slot.body, &last.posture, &posture, dt)
-                    }
-                    None => engine::planted_between(&slot.body, &posture, &posture, 1.0),
-                });
-                slot.buffer.push(
-                    Frame {
-                        sequence: sample.sequence,
-                        source_ns: sample.source_ns,
-                        posture,
-                        velocity: f.velocity,
-                        planted,
-                        labelled: f.planted.is_some(),
-                    },
-                    time,
-                );
+                let frame = Frame {
+                    sequence: sample.sequence,
+                    source_ns: sample.source_ns,
+                    posture,
+                    velocity: f.velocity,
+                    planted: f.planted,
+                    guess: Cell::default(),
+                };
+                slot.buffer.push(frame, time);
             }
         }
-        true
     }
 
     /// What the driver is told.
     pub fn feedback(&self, tick: u64) -> Feedback {
+        let (received, refused) = self.mailbox.counts();
         Feedback {
             driver: self.driver.clone(),
             tick,
-            received_sequence: self.received,
-            refused: self.refused,
+            received_sequence: received,
+            refused,
             figures: self
                 .slots
                 .iter()

@@ -10,6 +10,7 @@ use super::clock::Clock;
 use super::drives::{Drive, Slot};
 use super::planners::Planners;
 use crate::server::engine::{self, FigureKey, ObstacleKey, Planning, World};
+use crate::server::ingest::mailbox::Mailboxes;
 use crate::wire::status::Fault;
 use crate::wire::types::{
     EventKind, FigureSettings, Overrun, RosterEntry, Snapshot, WorldCondition, WorldEvent,
@@ -63,6 +64,7 @@ pub struct Shard {
     roster: Arc<[RosterEntry]>,
     roster_version: i32,
     drives: Vec<Drive>,
+    mailboxes: Arc<Mailboxes>,
     next_driver: u64,
     history: VecDeque<Arc<Snapshot>>,
     events: Vec<WorldEvent>,
@@ -104,6 +106,7 @@ impl Shard {
             roster: Arc::new([]),
             roster_version: 1,
             drives: Vec::new(),
+            mailboxes: Arc::default(),
             next_driver: 1,
             history: VecDeque::new(),
             events: Vec::new(),
@@ -116,6 +119,16 @@ impl Shard {
             closing: false,
             settings,
         })
+    }
+
+    /// Last part of its name.
+    pub(super) fn id(&self) -> &str {
+        &self.id
+    }
+
+    /// Where drivers leave their motion.
+    pub fn mailboxes(&self) -> Arc<Mailboxes> {
+        Arc::clone(&self.mailboxes)
     }
 
     // ── the world ──
@@ -139,14 +152,16 @@ impl Shard {
     }
 
     fn working(&self) -> Result<(), Fault> {
-        match &self.failed {
-            None => Ok(()),
-            Some(why) => Err(Fault::Precondition {
-                reason: "WORLD_FAILED",
-                message: format!("world {:?} failed: {why}", &*self.id),
-                facts: vec![],
-            }),
-        }
+        self.failure().map_or(Ok(()), Err)
+    }
+
+    /// What clients are told who want something of a world that has failed.
+    pub(super) fn failure(&self) -> Option<Fault> {
+        self.failed.as_ref().map(|why| Fault::Precondition {
+            reason: "WORLD_FAILED",
+            message: format!("world {:?} failed: {why}", &*self.id),
+            facts: vec![],
+        })
     }
 
     fn restart_clock(&mut self) {

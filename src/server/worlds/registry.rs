@@ -2,7 +2,8 @@
 
 use crate::server::config::Config;
 use crate::server::fanout::hub::Hub;
-use crate::server::tick::command::{Command, Origin};
+use crate::server::ingest::mailbox::Mailboxes;
+use crate::server::tick::command::{Command, Inbox, Origin};
 use crate::server::tick::planners::Planners;
 use crate::server::tick::shard::{Limits, Shard};
 use crate::server::tick::stage_times::{Percentiles, STAGES};
@@ -26,6 +27,8 @@ pub struct WorldHandle {
     pub outlet: Arc<Outlet>,
     /// Its views.
     pub hub: Hub,
+    /// Where its drivers leave their motion.
+    pub mailboxes: Arc<Mailboxes>,
     /// Ends when the world does.
     pub closed: watch::Receiver<()>,
     /// Ticks per second.
@@ -221,12 +224,14 @@ impl Registry {
             overruns: AtomicU64::new(0),
             skipped: AtomicU64::new(0),
         });
+        let mailboxes = shard.mailboxes();
         let (alive, closed) = watch::channel(());
+        let inbox = Inbox::new(queue, self.config.command_queue as usize);
         let out = outlet.clone();
         let thread = std::thread::Builder::new()
             .name(format!("world {id}").chars().take(15).collect())
             .spawn(move || {
-                tick::run(shard, &queue, &out);
+                tick::run(shard, inbox, &out);
                 drop(alive);
             })
             .map_err(|e| Fault::Internal(format!("no thread for the world: {e}")))?;
@@ -234,6 +239,7 @@ impl Registry {
             id: name,
             outlet,
             hub: Hub::new(self.config.max_views_per_world as usize),
+            mailboxes,
             closed,
             rate_hz,
             dropped: AtomicU64::new(0),

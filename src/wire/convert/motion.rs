@@ -351,6 +351,11 @@ fn bone_rotations(field: &str, m: &pb::FigureMotion, posture: &mut Posture) -> R
     Ok(())
 }
 
+/// Desired postures in a batch: what its conversion and use cost.
+pub fn postures(batch: &pb::MotionBatch) -> usize {
+    batch.frames.iter().map(|f| f.figures.len()).sum()
+}
+
 /// A batch of desired motion for the figures of a drive.
 pub fn batch(
     field: &str,

@@ -34,15 +34,16 @@ fn frame(i: i64, with_velocity: bool) -> Frame {
         source_ns: (t * 1e9).round() as i64,
         posture,
         velocity: with_velocity.then_some(v),
-        planted: [true; 2],
-        labelled: false,
+        planted: None,
+        guess: Cell::new(Some([true; 2])),
     }
 }
 
 fn buffer(delay: Delay) -> JitterBuffer {
     let mut stand = Posture::default();
     stand.root_position.z = 0.9;
-    JitterBuffer::new(settings(delay), TICK, Target::still(stand), stand)
+    let body = Arc::new(Body::adult_man());
+    JitterBuffer::new(settings(delay), TICK, body, Target::still(stand), stand)
 }
 
 #[test]

@@ -2,9 +2,11 @@
 
 use super::Shard;
 use crate::server::engine::{self, Clip, Drive as Motion};
+use crate::server::ingest::jitter_buffer::JitterBuffer;
+use crate::server::ingest::mailbox::{Mailbox, fenced};
 use crate::server::tick::drives::{Drive, Slot, Window};
 use crate::wire::status::Fault;
-use crate::wire::types::{DriveOpen, EventKind, Feedback, MotionSample, Place, Playback};
+use crate::wire::types::{DriveOpen, EventKind, Feedback, Place, Playback};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -73,12 +75,13 @@ impl Shard {
         Ok(())
     }
 
-    /// Begins or takes up a drive. `connection` is the stream that will send; `None` for a push. Returns who drives.
+    /// Begins or takes up a drive. `connection` is the stream that will send; `None` for a push. Returns where its motion
+    /// is to be left.
     pub fn open_drive(
         &mut self,
         open: &DriveOpen,
         connection: Option<u64>,
-    ) -> Result<String, Fault> {
+    ) -> Result<Arc<Mailbox>, Fault> {
         self.working()?;
         self.check_figures(&open.figures)?;
         let now = Instant::now();
@@ -105,7 +108,7 @@ impl Shard {
         if let Some(d) = self.drives.iter_mut().find(|d| d.driver == driver) {
             if d.drives(&open.figures) {
                 d.touch(connection, now); // the same driver comes back: its motion goes on
-                return Ok(driver);
+                return Ok(Arc::clone(&d.mailbox));
             }
             self.end_drive(&driver, "drives other figures now");
         }
@@ -122,9 +125,10 @@ impl Shard {
                 key: Some(key),
                 body: f.body().clone(),
                 window,
-                buffer: crate::server::ingest::jitter_buffer::JitterBuffer::new(
+                buffer: JitterBuffer::new(
                     open.settings.clone(),
                     self.world.dt(),
+                    Arc::clone(f.body()),
                     f.target().next.clone(),
                     stand,
                 ),
@@ -138,57 +142,50 @@ impl Shard {
                 }
             }
         }
-        self.drives.push(Drive::new(
-            driver.clone(),
-            connection,
-            open.settings.clone(),
-            slots,
-            now,
-        ));
+        let settings = open.settings.clone();
+        let drive = Drive::new(driver.clone(), connection, settings, slots, now);
+        let mailbox = Arc::clone(&drive.mailbox);
+        self.mailboxes.insert(Arc::clone(&mailbox));
+        self.drives.push(drive);
         for figure in &open.figures {
             self.event(figure, EventKind::DriveBegan(driver.clone()));
         }
-        Ok(driver)
+        Ok(mailbox)
     }
 
-    /// Takes a batch of a driver. `connection` must be the stream that drives; a push has none.
-    pub fn drive(
-        &mut self,
-        driver: &str,
-        connection: Option<u64>,
-        batch: Vec<MotionSample>,
-    ) -> Result<bool, Fault> {
-        self.working()?;
-        let time = self.world.time();
-        let d = self
-            .drives
-            .iter_mut()
-            .find(|d| d.driver == driver)
-            .filter(|d| connection.is_none() || d.connection == connection)
-            .ok_or_else(|| Fault::Aborted {
-                reason: "CONTROL_FENCED",
-                message: format!("{driver:?} has given up its figures or drives by another stream"),
-            })?;
-        Ok(d.take(batch, time, Instant::now()))
-    }
-
-    /// Notes batches that did not find room in the queue.
-    pub fn refused(&mut self, driver: &str, batches: u64) {
-        if let Some(d) = self.drives.iter_mut().find(|d| d.driver == driver) {
-            d.refused += batches;
+    /// Takes what drivers have sent since the last tick.
+    pub(in crate::server::tick) fn collect_motion(&mut self) {
+        let (time, now) = (self.world.time(), Instant::now());
+        for drive in &mut self.drives {
+            drive.collect(time, now);
         }
     }
 
-    /// What a driver is told.
-    pub fn feedback(&self, driver: &str, connection: Option<u64>) -> Result<Feedback, Fault> {
-        self.drives
-            .iter()
-            .find(|d| d.driver == driver && (connection.is_none() || d.connection == connection))
-            .map(|d| d.feedback(self.world.tick()))
-            .ok_or_else(|| Fault::Aborted {
-                reason: "CONTROL_FENCED",
-                message: format!("{driver:?} has given up its figures or drives by another stream"),
-            })
+    /// Lets drivers who push know the state of their drives without asking for it.
+    pub(in crate::server::tick) fn publish_feedback(&self) {
+        let tick = self.world.tick();
+        for drive in self.drives.iter().filter(|d| d.connection.is_none()) {
+            drive.mailbox.publish(drive.feedback(tick));
+        }
+    }
+
+    /// Takes no more motion: the world has failed.
+    pub(in crate::server::tick) fn close_mailboxes(&self, why: &Fault) {
+        for drive in &self.drives {
+            drive.mailbox.close(why.clone());
+        }
+    }
+
+    /// What the driver of a stream is told.
+    pub fn feedback(&mut self, driver: &str, connection: u64) -> Result<Feedback, Fault> {
+        let (tick, time) = (self.world.tick(), self.world.time());
+        let d = self
+            .drives
+            .iter_mut()
+            .find(|d| d.driver == driver && d.connection == Some(connection))
+            .ok_or_else(|| fenced(driver))?;
+        d.collect(time, Instant::now());
+        Ok(d.feedback(tick))
     }
 
     /// A stream ended: `kept` if it was lost and the driver may come back.
@@ -212,6 +209,8 @@ impl Shard {
             return;
         };
         let drive = self.drives.remove(i);
+        drive.mailbox.close(fenced(driver));
+        self.mailboxes.remove(driver);
         for slot in drive.slots.iter().filter(|s| s.key.is_some()) {
             self.hold(&slot.figure);
             self.event(

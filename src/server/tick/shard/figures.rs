@@ -2,6 +2,7 @@
 
 use super::{Member, Shard};
 use crate::server::engine::{self, Drive as Motion};
+use crate::server::tick::drives::Drive;
 use crate::sim::body::{Body, State};
 use crate::sim::figure::ControlParams;
 use crate::wire::status::Fault;
@@ -169,8 +170,14 @@ impl Shard {
                 }
             }
         }
-        self.drives
-            .retain(|d| d.slots.iter().any(|s| s.key.is_some()));
+        let gone = |d: &Drive| d.slots.iter().all(|s| s.key.is_none());
+        for drive in self.drives.extract_if(.., |d| gone(d)) {
+            drive.mailbox.close(Fault::not_found(
+                "figure",
+                format!("worlds/{}/figures/{figure}", self.id),
+            ));
+            self.mailboxes.remove(&drive.driver);
+        }
         self.roster_changed();
         self.event(figure, EventKind::FigureRemoved);
         Ok(())
@@ -199,5 +206,13 @@ impl Shard {
         m.clip = None;
         self.changed = true;
         self.figure(figure)
+    }
+
+    /// Breaks the world: the physics has lost a figure that is shown.
+    #[cfg(test)]
+    pub(in crate::server::tick) fn forget_in_physics(&mut self, figure: &str) {
+        let i = self.member(figure).expect("it is there");
+        self.world.remove_figure(self.members[i].key);
+        self.changed = true;
     }
 }
