@@ -107,6 +107,7 @@ macro_rules! settings {
             }
         }
 
+        #[cfg(test)]
         const NAMES: &[&str] = &[$(stringify!($name)),*];
     };
     (@type int) => { u64 };
@@ -183,15 +184,25 @@ settings! {
     max_clip_total_bytes: int = 536_870_912, 1024, 1_099_511_627_776;
     /// Bodies that are kept ready.
     max_bodies: int = 128, 2, 10_000;
+    /// Share of `max_viewers`, `max_drivers`, `max_worlds` and `max_views_per_world` that one client may have: a
+    /// connection from this machine, an address elsewhere. Behind a proxy, which is one client, 1.
+    max_client_share: float = 0.5, 0.001, 1.0;
+    /// Share of the processors that the ticks of running worlds may need, and of its period that one world may. What
+    /// would need more is refused: figures, worlds, faster clocks.
+    max_tick_budget: float = 0.7, 0.01, 1000.0;
     /// Requests that wait for the next tick of one world.
     command_queue: int = 1024, 16, 1_000_000;
     /// Ticks of one world that are held for late readers.
     history_ticks: int = 64, 1, 100_000;
     /// Event messages that are held for slow viewers.
     event_queue: int = 1024, 16, 1_000_000;
-    /// Offline simulations and file conversions that run at a time.
+    /// Conversions of files to clips that run at a time; clients take turns.
+    max_conversions: int = 2, 1, 256;
+    /// Conversions of files to clips that wait for their turn; one client has at most half of them.
+    max_waiting_conversions: int = 64, 0, 100_000;
+    /// Offline simulations that run at a time; clients take turns.
     max_simulations: int = 2, 1, 256;
-    /// Offline simulations and file conversions that wait for their turn.
+    /// Offline simulations that wait for their turn; one client has at most half of them.
     max_waiting_simulations: int = 64, 0, 100_000;
     /// Longest offline simulation, s of its own time.
     max_simulation_s: float = 120.0, 1.0, 86_400.0;
@@ -211,6 +222,9 @@ settings! {
     keepalive_s: float = 20.0, 1.0, 3600.0;
     /// How long a ping may go unanswered, s.
     keepalive_timeout_s: float = 10.0, 1.0, 3600.0;
+    /// How long the server goes on when it is told to shut down, s: health and `/ready` say that it ends, so that load
+    /// balancers send nobody any more, and no new world is created.
+    lame_duck_s: float = 1.0, 0.0, 600.0;
     /// How long open streams get to end when the server shuts down, s.
     shutdown_grace_s: float = 5.0, 0.0, 600.0;
 }
@@ -244,8 +258,7 @@ impl Config {
             let Some(name) = key.strip_prefix("SINEW_").map(str::to_lowercase) else {
                 continue;
             };
-            // Other variables with this prefix (the name of the file, where tests find recordings) are not settings.
-            if NAMES.contains(&name.as_str()) {
+            if !is_no_setting(&name) {
                 config.set_text(&key, &name, &value)?;
             }
         }
@@ -257,6 +270,38 @@ impl Config {
         }
         Ok(config)
     }
+}
+
+/// Variables `SINEW_…` that are no settings: the name of the file, and what tests, examples and tools of this project
+/// read.
+const OTHER_VARIABLES: [&str; 18] = [
+    "config",
+    "bin",
+    "bvh",
+    "chromium",
+    "core",
+    "example_directions",
+    "example_s",
+    "live_seconds",
+    "live_window",
+    "mint_golden",
+    "mocap_dir",
+    "page",
+    "peers_dir",
+    "rewrite",
+    "server",
+    "soak_seed",
+    "soak_ticks",
+    "abuse_seconds",
+];
+
+/// True for a variable that is no setting. Kubernetes sets `SINEW_SERVICE_…` and `SINEW_PORT…` in every container next
+/// to a service of the name `sinew`.
+fn is_no_setting(name: &str) -> bool {
+    OTHER_VARIABLES.contains(&name)
+        || name == "port"
+        || name.starts_with("port_")
+        || name.starts_with("service_")
 }
 
 #[cfg(test)]
@@ -331,6 +376,19 @@ mod tests {
                 .contains("1…256")
         );
         assert!(load(&[pair("max_worlds", "many")]).is_err());
+        let environment = |name: &str| Config::load(None, [pair(name, "5")].into_iter(), &[]);
+        let fault = environment("SINEW_MAX_WORLD").unwrap_err().to_string();
+        assert!(fault.contains("SINEW_MAX_WORLD") && fault.contains("max_worlds"));
+        for other in [
+            "SINEW_CONFIG",
+            "SINEW_MOCAP_DIR",
+            "SINEW_SERVICE_HOST",
+            "SINEW_PORT",
+            "SINEW_PORT_7463_TCP",
+            "HOME",
+        ] {
+            assert_eq!(environment(other).unwrap(), Config::default(), "{other}");
+        }
         assert!(matches!(
             load(&[pair("listen", "0.0.0.0:1")]),
             Err(ConfigError::NotLoopback(_))

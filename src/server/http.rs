@@ -45,7 +45,8 @@ pub(super) fn cors() -> tower_http::cors::CorsLayer {
 pub(super) fn router(app: Arc<App>) -> Router {
     let pages = Router::new()
         .route("/status", get(status_page))
-        .route("/metrics", get(metrics_page));
+        .route("/metrics", get(metrics_page))
+        .route("/ready", get(ready));
     let pages = if app.config.viewer {
         pages.merge(viewer::router())
     } else {
@@ -68,6 +69,15 @@ pub(super) async fn unknown(headers: HeaderMap) -> Response {
         .into_response()
     } else {
         StatusCode::NOT_FOUND.into_response()
+    }
+}
+
+/// Whether new clients are welcome.
+async fn ready(State(app): State<Arc<App>>) -> Response {
+    if app.worlds.is_draining() {
+        (StatusCode::SERVICE_UNAVAILABLE, "shutting down\n").into_response()
+    } else {
+        "ready\n".into_response()
     }
 }
 

@@ -10,6 +10,7 @@ pub mod engine;
 pub mod fanout;
 pub mod ingest;
 pub mod library;
+pub mod shares;
 pub mod simulate;
 pub mod telemetry;
 pub mod tick;
@@ -45,8 +46,8 @@ const HEADER_LIST: u32 = 16 * 1024;
 /// Streams that were reset and not yet forgotten, per connection (rapid reset).
 const RESET_STREAMS: usize = 32;
 
-/// Serves until `shutdown` completes, then stops admitting, tells streams, finishes the ticks and returns within the
-/// grace time.
+/// Serves until `shutdown` completes, then says so for the lame-duck time, tells streams, finishes the ticks and
+/// returns within the grace time.
 ///
 /// # Errors
 /// The built-in data cannot be prepared, or the listener fails.
@@ -127,7 +128,12 @@ pub async fn serve(
                     .set_service_status(name, tonic_health::ServingStatus::NotServing)
                     .await;
             }
+            // Whoever looks after this server sees that it ends before it does.
+            app.worlds.refuse_new();
+            tokio::time::sleep(seconds(app.config.lame_duck_s)).await;
             stop.send_replace(true); // streams end with UNAVAILABLE
+            app.conversions.close();
+            app.simulations.close();
             app.worlds.drain().await; // ticks end whole
         }
     };

@@ -60,6 +60,18 @@ pub enum Fault {
         /// When trying again may work; `None` if only giving something up helps.
         retry: Option<Duration>,
     },
+    /// The ticks of running worlds would need more of the processors than they may.
+    #[error(
+        "{whose} would need {percent:.0} % of its processor time for ticks; {limit:.0} % may be used"
+    )]
+    Budget {
+        /// `the world` or `the machine`.
+        whose: &'static str,
+        /// What would be needed, %.
+        percent: f64,
+        /// What may be used, %.
+        limit: f64,
+    },
     /// A tick is not held any more or not computed yet.
     #[error("tick {asked} is not held; held are {oldest} to {newest}")]
     Expired {
@@ -146,6 +158,7 @@ impl Fault {
             Self::Exists { .. } => "ALREADY_EXISTS",
             Self::Precondition { reason, .. } | Self::Aborted { reason, .. } => reason,
             Self::Exhausted { .. } => "LIMIT_REACHED",
+            Self::Budget { .. } => "TICK_BUDGET",
             Self::Expired { .. } => "RESUME_EXPIRED",
             Self::Unimplemented(_) => "NOT_AVAILABLE",
             Self::Draining => "DRAINING",
@@ -193,6 +206,12 @@ impl From<Fault> for Status {
                 }
                 facts.insert("limit".to_owned(), (*limit).to_owned());
                 facts.insert("value".to_owned(), value.to_string());
+                Code::ResourceExhausted
+            }
+            Fault::Budget { percent, limit, .. } => {
+                details.add_quota_failure_violation("max_tick_budget", fault.to_string());
+                facts.insert("needed_percent".to_owned(), format!("{percent:.1}"));
+                facts.insert("limit_percent".to_owned(), format!("{limit:.1}"));
                 Code::ResourceExhausted
             }
             Fault::Expired { oldest, newest, .. } => {

@@ -8,10 +8,13 @@ mod constraints;
 #[path = "../common/corpus.rs"]
 mod corpus;
 mod drives;
+mod ending;
 mod forecast;
+mod limits;
 mod live;
 mod obstacles;
 mod pages;
+mod sharing;
 mod support;
 mod watching;
 mod wire_faults;

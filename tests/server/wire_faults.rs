@@ -19,7 +19,12 @@ struct Asked {
 
 impl Asked {
     async fn new() -> Self {
-        let server = TestServer::with(&[("max_worlds", "2"), ("max_clip_bytes", "65536")]).await;
+        let server = TestServer::with(&[
+            ("max_worlds", "2"),
+            ("max_client_share", "1"),
+            ("max_clip_bytes", "65536"),
+        ])
+        .await;
         let world = server.paused_world("w").await;
         server.figure(&world, "a").await;
         let before = server.step(&world, 1).await;

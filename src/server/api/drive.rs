@@ -1,6 +1,6 @@
 //! Live desired motion: the stream and its unary twin take the same way into the world.
 
-use super::{Api, Place, refusal, stopped};
+use super::{Api, Client, Place, refusal, stopped};
 use crate::server::ingest::mailbox::Mailbox;
 use crate::server::tick::command::Origin;
 use crate::server::worlds::WorldHandle;
@@ -21,6 +21,8 @@ pub type Feedbacks = ReceiverStream<Result<pb::DriveFiguresResponse, Status>>;
 const HEADER_TIME: Duration = Duration::from_secs(10);
 /// Interval of feedback.
 const FEEDBACK_EVERY: Duration = Duration::from_millis(100);
+/// How long the reason of the end of a stream waits for a driver who does not read.
+const LAST_WORD: Duration = Duration::from_secs(5);
 /// Who pushes without giving a name.
 const PUSHER: &str = "push";
 /// Feedback that waits for a driver who does not read; more is left out.
@@ -53,7 +55,7 @@ pub(super) async fn push(
         mailbox.admit(motion::postures(&raw), Instant::now())?;
     }
     let batch = motion::batch("batch", &raw, &open.figures)?;
-    let mailbox = match known.filter(|m| m.is_open()) {
+    let mailbox = match known.filter(|m| m.ended().is_none()) {
         Some(mailbox) => mailbox,
         None => opened(&handle, open, None).await?,
     };
@@ -76,9 +78,10 @@ async fn opened(
 /// A stream of batches.
 pub(super) async fn stream(
     api: &Api,
+    client: Client,
     mut inbound: Streaming<pb::DriveFiguresRequest>,
 ) -> Result<Response<Feedbacks>, Status> {
-    let place = api.drivers.take().map_err(refusal)?;
+    let place = api.drivers.take(client).map_err(refusal)?;
     let first = tokio::time::timeout(HEADER_TIME, inbound.message())
         .await
         .map_err(|_| refusal(Fault::invalid("header", "did not come within 10 s")))??;
@@ -141,8 +144,13 @@ impl Session {
                 Ok(true) => {}
                 Ok(false) => break true, // nobody reads the feedback: the connection is gone
                 Err(fault) => {
-                    // The reader may have a full queue; it learns of the end in any case.
-                    let _ = self.out.try_send(Err(refusal(fault)));
+                    // A reader whose queue is full gets the reason as soon as there is room.
+                    let (out, status) = (self.out.clone(), refusal(fault));
+                    if let Err(mpsc::error::TrySendError::Full(last)) = out.try_send(Err(status)) {
+                        tokio::spawn(tokio::time::timeout(LAST_WORD, async move {
+                            let _ = out.send(last).await; // it may be gone
+                        }));
+                    }
                     break false;
                 }
             }
@@ -182,7 +190,8 @@ impl Session {
         {
             Ok(f) => f,
             Err(Fault::Exhausted { .. }) => return Ok(true), // next time
-            Err(fault) => return Err(fault),
+            // The drive is gone: its mailbox knows why.
+            Err(fault) => return Err(self.mailbox.ended().unwrap_or(fault)),
         };
         let message = pb::DriveFiguresResponse {
             feedback: Some(motion::feedback_out(&feedback)),

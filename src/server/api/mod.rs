@@ -13,8 +13,9 @@ mod worlds;
 
 use super::config::Config;
 use super::library::{Bodies, Clips};
+use super::shares::{Client, Place, Places, client_at};
 use super::tick::command::Origin;
-use super::workers::Workers;
+use super::workers::Pool;
 use super::worlds::{Registry, WorldHandle};
 use crate::wire::convert::world_name;
 use crate::wire::pb;
@@ -22,7 +23,7 @@ use crate::wire::status::Fault;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::SystemTime;
-use tokio::sync::{Semaphore, watch};
+use tokio::sync::watch;
 use tonic::service::RoutesBuilder;
 use tonic::{Request, Response, Status};
 
@@ -49,8 +50,10 @@ pub struct App {
     pub bodies: Bodies,
     /// Clips.
     pub clips: Clips,
-    /// Where long work is done.
-    pub workers: Workers,
+    /// Where files become clips.
+    pub conversions: Pool,
+    /// Where clips are simulated.
+    pub simulations: Pool,
     /// When the server started.
     pub started: SystemTime,
     /// Turns true when streams are to end.
@@ -58,59 +61,6 @@ pub struct App {
     viewers: Places,
     drivers: Places,
     next_stream: AtomicU64,
-}
-
-/// Places for streams of one kind.
-struct Places {
-    free: Arc<Semaphore>,
-    limit: &'static str,
-    most: u64,
-    gauge: &'static str,
-}
-
-/// A place that is given back when the stream ends.
-struct Place {
-    gauge: &'static str,
-    _permit: tokio::sync::OwnedSemaphorePermit,
-}
-
-impl Drop for Place {
-    fn drop(&mut self) {
-        metrics::gauge!(self.gauge).decrement(1.0);
-    }
-}
-
-impl Places {
-    fn new(limit: &'static str, most: u64, gauge: &'static str) -> Self {
-        Self {
-            free: Arc::new(Semaphore::new(most as usize)),
-            limit,
-            most,
-            gauge,
-        }
-    }
-
-    fn take(&self) -> Result<Place, Fault> {
-        let permit = self
-            .free
-            .clone()
-            .try_acquire_owned()
-            .map_err(|_| Fault::Exhausted {
-                limit: self.limit,
-                value: self.most,
-                message: "one more stream".into(),
-                retry: Some(std::time::Duration::from_secs(1)),
-            })?;
-        metrics::gauge!(self.gauge).increment(1.0);
-        Ok(Place {
-            gauge: self.gauge,
-            _permit: permit,
-        })
-    }
-
-    fn taken(&self) -> usize {
-        self.most as usize - self.free.available_permits()
-    }
 }
 
 impl App {
@@ -121,15 +71,27 @@ impl App {
     pub fn new(config: Arc<Config>, stopping: watch::Receiver<bool>) -> Result<Self, Fault> {
         super::telemetry::metrics();
         let bodies = Bodies::new(&config);
+        let share = config.max_client_share;
         Ok(Self {
             clips: Clips::new(&config, &bodies)?,
             bodies,
             worlds: Registry::new(config.clone()),
-            workers: Workers::new(config.max_simulations, config.max_waiting_simulations),
+            conversions: Pool::new(
+                "file conversion",
+                "max_waiting_conversions",
+                config.max_conversions,
+                config.max_waiting_conversions,
+            ),
+            simulations: Pool::new(
+                "simulation",
+                "max_waiting_simulations",
+                config.max_simulations,
+                config.max_waiting_simulations,
+            ),
             started: SystemTime::now(),
             stopping,
-            viewers: Places::new("max_viewers", config.max_viewers, "sinew_viewers"),
-            drivers: Places::new("max_drivers", config.max_drivers, "sinew_drivers"),
+            viewers: Places::new("max_viewers", config.max_viewers, share, "sinew_viewers"),
+            drivers: Places::new("max_drivers", config.max_drivers, share, "sinew_drivers"),
             next_stream: AtomicU64::new(1),
             config,
         })
@@ -205,6 +167,11 @@ pub fn add_services(routes: &mut RoutesBuilder, app: &Arc<App>) {
 async fn stopped(stopping: &mut watch::Receiver<bool>) {
     // An error means that the sender is gone, which says the same.
     let _ = stopping.wait_for(|s| *s).await;
+}
+
+/// Who sends a request.
+fn client<T>(request: &Request<T>) -> Client {
+    client_at(request.remote_addr())
 }
 
 /// The sender of a request, as commands of its world are ordered by.

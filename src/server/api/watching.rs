@@ -62,12 +62,11 @@ impl Drop for Viewer {
 /// Frames of a view: first those that are held, then as they come.
 pub(super) fn frames(
     handle: Arc<WorldHandle>,
-    view: &ViewSpec,
+    (view, channel): (&ViewSpec, Arc<Channel>),
     held: &[Arc<Snapshot>],
     stopping: watch::Receiver<bool>,
     place: Place,
-) -> Result<Frames, Fault> {
-    let channel = handle.hub.channel(view, &handle.outlet.latest)?;
+) -> Frames {
     let mut frames = channel.subscribe();
     frames.mark_changed(); // what is there already is the first to send
     handle.viewers.fetch_add(1, Ordering::Relaxed);
@@ -96,13 +95,10 @@ pub(super) fn frames(
         viewer.ready.push_back(shared_frame(snapshot, view));
         viewer.last = Some(snapshot.tick);
     }
-    Ok(Box::pin(futures_util::stream::unfold(
-        viewer,
-        |mut v| async move {
-            let item = v.next().await?;
-            Some((item, v))
-        },
-    )))
+    Box::pin(futures_util::stream::unfold(viewer, |mut v| async move {
+        let item = v.next().await?;
+        Some((item, v))
+    }))
 }
 
 impl Viewer {

@@ -1,6 +1,7 @@
 //! Views of one world: for each that someone watches, a task that encodes the latest frame and hands the bytes to all
 //! its viewers.
 
+use crate::server::shares::{Client, check_part};
 use crate::wire::frame::{shared_frame, shared_roster};
 use crate::wire::status::Fault;
 use crate::wire::types::{Snapshot, ViewSpec};
@@ -25,6 +26,8 @@ pub struct Encoded {
 /// A view that is encoded while it has viewers.
 #[derive(Debug)]
 pub struct Channel {
+    /// Who asked for it first.
+    owner: Client,
     latest: watch::Sender<Option<Encoded>>,
 }
 
@@ -39,15 +42,17 @@ impl Channel {
 #[derive(Debug)]
 pub struct Hub {
     channels: Mutex<HashMap<ViewSpec, Weak<Channel>>>,
-    most: usize,
+    most: u64,
+    share: f64,
 }
 
 impl Hub {
-    /// No views yet; at most `most` different ones.
-    pub fn new(most: usize) -> Self {
+    /// No views yet; at most `most` different ones, of which one client may have asked for a `share`.
+    pub fn new(most: u64, share: f64) -> Self {
         Self {
             channels: Mutex::default(),
             most,
+            share,
         }
     }
 
@@ -55,11 +60,12 @@ impl Hub {
     /// ends with the last.
     ///
     /// # Errors
-    /// Too many different views.
+    /// Too many different views, or too many of this client.
     pub fn channel(
         &self,
         view: &ViewSpec,
         latest: &watch::Sender<Arc<Snapshot>>,
+        client: Client,
     ) -> Result<Arc<Channel>, Fault> {
         // A poisoned map is as good as any: entries are whole.
         let mut channels = self.channels.lock().unwrap_or_else(PoisonError::into_inner);
@@ -67,15 +73,19 @@ impl Hub {
             return Ok(channel);
         }
         channels.retain(|_, c| c.strong_count() > 0);
-        if channels.len() >= self.most {
+        if channels.len() as u64 >= self.most {
             return Err(Fault::Exhausted {
                 limit: "max_views_per_world",
-                value: self.most as u64,
+                value: self.most,
                 message: "one more view that differs in figures, fields, encoding or rate".into(),
                 retry: None,
             });
         }
+        let own = channels.values().filter_map(Weak::upgrade);
+        let own = own.filter(|c| c.owner == client).count() as u64;
+        check_part("max_views_per_world", own, self.most, self.share)?;
         let channel = Arc::new(Channel {
+            owner: client,
             latest: watch::Sender::new(None),
         });
         channels.insert(view.clone(), Arc::downgrade(&channel));

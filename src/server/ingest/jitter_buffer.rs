@@ -3,8 +3,12 @@
 //! Frames carry the time at which they were captured. The buffer plays them at that pace, a playout delay behind their
 //! arrival, so that the jitter of the network does not become jitter of the motion. Asked for an instant it answers
 //! with a frame, between two frames, beyond the newest (fading out), with the last posture, or with quiet standing;
-//! each case is counted. Clock of arrival and playout is world time, so that pausing or slowing a world does not starve
-//! its drivers.
+//! each case is counted.
+//!
+//! Arrivals are stamped by *scheduled time*: where world time would be if the clock had left out no tick. It passes as
+//! the driver's own clock does while the world's clock runs, and stands still with it. Motion is played in world time:
+//! in a world that leaves ticks out it falls behind and is never too fast for the body. It catches up slowly, and a
+//! stream that is too far behind begins anew.
 
 use crate::server::engine;
 use crate::sim::body::{Body, NV, Posture};
@@ -25,6 +29,16 @@ const SHRINK: f64 = 0.01;
 const BLEND: f64 = 0.3;
 /// Time in which a figure relaxes into quiet standing, s.
 const RELAX: f64 = 2.0;
+/// Share of time by which a stream that fell behind with its world catches up: two hundredths do not tax the balance.
+const CATCH_UP: f64 = 0.02;
+/// Farthest that a stream is behind its world's schedule, s: at 240 Hz the buffer is full then.
+const MOST_BEHIND: f64 = 2.0;
+/// Frames in a row that are older than what was there, yet in order among themselves, after which the driver's clock is
+/// taken to have started again, and the time over which they come, s.
+const RESTART_FRAMES: u32 = 3;
+const RESTART_TIME: f64 = 0.25;
+/// Source time that passes between two frames while no such time passes here: the driver's clock was set, s.
+const CLOCK_LEAP: f64 = 10.0;
 /// Times closer than this are the same, s.
 const SAME: f64 = 1e-6;
 /// Reach to either side of the slope that stands in for a velocity that was not sent, s.
@@ -61,6 +75,45 @@ pub struct Counts {
     pub stale: u64,
     /// Frames dropped for want of room.
     pub overflow: u64,
+    /// Times that the stream began anew.
+    pub resyncs: u64,
+}
+
+/// Why a stream began anew.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Resync {
+    /// Sequence or source time started again.
+    Clock,
+    /// It was too far behind, because its world leaves ticks out.
+    Behind,
+}
+
+impl Resync {
+    /// In words.
+    pub fn reason(self) -> &'static str {
+        match self {
+            Self::Clock => "its sequence or clock started again",
+            Self::Behind => "its world leaves ticks out, it was too far behind",
+        }
+    }
+}
+
+/// An instant of a world.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Now {
+    /// World time, s.
+    pub time: f64,
+    /// World time that the clock has left out so far, s: with it, this is scheduled time.
+    pub lost: f64,
+}
+
+/// Frames that may be the first of a clock that started again.
+#[derive(Clone, Copy, Debug)]
+struct Restart {
+    sequence: i64,
+    source_ns: i64,
+    since: f64,
+    frames: u32,
 }
 
 /// The buffer.
@@ -69,14 +122,24 @@ pub struct JitterBuffer {
     settings: DriveSettings,
     tick: f64,
     frames: VecDeque<Frame>,
-    /// Source time and world time of the first frame.
+    /// Source time and scheduled time of the first frame.
     origin: Option<(i64, f64)>,
-    /// World time minus (first arrival + source time since then) of recent frames.
+    /// Scheduled time minus (first arrival + source time since then) of recent frames.
     transit: VecDeque<f64>,
+    /// Scheduled time of the last arrival.
+    arrived: f64,
     /// p99 of the jitter; `None` while frames have come since it was measured.
     jitter: Option<f64>,
     /// Present delay of playout behind the ideal clock, s; may be negative when frames come early.
     delay: Option<f64>,
+    /// Time that the world had lost at the last answer, s, and how far the stream is behind for it, s.
+    lost: Option<f64>,
+    behind: f64,
+    /// Frames that may be a new beginning.
+    restart: Option<Restart>,
+    /// A new beginning that a window does not know of yet, and one that nobody was told of yet.
+    broken: bool,
+    notice: Option<Resync>,
     /// Playout time of the last answer, s since the first frame.
     played: f64,
     supply: Supply,
@@ -109,6 +172,14 @@ pub enum Due<'a> {
 /// change by more than this, s.
 const SLEW: f64 = 0.1;
 const LEAP: f64 = 0.5;
+
+/// How a frame follows what was there.
+#[derive(Clone, Copy, PartialEq)]
+enum Order {
+    Next,
+    Anew,
+    Stale,
+}
 
 /// The desired motion at one instant.
 struct Answer {
@@ -149,8 +220,14 @@ impl JitterBuffer {
             frames: VecDeque::new(),
             origin: None,
             transit: VecDeque::new(),
+            arrived: 0.0,
             jitter: Some(0.0),
             delay: None,
+            lost: None,
+            behind: 0.0,
+            restart: None,
+            broken: false,
+            notice: None,
             played: f64::NEG_INFINITY,
             supply: Supply::None,
             counts: Counts::default(),
@@ -194,10 +271,27 @@ impl JitterBuffer {
 
     /// Delay between arrival and use, s.
     pub fn delay(&self) -> f64 {
-        match self.settings.delay {
-            Delay::Fixed(d) => d,
-            Delay::Adaptive { .. } => self.delay.unwrap_or(0.0) - self.fastest(),
-        }
+        let delay = match (self.settings.delay, self.delay) {
+            (Delay::Fixed(d), _) => d,
+            (Delay::Adaptive { .. }, Some(d)) => d - self.fastest(),
+            (Delay::Adaptive { .. }, None) => 0.0,
+        };
+        delay + self.behind
+    }
+
+    /// How far the stream is behind because its world leaves ticks out, s; contained in the delay.
+    pub fn behind(&self) -> f64 {
+        self.behind
+    }
+
+    /// Why the stream began anew since the last call, if it did.
+    pub fn take_notice(&mut self) -> Option<Resync> {
+        self.notice.take()
+    }
+
+    /// True if the stream began anew since the last call: a window holds what came before.
+    pub fn take_break(&mut self) -> bool {
+        std::mem::take(&mut self.broken)
     }
 
     /// Motion that is held but not used yet, s.
@@ -225,17 +319,21 @@ impl JitterBuffer {
             .min(1e12)
     }
 
-    /// Takes a frame that arrived at world time `now`. Frames whose sequence or source time does not grow are dropped
-    /// and counted.
-    pub fn push(&mut self, frame: Frame, now: f64) {
-        let newer = self
-            .frames
-            .back()
-            .is_none_or(|last| frame.sequence > last.sequence && frame.source_ns > last.source_ns);
-        if !newer {
-            self.counts.stale += 1;
-            return;
+    /// Takes a frame that arrived at scheduled time `now`. Frames whose sequence or source time does not grow are
+    /// dropped and counted, until it is clear that the driver's clock has started again. True if this frame is the
+    /// first of a new beginning.
+    pub fn push(&mut self, frame: Frame, now: f64) -> bool {
+        let order = self.order(&frame, now);
+        match order {
+            Order::Next => {}
+            Order::Anew => self.resync(Resync::Clock),
+            Order::Stale => {
+                self.counts.stale += 1;
+                return false;
+            }
         }
+        self.restart = None;
+        self.arrived = now;
         if self.frames.len() == CAPACITY {
             // Fed faster than it is played: what is oldest of the unplayed matters least for where the motion is going.
             self.frames.pop_front();
@@ -252,6 +350,58 @@ impl JitterBuffer {
             self.counts.late += 1;
         }
         self.frames.push_back(frame);
+        order == Order::Anew
+    }
+
+    fn order(&mut self, frame: &Frame, now: f64) -> Order {
+        let Some(last) = self.frames.back() else {
+            return Order::Next;
+        };
+        if frame.sequence > last.sequence && frame.source_ns > last.source_ns {
+            let passed = (i128::from(frame.source_ns) - i128::from(last.source_ns)) as f64 * 1e-9;
+            let set = passed > CLOCK_LEAP && passed > 2.0 * (now - self.arrived);
+            return if set { Order::Anew } else { Order::Next };
+        }
+        if self.restarts(frame, now) {
+            Order::Anew
+        } else {
+            Order::Stale
+        }
+    }
+
+    /// True if a frame that is older than what was there shows that the driver's clock has started again.
+    fn restarts(&mut self, frame: &Frame, now: f64) -> bool {
+        let (sequence, source_ns) = (frame.sequence, frame.source_ns);
+        let (since, frames) = match self.restart {
+            Some(r) if sequence > r.sequence && source_ns > r.source_ns => (r.since, r.frames + 1),
+            _ => (now, 1),
+        };
+        self.restart = Some(Restart {
+            sequence,
+            source_ns,
+            since,
+            frames,
+        });
+        frames >= RESTART_FRAMES && now - since >= RESTART_TIME
+    }
+
+    /// Begins anew: what comes next is the first frame again, and the figure waits for it in the posture it has.
+    fn resync(&mut self, why: Resync) {
+        self.frames.clear();
+        self.transit.clear();
+        self.held.clear();
+        self.origin = None;
+        self.jitter = Some(0.0);
+        self.delay = None;
+        self.lost = None;
+        self.behind = 0.0;
+        self.restart = None;
+        self.played = f64::NEG_INFINITY;
+        self.head = None;
+        self.next = 0;
+        self.counts.resyncs += 1;
+        self.broken = true;
+        self.notice = Some(why);
     }
 
     fn measured(&self) -> f64 {
@@ -283,9 +433,15 @@ impl JitterBuffer {
         guess
     }
 
-    /// Playout time at world time `t`, s since the first frame; moves the adaptive delay on.
-    fn playout(&mut self, t: f64) -> Option<f64> {
+    /// Playout time in the tick that begins `now`, s since the first frame; moves the adaptive delay on.
+    fn playout(&mut self, now: Now) -> Option<f64> {
         let (_, world0) = self.origin?;
+        let left_out = self.lost.replace(now.lost).map_or(0.0, |l| now.lost - l);
+        self.behind = (self.behind + left_out - CATCH_UP * self.tick).max(0.0);
+        if self.behind > MOST_BEHIND {
+            self.resync(Resync::Behind);
+            return None;
+        }
         let jitter = self.jitter();
         self.jitter = Some(jitter);
         let delay = match self.settings.delay {
@@ -304,7 +460,7 @@ impl JitterBuffer {
             }
         };
         self.delay = Some(delay);
-        let p = t - world0 - delay;
+        let p = now.time + now.lost - world0 - delay - self.behind;
         // Time may stand still while a delay grows, but does not run backwards.
         Some(if self.played.is_finite() {
             p.max(self.played)
@@ -475,15 +631,18 @@ impl JitterBuffer {
         p
     }
 
-    /// The desired motion over the tick from world time `t`. `None` while nothing was pushed or the first frame is
-    /// still to come: what was asked of the figure before then goes on.
-    pub fn sample(&mut self, t: f64) -> Option<TargetPair> {
-        let p = self.playout(t)?;
+    /// The desired motion over the tick that begins `at`. `None` while nothing was pushed or the first frame is still
+    /// to come: what was asked of the figure before then goes on.
+    pub fn sample(&mut self, at: Now) -> Option<TargetPair> {
+        let Some(p) = self.playout(at) else {
+            return self.wait();
+        };
+        let t = at.time;
         let (mut now, supply, i) = self.target(p);
         self.supply = supply;
         let began = self.applied.is_none();
         match supply {
-            Supply::Waiting | Supply::None => return None,
+            Supply::Waiting | Supply::None => return self.wait(),
             Supply::Present => self.counts.ticks[0] += 1,
             Supply::Interpolated => self.counts.ticks[1] += 1,
             Supply::Extrapolated => self.counts.ticks[2] += 1,
@@ -531,6 +690,19 @@ impl JitterBuffer {
         Some(TargetPair { now, next })
     }
 
+    /// What is asked of the figure before the first frame: nothing, or of a stream that begins anew the last posture.
+    fn wait(&mut self) -> Option<TargetPair> {
+        self.applied?;
+        self.supply = Supply::Held;
+        self.counts.ticks[3] += 1;
+        let still = Target::still(self.last.posture);
+        self.last = still.clone();
+        Some(TargetPair {
+            now: still.clone(),
+            next: still,
+        })
+    }
+
     /// True if there is motion that was not handed to a window yet: a driver that repeats what it sent before does not
     /// move.
     pub fn has_news(&self) -> bool {
@@ -541,15 +713,15 @@ impl JitterBuffer {
     }
 
     /// Hands the samples of a grid of `rate` per second to a window that lies `window` seconds behind them, as far as
-    /// they are due in the tick from world time `t`. Returns the playout time of the newest sample that is due at `t`,
-    /// s, and how many samples of the grid are over; `None` while there is no motion.
+    /// they are due in the tick that begins `now`. Returns the playout time of the newest sample that is due then, s,
+    /// and how many samples of the grid are over; `None` while there is no motion.
     pub fn feed(
         &mut self,
-        t: f64,
+        now: Now,
         (rate, window): (f64, f64),
         mut give: impl FnMut(Due<'_>),
     ) -> Option<(f64, i64)> {
-        let p = self.playout(t)?;
+        let p = self.playout(now)?;
         let p = match self.head {
             Some(head) if (p - head).abs() < LEAP => p.clamp(
                 head + (1.0 - SLEW) * self.tick,

@@ -165,9 +165,9 @@ impl Mailbox {
         fenced(&self.driver)
     }
 
-    /// True until the drive ends.
-    pub fn is_open(&self) -> bool {
-        self.inside().closed.is_none()
+    /// Why the drive has ended, if it has.
+    pub fn ended(&self) -> Option<Fault> {
+        self.inside().closed.clone()
     }
 
     /// Takes what waits, without waiting for a sender. For the world's thread.
@@ -191,6 +191,11 @@ impl Mailbox {
     pub fn counts(&self) -> (i64, u64) {
         let inside = self.inside();
         (inside.received, inside.refused)
+    }
+
+    /// The driver's sequence started again and has come to `sequence`.
+    pub fn begin_anew(&self, sequence: i64) {
+        self.inside().received = sequence;
     }
 
     /// Publishes the state of the drive after a tick. For the world's thread.

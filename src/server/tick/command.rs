@@ -43,6 +43,10 @@ impl Inbox {
 
     /// Waits, then takes what has come; with `eager` one command ends the wait. While it waits for a deadline, commands
     /// stay in the queue, so that its limit holds. False when there will be no more.
+    #[allow(
+        clippy::disallowed_methods,
+        reason = "the tick loop waits for its absolute deadline"
+    )]
     pub fn wait(&mut self, wait: Duration, eager: bool) -> bool {
         let mut fresh = Vec::new();
         if !eager {

@@ -1,7 +1,7 @@
 //! Who drives which figure live: at most one driver per figure, kept for a grace time when the driver is gone.
 
 use crate::server::engine::{self, Figure, FigureKey, LivePlayback};
-use crate::server::ingest::jitter_buffer::{Due, Frame, JitterBuffer};
+use crate::server::ingest::jitter_buffer::{Due, Frame, JitterBuffer, Now};
 use crate::server::ingest::mailbox::Mailbox;
 use crate::sim::body::State;
 use crate::sim::motion::TargetPair;
@@ -143,20 +143,24 @@ impl Drive {
         }
     }
 
-    /// Takes what came since the last tick at world time `time`, in order of sequence: calls that meet in one tick
-    /// overtake each other on their way.
-    pub fn collect(&mut self, time: f64, now: Instant) {
+    /// Takes what came since the last tick, in order of sequence: calls that meet in one tick overtake each other on
+    /// their way. `scheduled` tells the scheduled time of an arrival.
+    pub fn collect(&mut self, scheduled: impl Fn(Instant) -> f64, now: Instant) {
         let taken = self.mailbox.take();
         if taken.pushed {
             self.touch(None, now);
         }
-        let mut samples: Vec<MotionSample> = taken
+        let mut samples: Vec<(f64, MotionSample)> = taken
             .deliveries
             .into_iter()
-            .flat_map(|d| d.samples)
+            .flat_map(|d| {
+                let at = scheduled(d.arrival);
+                d.samples.into_iter().map(move |s| (at, s))
+            })
             .collect();
-        samples.sort_by_key(|s| s.sequence);
-        for sample in samples {
+        samples.sort_by_key(|(_, s)| s.sequence);
+        let mut anew = None;
+        for (at, sample) in samples {
             for f in sample.figures {
                 let slot = &mut self.slots[f.slot];
                 let mut posture = f.posture;
@@ -173,8 +177,13 @@ impl Drive {
                     planted: f.planted,
                     guess: Cell::default(),
                 };
-                slot.buffer.push(frame, time);
+                if slot.buffer.push(frame, at) || anew.is_some() {
+                    anew = Some(sample.sequence);
+                }
             }
+        }
+        if let Some(sequence) = anew {
+            self.mailbox.begin_anew(sequence);
         }
     }
 
@@ -189,6 +198,7 @@ impl Drive {
             figures: self
                 .slots
                 .iter()
+                .filter(|s| s.key.is_some())
                 .map(|s| {
                     let counts = s.buffer.counts();
                     let applied = s.buffer.applied();
@@ -204,6 +214,8 @@ impl Drive {
                         late: counts.late,
                         stale: counts.stale,
                         overflow: counts.overflow,
+                        resyncs: counts.resyncs,
+                        behind: s.buffer.behind(),
                         window: s.window.as_ref().map_or(0.0, |w| w.length),
                     }
                 })
@@ -225,15 +237,29 @@ impl Window {
 }
 
 impl Slot {
-    /// Feeds the window with what is due in the tick from world time `time`; once there is enough of it, the figure
+    /// Feeds the window with what is due in the tick that begins `now`; once there is enough of it, the figure
     /// follows. Returns the state that the figure is to be put into, if its driver asked for that.
-    pub fn feed(&mut self, time: f64, figure: &mut Figure, reset: bool) -> Option<State> {
+    pub fn feed(&mut self, now: Now, figure: &mut Figure, reset: bool) -> Option<State> {
         let window = self.window.as_mut()?;
         let length = window.length;
+        let time = now.time;
+        if self.buffer.take_break() {
+            // What the window holds has no continuation.
+            if window.waiting.is_none() {
+                figure.stop(time);
+            } else {
+                let begun = window.begun;
+                *window = Window::new(&self.body, length);
+                if begun {
+                    window.lead_in(&figure.target().next.posture);
+                }
+            }
+            return None;
+        }
         if window.waiting.is_none() && figure.stream_mut().is_none() {
             // It stopped in a silence: a stream that comes again begins from where the figure is.
             if !self.buffer.has_news() {
-                self.buffer.feed(time, (RATE, length), |_| ());
+                self.buffer.feed(now, (RATE, length), |_| ());
                 return None;
             }
             *window = Window::new(&self.body, length);
@@ -246,7 +272,7 @@ impl Slot {
         };
         let motion = &mut live.motion;
         let mut silent = false;
-        let (head, next) = self.buffer.feed(time, (RATE, length), |due| match due {
+        let (head, next) = self.buffer.feed(now, (RATE, length), |due| match due {
             Due::Sample(posture, planted) => motion.push(posture, planted),
             Due::Silence => silent = true,
         })?;
@@ -266,9 +292,9 @@ impl Slot {
         (reset && !window.begun).then_some(first.state())
     }
 
-    /// The desired motion over the tick from world time `time`, and whether the figure is to be put into it at once.
-    pub fn sample(&mut self, time: f64) -> Option<(TargetPair, bool)> {
-        let pair = self.buffer.sample(time)?;
+    /// The desired motion over the tick that begins `now`, and whether the figure is to be put into it at once.
+    pub fn sample(&mut self, now: Now) -> Option<(TargetPair, bool)> {
+        let pair = self.buffer.sample(now)?;
         Some((pair, self.buffer.resets_now()))
     }
 

@@ -4,22 +4,25 @@
 //! frame, account for time. The thread never waits for a client, for a lock held elsewhere, or for the disk. Commands
 //! come through a bounded queue, frames leave through latest-wins cells.
 
+pub mod budget;
 pub mod clock;
 pub mod command;
 pub mod drives;
+pub mod history;
 pub mod planners;
 pub mod shard;
 pub mod stage_times;
 
 use crate::wire::status::Fault;
-use crate::wire::types::{EventKind, Snapshot, WorldEvent};
+use crate::wire::types::{Described, EventKind, Snapshot, WorldEvent};
 use command::Inbox;
+use history::History;
 use shard::Shard;
 use stage_times::StageTimes;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 use tokio::sync::{broadcast, watch};
 
@@ -36,6 +39,10 @@ const COMMAND_LEAST: Duration = Duration::from_micros(200);
 pub struct Outlet {
     /// Latest frame.
     pub latest: watch::Sender<Arc<Snapshot>>,
+    /// Frames of the last ticks. Whoever looks into it copies pointers, so the world's thread does not wait for long.
+    pub history: Mutex<History>,
+    /// World and figures, as they were when something of them changed last.
+    pub described: watch::Sender<Arc<Described>>,
     /// Events of each tick that has some.
     pub events: broadcast::Sender<Arc<Vec<WorldEvent>>>,
     /// Times of recent ticks.
@@ -50,6 +57,7 @@ pub struct Outlet {
 
 /// Runs one world until it is closed or all its handles are gone.
 pub fn run(mut shard: Shard, mut inbox: Inbox, outlet: &Outlet) {
+    let mut meter = shard.meter();
     loop {
         // Wait: for the deadline, for a command if the clock stands still, not at all if someone waits for steps.
         let stopped = shard.paused || shard.failed.is_some();
@@ -81,6 +89,7 @@ pub fn run(mut shard: Shard, mut inbox: Inbox, outlet: &Outlet) {
         };
         while let Some(c) = inbox.take() {
             guarded(&mut shard, "a command", |s| (c.action)(s));
+            shard.touch();
             if start.elapsed() >= allowance {
                 break;
             }
@@ -90,7 +99,7 @@ pub fn run(mut shard: Shard, mut inbox: Inbox, outlet: &Outlet) {
             s.expire_drives(start);
             s.offer_plans();
         });
-        if shard.closing {
+        if shard.closing.is_some() {
             break;
         }
         let commands_done = Instant::now();
@@ -107,6 +116,7 @@ pub fn run(mut shard: Shard, mut inbox: Inbox, outlet: &Outlet) {
             if shard.changed {
                 publish(&mut shard, outlet);
             }
+            describe(&mut shard, outlet);
             publish_events(&mut shard, outlet);
             shard.send_replies();
             continue;
@@ -122,12 +132,17 @@ pub fn run(mut shard: Shard, mut inbox: Inbox, outlet: &Outlet) {
             None => publish(&mut shard, outlet),
             Some(_) => None,
         };
+        describe(&mut shard, outlet);
         publish_events(&mut shard, outlet);
+
+        shard.send_replies();
 
         // Account for time.
         let end = Instant::now();
+        let rest = meter.tick(step_done - motion_done, shard.figure_count());
         if !stopped {
             shard.clock.advance(end);
+            shard.clock.rest(end + rest);
         }
         outlet.ticks.fetch_add(1, Ordering::Relaxed);
         outlet
@@ -146,17 +161,14 @@ pub fn run(mut shard: Shard, mut inbox: Inbox, outlet: &Outlet) {
                 end - start,
             ]);
         }
-        shard.send_replies();
         if let Some(snapshot) = snapshot {
             finish_steps(&mut shard, &snapshot); // last, so that who waits finds everything done
         }
     }
     shard.send_replies();
+    let why = shard.closing.take().unwrap_or(Fault::Draining);
     for step in shard.steps.drain(..) {
-        (step.done)(Err(Fault::Aborted {
-            reason: "WORLD_DELETED",
-            message: "the world was deleted before its steps were done".into(),
-        }));
+        (step.done)(Err(why.clone()));
     }
 }
 
@@ -181,6 +193,8 @@ fn fail(shard: &mut Shard, what: &str, panic: &(dyn Any + Send)) {
     metrics::counter!("sinew_worlds_failed_total").increment(1);
     let why = format!("{what} panicked: {message}");
     shard.failed = Some(why.clone());
+    shard.needs_nothing();
+    shard.touch();
     if let Some(fault) = shard.failure() {
         shard.close_mailboxes(&fault);
     }
@@ -196,8 +210,21 @@ fn publish(shard: &mut Shard, outlet: &Outlet) -> Option<Arc<Snapshot>> {
         s.publish_feedback();
         s.snapshot()
     })?;
+    let mut history = outlet
+        .history
+        .lock()
+        .unwrap_or_else(PoisonError::into_inner);
+    history.push(snapshot.clone());
+    drop(history);
     outlet.latest.send_replace(snapshot.clone());
     Some(snapshot)
+}
+
+/// Tells what changed of world and figures, before who changed it gets an answer.
+fn describe(shard: &mut Shard, outlet: &Outlet) {
+    if let Some(described) = guarded(shard, "the description", Shard::describe).flatten() {
+        outlet.described.send_replace(described);
+    }
 }
 
 fn publish_events(shard: &mut Shard, outlet: &Outlet) {

@@ -6,7 +6,7 @@ use super::shard::{Limits, Shard};
 use super::*;
 use crate::wire::convert;
 use crate::wire::types::WorldCondition;
-use std::sync::mpsc::{SyncSender, channel, sync_channel};
+use std::sync::mpsc::{SyncSender, sync_channel};
 use std::thread::JoinHandle;
 
 struct Running {
@@ -24,13 +24,15 @@ impl Running {
         .unwrap();
         let limits = Limits {
             figures: 4,
-            history: 4,
             window: 0.0,
         };
         let planners = Arc::new(Planners::start());
-        let mut shard = Shard::new("w".into(), settings, false, limits, planners).unwrap();
+        let budget = Arc::new(budget::Budget::new(100.0));
+        let mut shard = Shard::new("w".into(), settings, false, limits, planners, budget).unwrap();
         let outlet = Arc::new(Outlet {
             latest: watch::Sender::new(shard.snapshot()),
+            history: Mutex::new(History::new(4)),
+            described: watch::Sender::new(shard.describe().unwrap()),
             events: broadcast::Sender::new(16),
             times: Mutex::default(),
             ticks: AtomicU64::new(0),
@@ -57,13 +59,13 @@ impl Running {
     }
 
     fn ask<T: Send + 'static>(&self, f: impl FnOnce(&mut Shard) -> T + Send + 'static) -> T {
-        let (tx, rx) = channel();
+        let (tx, rx) = sync_channel(64);
         self.send(move |s| tx.send(f(s)).unwrap());
         rx.recv().expect("its thread lives")
     }
 
     fn end(self) {
-        self.send(Shard::close);
+        self.send(|s| s.close(Fault::Draining));
         self.thread.join().unwrap();
     }
 }
@@ -71,11 +73,14 @@ impl Running {
 #[test]
 fn commands_that_take_long_are_spread_over_ticks_in_order() {
     let world = Running::start(50.0); // 5 ms of each tick are for commands
-    let (tx, rx) = channel();
+    let (tx, rx) = sync_channel(64);
     for n in 0..40 {
         let tx = tx.clone();
         world.send(move |s| {
-            std::thread::sleep(Duration::from_millis(2));
+            let begun = Instant::now();
+            while begun.elapsed() < Duration::from_millis(2) {
+                std::hint::spin_loop();
+            }
             tx.send((n, s.info().tick)).unwrap();
         });
     }

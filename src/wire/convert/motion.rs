@@ -459,6 +459,8 @@ pub fn feedback_out(f: &Feedback) -> pb::DriveFeedback {
                 stale_count: g.stale as i64,
                 overflow_count: g.overflow as i64,
                 preparation_window_ms: g.window * 1e3,
+                resync_count: g.resyncs as i64,
+                behind_ms: g.behind * 1e3,
             })
             .collect(),
     }

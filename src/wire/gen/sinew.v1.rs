@@ -1221,7 +1221,7 @@ pub struct UpdateFigureRequest {
     #[prost(message, optional, tag = "1")]
     pub figure: ::core::option::Option<Figure>,
     /// Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper`, `constraints`,
-    /// `protective_steps` to take. Must not be empty.
+    /// `protective_steps` to take. Must not be empty. Fields that it does not name are ignored, whatever they hold.
     #[prost(message, optional, tag = "2")]
     pub update_mask: ::core::option::Option<::prost_types::FieldMask>,
 }
@@ -1557,7 +1557,8 @@ pub mod figure_service_client {
             self.inner = self.inner.max_encoding_message_size(limit);
             self
         }
-        /// Adds a figure, standing still. RESOURCE_EXHAUSTED when the world holds as many as it may.
+        /// Adds a figure, standing still. RESOURCE_EXHAUSTED when the world holds as many as it may, or when there is no
+        /// processor time for its ticks (`TICK_BUDGET`).
         pub async fn create_figure(
             &mut self,
             request: impl tonic::IntoRequest<super::CreateFigureRequest>,
@@ -1722,7 +1723,8 @@ pub mod figure_service_server {
     /// Generated trait containing gRPC methods that should be implemented for use with FigureServiceServer.
     #[async_trait]
     pub trait FigureService: std::marker::Send + std::marker::Sync + 'static {
-        /// Adds a figure, standing still. RESOURCE_EXHAUSTED when the world holds as many as it may.
+        /// Adds a figure, standing still. RESOURCE_EXHAUSTED when the world holds as many as it may, or when there is no
+        /// processor time for its ticks (`TICK_BUDGET`).
         async fn create_figure(
             &self,
             request: tonic::Request<super::CreateFigureRequest>,
@@ -2744,7 +2746,8 @@ pub struct FigureMotion {
 /// Desired motion at one instant.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct MotionFrame {
-    /// Counts up by one from frame to frame; must grow. Frames that do not are dropped and counted.
+    /// Counts up by one from frame to frame; must grow. Frames that do not are dropped and counted; if they go on for
+    /// 0.25 s in an order of their own, the stream begins anew with them.
     #[prost(int64, tag = "1")]
     pub sequence: i64,
     /// When the motion was captured, ns on the driver's clock; must grow with the sequence.
@@ -2844,10 +2847,10 @@ pub struct PushMotionRequest {
     #[prost(message, optional, tag = "2")]
     pub batch: ::core::option::Option<MotionBatch>,
 }
-/// State of the drive after the batch was taken.
+/// The batch was taken. It acts from the next tick on; the call does not wait for it.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct PushMotionResponse {
-    /// State of the drive.
+    /// State of the drive after the last tick; `received_sequence` and `refused_batch_count` are of now.
     #[prost(message, optional, tag = "1")]
     pub feedback: ::core::option::Option<DriveFeedback>,
 }
@@ -2863,7 +2866,8 @@ pub struct DriveFeedback {
     /// Largest sequence that was taken; -1 if none.
     #[prost(int64, tag = "3")]
     pub received_sequence: i64,
-    /// Batches that found a full queue or came too fast and were dropped.
+    /// Batches that came too fast and were dropped: a driver may send 1000 frames per second for each of its figures, and
+    /// 512 at once.
     #[prost(int64, tag = "4")]
     pub refused_batch_count: i64,
     /// One entry per driven figure.
@@ -2922,6 +2926,14 @@ pub struct FigureFeedback {
     /// come.
     #[prost(double, tag = "16")]
     pub preparation_window_ms: f64,
+    /// Times that the stream began anew: its sequence or source time started again or was set ahead, or it fell too far
+    /// behind. The figure stands until there is motion again. An event says why.
+    #[prost(int64, tag = "17")]
+    pub resync_count: i64,
+    /// How far the stream is behind because its world leaves ticks out, ms; contained in `playout_delay_ms`. It is played
+    /// in world time, never faster than the body moves, and begins anew when it is 2 s behind.
+    #[prost(double, tag = "18")]
+    pub behind_ms: f64,
 }
 /// Forecast of how a figure follows a clip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
@@ -4526,6 +4538,12 @@ pub struct GetServerStatsResponse {
     /// Simulations running.
     #[prost(int32, tag = "4")]
     pub simulation_count: i32,
+    /// Share of the processors that the ticks of running worlds need, measured: 1 is all of them.
+    #[prost(double, tag = "5")]
+    pub budget_used: f64,
+    /// Share that they may need (`max_tick_budget`).
+    #[prost(double, tag = "6")]
+    pub budget_limit: f64,
 }
 /// How busy one world is.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -4551,7 +4569,8 @@ pub struct WorldStats {
     /// Viewers.
     #[prost(int32, tag = "7")]
     pub viewer_count: i32,
-    /// Share of the period that ticks use, p99 of recent ticks: 1 is all of it.
+    /// Share of the period, at the present speed, that ticks use with everything around them, p99 of recent ticks: 1 is
+    /// all of it.
     #[prost(double, tag = "8")]
     pub budget_used: f64,
     /// Stages of a tick, in order: `late` (start after the deadline), `commands`, `motion`, `step`, `publish`, `total`.
@@ -5132,6 +5151,8 @@ pub enum EventType {
     DriveBegan = 13,
     /// A driver gave a figure back or lost it.
     DriveEnded = 14,
+    /// The stream of a driver began anew; the detail says why.
+    DriveResynced = 35,
     /// The world was paused.
     WorldPaused = 15,
     /// The world was resumed.
@@ -5172,6 +5193,7 @@ impl EventType {
             Self::FigureRemoved => "EVENT_TYPE_FIGURE_REMOVED",
             Self::DriveBegan => "EVENT_TYPE_DRIVE_BEGAN",
             Self::DriveEnded => "EVENT_TYPE_DRIVE_ENDED",
+            Self::DriveResynced => "EVENT_TYPE_DRIVE_RESYNCED",
             Self::WorldPaused => "EVENT_TYPE_WORLD_PAUSED",
             Self::WorldResumed => "EVENT_TYPE_WORLD_RESUMED",
             Self::WorldFailed => "EVENT_TYPE_WORLD_FAILED",
@@ -5201,6 +5223,7 @@ impl EventType {
             "EVENT_TYPE_FIGURE_REMOVED" => Some(Self::FigureRemoved),
             "EVENT_TYPE_DRIVE_BEGAN" => Some(Self::DriveBegan),
             "EVENT_TYPE_DRIVE_ENDED" => Some(Self::DriveEnded),
+            "EVENT_TYPE_DRIVE_RESYNCED" => Some(Self::DriveResynced),
             "EVENT_TYPE_WORLD_PAUSED" => Some(Self::WorldPaused),
             "EVENT_TYPE_WORLD_RESUMED" => Some(Self::WorldResumed),
             "EVENT_TYPE_WORLD_FAILED" => Some(Self::WorldFailed),
@@ -6645,7 +6668,8 @@ pub mod world_service_client {
             self.inner = self.inner.max_encoding_message_size(limit);
             self
         }
-        /// Creates a world and starts its clock, unless `paused`. RESOURCE_EXHAUSTED when the server holds as many as it may.
+        /// Creates a world and starts its clock, unless `paused`. RESOURCE_EXHAUSTED when the server or this client has as
+        /// many as it may, or when there is no processor time for its ticks (`TICK_BUDGET`).
         pub async fn create_world(
             &mut self,
             request: impl tonic::IntoRequest<super::CreateWorldRequest>,
@@ -6720,7 +6744,8 @@ pub mod world_service_client {
                 .insert(GrpcMethod::new("sinew.v1.WorldService", "ListWorlds"));
             self.inner.unary(req, path, codec).await
         }
-        /// Changes what may change while the world runs.
+        /// Changes what may change while the world runs. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time
+        /// for a faster clock.
         pub async fn update_world(
             &mut self,
             request: impl tonic::IntoRequest<super::UpdateWorldRequest>,
@@ -6795,7 +6820,8 @@ pub mod world_service_client {
                 .insert(GrpcMethod::new("sinew.v1.WorldService", "PauseWorld"));
             self.inner.unary(req, path, codec).await
         }
-        /// Starts the clock again; no time is caught up. Resuming a running world does nothing.
+        /// Starts the clock again; no time is caught up. Resuming a running world does nothing. RESOURCE_EXHAUSTED
+        /// (`TICK_BUDGET`) when there is no processor time for its ticks.
         pub async fn resume_world(
             &mut self,
             request: impl tonic::IntoRequest<super::ResumeWorldRequest>,
@@ -6846,7 +6872,7 @@ pub mod world_service_client {
                 .insert(GrpcMethod::new("sinew.v1.WorldService", "StepWorld"));
             self.inner.unary(req, path, codec).await
         }
-        /// Sets how fast world time passes.
+        /// Sets how fast world time passes. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time for it.
         pub async fn set_world_speed(
             &mut self,
             request: impl tonic::IntoRequest<super::SetWorldSpeedRequest>,
@@ -6987,7 +7013,8 @@ pub mod world_service_server {
     /// Generated trait containing gRPC methods that should be implemented for use with WorldServiceServer.
     #[async_trait]
     pub trait WorldService: std::marker::Send + std::marker::Sync + 'static {
-        /// Creates a world and starts its clock, unless `paused`. RESOURCE_EXHAUSTED when the server holds as many as it may.
+        /// Creates a world and starts its clock, unless `paused`. RESOURCE_EXHAUSTED when the server or this client has as
+        /// many as it may, or when there is no processor time for its ticks (`TICK_BUDGET`).
         async fn create_world(
             &self,
             request: tonic::Request<super::CreateWorldRequest>,
@@ -7011,7 +7038,8 @@ pub mod world_service_server {
             tonic::Response<super::ListWorldsResponse>,
             tonic::Status,
         >;
-        /// Changes what may change while the world runs.
+        /// Changes what may change while the world runs. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time
+        /// for a faster clock.
         async fn update_world(
             &self,
             request: tonic::Request<super::UpdateWorldRequest>,
@@ -7035,7 +7063,8 @@ pub mod world_service_server {
             tonic::Response<super::PauseWorldResponse>,
             tonic::Status,
         >;
-        /// Starts the clock again; no time is caught up. Resuming a running world does nothing.
+        /// Starts the clock again; no time is caught up. Resuming a running world does nothing. RESOURCE_EXHAUSTED
+        /// (`TICK_BUDGET`) when there is no processor time for its ticks.
         async fn resume_world(
             &self,
             request: tonic::Request<super::ResumeWorldRequest>,
@@ -7052,7 +7081,7 @@ pub mod world_service_server {
             tonic::Response<super::StepWorldResponse>,
             tonic::Status,
         >;
-        /// Sets how fast world time passes.
+        /// Sets how fast world time passes. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time for it.
         async fn set_world_speed(
             &self,
             request: tonic::Request<super::SetWorldSpeedRequest>,

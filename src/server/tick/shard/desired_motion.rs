@@ -2,7 +2,7 @@
 
 use super::Shard;
 use crate::server::engine::{self, Clip, Drive as Motion};
-use crate::server::ingest::jitter_buffer::JitterBuffer;
+use crate::server::ingest::jitter_buffer::{JitterBuffer, Now};
 use crate::server::ingest::mailbox::{Mailbox, fenced};
 use crate::server::tick::drives::{Drive, Slot, Window};
 use crate::wire::status::Fault;
@@ -75,8 +75,8 @@ impl Shard {
         Ok(())
     }
 
-    /// Begins or takes up a drive. `connection` is the stream that will send; `None` for a push. Returns where its motion
-    /// is to be left.
+    /// Begins or takes up a drive. `connection` is the stream that will send; `None` for a push. Returns where its
+    /// motion is to be left.
     pub fn open_drive(
         &mut self,
         open: &DriveOpen,
@@ -145,6 +145,7 @@ impl Shard {
         let settings = open.settings.clone();
         let drive = Drive::new(driver.clone(), connection, settings, slots, now);
         let mailbox = Arc::clone(&drive.mailbox);
+        mailbox.publish(drive.feedback(self.world.tick()));
         self.mailboxes.insert(Arc::clone(&mailbox));
         self.drives.push(drive);
         for figure in &open.figures {
@@ -155,9 +156,45 @@ impl Shard {
 
     /// Takes what drivers have sent since the last tick.
     pub(in crate::server::tick) fn collect_motion(&mut self) {
-        let (time, now) = (self.world.time(), Instant::now());
+        let now = Instant::now();
+        let scheduled = self.schedule();
         for drive in &mut self.drives {
-            drive.collect(time, now);
+            drive.collect(&scheduled, now);
+        }
+        self.tell_new_beginnings();
+    }
+
+    /// World time now, with what the clock has left out.
+    fn now(&self) -> Now {
+        Now {
+            time: self.world.time(),
+            lost: self.clock.lost() * self.world.dt(),
+        }
+    }
+
+    /// The scheduled time of an arrival. While the clock stands still so does scheduled time.
+    fn schedule(&self) -> impl Fn(Instant) -> f64 + use<> {
+        let (now, dt) = (self.now(), self.world.dt());
+        let clock = (!self.paused).then(|| self.clock.clone());
+        move |arrival| {
+            let since = clock.as_ref().map_or(0.0, |c| c.since_deadline(arrival));
+            now.time + now.lost + since * dt
+        }
+    }
+
+    /// Tells that streams began anew, and why.
+    fn tell_new_beginnings(&mut self) {
+        let mut told = Vec::new();
+        for drive in &mut self.drives {
+            for slot in drive.slots.iter_mut().filter(|s| s.key.is_some()) {
+                if let Some(why) = slot.buffer.take_notice() {
+                    let detail = format!("{}: {}", drive.driver, why.reason());
+                    told.push((slot.figure.clone(), detail));
+                }
+            }
+        }
+        for (figure, detail) in told {
+            self.event(&figure, EventKind::DriveResynced(detail));
         }
     }
 
@@ -178,13 +215,13 @@ impl Shard {
 
     /// What the driver of a stream is told.
     pub fn feedback(&mut self, driver: &str, connection: u64) -> Result<Feedback, Fault> {
-        let (tick, time) = (self.world.tick(), self.world.time());
+        let (tick, scheduled) = (self.world.tick(), self.schedule());
         let d = self
             .drives
             .iter_mut()
             .find(|d| d.driver == driver && d.connection == Some(connection))
             .ok_or_else(|| fenced(driver))?;
-        d.collect(time, Instant::now());
+        d.collect(scheduled, Instant::now());
         Ok(d.feedback(tick))
     }
 
@@ -209,6 +246,7 @@ impl Shard {
             return;
         };
         let drive = self.drives.remove(i);
+        self.touch();
         drive.mailbox.close(fenced(driver));
         self.mailboxes.remove(driver);
         for slot in drive.slots.iter().filter(|s| s.key.is_some()) {
@@ -234,7 +272,7 @@ impl Shard {
 
     /// Hands the desired motion of this tick to driven figures.
     pub(in crate::server::tick) fn sample_motion(&mut self) {
-        let time = self.world.time();
+        let now = self.now();
         for drive in &mut self.drives {
             for slot in &mut drive.slots {
                 let Some(key) = slot.key else { continue };
@@ -242,12 +280,12 @@ impl Shard {
                     let Some(f) = self.world.figure_mut(key) else {
                         continue;
                     };
-                    if let Some(state) = slot.feed(time, f, drive.settings.reset) {
+                    if let Some(state) = slot.feed(now, f, drive.settings.reset) {
                         let _ = engine::reset(&mut self.world, key, state);
                     }
                     continue;
                 }
-                let Some((pair, reset)) = slot.sample(time) else {
+                let Some((pair, reset)) = slot.sample(now) else {
                     continue;
                 };
                 let state = pair.now.state();
@@ -261,5 +299,6 @@ impl Shard {
                 }
             }
         }
+        self.tell_new_beginnings();
     }
 }
