@@ -18,6 +18,9 @@ use tokio::sync::oneshot;
 
 /// How long work goes on before it makes room for somebody else's.
 const SLICE: Duration = Duration::from_millis(100);
+/// Pieces of work per worker that may have begun: each holds a thread and what it has so far, also while others have
+/// their turns.
+const BEGUN: usize = 8;
 /// Weight of the latest piece of work in the mean time that one takes.
 const RECENT: f64 = 0.2;
 /// Least and most time after which a client is told to try again, s.
@@ -42,6 +45,8 @@ struct Shared {
 #[derive(Debug, Default)]
 struct State {
     running: usize,
+    /// Pieces of work that have begun and are not done.
+    begun: usize,
     clients: BTreeMap<Client, Use>,
     waiting: Vec<Waiter>,
     turns: u64,
@@ -96,15 +101,22 @@ pub struct Turn {
     since: Cell<Instant>,
     /// It occupies a worker.
     works: Cell<bool>,
+    /// Another turn of the same work stands for this one, or it never came to its work.
+    replaced: Cell<bool>,
 }
 
 impl Drop for Turn {
     fn drop(&mut self) {
-        if self.works.get() {
-            let mut state = self.pool.state();
-            state.leave(&self.client);
-            state.grant(&self.pool);
+        if self.replaced.get() {
+            return;
         }
+        // The work is done, or given up while others had their turns.
+        let mut state = self.pool.state();
+        state.begun -= 1;
+        if self.works.get() {
+            state.leave(&self.client);
+        }
+        state.grant(&self.pool);
     }
 }
 
@@ -124,7 +136,7 @@ impl Turn {
         let Ok(turn) = next.blocking_recv() else {
             return true; // only who is cancelled waits in vain
         };
-        turn.works.set(false); // this one goes on instead
+        turn.replaced.set(true); // this one goes on instead
         self.works.set(true);
         self.since.set(Instant::now());
         self.cancelled.is_set()
@@ -135,7 +147,10 @@ impl Turn {
         let mut state = self.pool.state();
         let mine = state.running_of(&self.client);
         let owed = state.waiting.iter().any(|w| {
-            w.client != self.client && !w.cancelled.is_set() && state.running_of(&w.client) < mine
+            w.client != self.client
+                && !w.cancelled.is_set()
+                && state.may_go_on(w, &self.pool)
+                && state.running_of(&w.client) < mine
         });
         if !owed {
             return None;
@@ -185,8 +200,13 @@ impl State {
         }
     }
 
+    /// False for work that must not begin, because too much of it has.
+    fn may_go_on(&self, waiter: &Waiter, pool: &Pool) -> bool {
+        waiter.begun || self.begun < BEGUN * pool.0.most
+    }
+
     /// Gives free workers to those who wait: to the client with the least at work, then to the one whose last turn is
-    /// longest ago, then to who came first.
+    /// longest ago. A client's work goes on before more of it begins, then who came first is first.
     fn grant(&mut self, pool: &Pool) {
         for w in self.waiting.extract_if(.., |w| w.cancelled.is_set()) {
             if let Some(used) = self.clients.get_mut(&w.client) {
@@ -194,11 +214,14 @@ impl State {
             }
         }
         while self.running < pool.0.most {
-            let next = (0..self.waiting.len()).min_by_key(|i| {
-                let used = &self.clients[&self.waiting[*i].client];
-                (used.running, used.turn)
-            });
-            let Some(next) = next else { break };
+            let all = self.waiting.iter().enumerate();
+            let next = all
+                .filter(|(_, w)| self.may_go_on(w, pool))
+                .min_by_key(|(_, w)| {
+                    let used = &self.clients[&w.client];
+                    (used.running, used.turn, !w.begun)
+                });
+            let Some((next, _)) = next else { break };
             let waiter = self.waiting.remove(next);
             let used = self.clients.entry(waiter.client.clone()).or_default();
             used.waiting -= 1;
@@ -208,6 +231,7 @@ impl State {
                 cancelled: waiter.cancelled,
                 since: Cell::new(Instant::now()),
                 works: Cell::new(true),
+                replaced: Cell::new(false),
             };
             match waiter.grant.send(turn) {
                 Ok(()) => {
@@ -215,9 +239,10 @@ impl State {
                     used.running += 1;
                     used.turn = self.turns;
                     self.running += 1;
+                    self.begun += usize::from(!waiter.begun);
                 }
                 // Nobody waits for it; it must not give back what it has not got.
-                Err(turn) => turn.works.set(false),
+                Err(turn) => turn.replaced.set(true),
             }
         }
         self.clients.retain(|_, u| u.running + u.waiting > 0);
@@ -417,8 +442,9 @@ mod tests {
             for work in long {
                 assert_eq!(work.await.unwrap().unwrap(), 0, "it goes on where it was");
             }
-            assert_eq!(pool.running(), 0);
-            assert!(pool.state().clients.is_empty());
+            let state = pool.state();
+            assert_eq!((state.running, state.begun), (0, 0));
+            assert!(state.clients.is_empty());
         }
     }
 
@@ -443,7 +469,35 @@ mod tests {
         }
         // All three are gone.
         assert_eq!(pool.run(&a, |_| Ok(7)).await.unwrap(), 7);
-        assert!(pool.state().waiting.is_empty());
+        let state = pool.state();
+        assert!(state.waiting.is_empty());
+        assert_eq!((state.running, state.begun), (0, 0));
+    }
+
+    #[tokio::test(flavor = "multi_thread")]
+    async fn of_much_work_little_has_begun() {
+        let pool = pool(1, 200);
+        let ended = Arc::new(AtomicBool::new(false));
+        let begun = Arc::new(std::sync::atomic::AtomicUsize::new(0));
+        let mut all = Vec::new();
+        for n in 0..60 {
+            let (pool, ended, begun) = (pool.clone(), ended.clone(), begun.clone());
+            all.push(tokio::spawn(async move {
+                let work = until(ended);
+                let counted = move |turn: &Turn| {
+                    begun.fetch_add(1, Ordering::Relaxed);
+                    work(turn)
+                };
+                pool.run(&client(&format!("{}", n % 20)), counted).await
+            }));
+        }
+        tokio::time::sleep(SLICE * 20).await;
+        assert!(begun.load(Ordering::Relaxed) <= BEGUN);
+        ended.store(true, Ordering::Relaxed);
+        for work in all {
+            assert_eq!(work.await.unwrap().unwrap(), 0);
+        }
+        assert_eq!(begun.load(Ordering::Relaxed), 60);
     }
 
     #[tokio::test(flavor = "multi_thread")]
