@@ -78,6 +78,84 @@ fn worlds_that_no_machine_could_bear_are_refused() {
     });
 }
 
+async fn stats(client: &Client) -> pb::GetServerStatsResponse {
+    let request = pb::GetServerStatsRequest::default();
+    let stats = client.server().get_server_stats(request).await;
+    stats.unwrap().into_inner()
+}
+
+/// Worlds that are filled with cheap figures up to the budget, which then become expensive: no refusal can help, so
+/// they rest, and a world that needs little goes on.
+#[test]
+fn worlds_that_become_expensive_leave_time_for_others() {
+    survives(&[], |address| async move {
+        let address = address.to_string();
+        let healthy = Client::connect(&address).await.unwrap();
+        create(&healthy, "healthy", pb::World::default())
+            .await
+            .unwrap();
+        figure(&healthy, "healthy").await.unwrap();
+        let greedy = Client::connect(&address).await.unwrap();
+        let mut names = Vec::new();
+        for n in 0..4 {
+            let id = format!("greedy-{n}");
+            let world = pb::World {
+                rate_hz: 200.0,
+                ..Default::default()
+            };
+            if create(&greedy, &id, world).await.is_err() {
+                break;
+            }
+            loop {
+                let request = pb::CreateFigureRequest {
+                    parent: format!("worlds/{id}"),
+                    figure: Some(pb::Figure {
+                        controller: pb::Controller::Motors.into(),
+                        ..Default::default()
+                    }),
+                    ..Default::default()
+                };
+                match greedy.figures().create_figure(request).await {
+                    Ok(made) => names.push(made.into_inner().figure.unwrap().name),
+                    Err(_) => break,
+                }
+            }
+        }
+        for name in &names {
+            let request = pb::UpdateFigureRequest {
+                figure: Some(pb::Figure {
+                    name: name.clone(),
+                    controller: pb::Controller::Modern.into(),
+                    ..Default::default()
+                }),
+                update_mask: Some(prost_types::FieldMask {
+                    paths: vec!["controller".into()],
+                }),
+            };
+            let _ = greedy.figures().update_figure(request).await; // its world may be too busy
+        }
+        let before = stats(&healthy).await;
+        tokio::time::sleep(attack_time()).await;
+        let after = stats(&healthy).await;
+        let [before, world] = [&before, &after].map(|s| {
+            s.worlds
+                .iter()
+                .find(|w| w.world == "worlds/healthy")
+                .unwrap()
+        });
+        eprintln!(
+            "{} figures need {:.0} % of the processors; the healthy world is late by {:.0} µs (p99), {} of {} \
+             deadlines left out",
+            names.len(),
+            100.0 * after.budget_used,
+            world.stages[0].p99_us,
+            world.skipped_count - before.skipped_count,
+            world.tick_count - before.tick_count,
+        );
+        assert!(world.tick_count > before.tick_count);
+    });
+}
+
 /// Long simulations and uploads by four connections, some of which go away; others get theirs done meanwhile.
 #[test]
 fn long_work_of_some_does_not_stop_others() {
