@@ -5,34 +5,26 @@
 //! with a frame, between two frames, beyond the newest (fading out), with the last posture, or with quiet standing;
 //! each case is counted.
 //!
-//! Arrivals are stamped by *scheduled time*: where world time would be if the clock had left out no tick. It passes as
-//! the driver's own clock does while the world's clock runs, and stands still with it. Motion is played in world time:
-//! in a world that leaves ticks out it falls behind and is never too fast for the body. It catches up slowly, and a
-//! stream that is too far behind begins anew.
+//! Which source time is due is a matter of [`Playout`]. A stream whose clock starts again, or that is too far behind,
+//! begins anew.
 
+pub use super::playout::Now;
+use super::playout::{Due as Pace, Playout};
 use crate::server::engine;
 use crate::sim::body::{Body, NV, Posture};
 use crate::sim::motion::{Target, TargetPair};
 use crate::sim::plan::stream::is_same;
-use crate::wire::types::{Delay, DriveSettings, Supply};
+use crate::wire::types::{DriveSettings, Supply};
 use std::cell::Cell;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
 /// Most frames that are held: over four seconds at 120 Hz.
 pub const CAPACITY: usize = 512;
-/// Arrivals that the jitter is measured over.
-const WINDOW: usize = 256;
-/// Share of time by which an adaptive delay shrinks: one hundredth is not seen.
-const SHRINK: f64 = 0.01;
 /// Time over which a jump of the desired motion is spread, s.
 const BLEND: f64 = 0.3;
 /// Time in which a figure relaxes into quiet standing, s.
 const RELAX: f64 = 2.0;
-/// Share of time by which a stream that fell behind with its world catches up: two hundredths do not tax the balance.
-const CATCH_UP: f64 = 0.02;
-/// Farthest that a stream is behind its world's schedule, s: at 240 Hz the buffer is full then.
-const MOST_BEHIND: f64 = 2.0;
 /// Frames in a row that are older than what was there, yet in order among themselves, after which the driver's clock is
 /// taken to have started again, and the time over which they come, s.
 const RESTART_FRAMES: u32 = 3;
@@ -98,13 +90,26 @@ impl Resync {
     }
 }
 
-/// An instant of a world.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Now {
-    /// World time, s.
-    pub time: f64,
-    /// World time that the clock has left out so far, s: with it, this is scheduled time.
-    pub lost: f64,
+/// New beginnings of a stream.
+#[derive(Debug, Default)]
+struct Anew {
+    /// Frames that may be one.
+    restart: Option<Restart>,
+    /// There was one that a window does not know of yet.
+    broken: bool,
+    /// There was one that nobody was told of yet.
+    notice: Option<Resync>,
+}
+
+/// What a window was handed.
+#[derive(Debug, Default)]
+struct Grid {
+    /// Newest time, playout s.
+    head: Option<f64>,
+    /// The next sample of the grid.
+    next: i64,
+    /// Frames that it holds: playout time, sequence, source time.
+    held: VecDeque<(f64, i64, i64)>,
 }
 
 /// Frames that may be the first of a clock that started again.
@@ -122,26 +127,8 @@ pub struct JitterBuffer {
     settings: DriveSettings,
     tick: f64,
     frames: VecDeque<Frame>,
-    /// Source time and scheduled time of the first frame.
-    origin: Option<(i64, f64)>,
-    /// Scheduled time minus (first arrival + source time since then) of recent frames.
-    transit: VecDeque<f64>,
-    /// Scheduled time of the last arrival.
-    arrived: f64,
-    /// p99 of the jitter; `None` while frames have come since it was measured.
-    jitter: Option<f64>,
-    /// Present delay of playout behind the ideal clock, s; may be negative when frames come early.
-    delay: Option<f64>,
-    /// Time that the world had lost at the last answer, s, and how far the stream is behind for it, s.
-    lost: Option<f64>,
-    behind: f64,
-    /// Frames that may be a new beginning.
-    restart: Option<Restart>,
-    /// A new beginning that a window does not know of yet, and one that nobody was told of yet.
-    broken: bool,
-    notice: Option<Resync>,
-    /// Playout time of the last answer, s since the first frame.
-    played: f64,
+    pace: Playout,
+    anew: Anew,
     supply: Supply,
     counts: Counts,
     applied: Option<(i64, i64)>,
@@ -149,14 +136,10 @@ pub struct JitterBuffer {
     last: Target,
     /// Difference to a jump of the desired motion, and when it began to fade (world s).
     blend: Option<(Box<[f64; NV]>, f64)>,
-    /// Where to relax from and since when (playout s).
+    /// Quiet standing.
     stand: Posture,
     body: Arc<Body>,
-    /// Newest time that was handed to a window, playout s, and the next sample of its grid.
-    head: Option<f64>,
-    next: i64,
-    /// Frames that a window holds: playout time, sequence, source time.
-    held: VecDeque<(f64, i64, i64)>,
+    grid: Grid,
 }
 
 /// What a window is given for one sample of its grid.
@@ -218,17 +201,8 @@ impl JitterBuffer {
             settings,
             tick,
             frames: VecDeque::new(),
-            origin: None,
-            transit: VecDeque::new(),
-            arrived: 0.0,
-            jitter: Some(0.0),
-            delay: None,
-            lost: None,
-            behind: 0.0,
-            restart: None,
-            broken: false,
-            notice: None,
-            played: f64::NEG_INFINITY,
+            pace: Playout::default(),
+            anew: Anew::default(),
             supply: Supply::None,
             counts: Counts::default(),
             applied: None,
@@ -236,9 +210,7 @@ impl JitterBuffer {
             blend: None,
             stand,
             body,
-            head: None,
-            next: 0,
-            held: VecDeque::with_capacity(CAPACITY),
+            grid: Grid::default(),
         }
     }
 
@@ -266,38 +238,33 @@ impl JitterBuffer {
 
     /// p99 of the arrival jitter up to the last tick, s.
     pub fn jitter(&self) -> f64 {
-        self.jitter.unwrap_or_else(|| self.measured())
+        self.pace.jitter()
     }
 
     /// Delay between arrival and use, s.
     pub fn delay(&self) -> f64 {
-        let delay = match (self.settings.delay, self.delay) {
-            (Delay::Fixed(d), _) => d,
-            (Delay::Adaptive { .. }, Some(d)) => d - self.fastest(),
-            (Delay::Adaptive { .. }, None) => 0.0,
-        };
-        delay + self.behind
+        self.pace.delay(&self.settings)
     }
 
     /// How far the stream is behind because its world leaves ticks out, s; contained in the delay.
     pub fn behind(&self) -> f64 {
-        self.behind
+        self.pace.behind()
     }
 
     /// Why the stream began anew since the last call, if it did.
     pub fn take_notice(&mut self) -> Option<Resync> {
-        self.notice.take()
+        self.anew.notice.take()
     }
 
     /// True if the stream began anew since the last call: a window holds what came before.
     pub fn take_break(&mut self) -> bool {
-        std::mem::take(&mut self.broken)
+        std::mem::take(&mut self.anew.broken)
     }
 
     /// Motion that is held but not used yet, s.
     pub fn buffered(&self) -> f64 {
-        match (self.frames.back(), self.played.is_finite()) {
-            (Some(f), true) => (self.seconds(f) - self.played).max(0.0),
+        match (self.frames.back(), self.pace.played.is_finite()) {
+            (Some(f), true) => (self.seconds(f) - self.pace.played).max(0.0),
             (Some(f), false) => {
                 self.seconds(f) - self.frames.front().map_or(0.0, |f| self.seconds(f))
             }
@@ -306,17 +273,7 @@ impl JitterBuffer {
     }
 
     fn seconds(&self, f: &Frame) -> f64 {
-        let (source0, _) = self.origin.unwrap_or((f.source_ns, 0.0));
-        // Differences of hostile times must not overflow.
-        (i128::from(f.source_ns) - i128::from(source0)) as f64 * 1e-9
-    }
-
-    fn fastest(&self) -> f64 {
-        self.transit
-            .iter()
-            .copied()
-            .fold(f64::INFINITY, f64::min)
-            .min(1e12)
+        self.pace.seconds(f.source_ns)
     }
 
     /// Takes a frame that arrived at scheduled time `now`. Frames whose sequence or source time does not grow are
@@ -332,21 +289,14 @@ impl JitterBuffer {
                 return false;
             }
         }
-        self.restart = None;
-        self.arrived = now;
+        self.anew.restart = None;
         if self.frames.len() == CAPACITY {
             // Fed faster than it is played: what is oldest of the unplayed matters least for where the motion is going.
             self.frames.pop_front();
             self.counts.overflow += 1;
         }
-        let (_, world0) = *self.origin.get_or_insert((frame.source_ns, now));
-        let at = self.seconds(&frame);
-        if self.transit.len() == WINDOW {
-            self.transit.pop_front();
-        }
-        self.transit.push_back(now - world0 - at);
-        self.jitter = None;
-        if at < self.played {
+        let at = self.pace.arrive(frame.source_ns, now);
+        if at < self.pace.played {
             self.counts.late += 1;
         }
         self.frames.push_back(frame);
@@ -359,7 +309,7 @@ impl JitterBuffer {
         };
         if frame.sequence > last.sequence && frame.source_ns > last.source_ns {
             let passed = (i128::from(frame.source_ns) - i128::from(last.source_ns)) as f64 * 1e-9;
-            let set = passed > CLOCK_LEAP && passed > 2.0 * (now - self.arrived);
+            let set = passed > CLOCK_LEAP && passed > 2.0 * self.pace.since_arrival(now);
             return if set { Order::Anew } else { Order::Next };
         }
         if self.restarts(frame, now) {
@@ -372,11 +322,11 @@ impl JitterBuffer {
     /// True if a frame that is older than what was there shows that the driver's clock has started again.
     fn restarts(&mut self, frame: &Frame, now: f64) -> bool {
         let (sequence, source_ns) = (frame.sequence, frame.source_ns);
-        let (since, frames) = match self.restart {
+        let (since, frames) = match self.anew.restart {
             Some(r) if sequence > r.sequence && source_ns > r.source_ns => (r.since, r.frames + 1),
             _ => (now, 1),
         };
-        self.restart = Some(Restart {
+        self.anew.restart = Some(Restart {
             sequence,
             source_ns,
             since,
@@ -388,31 +338,14 @@ impl JitterBuffer {
     /// Begins anew: what comes next is the first frame again, and the figure waits for it in the posture it has.
     fn resync(&mut self, why: Resync) {
         self.frames.clear();
-        self.transit.clear();
-        self.held.clear();
-        self.origin = None;
-        self.jitter = Some(0.0);
-        self.delay = None;
-        self.lost = None;
-        self.behind = 0.0;
-        self.restart = None;
-        self.played = f64::NEG_INFINITY;
-        self.head = None;
-        self.next = 0;
+        self.pace = Playout::default();
+        self.grid = Grid::default();
         self.counts.resyncs += 1;
-        self.broken = true;
-        self.notice = Some(why);
-    }
-
-    fn measured(&self) -> f64 {
-        let base = self.fastest();
-        let mut late: Vec<f64> = self.transit.iter().map(|t| t - base).collect();
-        if late.is_empty() {
-            return 0.0;
-        }
-        let rank = (late.len() - 1) * 99 / 100;
-        let (_, p99, _) = late.select_nth_unstable_by(rank, f64::total_cmp);
-        *p99
+        self.anew = Anew {
+            restart: None,
+            broken: true,
+            notice: Some(why),
+        };
     }
 
     /// Feet that a frame plants: as the driver says, or guessed from the frame before.
@@ -433,40 +366,16 @@ impl JitterBuffer {
         guess
     }
 
-    /// Playout time in the tick that begins `now`, s since the first frame; moves the adaptive delay on.
+    /// Playout time in the tick that begins `now`, s since the first frame.
     fn playout(&mut self, now: Now) -> Option<f64> {
-        let (_, world0) = self.origin?;
-        let left_out = self.lost.replace(now.lost).map_or(0.0, |l| now.lost - l);
-        self.behind = (self.behind + left_out - CATCH_UP * self.tick).max(0.0);
-        if self.behind > MOST_BEHIND {
-            self.resync(Resync::Behind);
-            return None;
-        }
-        let jitter = self.jitter();
-        self.jitter = Some(jitter);
-        let delay = match self.settings.delay {
-            Delay::Fixed(d) => d,
-            Delay::Adaptive { most } => {
-                let base = self.fastest();
-                let frame = 1.0 / self.settings.rate_hz;
-                // Interpolation needs the next frame to be there as well.
-                let wanted = base + (jitter + frame + self.tick).min(most);
-                match self.delay {
-                    None => wanted,
-                    Some(d) if wanted > d => wanted,
-                    Some(d) if d - wanted > most => wanted, // the clocks jumped
-                    Some(d) => (d - SHRINK * self.tick).max(wanted),
-                }
+        match self.pace.advance(now, self.tick, &self.settings) {
+            Pace::At(p) => Some(p),
+            Pace::Nothing => None,
+            Pace::TooFarBehind => {
+                self.resync(Resync::Behind);
+                None
             }
-        };
-        self.delay = Some(delay);
-        let p = now.time + now.lost - world0 - delay - self.behind;
-        // Time may stand still while a delay grows, but does not run backwards.
-        Some(if self.played.is_finite() {
-            p.max(self.played)
-        } else {
-            p
-        })
+        }
     }
 
     fn velocity(&self, i: usize) -> [f64; NV] {
@@ -649,7 +558,7 @@ impl JitterBuffer {
             Supply::Held => self.counts.ticks[3] += 1,
             Supply::Relaxed => self.counts.ticks[4] += 1,
         }
-        self.played = p;
+        self.pace.played = p;
         self.applied = Some((self.frames[i].sequence, self.frames[i].source_ns));
         let (mut next, _, _) = self.target(p + self.tick);
         // A jump, at the start or after a gap, is spread over time.
@@ -706,7 +615,7 @@ impl JitterBuffer {
     /// True if there is motion that was not handed to a window yet: a driver that repeats what it sent before does not
     /// move.
     pub fn has_news(&self) -> bool {
-        let (Some(newest), Some(head)) = (self.frames.back(), self.head) else {
+        let (Some(newest), Some(head)) = (self.frames.back(), self.grid.head) else {
             return false;
         };
         self.seconds(newest) > head && !is_same(&self.at(head).target.posture, &newest.posture)
@@ -722,7 +631,7 @@ impl JitterBuffer {
         mut give: impl FnMut(Due<'_>),
     ) -> Option<(f64, i64)> {
         let p = self.playout(now)?;
-        let p = match self.head {
+        let p = match self.grid.head {
             Some(head) if (p - head).abs() < LEAP => p.clamp(
                 head + (1.0 - SLEW) * self.tick,
                 head + (1.0 + SLEW) * self.tick,
@@ -733,7 +642,7 @@ impl JitterBuffer {
             self.supply = Supply::Waiting;
             return None;
         }
-        self.head = Some(p);
+        self.grid.head = Some(p);
         self.supply = self.at(p.max(0.0)).supply;
         let k = match self.supply {
             Supply::Present => 0,
@@ -746,7 +655,7 @@ impl JitterBuffer {
         self.counts.ticks[k] += 1;
         let last = ((p + self.tick) * rate + SAME).floor() as i64;
         // Time that leaps, or a silence, is not made up for sample by sample.
-        let first = self.next.max(last.saturating_sub(CAPACITY as i64));
+        let first = self.grid.next.max(last.saturating_sub(CAPACITY as i64));
         for g in first..=last {
             let answer = self.at(g as f64 / rate);
             match answer.supply {
@@ -755,13 +664,13 @@ impl JitterBuffer {
                     // A window finds out for itself what the driver does not say.
                     let planted = frame.planted.and(answer.feet).map(|i| self.planted(i));
                     give(Due::Sample(&answer.target.posture, planted));
-                    let known = self.held.back().is_none_or(|h| h.1 < frame.sequence);
+                    let known = self.grid.held.back().is_none_or(|h| h.1 < frame.sequence);
                     if known {
-                        if self.held.len() == CAPACITY {
-                            self.held.pop_front();
+                        if self.grid.held.len() == CAPACITY {
+                            self.grid.held.pop_front();
                         }
                         let entry = (self.seconds(frame), frame.sequence, frame.source_ns);
-                        self.held.push_back(entry);
+                        self.grid.held.push_back(entry);
                     }
                 }
                 _ => {
@@ -770,19 +679,19 @@ impl JitterBuffer {
                 }
             }
         }
-        self.next = last + 1;
-        self.played = p;
+        self.grid.next = last + 1;
+        self.pace.played = p;
         // What acts now has come a window ago.
-        while let Some(&(at, sequence, source)) = self.held.front()
+        while let Some(&(at, sequence, source)) = self.grid.held.front()
             && at <= p - window + SAME
         {
             self.applied = Some((sequence, source));
-            self.held.pop_front();
+            self.grid.held.pop_front();
         }
         while self.frames.len() > 2 && self.seconds(&self.frames[1]) < p - 2.0 * SLOPE {
             self.frames.pop_front();
         }
-        Some((p, self.next))
+        Some((p, self.grid.next))
     }
 
     /// True once, when the figure is to be put into its first desired posture.

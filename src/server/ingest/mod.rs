@@ -3,3 +3,4 @@
 pub mod admission;
 pub mod jitter_buffer;
 pub mod mailbox;
+pub mod playout;

@@ -1,7 +1,9 @@
 //! The motion is a sine of the right elbow, so that every answer has a closed form.
 
 use super::*;
+use crate::server::ingest::playout::{CATCH_UP, MOST_BEHIND, SHRINK};
 use crate::sim::plan::StreamPlan;
+use crate::wire::types::Delay;
 
 const RATE: f64 = 60.0;
 const TICK: f64 = 1.0 / 60.0;
@@ -234,7 +236,7 @@ fn a_stream_in_an_overloaded_world_is_never_too_fast() {
                 sent += 1;
             }
             b.sample(now);
-            let played = b.played.is_finite().then_some(b.played);
+            let played = b.pace.played.is_finite().then_some(b.pace.played);
             if let (Some(from), Some(to)) = (last, played) {
                 let pace = (to - from) / TICK;
                 assert!(
