@@ -84,8 +84,8 @@ async fn stats(client: &Client) -> pb::GetServerStatsResponse {
     stats.unwrap().into_inner()
 }
 
-/// Worlds that are filled with cheap figures up to the budget, which then become expensive: no refusal can help, so
-/// they rest, and a world that needs little goes on.
+/// Worlds that are filled with cheap figures up to the budget, which then become expensive: no refusal can help; they
+/// rest, and a world that needs little goes on.
 #[test]
 fn worlds_that_become_expensive_leave_time_for_others() {
     survives(&[], |address| async move {

@@ -59,6 +59,7 @@ pub(super) async fn push(
         Some(mailbox) => mailbox,
         None => opened(&handle, open, None).await?,
     };
+    // A drive that ends just now refuses the batch as one that has ended.
     mailbox.deliver(None, batch, Instant::now())?;
     Ok(pb::PushMotionResponse {
         feedback: Some(motion::feedback_out(&mailbox.feedback())),

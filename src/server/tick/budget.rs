@@ -3,7 +3,7 @@
 //! Each world keeps an account of the processor time of its ticks. What would bring a world or the machine over the
 //! budget is refused before it is done: a new figure, a new world, a faster clock. Costs that grow later (a fall, a
 //! crowd that touches) cannot be refused; then worlds that need more than an equal share rest between their ticks, so
-//! that those that need less stay on time.
+//! that all together take no more than the budget.
 
 use crate::wire::status::Fault;
 use std::sync::atomic::{AtomicU64, Ordering};
