@@ -8,10 +8,13 @@ mod constraints;
 #[path = "../common/corpus.rs"]
 mod corpus;
 mod drives;
+mod edge;
 mod forecast;
 mod live;
 mod obstacles;
 mod pages;
+#[path = "../common/raw.rs"]
+mod raw;
 mod support;
 mod watching;
 mod wire_faults;

@@ -69,7 +69,7 @@ impl StateService for Api {
                         .await?
                 }
             };
-            watching::frames(handle, &view, &held, self.stopping.clone(), place)
+            watching::frames(handle, &view, held, self.stopping.clone(), place)
         };
         result.await.map(Response::new).map_err(refusal)
     }

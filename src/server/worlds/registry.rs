@@ -233,7 +233,10 @@ impl Registry {
         let handle = Arc::new(WorldHandle {
             id: name,
             outlet,
-            hub: Hub::new(self.config.max_views_per_world as usize),
+            hub: Hub::new(
+                self.config.max_views_per_world as usize,
+                self.config.history_ticks as usize,
+            ),
             closed,
             rate_hz,
             dropped: AtomicU64::new(0),
