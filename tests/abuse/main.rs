@@ -8,6 +8,11 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking")]
 
 mod harness;
+mod net_http2;
+mod net_memory;
+mod net_resets;
 mod net_silent;
+#[path = "../common/raw.rs"]
+mod raw;
 mod tick_floods;
 mod tick_greed;

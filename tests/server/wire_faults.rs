@@ -359,7 +359,12 @@ async fn bad_clips_are_refused() {
         .create_clip(clip(bvh(vec![b'x'; 2_000_000], None)))
         .await
         .unwrap_err();
-    assert_eq!(e.code(), Code::OutOfRange, "too large to be decoded: {e:?}");
+    let (code, reason, _) = refusal(&e);
+    assert_eq!(
+        (code, reason.as_str()),
+        (Code::ResourceExhausted, "MESSAGE_TOO_LARGE"),
+        "{e:?}"
+    );
     asked.unchanged().await;
 }
 

@@ -134,6 +134,11 @@ impl Session {
                 message = inbound.message() => match message {
                     Ok(Some(m)) => self.take(m),
                     Ok(None) => break false,
+                    // A message that was refused says why; a connection that broke says nothing of ours.
+                    Err(status) if !status.details().is_empty() => {
+                        let _ = self.out.try_send(Err(status));
+                        break false;
+                    }
                     Err(_) => break true,
                 },
                 _ = timer.tick() => self.feedback().await,

@@ -40,6 +40,22 @@ pub const SERVICE_NAMES: [&str; 9] = [
     pb::server_service_server::SERVICE_NAME,
 ];
 
+/// Calls that carry a clip in their request: up to `max_clip_bytes`. All others take up to `max_request_bytes`.
+pub const UPLOADS: [&str; 2] = [
+    "/sinew.v1.MotionService/CreateClip",
+    "/sinew.v1.SimulationService/SimulateClip",
+];
+
+/// Whether a call takes exactly one message. Of calls of other packages, reflection for example, nothing is known.
+pub fn is_unary(path: &str) -> bool {
+    path.starts_with("/sinew.v1.") && path != "/sinew.v1.MotionService/DriveFigures"
+}
+
+/// Bytes of the largest request: a file comes whole in one message, with a little around it.
+pub fn largest_request(config: &Config) -> usize {
+    config.max_clip_bytes.max(config.max_request_bytes) as usize + 65_536
+}
+
 /// What the services share.
 pub struct App {
     /// Settings.
@@ -138,28 +154,27 @@ impl std::ops::Deref for Api {
 /// Adds every service to the routes.
 pub fn add_services(routes: &mut RoutesBuilder, app: &Arc<App>) {
     let api = Api(app.clone());
-    let small = app.config.max_request_bytes as usize;
-    // A file comes whole in one message, with a little around it.
-    let large = (app.config.max_clip_bytes as usize).max(small) + 65_536;
+    // What each call takes is checked before (`edge::requests`).
+    let request = largest_request(&app.config);
     let response = app.config.max_response_bytes as usize * 2;
     macro_rules! add {
-        ($($module:ident :: $server:ident, $request:expr;)*) => {
+        ($($module:ident :: $server:ident;)*) => {
             $(routes.add_service(
                 pb::$module::$server::new(api.clone())
-                    .max_decoding_message_size($request)
+                    .max_decoding_message_size(request)
                     .max_encoding_message_size(response),
             );)*
         };
     }
     add! {
-        world_service_server::WorldServiceServer, small;
-        figure_service_server::FigureServiceServer, small;
-        body_service_server::BodyServiceServer, small;
-        motion_service_server::MotionServiceServer, large;
-        perturbation_service_server::PerturbationServiceServer, small;
-        state_service_server::StateServiceServer, small;
-        simulation_service_server::SimulationServiceServer, large;
-        server_service_server::ServerServiceServer, small;
+        world_service_server::WorldServiceServer;
+        figure_service_server::FigureServiceServer;
+        body_service_server::BodyServiceServer;
+        motion_service_server::MotionServiceServer;
+        perturbation_service_server::PerturbationServiceServer;
+        state_service_server::StateServiceServer;
+        simulation_service_server::SimulationServiceServer;
+        server_service_server::ServerServiceServer;
     }
 }
 
@@ -191,11 +206,6 @@ fn answer<T>(result: Result<T, Fault>) -> Result<Response<T>, Status> {
 }
 
 fn refusal(fault: Fault) -> Status {
-    metrics::counter!("sinew_faults_total", "reason" => fault.reason()).increment(1);
-    if let Fault::Internal(why) = &fault {
-        tracing::error!(why, "request failed");
-    } else {
-        tracing::debug!(%fault, "request refused");
-    }
+    super::telemetry::count_refusal(&fault);
     fault.into()
 }

@@ -70,7 +70,7 @@ impl StateService for Api {
             Ok(watching::frames(
                 handle,
                 (&view, channel),
-                &held,
+                held,
                 self.stopping.clone(),
                 place,
             ))

@@ -343,6 +343,7 @@ impl Registry {
             hub: Hub::new(
                 self.config.max_views_per_world,
                 self.config.max_client_share,
+                self.config.history_ticks as usize,
             ),
             owner,
             mailboxes,
