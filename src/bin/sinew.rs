@@ -20,6 +20,8 @@ enum Command {
     Push(cli::push::Args),
     /// Print the frames of a world
     Watch(cli::watch::Args),
+    /// Ask a server whether it serves
+    Health(cli::health::Args),
     /// Simulate motions offline and report how closely the figure tracks them
     #[command(after_help = exit::EXIT_CODES)]
     Run(Box<cli::run::RunArgs>),
@@ -49,6 +51,7 @@ fn main() -> ExitCode {
         Some(Command::Serve(args)) => cli::serve::run(&args).map(Into::into),
         Some(Command::Push(args)) => cli::push::run(&args).map(Into::into),
         Some(Command::Watch(args)) => cli::watch::run(&args).map(Into::into),
+        Some(Command::Health(args)) => cli::health::run(&args).map(Into::into),
         Some(Command::Run(args)) => cli::run::run(&args),
         Some(Command::Survey(args)) => cli::survey::run(&args).map(Into::into),
         Some(Command::Lint(args)) => cli::lint::run(&args).map(Into::into),

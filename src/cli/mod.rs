@@ -8,6 +8,7 @@ pub mod compare;
 pub mod completions;
 pub mod convert;
 pub mod exit;
+pub mod health;
 pub mod lint;
 pub mod number;
 pub mod output;

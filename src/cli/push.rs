@@ -227,7 +227,7 @@ fn prepared(args: &Args, bvh: &Bvh, body: &Body) -> anyhow::Result<Clip> {
             walk_runs: Some(!args.keep_runs),
             ..Default::default()
         };
-        let (clip, report) = engine::retarget(&args.figure, bvh, &reading, body, 1.0)
+        let (clip, report) = engine::retarget(&args.figure, bvh, &reading, body, 1.0, &|| false)
             .map_err(|e| anyhow::anyhow!("{path}: {e}"))?;
         (clip, report.warnings)
     };

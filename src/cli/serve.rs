@@ -9,7 +9,11 @@ use anyhow::Context as _;
 use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::sync::Arc;
+use tokio::net::TcpSocket;
 use tracing_subscriber::EnvFilter;
+
+/// Connections that the system holds until they are accepted.
+const BACKLOG: u32 = 1024;
 
 /// Arguments of `sinew serve`.
 #[derive(Clone, Debug, Default, clap::Args)]
@@ -82,15 +86,15 @@ pub fn run(args: &Args) -> anyhow::Result<()> {
 }
 
 async fn serve(args: &Args, config: Arc<Config>, filter: EnvFilter) -> anyhow::Result<()> {
-    let listener = tokio::net::TcpListener::bind(config.listen)
-        .await
-        .with_context(|| {
-            format!(
-                "cannot listen on {}: is another server running? --listen selects another port",
-                config.listen
-            )
-        })?;
-    let address = listener.local_addr()?;
+    // The port is taken now, so that a mistake is told at once, and accepts when there is somebody to answer.
+    let cannot_listen = || {
+        format!(
+            "cannot listen on {}: is another server running? --listen selects another port",
+            config.listen
+        )
+    };
+    let socket = bind(config.listen).with_context(cannot_listen)?;
+    let address = socket.local_addr()?;
     let (stop, stopping) = tokio::sync::watch::channel(false);
     let app = Arc::new(App::new(config.clone(), stopping)?);
     let mut figures = Vec::new();
@@ -99,6 +103,7 @@ async fn serve(args: &Args, config: Arc<Config>, filter: EnvFilter) -> anyhow::R
             .await
             .map_err(|e| anyhow::anyhow!(e))?;
     }
+    let listener = socket.listen(BACKLOG).with_context(cannot_listen)?;
     let serving = tokio::spawn(server::serve(app, listener, interrupted(), stop));
     // One write: a reader that wants the first line only takes the rest with it. A server without readers serves all
     // the same.
@@ -114,6 +119,19 @@ async fn serve(args: &Args, config: Arc<Config>, filter: EnvFilter) -> anyhow::R
         tracing::info!("world `demo` created with figures {}", figures.join(", "));
     }
     serving.await?.map_err(|e| anyhow::anyhow!(e))
+}
+
+/// A socket that has the address and does not accept yet.
+fn bind(address: SocketAddr) -> std::io::Result<TcpSocket> {
+    let socket = if address.is_ipv4() {
+        TcpSocket::new_v4()?
+    } else {
+        TcpSocket::new_v6()?
+    };
+    // A server that was just stopped does not keep its address.
+    socket.set_reuseaddr(true)?;
+    socket.bind(address)?;
+    Ok(socket)
 }
 
 /// What is printed when the server is ready.

@@ -77,6 +77,18 @@ impl Client {
         Ok(Self { channel })
     }
 
+    /// Whether the server as a whole serves.
+    ///
+    /// # Errors
+    /// The server does not answer.
+    pub async fn serves(&self) -> Result<bool, Status> {
+        use tonic_health::pb::health_check_response::ServingStatus;
+        let mut health = tonic_health::pb::health_client::HealthClient::new(self.channel.clone());
+        let request = tonic_health::pb::HealthCheckRequest::default();
+        let answer = health.check(request).await?.into_inner();
+        Ok(answer.status() == ServingStatus::Serving)
+    }
+
     services! {
         /// `WorldService`.
         worlds: world_service_client::WorldServiceClient;

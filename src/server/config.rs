@@ -107,6 +107,7 @@ macro_rules! settings {
             }
         }
 
+        #[cfg(test)]
         const NAMES: &[&str] = &[$(stringify!($name)),*];
     };
     (@type int) => { u64 };
@@ -156,6 +157,11 @@ settings! {
     /// Allows an address that other machines can reach. There is no authentication: any client that reaches the port
     /// may do everything.
     insecure_bind_any: flag = false, (), ();
+    /// Names by which clients may address the server, other than `localhost` and plain addresses; separated by commas.
+    allowed_hosts: text = "", (), ();
+    /// Origins of browser pages that may call the server, other than those of `localhost` and its own (for example
+    /// `https://app.example`); separated by commas.
+    allowed_origins: text = "", (), ();
     /// Serves the viewer at `/`; without it the status page is there.
     viewer: flag = true, (), ();
     /// Which messages are logged, as `level` or `target=level` lists.
@@ -183,34 +189,57 @@ settings! {
     max_clip_total_bytes: int = 536_870_912, 1024, 1_099_511_627_776;
     /// Bodies that are kept ready.
     max_bodies: int = 128, 2, 10_000;
+    /// Share of `max_viewers`, `max_drivers`, `max_worlds` and `max_views_per_world` that one client may have: a
+    /// connection from this machine, an address elsewhere. Behind a proxy, which is one client, 1.
+    max_client_share: float = 0.5, 0.001, 1.0;
+    /// Share of the processors that the ticks of running worlds may need, and of its period that one world may. What
+    /// would need more is refused: figures, worlds, faster clocks.
+    max_tick_budget: float = 0.7, 0.01, 1000.0;
     /// Requests that wait for the next tick of one world.
     command_queue: int = 1024, 16, 1_000_000;
     /// Ticks of one world that are held for late readers.
     history_ticks: int = 64, 1, 100_000;
     /// Event messages that are held for slow viewers.
     event_queue: int = 1024, 16, 1_000_000;
-    /// Offline simulations and file conversions that run at a time.
+    /// Conversions of files to clips that run at a time; clients take turns.
+    max_conversions: int = 2, 1, 256;
+    /// Conversions of files to clips that wait for their turn; one client has at most half of them.
+    max_waiting_conversions: int = 64, 0, 100_000;
+    /// Offline simulations that run at a time; clients take turns.
     max_simulations: int = 2, 1, 256;
-    /// Offline simulations and file conversions that wait for their turn.
+    /// Offline simulations that wait for their turn; one client has at most half of them.
     max_waiting_simulations: int = 64, 0, 100_000;
     /// Longest offline simulation, s of its own time.
     max_simulation_s: float = 120.0, 1.0, 86_400.0;
     /// Bytes of the frames of one offline simulation.
     max_response_bytes: int = 33_554_432, 65_536, 1_073_741_824;
-    /// Bytes of one request other than a file upload.
+    /// Bytes of one request other than `CreateClip` and `SimulateClip`, which take `max_clip_bytes`.
     max_request_bytes: int = 1_048_576, 65_536, 67_108_864;
     /// HTTP/2 streams of one connection; browsers and load tools open up to a hundred.
     max_streams_per_connection: int = 256, 1, 100_000;
     /// Requests of one connection that are worked on at a time.
     max_requests_per_connection: int = 256, 1, 100_000;
-    /// Connections at a time.
+    /// Connections at a time; one more takes the place of the one that has been without a request the longest.
     max_connections: int = 1024, 1, 1_000_000;
+    /// Connections of one address at a time, likewise; behind a proxy all clients have one address.
+    max_connections_per_address: int = 768, 1, 1_000_000;
+    /// Requests of all connections that are worked on at a time, streams included.
+    max_requests: int = 4096, 16, 1_000_000;
+    /// Bytes of all requests that are read or worked on.
+    max_pending_bytes: int = 50_331_648, 1_048_576, 2_147_483_648;
+    /// Bytes that wait for clients to read them; beyond that, connections that read nothing are closed.
+    max_unread_bytes: int = 67_108_864, 1_048_576, 68_719_476_736;
+    /// How long a new connection may take to bring its first request, s.
+    first_request_s: float = 10.0, 0.1, 3600.0;
     /// How long a request may take before its response begins, s.
     request_timeout_s: float = 300.0, 1.0, 86_400.0;
     /// Interval of HTTP/2 pings on quiet connections, s.
     keepalive_s: float = 20.0, 1.0, 3600.0;
     /// How long a ping may go unanswered, s.
     keepalive_timeout_s: float = 10.0, 1.0, 3600.0;
+    /// How long the server goes on when it is told to shut down, s: health and `/ready` say that it ends, so that load
+    /// balancers send nobody any more, and no new world is created.
+    lame_duck_s: float = 1.0, 0.0, 600.0;
     /// How long open streams get to end when the server shuts down, s.
     shutdown_grace_s: float = 5.0, 0.0, 600.0;
 }
@@ -244,8 +273,7 @@ impl Config {
             let Some(name) = key.strip_prefix("SINEW_").map(str::to_lowercase) else {
                 continue;
             };
-            // Other variables with this prefix (the name of the file, where tests find recordings) are not settings.
-            if NAMES.contains(&name.as_str()) {
+            if !is_no_setting(&name) {
                 config.set_text(&key, &name, &value)?;
             }
         }
@@ -257,6 +285,38 @@ impl Config {
         }
         Ok(config)
     }
+}
+
+/// Variables `SINEW_…` that are no settings: the name of the file, and what tests, examples and tools of this project
+/// read.
+const OTHER_VARIABLES: [&str; 18] = [
+    "config",
+    "bin",
+    "bvh",
+    "chromium",
+    "core",
+    "example_directions",
+    "example_s",
+    "live_seconds",
+    "live_window",
+    "mint_golden",
+    "mocap_dir",
+    "page",
+    "peers_dir",
+    "rewrite",
+    "server",
+    "soak_seed",
+    "soak_ticks",
+    "abuse_seconds",
+];
+
+/// True for a variable that is no setting. Kubernetes sets `SINEW_SERVICE_…` and `SINEW_PORT…` in every container next
+/// to a service of the name `sinew`.
+fn is_no_setting(name: &str) -> bool {
+    OTHER_VARIABLES.contains(&name)
+        || name == "port"
+        || name.starts_with("port_")
+        || name.starts_with("service_")
 }
 
 #[cfg(test)]
@@ -331,6 +391,19 @@ mod tests {
                 .contains("1…256")
         );
         assert!(load(&[pair("max_worlds", "many")]).is_err());
+        let environment = |name: &str| Config::load(None, [pair(name, "5")].into_iter(), &[]);
+        let fault = environment("SINEW_MAX_WORLD").unwrap_err().to_string();
+        assert!(fault.contains("SINEW_MAX_WORLD") && fault.contains("max_worlds"));
+        for other in [
+            "SINEW_CONFIG",
+            "SINEW_MOCAP_DIR",
+            "SINEW_SERVICE_HOST",
+            "SINEW_PORT",
+            "SINEW_PORT_7463_TCP",
+            "HOME",
+        ] {
+            assert_eq!(environment(other).unwrap(), Config::default(), "{other}");
+        }
         assert!(matches!(
             load(&[pair("listen", "0.0.0.0:1")]),
             Err(ConfigError::NotLoopback(_))

@@ -26,9 +26,10 @@ const PEOPLE: [(&str, &str, f64); 3] = [
 /// # Errors
 /// The world is there already, or a limit of the configuration is too small for it.
 pub async fn create(app: &Arc<App>) -> Result<Vec<&'static str>, BoxError> {
+    let settings = convert::world::settings(None)?;
     let world = app
         .worlds
-        .create(Some("demo".into()), convert::world::settings(None)?, false)?;
+        .create(Some("demo".into()), settings, false, "demo".into())?;
     let mut present = Vec::new();
     for (name, body, y) in PEOPLE {
         if convert::body::by_id(body).is_none() {
@@ -47,9 +48,13 @@ pub async fn create(app: &Arc<App>) -> Result<Vec<&'static str>, BoxError> {
             }),
         )?;
         let built = app.bodies.get("figure.profile", &settings.body)?;
-        let clip = app
-            .clips
-            .prepared(MOTION, &settings.body.id, &built, Manner::recorded(true))?;
+        let clip = app.clips.prepared(
+            MOTION,
+            &settings.body.id,
+            &built,
+            Manner::recorded(true),
+            &|| false,
+        )?;
         let playback = Playback {
             speed: 1.0,
             looped: true,

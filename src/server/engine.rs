@@ -4,6 +4,7 @@
 //! clock and physics is one file.
 
 use crate::evaluate::forecast::Verdict;
+use crate::server::workers::Turn;
 use crate::sim::body::palm::load_point;
 use crate::sim::body::provenance::Provenance;
 use crate::sim::body::topology::{self, BONE_NAMES, SEGMENT_NAMES};
@@ -17,7 +18,9 @@ use crate::sim::figure::{
 };
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::{Bvh, PlanarTransform, Target};
-use crate::sim::retarget::{FileFacts, Preparation, RetargetOptions, UpAxis};
+use crate::sim::retarget::{
+    FileFacts, Preparation, RetargetError, RetargetOptions, UpAxis, retarget_unless,
+};
 use crate::sim::strength::Strength;
 use crate::sim::world::{FigureSetup, WorldError, WorldParams};
 use crate::wire::status::Fault;
@@ -67,23 +70,27 @@ pub fn builtin(body: &Body, name: &str) -> Option<Clip> {
     crate::sim::motion::builtin::builtin(body, name)
 }
 
-/// Prepares a motion for a body.
+/// Prepares a motion for a body. It is given up once `stop` says so.
 ///
 /// # Errors
-/// What is wrong with the file or its motion, with `field` as the place of the source in the request.
+/// What is wrong with the file or its motion, with `field` as the place of the source in the request; it was given up.
 pub fn prepare(
     field: &str,
     name: &str,
     source: &MotionSource,
     body: &Body,
     tempo: f64,
+    stop: &dyn Fn() -> bool,
 ) -> Result<(Clip, Option<ReadingReport>), Fault> {
     match source {
         MotionSource::Bvh(bytes, reading) => {
             let bvh = Bvh::parse(bytes)
                 .map_err(|e| Fault::invalid(format!("{field}.data"), e.to_string()))?;
-            let (clip, report) = retarget(name, &bvh, reading, body, tempo)
-                .map_err(|e| Fault::invalid(format!("{field}.data"), e))?;
+            let (clip, report) =
+                retarget(name, &bvh, reading, body, tempo, stop).map_err(|e| match e {
+                    RetargetError::Stopped => Turn::gone(),
+                    other => Fault::invalid(format!("{field}.data"), other.to_string()),
+                })?;
             Ok((clip, Some(report)))
         }
         MotionSource::Postures {
@@ -133,14 +140,15 @@ pub fn forecast(body: &Body, clip: &Clip) -> ForecastInfo {
 /// Retargets a file to a body. The clip keeps the place and heading of the recording.
 ///
 /// # Errors
-/// A sentence that names bone, frame or figure of what cannot be used.
+/// What cannot be used, with bone, frame or figure; it was given up.
 pub fn retarget(
     name: &str,
     bvh: &Bvh,
     reading: &BvhReading,
     body: &Body,
     tempo: f64,
-) -> Result<(Clip, ReadingReport), String> {
+    stop: &dyn Fn() -> bool,
+) -> Result<(Clip, ReadingReport), RetargetError> {
     let defaults = RetargetOptions::default();
     let options = RetargetOptions {
         name: name.to_owned(),
@@ -160,7 +168,7 @@ pub fn retarget(
         },
         ..defaults
     };
-    let out = crate::sim::retarget::retarget(bvh, body, &options).map_err(|e| e.to_string())?;
+    let out = retarget_unless(bvh, body, &options, stop)?;
     let r = out.report;
     let bone = |segment: &str| {
         let i = SEGMENT_NAMES.iter().position(|s| *s == segment);

@@ -1,38 +1,31 @@
 //! Plain HTTP on the same port: the viewer, the status page and the metrics.
 
 use super::api::App;
+use super::edge::Edge;
 use super::telemetry;
 use super::viewer;
+use crate::wire::status::Fault;
 use axum::Router;
 use axum::extract::State;
-use axum::http::{HeaderMap, StatusCode, header};
+use axum::http::{HeaderMap, StatusCode, Uri, header};
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-/// Lets browser pages of any origin of the same machine call gRPC-Web and read its trailers.
-pub(super) fn cors() -> tower_http::cors::CorsLayer {
+/// Characters of a path that a message repeats.
+const ECHO: usize = 80;
+
+/// Lets browser pages of known origins call gRPC-Web and read its trailers.
+pub(super) fn cors(edge: Arc<Edge>) -> tower_http::cors::CorsLayer {
     use tower_http::cors::{AllowOrigin, Any, CorsLayer};
-    let local = AllowOrigin::predicate(|origin, _| {
-        let host = origin
+    let known = AllowOrigin::predicate(move |origin, _| {
+        origin
             .to_str()
-            .ok()
-            .and_then(|o| o.split_once("://"))
-            .map(|(_, rest)| rest);
-        host.is_some_and(|h| {
-            let name = h.rsplit_once(':').map_or(h, |(name, port)| {
-                if port.bytes().all(|b| b.is_ascii_digit()) {
-                    name
-                } else {
-                    h
-                }
-            });
-            matches!(name, "localhost" | "127.0.0.1" | "[::1]")
-        })
+            .is_ok_and(|origin| edge.hosts.allows(origin))
     });
     CorsLayer::new()
-        .allow_origin(local)
+        .allow_origin(known)
         .allow_methods([http::Method::POST])
         .allow_headers(Any)
         .expose_headers(
@@ -45,7 +38,8 @@ pub(super) fn cors() -> tower_http::cors::CorsLayer {
 pub(super) fn router(app: Arc<App>) -> Router {
     let pages = Router::new()
         .route("/status", get(status_page))
-        .route("/metrics", get(metrics_page));
+        .route("/metrics", get(metrics_page))
+        .route("/ready", get(ready));
     let pages = if app.config.viewer {
         pages.merge(viewer::router())
     } else {
@@ -54,20 +48,34 @@ pub(super) fn router(app: Arc<App>) -> Router {
     pages.with_state(app)
 }
 
+/// The answer to a call of a method that there is not.
+pub(super) fn unknown_method(path: &str) -> Response {
+    let shown: String = path.chars().take(ECHO).collect();
+    let fault = Fault::Unimplemented(format!("the method {shown}"));
+    telemetry::count_refusal(&fault);
+    tonic::Status::from(fault).into_http::<axum::body::Body>()
+}
+
 /// What is neither page nor service. gRPC callers get a gRPC answer.
-pub(super) async fn unknown(headers: HeaderMap) -> Response {
-    let grpc = headers
-        .get(header::CONTENT_TYPE)
-        .is_some_and(|v| v.as_bytes().starts_with(b"application/grpc"));
-    if grpc {
-        let unimplemented = (tonic::Code::Unimplemented as i32).to_string();
-        [
-            ("content-type", "application/grpc"),
-            ("grpc-status", unimplemented.as_str()),
-        ]
-        .into_response()
+pub(super) async fn unknown(uri: Uri, headers: HeaderMap) -> Response {
+    let kind = headers.get(header::CONTENT_TYPE);
+    if let Some(kind) = kind.filter(|k| k.as_bytes().starts_with(b"application/grpc")) {
+        let mut response = unknown_method(uri.path());
+        response
+            .headers_mut()
+            .insert(header::CONTENT_TYPE, kind.clone());
+        response
     } else {
         StatusCode::NOT_FOUND.into_response()
+    }
+}
+
+/// Whether new clients are welcome.
+async fn ready(State(app): State<Arc<App>>) -> Response {
+    if app.worlds.is_draining() {
+        (StatusCode::SERVICE_UNAVAILABLE, "shutting down\n").into_response()
+    } else {
+        "ready\n".into_response()
     }
 }
 

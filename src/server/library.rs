@@ -2,6 +2,7 @@
 
 use super::config::Config;
 use super::engine::{self, BUILTIN_NAMES, Clip};
+use super::workers::Turn;
 use crate::sim::body::{Body, Posture};
 use crate::sim::plan::cycle;
 use crate::sim::retarget::TEMPI;
@@ -183,7 +184,7 @@ impl Clips {
             });
         }
         let own = held.values().filter(|s| !s.info.builtin);
-        if own.clone().count() as u64 >= self.most {
+        if own.count() as u64 >= self.most {
             return Err(Fault::Exhausted {
                 limit: "max_clips",
                 value: self.most,
@@ -191,15 +192,26 @@ impl Clips {
                 retry: None,
             });
         }
-        if own.map(|s| s.bytes).sum::<u64>() + bytes > self.most_bytes {
-            return Err(Fault::Exhausted {
-                limit: "max_clip_total_bytes",
-                value: self.most_bytes,
-                message: format!("a clip of {bytes} bytes"),
-                retry: None,
-            });
+        self.space(held, bytes)
+    }
+
+    /// Makes room for so many bytes, if need be by forgetting preparations that nobody plays.
+    fn space(&self, held: &BTreeMap<String, Arc<Stored>>, bytes: u64) -> Result<(), Fault> {
+        let fits = || held.values().map(|s| s.used()).sum::<u64>() + bytes <= self.most_bytes;
+        if !fits() {
+            for stored in held.values() {
+                locked(&stored.prepared).retain(|_, clip| Arc::strong_count(clip) > 1);
+            }
         }
-        Ok(())
+        if fits() {
+            return Ok(());
+        }
+        Err(Fault::Exhausted {
+            limit: "max_clip_total_bytes",
+            value: self.most_bytes,
+            message: format!("a clip of {bytes} bytes"),
+            retry: None,
+        })
     }
 
     /// Refuses early what would be refused in the end, before any work is done.
@@ -210,10 +222,10 @@ impl Clips {
         self.room(&locked(&self.held), id, source_bytes(source))
     }
 
-    /// Stores a motion, prepared for one body. Slow: not on an async thread.
+    /// Stores a motion, prepared for one body. Slow: not on an async thread. It is given up once `stop` says so.
     ///
     /// # Errors
-    /// The file is bad, the name is taken, or there is no room. Nothing is stored then.
+    /// The file is bad, the name is taken, there is no room, or it was given up. Nothing is stored then.
     pub fn create(
         &self,
         id: Option<String>,
@@ -221,12 +233,16 @@ impl Clips {
         reference: &BodyRef,
         body: &Body,
         source: MotionSource,
+        stop: &dyn Fn() -> bool,
     ) -> Result<ClipInfo, Fault> {
         let field = source_field(&source);
         let title = id.as_deref().unwrap_or("clip").to_owned();
-        let (clip, report) = engine::prepare(field, &title, &source, body, 1.0)?;
+        let (clip, report) = engine::prepare(field, &title, &source, body, 1.0, stop)?;
+        if stop() {
+            return Err(Turn::gone());
+        }
         let forecast = engine::forecast(body, &clip);
-        let bytes = source_bytes(&source) + clip.len() as u64 * FRAME_BYTES;
+        let bytes = source_bytes(&source);
         let mut held = locked(&self.held);
         let id = id.unwrap_or_else(|| {
             loop {
@@ -237,7 +253,7 @@ impl Clips {
                 }
             }
         });
-        self.room(&held, Some(&id), bytes)?;
+        self.room(&held, Some(&id), bytes + clip_bytes(&clip))?;
         let info = ClipInfo {
             id: id.clone(),
             display_name,
@@ -322,16 +338,18 @@ impl Clips {
         Ok((manner, speed / manner.tempo()))
     }
 
-    /// A clip prepared for a body and the manner of playing it. Slow the first time: not on an async thread.
+    /// A clip prepared for a body and the manner of playing it. Slow the first time: not on an async thread. It is
+    /// given up once `stop` says so.
     ///
     /// # Errors
-    /// There is none of that name, or it cannot be prepared for this body.
+    /// There is none of that name, it cannot be prepared for this body, or it was given up.
     pub fn prepared(
         &self,
         id: &str,
         body_id: &str,
         body: &Body,
         manner: Manner,
+        stop: &dyn Fn() -> bool,
     ) -> Result<Arc<Clip>, Fault> {
         let stored = self.stored(id)?;
         let key = (body_id.to_owned(), manner);
@@ -343,18 +361,36 @@ impl Clips {
                 repeats: false,
                 ..manner
             };
-            let once = self.prepared(id, body_id, body, once)?;
+            let once = self.prepared(id, body_id, body, once, stop)?;
             let clip = cycle(body, &once).map_or(once, Arc::new);
-            return Ok(stored.keep(key, clip));
+            return self.keep(&stored, key, clip);
         }
         let clip = match &stored.source {
             None => engine::builtin(body, id)
                 .ok_or_else(|| Fault::not_found("clip", format!("clips/{id}")))?,
             Some(source) => {
-                engine::prepare(source_field(source), id, source, body, manner.tempo())?.0
+                let tempo = manner.tempo();
+                engine::prepare(source_field(source), id, source, body, tempo, stop)?.0
             }
         };
-        Ok(stored.keep(key, Arc::new(clip)))
+        self.keep(&stored, key, Arc::new(clip))
+    }
+
+    /// Keeps what was prepared. All that is held is counted, also what only a figure plays.
+    fn keep(
+        &self,
+        stored: &Stored,
+        key: (String, Manner),
+        clip: Arc<Clip>,
+    ) -> Result<Arc<Clip>, Fault> {
+        let held = locked(&self.held);
+        self.space(&held, clip_bytes(&clip))?;
+        let mut prepared = locked(&stored.prepared);
+        if prepared.len() >= MAX_PREPARED {
+            // Figures keep theirs; one that nobody plays is prepared again when it is asked for.
+            prepared.retain(|_, c| Arc::strong_count(c) > 1);
+        }
+        Ok(prepared.entry(key).or_insert(clip).clone())
     }
 
     /// A clip that is already prepared for a body and the manner of playing it.
@@ -367,17 +403,16 @@ impl Clips {
 }
 
 impl Stored {
-    fn keep(&self, key: (String, Manner), clip: Arc<Clip>) -> Arc<Clip> {
-        let mut prepared = locked(&self.prepared);
-        if prepared.len() >= MAX_PREPARED {
-            // Figures keep theirs; one that nobody plays is prepared again when it is asked for.
-            prepared.retain(|_, c| Arc::strong_count(c) > 1);
-        }
-        if prepared.len() < MAX_PREPARED {
-            prepared.insert(key, clip.clone());
-        }
-        clip
+    /// Bytes of the file and of what was prepared from it. What is prepared twice by accident of time, or repeats the
+    /// same frames, is counted as often.
+    fn used(&self) -> u64 {
+        let prepared = locked(&self.prepared);
+        self.bytes + prepared.values().map(|c| clip_bytes(c)).sum::<u64>()
     }
+}
+
+fn clip_bytes(clip: &Clip) -> u64 {
+    clip.len() as u64 * FRAME_BYTES
 }
 
 fn source_field(source: &MotionSource) -> &'static str {
@@ -412,7 +447,14 @@ mod tests {
         let file = write_bvh(&body, &postures, wave.rate_hz()).into_bytes();
         let source = MotionSource::Bvh(file.into(), BvhReading::default());
         let made = clips
-            .create(Some("w".into()), String::new(), &man, &body, source)
+            .create(
+                Some("w".into()),
+                String::new(),
+                &man,
+                &body,
+                source,
+                &|| false,
+            )
             .unwrap();
 
         for (speed, tempo, rest) in [
@@ -425,7 +467,9 @@ mod tests {
             let (manner, left) = clips.manner("w", false, speed).unwrap();
             assert!((left - rest).abs() < 1e-12, "{speed}: {left}");
             assert!(clips.ready("w", &man.id, manner).is_some() == (tempo == 1.0));
-            let clip = clips.prepared("w", &man.id, &body, manner).unwrap();
+            let clip = clips
+                .prepared("w", &man.id, &body, manner, &|| false)
+                .unwrap();
             assert!((clip.rate_hz() / (made.rate_hz * tempo) - 1.0).abs() < 1e-12);
             assert!(clips.ready("w", &man.id, manner).is_some());
 
@@ -435,10 +479,14 @@ mod tests {
         }
         // However many paces are asked for, the memory is bounded, and what a figure plays stays.
         let (played, _) = clips.manner("w", false, 1.2).unwrap();
-        let held = clips.prepared("w", &man.id, &body, played).unwrap();
+        let held = clips
+            .prepared("w", &man.id, &body, played, &|| false)
+            .unwrap();
         for k in 0..2 * MAX_PREPARED {
             let (manner, _) = clips.manner("w", false, 0.6 + 0.02 * k as f64).unwrap();
-            clips.prepared("w", &man.id, &body, manner).unwrap();
+            clips
+                .prepared("w", &man.id, &body, manner, &|| false)
+                .unwrap();
             let stored = clips.stored("w").unwrap();
             assert!(locked(&stored.prepared).len() <= MAX_PREPARED);
         }

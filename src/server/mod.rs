@@ -10,18 +10,20 @@ pub mod engine;
 pub mod fanout;
 pub mod ingest;
 pub mod library;
+pub mod shares;
 pub mod simulate;
 pub mod telemetry;
 pub mod tick;
 pub mod workers;
 pub mod worlds;
 
-mod connections;
+mod edge;
 mod http;
 mod viewer;
 
 use crate::wire::DESCRIPTOR_SET;
 use api::App;
+use axum::middleware::from_fn_with_state;
 use config::Config;
 use std::future::Future;
 use std::sync::Arc;
@@ -44,9 +46,12 @@ const HTTP2_FRAME: u32 = 16 * 1024;
 const HEADER_LIST: u32 = 16 * 1024;
 /// Streams that were reset and not yet forgotten, per connection (rapid reset).
 const RESET_STREAMS: usize = 32;
+/// Streams of one connection that the server resets because the other side broke the protocol on them; one more ends
+/// the connection ("made you reset"). tonic's own default is no limit.
+const BROKEN_STREAMS: usize = 64;
 
-/// Serves until `shutdown` completes, then stops admitting, tells streams, finishes the ticks and returns within the
-/// grace time.
+/// Serves until `shutdown` completes, then says so for the lame-duck time, tells streams, finishes the ticks and
+/// returns within the grace time.
 ///
 /// # Errors
 /// The built-in data cannot be prepared, or the listener fails.
@@ -90,15 +95,18 @@ pub async fn serve(
         .add_service(described().build_v1alpha()?); // what ghz and other older tools ask for
     api::add_services(&mut routes, &app);
     // tonic's own fallback would answer for the pages below.
+    let edge = edge::Edge::new(&config);
     let grpc = routes
         .routes()
         .into_axum_router()
         .reset_fallback()
+        .layer(from_fn_with_state(edge.clone(), edge::sizes))
         .layer(tonic_web::GrpcWebLayer::new())
-        .layer(http::cors());
+        .layer(http::cors(edge.clone()));
     let router = grpc
         .merge(http::router(app.clone()))
-        .fallback(http::unknown);
+        .fallback(http::unknown)
+        .layer(from_fn_with_state(edge.clone(), edge::admit));
 
     let seconds = Duration::from_secs_f64;
     let mut server = Server::builder()
@@ -112,6 +120,7 @@ pub async fn serve(
         .max_frame_size(HTTP2_FRAME)
         .http2_max_header_list_size(HEADER_LIST)
         .http2_max_pending_accept_reset_streams(Some(RESET_STREAMS))
+        .http2_max_local_error_reset_streams(Some(BROKEN_STREAMS))
         .http2_keepalive_interval(Some(seconds(config.keepalive_s)))
         .http2_keepalive_timeout(Some(seconds(config.keepalive_timeout_s)))
         .tcp_nodelay(true);
@@ -127,11 +136,16 @@ pub async fn serve(
                     .set_service_status(name, tonic_health::ServingStatus::NotServing)
                     .await;
             }
+            // Whoever looks after this server sees that it ends before it does.
+            app.worlds.refuse_new();
+            tokio::time::sleep(seconds(app.config.lame_duck_s)).await;
             stop.send_replace(true); // streams end with UNAVAILABLE
+            app.conversions.close();
+            app.simulations.close();
             app.worlds.drain().await; // ticks end whole
         }
     };
-    let incoming = connections::incoming(listener, config.max_connections as usize);
+    let incoming = edge::connections::incoming(listener, edge.doors.clone());
     let serving = server
         .add_routes(Routes::from(router))
         .serve_with_incoming_shutdown(incoming, drain);

@@ -2,7 +2,7 @@
 
 use super::engine::{self, Clip, Drive, FigureKey, World};
 use super::tick::stage_times::percentiles;
-use super::workers::Cancelled;
+use super::workers::Turn;
 use crate::sim::body::{Body, DOF_COUNT};
 use crate::sim::figure::{Flags, TickReport};
 use crate::wire::frame::world_frame;
@@ -103,7 +103,7 @@ impl Merit {
     }
 }
 
-/// Simulates.
+/// Simulates, tick by tick as long as its turn lasts.
 ///
 /// # Errors
 /// Settings that the physics refuses; more frames than the limit allows; nobody waits any more.
@@ -112,7 +112,7 @@ pub fn run(
     body: &Arc<Body>,
     clip: Arc<Clip>,
     limits: Limits,
-    cancelled: &Cancelled,
+    turn: &Turn,
 ) -> Result<Outcome, Fault> {
     let duration = s.duration.unwrap_or_else(|| clip.duration());
     if duration > limits.seconds {
@@ -132,11 +132,8 @@ pub fn run(
     let mut frames = Frames::new(s, limits.bytes);
     let mut events = Vec::new();
     for _ in 0..ticks {
-        if cancelled.is_set() {
-            return Err(Fault::Aborted {
-                reason: "CANCELLED",
-                message: "the client is gone".into(),
-            });
+        if turn.stop() {
+            return Err(Turn::gone());
         }
         let before = world.time();
         let start = Instant::now();

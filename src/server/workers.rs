@@ -1,128 +1,525 @@
-//! Work that takes long (files to clips, offline simulations): a few at a time, off the async threads, given up when
-//! the client is gone.
+//! Work that takes long: files to clips, offline simulations. Each kind has workers of its own, a few at a time, off
+//! the async threads, and is given up soon after the client is gone.
+//!
+//! Clients share the workers of a pool: the one with the least at work is next, and work that a client has more of than
+//! another one that waits makes room at its next [`Turn::stop`] and goes on later. So nobody waits for the end of what
+//! somebody else has asked for.
 
+use crate::server::shares::Client;
 use crate::wire::status::Fault;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::time::Duration;
-use tokio::sync::Semaphore;
+use std::any::Any;
+use std::cell::Cell;
+use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+use tokio::sync::oneshot;
 
-/// The bench where long work is done.
+/// How long work goes on before it makes room for somebody else's.
+const SLICE: Duration = Duration::from_millis(100);
+/// Pieces of work per worker that may have begun: each holds a thread and what it has so far, also while others have
+/// their turns.
+const BEGUN: usize = 8;
+/// Weight of the latest piece of work in the mean time that one takes.
+const RECENT: f64 = 0.2;
+/// Least and most time after which a client is told to try again, s.
+const RETRY: (f64, f64) = (0.1, 30.0);
+/// Niceness of the threads: what has a clock comes first.
+#[cfg(target_os = "linux")]
+const NICE: i32 = 10;
+
+/// The workers for one kind of work.
+#[derive(Clone, Debug)]
+pub struct Pool(Arc<Shared>);
+
 #[derive(Debug)]
-pub struct Workers {
-    permits: Arc<Semaphore>,
-    waiting: AtomicUsize,
-    running: Arc<AtomicUsize>,
+struct Shared {
+    what: &'static str,
+    limit: &'static str,
+    most: usize,
     most_waiting: u64,
+    state: Mutex<State>,
+}
+
+#[derive(Debug, Default)]
+struct State {
+    running: usize,
+    /// Pieces of work that have begun and are not done.
+    begun: usize,
+    clients: BTreeMap<Client, Use>,
+    waiting: Vec<Waiter>,
+    turns: u64,
+    /// The server ends: no work is begun or finished any more.
+    closed: bool,
+    /// Mean time that a piece of work takes, s.
+    mean: f64,
+}
+
+/// What one client has of a pool.
+#[derive(Debug, Default)]
+struct Use {
+    running: usize,
+    waiting: usize,
+    /// Number of its last turn.
+    turn: u64,
+}
+
+#[derive(Debug)]
+struct Waiter {
+    client: Client,
+    cancelled: Cancelled,
+    /// It had a turn before, so its place in the queue is not counted.
+    begun: bool,
+    grant: oneshot::Sender<Turn>,
 }
 
 /// Tells the work that nobody waits for it any more.
 #[derive(Clone, Debug, Default)]
-pub struct Cancelled(Arc<AtomicBool>);
+struct Cancelled(Arc<AtomicBool>);
 
 impl Cancelled {
-    /// True if the work is to stop.
-    pub fn is_set(&self) -> bool {
+    fn is_set(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 }
 
-struct CancelOnDrop(Cancelled);
+struct CancelOnDrop(Pool, Cancelled);
 impl Drop for CancelOnDrop {
     fn drop(&mut self) {
-        self.0.0.store(true, Ordering::Relaxed);
+        self.1.0.store(true, Ordering::Relaxed);
+        self.0.state().grant(&self.0);
     }
 }
 
-struct Count<'a>(&'a AtomicUsize);
-impl Drop for Count<'_> {
+/// The right to work, for a while.
+#[derive(Debug)]
+pub struct Turn {
+    pool: Pool,
+    client: Client,
+    cancelled: Cancelled,
+    since: Cell<Instant>,
+    /// It occupies a worker.
+    works: Cell<bool>,
+    /// Another turn of the same work stands for this one, or it never came to its work.
+    replaced: Cell<bool>,
+}
+
+impl Drop for Turn {
     fn drop(&mut self) {
-        self.0.fetch_sub(1, Ordering::Relaxed);
+        if self.replaced.get() {
+            return;
+        }
+        // The work is done, or given up while others had their turns.
+        let mut state = self.pool.state();
+        state.begun -= 1;
+        if self.works.get() {
+            state.leave(&self.client);
+        }
+        state.grant(&self.pool);
     }
 }
 
-impl Workers {
-    /// `most` at a time, and `most_waiting` that wait.
-    pub fn new(most: u64, most_waiting: u64) -> Self {
-        Self {
-            permits: Arc::new(Semaphore::new(most as usize)),
-            waiting: AtomicUsize::new(0),
-            running: Arc::default(),
-            most_waiting,
+impl Turn {
+    /// True if the work is to be given up. Work asks often; this may take as long as the turns of others.
+    pub fn stop(&self) -> bool {
+        if self.cancelled.is_set() {
+            return true;
         }
+        if self.since.get().elapsed() < SLICE {
+            return false;
+        }
+        self.since.set(Instant::now());
+        let Some(next) = self.make_room() else {
+            return self.pool.state().closed;
+        };
+        let Ok(turn) = next.blocking_recv() else {
+            return true; // only who is cancelled waits in vain
+        };
+        turn.replaced.set(true); // this one goes on instead
+        self.works.set(true);
+        self.since.set(Instant::now());
+        self.cancelled.is_set()
+    }
+
+    /// Gives the worker to another client who has fewer, if one waits; then the next turn of this work will come.
+    fn make_room(&self) -> Option<oneshot::Receiver<Turn>> {
+        let mut state = self.pool.state();
+        let mine = state.running_of(&self.client);
+        let owed = state.waiting.iter().any(|w| {
+            w.client != self.client
+                && !w.cancelled.is_set()
+                && state.may_go_on(w, &self.pool)
+                && state.running_of(&w.client) < mine
+        });
+        if !owed {
+            return None;
+        }
+        self.works.set(false);
+        let next = state.wait(&self.client, &self.cancelled, true);
+        state.leave(&self.client);
+        state.grant(&self.pool);
+        Some(next)
+    }
+
+    /// The fault of work that was given up.
+    pub fn gone() -> Fault {
+        Fault::Aborted {
+            reason: "CANCELLED",
+            message: "the client is gone".into(),
+        }
+    }
+}
+
+impl State {
+    fn running_of(&self, client: &Client) -> usize {
+        self.clients.get(client).map_or(0, |u| u.running)
+    }
+
+    fn wait(
+        &mut self,
+        client: &Client,
+        cancelled: &Cancelled,
+        begun: bool,
+    ) -> oneshot::Receiver<Turn> {
+        let (grant, granted) = oneshot::channel();
+        self.clients.entry(client.clone()).or_default().waiting += 1;
+        self.waiting.push(Waiter {
+            client: client.clone(),
+            cancelled: cancelled.clone(),
+            begun,
+            grant,
+        });
+        granted
+    }
+
+    fn leave(&mut self, client: &Client) {
+        self.running -= 1;
+        if let Some(used) = self.clients.get_mut(client) {
+            used.running -= 1;
+        }
+    }
+
+    /// False for work that must not begin, because too much of it has.
+    fn may_go_on(&self, waiter: &Waiter, pool: &Pool) -> bool {
+        waiter.begun || self.begun < BEGUN * pool.0.most
+    }
+
+    /// Gives free workers to those who wait: to the client with the least at work, then to the one whose last turn is
+    /// longest ago. A client's work goes on before more of it begins, then who came first is first.
+    fn grant(&mut self, pool: &Pool) {
+        for w in self.waiting.extract_if(.., |w| w.cancelled.is_set()) {
+            if let Some(used) = self.clients.get_mut(&w.client) {
+                used.waiting -= 1;
+            }
+        }
+        while self.running < pool.0.most {
+            let all = self.waiting.iter().enumerate();
+            let next = all
+                .filter(|(_, w)| self.may_go_on(w, pool))
+                .min_by_key(|(_, w)| {
+                    let used = &self.clients[&w.client];
+                    (used.running, used.turn, !w.begun)
+                });
+            let Some((next, _)) = next else { break };
+            let waiter = self.waiting.remove(next);
+            let used = self.clients.entry(waiter.client.clone()).or_default();
+            used.waiting -= 1;
+            let turn = Turn {
+                pool: pool.clone(),
+                client: waiter.client,
+                cancelled: waiter.cancelled,
+                since: Cell::new(Instant::now()),
+                works: Cell::new(true),
+                replaced: Cell::new(false),
+            };
+            match waiter.grant.send(turn) {
+                Ok(()) => {
+                    self.turns += 1;
+                    used.running += 1;
+                    used.turn = self.turns;
+                    self.running += 1;
+                    self.begun += usize::from(!waiter.begun);
+                }
+                // Nobody waits for it; it must not give back what it has not got.
+                Err(turn) => turn.replaced.set(true),
+            }
+        }
+        self.clients.retain(|_, u| u.running + u.waiting > 0);
+    }
+}
+
+impl Pool {
+    /// `most` at a time, and `most_waiting` that wait. `limit` is the setting that bounds those, `what` one piece of
+    /// work.
+    pub fn new(what: &'static str, limit: &'static str, most: u64, most_waiting: u64) -> Self {
+        Self(Arc::new(Shared {
+            what,
+            limit,
+            most: most as usize,
+            most_waiting,
+            state: Mutex::default(),
+        }))
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        // Nothing in it is left half done by a panic.
+        self.0.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Pieces of work that are being done.
     pub fn running(&self) -> usize {
-        self.running.load(Ordering::Relaxed)
+        self.state().running
     }
 
-    /// Does long work when its turn comes.
+    /// A place in the queue. One client has at most half of them.
+    fn queue(
+        &self,
+        client: &Client,
+        cancelled: &Cancelled,
+    ) -> Result<oneshot::Receiver<Turn>, Fault> {
+        let mut state = self.state();
+        if state.closed {
+            return Err(Fault::Draining);
+        }
+        let new = state.waiting.iter().filter(|w| !w.begun);
+        let own = new.clone().filter(|w| w.client == *client).count() as u64;
+        let all = new.count() as u64;
+        let busy = state.running >= self.0.most;
+        if busy && (all >= self.0.most_waiting || own >= self.0.most_waiting.div_ceil(2)) {
+            let turns = (all + 1) as f64 / self.0.most as f64;
+            let retry = (state.mean * turns).clamp(RETRY.0, RETRY.1);
+            return Err(Fault::Exhausted {
+                limit: self.0.limit,
+                value: self.0.most_waiting,
+                message: format!("one more {}", self.0.what),
+                retry: Some(Duration::from_secs_f64(retry)),
+            });
+        }
+        let granted = state.wait(client, cancelled, false);
+        state.grant(self);
+        Ok(granted)
+    }
+
+    /// Does long work for a client when its turn comes. The work asks its turn often whether to stop.
     ///
     /// # Errors
     /// Those of the work; too much work waits; the work panicked.
     pub async fn run<T: Send + 'static>(
         &self,
-        work: impl FnOnce(&Cancelled) -> Result<T, Fault> + Send + 'static,
+        client: &Client,
+        work: impl FnOnce(&Turn) -> Result<T, Fault> + Send + 'static,
     ) -> Result<T, Fault> {
-        let permit = match self.permits.clone().try_acquire_owned() {
-            Ok(permit) => permit,
-            Err(_) => {
-                let before = self.waiting.fetch_add(1, Ordering::Relaxed);
-                let _counted = Count(&self.waiting);
-                if before as u64 >= self.most_waiting {
-                    return Err(Fault::Exhausted {
-                        limit: "max_waiting_simulations",
-                        value: self.most_waiting,
-                        message: "one more simulation or file conversion".into(),
-                        retry: Some(Duration::from_secs(1)),
-                    });
-                }
-                self.permits
-                    .clone()
-                    .acquire_owned()
-                    .await
-                    .map_err(|_| Fault::Draining)?
-            }
-        };
         let cancelled = Cancelled::default();
-        let flag = cancelled.clone();
-        let _cancel = CancelOnDrop(cancelled);
-        let running = self.running.clone();
-        tokio::task::spawn_blocking(move || {
-            running.fetch_add(1, Ordering::Relaxed);
-            let _counted = Count(&running);
-            let result = work(&flag);
-            drop(permit);
-            result
-        })
-        .await
-        .unwrap_or_else(|e| Err(Fault::Internal(format!("the work ended abnormally: {e}"))))
+        let granted = self.queue(client, &cancelled)?;
+        let _cancel = CancelOnDrop(self.clone(), cancelled);
+        let turn = granted.await.map_err(|_| Fault::Draining)?;
+        let (done, result) = oneshot::channel();
+        let pool = self.clone();
+        std::thread::Builder::new()
+            .name("worker".into())
+            .spawn(move || {
+                let begun = Instant::now();
+                be_nice();
+                let out = catch_unwind(AssertUnwindSafe(|| work(&turn)));
+                let out = out.unwrap_or_else(|panic| Err(abnormal(&*panic)));
+                pool.took(begun.elapsed());
+                drop(turn);
+                let _ = done.send(out); // the client may be gone
+            })
+            .map_err(|e| Fault::Internal(format!("no thread for the work: {e}")))?;
+        match result.await {
+            Ok(Err(gone)) if gone == Turn::gone() => Err(Fault::Draining), // it was not the client who went
+            Ok(out) => out,
+            Err(_) => Err(Fault::Internal("the work gave no result".into())),
+        }
+    }
+
+    /// Gives up all work: the server ends.
+    pub fn close(&self) {
+        let mut state = self.state();
+        state.closed = true;
+        state.waiting.clear();
+        for used in state.clients.values_mut() {
+            used.waiting = 0;
+        }
+    }
+
+    fn took(&self, time: Duration) {
+        let mut state = self.state();
+        state.mean += RECENT * (time.as_secs_f64() - state.mean);
+    }
+}
+
+fn abnormal(panic: &(dyn Any + Send)) -> Fault {
+    let text = panic
+        .downcast_ref::<&str>()
+        .map(|s| (*s).to_owned())
+        .or_else(|| panic.downcast_ref::<String>().cloned())
+        .unwrap_or_default();
+    Fault::Internal(format!("the work ended abnormally: {text}"))
+}
+
+/// Lets the threads of worlds go first. Where that is not possible, work competes with them as before.
+fn be_nice() {
+    #[cfg(target_os = "linux")]
+    if let Err(e) = rustix::process::nice(NICE) {
+        tracing::debug!("the priority of a worker stays: {e}");
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::sync::mpsc::sync_channel;
+
+    fn client(name: &str) -> Client {
+        name.into()
+    }
+
+    fn pool(most: u64, waiting: u64) -> Pool {
+        Pool::new("piece of work", "max_waiting_work", most, waiting)
+    }
+
+    /// Work until told to stop or until `ended` is set.
+    fn until(ended: Arc<AtomicBool>) -> impl FnOnce(&Turn) -> Result<i32, Fault> {
+        move |turn| {
+            while !ended.load(Ordering::Relaxed) {
+                if turn.stop() {
+                    return Err(Turn::gone());
+                }
+                std::thread::yield_now();
+            }
+            Ok(0)
+        }
+    }
 
     #[tokio::test]
     async fn work_that_panics_or_crowds_is_refused_and_the_rest_goes_on() {
-        let workers = Workers::new(1, 0);
-        let panicked = workers.run(|_| -> Result<(), Fault> { panic!("oh") }).await;
+        let pool = pool(1, 0);
+        let me = client("me");
+        let panicked = pool
+            .run(&me, |_| -> Result<(), Fault> { panic!("oh") })
+            .await;
         assert!(matches!(panicked, Err(Fault::Internal(_))));
-        let (go, wait) = std::sync::mpsc::sync_channel::<()>(1);
-        let first = workers.run(move |_| {
+        let (go, wait) = sync_channel::<()>(1);
+        let first = pool.run(&me, move |_| {
             wait.recv().ok();
             Ok(1)
         });
         tokio::pin!(first);
         assert!(futures_util::FutureExt::now_or_never(&mut first).is_none());
+        let refused = pool.run(&me, |_| Ok(2)).await;
         assert!(matches!(
-            workers.run(|_| Ok(2)).await,
-            Err(Fault::Exhausted { .. })
+            refused,
+            Err(Fault::Exhausted { retry: Some(_), .. })
         ));
         go.send(()).unwrap();
         assert_eq!(first.await.unwrap(), 1);
-        assert_eq!(workers.run(|_| Ok(3)).await.unwrap(), 3);
+        assert_eq!(pool.run(&me, |_| Ok(3)).await.unwrap(), 3);
+    }
+
+    #[tokio::test(flavor = "multi_thread")]
+    async fn one_client_does_not_wait_for_the_end_of_anothers_work() {
+        for most in [1, 2] {
+            let pool = pool(most, 64);
+            let ended = Arc::new(AtomicBool::new(false));
+            let long: Vec<_> = (0..4)
+                .map(|_| {
+                    let (pool, ended) = (pool.clone(), ended.clone());
+                    tokio::spawn(async move { pool.run(&client("greedy"), until(ended)).await })
+                })
+                .collect();
+            while pool.running() < most as usize {
+                tokio::task::yield_now().await;
+            }
+            for n in 0..3 {
+                let done = pool.run(&client("other"), move |_| Ok(n)).await;
+                assert_eq!(done.unwrap(), n);
+            }
+            assert!(long.iter().all(|l| !l.is_finished()));
+            ended.store(true, Ordering::Relaxed);
+            for work in long {
+                assert_eq!(work.await.unwrap().unwrap(), 0, "it goes on where it was");
+            }
+            let state = pool.state();
+            assert_eq!((state.running, state.begun), (0, 0));
+            assert!(state.clients.is_empty());
+        }
+    }
+
+    #[tokio::test(flavor = "multi_thread")]
+    async fn who_goes_away_frees_the_worker_and_the_queue() {
+        let pool = pool(1, 64);
+        let never = Arc::new(AtomicBool::new(false));
+        let (a, b) = (client("a"), client("b"));
+        {
+            let running = pool.run(&a, until(never.clone()));
+            let waiting = pool.run(&a, until(never.clone()));
+            let other = pool.run(&b, until(never.clone()));
+            tokio::pin!(running, waiting, other);
+            let long = tokio::time::sleep(SLICE * 4); // turns change hands
+            tokio::select! {
+                _ = &mut running => unreachable!(),
+                _ = &mut waiting => unreachable!(),
+                _ = &mut other => unreachable!(),
+                () = long => {}
+            }
+            assert_eq!(pool.running(), 1);
+        }
+        // All three are gone.
+        assert_eq!(pool.run(&a, |_| Ok(7)).await.unwrap(), 7);
+        let state = pool.state();
+        assert!(state.waiting.is_empty());
+        assert_eq!((state.running, state.begun), (0, 0));
+    }
+
+    #[tokio::test(flavor = "multi_thread")]
+    async fn of_much_work_little_has_begun() {
+        let pool = pool(1, 200);
+        let ended = Arc::new(AtomicBool::new(false));
+        let begun = Arc::new(std::sync::atomic::AtomicUsize::new(0));
+        let mut all = Vec::new();
+        for n in 0..60 {
+            let (pool, ended, begun) = (pool.clone(), ended.clone(), begun.clone());
+            all.push(tokio::spawn(async move {
+                let work = until(ended);
+                let counted = move |turn: &Turn| {
+                    begun.fetch_add(1, Ordering::Relaxed);
+                    work(turn)
+                };
+                pool.run(&client(&format!("{}", n % 20)), counted).await
+            }));
+        }
+        tokio::time::sleep(SLICE * 20).await;
+        assert!(begun.load(Ordering::Relaxed) <= BEGUN);
+        ended.store(true, Ordering::Relaxed);
+        for work in all {
+            assert_eq!(work.await.unwrap().unwrap(), 0);
+        }
+        assert_eq!(begun.load(Ordering::Relaxed), 60);
+    }
+
+    #[tokio::test(flavor = "multi_thread")]
+    async fn one_client_cannot_fill_the_queue() {
+        let pool = pool(1, 4);
+        let never = Arc::new(AtomicBool::new(false));
+        let (tx, rx) = sync_channel(16);
+        for _ in 0..8 {
+            let (pool, never, tx) = (pool.clone(), never.clone(), tx.clone());
+            tokio::spawn(async move {
+                let out = pool.run(&client("greedy"), until(never)).await;
+                let _ = tx.send(out.is_err());
+            });
+        }
+        // One runs and two wait.
+        for _ in 0..5 {
+            assert!(rx.recv().unwrap());
+        }
+        assert_eq!(pool.run(&client("other"), |_| Ok(1)).await.unwrap(), 1);
+        never.store(true, Ordering::Relaxed);
+        for _ in 0..3 {
+            assert!(!rx.recv().unwrap());
+        }
     }
 }

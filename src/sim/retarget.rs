@@ -166,6 +166,23 @@ pub fn retarget(
     body: &Body,
     options: &RetargetOptions,
 ) -> Result<Retargeted, RetargetError> {
+    retarget_unless(bvh, body, options, &|| false)
+}
+
+/// As [`retarget`], given up between two of its stages once `stop` says so.
+///
+/// # Errors
+/// Those of [`retarget`]; [`RetargetError::Stopped`].
+pub fn retarget_unless(
+    bvh: &Bvh,
+    body: &Body,
+    options: &RetargetOptions,
+    stop: &dyn Fn() -> bool,
+) -> Result<Retargeted, RetargetError> {
+    let go_on = || match stop() {
+        true => Err(RetargetError::Stopped),
+        false => Ok(()),
+    };
     let source_rate = check(bvh, options)?;
     let mut map = map_skeleton(&bvh.joints)?;
     let mut warnings: Vec<String> = bvh.warnings.clone();
@@ -177,6 +194,7 @@ pub fn retarget(
         return Err(RetargetError::TooShort(take.len()));
     }
     let bridged = take.bridge(bvh, source_rate, skipped_frames);
+    go_on()?;
     let (mut places, turns) = take.forward();
 
     // Metres, z up; even samples, smooth.
@@ -203,7 +221,9 @@ pub fn retarget(
         unit_m,
         source_rate,
     };
+    go_on()?;
     let (mut scene, seen) = Scene::new(&take, &map, recorded, options);
+    go_on()?;
     let keeps_run = seen.keeps_run();
     let fastest_run = seen.fastest_run();
     warnings.extend(seen.notes(source_rate));
@@ -297,7 +317,9 @@ pub fn retarget(
         hand: frames.hand.map(turned),
         has_hand: [0, 1].map(|s| map.sides[s].hand.is_some()),
     };
+    go_on()?;
     let (mut postures, arms) = joints.postures(&pelvis);
+    go_on()?;
     for p in &mut postures {
         p.root_rotation = renormalised(p.root_rotation);
     }
@@ -320,6 +342,7 @@ pub fn retarget(
         };
         let recorded = prepare(body, &draft, bare).postures;
         flight_phases::label_runs(body, &recorded, &mut draft.label, rate);
+        go_on()?;
     }
     let rate = rate * options.tempo;
     draft.rate_hz = rate;
@@ -331,6 +354,7 @@ pub fn retarget(
         held: leg::HELD,
     };
     let prepared = prepare(body, &draft, how);
+    go_on()?;
     let (postures, planted, lead_in, lead_out) = if options.preparation.ends && how.lock_feet {
         with_ends(body, &draft, &prepared, how)
     } else {

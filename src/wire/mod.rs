@@ -2,7 +2,7 @@
 //!
 //! [`pb`] is generated and checked in (`tests/proto_bootstrap.rs`). Only [`convert`] and [`frame`] read or fill its
 //! fields; past them everything is a domain type of [`types`] or of [`crate::sim`]. [`status`] turns faults into gRPC
-//! statuses.
+//! statuses; [`scan`] looks through the bytes of a request before [`codec`] decodes them.
 
 /// Messages, clients and servers of package `sinew.v1`, generated.
 #[allow(
@@ -17,9 +17,11 @@ pub mod pb {
     include!("gen/sinew.v1.rs");
 }
 
+pub mod codec;
 pub mod convert;
 pub mod frame;
 pub mod posture;
+pub mod scan;
 pub mod status;
 pub mod types;
 pub mod watched;

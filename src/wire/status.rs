@@ -22,6 +22,26 @@ pub enum Fault {
         /// What is wrong and what was expected.
         problem: String,
     },
+    /// The bytes of a request are not a message.
+    #[error("{}{problem}", spaced(field))]
+    Malformed {
+        /// Path of the field; empty for the message as a whole.
+        field: String,
+        /// What is wrong with it.
+        problem: &'static str,
+    },
+    /// A message is larger than the server takes, on the wire or decoded.
+    #[error("{}{message}; {limit} is {value}", spaced(field))]
+    TooLarge {
+        /// Path of the field with which it becomes too large; empty for the message as a whole.
+        field: String,
+        /// Name of the limit.
+        limit: &'static str,
+        /// Its value.
+        value: u64,
+        /// What passes it.
+        message: String,
+    },
     /// There is no such resource.
     #[error("{kind} {name:?} does not exist{valid}", valid = valid_names(kind))]
     NotFound {
@@ -37,6 +57,16 @@ pub enum Fault {
         kind: &'static str,
         /// The name.
         name: String,
+    },
+    /// The server does not answer a request that says this about itself.
+    #[error("{message}")]
+    Refused {
+        /// Reason in UPPER_SNAKE.
+        reason: &'static str,
+        /// What it says.
+        message: String,
+        /// Name of the setting that lists what is answered.
+        setting: &'static str,
     },
     /// The request does not fit the state the resource is in.
     #[error("{message}")]
@@ -59,6 +89,18 @@ pub enum Fault {
         message: String,
         /// When trying again may work; `None` if only giving something up helps.
         retry: Option<Duration>,
+    },
+    /// The ticks of running worlds would need more of the processors than they may.
+    #[error(
+        "{whose} would need {percent:.0} % of its processor time for ticks; {limit:.0} % may be used"
+    )]
+    Budget {
+        /// `the world` or `the machine`.
+        whose: &'static str,
+        /// What would be needed, %.
+        percent: f64,
+        /// What may be used, %.
+        limit: f64,
     },
     /// A tick is not held any more or not computed yet.
     #[error("tick {asked} is not held; held are {oldest} to {newest}")]
@@ -87,6 +129,15 @@ pub enum Fault {
     /// The resource failed; the server's log has more.
     #[error("{0}")]
     Internal(String),
+}
+
+/// The start of a sentence about a field, or about the message as a whole.
+fn spaced(field: &str) -> String {
+    if field.is_empty() {
+        String::new()
+    } else {
+        format!("{field}: ")
+    }
 }
 
 /// Characters of `worlds/{world}/obstacles/{obstacle}` with the longest ids there are.
@@ -142,10 +193,15 @@ impl Fault {
     pub fn reason(&self) -> &'static str {
         match self {
             Self::Invalid { .. } => "INVALID_FIELD",
+            Self::Malformed { .. } => "MALFORMED_MESSAGE",
+            Self::TooLarge { .. } => "MESSAGE_TOO_LARGE",
             Self::NotFound { .. } => "RESOURCE_NOT_FOUND",
             Self::Exists { .. } => "ALREADY_EXISTS",
-            Self::Precondition { reason, .. } | Self::Aborted { reason, .. } => reason,
+            Self::Precondition { reason, .. }
+            | Self::Aborted { reason, .. }
+            | Self::Refused { reason, .. } => reason,
             Self::Exhausted { .. } => "LIMIT_REACHED",
+            Self::Budget { .. } => "TICK_BUDGET",
             Self::Expired { .. } => "RESUME_EXPIRED",
             Self::Unimplemented(_) => "NOT_AVAILABLE",
             Self::Draining => "DRAINING",
@@ -163,6 +219,24 @@ impl From<Fault> for Status {
                 details.add_bad_request_violation(field, problem);
                 facts.insert("field".to_owned(), field.clone());
                 Code::InvalidArgument
+            }
+            Fault::Malformed { field, problem } => {
+                details.add_bad_request_violation(field, *problem);
+                facts.insert("field".to_owned(), field.clone());
+                Code::InvalidArgument
+            }
+            Fault::TooLarge {
+                field,
+                limit,
+                value,
+                message,
+            } => {
+                details.add_bad_request_violation(field, message);
+                details.add_quota_failure_violation(*limit, message);
+                facts.insert("field".to_owned(), field.clone());
+                facts.insert("limit".to_owned(), (*limit).to_owned());
+                facts.insert("value".to_owned(), value.to_string());
+                Code::ResourceExhausted
             }
             Fault::NotFound { kind, name } => {
                 details.set_resource_info(format!("sinew/{kind}"), name, "", fault.to_string());
@@ -195,10 +269,20 @@ impl From<Fault> for Status {
                 facts.insert("value".to_owned(), value.to_string());
                 Code::ResourceExhausted
             }
+            Fault::Budget { percent, limit, .. } => {
+                details.add_quota_failure_violation("max_tick_budget", fault.to_string());
+                facts.insert("needed_percent".to_owned(), format!("{percent:.1}"));
+                facts.insert("limit_percent".to_owned(), format!("{limit:.1}"));
+                Code::ResourceExhausted
+            }
             Fault::Expired { oldest, newest, .. } => {
                 facts.insert("oldest_tick".to_owned(), oldest.to_string());
                 facts.insert("newest_tick".to_owned(), newest.to_string());
                 Code::OutOfRange
+            }
+            Fault::Refused { setting, .. } => {
+                facts.insert("setting".to_owned(), (*setting).to_owned());
+                Code::PermissionDenied
             }
             Fault::Aborted { .. } => Code::Aborted,
             Fault::Unimplemented(_) => Code::Unimplemented,

@@ -179,6 +179,15 @@ pub struct FigureInfo {
     pub constraints: Vec<ConstraintSettings>,
 }
 
+/// A world with its figures, as clients may ask for them at any time.
+#[derive(Clone, Debug)]
+pub struct Described {
+    /// The world; its tick and time are those of the last change.
+    pub world: WorldInfo,
+    /// Its figures, in the order of creation.
+    pub figures: Vec<FigureInfo>,
+}
+
 /// Changes of a figure; `None` leaves a setting as it is.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FigureUpdate {
@@ -374,6 +383,10 @@ pub struct FigureFeedback {
     pub stale: u64,
     /// Frames dropped for want of room.
     pub overflow: u64,
+    /// Times that the stream began anew.
+    pub resyncs: u64,
+    /// How far it is behind because its world leaves ticks out, s; contained in the delay.
+    pub behind: f64,
     /// Window in which motion is prepared, s; contained in the delay.
     pub window: f64,
 }
@@ -536,6 +549,8 @@ pub enum EventKind {
     DriveBegan(String),
     /// A driver no longer has the figure: driver, why.
     DriveEnded(String),
+    /// The stream of a drive began anew: driver and reason.
+    DriveResynced(String),
     /// The world was paused.
     Paused,
     /// The world was resumed.

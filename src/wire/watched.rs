@@ -89,6 +89,11 @@ impl Message for WatchWorldResponse {
     }
 }
 
+impl prost::Name for WatchWorldResponse {
+    const NAME: &'static str = "WatchWorldResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

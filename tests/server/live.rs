@@ -4,6 +4,7 @@
 use crate::corpus;
 use crate::support::{FALLEN, FROZEN, TestServer, header, refusal};
 use sinew::cli::push::Network;
+use sinew::server::engine;
 use sinew::sim::body::{Body, Posture};
 use sinew::sim::motion::{Bvh, Clip};
 use sinew::sim::plan::cycle;
@@ -202,5 +203,79 @@ async fn a_window_that_is_too_short_or_long_is_refused() {
             )
         );
     }
+    server.stop().await;
+}
+
+/// A driver that is started again while its figure walks, and asks it to stand: it finishes its step and stands.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_walk_ends_in_a_stand_if_its_driver_starts_again() {
+    let (body, seconds) = (Body::adult_man(), 4);
+    let walk = walk(&body);
+    let server = TestServer::start().await;
+    let world = server.paused_world("w").await;
+    server.figure(&world, "a").await;
+    let header = pb::DriveHeader {
+        playout_delay_ms: None,
+        nominal_rate_hz: 120.0,
+        reset: true,
+        grace_ms: Some(60_000.0),
+        preparation_window_ms: Some(500.0),
+        ..header(&world, "a", "me")
+    };
+    let mut client = server.client.motions();
+    let restart = seconds * 120; // frames after which sequence and time begin at 0 again
+    let last = walk.sample_looped(seconds as f64).posture;
+    let stand = engine::standing(&body, engine::place_of(&last));
+    let (mut feedback, mut speed) = (None, Vec::new());
+    for push in 0..200i64 {
+        // 50 ms each, in a world that is stepped as far.
+        let frames = (push * 6..(push + 1) * 6)
+            .map(|i| {
+                let (i, posture) = match i - restart {
+                    past @ 0.. => (past, stand),
+                    _ => (i, walk.sample_looped(i as f64 / 120.0).posture),
+                };
+                let mut motion = figure_motion("a", &posture, &[0.0; 45], None);
+                motion.velocity.clear();
+                pb::MotionFrame {
+                    sequence: i,
+                    source_time_ns: i * 1_000_000_000 / 120,
+                    figures: vec![motion],
+                }
+            })
+            .collect();
+        let request = pb::PushMotionRequest {
+            header: Some(header.clone()),
+            batch: Some(pb::MotionBatch { frames }),
+        };
+        let pushed = loop {
+            match client.push_motion(request.clone()).await {
+                Ok(pushed) => break pushed.into_inner(),
+                Err(e) if e.code() == Code::ResourceExhausted => {
+                    tokio::time::sleep(Duration::from_millis(20)).await;
+                }
+                Err(e) => panic!("{e:?}"),
+            }
+        };
+        feedback = pushed.feedback;
+        server.step(&world, 3).await;
+        let frame = server.frame(&world, &["status", "velocity"]).await;
+        let f = &frame.figures[0];
+        let flags = f.status.as_ref().unwrap().flags;
+        assert_eq!(flags & (FALLEN | FROZEN), 0, "after {} s", frame.time_s);
+        let v = sinew::wire::frame::values(f.velocity.as_ref().unwrap());
+        speed.push(v[3].hypot(v[4]));
+    }
+    let f = &feedback.unwrap().figures[0];
+    assert_eq!(f.resync_count, 1, "{f:?}");
+    assert!(f.applied_sequence > 600, "it is followed again: {f:?}");
+    assert!(
+        speed[40..80].iter().all(|v| *v > 0.5),
+        "it walked: {speed:?}"
+    );
+    assert!(
+        speed[160..].iter().all(|v| *v < 0.1),
+        "it stands: {speed:?}"
+    );
     server.stop().await;
 }

@@ -8,10 +8,16 @@ mod constraints;
 #[path = "../common/corpus.rs"]
 mod corpus;
 mod drives;
+mod edge;
+mod ending;
 mod forecast;
+mod limits;
 mod live;
 mod obstacles;
 mod pages;
+#[path = "../common/raw.rs"]
+mod raw;
+mod sharing;
 mod support;
 mod watching;
 mod wire_faults;

@@ -57,7 +57,8 @@ async fn send(address: SocketAddr, request: &str) -> Answer {
 }
 
 async fn get(address: SocketAddr, path: &str, headers: &str) -> Answer {
-    let request = format!("GET {path} HTTP/1.1\r\nhost: x\r\nconnection: close\r\n{headers}\r\n");
+    let request =
+        format!("GET {path} HTTP/1.1\r\nhost: localhost\r\nconnection: close\r\n{headers}\r\n");
     send(address, &request).await
 }
 
@@ -134,7 +135,7 @@ async fn each_coding_of_a_page_has_a_tag_of_its_own() {
 #[tokio::test(flavor = "multi_thread")]
 async fn calls_are_not_compressed() {
     let server = TestServer::start().await;
-    let request = "POST /sinew.v1.ServerService/GetServerInfo HTTP/1.1\r\nhost: x\r\nconnection: close\r\n\
+    let request = "POST /sinew.v1.ServerService/GetServerInfo HTTP/1.1\r\nhost: localhost\r\nconnection: close\r\n\
         accept-encoding: gzip, br\r\ncontent-type: application/grpc-web+proto\r\nx-grpc-web: 1\r\n\
         content-length: 5\r\n\r\n\0\0\0\0\0";
     let answer = send(server.address, request).await;

@@ -29,8 +29,10 @@ impl TestServer {
 
     /// With settings other than the defaults.
     pub async fn with(settings: &[(&str, &str)]) -> Self {
-        let flags: Vec<_> = settings
+        // How fast this build computes on this machine decides no test but those that are about it.
+        let flags: Vec<_> = [("max_tick_budget", "1000"), ("lame_duck_s", "0")]
             .iter()
+            .chain(settings)
             .map(|(a, b)| ((*a).to_owned(), (*b).to_owned()))
             .collect();
         let config = Config::load(None, std::iter::empty(), &flags).unwrap();
@@ -56,6 +58,11 @@ impl TestServer {
             stop: Some(stop),
             ended: Some(ended),
         }
+    }
+
+    /// Begins to shut down.
+    pub fn begin_stop(&mut self) {
+        drop(self.stop.take());
     }
 
     /// Shuts down and waits for the end.

@@ -165,7 +165,12 @@ async fn a_slow_viewer_gets_the_latest_frame_and_slows_nobody() {
 
 #[tokio::test(flavor = "multi_thread")]
 async fn equal_views_share_their_bytes_and_too_many_are_refused() {
-    let server = TestServer::with(&[("max_views_per_world", "1"), ("max_viewers", "2")]).await;
+    let server = TestServer::with(&[
+        ("max_views_per_world", "1"),
+        ("max_viewers", "2"),
+        ("max_client_share", "1"),
+    ])
+    .await;
     let world = server.paused_world("w").await;
     let one = server.client.watch(&world, view(&["torque"]), None).await;
     let two = server.client.watch(&world, view(&["torque"]), None).await;

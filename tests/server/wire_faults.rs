@@ -19,7 +19,12 @@ struct Asked {
 
 impl Asked {
     async fn new() -> Self {
-        let server = TestServer::with(&[("max_worlds", "2"), ("max_clip_bytes", "65536")]).await;
+        let server = TestServer::with(&[
+            ("max_worlds", "2"),
+            ("max_client_share", "1"),
+            ("max_clip_bytes", "65536"),
+        ])
+        .await;
         let world = server.paused_world("w").await;
         server.figure(&world, "a").await;
         let before = server.step(&world, 1).await;
@@ -354,7 +359,12 @@ async fn bad_clips_are_refused() {
         .create_clip(clip(bvh(vec![b'x'; 2_000_000], None)))
         .await
         .unwrap_err();
-    assert_eq!(e.code(), Code::OutOfRange, "too large to be decoded: {e:?}");
+    let (code, reason, _) = refusal(&e);
+    assert_eq!(
+        (code, reason.as_str()),
+        (Code::ResourceExhausted, "MESSAGE_TOO_LARGE"),
+        "{e:?}"
+    );
     asked.unchanged().await;
 }
 

@@ -350,7 +350,8 @@ async fn one_port_has_pages_metrics_health_reflection_and_grpc_web() {
     let world = server.paused_world("shown").await;
     server.figure(&world, "a").await;
     server.step(&world, 1).await;
-    let get = |path: &str| format!("GET {path} HTTP/1.1\r\nhost: x\r\nconnection: close\r\n\r\n");
+    let get =
+        |path: &str| format!("GET {path} HTTP/1.1\r\nhost: localhost\r\nconnection: close\r\n\r\n");
     let page = http(server.address, &get("/status")).await;
     assert!(page.starts_with("HTTP/1.1 200") && page.contains("worlds/shown"));
     let viewer = http(server.address, &get("/")).await;
@@ -377,7 +378,7 @@ async fn one_port_has_pages_metrics_health_reflection_and_grpc_web() {
     );
 
     // gRPC-Web: an empty message to GetServerInfo.
-    let request = "POST /sinew.v1.ServerService/GetServerInfo HTTP/1.1\r\nhost: x\r\nconnection: close\r\n\
+    let request = "POST /sinew.v1.ServerService/GetServerInfo HTTP/1.1\r\nhost: localhost\r\nconnection: close\r\n\
         content-type: application/grpc-web+proto\r\nx-grpc-web: 1\r\norigin: http://localhost:5173\r\n\
         content-length: 5\r\n\r\n\0\0\0\0\0";
     let answer = http(server.address, request).await;

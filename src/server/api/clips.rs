@@ -1,6 +1,6 @@
 //! `MotionService`: stored clips, playing them, and the unary twin of live driving. The stream itself is in `drive`.
 
-use super::{Api, answer, drive, origin};
+use super::{Api, answer, client, drive, origin};
 use crate::wire::convert::{body, clip_name, display_name, motion, new_id, page};
 use crate::wire::pb::{self, motion_service_server::MotionService};
 use tonic::{Request, Response, Status, Streaming};
@@ -12,6 +12,7 @@ impl MotionService for Api {
         request: Request<pb::CreateClipRequest>,
     ) -> Result<Response<pb::CreateClipResponse>, Status> {
         let result = async {
+            let client = client(&request);
             let r = request.into_inner();
             let id = new_id("clip_id", &r.clip_id)?;
             let title = display_name("display_name", &r.display_name)?;
@@ -19,12 +20,14 @@ impl MotionService for Api {
             let max_bytes = self.config.max_clip_bytes;
             let app = self.0.clone();
             let info = self
-                .workers
-                .run(move |_| {
+                .conversions
+                .run(&client, move |turn| {
                     let source = motion::clip_source(r.source, max_bytes)?;
                     app.clips.check_room(id.as_deref(), &source)?;
                     let built = app.bodies.get("body", &reference)?;
-                    app.clips.create(id, title, &reference, &built, source)
+                    let stop = || turn.stop();
+                    app.clips
+                        .create(id, title, &reference, &built, source, &stop)
                 })
                 .await?;
             Ok(pb::CreateClipResponse {
@@ -93,16 +96,16 @@ impl MotionService for Api {
                 .clips
                 .manner(&clip_id, playback.looped, playback.speed)?;
             playback.speed = rest;
-            let name = figure.clone();
-            let (body_id, body) = handle
-                .call(origin(&request), move |s| s.body_of(&name))
-                .await?;
+            let (body_id, body) = handle.body_of(&figure)?;
             let clip = match self.clips.ready(&clip_id, &body_id, manner) {
                 Some(clip) => clip,
                 None => {
                     let (app, id) = (self.0.clone(), clip_id.clone());
-                    self.workers
-                        .run(move |_| app.clips.prepared(&id, &body_id, &body, manner))
+                    self.conversions
+                        .run(&client(&request), move |turn| {
+                            let stop = || turn.stop();
+                            app.clips.prepared(&id, &body_id, &body, manner, &stop)
+                        })
                         .await?
                 }
             };
@@ -144,6 +147,7 @@ impl MotionService for Api {
         &self,
         request: Request<Streaming<pb::DriveFiguresRequest>>,
     ) -> Result<Response<Self::DriveFiguresStream>, Status> {
-        drive::stream(self, request.into_inner()).await
+        let client = client(&request);
+        drive::stream(self, client, request.into_inner()).await
     }
 }

@@ -1,14 +1,15 @@
 //! Live desired motion: the stream and its unary twin take the same way into the world.
 
-use super::{Api, Place, refusal, stopped};
+use super::{Api, Client, Place, refusal, stopped};
+use crate::server::ingest::mailbox::Mailbox;
 use crate::server::tick::command::Origin;
 use crate::server::worlds::WorldHandle;
 use crate::wire::convert::motion;
 use crate::wire::pb::{self, drive_figures_request::Message};
 use crate::wire::status::Fault;
-use crate::wire::types::{Feedback, MotionSample};
+use crate::wire::types::DriveOpen;
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use tokio::sync::{mpsc, watch};
 use tokio_stream::wrappers::ReceiverStream;
 use tonic::{Response, Status, Streaming};
@@ -20,17 +21,22 @@ pub type Feedbacks = ReceiverStream<Result<pb::DriveFiguresResponse, Status>>;
 const HEADER_TIME: Duration = Duration::from_secs(10);
 /// Interval of feedback.
 const FEEDBACK_EVERY: Duration = Duration::from_millis(100);
+/// How long the reason of the end of a stream waits for a driver who does not read.
+const LAST_WORD: Duration = Duration::from_secs(5);
+/// Who pushes without giving a name.
+const PUSHER: &str = "push";
 /// Feedback that waits for a driver who does not read; more is left out.
 const FEEDBACK_QUEUE: usize = 16;
 
-fn origin(driver: &str, batch: &[MotionSample]) -> Origin {
+/// Commands of a driver come before those that end its drive.
+fn origin(driver: &str) -> Origin {
     Origin {
         client: driver.into(),
-        sequence: batch.first().map_or(0, |s| s.sequence),
+        sequence: 0,
     }
 }
 
-/// A batch by a unary call.
+/// A batch by a unary call. Only the first one of a drive waits for the world.
 pub(super) async fn push(
     api: &Api,
     r: pb::PushMotionRequest,
@@ -38,34 +44,45 @@ pub(super) async fn push(
     let header = r
         .header
         .ok_or_else(|| Fault::invalid("header", "must be given"))?;
-    let open = motion::drive_open("header", &header)?;
-    let batch = motion::batch("batch", &r.batch.unwrap_or_default(), &open.figures)?;
+    let mut open = motion::drive_open("header", &header)?;
+    if open.driver.is_empty() {
+        PUSHER.clone_into(&mut open.driver);
+    }
+    let raw = r.batch.unwrap_or_default();
     let handle = api.worlds.get(&open.world)?;
-    let feedback = handle
-        .call(origin(&open.driver, &batch), move |s| {
-            let driver = s.open_drive(&open, None)?;
-            if !s.drive(&driver, None, batch)? {
-                return Err(Fault::Exhausted {
-                    limit: "batches_per_second",
-                    value: crate::server::ingest::admission::BATCHES_PER_SECOND as u64,
-                    message: "send fewer, larger batches".into(),
-                    retry: Some(Duration::from_millis(100)),
-                });
-            }
-            s.feedback(&driver, None)
-        })
-        .await?;
+    let known = handle.mailboxes.of(&open.driver, &open.figures);
+    if let Some(mailbox) = &known {
+        mailbox.admit(motion::postures(&raw), Instant::now())?;
+    }
+    let batch = motion::batch("batch", &raw, &open.figures)?;
+    let mailbox = match known.filter(|m| m.ended().is_none()) {
+        Some(mailbox) => mailbox,
+        None => opened(&handle, open, None).await?,
+    };
+    // A drive that ends just now refuses the batch as one that has ended.
+    mailbox.deliver(None, batch, Instant::now())?;
     Ok(pb::PushMotionResponse {
-        feedback: Some(motion::feedback_out(&feedback)),
+        feedback: Some(motion::feedback_out(&mailbox.feedback())),
     })
+}
+
+async fn opened(
+    handle: &WorldHandle,
+    open: DriveOpen,
+    stream: Option<u64>,
+) -> Result<Arc<Mailbox>, Fault> {
+    handle
+        .call(origin(&open.driver), move |s| s.open_drive(&open, stream))
+        .await
 }
 
 /// A stream of batches.
 pub(super) async fn stream(
     api: &Api,
+    client: Client,
     mut inbound: Streaming<pb::DriveFiguresRequest>,
 ) -> Result<Response<Feedbacks>, Status> {
-    let place = api.drivers.take().map_err(refusal)?;
+    let place = api.drivers.take(client).map_err(refusal)?;
     let first = tokio::time::timeout(HEADER_TIME, inbound.message())
         .await
         .map_err(|_| refusal(Fault::invalid("header", "did not come within 10 s")))??;
@@ -78,21 +95,15 @@ pub(super) async fn stream(
     let open = motion::drive_open("header", &header).map_err(refusal)?;
     let handle = api.worlds.get(&open.world).map_err(refusal)?;
     let connection = api.next_stream();
-    let figures = open.figures.clone();
-    let driver = handle
-        .call(origin(&open.driver, &[]), move |s| {
-            s.open_drive(&open, Some(connection))
-        })
+    let mailbox = opened(&handle, open, Some(connection))
         .await
         .map_err(refusal)?;
     let (out, feedbacks) = mpsc::channel(FEEDBACK_QUEUE);
     let session = Session {
         handle,
-        driver,
-        figures,
+        mailbox,
         connection,
         out,
-        refused: 0,
         ended: false,
         _place: place,
     };
@@ -102,11 +113,9 @@ pub(super) async fn stream(
 
 struct Session {
     handle: Arc<WorldHandle>,
-    driver: String,
-    figures: Vec<String>,
+    mailbox: Arc<Mailbox>,
     connection: u64,
     out: mpsc::Sender<Result<pb::DriveFiguresResponse, Status>>,
-    refused: u64,
     ended: bool,
     _place: Place,
 }
@@ -125,6 +134,11 @@ impl Session {
                 message = inbound.message() => match message {
                     Ok(Some(m)) => self.take(m),
                     Ok(None) => break false,
+                    // A message that was refused says why; a connection that broke says nothing of ours.
+                    Err(status) if !status.details().is_empty() => {
+                        let _ = self.out.try_send(Err(status));
+                        break false;
+                    }
                     Err(_) => break true,
                 },
                 _ = timer.tick() => self.feedback().await,
@@ -136,8 +150,13 @@ impl Session {
                 Ok(true) => {}
                 Ok(false) => break true, // nobody reads the feedback: the connection is gone
                 Err(fault) => {
-                    // The reader may have a full queue; it learns of the end in any case.
-                    let _ = self.out.try_send(Err(refusal(fault)));
+                    // A reader whose queue is full gets the reason as soon as there is room.
+                    let (out, status) = (self.out.clone(), refusal(fault));
+                    if let Err(mpsc::error::TrySendError::Full(last)) = out.try_send(Err(status)) {
+                        tokio::spawn(tokio::time::timeout(LAST_WORD, async move {
+                            let _ = out.send(last).await; // it may be gone
+                        }));
+                    }
                     break false;
                 }
             }
@@ -149,7 +168,7 @@ impl Session {
         self.close(lost);
     }
 
-    /// Checks a batch and queues it; true to go on.
+    /// Checks a batch and leaves it for the next tick; true to go on. One that came too fast is dropped and counted.
     fn take(&mut self, m: pb::DriveFiguresRequest) -> Result<bool, Fault> {
         let Some(Message::Batch(b)) = m.message else {
             return Err(Fault::invalid(
@@ -157,34 +176,28 @@ impl Session {
                 "must be a batch after the header",
             ));
         };
-        let batch = motion::batch("batch", &b, &self.figures)?;
-        let (driver, connection, refused) = (self.driver.clone(), self.connection, self.refused);
-        let sent = self.handle.send(origin(&self.driver, &batch), move |s| {
-            s.refused(&driver, refused);
-            // A fenced stream learns so from its next feedback.
-            let _ = s.drive(&driver, Some(connection), batch);
-        });
-        match sent {
-            Ok(()) => self.refused = 0,
-            Err(Fault::Exhausted { .. }) => self.refused += 1,
-            Err(gone) => return Err(gone),
+        let now = Instant::now();
+        if self.mailbox.admit(motion::postures(&b), now).is_ok() {
+            let batch = motion::batch("batch", &b, self.mailbox.figures())?;
+            self.mailbox.deliver(Some(self.connection), batch, now)?;
         }
         Ok(true)
     }
 
     /// Tells the driver; true to go on.
     async fn feedback(&mut self) -> Result<bool, Fault> {
-        let (driver, connection) = (self.driver.clone(), self.connection);
-        let feedback: Feedback = match self
+        let (driver, connection) = (self.mailbox.driver().to_owned(), self.connection);
+        let feedback = match self
             .handle
-            .call(origin(&self.driver, &[]), move |s| {
-                s.feedback(&driver, Some(connection))
+            .call(origin(&driver.clone()), move |s| {
+                s.feedback(&driver, connection)
             })
             .await
         {
             Ok(f) => f,
             Err(Fault::Exhausted { .. }) => return Ok(true), // next time
-            Err(fault) => return Err(fault),
+            // The drive is gone: its mailbox knows why.
+            Err(fault) => return Err(self.mailbox.ended().unwrap_or(fault)),
         };
         let message = pb::DriveFiguresResponse {
             feedback: Some(motion::feedback_out(&feedback)),
@@ -199,10 +212,10 @@ impl Session {
         if std::mem::replace(&mut self.ended, true) {
             return;
         }
-        let (driver, connection) = (self.driver.clone(), self.connection);
+        let (driver, connection) = (self.mailbox.driver().to_owned(), self.connection);
         // After everything that this driver has queued.
         let last = Origin {
-            client: self.driver.as_str().into(),
+            client: driver.as_str().into(),
             sequence: i64::MAX,
         };
         if self
@@ -212,7 +225,7 @@ impl Session {
             })
             .is_err_and(|f| matches!(f, Fault::Exhausted { .. }))
         {
-            let (handle, driver) = (self.handle.clone(), self.driver.clone());
+            let (handle, driver) = (self.handle.clone(), self.mailbox.driver().to_owned());
             tokio::spawn(async move {
                 // The queue is full for now; the figures must be given back all the same.
                 loop {

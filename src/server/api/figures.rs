@@ -34,29 +34,25 @@ impl FigureService for Api {
         &self,
         request: Request<pb::GetFigureRequest>,
     ) -> Result<Response<pb::GetFigureResponse>, Status> {
-        let result = async {
+        let result = || {
             let (handle, id) = self.figure("name", &request.get_ref().name)?;
-            let id = id.to_owned();
-            let info = handle
-                .call(origin(&request), move |s| s.figure(&id))
-                .await?;
             Ok(pb::GetFigureResponse {
-                figure: Some(figure::figure_out(&info)),
+                figure: Some(figure::figure_out(&handle.figure(id)?)),
             })
         };
-        answer(result.await)
+        answer(result())
     }
 
     async fn list_figures(
         &self,
         request: Request<pb::ListFiguresRequest>,
     ) -> Result<Response<pb::ListFiguresResponse>, Status> {
-        let result = async {
+        let result = || {
             let r = request.get_ref();
-            let handle = self.world("parent", &r.parent)?;
-            let infos = handle.call(origin(&request), |s| Ok(s.figures())).await?;
+            let described = self.world("parent", &r.parent)?.described();
             // Indices grow in the order of creation; padded they sort as text.
-            let items = infos
+            let items = described
+                .figures
                 .iter()
                 .map(|f| (format!("{:010}", f.index), figure::figure_out(f)))
                 .collect();
@@ -66,7 +62,7 @@ impl FigureService for Api {
                 next_page_token,
             })
         };
-        answer(result.await)
+        answer(result())
     }
 
     async fn update_figure(

@@ -55,7 +55,9 @@ impl ServerService for Api {
                     .collect(),
                 watch_stream_count: self.viewers.taken() as i32,
                 drive_stream_count: self.drivers.taken() as i32,
-                simulation_count: self.workers.running() as i32,
+                simulation_count: self.simulations.running() as i32,
+                budget_used: self.worlds.budget.used(),
+                budget_limit: self.worlds.budget.limit(),
             })
         };
         answer(stats())

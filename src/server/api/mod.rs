@@ -13,8 +13,9 @@ mod worlds;
 
 use super::config::Config;
 use super::library::{Bodies, Clips};
+use super::shares::{Client, Place, Places, client_at};
 use super::tick::command::Origin;
-use super::workers::Workers;
+use super::workers::Pool;
 use super::worlds::{Registry, WorldHandle};
 use crate::wire::convert::world_name;
 use crate::wire::pb;
@@ -22,7 +23,7 @@ use crate::wire::status::Fault;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::SystemTime;
-use tokio::sync::{Semaphore, watch};
+use tokio::sync::watch;
 use tonic::service::RoutesBuilder;
 use tonic::{Request, Response, Status};
 
@@ -39,6 +40,22 @@ pub const SERVICE_NAMES: [&str; 9] = [
     pb::server_service_server::SERVICE_NAME,
 ];
 
+/// Calls that carry a clip in their request: up to `max_clip_bytes`. All others take up to `max_request_bytes`.
+pub const UPLOADS: [&str; 2] = [
+    "/sinew.v1.MotionService/CreateClip",
+    "/sinew.v1.SimulationService/SimulateClip",
+];
+
+/// Whether a call takes exactly one message. Of calls of other packages, reflection for example, nothing is known.
+pub fn is_unary(path: &str) -> bool {
+    path.starts_with("/sinew.v1.") && path != "/sinew.v1.MotionService/DriveFigures"
+}
+
+/// Bytes of the largest request: a file comes whole in one message, with a little around it.
+pub fn largest_request(config: &Config) -> usize {
+    config.max_clip_bytes.max(config.max_request_bytes) as usize + 65_536
+}
+
 /// What the services share.
 pub struct App {
     /// Settings.
@@ -49,8 +66,10 @@ pub struct App {
     pub bodies: Bodies,
     /// Clips.
     pub clips: Clips,
-    /// Where long work is done.
-    pub workers: Workers,
+    /// Where files become clips.
+    pub conversions: Pool,
+    /// Where clips are simulated.
+    pub simulations: Pool,
     /// When the server started.
     pub started: SystemTime,
     /// Turns true when streams are to end.
@@ -58,59 +77,6 @@ pub struct App {
     viewers: Places,
     drivers: Places,
     next_stream: AtomicU64,
-}
-
-/// Places for streams of one kind.
-struct Places {
-    free: Arc<Semaphore>,
-    limit: &'static str,
-    most: u64,
-    gauge: &'static str,
-}
-
-/// A place that is given back when the stream ends.
-struct Place {
-    gauge: &'static str,
-    _permit: tokio::sync::OwnedSemaphorePermit,
-}
-
-impl Drop for Place {
-    fn drop(&mut self) {
-        metrics::gauge!(self.gauge).decrement(1.0);
-    }
-}
-
-impl Places {
-    fn new(limit: &'static str, most: u64, gauge: &'static str) -> Self {
-        Self {
-            free: Arc::new(Semaphore::new(most as usize)),
-            limit,
-            most,
-            gauge,
-        }
-    }
-
-    fn take(&self) -> Result<Place, Fault> {
-        let permit = self
-            .free
-            .clone()
-            .try_acquire_owned()
-            .map_err(|_| Fault::Exhausted {
-                limit: self.limit,
-                value: self.most,
-                message: "one more stream".into(),
-                retry: Some(std::time::Duration::from_secs(1)),
-            })?;
-        metrics::gauge!(self.gauge).increment(1.0);
-        Ok(Place {
-            gauge: self.gauge,
-            _permit: permit,
-        })
-    }
-
-    fn taken(&self) -> usize {
-        self.most as usize - self.free.available_permits()
-    }
 }
 
 impl App {
@@ -121,15 +87,27 @@ impl App {
     pub fn new(config: Arc<Config>, stopping: watch::Receiver<bool>) -> Result<Self, Fault> {
         super::telemetry::metrics();
         let bodies = Bodies::new(&config);
+        let share = config.max_client_share;
         Ok(Self {
             clips: Clips::new(&config, &bodies)?,
             bodies,
             worlds: Registry::new(config.clone()),
-            workers: Workers::new(config.max_simulations, config.max_waiting_simulations),
+            conversions: Pool::new(
+                "file conversion",
+                "max_waiting_conversions",
+                config.max_conversions,
+                config.max_waiting_conversions,
+            ),
+            simulations: Pool::new(
+                "simulation",
+                "max_waiting_simulations",
+                config.max_simulations,
+                config.max_waiting_simulations,
+            ),
             started: SystemTime::now(),
             stopping,
-            viewers: Places::new("max_viewers", config.max_viewers, "sinew_viewers"),
-            drivers: Places::new("max_drivers", config.max_drivers, "sinew_drivers"),
+            viewers: Places::new("max_viewers", config.max_viewers, share, "sinew_viewers"),
+            drivers: Places::new("max_drivers", config.max_drivers, share, "sinew_drivers"),
             next_stream: AtomicU64::new(1),
             config,
         })
@@ -176,28 +154,27 @@ impl std::ops::Deref for Api {
 /// Adds every service to the routes.
 pub fn add_services(routes: &mut RoutesBuilder, app: &Arc<App>) {
     let api = Api(app.clone());
-    let small = app.config.max_request_bytes as usize;
-    // A file comes whole in one message, with a little around it.
-    let large = (app.config.max_clip_bytes as usize).max(small) + 65_536;
+    // What each call takes is checked before (`edge::requests`).
+    let request = largest_request(&app.config);
     let response = app.config.max_response_bytes as usize * 2;
     macro_rules! add {
-        ($($module:ident :: $server:ident, $request:expr;)*) => {
+        ($($module:ident :: $server:ident;)*) => {
             $(routes.add_service(
                 pb::$module::$server::new(api.clone())
-                    .max_decoding_message_size($request)
+                    .max_decoding_message_size(request)
                     .max_encoding_message_size(response),
             );)*
         };
     }
     add! {
-        world_service_server::WorldServiceServer, small;
-        figure_service_server::FigureServiceServer, small;
-        body_service_server::BodyServiceServer, small;
-        motion_service_server::MotionServiceServer, large;
-        perturbation_service_server::PerturbationServiceServer, small;
-        state_service_server::StateServiceServer, small;
-        simulation_service_server::SimulationServiceServer, large;
-        server_service_server::ServerServiceServer, small;
+        world_service_server::WorldServiceServer;
+        figure_service_server::FigureServiceServer;
+        body_service_server::BodyServiceServer;
+        motion_service_server::MotionServiceServer;
+        perturbation_service_server::PerturbationServiceServer;
+        state_service_server::StateServiceServer;
+        simulation_service_server::SimulationServiceServer;
+        server_service_server::ServerServiceServer;
     }
 }
 
@@ -205,6 +182,11 @@ pub fn add_services(routes: &mut RoutesBuilder, app: &Arc<App>) {
 async fn stopped(stopping: &mut watch::Receiver<bool>) {
     // An error means that the sender is gone, which says the same.
     let _ = stopping.wait_for(|s| *s).await;
+}
+
+/// Who sends a request.
+fn client<T>(request: &Request<T>) -> Client {
+    client_at(request.remote_addr())
 }
 
 /// The sender of a request, as commands of its world are ordered by.
@@ -224,11 +206,6 @@ fn answer<T>(result: Result<T, Fault>) -> Result<Response<T>, Status> {
 }
 
 fn refusal(fault: Fault) -> Status {
-    metrics::counter!("sinew_faults_total", "reason" => fault.reason()).increment(1);
-    if let Fault::Internal(why) = &fault {
-        tracing::error!(why, "request failed");
-    } else {
-        tracing::debug!(%fault, "request refused");
-    }
+    super::telemetry::count_refusal(&fault);
     fault.into()
 }

@@ -1,6 +1,6 @@
 //! `SimulationService`.
 
-use super::{Api, answer};
+use super::{Api, answer, client};
 use crate::server::engine;
 use crate::server::library::Manner;
 use crate::server::simulate::{self, Limits};
@@ -21,6 +21,7 @@ impl SimulationService for Api {
                 seconds: self.config.max_simulation_s,
                 bytes: self.config.max_response_bytes,
             };
+            let client = client(&request);
             let (source, settings) = simulation::settings(
                 request.into_inner(),
                 self.config.max_clip_bytes,
@@ -30,24 +31,28 @@ impl SimulationService for Api {
                 self.clips.info(id)?; // an unknown name does not wait for its turn
             }
             let app = self.0.clone();
-            self.workers
-                .run(move |cancelled| {
+            self.simulations
+                .run(&client, move |turn| {
+                    let stop = || turn.stop();
                     let body_id = settings.figure.body.id.clone();
                     let body = app.bodies.get("figure.profile", &settings.figure.body)?;
                     let (clip, report) = match source {
                         Source::Clip(id) => {
                             let manner = Manner::recorded(settings.looped);
-                            (app.clips.prepared(&id, &body_id, &body, manner)?, None)
+                            (
+                                app.clips.prepared(&id, &body_id, &body, manner, &stop)?,
+                                None,
+                            )
                         }
                         Source::File(file) => {
                             let (clip, report) =
-                                engine::prepare("bvh", "upload", &file, &body, 1.0)?;
+                                engine::prepare("bvh", "upload", &file, &body, 1.0, &stop)?;
                             let clip = Arc::new(clip);
                             let repeats = settings.looped.then(|| cycle(&body, &clip)).flatten();
                             (repeats.map_or(clip, Arc::new), report)
                         }
                     };
-                    let out = simulate::run(&settings, &body, clip, limits, cancelled)?;
+                    let out = simulate::run(&settings, &body, clip, limits, turn)?;
                     Ok(simulation::response(
                         &out.summary,
                         out.frames,

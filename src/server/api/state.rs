@@ -1,6 +1,6 @@
 //! `StateService`.
 
-use super::{Api, answer, origin, refusal, watching};
+use super::{Api, answer, client, refusal, watching};
 use crate::wire::convert::state;
 use crate::wire::frame::{roster, world_frame};
 use crate::wire::pb::{self, state_service_server::StateService};
@@ -34,19 +34,18 @@ impl StateService for Api {
         &self,
         request: Request<pb::GetWorldFrameRequest>,
     ) -> Result<Response<pb::GetWorldFrameResponse>, Status> {
-        let result = async {
+        let result = || {
             let r = request.get_ref();
             let handle = self.world("world", &r.world)?;
             let view = state::view(r.view.as_ref())?;
             let snapshot = match r.tick {
-                // The latest is there without asking the world's thread.
-                None => handle.outlet.latest.borrow().clone(),
-                Some(tick) => handle.call(origin(&request), move |s| s.held(tick)).await?,
+                None => handle.latest(),
+                Some(tick) => handle.history().at(tick)?,
             };
             check(&view.figures, &snapshot)?;
             Ok(response(&snapshot, &view))
         };
-        answer(result.await)
+        answer(result())
     }
 
     type WatchWorldStream = watching::Frames;
@@ -55,23 +54,28 @@ impl StateService for Api {
         &self,
         request: Request<pb::WatchWorldRequest>,
     ) -> Result<Response<Self::WatchWorldStream>, Status> {
-        let result = async {
+        let watch = || {
             let r = request.get_ref();
             let handle = self.world("world", &r.world)?;
             let view = state::view(r.view.as_ref())?;
             check(&view.figures, &handle.outlet.latest.borrow())?;
-            let place = self.viewers.take()?;
+            let place = self.viewers.take(client(&request))?;
             let held = match r.resume_tick {
                 None => Vec::new(),
-                Some(tick) => {
-                    handle
-                        .call(origin(&request), move |s| s.held_after(tick))
-                        .await?
-                }
+                Some(tick) => handle.history().after(tick)?,
             };
-            watching::frames(handle, &view, &held, self.stopping.clone(), place)
+            let channel = handle
+                .hub
+                .channel(&view, &handle.outlet.latest, client(&request))?;
+            Ok(watching::frames(
+                handle,
+                (&view, channel),
+                held,
+                self.stopping.clone(),
+                place,
+            ))
         };
-        result.await.map(Response::new).map_err(refusal)
+        watch().map(Response::new).map_err(refusal)
     }
 
     type WatchEventsStream = watching::Events;
@@ -85,7 +89,7 @@ impl StateService for Api {
             let handle = self.world("world", &r.world)?;
             let filter = state::event_filter(r)?;
             check(&filter.figures, &handle.outlet.latest.borrow())?;
-            let place = self.viewers.take()?;
+            let place = self.viewers.take(client(&request))?;
             Ok(watching::events(
                 handle,
                 filter,

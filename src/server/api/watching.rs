@@ -2,10 +2,10 @@
 //! skips frames instead of collecting them.
 
 use super::{Place, refusal, stopped};
-use crate::server::fanout::hub::{Channel, Encoded};
+use crate::server::fanout::hub::{Channel, Encoded, Resuming};
 use crate::server::worlds::WorldHandle;
 use crate::wire::convert::state::{event_out, wanted};
-use crate::wire::frame::{shared_frame, shared_roster};
+use crate::wire::frame::shared_roster;
 use crate::wire::pb;
 use crate::wire::status::Fault;
 use crate::wire::types::{EventFilter, Snapshot, ViewSpec, WorldEvent};
@@ -41,12 +41,15 @@ impl End {
 
 struct Viewer {
     handle: Arc<WorldHandle>,
-    _channel: Arc<Channel>, // keeps its encoder running
+    channel: Arc<Channel>, // keeps its encoder running
+    view: ViewSpec,
     frames: watch::Receiver<Option<Encoded>>,
+    /// Ticks before the latest that are to be sent first.
+    past: Option<Resuming>,
+    /// At most a roster and a frame.
     ready: VecDeque<Bytes>,
     roster: Option<i32>,
     last: Option<u64>,
-    divisor: u64,
     closed: watch::Receiver<()>,
     stopping: watch::Receiver<bool>,
     over: bool,
@@ -55,6 +58,9 @@ struct Viewer {
 
 impl Drop for Viewer {
     fn drop(&mut self) {
+        if self.past.is_some() {
+            self.handle.hub.resumed();
+        }
         self.handle.viewers.fetch_sub(1, Ordering::Relaxed);
     }
 }
@@ -62,50 +68,49 @@ impl Drop for Viewer {
 /// Frames of a view: first those that are held, then as they come.
 pub(super) fn frames(
     handle: Arc<WorldHandle>,
-    view: &ViewSpec,
-    held: &[Arc<Snapshot>],
+    (view, channel): (&ViewSpec, Arc<Channel>),
+    held: Vec<Arc<Snapshot>>,
     stopping: watch::Receiver<bool>,
     place: Place,
-) -> Result<Frames, Fault> {
-    let channel = handle.hub.channel(view, &handle.outlet.latest)?;
+) -> Frames {
     let mut frames = channel.subscribe();
     frames.mark_changed(); // what is there already is the first to send
     handle.viewers.fetch_add(1, Ordering::Relaxed);
     let divisor = u64::from(view.divisor);
-    let mut viewer = Viewer {
+    let held = held.into_iter().filter(|s| s.tick % divisor == 0);
+    let past = handle.hub.resume(held);
+    let viewer = Viewer {
         closed: handle.closed.clone(),
         handle,
-        _channel: channel,
+        channel,
+        view: view.clone(),
         frames,
+        past: Some(past),
         ready: VecDeque::new(),
         roster: None,
         last: None,
-        divisor,
         stopping,
         over: false,
         _place: place,
     };
-    for snapshot in held {
-        if snapshot.tick % divisor != 0 {
-            continue;
-        }
-        if viewer.roster != Some(snapshot.roster_version) {
-            viewer.roster = Some(snapshot.roster_version);
-            viewer.ready.push_back(shared_roster(snapshot, view));
-        }
-        viewer.ready.push_back(shared_frame(snapshot, view));
-        viewer.last = Some(snapshot.tick);
-    }
-    Ok(Box::pin(futures_util::stream::unfold(
-        viewer,
-        |mut v| async move {
-            let item = v.next().await?;
-            Some((item, v))
-        },
-    )))
+    Box::pin(futures_util::stream::unfold(viewer, |mut v| async move {
+        let item = v.next().await?;
+        Some((item, v))
+    }))
 }
 
 impl Viewer {
+    /// Makes a past tick ready to be sent.
+    fn catch_up(&mut self, snapshot: &Snapshot) {
+        if self.roster != Some(snapshot.roster_version) {
+            self.roster = Some(snapshot.roster_version);
+            self.ready.push_back(shared_roster(snapshot, &self.view));
+        }
+        let frame = (self.handle.hub).past_frame(&self.channel, snapshot, &self.view);
+        self.ready.push_back(frame);
+        self.last = Some(snapshot.tick);
+    }
+
     async fn next(&mut self) -> Option<Result<WatchWorldResponse, Status>> {
         loop {
             if let Some(bytes) = self.ready.pop_front() {
@@ -114,6 +119,16 @@ impl Viewer {
             }
             if self.over {
                 return None;
+            }
+            if let Some(past) = &mut self.past {
+                match past.take_next() {
+                    Some(snapshot) => self.catch_up(&snapshot),
+                    None => {
+                        self.past = None;
+                        self.handle.hub.resumed();
+                    }
+                }
+                continue;
             }
             let ended = tokio::select! {
                 changed = self.frames.changed() => changed.is_err().then_some(End::World),
@@ -132,8 +147,9 @@ impl Viewer {
                 continue;
             }
             if let Some(last) = self.last {
-                let missed = (new.tick / self.divisor)
-                    .saturating_sub(last / self.divisor)
+                let divisor = u64::from(self.view.divisor);
+                let missed = (new.tick / divisor)
+                    .saturating_sub(last / divisor)
                     .saturating_sub(1);
                 if missed > 0 {
                     self.handle.dropped.fetch_add(missed, Ordering::Relaxed);

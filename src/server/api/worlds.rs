@@ -1,6 +1,6 @@
 //! `WorldService`.
 
-use super::{Api, answer, origin};
+use super::{Api, answer, client, origin};
 use crate::server::tick::shard::{Shard, StepRequest};
 use crate::wire::convert::{count, new_id, obstacle, page, world, world_name};
 use crate::wire::pb::{self, world_service_server::WorldService};
@@ -32,31 +32,29 @@ impl WorldService for Api {
         &self,
         request: Request<pb::CreateWorldRequest>,
     ) -> Result<Response<pb::CreateWorldResponse>, Status> {
-        let from = origin(&request);
+        let owner = client(&request);
         let r = request.into_inner();
         let create = || {
             let id = new_id("world_id", &r.world_id)?;
-            self.worlds.create(id, world::settings(r.world)?, r.paused)
-        };
-        let result = async {
-            let handle = create()?;
-            let info = handle.call(from, |s| Ok(s.info())).await?;
+            let handle = self
+                .worlds
+                .create(id, world::settings(r.world)?, r.paused, owner)?;
             Ok(pb::CreateWorldResponse {
-                world: Some(world::world_out(&info)),
+                world: Some(world::world_out(&handle.info())),
             })
         };
-        answer(result.await)
+        answer(create())
     }
 
     async fn get_world(
         &self,
         request: Request<pb::GetWorldRequest>,
     ) -> Result<Response<pb::GetWorldResponse>, Status> {
-        let name = request.get_ref().name.clone();
         answer(
-            self.on_world(&request, &name, |s| Ok(s.info()))
-                .await
-                .map(|w| pb::GetWorldResponse { world: Some(w) }),
+            self.world("name", &request.get_ref().name)
+                .map(|handle| pb::GetWorldResponse {
+                    world: Some(world::world_out(&handle.info())),
+                }),
         )
     }
 
@@ -64,33 +62,24 @@ impl WorldService for Api {
         &self,
         request: Request<pb::ListWorldsRequest>,
     ) -> Result<Response<pb::ListWorldsResponse>, Status> {
-        let result = async {
-            let r = request.get_ref();
-            let items = self
-                .worlds
-                .list()
-                .into_iter()
-                .map(|w| (w.id.to_string(), w))
-                .collect();
-            let (handles, next_page_token) = page(items, r.page_size, &r.page_token)?;
-            // All are asked at once: each answers at its own next tick.
-            let infos = futures_util::future::join_all(
-                handles
-                    .iter()
-                    .map(|h| h.call(origin(&request), |s: &mut Shard| Ok(s.info()))),
-            )
-            .await;
-            Ok(pb::ListWorldsResponse {
-                // A world that ended meanwhile is left out.
-                worlds: infos
-                    .into_iter()
-                    .flatten()
-                    .map(|i| world::world_out(&i))
-                    .collect(),
-                next_page_token,
-            })
-        };
-        answer(result.await)
+        let r = request.get_ref();
+        let items = self
+            .worlds
+            .list()
+            .into_iter()
+            .map(|w| (w.id.to_string(), w))
+            .collect();
+        answer(
+            page(items, r.page_size, &r.page_token).map(|(handles, next_page_token)| {
+                pb::ListWorldsResponse {
+                    worlds: handles
+                        .iter()
+                        .map(|h| world::world_out(&h.info()))
+                        .collect(),
+                    next_page_token,
+                }
+            }),
+        )
     }
 
     async fn update_world(
@@ -184,12 +173,7 @@ impl WorldService for Api {
                     }),
                 });
             })?;
-            let snapshot = rx.await.unwrap_or_else(|_| {
-                Err(Fault::Aborted {
-                    reason: "WORLD_ENDED",
-                    message: "the world ended before its steps were done".into(),
-                })
-            })?;
+            let snapshot = rx.await.unwrap_or_else(|_| Err(handle.ended()))?;
             Ok(pb::StepWorldResponse {
                 tick: snapshot.tick as i64,
                 time_s: snapshot.time,
@@ -279,13 +263,16 @@ impl WorldService for Api {
         &self,
         request: Request<pb::ListObstaclesRequest>,
     ) -> Result<Response<pb::ListObstaclesResponse>, Status> {
-        let result = async {
-            let handle = self.world("parent", &request.get_ref().parent)?;
-            let list = handle.call(origin(&request), |s| Ok(s.obstacles())).await?;
-            Ok(pb::ListObstaclesResponse {
-                obstacles: list.iter().map(|o| obstacle::out(&handle.id, o)).collect(),
-            })
-        };
-        answer(result.await)
+        answer(
+            self.world("parent", &request.get_ref().parent)
+                .map(|handle| pb::ListObstaclesResponse {
+                    obstacles: handle
+                        .latest()
+                        .obstacles
+                        .iter()
+                        .map(|o| obstacle::out(&handle.id, o))
+                        .collect(),
+                }),
+        )
     }
 }

@@ -1,13 +1,18 @@
 //! Views of one world: for each that someone watches, a task that encodes the latest frame and hands the bytes to all
 //! its viewers.
 
+use crate::server::shares::{Client, check_part};
 use crate::wire::frame::{shared_frame, shared_roster};
 use crate::wire::status::Fault;
 use crate::wire::types::{Snapshot, ViewSpec};
 use prost::bytes::Bytes;
-use std::collections::HashMap;
-use std::sync::{Arc, Mutex, PoisonError, Weak};
+use std::collections::{BTreeMap, HashMap, VecDeque};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use tokio::sync::watch;
+
+/// Bytes of encoded frames that one world keeps for viewers that resume.
+const PAST_BYTES: usize = 4 * 1024 * 1024;
 
 /// A frame of a view, encoded.
 #[derive(Clone, Debug)]
@@ -25,6 +30,9 @@ pub struct Encoded {
 /// A view that is encoded while it has viewers.
 #[derive(Debug)]
 pub struct Channel {
+    /// Who asked for it first.
+    owner: Client,
+    number: u64,
     latest: watch::Sender<Option<Encoded>>,
 }
 
@@ -39,27 +47,114 @@ impl Channel {
 #[derive(Debug)]
 pub struct Hub {
     channels: Mutex<HashMap<ViewSpec, Weak<Channel>>>,
-    most: usize,
+    most: u64,
+    share: f64,
+    next: AtomicU64,
+    past: Mutex<Past>,
+    most_past: usize,
+}
+
+/// What viewers that resume still need. They hold none of it themselves: a viewer that never reads must cost nothing.
+#[derive(Debug, Default)]
+struct Past {
+    /// Viewers that have not caught up yet.
+    viewers: usize,
+    /// Ticks that they may ask for, at most as many as the world's history.
+    snapshots: BTreeMap<u64, Arc<Snapshot>>,
+    /// Frames of them, by channel and tick, and in the order in which they were encoded.
+    frames: HashMap<(u64, u64), Bytes>,
+    order: VecDeque<(u64, u64)>,
+    bytes: usize,
+}
+
+/// A viewer that resumes: keeps what it may need until it has caught up.
+#[derive(Debug)]
+pub struct Resuming {
+    ticks: VecDeque<Weak<Snapshot>>,
+}
+
+impl Resuming {
+    /// The next tick that is still there.
+    pub fn take_next(&mut self) -> Option<Arc<Snapshot>> {
+        std::iter::from_fn(|| self.ticks.pop_front()).find_map(|s| s.upgrade())
+    }
 }
 
 impl Hub {
-    /// No views yet; at most `most` different ones.
-    pub fn new(most: usize) -> Self {
+    /// No views yet; at most `most` different ones, of which one client may have asked for a `share`, and at most
+    /// `most_past` ticks for viewers that resume.
+    pub fn new(most: u64, share: f64, most_past: usize) -> Self {
         Self {
             channels: Mutex::default(),
             most,
+            share,
+            next: AtomicU64::new(0),
+            past: Mutex::default(),
+            most_past,
         }
+    }
+
+    fn past(&self) -> MutexGuard<'_, Past> {
+        // As good as any: at worst some bytes are counted twice until the last viewer has caught up.
+        self.past.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Begins to resume with these ticks. They are kept until all viewers have caught up, but never more than the
+    /// world's history holds: then the oldest go, and are frames that a slow viewer misses.
+    pub fn resume(&self, ticks: impl IntoIterator<Item = Arc<Snapshot>>) -> Resuming {
+        let mut past = self.past();
+        past.viewers += 1;
+        let held = ticks.into_iter().map(|snapshot| {
+            let weak = Arc::downgrade(&snapshot);
+            past.snapshots.insert(snapshot.tick, snapshot);
+            weak
+        });
+        let held = held.collect();
+        while past.snapshots.len() > self.most_past {
+            past.snapshots.pop_first();
+        }
+        Resuming { ticks: held }
+    }
+
+    /// A viewer has caught up, or is gone.
+    pub fn resumed(&self) {
+        let mut past = self.past();
+        past.viewers -= 1;
+        if past.viewers == 0 {
+            *past = Past::default();
+        }
+    }
+
+    /// A past frame of a view, encoded once for all that ask for it soon after each other.
+    pub fn past_frame(&self, channel: &Channel, snapshot: &Snapshot, view: &ViewSpec) -> Bytes {
+        let key = (channel.number, snapshot.tick);
+        if let Some(bytes) = self.past().frames.get(&key) {
+            return bytes.clone();
+        }
+        let bytes = shared_frame(snapshot, view);
+        let mut past = self.past();
+        if past.frames.insert(key, bytes.clone()).is_none() {
+            past.order.push_back(key);
+            past.bytes += bytes.len();
+        }
+        while past.bytes > PAST_BYTES
+            && let Some(oldest) = past.order.pop_front()
+        {
+            past.bytes -= past.frames.remove(&oldest).map_or(0, |b| b.len());
+        }
+        bytes
     }
 
     /// The channel of a view of the world whose frames come from `latest`; its task starts with the first viewer and
     /// ends with the last.
     ///
     /// # Errors
-    /// Too many different views.
+    /// Too many different views, or too many of this client.
     pub fn channel(
         &self,
         view: &ViewSpec,
         latest: &watch::Sender<Arc<Snapshot>>,
+        client: Client,
     ) -> Result<Arc<Channel>, Fault> {
         // A poisoned map is as good as any: entries are whole.
         let mut channels = self.channels.lock().unwrap_or_else(PoisonError::into_inner);
@@ -67,15 +162,20 @@ impl Hub {
             return Ok(channel);
         }
         channels.retain(|_, c| c.strong_count() > 0);
-        if channels.len() >= self.most {
+        if channels.len() as u64 >= self.most {
             return Err(Fault::Exhausted {
                 limit: "max_views_per_world",
-                value: self.most as u64,
+                value: self.most,
                 message: "one more view that differs in figures, fields, encoding or rate".into(),
                 retry: None,
             });
         }
+        let own = channels.values().filter_map(Weak::upgrade);
+        let own = own.filter(|c| c.owner == client).count() as u64;
+        check_part("max_views_per_world", own, self.most, self.share)?;
         let channel = Arc::new(Channel {
+            owner: client,
+            number: self.next.fetch_add(1, Ordering::Relaxed),
             latest: watch::Sender::new(None),
         });
         channels.insert(view.clone(), Arc::downgrade(&channel));

@@ -3,25 +3,34 @@
 //! Frames carry the time at which they were captured. The buffer plays them at that pace, a playout delay behind their
 //! arrival, so that the jitter of the network does not become jitter of the motion. Asked for an instant it answers
 //! with a frame, between two frames, beyond the newest (fading out), with the last posture, or with quiet standing;
-//! each case is counted. Clock of arrival and playout is world time, so that pausing or slowing a world does not starve
-//! its drivers.
+//! each case is counted.
+//!
+//! Which source time is due is a matter of [`Playout`]. A stream whose clock starts again, or that is too far behind,
+//! begins anew.
 
-use crate::sim::body::{NV, Posture};
+pub use super::playout::Now;
+use super::playout::{Due as Pace, Playout};
+use crate::server::engine;
+use crate::sim::body::{Body, NV, Posture};
 use crate::sim::motion::{Target, TargetPair};
 use crate::sim::plan::stream::is_same;
-use crate::wire::types::{Delay, DriveSettings, Supply};
+use crate::wire::types::{DriveSettings, Supply};
+use std::cell::Cell;
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 /// Most frames that are held: over four seconds at 120 Hz.
 pub const CAPACITY: usize = 512;
-/// Arrivals that the jitter is measured over.
-const WINDOW: usize = 256;
-/// Share of time by which an adaptive delay shrinks: one hundredth is not seen.
-const SHRINK: f64 = 0.01;
 /// Time over which a jump of the desired motion is spread, s.
 const BLEND: f64 = 0.3;
 /// Time in which a figure relaxes into quiet standing, s.
 const RELAX: f64 = 2.0;
+/// Frames in a row that are older than what was there, yet in order among themselves, after which the driver's clock is
+/// taken to have started again, and the time over which they come, s.
+const RESTART_FRAMES: u32 = 3;
+const RESTART_TIME: f64 = 0.25;
+/// Source time that passes between two frames while no such time passes here: the driver's clock was set, s.
+const CLOCK_LEAP: f64 = 10.0;
 /// Times closer than this are the same, s.
 const SAME: f64 = 1e-6;
 /// Reach to either side of the slope that stands in for a velocity that was not sent, s.
@@ -40,10 +49,11 @@ pub struct Frame {
     pub posture: Posture,
     /// Desired velocity.
     pub velocity: Option<Box<[f64; NV]>>,
-    /// Planted feet.
-    pub planted: [bool; 2],
-    /// True if the driver said which feet are planted.
-    pub labelled: bool,
+    /// Planted feet, if the driver named them.
+    pub planted: Option<[bool; 2]>,
+    /// Planted feet as they are guessed when the frame comes into use: that takes kinematics, and most frames of a
+    /// driver who sends too many are never used.
+    pub guess: Cell<Option<[bool; 2]>>,
 }
 
 /// Counters of one buffer.
@@ -57,6 +67,58 @@ pub struct Counts {
     pub stale: u64,
     /// Frames dropped for want of room.
     pub overflow: u64,
+    /// Times that the stream began anew.
+    pub resyncs: u64,
+}
+
+/// Why a stream began anew.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Resync {
+    /// Sequence or source time started again.
+    Clock,
+    /// It was too far behind, because its world leaves ticks out.
+    Behind,
+}
+
+impl Resync {
+    /// In words.
+    pub fn reason(self) -> &'static str {
+        match self {
+            Self::Clock => "its sequence or clock started again",
+            Self::Behind => "its world leaves ticks out, it was too far behind",
+        }
+    }
+}
+
+/// New beginnings of a stream.
+#[derive(Debug, Default)]
+struct Anew {
+    /// Frames that may be one.
+    restart: Option<Restart>,
+    /// There was one that a window does not know of yet.
+    broken: bool,
+    /// There was one that nobody was told of yet.
+    notice: Option<Resync>,
+}
+
+/// What a window was handed.
+#[derive(Debug, Default)]
+struct Grid {
+    /// Newest time, playout s.
+    head: Option<f64>,
+    /// The next sample of the grid.
+    next: i64,
+    /// Frames that it holds: playout time, sequence, source time.
+    held: VecDeque<(f64, i64, i64)>,
+}
+
+/// Frames that may be the first of a clock that started again.
+#[derive(Clone, Copy, Debug)]
+struct Restart {
+    sequence: i64,
+    source_ns: i64,
+    since: f64,
+    frames: u32,
 }
 
 /// The buffer.
@@ -65,15 +127,8 @@ pub struct JitterBuffer {
     settings: DriveSettings,
     tick: f64,
     frames: VecDeque<Frame>,
-    /// Source time and world time of the first frame.
-    origin: Option<(i64, f64)>,
-    /// World time minus (first arrival + source time since then) of recent frames.
-    transit: VecDeque<f64>,
-    jitter: f64,
-    /// Present delay of playout behind the ideal clock, s; may be negative when frames come early.
-    delay: Option<f64>,
-    /// Playout time of the last answer, s since the first frame.
-    played: f64,
+    pace: Playout,
+    anew: Anew,
     supply: Supply,
     counts: Counts,
     applied: Option<(i64, i64)>,
@@ -81,13 +136,10 @@ pub struct JitterBuffer {
     last: Target,
     /// Difference to a jump of the desired motion, and when it began to fade (world s).
     blend: Option<(Box<[f64; NV]>, f64)>,
-    /// Where to relax from and since when (playout s).
+    /// Quiet standing.
     stand: Posture,
-    /// Newest time that was handed to a window, playout s, and the next sample of its grid.
-    head: Option<f64>,
-    next: i64,
-    /// Frames that a window holds: playout time, sequence, source time.
-    held: VecDeque<(f64, i64, i64)>,
+    body: Arc<Body>,
+    grid: Grid,
 }
 
 /// What a window is given for one sample of its grid.
@@ -104,46 +156,61 @@ pub enum Due<'a> {
 const SLEW: f64 = 0.1;
 const LEAP: f64 = 0.5;
 
-/// Position on a curve in the tangent space of `base`, as a target: value, first and second derivative.
-fn on_curve(
-    base: &Posture,
-    x: &[f64; NV],
-    v: [f64; NV],
-    a: [f64; NV],
-    planted: [bool; 2],
-) -> Target {
+/// How a frame follows what was there.
+#[derive(Clone, Copy, PartialEq)]
+enum Order {
+    Next,
+    Anew,
+    Stale,
+}
+
+/// The desired motion at one instant.
+struct Answer {
+    /// Everything but the planted feet.
+    target: Target,
+    supply: Supply,
+    /// Frame at or before that instant.
+    frame: usize,
+    /// Frame whose planted feet count; `None`: both are.
+    feet: Option<usize>,
+}
+
+/// Position on a curve in the tangent space of `base`: value, first and second derivative.
+fn on_curve(base: &Posture, x: &[f64; NV], v: [f64; NV], a: [f64; NV]) -> Target {
     let mut posture = *base;
     posture.integrate(x, 1.0);
     Target {
         posture,
         velocity: v,
         acceleration: a,
-        planted,
+        planted: [true; 2],
     }
 }
 
 impl JitterBuffer {
-    /// An empty buffer for ticks of `tick` seconds. `now` is what is asked of the figure at present, `stand` its quiet
-    /// standing posture.
-    pub fn new(settings: DriveSettings, tick: f64, now: Target, stand: Posture) -> Self {
+    /// An empty buffer for ticks of `tick` seconds of a figure with this body. `now` is what is asked of the figure at
+    /// present, `stand` its quiet standing posture.
+    pub fn new(
+        settings: DriveSettings,
+        tick: f64,
+        body: Arc<Body>,
+        now: Target,
+        stand: Posture,
+    ) -> Self {
         Self {
             settings,
             tick,
             frames: VecDeque::new(),
-            origin: None,
-            transit: VecDeque::new(),
-            jitter: 0.0,
-            delay: None,
-            played: f64::NEG_INFINITY,
+            pace: Playout::default(),
+            anew: Anew::default(),
             supply: Supply::None,
             counts: Counts::default(),
             applied: None,
             last: now,
             blend: None,
             stand,
-            head: None,
-            next: 0,
-            held: VecDeque::with_capacity(CAPACITY),
+            body,
+            grid: Grid::default(),
         }
     }
 
@@ -152,11 +219,6 @@ impl JitterBuffer {
         self.frames
             .back()
             .map_or(&self.last.posture, |f| &f.posture)
-    }
-
-    /// Newest frame.
-    pub fn newest(&self) -> Option<&Frame> {
-        self.frames.back()
     }
 
     /// Counters.
@@ -174,23 +236,35 @@ impl JitterBuffer {
         self.applied
     }
 
-    /// p99 of the arrival jitter, s.
+    /// p99 of the arrival jitter up to the last tick, s.
     pub fn jitter(&self) -> f64 {
-        self.jitter
+        self.pace.jitter()
     }
 
     /// Delay between arrival and use, s.
     pub fn delay(&self) -> f64 {
-        match self.settings.delay {
-            Delay::Fixed(d) => d,
-            Delay::Adaptive { .. } => self.delay.unwrap_or(0.0) - self.fastest(),
-        }
+        self.pace.delay(&self.settings)
+    }
+
+    /// How far the stream is behind because its world leaves ticks out, s; contained in the delay.
+    pub fn behind(&self) -> f64 {
+        self.pace.behind()
+    }
+
+    /// Why the stream began anew since the last call, if it did.
+    pub fn take_notice(&mut self) -> Option<Resync> {
+        self.anew.notice.take()
+    }
+
+    /// True if the stream began anew since the last call: a window holds what came before.
+    pub fn take_break(&mut self) -> bool {
+        std::mem::take(&mut self.anew.broken)
     }
 
     /// Motion that is held but not used yet, s.
     pub fn buffered(&self) -> f64 {
-        match (self.frames.back(), self.played.is_finite()) {
-            (Some(f), true) => (self.seconds(f) - self.played).max(0.0),
+        match (self.frames.back(), self.pace.played.is_finite()) {
+            (Some(f), true) => (self.seconds(f) - self.pace.played).max(0.0),
             (Some(f), false) => {
                 self.seconds(f) - self.frames.front().map_or(0.0, |f| self.seconds(f))
             }
@@ -199,82 +273,109 @@ impl JitterBuffer {
     }
 
     fn seconds(&self, f: &Frame) -> f64 {
-        let (source0, _) = self.origin.unwrap_or((f.source_ns, 0.0));
-        // Differences of hostile times must not overflow.
-        (i128::from(f.source_ns) - i128::from(source0)) as f64 * 1e-9
+        self.pace.seconds(f.source_ns)
     }
 
-    fn fastest(&self) -> f64 {
-        self.transit
-            .iter()
-            .copied()
-            .fold(f64::INFINITY, f64::min)
-            .min(1e12)
-    }
-
-    /// Takes a frame that arrived at world time `now`. Frames whose sequence or source time does not grow are dropped
-    /// and counted.
-    pub fn push(&mut self, frame: Frame, now: f64) {
-        let newer = self
-            .frames
-            .back()
-            .is_none_or(|last| frame.sequence > last.sequence && frame.source_ns > last.source_ns);
-        if !newer {
-            self.counts.stale += 1;
-            return;
+    /// Takes a frame that arrived at scheduled time `now`. Frames whose sequence or source time does not grow are
+    /// dropped and counted, until it is clear that the driver's clock has started again. True if this frame is the
+    /// first of a new beginning.
+    pub fn push(&mut self, frame: Frame, now: f64) -> bool {
+        let order = self.order(&frame, now);
+        match order {
+            Order::Next => {}
+            Order::Anew => self.resync(Resync::Clock),
+            Order::Stale => {
+                self.counts.stale += 1;
+                return false;
+            }
         }
+        self.anew.restart = None;
         if self.frames.len() == CAPACITY {
             // Fed faster than it is played: what is oldest of the unplayed matters least for where the motion is going.
             self.frames.pop_front();
             self.counts.overflow += 1;
         }
-        let (_, world0) = *self.origin.get_or_insert((frame.source_ns, now));
-        let at = self.seconds(&frame);
-        if self.transit.len() == WINDOW {
-            self.transit.pop_front();
-        }
-        self.transit.push_back(now - world0 - at);
-        self.measure();
-        if at < self.played {
+        let at = self.pace.arrive(frame.source_ns, now);
+        if at < self.pace.played {
             self.counts.late += 1;
         }
         self.frames.push_back(frame);
+        order == Order::Anew
     }
 
-    fn measure(&mut self) {
-        let base = self.fastest();
-        let mut late: Vec<f64> = self.transit.iter().map(|t| t - base).collect();
-        let rank = (late.len() - 1) * 99 / 100;
-        let (_, p99, _) = late.select_nth_unstable_by(rank, f64::total_cmp);
-        self.jitter = *p99;
-    }
-
-    /// Playout time at world time `t`, s since the first frame; moves the adaptive delay on.
-    fn playout(&mut self, t: f64) -> Option<f64> {
-        let (_, world0) = self.origin?;
-        let delay = match self.settings.delay {
-            Delay::Fixed(d) => d,
-            Delay::Adaptive { most } => {
-                let base = self.fastest();
-                let frame = 1.0 / self.settings.rate_hz;
-                // Interpolation needs the next frame to be there as well.
-                let wanted = base + (self.jitter + frame + self.tick).min(most);
-                match self.delay {
-                    None => wanted,
-                    Some(d) if wanted > d => wanted,
-                    Some(d) if d - wanted > most => wanted, // the clocks jumped
-                    Some(d) => (d - SHRINK * self.tick).max(wanted),
-                }
-            }
+    fn order(&mut self, frame: &Frame, now: f64) -> Order {
+        let Some(last) = self.frames.back() else {
+            return Order::Next;
         };
-        self.delay = Some(delay);
-        let p = t - world0 - delay;
-        // Time may stand still while a delay grows, but does not run backwards.
-        Some(if self.played.is_finite() {
-            p.max(self.played)
+        if frame.sequence > last.sequence && frame.source_ns > last.source_ns {
+            let passed = (i128::from(frame.source_ns) - i128::from(last.source_ns)) as f64 * 1e-9;
+            let set = passed > CLOCK_LEAP && passed > 2.0 * self.pace.since_arrival(now);
+            return if set { Order::Anew } else { Order::Next };
+        }
+        if self.restarts(frame, now) {
+            Order::Anew
         } else {
-            p
-        })
+            Order::Stale
+        }
+    }
+
+    /// True if a frame that is older than what was there shows that the driver's clock has started again.
+    fn restarts(&mut self, frame: &Frame, now: f64) -> bool {
+        let (sequence, source_ns) = (frame.sequence, frame.source_ns);
+        let (since, frames) = match self.anew.restart {
+            Some(r) if sequence > r.sequence && source_ns > r.source_ns => (r.since, r.frames + 1),
+            _ => (now, 1),
+        };
+        self.anew.restart = Some(Restart {
+            sequence,
+            source_ns,
+            since,
+            frames,
+        });
+        frames >= RESTART_FRAMES && now - since >= RESTART_TIME
+    }
+
+    /// Begins anew: what comes next is the first frame again, and the figure waits for it in the posture it has.
+    fn resync(&mut self, why: Resync) {
+        self.frames.clear();
+        self.pace = Playout::default();
+        self.grid = Grid::default();
+        self.counts.resyncs += 1;
+        self.anew = Anew {
+            restart: None,
+            broken: true,
+            notice: Some(why),
+        };
+    }
+
+    /// Feet that a frame plants: as the driver says, or guessed from the frame before.
+    fn planted(&self, i: usize) -> [bool; 2] {
+        let frame = &self.frames[i];
+        if let Some(known) = frame.planted.or(frame.guess.get()) {
+            return known;
+        }
+        let (before, dt) = match i.checked_sub(1).map(|b| &self.frames[b]) {
+            Some(b) => (
+                &b.posture,
+                (frame.source_ns as f64 - b.source_ns as f64) * 1e-9,
+            ),
+            None => (&frame.posture, 1.0),
+        };
+        let guess = engine::planted_between(&self.body, before, &frame.posture, dt);
+        frame.guess.set(Some(guess));
+        guess
+    }
+
+    /// Playout time in the tick that begins `now`, s since the first frame.
+    fn playout(&mut self, now: Now) -> Option<f64> {
+        match self.pace.advance(now, self.tick, &self.settings) {
+            Pace::At(p) => Some(p),
+            Pace::Nothing => None,
+            Pace::TooFarBehind => {
+                self.resync(Resync::Behind);
+                None
+            }
+        }
     }
 
     fn velocity(&self, i: usize) -> [f64; NV] {
@@ -315,12 +416,23 @@ impl JitterBuffer {
     }
 
     /// The desired motion at playout time `p`.
-    fn at(&self, p: f64) -> (Target, Supply, usize) {
+    fn at(&self, p: f64) -> Answer {
         let after = self.frames.partition_point(|f| self.seconds(f) <= p + SAME);
         if after == 0 {
-            return (Target::still(self.last.posture), Supply::Waiting, 0);
+            return Answer {
+                target: Target::still(self.last.posture),
+                supply: Supply::Waiting,
+                frame: 0,
+                feet: None,
+            };
         }
         let i = after - 1;
+        let answer = |target, supply, feet| Answer {
+            target,
+            supply,
+            frame: i,
+            feet,
+        };
         let from = &self.frames[i];
         let since = (p - self.seconds(from)).max(0.0);
         let v0 = self.velocity(i);
@@ -348,21 +460,21 @@ impl JitterBuffer {
                     (v1[k] - v0[k]) / h
                 };
             }
-            let planted = if u < 0.5 { from.planted } else { to.planted };
+            let feet = if u < 0.5 { i } else { i + 1 };
             let supply = if since <= SAME {
                 Supply::Present
             } else {
                 Supply::Interpolated
             };
-            return (on_curve(&from.posture, &x, v, a, planted), supply, i);
+            return answer(on_curve(&from.posture, &x, v, a), supply, Some(feet));
         }
         let limit = self.settings.extrapolation;
         if since <= SAME {
             let still = [0.0; NV];
-            return (
-                on_curve(&from.posture, &still, v0, still, from.planted),
+            return answer(
+                on_curve(&from.posture, &still, v0, still),
                 Supply::Present,
-                i,
+                Some(i),
             );
         }
         // The last velocity fades out linearly over the limit.
@@ -375,16 +487,16 @@ impl JitterBuffer {
         if since < limit {
             let v = v0.map(|v| v * (1.0 - u / limit));
             let a = v0.map(|v| -v / limit);
-            return (
-                on_curve(&from.posture, &x, v, a, from.planted),
+            return answer(
+                on_curve(&from.posture, &x, v, a),
                 Supply::Extrapolated,
-                i,
+                Some(i),
             );
         }
-        let held = on_curve(&from.posture, &x, [0.0; NV], [0.0; NV], from.planted);
+        let held = on_curve(&from.posture, &x, [0.0; NV], [0.0; NV]);
         let over = since - limit - self.settings.hold;
         if over <= 0.0 {
-            return (held, Supply::Held, i);
+            return answer(held, Supply::Held, Some(i));
         }
         let d = held.posture.difference(&self.standing(&held.posture));
         let u = (over / RELAX).min(1.0);
@@ -394,17 +506,27 @@ impl JitterBuffer {
             6.0 * u * (1.0 - u) * moving,
             (6.0 - 12.0 * u) * moving * moving,
         );
-        (
+        answer(
             on_curve(
                 &held.posture,
                 &d.map(|d| d * s),
                 d.map(|d| d * s1),
                 d.map(|d| d * s2),
-                [true; 2],
             ),
             Supply::Relaxed,
-            i,
+            None,
         )
+    }
+
+    /// As [`JitterBuffer::at`], with planted feet; and the frame at or before that instant.
+    fn target(&self, p: f64) -> (Target, Supply, usize) {
+        let answer = self.at(p);
+        let planted = answer.feet.map_or([true; 2], |i| self.planted(i));
+        let target = Target {
+            planted,
+            ..answer.target
+        };
+        (target, answer.supply, answer.frame)
     }
 
     /// Quiet standing where the held posture has its pelvis.
@@ -418,24 +540,27 @@ impl JitterBuffer {
         p
     }
 
-    /// The desired motion over the tick from world time `t`. `None` while nothing was pushed or the first frame is
-    /// still to come: what was asked of the figure before then goes on.
-    pub fn sample(&mut self, t: f64) -> Option<TargetPair> {
-        let p = self.playout(t)?;
-        let (mut now, supply, i) = self.at(p);
+    /// The desired motion over the tick that begins `at`. `None` while nothing was pushed or the first frame is still
+    /// to come: what was asked of the figure before then goes on.
+    pub fn sample(&mut self, at: Now) -> Option<TargetPair> {
+        let Some(p) = self.playout(at) else {
+            return self.wait();
+        };
+        let t = at.time;
+        let (mut now, supply, i) = self.target(p);
         self.supply = supply;
         let began = self.applied.is_none();
         match supply {
-            Supply::Waiting | Supply::None => return None,
+            Supply::Waiting | Supply::None => return self.wait(),
             Supply::Present => self.counts.ticks[0] += 1,
             Supply::Interpolated => self.counts.ticks[1] += 1,
             Supply::Extrapolated => self.counts.ticks[2] += 1,
             Supply::Held => self.counts.ticks[3] += 1,
             Supply::Relaxed => self.counts.ticks[4] += 1,
         }
-        self.played = p;
+        self.pace.played = p;
         self.applied = Some((self.frames[i].sequence, self.frames[i].source_ns));
-        let (mut next, _, _) = self.at(p + self.tick);
+        let (mut next, _, _) = self.target(p + self.tick);
         // A jump, at the start or after a gap, is spread over time.
         if !(began && self.settings.reset) {
             let jump = Box::new(now.posture.difference(&self.last.posture));
@@ -474,26 +599,39 @@ impl JitterBuffer {
         Some(TargetPair { now, next })
     }
 
+    /// What is asked of the figure before the first frame: nothing, or of a stream that begins anew the last posture.
+    fn wait(&mut self) -> Option<TargetPair> {
+        self.applied?;
+        self.supply = Supply::Held;
+        self.counts.ticks[3] += 1;
+        let still = Target::still(self.last.posture);
+        self.last = still.clone();
+        Some(TargetPair {
+            now: still.clone(),
+            next: still,
+        })
+    }
+
     /// True if there is motion that was not handed to a window yet: a driver that repeats what it sent before does not
     /// move.
     pub fn has_news(&self) -> bool {
-        let (Some(newest), Some(head)) = (self.frames.back(), self.head) else {
+        let (Some(newest), Some(head)) = (self.frames.back(), self.grid.head) else {
             return false;
         };
-        self.seconds(newest) > head && !is_same(&self.at(head).0.posture, &newest.posture)
+        self.seconds(newest) > head && !is_same(&self.at(head).target.posture, &newest.posture)
     }
 
     /// Hands the samples of a grid of `rate` per second to a window that lies `window` seconds behind them, as far as
-    /// they are due in the tick from world time `t`. Returns the playout time of the newest sample that is due at `t`,
-    /// s, and how many samples of the grid are over; `None` while there is no motion.
+    /// they are due in the tick that begins `now`. Returns the playout time of the newest sample that is due then, s,
+    /// and how many samples of the grid are over; `None` while there is no motion.
     pub fn feed(
         &mut self,
-        t: f64,
+        now: Now,
         (rate, window): (f64, f64),
         mut give: impl FnMut(Due<'_>),
     ) -> Option<(f64, i64)> {
-        let p = self.playout(t)?;
-        let p = match self.head {
+        let p = self.playout(now)?;
+        let p = match self.grid.head {
             Some(head) if (p - head).abs() < LEAP => p.clamp(
                 head + (1.0 - SLEW) * self.tick,
                 head + (1.0 + SLEW) * self.tick,
@@ -504,8 +642,8 @@ impl JitterBuffer {
             self.supply = Supply::Waiting;
             return None;
         }
-        self.head = Some(p);
-        self.supply = self.at(p.max(0.0)).1;
+        self.grid.head = Some(p);
+        self.supply = self.at(p.max(0.0)).supply;
         let k = match self.supply {
             Supply::Present => 0,
             Supply::Interpolated => 1,
@@ -517,23 +655,22 @@ impl JitterBuffer {
         self.counts.ticks[k] += 1;
         let last = ((p + self.tick) * rate + SAME).floor() as i64;
         // Time that leaps, or a silence, is not made up for sample by sample.
-        let first = self.next.max(last.saturating_sub(CAPACITY as i64));
+        let first = self.grid.next.max(last.saturating_sub(CAPACITY as i64));
         for g in first..=last {
-            let (target, supply, i) = self.at(g as f64 / rate);
-            match supply {
+            let answer = self.at(g as f64 / rate);
+            match answer.supply {
                 Supply::Present | Supply::Interpolated | Supply::Extrapolated => {
-                    let frame = &self.frames[i];
-                    give(Due::Sample(
-                        &target.posture,
-                        frame.labelled.then_some(target.planted),
-                    ));
-                    let known = self.held.back().is_none_or(|h| h.1 < frame.sequence);
+                    let frame = &self.frames[answer.frame];
+                    // A window finds out for itself what the driver does not say.
+                    let planted = frame.planted.and(answer.feet).map(|i| self.planted(i));
+                    give(Due::Sample(&answer.target.posture, planted));
+                    let known = self.grid.held.back().is_none_or(|h| h.1 < frame.sequence);
                     if known {
-                        if self.held.len() == CAPACITY {
-                            self.held.pop_front();
+                        if self.grid.held.len() == CAPACITY {
+                            self.grid.held.pop_front();
                         }
                         let entry = (self.seconds(frame), frame.sequence, frame.source_ns);
-                        self.held.push_back(entry);
+                        self.grid.held.push_back(entry);
                     }
                 }
                 _ => {
@@ -542,19 +679,19 @@ impl JitterBuffer {
                 }
             }
         }
-        self.next = last + 1;
-        self.played = p;
+        self.grid.next = last + 1;
+        self.pace.played = p;
         // What acts now has come a window ago.
-        while let Some(&(at, sequence, source)) = self.held.front()
+        while let Some(&(at, sequence, source)) = self.grid.held.front()
             && at <= p - window + SAME
         {
             self.applied = Some((sequence, source));
-            self.held.pop_front();
+            self.grid.held.pop_front();
         }
         while self.frames.len() > 2 && self.seconds(&self.frames[1]) < p - 2.0 * SLOPE {
             self.frames.pop_front();
         }
-        Some((p, self.next))
+        Some((p, self.grid.next))
     }
 
     /// True once, when the figure is to be put into its first desired posture.

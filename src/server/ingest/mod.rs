@@ -2,3 +2,5 @@
 
 pub mod admission;
 pub mod jitter_buffer;
+pub mod mailbox;
+pub mod playout;

@@ -15,6 +15,8 @@ pub struct Clock {
     pub skipped: u64,
     /// Ticks that were not done by the next deadline.
     pub overruns: u64,
+    /// Time that was left out or that passed while the clock was held up, in ticks.
+    lost: f64,
 }
 
 impl Clock {
@@ -28,15 +30,17 @@ impl Clock {
             caught_up: 0,
             skipped: 0,
             overruns: 0,
+            lost: 0.0,
         }
     }
 
     /// The same counts with another pace; the next tick is due one period from `now`.
     pub fn restart(&mut self, rate_hz: f64, speed: f64, policy: Overrun, now: Instant) {
-        let (skipped, overruns) = (self.skipped, self.overruns);
+        let (skipped, overruns, lost) = (self.skipped, self.overruns, self.lost);
         *self = Self {
             skipped,
             overruns,
+            lost,
             ..Self::new(rate_hz, speed, policy, now)
         };
     }
@@ -46,9 +50,39 @@ impl Clock {
         self.period
     }
 
+    /// Ticks by which world time is behind a clock that never left one out.
+    pub fn lost(&self) -> f64 {
+        self.lost
+    }
+
+    /// Ticks from the next deadline to `instant`; negative before it.
+    pub fn since_deadline(&self, instant: Instant) -> f64 {
+        let ahead = self.deadline.saturating_duration_since(instant);
+        let past = instant.saturating_duration_since(self.deadline);
+        (past.as_secs_f64() - ahead.as_secs_f64()) / self.period.as_secs_f64()
+    }
+
     /// When the next tick is due.
     pub fn deadline(&self) -> Instant {
         self.deadline
+    }
+
+    /// Lets the next tick begin no sooner than `instant`; what that leaves out is lost as in a long tick.
+    pub fn rest(&mut self, instant: Instant) {
+        if self.deadline >= instant {
+            return;
+        }
+        let held = (instant - self.deadline).as_secs_f64() / self.period.as_secs_f64();
+        if self.policy == Overrun::Dilate {
+            self.deadline = instant;
+            self.lost += held;
+        } else {
+            let slots = held.ceil() as u32;
+            self.skipped += u64::from(slots);
+            self.lost += f64::from(slots);
+            self.deadline += self.period * slots;
+            self.caught_up = 0;
+        }
     }
 
     /// Moves to the next deadline after a tick that ended at `now`.
@@ -61,7 +95,10 @@ impl Clock {
         }
         self.overruns += 1;
         match self.policy {
-            Overrun::Dilate => self.deadline = now,
+            Overrun::Dilate => {
+                self.deadline = now + self.period;
+                self.lost += (self.deadline - next).as_secs_f64() / self.period.as_secs_f64();
+            }
             Overrun::CatchUp(most) if self.caught_up < most => {
                 self.caught_up += 1;
                 self.deadline = next;
@@ -71,6 +108,7 @@ impl Clock {
                 // The slot that has begun is left out as well: its deadline has passed.
                 let slots = u32::try_from(missed + 1).unwrap_or(u32::MAX);
                 self.skipped += u64::from(slots);
+                self.lost += f64::from(slots);
                 self.deadline = next + self.period * slots;
                 self.caught_up = 0;
             }
@@ -100,6 +138,23 @@ mod tests {
     }
 
     #[test]
+    fn a_clock_that_has_to_rest_leaves_deadlines_out() {
+        let start = Instant::now();
+        for (policy, deadline, skipped, lost) in [
+            (Overrun::Skip, 40, 3, 3.0),
+            (Overrun::CatchUp(5), 40, 3, 3.0),
+            (Overrun::Dilate, 34, 0, 2.4),
+        ] {
+            let mut c = clock(policy, start);
+            c.rest(start + MS * 5); // before the deadline anyway
+            assert_eq!(c.deadline(), start + MS * 10);
+            c.rest(start + MS * 34);
+            assert_eq!((c.deadline(), c.skipped), (start + MS * deadline, skipped));
+            assert!((c.lost() - lost).abs() < 1e-9);
+        }
+    }
+
+    #[test]
     fn policies_on_a_tick_of_34_ms() {
         let start = Instant::now();
         let late = start + MS * 10 + MS * 34;
@@ -108,7 +163,7 @@ mod tests {
         assert_eq!((skip.deadline(), skip.skipped), (start + MS * 50, 3));
         let mut dilate = clock(Overrun::Dilate, start);
         dilate.advance(late);
-        assert_eq!((dilate.deadline(), dilate.skipped), (late, 0));
+        assert_eq!((dilate.deadline(), dilate.skipped), (late + MS * 10, 0));
         let mut catch_up = clock(Overrun::CatchUp(2), start);
         catch_up.advance(late); // tick of deadline 20 is done at once
         assert_eq!(catch_up.deadline(), start + MS * 20);
@@ -122,5 +177,10 @@ mod tests {
             (catch_up.deadline(), catch_up.skipped),
             (start + MS * 50, 1)
         );
+        for (clock, lost) in [(&skip, 3.0), (&dilate, 3.4), (&catch_up, 1.0)] {
+            assert!((clock.lost() - lost).abs() < 1e-9, "{clock:?}");
+        }
+        assert!((skip.since_deadline(start + MS * 55) - 0.5).abs() < 1e-9);
+        assert!((skip.since_deadline(start + MS * 35) + 1.5).abs() < 1e-9);
     }
 }

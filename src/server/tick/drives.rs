@@ -1,14 +1,15 @@
 //! Who drives which figure live: at most one driver per figure, kept for a grace time when the driver is gone.
 
 use crate::server::engine::{self, Figure, FigureKey, LivePlayback};
-use crate::server::ingest::admission::Admission;
-use crate::server::ingest::jitter_buffer::{Due, Frame, JitterBuffer};
+use crate::server::ingest::jitter_buffer::{Due, Frame, JitterBuffer, Now};
+use crate::server::ingest::mailbox::Mailbox;
 use crate::sim::body::State;
 use crate::sim::motion::TargetPair;
 use crate::sim::plan::StreamPlan;
 use crate::sim::plan::stream::RATE;
 use crate::wire::status::Fault;
 use crate::wire::types::{DriveSettings, Feedback, FigureFeedback, MotionSample, Supply};
+use std::cell::Cell;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -24,7 +25,7 @@ pub struct Slot {
     pub key: Option<FigureKey>,
     /// Its desired motion.
     pub buffer: JitterBuffer,
-    /// Its body, to tell planted feet.
+    /// Its body, for a new window.
     pub body: Arc<crate::sim::body::Body>,
     /// The window that prepares its motion, if there is one.
     pub window: Option<Window>,
@@ -69,11 +70,8 @@ pub struct Drive {
     pub slots: Vec<Slot>,
     /// When the figures are given up; `None` while a stream is open.
     pub expires: Option<Instant>,
-    /// Largest sequence taken.
-    pub received: i64,
-    /// Batches refused.
-    pub refused: u64,
-    admission: Admission,
+    /// Where its motion waits for the next tick.
+    pub mailbox: Arc<Mailbox>,
 }
 
 impl Drive {
@@ -85,15 +83,15 @@ impl Drive {
         slots: Vec<Slot>,
         now: Instant,
     ) -> Self {
+        let figures = slots.iter().map(|s| s.figure.clone()).collect();
+        let mailbox = Mailbox::new(driver.clone(), figures, connection, now);
         let mut drive = Self {
             driver,
             connection,
             settings,
             slots,
             expires: None,
-            received: -1,
-            refused: 0,
-            admission: Admission::new(now),
+            mailbox: Arc::new(mailbox),
         };
         drive.touch(connection, now);
         drive
@@ -103,6 +101,7 @@ impl Drive {
     pub fn touch(&mut self, connection: Option<u64>, now: Instant) {
         if connection.is_some() || self.connection.is_none() {
             self.connection = connection;
+            self.mailbox.hand_to(connection);
         }
         self.expires = self
             .connection
@@ -113,6 +112,7 @@ impl Drive {
     /// Notes that the stream was lost: the figures are kept for the grace time.
     pub fn lost(&mut self, now: Instant) {
         self.connection = None;
+        self.mailbox.hand_to(None);
         self.expires = Some(now + Duration::from_secs_f64(self.settings.grace));
     }
 
@@ -143,14 +143,24 @@ impl Drive {
         }
     }
 
-    /// Takes a batch at world time `time`; false if it came too fast and was dropped.
-    pub fn take(&mut self, batch: Vec<MotionSample>, time: f64, now: Instant) -> bool {
-        if !self.admission.admit(now) {
-            self.refused += 1;
-            return false;
+    /// Takes what came since the last tick, in order of sequence: calls that meet in one tick overtake each other on
+    /// their way. `scheduled` tells the scheduled time of an arrival.
+    pub fn collect(&mut self, scheduled: impl Fn(Instant) -> f64, now: Instant) {
+        let taken = self.mailbox.take();
+        if taken.pushed {
+            self.touch(None, now);
         }
-        for sample in batch {
-            self.received = self.received.max(sample.sequence);
+        let mut samples: Vec<(f64, MotionSample)> = taken
+            .deliveries
+            .into_iter()
+            .flat_map(|d| {
+                let at = scheduled(d.arrival);
+                d.samples.into_iter().map(move |s| (at, s))
+            })
+            .collect();
+        samples.sort_by_key(|(_, s)| s.sequence);
+        let mut anew = None;
+        for (at, sample) in samples {
             for f in sample.figures {
                 let slot = &mut self.slots[f.slot];
                 let mut posture = f.posture;
@@ -159,39 +169,36 @@ impl Drive {
                     posture.root_position = newest.root_position;
                     posture.root_rotation = newest.root_rotation;
                 }
-                let planted = f.planted.unwrap_or_else(|| match slot.buffer.newest() {
-                    Some(last) => {
-                        let dt = (sample.source_ns as f64 - last.source_ns as f64) * 1e-9;
-                        engine::planted_between(&slot.body, &last.posture, &posture, dt)
-                    }
-                    None => engine::planted_between(&slot.body, &posture, &posture, 1.0),
-                });
-                slot.buffer.push(
-                    Frame {
-                        sequence: sample.sequence,
-                        source_ns: sample.source_ns,
-                        posture,
-                        velocity: f.velocity,
-                        planted,
-                        labelled: f.planted.is_some(),
-                    },
-                    time,
-                );
+                let frame = Frame {
+                    sequence: sample.sequence,
+                    source_ns: sample.source_ns,
+                    posture,
+                    velocity: f.velocity,
+                    planted: f.planted,
+                    guess: Cell::default(),
+                };
+                if slot.buffer.push(frame, at) || anew.is_some() {
+                    anew = Some(sample.sequence);
+                }
             }
         }
-        true
+        if let Some(sequence) = anew {
+            self.mailbox.begin_anew(sequence);
+        }
     }
 
     /// What the driver is told.
     pub fn feedback(&self, tick: u64) -> Feedback {
+        let (received, refused) = self.mailbox.counts();
         Feedback {
             driver: self.driver.clone(),
             tick,
-            received_sequence: self.received,
-            refused: self.refused,
+            received_sequence: received,
+            refused,
             figures: self
                 .slots
                 .iter()
+                .filter(|s| s.key.is_some())
                 .map(|s| {
                     let counts = s.buffer.counts();
                     let applied = s.buffer.applied();
@@ -207,6 +214,8 @@ impl Drive {
                         late: counts.late,
                         stale: counts.stale,
                         overflow: counts.overflow,
+                        resyncs: counts.resyncs,
+                        behind: s.buffer.behind(),
                         window: s.window.as_ref().map_or(0.0, |w| w.length),
                     }
                 })
@@ -228,15 +237,29 @@ impl Window {
 }
 
 impl Slot {
-    /// Feeds the window with what is due in the tick from world time `time`; once there is enough of it, the figure
+    /// Feeds the window with what is due in the tick that begins `now`; once there is enough of it, the figure
     /// follows. Returns the state that the figure is to be put into, if its driver asked for that.
-    pub fn feed(&mut self, time: f64, figure: &mut Figure, reset: bool) -> Option<State> {
+    pub fn feed(&mut self, now: Now, figure: &mut Figure, reset: bool) -> Option<State> {
         let window = self.window.as_mut()?;
         let length = window.length;
+        let time = now.time;
+        if self.buffer.take_break() {
+            // What the window holds has no continuation.
+            if window.waiting.is_none() {
+                figure.stop(time);
+            } else {
+                let begun = window.begun;
+                *window = Window::new(&self.body, length);
+                if begun {
+                    window.lead_in(&figure.target().next.posture);
+                }
+            }
+            return None;
+        }
         if window.waiting.is_none() && figure.stream_mut().is_none() {
             // It stopped in a silence: a stream that comes again begins from where the figure is.
             if !self.buffer.has_news() {
-                self.buffer.feed(time, (RATE, length), |_| ());
+                self.buffer.feed(now, (RATE, length), |_| ());
                 return None;
             }
             *window = Window::new(&self.body, length);
@@ -249,7 +272,7 @@ impl Slot {
         };
         let motion = &mut live.motion;
         let mut silent = false;
-        let (head, next) = self.buffer.feed(time, (RATE, length), |due| match due {
+        let (head, next) = self.buffer.feed(now, (RATE, length), |due| match due {
             Due::Sample(posture, planted) => motion.push(posture, planted),
             Due::Silence => silent = true,
         })?;
@@ -269,9 +292,9 @@ impl Slot {
         (reset && !window.begun).then_some(first.state())
     }
 
-    /// The desired motion over the tick from world time `time`, and whether the figure is to be put into it at once.
-    pub fn sample(&mut self, time: f64) -> Option<(TargetPair, bool)> {
-        let pair = self.buffer.sample(time)?;
+    /// The desired motion over the tick that begins `now`, and whether the figure is to be put into it at once.
+    pub fn sample(&mut self, now: Now) -> Option<(TargetPair, bool)> {
+        let pair = self.buffer.sample(now)?;
         Some((pair, self.buffer.resets_now()))
     }
 

@@ -4,35 +4,45 @@
 //! frame, account for time. The thread never waits for a client, for a lock held elsewhere, or for the disk. Commands
 //! come through a bounded queue, frames leave through latest-wins cells.
 
+pub mod budget;
 pub mod clock;
 pub mod command;
 pub mod drives;
+pub mod history;
 pub mod planners;
 pub mod shard;
 pub mod stage_times;
 
 use crate::wire::status::Fault;
-use crate::wire::types::{EventKind, Snapshot, WorldEvent};
-use command::Command;
+use crate::wire::types::{Described, EventKind, Snapshot, WorldEvent};
+use command::Inbox;
+use history::History;
 use shard::Shard;
 use stage_times::StageTimes;
+use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::mpsc::{Receiver, RecvTimeoutError};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 use tokio::sync::{broadcast, watch};
 
 /// Longest wait before commands of a slow or paused world are looked at.
 const PATIENCE: Duration = Duration::from_millis(50);
-/// Most commands of one round, so that a flood cannot keep the clock from running.
-const ROUND: usize = 4096;
+/// Share of the period that commands may take in one tick, so that a flood cannot keep the clock from running. What
+/// does not fit waits for the next tick.
+const COMMAND_SHARE: f64 = 0.25;
+/// Least time for the commands of one tick: fast clocks must not take all day over a few of them.
+const COMMAND_LEAST: Duration = Duration::from_micros(200);
 
 /// What leaves a world's thread.
 #[derive(Debug)]
 pub struct Outlet {
     /// Latest frame.
     pub latest: watch::Sender<Arc<Snapshot>>,
+    /// Frames of the last ticks. Whoever looks into it copies pointers, so the world's thread does not wait for long.
+    pub history: Mutex<History>,
+    /// World and figures, as they were when something of them changed last.
+    pub described: watch::Sender<Arc<Described>>,
     /// Events of each tick that has some.
     pub events: broadcast::Sender<Arc<Vec<WorldEvent>>>,
     /// Times of recent ticks.
@@ -46,8 +56,8 @@ pub struct Outlet {
 }
 
 /// Runs one world until it is closed or all its handles are gone.
-pub fn run(mut shard: Shard, commands: &Receiver<Command>, outlet: &Outlet) {
-    let mut batch: Vec<Command> = Vec::new();
+pub fn run(mut shard: Shard, mut inbox: Inbox, outlet: &Outlet) {
+    let mut meter = shard.meter();
     loop {
         // Wait: for the deadline, for a command if the clock stands still, not at all if someone waits for steps.
         let stopped = shard.paused || shard.failed.is_some();
@@ -60,22 +70,38 @@ pub fn run(mut shard: Shard, commands: &Receiver<Command>, outlet: &Outlet) {
                 .saturating_duration_since(Instant::now())
                 .min(PATIENCE),
         };
-        if !gather(commands, &mut batch, wait, stopped) {
+        if !inbox.wait(wait, stopped) {
             break;
         }
         let start = Instant::now();
         let late = start.saturating_duration_since(shard.clock.deadline());
 
-        // Commands, in (client, sequence) order.
-        command::order(&mut batch);
-        for c in batch.drain(..) {
+        // Motion that drivers have left, then commands in (client, sequence) order.
+        guarded(&mut shard, "taking motion", Shard::collect_motion);
+        let allowance = if stopped {
+            PATIENCE
+        } else {
+            shard
+                .clock
+                .period()
+                .mul_f64(COMMAND_SHARE)
+                .max(COMMAND_LEAST)
+        };
+        while let Some(c) = inbox.take() {
             guarded(&mut shard, "a command", |s| (c.action)(s));
+            shard.touch();
+            if start.elapsed() >= allowance {
+                break;
+            }
         }
-        shard.expire_drives(start);
-        if shard.closing {
+        metrics::counter!("sinew_commands_deferred_total").increment(inbox.left() as u64);
+        guarded(&mut shard, "drives and plans", |s| {
+            s.expire_drives(start);
+            s.offer_plans();
+        });
+        if shard.closing.is_some() {
             break;
         }
-        shard.offer_plans();
         let commands_done = Instant::now();
 
         // Is a tick due?
@@ -90,6 +116,7 @@ pub fn run(mut shard: Shard, commands: &Receiver<Command>, outlet: &Outlet) {
             if shard.changed {
                 publish(&mut shard, outlet);
             }
+            describe(&mut shard, outlet);
             publish_events(&mut shard, outlet);
             shard.send_replies();
             continue;
@@ -101,13 +128,21 @@ pub fn run(mut shard: Shard, commands: &Receiver<Command>, outlet: &Outlet) {
             guarded(&mut shard, "the physics", Shard::step_world);
         }
         let step_done = Instant::now();
-        let snapshot = shard.failed.is_none().then(|| publish(&mut shard, outlet));
+        let snapshot = match shard.failed {
+            None => publish(&mut shard, outlet),
+            Some(_) => None,
+        };
+        describe(&mut shard, outlet);
         publish_events(&mut shard, outlet);
+
+        shard.send_replies();
 
         // Account for time.
         let end = Instant::now();
+        let rest = meter.tick(step_done - motion_done, shard.figure_count());
         if !stopped {
             shard.clock.advance(end);
+            shard.clock.rest(end + rest);
         }
         outlet.ticks.fetch_add(1, Ordering::Relaxed);
         outlet
@@ -126,69 +161,70 @@ pub fn run(mut shard: Shard, commands: &Receiver<Command>, outlet: &Outlet) {
                 end - start,
             ]);
         }
-        shard.send_replies();
         if let Some(snapshot) = snapshot {
             finish_steps(&mut shard, &snapshot); // last, so that who waits finds everything done
         }
     }
     shard.send_replies();
+    let why = shard.closing.take().unwrap_or(Fault::Draining);
     for step in shard.steps.drain(..) {
-        (step.done)(Err(Fault::Aborted {
-            reason: "WORLD_DELETED",
-            message: "the world was deleted before its steps were done".into(),
-        }));
+        (step.done)(Err(why.clone()));
     }
-}
-
-/// Collects commands for up to `wait`; with `eager` one command ends the wait. False when all handles are gone.
-fn gather(
-    commands: &Receiver<Command>,
-    batch: &mut Vec<Command>,
-    wait: Duration,
-    eager: bool,
-) -> bool {
-    let until = Instant::now() + wait;
-    loop {
-        let left = until.saturating_duration_since(Instant::now());
-        if left.is_zero() {
-            break;
-        }
-        match commands.recv_timeout(left) {
-            Ok(c) => batch.push(c),
-            Err(RecvTimeoutError::Timeout) => break,
-            Err(RecvTimeoutError::Disconnected) => return false,
-        }
-        if eager {
-            break;
-        }
-    }
-    batch.extend(commands.try_iter().take(ROUND));
-    true
 }
 
 /// Calls `f`; a panic fails this world and no other.
-fn guarded(shard: &mut Shard, what: &str, f: impl FnOnce(&mut Shard)) {
-    if let Err(panic) = catch_unwind(AssertUnwindSafe(|| f(shard))) {
-        let message = panic
-            .downcast_ref::<&str>()
-            .map(|s| (*s).to_owned())
-            .or_else(|| panic.downcast_ref::<String>().cloned())
-            .unwrap_or_else(|| "no message".to_owned());
-        tracing::error!(world = shard.info().id, what, message, "world failed");
-        metrics::counter!("sinew_worlds_failed_total").increment(1);
-        let why = format!("{what} panicked: {message}");
-        shard.failed = Some(why.clone());
-        shard.world_event(EventKind::Failed(why.clone()));
-        for step in shard.steps.drain(..) {
-            (step.done)(Err(Fault::Internal(why.clone())));
-        }
+fn guarded<T>(shard: &mut Shard, what: &str, f: impl FnOnce(&mut Shard) -> T) -> Option<T> {
+    let done = catch_unwind(AssertUnwindSafe(|| f(shard)));
+    done.map_err(|panic| fail(shard, what, &*panic)).ok()
+}
+
+/// Notes that a world has failed, and tells who waits for it. It keeps its last frame and its first reason.
+fn fail(shard: &mut Shard, what: &str, panic: &(dyn Any + Send)) {
+    let message = panic
+        .downcast_ref::<&str>()
+        .map(|s| (*s).to_owned())
+        .or_else(|| panic.downcast_ref::<String>().cloned())
+        .unwrap_or_else(|| "no message".to_owned());
+    tracing::error!(world = shard.id(), what, message, "world failed");
+    shard.changed = false;
+    if shard.failed.is_some() {
+        return;
+    }
+    metrics::counter!("sinew_worlds_failed_total").increment(1);
+    let why = format!("{what} panicked: {message}");
+    shard.failed = Some(why.clone());
+    shard.needs_nothing();
+    shard.touch();
+    if let Some(fault) = shard.failure() {
+        shard.close_mailboxes(&fault);
+    }
+    shard.world_event(EventKind::Failed(why.clone()));
+    for step in shard.steps.drain(..) {
+        (step.done)(Err(Fault::Internal(why.clone())));
     }
 }
 
-fn publish(shard: &mut Shard, outlet: &Outlet) -> Arc<Snapshot> {
-    let snapshot = shard.snapshot();
+/// Shows the world as it is now; `None` if that fails.
+fn publish(shard: &mut Shard, outlet: &Outlet) -> Option<Arc<Snapshot>> {
+    let snapshot = guarded(shard, "the frame", |s| {
+        s.publish_feedback();
+        s.snapshot()
+    })?;
+    let mut history = outlet
+        .history
+        .lock()
+        .unwrap_or_else(PoisonError::into_inner);
+    history.push(snapshot.clone());
+    drop(history);
     outlet.latest.send_replace(snapshot.clone());
-    snapshot
+    Some(snapshot)
+}
+
+/// Tells what changed of world and figures, before who changed it gets an answer.
+fn describe(shard: &mut Shard, outlet: &Outlet) {
+    if let Some(described) = guarded(shard, "the description", Shard::describe).flatten() {
+        outlet.described.send_replace(described);
+    }
 }
 
 fn publish_events(shard: &mut Shard, outlet: &Outlet) {
@@ -210,3 +246,6 @@ fn finish_steps(shard: &mut Shard, snapshot: &Arc<Snapshot>) {
         (step.done)(Ok(snapshot.clone()));
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -6,14 +6,16 @@ mod figures;
 mod obstacles;
 mod perturbations;
 
+use super::budget::{Account, Budget, Meter};
 use super::clock::Clock;
 use super::drives::{Drive, Slot};
 use super::planners::Planners;
 use crate::server::engine::{self, FigureKey, ObstacleKey, Planning, World};
+use crate::server::ingest::mailbox::Mailboxes;
 use crate::wire::status::Fault;
 use crate::wire::types::{
-    EventKind, FigureSettings, Overrun, RosterEntry, Snapshot, WorldCondition, WorldEvent,
-    WorldInfo, WorldSettings, WorldUpdate,
+    Described, EventKind, FigureSettings, Overrun, RosterEntry, Snapshot, WorldCondition,
+    WorldEvent, WorldInfo, WorldSettings, WorldUpdate,
 };
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -24,8 +26,6 @@ use std::time::{Instant, SystemTime};
 pub struct Limits {
     /// Figures.
     pub figures: u64,
-    /// Ticks that are held.
-    pub history: usize,
     /// Window of live motion for drivers that do not say, s; 0: none.
     pub window: f64,
 }
@@ -55,6 +55,8 @@ pub struct Shard {
     created: SystemTime,
     limits: Limits,
     planners: Arc<Planners>,
+    budget: Arc<Budget>,
+    account: Arc<Account>,
     world: World,
     members: Vec<Member>,
     obstacles: Vec<(String, ObstacleKey)>,
@@ -63,8 +65,10 @@ pub struct Shard {
     roster: Arc<[RosterEntry]>,
     roster_version: i32,
     drives: Vec<Drive>,
+    mailboxes: Arc<Mailboxes>,
     next_driver: u64,
-    history: VecDeque<Arc<Snapshot>>,
+    described: bool,
+    passing: bool,
     events: Vec<WorldEvent>,
     pub(super) clock: Clock,
     pub(super) steps: VecDeque<StepRequest>,
@@ -73,29 +77,35 @@ pub struct Shard {
     replies: Vec<Box<dyn FnOnce() + Send>>,
     /// What viewers see changed without a tick.
     pub(super) changed: bool,
-    pub(super) closing: bool,
+    /// Why the world ends after this round.
+    pub(super) closing: Option<Fault>,
 }
 
 impl Shard {
     /// A world without figures.
     ///
     /// # Errors
-    /// Settings that the physics refuses.
+    /// Settings that the physics refuses; there is no room for its ticks.
     pub fn new(
         id: Arc<str>,
         settings: WorldSettings,
         paused: bool,
         limits: Limits,
         planners: Arc<Planners>,
+        budget: Arc<Budget>,
     ) -> Result<Self, Fault> {
         let world = engine::new_world(&settings)?;
         let pace = &settings.pace;
+        let speed = if paused { 0.0 } else { pace.speed };
+        let account = budget.open(settings.rate_hz * speed, settings.substeps)?;
         let clock = Clock::new(settings.rate_hz, pace.speed, pace.overrun, Instant::now());
         Ok(Self {
             id,
             created: SystemTime::now(),
             limits,
             planners,
+            budget,
+            account,
             world,
             members: Vec::new(),
             obstacles: Vec::new(),
@@ -104,8 +114,10 @@ impl Shard {
             roster: Arc::new([]),
             roster_version: 1,
             drives: Vec::new(),
+            mailboxes: Arc::default(),
             next_driver: 1,
-            history: VecDeque::new(),
+            described: false,
+            passing: false,
             events: Vec::new(),
             clock,
             steps: VecDeque::new(),
@@ -113,9 +125,35 @@ impl Shard {
             paused,
             failed: None,
             changed: true,
-            closing: false,
+            closing: None,
             settings,
         })
+    }
+
+    /// Last part of its name.
+    pub(super) fn id(&self) -> &str {
+        &self.id
+    }
+
+    /// Number of figures.
+    pub(super) fn figure_count(&self) -> usize {
+        self.members.len()
+    }
+
+    /// Its clock stands still for good: it takes nothing of the budget.
+    pub(super) fn needs_nothing(&self) {
+        // Less than before is never refused.
+        let _ = self.budget.set_pace(&self.account, 0.0);
+    }
+
+    /// The meter of the thread that runs this world.
+    pub(super) fn meter(&self) -> Meter {
+        Meter::new(Arc::clone(&self.account), Arc::clone(&self.budget))
+    }
+
+    /// Where drivers leave their motion.
+    pub fn mailboxes(&self) -> Arc<Mailboxes> {
+        Arc::clone(&self.mailboxes)
     }
 
     // ── the world ──
@@ -139,14 +177,16 @@ impl Shard {
     }
 
     fn working(&self) -> Result<(), Fault> {
-        match &self.failed {
-            None => Ok(()),
-            Some(why) => Err(Fault::Precondition {
-                reason: "WORLD_FAILED",
-                message: format!("world {:?} failed: {why}", &*self.id),
-                facts: vec![],
-            }),
-        }
+        self.failure().map_or(Ok(()), Err)
+    }
+
+    /// What clients are told who want something of a world that has failed.
+    pub(super) fn failure(&self) -> Option<Fault> {
+        self.failed.as_ref().map(|why| Fault::Precondition {
+            reason: "WORLD_FAILED",
+            message: format!("world {:?} failed: {why}", &*self.id),
+            facts: vec![],
+        })
     }
 
     fn restart_clock(&mut self) {
@@ -162,6 +202,10 @@ impl Shard {
     /// Changes pace or name.
     pub fn update(&mut self, u: WorldUpdate) -> Result<WorldInfo, Fault> {
         self.working()?;
+        if let Some(speed) = u.speed.filter(|_| !self.paused) {
+            self.budget
+                .set_pace(&self.account, self.settings.rate_hz * speed)?;
+        }
         let pace = &mut self.settings.pace;
         let timed = u.overrun.is_some() || u.catch_up_limit.is_some() || u.speed.is_some();
         if let Some(name) = u.display_name {
@@ -189,6 +233,7 @@ impl Shard {
     pub fn pause(&mut self) -> Result<WorldInfo, Fault> {
         self.working()?;
         if !self.paused {
+            self.budget.set_pace(&self.account, 0.0)?;
             self.paused = true;
             self.world_event(EventKind::Paused);
         }
@@ -196,9 +241,14 @@ impl Shard {
     }
 
     /// Starts the clock; steps that someone waits for are given up.
+    ///
+    /// # Errors
+    /// The world has failed, or there is no room for its ticks.
     pub fn resume(&mut self) -> Result<WorldInfo, Fault> {
         self.working()?;
         if self.paused {
+            let pace = self.settings.rate_hz * self.settings.pace.speed;
+            self.budget.set_pace(&self.account, pace)?;
             self.paused = false;
             self.restart_clock();
             self.world_event(EventKind::Resumed);
@@ -231,6 +281,28 @@ impl Shard {
         }
     }
 
+    /// World and figures as they are described to clients, if anything of it may have changed since the last call: by a
+    /// command, or as clips follow each other and constraints run out.
+    pub(super) fn describe(&mut self) -> Option<Arc<Described>> {
+        let passing = self.members.iter().any(|m| {
+            let f = self.world.figure(m.key);
+            f.is_some_and(|f| f.next_clip().is_some() || !f.constraints().is_empty())
+        });
+        let before = std::mem::replace(&mut self.passing, passing);
+        if std::mem::replace(&mut self.described, true) && !passing && !before {
+            return None;
+        }
+        Some(Arc::new(Described {
+            world: self.info(),
+            figures: self.figures(),
+        }))
+    }
+
+    /// What clients are told of the world has to be described anew.
+    pub(super) fn touch(&mut self) {
+        self.described = false;
+    }
+
     /// Answers a command once what it did can be seen by viewers, so that a client sees its own changes.
     pub fn reply(&mut self, answer: impl FnOnce() + Send + 'static) {
         self.replies.push(Box::new(answer));
@@ -242,9 +314,9 @@ impl Shard {
         }
     }
 
-    /// Ends the world after this round of commands.
-    pub fn close(&mut self) {
-        self.closing = true;
+    /// Ends the world after this round of commands; who waits for steps learns why.
+    pub fn close(&mut self, why: Fault) {
+        self.closing.get_or_insert(why);
     }
 
     // ── the tick ──
@@ -308,7 +380,7 @@ impl Shard {
         std::mem::take(&mut self.events)
     }
 
-    /// What the world looks like now; held for late readers.
+    /// What the world looks like now.
     pub fn snapshot(&mut self) -> Arc<Snapshot> {
         // When the last tick began, which is what its report is about.
         let start = self.world.tick().saturating_sub(1) as f64 * self.world.dt();
@@ -350,48 +422,7 @@ impl Shard {
             figures,
             obstacles,
         });
-        if self.history.back().is_some_and(|s| s.tick == snapshot.tick) {
-            self.history.pop_back(); // the roster changed between ticks
-        }
-        self.history.push_back(snapshot.clone());
-        while self.history.len() > self.limits.history {
-            self.history.pop_front();
-        }
         self.changed = false;
         snapshot
-    }
-
-    fn expired(&self, asked: i64) -> Fault {
-        let tick = |s: Option<&Arc<Snapshot>>| s.map_or(-1, |s| s.tick as i64);
-        Fault::Expired {
-            asked,
-            oldest: tick(self.history.front()),
-            newest: tick(self.history.back()),
-        }
-    }
-
-    /// The held frame of one tick.
-    pub fn held(&self, tick: i64) -> Result<Arc<Snapshot>, Fault> {
-        self.history
-            .iter()
-            .find(|s| s.tick as i64 == tick)
-            .cloned()
-            .ok_or_else(|| self.expired(tick))
-    }
-
-    /// The held frames after one tick.
-    pub fn held_after(&self, tick: i64) -> Result<Vec<Arc<Snapshot>>, Fault> {
-        let newest = self.history.back().map_or(-1, |s| s.tick as i64);
-        let oldest = self.history.front().map_or(0, |s| s.tick as i64);
-        // Resuming after the newest is fine (nothing was missed); beyond it, or with a gap, is not.
-        if tick > newest || tick.saturating_add(1) < oldest {
-            return Err(self.expired(tick.saturating_add(1)));
-        }
-        Ok(self
-            .history
-            .iter()
-            .filter(|s| s.tick as i64 > tick)
-            .cloned()
-            .collect())
     }
 }

@@ -2,17 +2,23 @@
 
 use crate::server::config::Config;
 use crate::server::fanout::hub::Hub;
-use crate::server::tick::command::{Command, Origin};
+use crate::server::ingest::mailbox::Mailboxes;
+use crate::server::shares::{Client, check_part};
+use crate::server::tick::budget::Budget;
+use crate::server::tick::command::{Command, Inbox, Origin};
+use crate::server::tick::history::History;
 use crate::server::tick::planners::Planners;
 use crate::server::tick::shard::{Limits, Shard};
 use crate::server::tick::stage_times::{Percentiles, STAGES};
 use crate::server::tick::{self, Outlet};
+use crate::sim::body::Body;
 use crate::wire::status::Fault;
-use crate::wire::types::WorldSettings;
+use crate::wire::types::{Described, FigureInfo, Snapshot, WorldInfo, WorldSettings};
 use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU64, Ordering};
 use std::sync::mpsc::{SyncSender, TrySendError, sync_channel};
-use std::sync::{Arc, Mutex, PoisonError, RwLock};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock};
 use std::thread::JoinHandle;
 use std::time::Duration;
 use tokio::sync::{broadcast, oneshot, watch};
@@ -26,6 +32,8 @@ pub struct WorldHandle {
     pub outlet: Arc<Outlet>,
     /// Its views.
     pub hub: Hub,
+    /// Where its drivers leave their motion.
+    pub mailboxes: Arc<Mailboxes>,
     /// Ends when the world does.
     pub closed: watch::Receiver<()>,
     /// Ticks per second.
@@ -36,7 +44,10 @@ pub struct WorldHandle {
     pub refused: AtomicU64,
     /// Viewers.
     pub viewers: AtomicI64,
+    /// Who created it.
+    owner: Client,
     commands: SyncSender<Command>,
+    draining: Arc<AtomicBool>,
     queue: u64,
     thread: Mutex<Option<JoinHandle<()>>>,
 }
@@ -54,7 +65,7 @@ pub struct WorldStats {
     pub dropped: u64,
     /// Viewers.
     pub viewers: i64,
-    /// p99 of a tick relative to its period.
+    /// p99 of a tick relative to its period at the present speed.
     pub budget_used: f64,
     /// Stages of a tick.
     pub stages: [(&'static str, Percentiles); STAGES.len()],
@@ -62,7 +73,21 @@ pub struct WorldStats {
 
 impl WorldHandle {
     fn gone(&self) -> Fault {
+        if self.draining.load(Ordering::SeqCst) {
+            return Fault::Draining;
+        }
         Fault::not_found("world", format!("worlds/{}", self.id))
+    }
+
+    /// What a request learns that the end of the world came in between of.
+    pub fn ended(&self) -> Fault {
+        if self.draining.load(Ordering::SeqCst) {
+            return Fault::Draining;
+        }
+        Fault::Aborted {
+            reason: "WORLD_ENDED",
+            message: format!("world {:?} ended before the request was done", &*self.id),
+        }
     }
 
     /// Queues something for the start of the next tick.
@@ -104,18 +129,75 @@ impl WorldHandle {
     ) -> Result<T, Fault> {
         let (tx, rx) = oneshot::channel();
         self.send(origin, move |shard| {
-            let result = f(shard);
-            shard.reply(move || {
-                // The caller may have given up; then nobody wants the answer.
-                let _ = tx.send(result);
-            });
+            let done = catch_unwind(AssertUnwindSafe(|| f(shard)));
+            match done {
+                Ok(result) => shard.reply(move || {
+                    // The caller may have given up; then nobody wants the answer.
+                    let _ = tx.send(result);
+                }),
+                Err(panic) => {
+                    // The caller learns of it when others can see that the world has failed.
+                    shard.reply(move || drop(tx));
+                    resume_unwind(panic);
+                }
+            }
         })?;
-        rx.await.unwrap_or_else(|_| {
-            Err(Fault::Aborted {
-                reason: "WORLD_ENDED",
-                message: format!("world {:?} ended before the request was done", &*self.id),
-            })
+        rx.await.unwrap_or_else(|_| Err(self.ended()))
+    }
+
+    /// The world as it is now. Reading never waits for a tick.
+    pub fn info(&self) -> WorldInfo {
+        let described = self.outlet.described.borrow().clone();
+        let latest = self.latest();
+        WorldInfo {
+            tick: latest.tick,
+            time: latest.time,
+            ..described.world.clone()
+        }
+    }
+
+    /// The latest frame.
+    pub fn latest(&self) -> Arc<Snapshot> {
+        self.outlet.latest.borrow().clone()
+    }
+
+    /// World and figures as they were when something of them changed last.
+    pub fn described(&self) -> Arc<Described> {
+        self.outlet.described.borrow().clone()
+    }
+
+    /// One figure.
+    ///
+    /// # Errors
+    /// There is none of that name.
+    pub fn figure(&self, figure: &str) -> Result<FigureInfo, Fault> {
+        let described = self.described();
+        let found = described.figures.iter().find(|f| f.id == figure).cloned();
+        found.ok_or_else(|| {
+            Fault::not_found("figure", format!("worlds/{}/figures/{figure}", self.id))
         })
+    }
+
+    /// The body of a figure, and the last part of its name.
+    ///
+    /// # Errors
+    /// There is no figure of that name.
+    pub fn body_of(&self, figure: &str) -> Result<(String, Arc<Body>), Fault> {
+        let latest = self.latest();
+        let i = latest.roster.iter().position(|e| e.figure == figure);
+        let i = i.ok_or_else(|| {
+            Fault::not_found("figure", format!("worlds/{}/figures/{figure}", self.id))
+        })?;
+        Ok((
+            latest.roster[i].body.clone(),
+            latest.figures[i].body.clone(),
+        ))
+    }
+
+    /// Frames of the last ticks.
+    pub fn history(&self) -> MutexGuard<'_, History> {
+        let history = self.outlet.history.lock();
+        history.unwrap_or_else(PoisonError::into_inner)
     }
 
     /// How busy it is.
@@ -127,6 +209,7 @@ impl WorldHandle {
             .unwrap_or_else(PoisonError::into_inner)
             .clone();
         let summary = times.summary();
+        let speed = self.described().world.settings.pace.speed;
         let load = |a: &AtomicU64| a.load(Ordering::Relaxed);
         WorldStats {
             id: self.id.to_string(),
@@ -138,7 +221,7 @@ impl WorldHandle {
             refused: load(&self.refused),
             dropped: load(&self.dropped),
             viewers: self.viewers.load(Ordering::Relaxed),
-            budget_used: summary[STAGES.len() - 1].p99 * 1e-6 * self.rate_hz,
+            budget_used: summary[STAGES.len() - 1].p99 * 1e-6 * self.rate_hz * speed,
             stages: std::array::from_fn(|i| (STAGES[i], summary[i])),
         }
     }
@@ -149,32 +232,42 @@ impl WorldHandle {
 pub struct Registry {
     worlds: RwLock<BTreeMap<String, Arc<WorldHandle>>>,
     next: AtomicU64,
+    /// No new worlds.
     draining: AtomicBool,
+    /// Worlds end because the server does.
+    ending: Arc<AtomicBool>,
     config: Arc<Config>,
     planners: Arc<Planners>,
+    /// What the ticks of all worlds may cost.
+    pub budget: Arc<Budget>,
 }
 
 impl Registry {
     /// No worlds yet.
     pub fn new(config: Arc<Config>) -> Self {
+        let budget = Arc::new(Budget::new(config.max_tick_budget));
         Self {
+            budget,
             worlds: RwLock::default(),
             next: AtomicU64::new(1),
             draining: AtomicBool::new(false),
+            ending: Arc::default(),
             config,
             planners: Arc::new(Planners::start()),
         }
     }
 
-    /// Creates a world and starts its thread.
+    /// Creates a world for a client and starts its thread.
     ///
     /// # Errors
-    /// The name is taken, there are too many worlds, or the server shuts down.
+    /// The name is taken, there are too many worlds or too many of this client, there is no room for its ticks, or the
+    /// server shuts down.
     pub fn create(
         &self,
         id: Option<String>,
         settings: WorldSettings,
         paused: bool,
+        owner: Client,
     ) -> Result<Arc<WorldHandle>, Fault> {
         let mut worlds = self.worlds.write().unwrap_or_else(PoisonError::into_inner);
         if self.draining.load(Ordering::SeqCst) {
@@ -203,43 +296,64 @@ impl Registry {
                 retry: None,
             });
         }
+        let own = worlds.values().filter(|w| w.owner == owner).count() as u64;
+        let (most, share) = (self.config.max_worlds, self.config.max_client_share);
+        check_part("max_worlds", own, most, share)?;
         let rate_hz = settings.rate_hz;
         let name: Arc<str> = id.as_str().into();
         let limits = Limits {
             figures: self.config.max_figures_per_world,
-            history: self.config.history_ticks as usize,
             window: self.config.live_window_ms / 1e3,
         };
         let planners = Arc::clone(&self.planners);
-        let mut shard = Shard::new(name.clone(), settings, paused, limits, planners)?;
+        let budget = Arc::clone(&self.budget);
+        let mut shard = Shard::new(name.clone(), settings, paused, limits, planners, budget)?;
         let (commands, queue) = sync_channel(self.config.command_queue as usize);
+        let first = shard.snapshot();
+        let mut history = History::new(self.config.history_ticks as usize);
+        history.push(first.clone());
+        let described = Described {
+            world: shard.info(),
+            figures: Vec::new(),
+        };
         let outlet = Arc::new(Outlet {
-            latest: watch::Sender::new(shard.snapshot()),
+            latest: watch::Sender::new(first),
+            history: Mutex::new(history),
+            described: watch::Sender::new(Arc::new(described)),
             events: broadcast::Sender::new(self.config.event_queue as usize),
             times: Mutex::default(),
             ticks: AtomicU64::new(0),
             overruns: AtomicU64::new(0),
             skipped: AtomicU64::new(0),
         });
+        let mailboxes = shard.mailboxes();
         let (alive, closed) = watch::channel(());
+        let inbox = Inbox::new(queue, self.config.command_queue as usize);
         let out = outlet.clone();
         let thread = std::thread::Builder::new()
             .name(format!("world {id}").chars().take(15).collect())
             .spawn(move || {
-                tick::run(shard, &queue, &out);
+                tick::run(shard, inbox, &out);
                 drop(alive);
             })
             .map_err(|e| Fault::Internal(format!("no thread for the world: {e}")))?;
         let handle = Arc::new(WorldHandle {
             id: name,
             outlet,
-            hub: Hub::new(self.config.max_views_per_world as usize),
+            hub: Hub::new(
+                self.config.max_views_per_world,
+                self.config.max_client_share,
+                self.config.history_ticks as usize,
+            ),
+            owner,
+            mailboxes,
             closed,
             rate_hz,
             dropped: AtomicU64::new(0),
             refused: AtomicU64::new(0),
             viewers: AtomicI64::new(0),
             commands,
+            draining: Arc::clone(&self.ending),
             queue: self.config.command_queue,
             thread: Mutex::new(Some(thread)),
         });
@@ -259,7 +373,25 @@ impl Registry {
             .unwrap_or_else(PoisonError::into_inner)
             .get(id)
             .cloned()
-            .ok_or_else(|| Fault::not_found("world", format!("worlds/{id}")))
+            .ok_or_else(|| self.missing(id))
+    }
+
+    fn missing(&self, id: &str) -> Fault {
+        if self.ending.load(Ordering::SeqCst) {
+            return Fault::Draining; // it may have been there
+        }
+        Fault::not_found("world", format!("worlds/{id}"))
+    }
+
+    /// True once the server is about to end.
+    pub fn is_draining(&self) -> bool {
+        self.draining.load(Ordering::SeqCst)
+    }
+
+    /// Lets no world be created any more; those that are there go on.
+    pub fn refuse_new(&self) {
+        let _worlds = self.worlds.write().unwrap_or_else(PoisonError::into_inner);
+        self.draining.store(true, Ordering::SeqCst);
     }
 
     /// All worlds, by name.
@@ -279,13 +411,15 @@ impl Registry {
     pub async fn delete(&self, id: &str) -> Result<(), Fault> {
         let handle = {
             let mut worlds = self.worlds.write().unwrap_or_else(PoisonError::into_inner);
-            let handle = worlds
-                .remove(id)
-                .ok_or_else(|| Fault::not_found("world", format!("worlds/{id}")))?;
+            let handle = worlds.remove(id).ok_or_else(|| self.missing(id))?;
             metrics::gauge!("sinew_worlds").set(worlds.len() as f64);
             handle
         };
-        end(&handle).await;
+        let why = Fault::Aborted {
+            reason: "WORLD_DELETED",
+            message: "the world was deleted before its steps were done".into(),
+        };
+        end(&handle, why).await;
         tracing::info!(world = id, "world deleted");
         Ok(())
     }
@@ -295,26 +429,26 @@ impl Registry {
         let all = {
             let mut worlds = self.worlds.write().unwrap_or_else(PoisonError::into_inner);
             self.draining.store(true, Ordering::SeqCst);
+            self.ending.store(true, Ordering::SeqCst);
             std::mem::take(&mut *worlds)
         };
-        for handle in all.values() {
-            end(handle).await;
-        }
+        let ends = all.values().map(|handle| end(handle, Fault::Draining));
+        futures_util::future::join_all(ends).await;
     }
 }
 
-async fn end(handle: &WorldHandle) {
+async fn end(handle: &WorldHandle, why: Fault) {
     // A full queue must not keep the world alive; it drains within a tick.
-    while handle
-        .send(
-            Origin {
-                client: "".into(),
-                sequence: i64::MIN,
-            },
-            Shard::close,
-        )
-        .is_err_and(|f| matches!(f, Fault::Exhausted { .. }))
-    {
+    let origin = Origin {
+        client: "".into(),
+        sequence: i64::MIN,
+    };
+    loop {
+        let why = why.clone();
+        let sent = handle.send(origin.clone(), |s| s.close(why));
+        if !matches!(sent, Err(Fault::Exhausted { .. })) {
+            break;
+        }
         tokio::time::sleep(Duration::from_millis(5)).await;
     }
     let mut closed = handle.closed.clone();

@@ -219,6 +219,9 @@ pub enum RetargetError {
     /// The skeleton has no human shape or names.
     #[error(transparent)]
     Map(#[from] MapError),
+    /// The caller gave it up.
+    #[error("given up")]
+    Stopped,
     /// Nothing to retarget.
     #[error("{0} frames; a motion needs at least 2")]
     TooShort(usize),

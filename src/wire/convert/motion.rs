@@ -351,6 +351,11 @@ fn bone_rotations(field: &str, m: &pb::FigureMotion, posture: &mut Posture) -> R
     Ok(())
 }
 
+/// Desired postures in a batch: what its conversion and use cost.
+pub fn postures(batch: &pb::MotionBatch) -> usize {
+    batch.frames.iter().map(|f| f.figures.len()).sum()
+}
+
 /// A batch of desired motion for the figures of a drive.
 pub fn batch(
     field: &str,
@@ -454,6 +459,8 @@ pub fn feedback_out(f: &Feedback) -> pb::DriveFeedback {
                 stale_count: g.stale as i64,
                 overflow_count: g.overflow as i64,
                 preparation_window_ms: g.window * 1e3,
+                resync_count: g.resyncs as i64,
+                behind_ms: g.behind * 1e3,
             })
             .collect(),
     }

@@ -116,6 +116,7 @@ fn event_type(kind: &EventKind) -> pb::EventType {
         EventKind::FigureRemoved => pb::EventType::FigureRemoved,
         EventKind::DriveBegan(_) => pb::EventType::DriveBegan,
         EventKind::DriveEnded(_) => pb::EventType::DriveEnded,
+        EventKind::DriveResynced(_) => pb::EventType::DriveResynced,
         EventKind::Paused => pb::EventType::WorldPaused,
         EventKind::Resumed => pb::EventType::WorldResumed,
         EventKind::Failed(_) => pb::EventType::WorldFailed,
@@ -156,7 +157,10 @@ pub fn event_out(e: &WorldEvent) -> pb::Event {
         EventKind::ObstacleAdded(other) | EventKind::ObstacleRemoved(other) => {
             out.other = other.clone();
         }
-        EventKind::DriveBegan(t) | EventKind::DriveEnded(t) | EventKind::Failed(t) => {
+        EventKind::DriveBegan(t)
+        | EventKind::DriveEnded(t)
+        | EventKind::DriveResynced(t)
+        | EventKind::Failed(t) => {
             out.detail = t.clone();
         }
         _ => {}

@@ -12,6 +12,16 @@ pub struct Vector3 {
     #[prost(double, tag = "3")]
     pub z: f64,
 }
+impl ::prost::Name for Vector3 {
+    const NAME: &'static str = "Vector3";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Vector3".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Vector3".into()
+    }
+}
 /// A rotation. Must have length 1 within 0.001; it is normalised on arrival.
 #[derive(Clone, Copy, PartialEq, ::prost::Message)]
 pub struct Quaternion {
@@ -28,6 +38,16 @@ pub struct Quaternion {
     #[prost(double, tag = "4")]
     pub w: f64,
 }
+impl ::prost::Name for Quaternion {
+    const NAME: &'static str = "Quaternion";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Quaternion".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Quaternion".into()
+    }
+}
 /// Position and orientation of a frame in the world.
 #[derive(Clone, Copy, PartialEq, ::prost::Message)]
 pub struct Pose {
@@ -37,6 +57,16 @@ pub struct Pose {
     /// Orientation, `world_from_frame`. Absent: no rotation.
     #[prost(message, optional, tag = "2")]
     pub rotation: ::core::option::Option<Quaternion>,
+}
+impl ::prost::Name for Pose {
+    const NAME: &'static str = "Pose";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Pose".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Pose".into()
+    }
 }
 /// A place on the ground plane.
 #[derive(Clone, Copy, PartialEq, ::prost::Message)]
@@ -50,6 +80,16 @@ pub struct Placement {
     /// Heading about world z, rad, counter-clockwise seen from above; 0 looks along x.
     #[prost(double, tag = "3")]
     pub yaw_rad: f64,
+}
+impl ::prost::Name for Placement {
+    const NAME: &'static str = "Placement";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Placement".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Placement".into()
+    }
 }
 /// A packed array of numbers. At most one of the representations is filled, as `Encoding` says; all are empty for an
 /// empty array. Count, order, unit and frame are those of the field that uses it.
@@ -67,6 +107,16 @@ pub struct Numbers {
     /// Size of one step of `i16`, in the unit of the field: the largest magnitude of the array / 32767.
     #[prost(float, tag = "4")]
     pub scale: f32,
+}
+impl ::prost::Name for Numbers {
+    const NAME: &'static str = "Numbers";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Numbers".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Numbers".into()
+    }
 }
 /// How a motion capture file was understood.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -129,6 +179,16 @@ pub struct RetargetReport {
     #[prost(bool, tag = "19")]
     pub runs_walked: bool,
 }
+impl ::prost::Name for RetargetReport {
+    const NAME: &'static str = "RetargetReport";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.RetargetReport".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.RetargetReport".into()
+    }
+}
 /// The joints of the file that drive one segment.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct BoneMapping {
@@ -138,6 +198,16 @@ pub struct BoneMapping {
     /// Joints of the file, from parent to child; their rotations are composed.
     #[prost(string, repeated, tag = "2")]
     pub joints: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
+}
+impl ::prost::Name for BoneMapping {
+    const NAME: &'static str = "BoneMapping";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.BoneMapping".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.BoneMapping".into()
+    }
 }
 /// How much of one angle was beyond the body's limit.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -152,6 +222,16 @@ pub struct ClampedAngle {
     #[prost(double, tag = "3")]
     pub max_excess_rad: f64,
 }
+impl ::prost::Name for ClampedAngle {
+    const NAME: &'static str = "ClampedAngle";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ClampedAngle".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ClampedAngle".into()
+    }
+}
 /// An interval in which one foot is planted.
 #[derive(Clone, Copy, PartialEq, ::prost::Message)]
 pub struct ContactPhase {
@@ -164,6 +244,16 @@ pub struct ContactPhase {
     /// Ends at, s from the start of the clip.
     #[prost(double, tag = "3")]
     pub end_s: f64,
+}
+impl ::prost::Name for ContactPhase {
+    const NAME: &'static str = "ContactPhase";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ContactPhase".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ContactPhase".into()
+    }
 }
 /// How numbers of a frame are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
@@ -218,6 +308,16 @@ pub struct BodyProfile {
     #[prost(double, tag = "4")]
     pub mass_kg: f64,
 }
+impl ::prost::Name for BodyProfile {
+    const NAME: &'static str = "BodyProfile";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.BodyProfile".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.BodyProfile".into()
+    }
+}
 /// One rigid part. Its frame sits at the joint that joins it to its parent; in the zero pose (upright, arms hanging,
 /// palms to the thighs) it is parallel to the world.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -253,6 +353,16 @@ pub struct Segment {
     #[prost(int32, repeated, tag = "10")]
     pub mesh_triangles: ::prost::alloc::vec::Vec<i32>,
 }
+impl ::prost::Name for Segment {
+    const NAME: &'static str = "Segment";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Segment".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Segment".into()
+    }
+}
 /// One joint; joint i joins segment i to its parent.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Joint {
@@ -271,6 +381,16 @@ pub struct Joint {
     /// Number of its DOFs: 0 for the root joint, else 1, 2 or 3.
     #[prost(int32, tag = "5")]
     pub dof_count: i32,
+}
+impl ::prost::Name for Joint {
+    const NAME: &'static str = "Joint";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Joint".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Joint".into()
+    }
 }
 /// One joint degree of freedom.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -294,6 +414,16 @@ pub struct Dof {
     /// Reflected inertia added to the diagonal of the inertia matrix, kg·m².
     #[prost(double, tag = "6")]
     pub armature_kgm2: f64,
+}
+impl ::prost::Name for Dof {
+    const NAME: &'static str = "Dof";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Dof".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Dof".into()
+    }
 }
 /// One body: 18 segments, 17 joints and the free root joint, 39 joint DOFs.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -320,6 +450,16 @@ pub struct Body {
     /// `include_provenance`.
     #[prost(message, repeated, tag = "7")]
     pub provenance: ::prost::alloc::vec::Vec<Provenance>,
+}
+impl ::prost::Name for Body {
+    const NAME: &'static str = "Body";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Body".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Body".into()
+    }
 }
 /// One number of a body or of its strength, with its origin.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -350,6 +490,16 @@ pub struct Provenance {
     #[prost(string, tag = "8")]
     pub note: ::prost::alloc::string::String,
 }
+impl ::prost::Name for Provenance {
+    const NAME: &'static str = "Provenance";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Provenance".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Provenance".into()
+    }
+}
 /// Asks for bodies.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ListBodiesRequest {
@@ -360,6 +510,16 @@ pub struct ListBodiesRequest {
     #[prost(string, tag = "2")]
     pub page_token: ::prost::alloc::string::String,
 }
+impl ::prost::Name for ListBodiesRequest {
+    const NAME: &'static str = "ListBodiesRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ListBodiesRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ListBodiesRequest".into()
+    }
+}
 /// A page of bodies.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ListBodiesResponse {
@@ -369,6 +529,16 @@ pub struct ListBodiesResponse {
     /// Token of the next page; empty at the end.
     #[prost(string, tag = "2")]
     pub next_page_token: ::prost::alloc::string::String,
+}
+impl ::prost::Name for ListBodiesResponse {
+    const NAME: &'static str = "ListBodiesResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ListBodiesResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ListBodiesResponse".into()
+    }
 }
 /// Asks for one body.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
@@ -383,12 +553,32 @@ pub struct GetBodyRequest {
     #[prost(bool, tag = "3")]
     pub include_provenance: bool,
 }
+impl ::prost::Name for GetBodyRequest {
+    const NAME: &'static str = "GetBodyRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetBodyRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetBodyRequest".into()
+    }
+}
 /// One body.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct GetBodyResponse {
     /// The description.
     #[prost(message, optional, tag = "1")]
     pub body: ::core::option::Option<Body>,
+}
+impl ::prost::Name for GetBodyResponse {
+    const NAME: &'static str = "GetBodyResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetBodyResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetBodyResponse".into()
+    }
 }
 /// Asks for one body as text.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
@@ -400,6 +590,16 @@ pub struct ExportBodyRequest {
     #[prost(enumeration = "ExportFormat", tag = "2")]
     pub format: i32,
 }
+impl ::prost::Name for ExportBodyRequest {
+    const NAME: &'static str = "ExportBodyRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ExportBodyRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ExportBodyRequest".into()
+    }
+}
 /// One body as text.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ExportBodyResponse {
@@ -409,6 +609,16 @@ pub struct ExportBodyResponse {
     /// Suggested file name.
     #[prost(string, tag = "2")]
     pub file_name: ::prost::alloc::string::String,
+}
+impl ::prost::Name for ExportBodyResponse {
+    const NAME: &'static str = "ExportBodyResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ExportBodyResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ExportBodyResponse".into()
+    }
 }
 /// Which of the two sets of body and strength tables is used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
@@ -623,7 +833,7 @@ pub mod body_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.BodyService/ListBodies",
             );
@@ -648,7 +858,7 @@ pub mod body_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.BodyService/GetBody",
             );
@@ -673,7 +883,7 @@ pub mod body_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.BodyService/ExportBody",
             );
@@ -828,7 +1038,7 @@ pub mod body_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = ListBodiesSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -873,7 +1083,7 @@ pub mod body_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = GetBodySvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -918,7 +1128,7 @@ pub mod body_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = ExportBodySvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -1013,6 +1223,16 @@ pub struct PaperOptions {
     #[prost(bool, optional, tag = "12")]
     pub hand_over: ::core::option::Option<bool>,
 }
+impl ::prost::Name for PaperOptions {
+    const NAME: &'static str = "PaperOptions";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.PaperOptions".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.PaperOptions".into()
+    }
+}
 /// Scale of measured human strength.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct StrengthScale {
@@ -1029,6 +1249,16 @@ pub struct StrengthScale {
     #[prost(double, optional, tag = "4")]
     pub effort: ::core::option::Option<f64>,
 }
+impl ::prost::Name for StrengthScale {
+    const NAME: &'static str = "StrengthScale";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.StrengthScale".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.StrengthScale".into()
+    }
+}
 /// Strength factor of one DOF.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct DofStrength {
@@ -1038,6 +1268,16 @@ pub struct DofStrength {
     /// Factor, 0.01…100.
     #[prost(double, tag = "2")]
     pub factor: f64,
+}
+impl ::prost::Name for DofStrength {
+    const NAME: &'static str = "DofStrength";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.DofStrength".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.DofStrength".into()
+    }
 }
 /// A load that a figure carries.
 #[derive(Clone, Copy, PartialEq, ::prost::Message)]
@@ -1051,6 +1291,16 @@ pub struct CarriedLoad {
     /// Mass, kg.
     #[prost(double, tag = "3")]
     pub mass_kg: f64,
+}
+impl ::prost::Name for CarriedLoad {
+    const NAME: &'static str = "CarriedLoad";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.CarriedLoad".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.CarriedLoad".into()
+    }
 }
 /// One articulated body in a world.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -1111,6 +1361,16 @@ pub struct Figure {
     #[prost(string, tag = "19")]
     pub next_clip: ::prost::alloc::string::String,
 }
+impl ::prost::Name for Figure {
+    const NAME: &'static str = "Figure";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Figure".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Figure".into()
+    }
+}
 /// Where the centre of mass or a point of a segment is wanted, and how the segment is wanted to be turned, while the
 /// rest of the body follows its motion. At least one of `position_m` and `rotation` must be given. The part moves there
 /// from wherever it is; an arm reaches as far as its length, trunk, head and legs up to 0.15 m from where the motion has
@@ -1157,6 +1417,16 @@ pub mod constraint {
         CenterOfMass(bool),
     }
 }
+impl ::prost::Name for Constraint {
+    const NAME: &'static str = "Constraint";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Constraint".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Constraint".into()
+    }
+}
 /// Adds a figure.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct CreateFigureRequest {
@@ -1170,12 +1440,32 @@ pub struct CreateFigureRequest {
     #[prost(message, optional, tag = "3")]
     pub figure: ::core::option::Option<Figure>,
 }
+impl ::prost::Name for CreateFigureRequest {
+    const NAME: &'static str = "CreateFigureRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.CreateFigureRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.CreateFigureRequest".into()
+    }
+}
 /// The new figure.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct CreateFigureResponse {
     /// As it was created, with defaults filled in.
     #[prost(message, optional, tag = "1")]
     pub figure: ::core::option::Option<Figure>,
+}
+impl ::prost::Name for CreateFigureResponse {
+    const NAME: &'static str = "CreateFigureResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.CreateFigureResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.CreateFigureResponse".into()
+    }
 }
 /// Asks for one figure.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
@@ -1184,12 +1474,32 @@ pub struct GetFigureRequest {
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
 }
+impl ::prost::Name for GetFigureRequest {
+    const NAME: &'static str = "GetFigureRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetFigureRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetFigureRequest".into()
+    }
+}
 /// One figure.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct GetFigureResponse {
     /// As it is now.
     #[prost(message, optional, tag = "1")]
     pub figure: ::core::option::Option<Figure>,
+}
+impl ::prost::Name for GetFigureResponse {
+    const NAME: &'static str = "GetFigureResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetFigureResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetFigureResponse".into()
+    }
 }
 /// Asks for figures.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
@@ -1204,6 +1514,16 @@ pub struct ListFiguresRequest {
     #[prost(string, tag = "3")]
     pub page_token: ::prost::alloc::string::String,
 }
+impl ::prost::Name for ListFiguresRequest {
+    const NAME: &'static str = "ListFiguresRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ListFiguresRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ListFiguresRequest".into()
+    }
+}
 /// A page of figures.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ListFiguresResponse {
@@ -1214,6 +1534,16 @@ pub struct ListFiguresResponse {
     #[prost(string, tag = "2")]
     pub next_page_token: ::prost::alloc::string::String,
 }
+impl ::prost::Name for ListFiguresResponse {
+    const NAME: &'static str = "ListFiguresResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ListFiguresResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ListFiguresResponse".into()
+    }
+}
 /// Changes a figure.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct UpdateFigureRequest {
@@ -1221,9 +1551,19 @@ pub struct UpdateFigureRequest {
     #[prost(message, optional, tag = "1")]
     pub figure: ::core::option::Option<Figure>,
     /// Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper`, `constraints`,
-    /// `protective_steps` to take. Must not be empty.
+    /// `protective_steps` to take. Must not be empty. Fields that it does not name are ignored, whatever they hold.
     #[prost(message, optional, tag = "2")]
     pub update_mask: ::core::option::Option<::prost_types::FieldMask>,
+}
+impl ::prost::Name for UpdateFigureRequest {
+    const NAME: &'static str = "UpdateFigureRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.UpdateFigureRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.UpdateFigureRequest".into()
+    }
 }
 /// The changed figure.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -1232,6 +1572,16 @@ pub struct UpdateFigureResponse {
     #[prost(message, optional, tag = "1")]
     pub figure: ::core::option::Option<Figure>,
 }
+impl ::prost::Name for UpdateFigureResponse {
+    const NAME: &'static str = "UpdateFigureResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.UpdateFigureResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.UpdateFigureResponse".into()
+    }
+}
 /// Removes a figure.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct DeleteFigureRequest {
@@ -1239,9 +1589,29 @@ pub struct DeleteFigureRequest {
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
 }
+impl ::prost::Name for DeleteFigureRequest {
+    const NAME: &'static str = "DeleteFigureRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.DeleteFigureRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.DeleteFigureRequest".into()
+    }
+}
 /// The figure is gone.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct DeleteFigureResponse {}
+impl ::prost::Name for DeleteFigureResponse {
+    const NAME: &'static str = "DeleteFigureResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.DeleteFigureResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.DeleteFigureResponse".into()
+    }
+}
 /// Puts a figure back.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ResetFigureRequest {
@@ -1252,12 +1622,32 @@ pub struct ResetFigureRequest {
     #[prost(message, optional, tag = "2")]
     pub placement: ::core::option::Option<Placement>,
 }
+impl ::prost::Name for ResetFigureRequest {
+    const NAME: &'static str = "ResetFigureRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ResetFigureRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ResetFigureRequest".into()
+    }
+}
 /// The figure that was put back.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ResetFigureResponse {
     /// As it is now.
     #[prost(message, optional, tag = "1")]
     pub figure: ::core::option::Option<Figure>,
+}
+impl ::prost::Name for ResetFigureResponse {
+    const NAME: &'static str = "ResetFigureResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ResetFigureResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ResetFigureResponse".into()
+    }
 }
 /// Controller: computes accelerations and torques.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
@@ -1557,7 +1947,8 @@ pub mod figure_service_client {
             self.inner = self.inner.max_encoding_message_size(limit);
             self
         }
-        /// Adds a figure, standing still. RESOURCE_EXHAUSTED when the world holds as many as it may.
+        /// Adds a figure, standing still. RESOURCE_EXHAUSTED when the world holds as many as it may, or when there is no
+        /// processor time for its ticks (`TICK_BUDGET`).
         pub async fn create_figure(
             &mut self,
             request: impl tonic::IntoRequest<super::CreateFigureRequest>,
@@ -1573,7 +1964,7 @@ pub mod figure_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.FigureService/CreateFigure",
             );
@@ -1598,7 +1989,7 @@ pub mod figure_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.FigureService/GetFigure",
             );
@@ -1623,7 +2014,7 @@ pub mod figure_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.FigureService/ListFigures",
             );
@@ -1648,7 +2039,7 @@ pub mod figure_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.FigureService/UpdateFigure",
             );
@@ -1673,7 +2064,7 @@ pub mod figure_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.FigureService/DeleteFigure",
             );
@@ -1698,7 +2089,7 @@ pub mod figure_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.FigureService/ResetFigure",
             );
@@ -1722,7 +2113,8 @@ pub mod figure_service_server {
     /// Generated trait containing gRPC methods that should be implemented for use with FigureServiceServer.
     #[async_trait]
     pub trait FigureService: std::marker::Send + std::marker::Sync + 'static {
-        /// Adds a figure, standing still. RESOURCE_EXHAUSTED when the world holds as many as it may.
+        /// Adds a figure, standing still. RESOURCE_EXHAUSTED when the world holds as many as it may, or when there is no
+        /// processor time for its ticks (`TICK_BUDGET`).
         async fn create_figure(
             &self,
             request: tonic::Request<super::CreateFigureRequest>,
@@ -1878,7 +2270,7 @@ pub mod figure_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = CreateFigureSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -1923,7 +2315,7 @@ pub mod figure_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = GetFigureSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -1968,7 +2360,7 @@ pub mod figure_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = ListFiguresSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -2013,7 +2405,7 @@ pub mod figure_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = UpdateFigureSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -2058,7 +2450,7 @@ pub mod figure_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = DeleteFigureSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -2103,7 +2495,7 @@ pub mod figure_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = ResetFigureSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -2186,6 +2578,16 @@ pub struct WorldFrame {
     #[prost(message, repeated, tag = "8")]
     pub obstacles: ::prost::alloc::vec::Vec<ObstacleFrame>,
 }
+impl ::prost::Name for WorldFrame {
+    const NAME: &'static str = "WorldFrame";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.WorldFrame".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.WorldFrame".into()
+    }
+}
 /// One obstacle after one tick. `WorldService.ListObstacles` tells its shape.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ObstacleFrame {
@@ -2201,6 +2603,16 @@ pub struct ObstacleFrame {
     /// Mean force of contacts on it over the tick, world axes, N: 3 numbers; 0 unless it moves freely.
     #[prost(message, optional, tag = "4")]
     pub force: ::core::option::Option<Numbers>,
+}
+impl ::prost::Name for ObstacleFrame {
+    const NAME: &'static str = "ObstacleFrame";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ObstacleFrame".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ObstacleFrame".into()
+    }
 }
 /// One figure after one tick. The view's field mask chooses among the fields from `root_pose` on; fields that were not
 /// chosen are absent. Torques and contact forces are means over the tick.
@@ -2280,6 +2692,16 @@ pub struct FigureFrame {
     #[prost(message, optional, tag = "24")]
     pub constraint_error: ::core::option::Option<Numbers>,
 }
+impl ::prost::Name for FigureFrame {
+    const NAME: &'static str = "FigureFrame";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.FigureFrame".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.FigureFrame".into()
+    }
+}
 /// Parts that touch another figure or an obstacle, one entry each in every list.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Touches {
@@ -2302,6 +2724,16 @@ pub struct Touches {
     #[prost(message, optional, tag = "6")]
     pub depth: ::core::option::Option<Numbers>,
 }
+impl ::prost::Name for Touches {
+    const NAME: &'static str = "Touches";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Touches".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Touches".into()
+    }
+}
 /// Touching points, one entry each in every list.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Contacts {
@@ -2317,6 +2749,16 @@ pub struct Contacts {
     /// Force on the figure, world axes, N: x, y, z of each.
     #[prost(message, optional, tag = "4")]
     pub force: ::core::option::Option<Numbers>,
+}
+impl ::prost::Name for Contacts {
+    const NAME: &'static str = "Contacts";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Contacts".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Contacts".into()
+    }
 }
 /// How the figure stands.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -2346,6 +2788,16 @@ pub struct Balance {
     #[prost(message, optional, tag = "8")]
     pub support_ratio: ::core::option::Option<Numbers>,
 }
+impl ::prost::Name for Balance {
+    const NAME: &'static str = "Balance";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Balance".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Balance".into()
+    }
+}
 /// The posture that was asked for.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct DesiredPosture {
@@ -2358,6 +2810,16 @@ pub struct DesiredPosture {
     /// As `FigureFrame.joint_rotations`.
     #[prost(message, optional, tag = "3")]
     pub joint_rotations: ::core::option::Option<Numbers>,
+}
+impl ::prost::Name for DesiredPosture {
+    const NAME: &'static str = "DesiredPosture";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.DesiredPosture".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.DesiredPosture".into()
+    }
 }
 /// What state a figure is in.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -2391,6 +2853,16 @@ pub struct Status {
     /// Loads carried at the end of the tick.
     #[prost(message, repeated, tag = "9")]
     pub loads: ::prost::alloc::vec::Vec<CarriedLoad>,
+}
+impl ::prost::Name for Status {
+    const NAME: &'static str = "Status";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Status".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Status".into()
+    }
 }
 /// The last substep of the tick as it was solved: `M v̇ + h = Sᵀ (torque + ligament_torque) + Σ Jᵀ f + assist`, with M
 /// and h of the body with its loads and gravity along −z, holds to rounding in ENCODING_DOUBLE.
@@ -2428,6 +2900,16 @@ pub struct Audit {
     #[prost(message, optional, tag = "12")]
     pub assist: ::core::option::Option<Numbers>,
 }
+impl ::prost::Name for Audit {
+    const NAME: &'static str = "Audit";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Audit".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Audit".into()
+    }
+}
 /// Forces of perturbations, other figures and obstacles, one entry each in every list.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct AppliedForces {
@@ -2440,6 +2922,16 @@ pub struct AppliedForces {
     /// Force, world axes, N: x, y, z of each.
     #[prost(message, optional, tag = "3")]
     pub force: ::core::option::Option<Numbers>,
+}
+impl ::prost::Name for AppliedForces {
+    const NAME: &'static str = "AppliedForces";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.AppliedForces".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.AppliedForces".into()
+    }
 }
 /// A stored desired motion.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -2475,6 +2967,16 @@ pub struct Clip {
     /// in lists.
     #[prost(message, optional, tag = "10")]
     pub forecast: ::core::option::Option<Forecast>,
+}
+impl ::prost::Name for Clip {
+    const NAME: &'static str = "Clip";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Clip".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Clip".into()
+    }
 }
 /// How hard a clip is, from inverse dynamics of the prepared motion. Peaks are means over 0.1 s; times are those of the
 /// clip, negative on the way into it.
@@ -2531,6 +3033,16 @@ pub struct Forecast {
     #[prost(double, tag = "16")]
     pub inverted_s: f64,
 }
+impl ::prost::Name for Forecast {
+    const NAME: &'static str = "Forecast";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Forecast".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Forecast".into()
+    }
+}
 /// How a BVH file is read. Everything may be left out.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct BvhOptions {
@@ -2557,6 +3069,16 @@ pub struct BvhOptions {
     #[prost(bool, optional, tag = "7")]
     pub walk_runs: ::core::option::Option<bool>,
 }
+impl ::prost::Name for BvhOptions {
+    const NAME: &'static str = "BvhOptions";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.BvhOptions".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.BvhOptions".into()
+    }
+}
 /// A BVH file.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct BvhSource {
@@ -2567,6 +3089,16 @@ pub struct BvhSource {
     #[prost(message, optional, tag = "2")]
     pub options: ::core::option::Option<BvhOptions>,
 }
+impl ::prost::Name for BvhSource {
+    const NAME: &'static str = "BvhSource";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.BvhSource".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.BvhSource".into()
+    }
+}
 /// A motion as frames of one figure, at a constant rate.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct FrameSource {
@@ -2576,6 +3108,16 @@ pub struct FrameSource {
     /// At least two. `figure`, velocities, sequence and source time are ignored.
     #[prost(message, repeated, tag = "2")]
     pub frames: ::prost::alloc::vec::Vec<FigureMotion>,
+}
+impl ::prost::Name for FrameSource {
+    const NAME: &'static str = "FrameSource";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.FrameSource".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.FrameSource".into()
+    }
 }
 /// Asks to store a clip.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -2606,12 +3148,32 @@ pub mod create_clip_request {
         Frames(super::FrameSource),
     }
 }
+impl ::prost::Name for CreateClipRequest {
+    const NAME: &'static str = "CreateClipRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.CreateClipRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.CreateClipRequest".into()
+    }
+}
 /// The stored clip.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct CreateClipResponse {
     /// With its report.
     #[prost(message, optional, tag = "1")]
     pub clip: ::core::option::Option<Clip>,
+}
+impl ::prost::Name for CreateClipResponse {
+    const NAME: &'static str = "CreateClipResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.CreateClipResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.CreateClipResponse".into()
+    }
 }
 /// Asks for one clip.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
@@ -2620,12 +3182,32 @@ pub struct GetClipRequest {
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
 }
+impl ::prost::Name for GetClipRequest {
+    const NAME: &'static str = "GetClipRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetClipRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetClipRequest".into()
+    }
+}
 /// One clip.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct GetClipResponse {
     /// With its report.
     #[prost(message, optional, tag = "1")]
     pub clip: ::core::option::Option<Clip>,
+}
+impl ::prost::Name for GetClipResponse {
+    const NAME: &'static str = "GetClipResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetClipResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetClipResponse".into()
+    }
 }
 /// Asks for clips.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
@@ -2637,6 +3219,16 @@ pub struct ListClipsRequest {
     #[prost(string, tag = "2")]
     pub page_token: ::prost::alloc::string::String,
 }
+impl ::prost::Name for ListClipsRequest {
+    const NAME: &'static str = "ListClipsRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ListClipsRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ListClipsRequest".into()
+    }
+}
 /// A page of clips.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ListClipsResponse {
@@ -2647,6 +3239,16 @@ pub struct ListClipsResponse {
     #[prost(string, tag = "2")]
     pub next_page_token: ::prost::alloc::string::String,
 }
+impl ::prost::Name for ListClipsResponse {
+    const NAME: &'static str = "ListClipsResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ListClipsResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ListClipsResponse".into()
+    }
+}
 /// Forgets a clip.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct DeleteClipRequest {
@@ -2654,9 +3256,29 @@ pub struct DeleteClipRequest {
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
 }
+impl ::prost::Name for DeleteClipRequest {
+    const NAME: &'static str = "DeleteClipRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.DeleteClipRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.DeleteClipRequest".into()
+    }
+}
 /// The clip is gone.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct DeleteClipResponse {}
+impl ::prost::Name for DeleteClipResponse {
+    const NAME: &'static str = "DeleteClipResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.DeleteClipResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.DeleteClipResponse".into()
+    }
+}
 /// Lets a figure play a clip.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct PlayClipRequest {
@@ -2686,6 +3308,16 @@ pub struct PlayClipRequest {
     #[prost(message, optional, tag = "7")]
     pub placement: ::core::option::Option<Placement>,
 }
+impl ::prost::Name for PlayClipRequest {
+    const NAME: &'static str = "PlayClipRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.PlayClipRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.PlayClipRequest".into()
+    }
+}
 /// The clip plays, or waits until the figure stands.
 #[derive(Clone, Copy, PartialEq, ::prost::Message)]
 pub struct PlayClipResponse {
@@ -2696,6 +3328,16 @@ pub struct PlayClipResponse {
     #[prost(double, tag = "1")]
     pub start_time_s: f64,
 }
+impl ::prost::Name for PlayClipResponse {
+    const NAME: &'static str = "PlayClipResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.PlayClipResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.PlayClipResponse".into()
+    }
+}
 /// Ends a clip.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct StopClipRequest {
@@ -2703,9 +3345,29 @@ pub struct StopClipRequest {
     #[prost(string, tag = "1")]
     pub figure: ::prost::alloc::string::String,
 }
+impl ::prost::Name for StopClipRequest {
+    const NAME: &'static str = "StopClipRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.StopClipRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.StopClipRequest".into()
+    }
+}
 /// The figure stands, or comes to a stand.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct StopClipResponse {}
+impl ::prost::Name for StopClipResponse {
+    const NAME: &'static str = "StopClipResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.StopClipResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.StopClipResponse".into()
+    }
+}
 /// Rotation of one bone.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct BoneRotation {
@@ -2715,6 +3377,16 @@ pub struct BoneRotation {
     /// The rotation. Required.
     #[prost(message, optional, tag = "2")]
     pub rotation: ::core::option::Option<Quaternion>,
+}
+impl ::prost::Name for BoneRotation {
+    const NAME: &'static str = "BoneRotation";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.BoneRotation".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.BoneRotation".into()
+    }
 }
 /// Desired motion of one figure at one instant: joint angles or bone rotations, not both.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -2741,10 +3413,21 @@ pub struct FigureMotion {
     #[prost(bool, repeated, tag = "7")]
     pub planted: ::prost::alloc::vec::Vec<bool>,
 }
+impl ::prost::Name for FigureMotion {
+    const NAME: &'static str = "FigureMotion";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.FigureMotion".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.FigureMotion".into()
+    }
+}
 /// Desired motion at one instant.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct MotionFrame {
-    /// Counts up by one from frame to frame; must grow. Frames that do not are dropped and counted.
+    /// Counts up by one from frame to frame; must grow. Frames that do not are dropped and counted; if they go on for
+    /// 0.25 s in an order of their own, the stream begins anew with them.
     #[prost(int64, tag = "1")]
     pub sequence: i64,
     /// When the motion was captured, ns on the driver's clock; must grow with the sequence.
@@ -2753,6 +3436,16 @@ pub struct MotionFrame {
     /// One entry per driven figure.
     #[prost(message, repeated, tag = "3")]
     pub figures: ::prost::alloc::vec::Vec<FigureMotion>,
+}
+impl ::prost::Name for MotionFrame {
+    const NAME: &'static str = "MotionFrame";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.MotionFrame".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.MotionFrame".into()
+    }
 }
 /// How figures are driven.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -2800,12 +3493,32 @@ pub struct DriveHeader {
     #[prost(double, optional, tag = "12")]
     pub preparation_window_ms: ::core::option::Option<f64>,
 }
+impl ::prost::Name for DriveHeader {
+    const NAME: &'static str = "DriveHeader";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.DriveHeader".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.DriveHeader".into()
+    }
+}
 /// Batch of desired motion.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct MotionBatch {
     /// In order of sequence, at most 64.
     #[prost(message, repeated, tag = "1")]
     pub frames: ::prost::alloc::vec::Vec<MotionFrame>,
+}
+impl ::prost::Name for MotionBatch {
+    const NAME: &'static str = "MotionBatch";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.MotionBatch".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.MotionBatch".into()
+    }
 }
 /// What a driver sends.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -2827,12 +3540,32 @@ pub mod drive_figures_request {
         Batch(super::MotionBatch),
     }
 }
+impl ::prost::Name for DriveFiguresRequest {
+    const NAME: &'static str = "DriveFiguresRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.DriveFiguresRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.DriveFiguresRequest".into()
+    }
+}
 /// What a driver is told.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct DriveFiguresResponse {
     /// State of the drive.
     #[prost(message, optional, tag = "1")]
     pub feedback: ::core::option::Option<DriveFeedback>,
+}
+impl ::prost::Name for DriveFiguresResponse {
+    const NAME: &'static str = "DriveFiguresResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.DriveFiguresResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.DriveFiguresResponse".into()
+    }
 }
 /// A batch of live desired motion.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -2844,12 +3577,32 @@ pub struct PushMotionRequest {
     #[prost(message, optional, tag = "2")]
     pub batch: ::core::option::Option<MotionBatch>,
 }
-/// State of the drive after the batch was taken.
+impl ::prost::Name for PushMotionRequest {
+    const NAME: &'static str = "PushMotionRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.PushMotionRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.PushMotionRequest".into()
+    }
+}
+/// The batch was taken. It acts from the next tick on; the call does not wait for it.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct PushMotionResponse {
-    /// State of the drive.
+    /// State of the drive after the last tick; `received_sequence` and `refused_batch_count` are of now.
     #[prost(message, optional, tag = "1")]
     pub feedback: ::core::option::Option<DriveFeedback>,
+}
+impl ::prost::Name for PushMotionResponse {
+    const NAME: &'static str = "PushMotionResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.PushMotionResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.PushMotionResponse".into()
+    }
 }
 /// State of a drive.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -2863,12 +3616,23 @@ pub struct DriveFeedback {
     /// Largest sequence that was taken; -1 if none.
     #[prost(int64, tag = "3")]
     pub received_sequence: i64,
-    /// Batches that found a full queue or came too fast and were dropped.
+    /// Batches that came too fast and were dropped: a driver may send 1000 frames per second for each of its figures, and
+    /// 512 at once.
     #[prost(int64, tag = "4")]
     pub refused_batch_count: i64,
     /// One entry per driven figure.
     #[prost(message, repeated, tag = "5")]
     pub figures: ::prost::alloc::vec::Vec<FigureFeedback>,
+}
+impl ::prost::Name for DriveFeedback {
+    const NAME: &'static str = "DriveFeedback";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.DriveFeedback".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.DriveFeedback".into()
+    }
 }
 /// State of the jitter buffer of one figure.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -2922,6 +3686,24 @@ pub struct FigureFeedback {
     /// come.
     #[prost(double, tag = "16")]
     pub preparation_window_ms: f64,
+    /// Times that the stream began anew: its sequence or source time started again or was set ahead, or it fell too far
+    /// behind. The figure stands until there is motion again. An event says why.
+    #[prost(int64, tag = "17")]
+    pub resync_count: i64,
+    /// How far the stream is behind because its world leaves ticks out, ms; contained in `playout_delay_ms`. It is played
+    /// in world time, never faster than the body moves, and begins anew when it is 2 s behind.
+    #[prost(double, tag = "18")]
+    pub behind_ms: f64,
+}
+impl ::prost::Name for FigureFeedback {
+    const NAME: &'static str = "FigureFeedback";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.FigureFeedback".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.FigureFeedback".into()
+    }
 }
 /// Forecast of how a figure follows a clip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
@@ -3183,7 +3965,7 @@ pub mod motion_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.MotionService/CreateClip",
             );
@@ -3208,7 +3990,7 @@ pub mod motion_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.MotionService/GetClip",
             );
@@ -3233,7 +4015,7 @@ pub mod motion_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.MotionService/ListClips",
             );
@@ -3258,7 +4040,7 @@ pub mod motion_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.MotionService/DeleteClip",
             );
@@ -3286,7 +4068,7 @@ pub mod motion_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.MotionService/PlayClip",
             );
@@ -3312,7 +4094,7 @@ pub mod motion_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.MotionService/StopClip",
             );
@@ -3337,7 +4119,7 @@ pub mod motion_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.MotionService/PushMotion",
             );
@@ -3366,7 +4148,7 @@ pub mod motion_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.MotionService/DriveFigures",
             );
@@ -3571,7 +4353,7 @@ pub mod motion_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = CreateClipSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -3616,7 +4398,7 @@ pub mod motion_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = GetClipSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -3661,7 +4443,7 @@ pub mod motion_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = ListClipsSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -3706,7 +4488,7 @@ pub mod motion_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = DeleteClipSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -3751,7 +4533,7 @@ pub mod motion_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = PlayClipSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -3796,7 +4578,7 @@ pub mod motion_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = StopClipSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -3841,7 +4623,7 @@ pub mod motion_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = PushMotionSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -3889,7 +4671,7 @@ pub mod motion_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = DriveFiguresSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -3974,6 +4756,16 @@ pub struct Load {
     #[prost(double, tag = "8")]
     pub grip_n: f64,
 }
+impl ::prost::Name for Load {
+    const NAME: &'static str = "Load";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Load".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Load".into()
+    }
+}
 /// A push: the force that gives this impulse over its duration.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Impulse {
@@ -3990,6 +4782,16 @@ pub struct Impulse {
     #[prost(double, tag = "4")]
     pub duration_s: f64,
 }
+impl ::prost::Name for Impulse {
+    const NAME: &'static str = "Impulse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Impulse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Impulse".into()
+    }
+}
 /// A constant force over time.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Force {
@@ -4005,6 +4807,16 @@ pub struct Force {
     /// How long it acts, s, 0…86400. 0 or absent: until it is cleared.
     #[prost(double, tag = "4")]
     pub duration_s: f64,
+}
+impl ::prost::Name for Force {
+    const NAME: &'static str = "Force";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Force".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Force".into()
+    }
 }
 /// One disturbance.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -4035,6 +4847,16 @@ pub mod perturbation {
         Force(super::Force),
     }
 }
+impl ::prost::Name for Perturbation {
+    const NAME: &'static str = "Perturbation";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Perturbation".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Perturbation".into()
+    }
+}
 /// Asks for disturbances.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ApplyPerturbationsRequest {
@@ -4052,12 +4874,32 @@ pub struct ApplyPerturbationsRequest {
     #[prost(message, repeated, tag = "4")]
     pub perturbations: ::prost::alloc::vec::Vec<Perturbation>,
 }
+impl ::prost::Name for ApplyPerturbationsRequest {
+    const NAME: &'static str = "ApplyPerturbationsRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ApplyPerturbationsRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ApplyPerturbationsRequest".into()
+    }
+}
 /// The batch was taken.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ApplyPerturbationsResponse {
     /// Tick at whose start the request was applied; perturbations for a later tick begin there.
     #[prost(int64, tag = "1")]
     pub tick: i64,
+}
+impl ::prost::Name for ApplyPerturbationsResponse {
+    const NAME: &'static str = "ApplyPerturbationsResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ApplyPerturbationsResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ApplyPerturbationsResponse".into()
+    }
 }
 /// Asks to take everything off a figure.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
@@ -4066,12 +4908,32 @@ pub struct ClearPerturbationsRequest {
     #[prost(string, tag = "1")]
     pub figure: ::prost::alloc::string::String,
 }
+impl ::prost::Name for ClearPerturbationsRequest {
+    const NAME: &'static str = "ClearPerturbationsRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ClearPerturbationsRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ClearPerturbationsRequest".into()
+    }
+}
 /// Everything is off.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ClearPerturbationsResponse {
     /// Tick at whose start it was taken off.
     #[prost(int64, tag = "1")]
     pub tick: i64,
+}
+impl ::prost::Name for ClearPerturbationsResponse {
+    const NAME: &'static str = "ClearPerturbationsResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ClearPerturbationsResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ClearPerturbationsResponse".into()
+    }
 }
 /// Generated client implementations.
 pub mod perturbation_service_client {
@@ -4181,7 +5043,7 @@ pub mod perturbation_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.PerturbationService/ApplyPerturbations",
             );
@@ -4208,7 +5070,7 @@ pub mod perturbation_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.PerturbationService/ClearPerturbations",
             );
@@ -4362,7 +5224,7 @@ pub mod perturbation_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = ApplyPerturbationsSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -4411,7 +5273,7 @@ pub mod perturbation_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = ClearPerturbationsSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -4469,6 +5331,16 @@ pub mod perturbation_service_server {
 /// Asks for version and capabilities.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct GetServerInfoRequest {}
+impl ::prost::Name for GetServerInfoRequest {
+    const NAME: &'static str = "GetServerInfoRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetServerInfoRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetServerInfoRequest".into()
+    }
+}
 /// Version and capabilities.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct GetServerInfoResponse {
@@ -4494,6 +5366,16 @@ pub struct GetServerInfoResponse {
     #[prost(message, repeated, tag = "7")]
     pub limits: ::prost::alloc::vec::Vec<ServerLimit>,
 }
+impl ::prost::Name for GetServerInfoResponse {
+    const NAME: &'static str = "GetServerInfoResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetServerInfoResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetServerInfoResponse".into()
+    }
+}
 /// One limit.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ServerLimit {
@@ -4504,12 +5386,32 @@ pub struct ServerLimit {
     #[prost(int64, tag = "2")]
     pub value: i64,
 }
+impl ::prost::Name for ServerLimit {
+    const NAME: &'static str = "ServerLimit";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ServerLimit".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ServerLimit".into()
+    }
+}
 /// Asks how busy the server is.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct GetServerStatsRequest {
     /// World: resource name. Empty: all.
     #[prost(string, tag = "1")]
     pub world: ::prost::alloc::string::String,
+}
+impl ::prost::Name for GetServerStatsRequest {
+    const NAME: &'static str = "GetServerStatsRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetServerStatsRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetServerStatsRequest".into()
+    }
 }
 /// How busy the server is.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -4526,6 +5428,22 @@ pub struct GetServerStatsResponse {
     /// Simulations running.
     #[prost(int32, tag = "4")]
     pub simulation_count: i32,
+    /// Share of the processors that the ticks of running worlds need, measured: 1 is all of them.
+    #[prost(double, tag = "5")]
+    pub budget_used: f64,
+    /// Share that they may need (`max_tick_budget`).
+    #[prost(double, tag = "6")]
+    pub budget_limit: f64,
+}
+impl ::prost::Name for GetServerStatsResponse {
+    const NAME: &'static str = "GetServerStatsResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetServerStatsResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetServerStatsResponse".into()
+    }
 }
 /// How busy one world is.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -4551,12 +5469,23 @@ pub struct WorldStats {
     /// Viewers.
     #[prost(int32, tag = "7")]
     pub viewer_count: i32,
-    /// Share of the period that ticks use, p99 of recent ticks: 1 is all of it.
+    /// Share of the period, at the present speed, that ticks use with everything around them, p99 of recent ticks: 1 is
+    /// all of it.
     #[prost(double, tag = "8")]
     pub budget_used: f64,
     /// Stages of a tick, in order: `late` (start after the deadline), `commands`, `motion`, `step`, `publish`, `total`.
     #[prost(message, repeated, tag = "9")]
     pub stages: ::prost::alloc::vec::Vec<StageTime>,
+}
+impl ::prost::Name for WorldStats {
+    const NAME: &'static str = "WorldStats";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.WorldStats".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.WorldStats".into()
+    }
 }
 /// Time of one stage of a tick, over recent ticks.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -4573,6 +5502,16 @@ pub struct StageTime {
     /// Largest, µs.
     #[prost(double, tag = "4")]
     pub max_us: f64,
+}
+impl ::prost::Name for StageTime {
+    const NAME: &'static str = "StageTime";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.StageTime".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.StageTime".into()
+    }
 }
 /// Generated client implementations.
 pub mod server_service_client {
@@ -4682,7 +5621,7 @@ pub mod server_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.ServerService/GetServerInfo",
             );
@@ -4707,7 +5646,7 @@ pub mod server_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.ServerService/GetServerStats",
             );
@@ -4855,7 +5794,7 @@ pub mod server_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = GetServerInfoSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -4901,7 +5840,7 @@ pub mod server_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = GetServerStatsSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -4973,6 +5912,16 @@ pub struct View {
     #[prost(int32, tag = "4")]
     pub rate_divisor: i32,
 }
+impl ::prost::Name for View {
+    const NAME: &'static str = "View";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.View".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.View".into()
+    }
+}
 /// Names of the figures, by their index in the frames that follow.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Roster {
@@ -4989,6 +5938,16 @@ pub struct Roster {
     #[prost(message, repeated, tag = "4")]
     pub figures: ::prost::alloc::vec::Vec<RosterEntry>,
 }
+impl ::prost::Name for Roster {
+    const NAME: &'static str = "Roster";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Roster".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Roster".into()
+    }
+}
 /// One figure of a roster.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct RosterEntry {
@@ -5001,6 +5960,16 @@ pub struct RosterEntry {
     /// Body: resource name.
     #[prost(string, tag = "3")]
     pub body: ::prost::alloc::string::String,
+}
+impl ::prost::Name for RosterEntry {
+    const NAME: &'static str = "RosterEntry";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.RosterEntry".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.RosterEntry".into()
+    }
 }
 /// Asks for a frame.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
@@ -5015,6 +5984,16 @@ pub struct GetWorldFrameRequest {
     #[prost(message, optional, tag = "3")]
     pub view: ::core::option::Option<View>,
 }
+impl ::prost::Name for GetWorldFrameRequest {
+    const NAME: &'static str = "GetWorldFrameRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetWorldFrameRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetWorldFrameRequest".into()
+    }
+}
 /// A frame.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct GetWorldFrameResponse {
@@ -5024,6 +6003,16 @@ pub struct GetWorldFrameResponse {
     /// The frame.
     #[prost(message, optional, tag = "2")]
     pub frame: ::core::option::Option<WorldFrame>,
+}
+impl ::prost::Name for GetWorldFrameResponse {
+    const NAME: &'static str = "GetWorldFrameResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetWorldFrameResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetWorldFrameResponse".into()
+    }
 }
 /// Asks for frames as they come.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
@@ -5038,6 +6027,16 @@ pub struct WatchWorldRequest {
     /// is no longer held. Absent: from now.
     #[prost(int64, optional, tag = "3")]
     pub resume_tick: ::core::option::Option<i64>,
+}
+impl ::prost::Name for WatchWorldRequest {
+    const NAME: &'static str = "WatchWorldRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.WatchWorldRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.WatchWorldRequest".into()
+    }
 }
 /// One event.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -5073,6 +6072,16 @@ pub struct Event {
     #[prost(string, tag = "10")]
     pub other_segment: ::prost::alloc::string::String,
 }
+impl ::prost::Name for Event {
+    const NAME: &'static str = "Event";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Event".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Event".into()
+    }
+}
 /// Asks for events as they come.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct WatchEventsRequest {
@@ -5086,6 +6095,16 @@ pub struct WatchEventsRequest {
     #[prost(enumeration = "EventType", repeated, tag = "3")]
     pub types: ::prost::alloc::vec::Vec<i32>,
 }
+impl ::prost::Name for WatchEventsRequest {
+    const NAME: &'static str = "WatchEventsRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.WatchEventsRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.WatchEventsRequest".into()
+    }
+}
 /// One or more events of one tick.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct WatchEventsResponse {
@@ -5095,6 +6114,16 @@ pub struct WatchEventsResponse {
     /// Messages that this viewer was too slow for, so far.
     #[prost(int64, tag = "2")]
     pub missed_count: i64,
+}
+impl ::prost::Name for WatchEventsResponse {
+    const NAME: &'static str = "WatchEventsResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.WatchEventsResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.WatchEventsResponse".into()
+    }
 }
 /// What happened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
@@ -5132,6 +6161,8 @@ pub enum EventType {
     DriveBegan = 13,
     /// A driver gave a figure back or lost it.
     DriveEnded = 14,
+    /// The stream of a driver began anew; the detail says why.
+    DriveResynced = 35,
     /// The world was paused.
     WorldPaused = 15,
     /// The world was resumed.
@@ -5172,6 +6203,7 @@ impl EventType {
             Self::FigureRemoved => "EVENT_TYPE_FIGURE_REMOVED",
             Self::DriveBegan => "EVENT_TYPE_DRIVE_BEGAN",
             Self::DriveEnded => "EVENT_TYPE_DRIVE_ENDED",
+            Self::DriveResynced => "EVENT_TYPE_DRIVE_RESYNCED",
             Self::WorldPaused => "EVENT_TYPE_WORLD_PAUSED",
             Self::WorldResumed => "EVENT_TYPE_WORLD_RESUMED",
             Self::WorldFailed => "EVENT_TYPE_WORLD_FAILED",
@@ -5201,6 +6233,7 @@ impl EventType {
             "EVENT_TYPE_FIGURE_REMOVED" => Some(Self::FigureRemoved),
             "EVENT_TYPE_DRIVE_BEGAN" => Some(Self::DriveBegan),
             "EVENT_TYPE_DRIVE_ENDED" => Some(Self::DriveEnded),
+            "EVENT_TYPE_DRIVE_RESYNCED" => Some(Self::DriveResynced),
             "EVENT_TYPE_WORLD_PAUSED" => Some(Self::WorldPaused),
             "EVENT_TYPE_WORLD_RESUMED" => Some(Self::WorldResumed),
             "EVENT_TYPE_WORLD_FAILED" => Some(Self::WorldFailed),
@@ -5321,7 +6354,7 @@ pub mod state_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.StateService/GetWorldFrame",
             );
@@ -5349,7 +6382,7 @@ pub mod state_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.StateService/WatchWorld",
             );
@@ -5374,7 +6407,7 @@ pub mod state_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.StateService/WatchEvents",
             );
@@ -5543,7 +6576,7 @@ pub mod state_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = GetWorldFrameSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -5589,7 +6622,7 @@ pub mod state_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = WatchWorldSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -5635,7 +6668,7 @@ pub mod state_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = WatchEventsSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -5700,6 +6733,16 @@ pub struct TimedPerturbation {
     #[prost(message, optional, tag = "2")]
     pub perturbation: ::core::option::Option<Perturbation>,
 }
+impl ::prost::Name for TimedPerturbation {
+    const NAME: &'static str = "TimedPerturbation";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.TimedPerturbation".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.TimedPerturbation".into()
+    }
+}
 /// Asks for a simulation.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct SimulateClipRequest {
@@ -5741,6 +6784,16 @@ pub mod simulate_clip_request {
         Bvh(super::BvhSource),
     }
 }
+impl ::prost::Name for SimulateClipRequest {
+    const NAME: &'static str = "SimulateClipRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.SimulateClipRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.SimulateClipRequest".into()
+    }
+}
 /// Result of a simulation.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct SimulateClipResponse {
@@ -5756,6 +6809,16 @@ pub struct SimulateClipResponse {
     /// How the BVH file was understood; absent for clips.
     #[prost(message, optional, tag = "4")]
     pub report: ::core::option::Option<RetargetReport>,
+}
+impl ::prost::Name for SimulateClipResponse {
+    const NAME: &'static str = "SimulateClipResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.SimulateClipResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.SimulateClipResponse".into()
+    }
 }
 /// Figures of merit of a simulation.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -5800,6 +6863,16 @@ pub struct SimulationSummary {
     /// 99th percentile of the time to compute a tick, µs.
     #[prost(double, tag = "13")]
     pub tick_p99_us: f64,
+}
+impl ::prost::Name for SimulationSummary {
+    const NAME: &'static str = "SimulationSummary";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.SimulationSummary".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.SimulationSummary".into()
+    }
 }
 /// Generated client implementations.
 pub mod simulation_service_client {
@@ -5909,7 +6982,7 @@ pub mod simulation_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.SimulationService/SimulateClip",
             );
@@ -6050,7 +7123,7 @@ pub mod simulation_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = SimulateClipSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -6161,6 +7234,16 @@ pub struct World {
     #[prost(bool, optional, tag = "17")]
     pub collisions: ::core::option::Option<bool>,
 }
+impl ::prost::Name for World {
+    const NAME: &'static str = "World";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.World".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.World".into()
+    }
+}
 /// Asks for a new world.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct CreateWorldRequest {
@@ -6174,12 +7257,32 @@ pub struct CreateWorldRequest {
     #[prost(bool, tag = "3")]
     pub paused: bool,
 }
+impl ::prost::Name for CreateWorldRequest {
+    const NAME: &'static str = "CreateWorldRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.CreateWorldRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.CreateWorldRequest".into()
+    }
+}
 /// The new world.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct CreateWorldResponse {
     /// As it was created, with defaults filled in.
     #[prost(message, optional, tag = "1")]
     pub world: ::core::option::Option<World>,
+}
+impl ::prost::Name for CreateWorldResponse {
+    const NAME: &'static str = "CreateWorldResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.CreateWorldResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.CreateWorldResponse".into()
+    }
 }
 /// Asks for one world.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
@@ -6188,12 +7291,32 @@ pub struct GetWorldRequest {
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
 }
+impl ::prost::Name for GetWorldRequest {
+    const NAME: &'static str = "GetWorldRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetWorldRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetWorldRequest".into()
+    }
+}
 /// One world.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct GetWorldResponse {
     /// As it is now.
     #[prost(message, optional, tag = "1")]
     pub world: ::core::option::Option<World>,
+}
+impl ::prost::Name for GetWorldResponse {
+    const NAME: &'static str = "GetWorldResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetWorldResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetWorldResponse".into()
+    }
 }
 /// Asks for worlds.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
@@ -6205,6 +7328,16 @@ pub struct ListWorldsRequest {
     #[prost(string, tag = "2")]
     pub page_token: ::prost::alloc::string::String,
 }
+impl ::prost::Name for ListWorldsRequest {
+    const NAME: &'static str = "ListWorldsRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ListWorldsRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ListWorldsRequest".into()
+    }
+}
 /// A page of worlds.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ListWorldsResponse {
@@ -6214,6 +7347,16 @@ pub struct ListWorldsResponse {
     /// Token of the next page; empty at the end.
     #[prost(string, tag = "2")]
     pub next_page_token: ::prost::alloc::string::String,
+}
+impl ::prost::Name for ListWorldsResponse {
+    const NAME: &'static str = "ListWorldsResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ListWorldsResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ListWorldsResponse".into()
+    }
 }
 /// Changes a world.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -6225,12 +7368,32 @@ pub struct UpdateWorldRequest {
     #[prost(message, optional, tag = "2")]
     pub update_mask: ::core::option::Option<::prost_types::FieldMask>,
 }
+impl ::prost::Name for UpdateWorldRequest {
+    const NAME: &'static str = "UpdateWorldRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.UpdateWorldRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.UpdateWorldRequest".into()
+    }
+}
 /// The changed world.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct UpdateWorldResponse {
     /// As it is now.
     #[prost(message, optional, tag = "1")]
     pub world: ::core::option::Option<World>,
+}
+impl ::prost::Name for UpdateWorldResponse {
+    const NAME: &'static str = "UpdateWorldResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.UpdateWorldResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.UpdateWorldResponse".into()
+    }
 }
 /// Ends a world.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
@@ -6239,15 +7402,45 @@ pub struct DeleteWorldRequest {
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
 }
+impl ::prost::Name for DeleteWorldRequest {
+    const NAME: &'static str = "DeleteWorldRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.DeleteWorldRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.DeleteWorldRequest".into()
+    }
+}
 /// The world is gone.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct DeleteWorldResponse {}
+impl ::prost::Name for DeleteWorldResponse {
+    const NAME: &'static str = "DeleteWorldResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.DeleteWorldResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.DeleteWorldResponse".into()
+    }
+}
 /// Stops a world's clock.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct PauseWorldRequest {
     /// Resource name `worlds/{world}`.
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
+}
+impl ::prost::Name for PauseWorldRequest {
+    const NAME: &'static str = "PauseWorldRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.PauseWorldRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.PauseWorldRequest".into()
+    }
 }
 /// The paused world.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -6256,6 +7449,16 @@ pub struct PauseWorldResponse {
     #[prost(message, optional, tag = "1")]
     pub world: ::core::option::Option<World>,
 }
+impl ::prost::Name for PauseWorldResponse {
+    const NAME: &'static str = "PauseWorldResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.PauseWorldResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.PauseWorldResponse".into()
+    }
+}
 /// Starts a world's clock.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ResumeWorldRequest {
@@ -6263,12 +7466,32 @@ pub struct ResumeWorldRequest {
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
 }
+impl ::prost::Name for ResumeWorldRequest {
+    const NAME: &'static str = "ResumeWorldRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ResumeWorldRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ResumeWorldRequest".into()
+    }
+}
 /// The running world.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ResumeWorldResponse {
     /// As it is now.
     #[prost(message, optional, tag = "1")]
     pub world: ::core::option::Option<World>,
+}
+impl ::prost::Name for ResumeWorldResponse {
+    const NAME: &'static str = "ResumeWorldResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ResumeWorldResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ResumeWorldResponse".into()
+    }
 }
 /// Advances a paused world.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
@@ -6279,6 +7502,16 @@ pub struct StepWorldRequest {
     /// Number of ticks, 1…10000. 0: 1.
     #[prost(int32, tag = "2")]
     pub tick_count: i32,
+}
+impl ::prost::Name for StepWorldRequest {
+    const NAME: &'static str = "StepWorldRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.StepWorldRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.StepWorldRequest".into()
+    }
 }
 /// The ticks are done.
 #[derive(Clone, Copy, PartialEq, ::prost::Message)]
@@ -6293,6 +7526,16 @@ pub struct StepWorldResponse {
     #[prost(sfixed64, tag = "3")]
     pub state_hash: i64,
 }
+impl ::prost::Name for StepWorldResponse {
+    const NAME: &'static str = "StepWorldResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.StepWorldResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.StepWorldResponse".into()
+    }
+}
 /// Sets a world's speed.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct SetWorldSpeedRequest {
@@ -6303,6 +7546,16 @@ pub struct SetWorldSpeedRequest {
     #[prost(double, tag = "2")]
     pub speed: f64,
 }
+impl ::prost::Name for SetWorldSpeedRequest {
+    const NAME: &'static str = "SetWorldSpeedRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.SetWorldSpeedRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.SetWorldSpeedRequest".into()
+    }
+}
 /// The world at its new speed.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct SetWorldSpeedResponse {
@@ -6310,12 +7563,32 @@ pub struct SetWorldSpeedResponse {
     #[prost(message, optional, tag = "1")]
     pub world: ::core::option::Option<World>,
 }
+impl ::prost::Name for SetWorldSpeedResponse {
+    const NAME: &'static str = "SetWorldSpeedResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.SetWorldSpeedResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.SetWorldSpeedResponse".into()
+    }
+}
 /// A ball around the obstacle's origin.
 #[derive(Clone, Copy, PartialEq, ::prost::Message)]
 pub struct SphereShape {
     /// Radius, m, 0.005…100.
     #[prost(double, tag = "1")]
     pub radius_m: f64,
+}
+impl ::prost::Name for SphereShape {
+    const NAME: &'static str = "SphereShape";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.SphereShape".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.SphereShape".into()
+    }
 }
 /// A cylinder with round ends along z of the obstacle's frame, around its origin.
 #[derive(Clone, Copy, PartialEq, ::prost::Message)]
@@ -6327,6 +7600,16 @@ pub struct CapsuleShape {
     #[prost(double, tag = "2")]
     pub half_length_m: f64,
 }
+impl ::prost::Name for CapsuleShape {
+    const NAME: &'static str = "CapsuleShape";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.CapsuleShape".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.CapsuleShape".into()
+    }
+}
 /// A box around the obstacle's origin.
 #[derive(Clone, Copy, PartialEq, ::prost::Message)]
 pub struct BoxShape {
@@ -6334,9 +7617,29 @@ pub struct BoxShape {
     #[prost(message, optional, tag = "1")]
     pub half_m: ::core::option::Option<Vector3>,
 }
+impl ::prost::Name for BoxShape {
+    const NAME: &'static str = "BoxShape";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.BoxShape".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.BoxShape".into()
+    }
+}
 /// Everything below z = 0 of the obstacle's frame.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct PlaneShape {}
+impl ::prost::Name for PlaneShape {
+    const NAME: &'static str = "PlaneShape";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.PlaneShape".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.PlaneShape".into()
+    }
+}
 /// A thing that figures can touch.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Obstacle {
@@ -6384,6 +7687,16 @@ pub mod obstacle {
         Plane(super::PlaneShape),
     }
 }
+impl ::prost::Name for Obstacle {
+    const NAME: &'static str = "Obstacle";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Obstacle".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Obstacle".into()
+    }
+}
 /// Asks to put an obstacle into a world.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct AddObstacleRequest {
@@ -6397,12 +7710,32 @@ pub struct AddObstacleRequest {
     #[prost(message, optional, tag = "3")]
     pub obstacle: ::core::option::Option<Obstacle>,
 }
+impl ::prost::Name for AddObstacleRequest {
+    const NAME: &'static str = "AddObstacleRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.AddObstacleRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.AddObstacleRequest".into()
+    }
+}
 /// The new obstacle.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct AddObstacleResponse {
     /// As it was added, with defaults filled in.
     #[prost(message, optional, tag = "1")]
     pub obstacle: ::core::option::Option<Obstacle>,
+}
+impl ::prost::Name for AddObstacleResponse {
+    const NAME: &'static str = "AddObstacleResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.AddObstacleResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.AddObstacleResponse".into()
+    }
 }
 /// Replaces an obstacle.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -6411,12 +7744,32 @@ pub struct UpdateObstacleRequest {
     #[prost(message, optional, tag = "1")]
     pub obstacle: ::core::option::Option<Obstacle>,
 }
+impl ::prost::Name for UpdateObstacleRequest {
+    const NAME: &'static str = "UpdateObstacleRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.UpdateObstacleRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.UpdateObstacleRequest".into()
+    }
+}
 /// The changed obstacle.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct UpdateObstacleResponse {
     /// As it is now.
     #[prost(message, optional, tag = "1")]
     pub obstacle: ::core::option::Option<Obstacle>,
+}
+impl ::prost::Name for UpdateObstacleResponse {
+    const NAME: &'static str = "UpdateObstacleResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.UpdateObstacleResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.UpdateObstacleResponse".into()
+    }
 }
 /// Takes an obstacle out.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
@@ -6425,9 +7778,29 @@ pub struct RemoveObstacleRequest {
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
 }
+impl ::prost::Name for RemoveObstacleRequest {
+    const NAME: &'static str = "RemoveObstacleRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.RemoveObstacleRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.RemoveObstacleRequest".into()
+    }
+}
 /// The obstacle is gone.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct RemoveObstacleResponse {}
+impl ::prost::Name for RemoveObstacleResponse {
+    const NAME: &'static str = "RemoveObstacleResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.RemoveObstacleResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.RemoveObstacleResponse".into()
+    }
+}
 /// Asks for the obstacles of a world.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ListObstaclesRequest {
@@ -6435,12 +7808,32 @@ pub struct ListObstaclesRequest {
     #[prost(string, tag = "1")]
     pub parent: ::prost::alloc::string::String,
 }
+impl ::prost::Name for ListObstaclesRequest {
+    const NAME: &'static str = "ListObstaclesRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ListObstaclesRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ListObstaclesRequest".into()
+    }
+}
 /// The obstacles of a world: at most 256.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ListObstaclesResponse {
     /// In the order they were added.
     #[prost(message, repeated, tag = "1")]
     pub obstacles: ::prost::alloc::vec::Vec<Obstacle>,
+}
+impl ::prost::Name for ListObstaclesResponse {
+    const NAME: &'static str = "ListObstaclesResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ListObstaclesResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ListObstaclesResponse".into()
+    }
 }
 /// What the clock does when a tick takes longer than its period.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
@@ -6645,7 +8038,8 @@ pub mod world_service_client {
             self.inner = self.inner.max_encoding_message_size(limit);
             self
         }
-        /// Creates a world and starts its clock, unless `paused`. RESOURCE_EXHAUSTED when the server holds as many as it may.
+        /// Creates a world and starts its clock, unless `paused`. RESOURCE_EXHAUSTED when the server or this client has as
+        /// many as it may, or when there is no processor time for its ticks (`TICK_BUDGET`).
         pub async fn create_world(
             &mut self,
             request: impl tonic::IntoRequest<super::CreateWorldRequest>,
@@ -6661,7 +8055,7 @@ pub mod world_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.WorldService/CreateWorld",
             );
@@ -6686,7 +8080,7 @@ pub mod world_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.WorldService/GetWorld",
             );
@@ -6711,7 +8105,7 @@ pub mod world_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.WorldService/ListWorlds",
             );
@@ -6720,7 +8114,8 @@ pub mod world_service_client {
                 .insert(GrpcMethod::new("sinew.v1.WorldService", "ListWorlds"));
             self.inner.unary(req, path, codec).await
         }
-        /// Changes what may change while the world runs.
+        /// Changes what may change while the world runs. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time
+        /// for a faster clock.
         pub async fn update_world(
             &mut self,
             request: impl tonic::IntoRequest<super::UpdateWorldRequest>,
@@ -6736,7 +8131,7 @@ pub mod world_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.WorldService/UpdateWorld",
             );
@@ -6761,7 +8156,7 @@ pub mod world_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.WorldService/DeleteWorld",
             );
@@ -6786,7 +8181,7 @@ pub mod world_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.WorldService/PauseWorld",
             );
@@ -6795,7 +8190,8 @@ pub mod world_service_client {
                 .insert(GrpcMethod::new("sinew.v1.WorldService", "PauseWorld"));
             self.inner.unary(req, path, codec).await
         }
-        /// Starts the clock again; no time is caught up. Resuming a running world does nothing.
+        /// Starts the clock again; no time is caught up. Resuming a running world does nothing. RESOURCE_EXHAUSTED
+        /// (`TICK_BUDGET`) when there is no processor time for its ticks.
         pub async fn resume_world(
             &mut self,
             request: impl tonic::IntoRequest<super::ResumeWorldRequest>,
@@ -6811,7 +8207,7 @@ pub mod world_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.WorldService/ResumeWorld",
             );
@@ -6837,7 +8233,7 @@ pub mod world_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.WorldService/StepWorld",
             );
@@ -6846,7 +8242,7 @@ pub mod world_service_client {
                 .insert(GrpcMethod::new("sinew.v1.WorldService", "StepWorld"));
             self.inner.unary(req, path, codec).await
         }
-        /// Sets how fast world time passes.
+        /// Sets how fast world time passes. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time for it.
         pub async fn set_world_speed(
             &mut self,
             request: impl tonic::IntoRequest<super::SetWorldSpeedRequest>,
@@ -6862,7 +8258,7 @@ pub mod world_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.WorldService/SetWorldSpeed",
             );
@@ -6888,7 +8284,7 @@ pub mod world_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.WorldService/AddObstacle",
             );
@@ -6913,7 +8309,7 @@ pub mod world_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.WorldService/UpdateObstacle",
             );
@@ -6938,7 +8334,7 @@ pub mod world_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.WorldService/RemoveObstacle",
             );
@@ -6963,7 +8359,7 @@ pub mod world_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = tonic_prost::ProstCodec::default();
+            let codec = crate::wire::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.WorldService/ListObstacles",
             );
@@ -6987,7 +8383,8 @@ pub mod world_service_server {
     /// Generated trait containing gRPC methods that should be implemented for use with WorldServiceServer.
     #[async_trait]
     pub trait WorldService: std::marker::Send + std::marker::Sync + 'static {
-        /// Creates a world and starts its clock, unless `paused`. RESOURCE_EXHAUSTED when the server holds as many as it may.
+        /// Creates a world and starts its clock, unless `paused`. RESOURCE_EXHAUSTED when the server or this client has as
+        /// many as it may, or when there is no processor time for its ticks (`TICK_BUDGET`).
         async fn create_world(
             &self,
             request: tonic::Request<super::CreateWorldRequest>,
@@ -7011,7 +8408,8 @@ pub mod world_service_server {
             tonic::Response<super::ListWorldsResponse>,
             tonic::Status,
         >;
-        /// Changes what may change while the world runs.
+        /// Changes what may change while the world runs. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time
+        /// for a faster clock.
         async fn update_world(
             &self,
             request: tonic::Request<super::UpdateWorldRequest>,
@@ -7035,7 +8433,8 @@ pub mod world_service_server {
             tonic::Response<super::PauseWorldResponse>,
             tonic::Status,
         >;
-        /// Starts the clock again; no time is caught up. Resuming a running world does nothing.
+        /// Starts the clock again; no time is caught up. Resuming a running world does nothing. RESOURCE_EXHAUSTED
+        /// (`TICK_BUDGET`) when there is no processor time for its ticks.
         async fn resume_world(
             &self,
             request: tonic::Request<super::ResumeWorldRequest>,
@@ -7052,7 +8451,7 @@ pub mod world_service_server {
             tonic::Response<super::StepWorldResponse>,
             tonic::Status,
         >;
-        /// Sets how fast world time passes.
+        /// Sets how fast world time passes. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time for it.
         async fn set_world_speed(
             &self,
             request: tonic::Request<super::SetWorldSpeedRequest>,
@@ -7201,7 +8600,7 @@ pub mod world_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = CreateWorldSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -7246,7 +8645,7 @@ pub mod world_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = GetWorldSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -7291,7 +8690,7 @@ pub mod world_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = ListWorldsSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -7336,7 +8735,7 @@ pub mod world_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = UpdateWorldSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -7381,7 +8780,7 @@ pub mod world_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = DeleteWorldSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -7426,7 +8825,7 @@ pub mod world_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = PauseWorldSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -7471,7 +8870,7 @@ pub mod world_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = ResumeWorldSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -7516,7 +8915,7 @@ pub mod world_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = StepWorldSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -7561,7 +8960,7 @@ pub mod world_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = SetWorldSpeedSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -7606,7 +9005,7 @@ pub mod world_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = AddObstacleSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -7651,7 +9050,7 @@ pub mod world_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = UpdateObstacleSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -7696,7 +9095,7 @@ pub mod world_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = RemoveObstacleSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -7741,7 +9140,7 @@ pub mod world_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = ListObstaclesSvc(inner);
-                        let codec = tonic_prost::ProstCodec::default();
+                        let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,

@@ -1,7 +1,9 @@
 //! The motion is a sine of the right elbow, so that every answer has a closed form.
 
 use super::*;
+use crate::server::ingest::playout::{CATCH_UP, MOST_BEHIND, SHRINK};
 use crate::sim::plan::StreamPlan;
+use crate::wire::types::Delay;
 
 const RATE: f64 = 60.0;
 const TICK: f64 = 1.0 / 60.0;
@@ -16,6 +18,11 @@ fn settings(delay: Delay) -> DriveSettings {
         reset: true,
         window: None,
     }
+}
+
+/// World time `t` of a world that keeps up.
+fn at(time: f64) -> Now {
+    Now { time, lost: 0.0 }
 }
 
 fn angle(t: f64) -> f64 {
@@ -34,15 +41,16 @@ fn frame(i: i64, with_velocity: bool) -> Frame {
         source_ns: (t * 1e9).round() as i64,
         posture,
         velocity: with_velocity.then_some(v),
-        planted: [true; 2],
-        labelled: false,
+        planted: None,
+        guess: Cell::new(Some([true; 2])),
     }
 }
 
 fn buffer(delay: Delay) -> JitterBuffer {
     let mut stand = Posture::default();
     stand.root_position.z = 0.9;
-    JitterBuffer::new(settings(delay), TICK, Target::still(stand), stand)
+    let body = Arc::new(Body::adult_man());
+    JitterBuffer::new(settings(delay), TICK, body, Target::still(stand), stand)
 }
 
 #[test]
@@ -53,7 +61,7 @@ fn frames_that_come_in_time_are_played_a_fixed_delay_later() {
         for i in 0..240 {
             let t = i as f64 * TICK;
             b.push(frame(i, with_velocity), t);
-            if let Some(pair) = b.sample(t) {
+            if let Some(pair) = b.sample(at(t)) {
                 let p = t - 0.05;
                 let e = [
                     pair.now.posture.hinge[4] - angle(p),
@@ -94,7 +102,7 @@ fn an_adaptive_delay_covers_the_jitter_and_no_more() {
             b.push(frame(arrivals[next].1, true), t);
             next += 1;
         }
-        b.sample(t);
+        b.sample(at(t));
     }
     let c = b.counts();
     assert!(c.ticks[3] == 0 && c.ticks[2] <= 6, "{c:?}");
@@ -107,12 +115,12 @@ fn silence_is_extrapolated_then_held_then_relaxed() {
     let mut b = buffer(Delay::Fixed(0.0));
     for i in 0..30 {
         b.push(frame(i, true), i as f64 * TICK);
-        b.sample(i as f64 * TICK);
+        b.sample(at(i as f64 * TICK));
     }
     let mut seen = Vec::new();
     let mut previous: Option<Target> = None;
     for n in 30..300 {
-        let pair = b.sample(n as f64 * TICK).unwrap();
+        let pair = b.sample(at(n as f64 * TICK)).unwrap();
         if let Some(last) = previous {
             let jump = last.posture.joint_difference(&pair.now.posture);
             assert!(
@@ -140,7 +148,7 @@ fn motion_that_comes_back_is_blended_in() {
         if !(30..120).contains(&n) {
             b.push(frame(n, true), t);
         }
-        let pair = b.sample(t).unwrap();
+        let pair = b.sample(at(t)).unwrap();
         if let Some(last) = last {
             let e = (last.posture.hinge[4] - pair.now.posture.hinge[4]).abs();
             assert!(e < 0.03, "tick {n} jumps by {e} rad");
@@ -165,7 +173,7 @@ fn old_and_surplus_frames_are_counted() {
     f.source_ns = i64::MAX;
     b.push(f, 0.0);
     for n in 0..200 {
-        let pair = b.sample(n as f64 * TICK);
+        let pair = b.sample(at(n as f64 * TICK));
         assert!(pair.is_none_or(|p| p.next.posture.is_finite()));
     }
     let mut b = buffer(Delay::Adaptive { most: 0.1 });
@@ -174,7 +182,7 @@ fn old_and_surplus_frames_are_counted() {
         f.source_ns = ns;
         b.push(f, i as f64 * TICK);
         assert!(
-            b.sample(i as f64 * TICK)
+            b.sample(at(i as f64 * TICK))
                 .is_none_or(|p| p.next.posture.is_finite())
         );
     }
@@ -196,7 +204,7 @@ fn a_posture_that_is_repeated_breaks_the_stream_off_and_is_no_news() {
     for i in 0..60 {
         let t = i as f64 * TICK;
         b.push(walking(i, i.min(30)), t);
-        b.feed(t, (RATE, 0.3), |due| match due {
+        b.feed(at(t), (RATE, 0.3), |due| match due {
             Due::Sample(posture, planted) => motion.push(posture, planted),
             Due::Silence => panic!("it sends"),
         });
@@ -209,4 +217,138 @@ fn a_posture_that_is_repeated_breaks_the_stream_off_and_is_no_news() {
     assert!(broken[45..].iter().all(|b| *b), "soon after");
     b.push(walking(60, 31), 1.0);
     assert!(b.has_news(), "it moves again");
+}
+
+/// A driver at 60 Hz in real time, in a world that leaves out two ticks of three: the motion is slow, not fast; what
+/// cannot be played any more is left out in one piece, and the driver is told.
+#[test]
+fn a_stream_in_an_overloaded_world_is_never_too_fast() {
+    for delay in [Delay::Fixed(0.05), Delay::Adaptive { most: 0.1 }] {
+        let mut b = buffer(delay);
+        let (mut sent, mut pieces, mut last) = (0, Vec::new(), None::<f64>);
+        for n in 0..600 {
+            let now = Now {
+                time: n as f64 * TICK,
+                lost: 2.0 * n as f64 * TICK,
+            };
+            while sent as f64 / RATE <= now.time + now.lost {
+                b.push(frame(sent, true), sent as f64 / RATE);
+                sent += 1;
+            }
+            b.sample(now);
+            let played = b.pace.played.is_finite().then_some(b.pace.played);
+            if let (Some(from), Some(to)) = (last, played) {
+                let pace = (to - from) / TICK;
+                assert!(
+                    (-1e-9..=1.0 + CATCH_UP + 2.0 * SHRINK).contains(&pace),
+                    "{pace} at tick {n}"
+                );
+            }
+            assert!(b.delay() < MOST_BEHIND + 0.2 && b.behind() <= MOST_BEHIND);
+            last = played;
+            if let Some(why) = b.take_notice() {
+                pieces.push(why);
+            }
+        }
+        // 20 s were left out, 2 s at a time.
+        assert_eq!(pieces, [Resync::Behind; 9]);
+        assert_eq!((b.counts().overflow, b.counts().stale), (0, 0));
+    }
+}
+
+/// A hiccup of the world is caught up slowly.
+#[test]
+fn a_stream_that_fell_behind_catches_up() {
+    let mut b = buffer(Delay::Fixed(0.05));
+    let (mut sent, mut behind) = (0, Vec::new());
+    for n in 0..600 {
+        let lost = if n < 100 { 0.0 } else { 0.1 };
+        let time = n as f64 * TICK;
+        while sent as f64 / RATE <= time + lost {
+            b.push(frame(sent, true), sent as f64 / RATE);
+            sent += 1;
+        }
+        b.sample(Now { time, lost });
+        behind.push(b.behind());
+    }
+    assert!(behind[99] == 0.0 && behind[100] > 0.099);
+    assert!(
+        behind[100..]
+            .windows(2)
+            .all(|w| w[0] - w[1] <= CATCH_UP * TICK + 1e-12)
+    );
+    assert_eq!(*behind.last().unwrap(), 0.0);
+    assert_eq!(b.counts().resyncs, 0);
+}
+
+/// What a driver sends while its clock is set, or after it was started again.
+#[test]
+fn a_clock_that_starts_again_is_followed_within_a_second() {
+    let hour = 3_600_000_000_000;
+    let later = |mut f: Frame, by: i64| {
+        f.source_ns += by;
+        f
+    };
+    let cases: [(&str, Box<dyn Fn(i64) -> Frame>); 4] = [
+        (
+            "clock back",
+            Box::new(move |i| later(frame(i, true), -hour)),
+        ),
+        (
+            "clock ahead",
+            Box::new(move |i| later(frame(i, true), hour)),
+        ),
+        (
+            "sequence",
+            Box::new(|i| Frame {
+                sequence: i - 120,
+                ..frame(i, true)
+            }),
+        ),
+        ("both", Box::new(|i| frame(i - 120, true))),
+    ];
+    for (name, second) in cases {
+        for delay in [Delay::Fixed(0.05), Delay::Adaptive { most: 0.1 }] {
+            let mut b = buffer(delay);
+            let (mut notices, mut followed) = (Vec::new(), None);
+            for i in 0..240 {
+                let t = i as f64 * TICK;
+                let f = if i < 120 { frame(i, true) } else { second(i) };
+                let (sequence, ns) = (f.sequence, f.source_ns);
+                b.push(f, t);
+                let pair = b.sample(at(t));
+                assert!(pair.is_none_or(|p| p.next.posture.is_finite()));
+                notices.extend(b.take_notice());
+                let acts = b.applied().is_some_and(|(s, t)| {
+                    sequence - s < 12 && ns - t < 200_000_000 && sequence >= s
+                });
+                if i >= 120 && acts {
+                    followed.get_or_insert(i);
+                }
+            }
+            assert_eq!(notices, [Resync::Clock], "{name}");
+            let within = followed.unwrap() - 120;
+            assert!(within < 60, "{name}: {within} ticks");
+            assert!(b.counts().stale <= 20, "{name}: {:?}", b.counts());
+            assert!(matches!(b.supply(), Supply::Present | Supply::Interpolated));
+        }
+    }
+}
+
+/// Frames that are sent again, for safety or after a connection was lost, are no new beginning.
+#[test]
+fn frames_that_come_again_are_no_new_beginning() {
+    let mut b = buffer(Delay::Fixed(0.05));
+    for i in 0..240 {
+        let t = i as f64 * TICK;
+        for j in (i - 5).max(0)..=i {
+            b.push(frame(j, true), t);
+        }
+        b.sample(at(t));
+    }
+    for j in 0..240 {
+        b.push(frame(j, true), 4.0);
+    }
+    assert_eq!(b.counts().resyncs, 0);
+    assert!(b.counts().stale > 1000);
 }

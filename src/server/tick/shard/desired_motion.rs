@@ -2,9 +2,11 @@
 
 use super::Shard;
 use crate::server::engine::{self, Clip, Drive as Motion};
+use crate::server::ingest::jitter_buffer::{JitterBuffer, Now};
+use crate::server::ingest::mailbox::{Mailbox, fenced};
 use crate::server::tick::drives::{Drive, Slot, Window};
 use crate::wire::status::Fault;
-use crate::wire::types::{DriveOpen, EventKind, Feedback, MotionSample, Place, Playback};
+use crate::wire::types::{DriveOpen, EventKind, Feedback, Place, Playback};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -73,12 +75,13 @@ impl Shard {
         Ok(())
     }
 
-    /// Begins or takes up a drive. `connection` is the stream that will send; `None` for a push. Returns who drives.
+    /// Begins or takes up a drive. `connection` is the stream that will send; `None` for a push. Returns where its
+    /// motion is to be left.
     pub fn open_drive(
         &mut self,
         open: &DriveOpen,
         connection: Option<u64>,
-    ) -> Result<String, Fault> {
+    ) -> Result<Arc<Mailbox>, Fault> {
         self.working()?;
         self.check_figures(&open.figures)?;
         let now = Instant::now();
@@ -105,7 +108,7 @@ impl Shard {
         if let Some(d) = self.drives.iter_mut().find(|d| d.driver == driver) {
             if d.drives(&open.figures) {
                 d.touch(connection, now); // the same driver comes back: its motion goes on
-                return Ok(driver);
+                return Ok(Arc::clone(&d.mailbox));
             }
             self.end_drive(&driver, "drives other figures now");
         }
@@ -122,9 +125,10 @@ impl Shard {
                 key: Some(key),
                 body: f.body().clone(),
                 window,
-                buffer: crate::server::ingest::jitter_buffer::JitterBuffer::new(
+                buffer: JitterBuffer::new(
                     open.settings.clone(),
                     self.world.dt(),
+                    Arc::clone(f.body()),
                     f.target().next.clone(),
                     stand,
                 ),
@@ -138,57 +142,87 @@ impl Shard {
                 }
             }
         }
-        self.drives.push(Drive::new(
-            driver.clone(),
-            connection,
-            open.settings.clone(),
-            slots,
-            now,
-        ));
+        let settings = open.settings.clone();
+        let drive = Drive::new(driver.clone(), connection, settings, slots, now);
+        let mailbox = Arc::clone(&drive.mailbox);
+        mailbox.publish(drive.feedback(self.world.tick()));
+        self.mailboxes.insert(Arc::clone(&mailbox));
+        self.drives.push(drive);
         for figure in &open.figures {
             self.event(figure, EventKind::DriveBegan(driver.clone()));
         }
-        Ok(driver)
+        Ok(mailbox)
     }
 
-    /// Takes a batch of a driver. `connection` must be the stream that drives; a push has none.
-    pub fn drive(
-        &mut self,
-        driver: &str,
-        connection: Option<u64>,
-        batch: Vec<MotionSample>,
-    ) -> Result<bool, Fault> {
-        self.working()?;
-        let time = self.world.time();
-        let d = self
-            .drives
-            .iter_mut()
-            .find(|d| d.driver == driver)
-            .filter(|d| connection.is_none() || d.connection == connection)
-            .ok_or_else(|| Fault::Aborted {
-                reason: "CONTROL_FENCED",
-                message: format!("{driver:?} has given up its figures or drives by another stream"),
-            })?;
-        Ok(d.take(batch, time, Instant::now()))
+    /// Takes what drivers have sent since the last tick.
+    pub(in crate::server::tick) fn collect_motion(&mut self) {
+        let now = Instant::now();
+        let scheduled = self.schedule();
+        for drive in &mut self.drives {
+            drive.collect(&scheduled, now);
+        }
+        self.tell_new_beginnings();
     }
 
-    /// Notes batches that did not find room in the queue.
-    pub fn refused(&mut self, driver: &str, batches: u64) {
-        if let Some(d) = self.drives.iter_mut().find(|d| d.driver == driver) {
-            d.refused += batches;
+    /// World time now, with what the clock has left out.
+    fn now(&self) -> Now {
+        Now {
+            time: self.world.time(),
+            lost: self.clock.lost() * self.world.dt(),
         }
     }
 
-    /// What a driver is told.
-    pub fn feedback(&self, driver: &str, connection: Option<u64>) -> Result<Feedback, Fault> {
-        self.drives
-            .iter()
-            .find(|d| d.driver == driver && (connection.is_none() || d.connection == connection))
-            .map(|d| d.feedback(self.world.tick()))
-            .ok_or_else(|| Fault::Aborted {
-                reason: "CONTROL_FENCED",
-                message: format!("{driver:?} has given up its figures or drives by another stream"),
-            })
+    /// The scheduled time of an arrival. While the clock stands still so does scheduled time.
+    fn schedule(&self) -> impl Fn(Instant) -> f64 + use<> {
+        let (now, dt) = (self.now(), self.world.dt());
+        let clock = (!self.paused).then(|| self.clock.clone());
+        move |arrival| {
+            let since = clock.as_ref().map_or(0.0, |c| c.since_deadline(arrival));
+            now.time + now.lost + since * dt
+        }
+    }
+
+    /// Tells that streams began anew, and why.
+    fn tell_new_beginnings(&mut self) {
+        let mut told = Vec::new();
+        for drive in &mut self.drives {
+            for slot in drive.slots.iter_mut().filter(|s| s.key.is_some()) {
+                if let Some(why) = slot.buffer.take_notice() {
+                    let detail = format!("{}: {}", drive.driver, why.reason());
+                    told.push((slot.figure.clone(), detail));
+                }
+            }
+        }
+        for (figure, detail) in told {
+            self.event(&figure, EventKind::DriveResynced(detail));
+        }
+    }
+
+    /// Lets drivers who push know the state of their drives without asking for it.
+    pub(in crate::server::tick) fn publish_feedback(&self) {
+        let tick = self.world.tick();
+        for drive in self.drives.iter().filter(|d| d.connection.is_none()) {
+            drive.mailbox.publish(drive.feedback(tick));
+        }
+    }
+
+    /// Takes no more motion: the world has failed.
+    pub(in crate::server::tick) fn close_mailboxes(&self, why: &Fault) {
+        for drive in &self.drives {
+            drive.mailbox.close(why.clone());
+        }
+    }
+
+    /// What the driver of a stream is told.
+    pub fn feedback(&mut self, driver: &str, connection: u64) -> Result<Feedback, Fault> {
+        let (tick, scheduled) = (self.world.tick(), self.schedule());
+        let d = self
+            .drives
+            .iter_mut()
+            .find(|d| d.driver == driver && d.connection == Some(connection))
+            .ok_or_else(|| fenced(driver))?;
+        d.collect(scheduled, Instant::now());
+        Ok(d.feedback(tick))
     }
 
     /// A stream ended: `kept` if it was lost and the driver may come back.
@@ -212,6 +246,9 @@ impl Shard {
             return;
         };
         let drive = self.drives.remove(i);
+        self.touch();
+        drive.mailbox.close(fenced(driver));
+        self.mailboxes.remove(driver);
         for slot in drive.slots.iter().filter(|s| s.key.is_some()) {
             self.hold(&slot.figure);
             self.event(
@@ -235,7 +272,7 @@ impl Shard {
 
     /// Hands the desired motion of this tick to driven figures.
     pub(in crate::server::tick) fn sample_motion(&mut self) {
-        let time = self.world.time();
+        let now = self.now();
         for drive in &mut self.drives {
             for slot in &mut drive.slots {
                 let Some(key) = slot.key else { continue };
@@ -243,12 +280,12 @@ impl Shard {
                     let Some(f) = self.world.figure_mut(key) else {
                         continue;
                     };
-                    if let Some(state) = slot.feed(time, f, drive.settings.reset) {
+                    if let Some(state) = slot.feed(now, f, drive.settings.reset) {
                         let _ = engine::reset(&mut self.world, key, state);
                     }
                     continue;
                 }
-                let Some((pair, reset)) = slot.sample(time) else {
+                let Some((pair, reset)) = slot.sample(now) else {
                     continue;
                 };
                 let state = pair.now.state();
@@ -262,5 +299,6 @@ impl Shard {
                 }
             }
         }
+        self.tell_new_beginnings();
     }
 }

@@ -57,13 +57,6 @@ impl Shard {
         self.members.iter().map(|m| self.figure_info(m)).collect()
     }
 
-    /// Body of a figure, and its name.
-    pub fn body_of(&self, figure: &str) -> Result<(String, Arc<Body>), Fault> {
-        let m = &self.members[self.member(figure)?];
-        let f = self.world.figure(m.key).expect("members are in the world");
-        Ok((m.settings.body.id.clone(), f.body().clone()))
-    }
-
     pub(super) fn roster_changed(&mut self) {
         self.roster_version += 1;
         self.changed = true;
@@ -107,7 +100,14 @@ impl Shard {
                 .find(|id| self.member(id).is_err())
                 .expect("there is a free number"),
         };
-        let key = engine::add_figure(&mut self.world, &id, &settings, body)?;
+        self.budget.add_figure(&self.account)?;
+        let key = match engine::add_figure(&mut self.world, &id, &settings, body) {
+            Ok(key) => key,
+            Err(fault) => {
+                self.budget.remove_figure(&self.account);
+                return Err(fault);
+            }
+        };
         self.members.push(Member {
             id: id.clone(),
             key,
@@ -162,18 +162,30 @@ impl Shard {
         let i = self.member(figure)?;
         let m = self.members.remove(i);
         self.world.remove_figure(m.key);
-        for drive in &mut self.drives {
-            for slot in &mut drive.slots {
-                if slot.key == Some(m.key) {
-                    slot.key = None;
-                }
-            }
-        }
-        self.drives
-            .retain(|d| d.slots.iter().any(|s| s.key.is_some()));
+        self.budget.remove_figure(&self.account);
+        self.take_from_driver(figure);
         self.roster_changed();
         self.event(figure, EventKind::FigureRemoved);
         Ok(())
+    }
+
+    /// Ends the drive of a figure that is no more, and tells its driver if it was the last one.
+    fn take_from_driver(&mut self, figure: &str) {
+        let name = format!("worlds/{}/figures/{figure}", self.id);
+        let Some(i) = self.drives.iter().position(|d| d.has(figure)) else {
+            return;
+        };
+        let drive = &mut self.drives[i];
+        for slot in drive.slots.iter_mut().filter(|s| s.figure == figure) {
+            slot.key = None;
+        }
+        let ended = format!("{}: the figure was removed", drive.driver);
+        if drive.slots.iter().all(|s| s.key.is_none()) {
+            let drive = self.drives.remove(i);
+            drive.mailbox.close(Fault::not_found("figure", name));
+            self.mailboxes.remove(&drive.driver);
+        }
+        self.event(figure, EventKind::DriveEnded(ended));
     }
 
     /// Puts a figure back to standing still, without loads.
@@ -199,5 +211,13 @@ impl Shard {
         m.clip = None;
         self.changed = true;
         self.figure(figure)
+    }
+
+    /// Breaks the world: the physics has lost a figure that is shown.
+    #[cfg(test)]
+    pub(in crate::server::tick) fn forget_in_physics(&mut self, figure: &str) {
+        let i = self.member(figure).expect("it is there");
+        self.world.remove_figure(self.members[i].key);
+        self.changed = true;
     }
 }

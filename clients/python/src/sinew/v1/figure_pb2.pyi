@@ -727,7 +727,7 @@ class UpdateFigureRequest(_message.Message):
     @_builtins.property
     def update_mask(self) -> _field_mask_pb2.FieldMask:
         """Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper`, `constraints`,
-        `protective_steps` to take. Must not be empty.
+        `protective_steps` to take. Must not be empty. Fields that it does not name are ignored, whatever they hold.
         """
 
     def __init__(

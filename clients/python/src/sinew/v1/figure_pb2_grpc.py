@@ -72,7 +72,8 @@ class FigureServiceServicer:
     """
 
     def CreateFigure(self, request, context):
-        """Adds a figure, standing still. RESOURCE_EXHAUSTED when the world holds as many as it may.
+        """Adds a figure, standing still. RESOURCE_EXHAUSTED when the world holds as many as it may, or when there is no
+        processor time for its ticks (`TICK_BUDGET`).
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')

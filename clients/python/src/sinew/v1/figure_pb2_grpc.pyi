@@ -34,7 +34,9 @@ class FigureServiceStub:
     @_typing.overload
     def __new__(cls, channel: _aio.Channel) -> FigureServiceAsyncStub: ...
     CreateFigure: _grpc.UnaryUnaryMultiCallable[_figure_pb2.CreateFigureRequest, _figure_pb2.CreateFigureResponse]
-    """Adds a figure, standing still. RESOURCE_EXHAUSTED when the world holds as many as it may."""
+    """Adds a figure, standing still. RESOURCE_EXHAUSTED when the world holds as many as it may, or when there is no
+    processor time for its ticks (`TICK_BUDGET`).
+    """
     GetFigure: _grpc.UnaryUnaryMultiCallable[_figure_pb2.GetFigureRequest, _figure_pb2.GetFigureResponse]
     """One figure."""
     ListFigures: _grpc.UnaryUnaryMultiCallable[_figure_pb2.ListFiguresRequest, _figure_pb2.ListFiguresResponse]
@@ -52,7 +54,9 @@ class FigureServiceAsyncStub(FigureServiceStub):
 
     def __init__(self, channel: _aio.Channel) -> None: ...
     CreateFigure: _aio.UnaryUnaryMultiCallable[_figure_pb2.CreateFigureRequest, _figure_pb2.CreateFigureResponse]  # type: ignore[assignment]
-    """Adds a figure, standing still. RESOURCE_EXHAUSTED when the world holds as many as it may."""
+    """Adds a figure, standing still. RESOURCE_EXHAUSTED when the world holds as many as it may, or when there is no
+    processor time for its ticks (`TICK_BUDGET`).
+    """
     GetFigure: _aio.UnaryUnaryMultiCallable[_figure_pb2.GetFigureRequest, _figure_pb2.GetFigureResponse]  # type: ignore[assignment]
     """One figure."""
     ListFigures: _aio.UnaryUnaryMultiCallable[_figure_pb2.ListFiguresRequest, _figure_pb2.ListFiguresResponse]  # type: ignore[assignment]
@@ -73,7 +77,9 @@ class FigureServiceServicer(metaclass=_abc_1.ABCMeta):
         request: _figure_pb2.CreateFigureRequest,
         context: _ServicerContext,
     ) -> _typing.Union[_figure_pb2.CreateFigureResponse, _abc.Awaitable[_figure_pb2.CreateFigureResponse]]:
-        """Adds a figure, standing still. RESOURCE_EXHAUSTED when the world holds as many as it may."""
+        """Adds a figure, standing still. RESOURCE_EXHAUSTED when the world holds as many as it may, or when there is no
+        processor time for its ticks (`TICK_BUDGET`).
+        """
 
     @_abc_1.abstractmethod
     def GetFigure(

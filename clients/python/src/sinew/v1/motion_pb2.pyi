@@ -842,7 +842,9 @@ class MotionFrame(_message.Message):
     SOURCE_TIME_NS_FIELD_NUMBER: _builtins.int
     FIGURES_FIELD_NUMBER: _builtins.int
     sequence: _builtins.int
-    """Counts up by one from frame to frame; must grow. Frames that do not are dropped and counted."""
+    """Counts up by one from frame to frame; must grow. Frames that do not are dropped and counted; if they go on for
+    0.25 s in an order of their own, the stream begins anew with them.
+    """
     source_time_ns: _builtins.int
     """When the motion was captured, ns on the driver's clock; must grow with the sequence."""
     @_builtins.property
@@ -1073,14 +1075,14 @@ Global___PushMotionRequest: _TypeAlias = PushMotionRequest  # noqa: Y015
 
 @_typing.final
 class PushMotionResponse(_message.Message):
-    """State of the drive after the batch was taken."""
+    """The batch was taken. It acts from the next tick on; the call does not wait for it."""
 
     DESCRIPTOR: _descriptor.Descriptor
 
     FEEDBACK_FIELD_NUMBER: _builtins.int
     @_builtins.property
     def feedback(self) -> Global___DriveFeedback:
-        """State of the drive."""
+        """State of the drive after the last tick; `received_sequence` and `refused_batch_count` are of now."""
 
     def __init__(
         self,
@@ -1113,7 +1115,9 @@ class DriveFeedback(_message.Message):
     received_sequence: _builtins.int
     """Largest sequence that was taken; -1 if none."""
     refused_batch_count: _builtins.int
-    """Batches that found a full queue or came too fast and were dropped."""
+    """Batches that came too fast and were dropped: a driver may send 1000 frames per second for each of its figures, and
+    512 at once.
+    """
     @_builtins.property
     def figures(self) -> _containers.RepeatedCompositeFieldContainer[Global___FigureFeedback]:
         """One entry per driven figure."""
@@ -1157,6 +1161,8 @@ class FigureFeedback(_message.Message):
     STALE_COUNT_FIELD_NUMBER: _builtins.int
     OVERFLOW_COUNT_FIELD_NUMBER: _builtins.int
     PREPARATION_WINDOW_MS_FIELD_NUMBER: _builtins.int
+    RESYNC_COUNT_FIELD_NUMBER: _builtins.int
+    BEHIND_MS_FIELD_NUMBER: _builtins.int
     figure: _builtins.str
     """Last part of the figure's name."""
     applied_sequence: _builtins.int
@@ -1191,6 +1197,14 @@ class FigureFeedback(_message.Message):
     """Length of the window in which motion is prepared, ms; contained in `playout_delay_ms`. 0: frames are used as they
     come.
     """
+    resync_count: _builtins.int
+    """Times that the stream began anew: its sequence or source time started again or was set ahead, or it fell too far
+    behind. The figure stands until there is motion again. An event says why.
+    """
+    behind_ms: _builtins.float
+    """How far the stream is behind because its world leaves ticks out, ms; contained in `playout_delay_ms`. It is played
+    in world time, never faster than the body moves, and begins anew when it is 2 s behind.
+    """
     def __init__(
         self,
         *,
@@ -1210,10 +1224,12 @@ class FigureFeedback(_message.Message):
         stale_count: _builtins.int = ...,
         overflow_count: _builtins.int = ...,
         preparation_window_ms: _builtins.float = ...,
+        resync_count: _builtins.int = ...,
+        behind_ms: _builtins.float = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["applied_sequence", b"applied_sequence", "applied_source_time_ns", b"applied_source_time_ns", "buffered_ms", b"buffered_ms", "extrapolated_count", b"extrapolated_count", "figure", b"figure", "held_count", b"held_count", "interpolated_count", b"interpolated_count", "jitter_ms", b"jitter_ms", "late_count", b"late_count", "overflow_count", b"overflow_count", "playout_delay_ms", b"playout_delay_ms", "preparation_window_ms", b"preparation_window_ms", "present_count", b"present_count", "relaxed_count", b"relaxed_count", "stale_count", b"stale_count", "supply", b"supply"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["applied_sequence", b"applied_sequence", "applied_source_time_ns", b"applied_source_time_ns", "behind_ms", b"behind_ms", "buffered_ms", b"buffered_ms", "extrapolated_count", b"extrapolated_count", "figure", b"figure", "held_count", b"held_count", "interpolated_count", b"interpolated_count", "jitter_ms", b"jitter_ms", "late_count", b"late_count", "overflow_count", b"overflow_count", "playout_delay_ms", b"playout_delay_ms", "preparation_window_ms", b"preparation_window_ms", "present_count", b"present_count", "relaxed_count", b"relaxed_count", "resync_count", b"resync_count", "stale_count", b"stale_count", "supply", b"supply"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 

@@ -152,12 +152,18 @@ class GetServerStatsResponse(_message.Message):
     WATCH_STREAM_COUNT_FIELD_NUMBER: _builtins.int
     DRIVE_STREAM_COUNT_FIELD_NUMBER: _builtins.int
     SIMULATION_COUNT_FIELD_NUMBER: _builtins.int
+    BUDGET_USED_FIELD_NUMBER: _builtins.int
+    BUDGET_LIMIT_FIELD_NUMBER: _builtins.int
     watch_stream_count: _builtins.int
     """Open watch streams."""
     drive_stream_count: _builtins.int
     """Open drive streams."""
     simulation_count: _builtins.int
     """Simulations running."""
+    budget_used: _builtins.float
+    """Share of the processors that the ticks of running worlds need, measured: 1 is all of them."""
+    budget_limit: _builtins.float
+    """Share that they may need (`max_tick_budget`)."""
     @_builtins.property
     def worlds(self) -> _containers.RepeatedCompositeFieldContainer[Global___WorldStats]:
         """One entry per world."""
@@ -169,10 +175,12 @@ class GetServerStatsResponse(_message.Message):
         watch_stream_count: _builtins.int = ...,
         drive_stream_count: _builtins.int = ...,
         simulation_count: _builtins.int = ...,
+        budget_used: _builtins.float = ...,
+        budget_limit: _builtins.float = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["drive_stream_count", b"drive_stream_count", "simulation_count", b"simulation_count", "watch_stream_count", b"watch_stream_count", "worlds", b"worlds"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["budget_limit", b"budget_limit", "budget_used", b"budget_used", "drive_stream_count", b"drive_stream_count", "simulation_count", b"simulation_count", "watch_stream_count", b"watch_stream_count", "worlds", b"worlds"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
@@ -208,7 +216,9 @@ class WorldStats(_message.Message):
     viewer_count: _builtins.int
     """Viewers."""
     budget_used: _builtins.float
-    """Share of the period that ticks use, p99 of recent ticks: 1 is all of it."""
+    """Share of the period, at the present speed, that ticks use with everything around them, p99 of recent ticks: 1 is
+    all of it.
+    """
     @_builtins.property
     def stages(self) -> _containers.RepeatedCompositeFieldContainer[Global___StageTime]:
         """Stages of a tick, in order: `late` (start after the deadline), `commands`, `motion`, `step`, `publish`, `total`."""

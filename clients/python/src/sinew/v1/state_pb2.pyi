@@ -60,6 +60,8 @@ class _EventTypeEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_EventType.V
     """A driver took a figure."""
     EVENT_TYPE_DRIVE_ENDED: _EventType.ValueType  # 14
     """A driver gave a figure back or lost it."""
+    EVENT_TYPE_DRIVE_RESYNCED: _EventType.ValueType  # 35
+    """The stream of a driver began anew; the detail says why."""
     EVENT_TYPE_WORLD_PAUSED: _EventType.ValueType  # 15
     """The world was paused."""
     EVENT_TYPE_WORLD_RESUMED: _EventType.ValueType  # 16
@@ -112,6 +114,8 @@ EVENT_TYPE_DRIVE_BEGAN: EventType.ValueType  # 13
 """A driver took a figure."""
 EVENT_TYPE_DRIVE_ENDED: EventType.ValueType  # 14
 """A driver gave a figure back or lost it."""
+EVENT_TYPE_DRIVE_RESYNCED: EventType.ValueType  # 35
+"""The stream of a driver began anew; the detail says why."""
 EVENT_TYPE_WORLD_PAUSED: EventType.ValueType  # 15
 """The world was paused."""
 EVENT_TYPE_WORLD_RESUMED: EventType.ValueType  # 16

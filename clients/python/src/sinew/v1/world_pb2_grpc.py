@@ -107,7 +107,8 @@ class WorldServiceServicer:
     """
 
     def CreateWorld(self, request, context):
-        """Creates a world and starts its clock, unless `paused`. RESOURCE_EXHAUSTED when the server holds as many as it may.
+        """Creates a world and starts its clock, unless `paused`. RESOURCE_EXHAUSTED when the server or this client has as
+        many as it may, or when there is no processor time for its ticks (`TICK_BUDGET`).
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')
@@ -128,7 +129,8 @@ class WorldServiceServicer:
         raise NotImplementedError('Method not implemented!')
 
     def UpdateWorld(self, request, context):
-        """Changes what may change while the world runs.
+        """Changes what may change while the world runs. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time
+        for a faster clock.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')
@@ -149,7 +151,8 @@ class WorldServiceServicer:
         raise NotImplementedError('Method not implemented!')
 
     def ResumeWorld(self, request, context):
-        """Starts the clock again; no time is caught up. Resuming a running world does nothing.
+        """Starts the clock again; no time is caught up. Resuming a running world does nothing. RESOURCE_EXHAUSTED
+        (`TICK_BUDGET`) when there is no processor time for its ticks.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')
@@ -164,7 +167,7 @@ class WorldServiceServicer:
         raise NotImplementedError('Method not implemented!')
 
     def SetWorldSpeed(self, request, context):
-        """Sets how fast world time passes.
+        """Sets how fast world time passes. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time for it.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')

@@ -34,25 +34,31 @@ class WorldServiceStub:
     @_typing.overload
     def __new__(cls, channel: _aio.Channel) -> WorldServiceAsyncStub: ...
     CreateWorld: _grpc.UnaryUnaryMultiCallable[_world_pb2.CreateWorldRequest, _world_pb2.CreateWorldResponse]
-    """Creates a world and starts its clock, unless `paused`. RESOURCE_EXHAUSTED when the server holds as many as it may."""
+    """Creates a world and starts its clock, unless `paused`. RESOURCE_EXHAUSTED when the server or this client has as
+    many as it may, or when there is no processor time for its ticks (`TICK_BUDGET`).
+    """
     GetWorld: _grpc.UnaryUnaryMultiCallable[_world_pb2.GetWorldRequest, _world_pb2.GetWorldResponse]
     """One world."""
     ListWorlds: _grpc.UnaryUnaryMultiCallable[_world_pb2.ListWorldsRequest, _world_pb2.ListWorldsResponse]
     """All worlds, by name."""
     UpdateWorld: _grpc.UnaryUnaryMultiCallable[_world_pb2.UpdateWorldRequest, _world_pb2.UpdateWorldResponse]
-    """Changes what may change while the world runs."""
+    """Changes what may change while the world runs. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time
+    for a faster clock.
+    """
     DeleteWorld: _grpc.UnaryUnaryMultiCallable[_world_pb2.DeleteWorldRequest, _world_pb2.DeleteWorldResponse]
     """Ends a world: its streams end with NOT_FOUND."""
     PauseWorld: _grpc.UnaryUnaryMultiCallable[_world_pb2.PauseWorldRequest, _world_pb2.PauseWorldResponse]
     """Stops the clock after the running tick. Pausing a paused world does nothing."""
     ResumeWorld: _grpc.UnaryUnaryMultiCallable[_world_pb2.ResumeWorldRequest, _world_pb2.ResumeWorldResponse]
-    """Starts the clock again; no time is caught up. Resuming a running world does nothing."""
+    """Starts the clock again; no time is caught up. Resuming a running world does nothing. RESOURCE_EXHAUSTED
+    (`TICK_BUDGET`) when there is no processor time for its ticks.
+    """
     StepWorld: _grpc.UnaryUnaryMultiCallable[_world_pb2.StepWorldRequest, _world_pb2.StepWorldResponse]
     """Advances a paused world by some ticks as fast as they compute and returns when they are done. FAILED_PRECONDITION
     (`WORLD_NOT_PAUSED`) for a running world.
     """
     SetWorldSpeed: _grpc.UnaryUnaryMultiCallable[_world_pb2.SetWorldSpeedRequest, _world_pb2.SetWorldSpeedResponse]
-    """Sets how fast world time passes."""
+    """Sets how fast world time passes. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time for it."""
     AddObstacle: _grpc.UnaryUnaryMultiCallable[_world_pb2.AddObstacleRequest, _world_pb2.AddObstacleResponse]
     """Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256
     (RESOURCE_EXHAUSTED).
@@ -70,25 +76,31 @@ class WorldServiceAsyncStub(WorldServiceStub):
 
     def __init__(self, channel: _aio.Channel) -> None: ...
     CreateWorld: _aio.UnaryUnaryMultiCallable[_world_pb2.CreateWorldRequest, _world_pb2.CreateWorldResponse]  # type: ignore[assignment]
-    """Creates a world and starts its clock, unless `paused`. RESOURCE_EXHAUSTED when the server holds as many as it may."""
+    """Creates a world and starts its clock, unless `paused`. RESOURCE_EXHAUSTED when the server or this client has as
+    many as it may, or when there is no processor time for its ticks (`TICK_BUDGET`).
+    """
     GetWorld: _aio.UnaryUnaryMultiCallable[_world_pb2.GetWorldRequest, _world_pb2.GetWorldResponse]  # type: ignore[assignment]
     """One world."""
     ListWorlds: _aio.UnaryUnaryMultiCallable[_world_pb2.ListWorldsRequest, _world_pb2.ListWorldsResponse]  # type: ignore[assignment]
     """All worlds, by name."""
     UpdateWorld: _aio.UnaryUnaryMultiCallable[_world_pb2.UpdateWorldRequest, _world_pb2.UpdateWorldResponse]  # type: ignore[assignment]
-    """Changes what may change while the world runs."""
+    """Changes what may change while the world runs. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time
+    for a faster clock.
+    """
     DeleteWorld: _aio.UnaryUnaryMultiCallable[_world_pb2.DeleteWorldRequest, _world_pb2.DeleteWorldResponse]  # type: ignore[assignment]
     """Ends a world: its streams end with NOT_FOUND."""
     PauseWorld: _aio.UnaryUnaryMultiCallable[_world_pb2.PauseWorldRequest, _world_pb2.PauseWorldResponse]  # type: ignore[assignment]
     """Stops the clock after the running tick. Pausing a paused world does nothing."""
     ResumeWorld: _aio.UnaryUnaryMultiCallable[_world_pb2.ResumeWorldRequest, _world_pb2.ResumeWorldResponse]  # type: ignore[assignment]
-    """Starts the clock again; no time is caught up. Resuming a running world does nothing."""
+    """Starts the clock again; no time is caught up. Resuming a running world does nothing. RESOURCE_EXHAUSTED
+    (`TICK_BUDGET`) when there is no processor time for its ticks.
+    """
     StepWorld: _aio.UnaryUnaryMultiCallable[_world_pb2.StepWorldRequest, _world_pb2.StepWorldResponse]  # type: ignore[assignment]
     """Advances a paused world by some ticks as fast as they compute and returns when they are done. FAILED_PRECONDITION
     (`WORLD_NOT_PAUSED`) for a running world.
     """
     SetWorldSpeed: _aio.UnaryUnaryMultiCallable[_world_pb2.SetWorldSpeedRequest, _world_pb2.SetWorldSpeedResponse]  # type: ignore[assignment]
-    """Sets how fast world time passes."""
+    """Sets how fast world time passes. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time for it."""
     AddObstacle: _aio.UnaryUnaryMultiCallable[_world_pb2.AddObstacleRequest, _world_pb2.AddObstacleResponse]  # type: ignore[assignment]
     """Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256
     (RESOURCE_EXHAUSTED).
@@ -109,7 +121,9 @@ class WorldServiceServicer(metaclass=_abc_1.ABCMeta):
         request: _world_pb2.CreateWorldRequest,
         context: _ServicerContext,
     ) -> _typing.Union[_world_pb2.CreateWorldResponse, _abc.Awaitable[_world_pb2.CreateWorldResponse]]:
-        """Creates a world and starts its clock, unless `paused`. RESOURCE_EXHAUSTED when the server holds as many as it may."""
+        """Creates a world and starts its clock, unless `paused`. RESOURCE_EXHAUSTED when the server or this client has as
+        many as it may, or when there is no processor time for its ticks (`TICK_BUDGET`).
+        """
 
     @_abc_1.abstractmethod
     def GetWorld(
@@ -133,7 +147,9 @@ class WorldServiceServicer(metaclass=_abc_1.ABCMeta):
         request: _world_pb2.UpdateWorldRequest,
         context: _ServicerContext,
     ) -> _typing.Union[_world_pb2.UpdateWorldResponse, _abc.Awaitable[_world_pb2.UpdateWorldResponse]]:
-        """Changes what may change while the world runs."""
+        """Changes what may change while the world runs. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time
+        for a faster clock.
+        """
 
     @_abc_1.abstractmethod
     def DeleteWorld(
@@ -157,7 +173,9 @@ class WorldServiceServicer(metaclass=_abc_1.ABCMeta):
         request: _world_pb2.ResumeWorldRequest,
         context: _ServicerContext,
     ) -> _typing.Union[_world_pb2.ResumeWorldResponse, _abc.Awaitable[_world_pb2.ResumeWorldResponse]]:
-        """Starts the clock again; no time is caught up. Resuming a running world does nothing."""
+        """Starts the clock again; no time is caught up. Resuming a running world does nothing. RESOURCE_EXHAUSTED
+        (`TICK_BUDGET`) when there is no processor time for its ticks.
+        """
 
     @_abc_1.abstractmethod
     def StepWorld(
@@ -175,7 +193,7 @@ class WorldServiceServicer(metaclass=_abc_1.ABCMeta):
         request: _world_pb2.SetWorldSpeedRequest,
         context: _ServicerContext,
     ) -> _typing.Union[_world_pb2.SetWorldSpeedResponse, _abc.Awaitable[_world_pb2.SetWorldSpeedResponse]]:
-        """Sets how fast world time passes."""
+        """Sets how fast world time passes. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time for it."""
 
     @_abc_1.abstractmethod
     def AddObstacle(

@@ -625,7 +625,7 @@ export type UpdateFigureRequest = Message<"sinew.v1.UpdateFigureRequest"> & {
 
   /**
    * Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper`, `constraints`,
-   * `protective_steps` to take. Must not be empty.
+   * `protective_steps` to take. Must not be empty. Fields that it does not name are ignored, whatever they hold.
    *
    * @generated from field: google.protobuf.FieldMask update_mask = 2;
    */
@@ -970,7 +970,8 @@ export const PaperShareSchema: GenEnum<PaperShare> = /*@__PURE__*/
  */
 export const FigureService: GenService<{
   /**
-   * Adds a figure, standing still. RESOURCE_EXHAUSTED when the world holds as many as it may.
+   * Adds a figure, standing still. RESOURCE_EXHAUSTED when the world holds as many as it may, or when there is no
+   * processor time for its ticks (`TICK_BUDGET`).
    *
    * @generated from rpc sinew.v1.FigureService.CreateFigure
    */

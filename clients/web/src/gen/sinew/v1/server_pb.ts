@@ -12,7 +12,7 @@ import type { Message } from "@bufbuild/protobuf";
  * Describes the file sinew/v1/server.proto.
  */
 export const file_sinew_v1_server: GenFile = /*@__PURE__*/
-  fileDesc("ChVzaW5ldy92MS9zZXJ2ZXIucHJvdG8SCHNpbmV3LnYxIhYKFEdldFNlcnZlckluZm9SZXF1ZXN0ItUBChVHZXRTZXJ2ZXJJbmZvUmVzcG9uc2USDwoHdmVyc2lvbhgBIAEoCRIuCgpzdGFydF90aW1lGAIgASgLMhouZ29vZ2xlLnByb3RvYnVmLlRpbWVzdGFtcBISCgpmbGFnX25hbWVzGAMgAygJEhMKC3ZpZXdfZmllbGRzGAQgAygJEhUKDWJ1aWx0aW5fY2xpcHMYBSADKAkSFAoMY2FwYWJpbGl0aWVzGAYgAygJEiUKBmxpbWl0cxgHIAMoCzIVLnNpbmV3LnYxLlNlcnZlckxpbWl0IioKC1NlcnZlckxpbWl0EgwKBG5hbWUYASABKAkSDQoFdmFsdWUYAiABKAMiJgoVR2V0U2VydmVyU3RhdHNSZXF1ZXN0Eg0KBXdvcmxkGAEgASgJIpABChZHZXRTZXJ2ZXJTdGF0c1Jlc3BvbnNlEiQKBndvcmxkcxgBIAMoCzIULnNpbmV3LnYxLldvcmxkU3RhdHMSGgoSd2F0Y2hfc3RyZWFtX2NvdW50GAIgASgFEhoKEmRyaXZlX3N0cmVhbV9jb3VudBgDIAEoBRIYChBzaW11bGF0aW9uX2NvdW50GAQgASgFIuEBCgpXb3JsZFN0YXRzEg0KBXdvcmxkGAEgASgJEhIKCnRpY2tfY291bnQYAiABKAMSFQoNb3ZlcnJ1bl9jb3VudBgDIAEoAxIVCg1za2lwcGVkX2NvdW50GAQgASgDEhUKDXJlZnVzZWRfY291bnQYBSABKAMSGwoTZHJvcHBlZF9mcmFtZV9jb3VudBgGIAEoAxIUCgx2aWV3ZXJfY291bnQYByABKAUSEwoLYnVkZ2V0X3VzZWQYCCABKAESIwoGc3RhZ2VzGAkgAygLMhMuc2luZXcudjEuU3RhZ2VUaW1lIkoKCVN0YWdlVGltZRINCgVzdGFnZRgBIAEoCRIOCgZwNTBfdXMYAiABKAESDgoGcDk5X3VzGAMgASgBEg4KBm1heF91cxgEIAEoATK2AQoNU2VydmVyU2VydmljZRJQCg1HZXRTZXJ2ZXJJbmZvEh4uc2luZXcudjEuR2V0U2VydmVySW5mb1JlcXVlc3QaHy5zaW5ldy52MS5HZXRTZXJ2ZXJJbmZvUmVzcG9uc2USUwoOR2V0U2VydmVyU3RhdHMSHy5zaW5ldy52MS5HZXRTZXJ2ZXJTdGF0c1JlcXVlc3QaIC5zaW5ldy52MS5HZXRTZXJ2ZXJTdGF0c1Jlc3BvbnNlYgZwcm90bzM", [file_google_protobuf_timestamp]);
+  fileDesc("ChVzaW5ldy92MS9zZXJ2ZXIucHJvdG8SCHNpbmV3LnYxIhYKFEdldFNlcnZlckluZm9SZXF1ZXN0ItUBChVHZXRTZXJ2ZXJJbmZvUmVzcG9uc2USDwoHdmVyc2lvbhgBIAEoCRIuCgpzdGFydF90aW1lGAIgASgLMhouZ29vZ2xlLnByb3RvYnVmLlRpbWVzdGFtcBISCgpmbGFnX25hbWVzGAMgAygJEhMKC3ZpZXdfZmllbGRzGAQgAygJEhUKDWJ1aWx0aW5fY2xpcHMYBSADKAkSFAoMY2FwYWJpbGl0aWVzGAYgAygJEiUKBmxpbWl0cxgHIAMoCzIVLnNpbmV3LnYxLlNlcnZlckxpbWl0IioKC1NlcnZlckxpbWl0EgwKBG5hbWUYASABKAkSDQoFdmFsdWUYAiABKAMiJgoVR2V0U2VydmVyU3RhdHNSZXF1ZXN0Eg0KBXdvcmxkGAEgASgJIrsBChZHZXRTZXJ2ZXJTdGF0c1Jlc3BvbnNlEiQKBndvcmxkcxgBIAMoCzIULnNpbmV3LnYxLldvcmxkU3RhdHMSGgoSd2F0Y2hfc3RyZWFtX2NvdW50GAIgASgFEhoKEmRyaXZlX3N0cmVhbV9jb3VudBgDIAEoBRIYChBzaW11bGF0aW9uX2NvdW50GAQgASgFEhMKC2J1ZGdldF91c2VkGAUgASgBEhQKDGJ1ZGdldF9saW1pdBgGIAEoASLhAQoKV29ybGRTdGF0cxINCgV3b3JsZBgBIAEoCRISCgp0aWNrX2NvdW50GAIgASgDEhUKDW92ZXJydW5fY291bnQYAyABKAMSFQoNc2tpcHBlZF9jb3VudBgEIAEoAxIVCg1yZWZ1c2VkX2NvdW50GAUgASgDEhsKE2Ryb3BwZWRfZnJhbWVfY291bnQYBiABKAMSFAoMdmlld2VyX2NvdW50GAcgASgFEhMKC2J1ZGdldF91c2VkGAggASgBEiMKBnN0YWdlcxgJIAMoCzITLnNpbmV3LnYxLlN0YWdlVGltZSJKCglTdGFnZVRpbWUSDQoFc3RhZ2UYASABKAkSDgoGcDUwX3VzGAIgASgBEg4KBnA5OV91cxgDIAEoARIOCgZtYXhfdXMYBCABKAEytgEKDVNlcnZlclNlcnZpY2USUAoNR2V0U2VydmVySW5mbxIeLnNpbmV3LnYxLkdldFNlcnZlckluZm9SZXF1ZXN0Gh8uc2luZXcudjEuR2V0U2VydmVySW5mb1Jlc3BvbnNlElMKDkdldFNlcnZlclN0YXRzEh8uc2luZXcudjEuR2V0U2VydmVyU3RhdHNSZXF1ZXN0GiAuc2luZXcudjEuR2V0U2VydmVyU3RhdHNSZXNwb25zZWIGcHJvdG8z", [file_google_protobuf_timestamp]);
 
 /**
  * Asks for version and capabilities.
@@ -174,6 +174,20 @@ export type GetServerStatsResponse = Message<"sinew.v1.GetServerStatsResponse"> 
    * @generated from field: int32 simulation_count = 4;
    */
   simulationCount: number;
+
+  /**
+   * Share of the processors that the ticks of running worlds need, measured: 1 is all of them.
+   *
+   * @generated from field: double budget_used = 5;
+   */
+  budgetUsed: number;
+
+  /**
+   * Share that they may need (`max_tick_budget`).
+   *
+   * @generated from field: double budget_limit = 6;
+   */
+  budgetLimit: number;
 };
 
 /**
@@ -239,7 +253,8 @@ export type WorldStats = Message<"sinew.v1.WorldStats"> & {
   viewerCount: number;
 
   /**
-   * Share of the period that ticks use, p99 of recent ticks: 1 is all of it.
+   * Share of the period, at the present speed, that ticks use with everything around them, p99 of recent ticks: 1 is
+   * all of it.
    *
    * @generated from field: double budget_used = 8;
    */

@@ -1078,7 +1078,8 @@ export const ObstacleMobilitySchema: GenEnum<ObstacleMobility> = /*@__PURE__*/
  */
 export const WorldService: GenService<{
   /**
-   * Creates a world and starts its clock, unless `paused`. RESOURCE_EXHAUSTED when the server holds as many as it may.
+   * Creates a world and starts its clock, unless `paused`. RESOURCE_EXHAUSTED when the server or this client has as
+   * many as it may, or when there is no processor time for its ticks (`TICK_BUDGET`).
    *
    * @generated from rpc sinew.v1.WorldService.CreateWorld
    */
@@ -1108,7 +1109,8 @@ export const WorldService: GenService<{
     output: typeof ListWorldsResponseSchema;
   },
   /**
-   * Changes what may change while the world runs.
+   * Changes what may change while the world runs. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time
+   * for a faster clock.
    *
    * @generated from rpc sinew.v1.WorldService.UpdateWorld
    */
@@ -1138,7 +1140,8 @@ export const WorldService: GenService<{
     output: typeof PauseWorldResponseSchema;
   },
   /**
-   * Starts the clock again; no time is caught up. Resuming a running world does nothing.
+   * Starts the clock again; no time is caught up. Resuming a running world does nothing. RESOURCE_EXHAUSTED
+   * (`TICK_BUDGET`) when there is no processor time for its ticks.
    *
    * @generated from rpc sinew.v1.WorldService.ResumeWorld
    */
@@ -1159,7 +1162,7 @@ export const WorldService: GenService<{
     output: typeof StepWorldResponseSchema;
   },
   /**
-   * Sets how fast world time passes.
+   * Sets how fast world time passes. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time for it.
    *
    * @generated from rpc sinew.v1.WorldService.SetWorldSpeed
    */

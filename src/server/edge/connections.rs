@@ -1,0 +1,497 @@
+//! Incoming connections: how many are kept, and which of them go when there are too many.
+//!
+//! A connection must bring its first request soon. In total and per address only so many are kept. One more takes the
+//! place of the one that has been without a request the longest. If all are at work, a few more are taken all the same,
+//! for health and metrics only; of these the oldest goes. So whoever holds connections without using them locks out
+//! nobody.
+
+use super::super::config::Config;
+use futures_util::task::AtomicWaker;
+use std::collections::BTreeMap;
+use std::io;
+use std::net::{IpAddr, SocketAddr};
+use std::pin::Pin;
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError, Weak};
+use std::task::{Context, Poll};
+use std::time::Duration;
+use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
+use tokio::net::{TcpListener, TcpStream};
+use tokio::time::{Instant, Sleep};
+use tokio_stream::Stream;
+use tonic::transport::server::Connected;
+
+/// Connections beyond the limits, for health and metrics.
+const RESERVED: usize = 16;
+/// Least time between two lines of the log about connections that were closed.
+const LOG_EVERY: Duration = Duration::from_secs(10);
+/// Pause after a connection could not be accepted, for example for want of file handles.
+const ACCEPT_PAUSE: Duration = Duration::from_millis(20);
+
+/// Why the server closed a connection, or how it ended by itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Why {
+    /// No request came in time.
+    Silent,
+    /// It made room for another one.
+    Room,
+    /// Its client did not read.
+    Unread,
+    /// The other side reset it.
+    Reset,
+}
+
+impl Why {
+    /// As metrics and logs name it.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Silent => "silent",
+            Self::Room => "room",
+            Self::Unread => "unread",
+            Self::Reset => "reset",
+        }
+    }
+}
+
+/// One connection, as the rest of the server sees it.
+#[derive(Debug)]
+pub(in crate::server) struct Peer {
+    /// Where it comes from.
+    pub address: SocketAddr,
+    /// Whether it is beyond the limits.
+    pub reserved: bool,
+    /// Requests that are worked on.
+    requests: AtomicUsize,
+    /// Whether there was a request.
+    begun: AtomicBool,
+    /// Order in which connections were last used: the count of uses of all connections.
+    used: AtomicU64,
+    uses: Arc<AtomicU64>,
+    closed: AtomicBool,
+    reader: AtomicWaker,
+    doors: Weak<Doors>,
+}
+
+/// A request that is worked on; dropped at the end of its response.
+#[derive(Debug)]
+pub(super) struct Open(Arc<Peer>);
+
+impl Open {
+    /// Closes the connection.
+    pub(super) fn close(&self, why: Why) {
+        self.0.close(why);
+    }
+}
+
+impl Drop for Open {
+    fn drop(&mut self) {
+        self.0.touch();
+        self.0.requests.fetch_sub(1, Ordering::Relaxed);
+    }
+}
+
+impl Peer {
+    fn new(address: SocketAddr, reserved: bool, doors: &Arc<Doors>) -> Arc<Self> {
+        let peer = Arc::new(Self {
+            address,
+            reserved,
+            requests: AtomicUsize::new(0),
+            begun: AtomicBool::new(false),
+            used: AtomicU64::new(0),
+            uses: doors.uses.clone(),
+            closed: AtomicBool::new(false),
+            reader: AtomicWaker::new(),
+            doors: Arc::downgrade(doors),
+        });
+        peer.touch();
+        peer
+    }
+
+    /// One that no server has.
+    #[cfg(test)]
+    pub(super) fn alone() -> Arc<Self> {
+        Self::new(
+            ([127, 0, 0, 1], 1).into(),
+            false,
+            &Doors::new(&Config::default()),
+        )
+    }
+
+    /// Begins a request.
+    pub(super) fn open(self: &Arc<Self>) -> Open {
+        self.requests.fetch_add(1, Ordering::Relaxed);
+        self.begun.store(true, Ordering::Relaxed);
+        self.touch();
+        Open(self.clone())
+    }
+
+    fn touch(&self) {
+        let now = self.uses.fetch_add(1, Ordering::Relaxed);
+        self.used.store(now, Ordering::Relaxed);
+    }
+
+    fn is_idle(&self) -> bool {
+        self.requests.load(Ordering::Relaxed) == 0
+    }
+
+    pub(super) fn is_closed(&self) -> bool {
+        self.closed.load(Ordering::Acquire)
+    }
+
+    /// Closes the connection; only the first call counts.
+    fn close(&self, why: Why) {
+        if self.closed.swap(true, Ordering::AcqRel) {
+            return;
+        }
+        self.reader.wake();
+        if let Some(doors) = self.doors.upgrade() {
+            doors.count(why);
+        }
+    }
+}
+
+/// The connections that are open.
+#[derive(Debug)]
+pub(in crate::server) struct Doors {
+    most: usize,
+    most_per_address: usize,
+    first_request: Duration,
+    uses: Arc<AtomicU64>,
+    open: Mutex<Table>,
+    log: Mutex<Log>,
+}
+
+#[derive(Debug, Default)]
+struct Table {
+    next: u64,
+    peers: BTreeMap<u64, Arc<Peer>>,
+    /// Connections of each address, without those beyond the limits.
+    by_address: BTreeMap<IpAddr, usize>,
+    reserved: usize,
+}
+
+/// Closed connections that the log has not told of yet.
+#[derive(Debug, Default)]
+struct Log {
+    told: Option<Instant>,
+    untold: BTreeMap<&'static str, u64>,
+}
+
+impl Table {
+    /// The unused one that was last used before all others of `those`, or, of those beyond the limits, the oldest.
+    fn last(&self, those: impl Fn(&Peer) -> bool) -> Option<u64> {
+        let those = self.peers.iter().filter(|(_, p)| those(p));
+        those
+            .min_by_key(|(_, p)| {
+                (
+                    p.begun.load(Ordering::Relaxed),
+                    p.used.load(Ordering::Relaxed),
+                )
+            })
+            .map(|(number, _)| *number)
+    }
+
+    fn remove(&mut self, number: u64) -> Option<Arc<Peer>> {
+        let peer = self.peers.remove(&number)?;
+        if peer.reserved {
+            self.reserved -= 1;
+        } else if let Some(count) = self.by_address.get_mut(&peer.address.ip()) {
+            *count -= 1;
+            if *count == 0 {
+                self.by_address.remove(&peer.address.ip());
+            }
+        }
+        Some(peer)
+    }
+}
+
+impl Doors {
+    pub(super) fn new(config: &Config) -> Arc<Self> {
+        Arc::new(Self {
+            most: config.max_connections as usize,
+            most_per_address: config
+                .max_connections_per_address
+                .min(config.max_connections) as usize,
+            first_request: Duration::from_secs_f64(config.first_request_s),
+            uses: Arc::default(),
+            open: Mutex::default(),
+            log: Mutex::default(),
+        })
+    }
+
+    /// Most connections, without those for health and metrics.
+    pub(super) fn most(&self) -> u64 {
+        self.most as u64
+    }
+
+    fn table(&self) -> std::sync::MutexGuard<'_, Table> {
+        self.open.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Takes one more connection in, in place of another one if need be.
+    fn enter(self: &Arc<Self>, address: SocketAddr) -> (u64, Arc<Peer>) {
+        let mut table = self.table();
+        let of_address = |t: &Table| t.by_address.get(&address.ip()).copied().unwrap_or(0);
+        let usual = |p: &Peer| !p.reserved && p.is_idle();
+        let mut gone = Vec::new();
+        if of_address(&table) >= self.most_per_address {
+            let last = table.last(|p| usual(p) && p.address.ip() == address.ip());
+            gone.extend(last.and_then(|n| table.remove(n)));
+        }
+        if table.peers.len() - table.reserved >= self.most {
+            let last = table.last(usual);
+            gone.extend(last.and_then(|n| table.remove(n)));
+        }
+        let reserved = of_address(&table) >= self.most_per_address
+            || table.peers.len() - table.reserved >= self.most;
+        if reserved && table.reserved >= RESERVED {
+            let last = table.last(|p| p.reserved);
+            gone.extend(last.and_then(|n| table.remove(n)));
+        }
+        let peer = Peer::new(address, reserved, self);
+        let number = table.next;
+        table.next += 1;
+        table.peers.insert(number, peer.clone());
+        if reserved {
+            table.reserved += 1;
+        } else {
+            *table.by_address.entry(address.ip()).or_default() += 1;
+        }
+        metrics::gauge!("sinew_connections").set(table.peers.len() as f64);
+        drop(table);
+        for peer in gone {
+            peer.close(Why::Room);
+        }
+        (number, peer)
+    }
+
+    fn leave(&self, number: u64) {
+        let mut table = self.table();
+        table.remove(number);
+        metrics::gauge!("sinew_connections").set(table.peers.len() as f64);
+    }
+
+    /// Counts a connection that ended other than by its client's wish, and tells the log now and then.
+    fn count(&self, why: Why) {
+        metrics::counter!("sinew_connections_closed_total", "reason" => why.name()).increment(1);
+        let mut log = self.log.lock().unwrap_or_else(PoisonError::into_inner);
+        *log.untold.entry(why.name()).or_default() += 1;
+        let now = Instant::now();
+        if log.told.is_none_or(|told| now - told >= LOG_EVERY) {
+            log.told = Some(now);
+            let counts: Vec<String> = log
+                .untold
+                .iter()
+                .map(|(name, n)| format!("{name} {n}"))
+                .collect();
+            log.untold.clear();
+            drop(log);
+            tracing::warn!(
+                "connections closed since the last such line: {}",
+                counts.join(", ")
+            );
+        }
+    }
+}
+
+/// A connection that leaves when it is dropped.
+#[derive(Debug)]
+pub(in crate::server) struct Connection {
+    stream: TcpStream,
+    peer: Arc<Peer>,
+    number: u64,
+    doors: Arc<Doors>,
+    /// When the first request must be there; gone once it is.
+    deadline: Option<Pin<Box<Sleep>>>,
+}
+
+/// Connections as they come.
+pub(in crate::server) fn incoming(
+    listener: TcpListener,
+    doors: Arc<Doors>,
+) -> impl Stream<Item = io::Result<Connection>> {
+    futures_util::stream::unfold((listener, doors), |(listener, doors)| async move {
+        loop {
+            match listener.accept().await {
+                Ok((stream, address)) => {
+                    // Frames are small and wanted at once.
+                    let _ = stream.set_nodelay(true);
+                    metrics::counter!("sinew_connections_total").increment(1);
+                    let (number, peer) = doors.enter(address);
+                    let connection = Connection {
+                        stream,
+                        peer,
+                        number,
+                        deadline: Some(Box::pin(tokio::time::sleep(doors.first_request))),
+                        doors: doors.clone(),
+                    };
+                    return Some((Ok(connection), (listener, doors)));
+                }
+                Err(error) if is_of_the_client(&error) => doors.count(Why::Reset),
+                Err(error) => {
+                    // No file handles for a while must not end the server.
+                    tracing::warn!(%error, "accept failed");
+                    tokio::time::sleep(ACCEPT_PAUSE).await;
+                }
+            }
+        }
+    })
+}
+
+/// Whether a connection broke because the other side left.
+fn is_of_the_client(error: &io::Error) -> bool {
+    use io::ErrorKind::{BrokenPipe, ConnectionAborted, ConnectionReset};
+    matches!(
+        error.kind(),
+        BrokenPipe | ConnectionAborted | ConnectionReset
+    )
+}
+
+impl Connected for Connection {
+    type ConnectInfo = Arc<Peer>;
+    fn connect_info(&self) -> Arc<Peer> {
+        self.peer.clone()
+    }
+}
+
+impl Drop for Connection {
+    fn drop(&mut self) {
+        self.doors.leave(self.number);
+    }
+}
+
+impl Connection {
+    /// Whether the connection is to end now.
+    fn is_over(&mut self, cx: &mut Context<'_>) -> bool {
+        if self.peer.begun.load(Ordering::Relaxed) {
+            self.deadline = None;
+        }
+        if self
+            .deadline
+            .as_mut()
+            .is_some_and(|d| d.as_mut().poll(cx).is_ready())
+        {
+            self.deadline = None;
+            self.peer.close(Why::Silent);
+        }
+        self.peer.reader.register(cx.waker());
+        self.peer.is_closed()
+    }
+}
+
+impl AsyncRead for Connection {
+    fn poll_read(
+        mut self: Pin<&mut Self>,
+        cx: &mut Context<'_>,
+        buf: &mut ReadBuf<'_>,
+    ) -> Poll<io::Result<()>> {
+        if self.is_over(cx) {
+            return Poll::Ready(Err(io::ErrorKind::TimedOut.into()));
+        }
+        let read = Pin::new(&mut self.stream).poll_read(cx, buf);
+        if let Poll::Ready(Err(error)) = &read
+            && is_of_the_client(error)
+            && !self.peer.closed.swap(true, Ordering::AcqRel)
+        {
+            self.doors.count(Why::Reset);
+        }
+        read
+    }
+}
+
+impl AsyncWrite for Connection {
+    fn poll_write(
+        mut self: Pin<&mut Self>,
+        cx: &mut Context<'_>,
+        buf: &[u8],
+    ) -> Poll<io::Result<usize>> {
+        Pin::new(&mut self.stream).poll_write(cx, buf)
+    }
+    fn poll_flush(mut self: Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<io::Result<()>> {
+        Pin::new(&mut self.stream).poll_flush(cx)
+    }
+    fn poll_shutdown(mut self: Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<io::Result<()>> {
+        Pin::new(&mut self.stream).poll_shutdown(cx)
+    }
+    fn poll_write_vectored(
+        mut self: Pin<&mut Self>,
+        cx: &mut Context<'_>,
+        bufs: &[io::IoSlice<'_>],
+    ) -> Poll<io::Result<usize>> {
+        Pin::new(&mut self.stream).poll_write_vectored(cx, bufs)
+    }
+    fn is_write_vectored(&self) -> bool {
+        self.stream.is_write_vectored()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn doors(most: u64, per_address: u64) -> Arc<Doors> {
+        Doors::new(&Config {
+            max_connections: most,
+            max_connections_per_address: per_address,
+            ..Config::default()
+        })
+    }
+
+    fn from(last: u8) -> SocketAddr {
+        ([10, 0, 0, last], 1000).into()
+    }
+
+    #[test]
+    fn one_more_takes_the_place_of_the_one_that_is_unused_the_longest() {
+        let doors = doors(3, 3);
+        let first = doors.enter(from(1)).1;
+        let silent = doors.enter(from(2)).1;
+        let busy = doors.enter(from(3)).1;
+        let _request = busy.open();
+        drop(first.open()); // used, and after the silent one
+        let fourth = doors.enter(from(4)).1;
+        assert!(silent.is_closed() && !first.is_closed() && !busy.is_closed());
+        drop(fourth.open());
+        doors.enter(from(5));
+        assert!(first.is_closed() && !fourth.is_closed() && !busy.is_closed());
+    }
+
+    #[test]
+    fn an_address_takes_no_more_than_its_share() {
+        let doors = doors(10, 2);
+        let other = doors.enter(from(2)).1;
+        let own: Vec<_> = (0..3).map(|_| doors.enter(from(1)).1).collect();
+        assert_eq!(
+            own.iter().map(|p| p.is_closed()).collect::<Vec<_>>(),
+            [true, false, false]
+        );
+        assert!(!other.is_closed());
+        let _busy = (own[1].open(), own[2].open());
+        assert!(
+            doors.enter(from(1)).1.reserved,
+            "all of its own are at work"
+        );
+        assert!(!doors.enter(from(3)).1.reserved);
+    }
+
+    #[test]
+    fn health_has_a_place_when_all_are_at_work() {
+        let doors = doors(2, 2);
+        let busy: Vec<_> = (0..2).map(|i| doors.enter(from(i)).1).collect();
+        let _requests: Vec<_> = busy.iter().map(Peer::open).collect();
+        let extra: Vec<_> = (0..RESERVED + 1).map(|_| doors.enter(from(9)).1).collect();
+        assert!(extra.iter().all(|p| p.reserved));
+        assert!(extra[0].is_closed(), "the oldest made room");
+        assert!(extra[1..].iter().all(|p| !p.is_closed()) && busy.iter().all(|p| !p.is_closed()));
+    }
+
+    #[test]
+    fn who_leaves_gives_the_place_back() {
+        let doors = doors(1, 1);
+        let (number, peer) = doors.enter(from(1));
+        let _request = peer.open();
+        doors.leave(number);
+        doors.leave(number); // once is enough
+        assert!(!doors.enter(from(1)).1.reserved);
+    }
+}

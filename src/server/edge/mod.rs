@@ -1,0 +1,127 @@
+//! What stands between the network and the services: which connections are kept, for whom requests are meant, how
+//! large they may be, and how much of what is sent may wait for those who read slowly.
+//!
+//! Everything here is about strangers: a client that keeps to the limits does not notice it.
+
+pub(super) mod connections;
+pub(super) mod hosts;
+mod replies;
+mod requests;
+
+pub(super) use requests::sizes;
+
+use super::config::Config;
+use super::telemetry::count_refusal;
+use crate::wire::status::Fault;
+use axum::body::Body;
+use axum::extract::{Request, State};
+use axum::http::header;
+use axum::middleware::Next;
+use axum::response::{IntoResponse as _, Response};
+use connections::{Doors, Peer};
+use hosts::Hosts;
+use replies::{Reply, Unread};
+use requests::Uploads;
+use std::sync::Arc;
+use std::time::Duration;
+use tokio::sync::Semaphore;
+use tonic::Status;
+use tonic::transport::server::TcpConnectInfo;
+
+/// Answers that are given even when all places are taken.
+const VITAL: [&str; 3] = [
+    "/grpc.health.v1.Health/Check",
+    "/grpc.health.v1.Health/Watch",
+    "/metrics",
+];
+
+/// The state of the edge.
+pub(super) struct Edge {
+    /// Connections.
+    pub doors: Arc<Doors>,
+    /// Known names.
+    pub hosts: Hosts,
+    uploads: Uploads,
+    unread: Arc<Unread>,
+    requests: Arc<Semaphore>,
+    max_requests: u64,
+}
+
+impl Edge {
+    /// With the limits of the settings.
+    pub(super) fn new(config: &Config) -> Arc<Self> {
+        Arc::new(Self {
+            doors: Doors::new(config),
+            hosts: Hosts::new(config),
+            uploads: Uploads::new(config),
+            unread: Unread::new(config.max_unread_bytes),
+            requests: Arc::new(Semaphore::new(config.max_requests as usize)),
+            max_requests: config.max_requests,
+        })
+    }
+}
+
+/// Lets a request pass: for this server, over a connection that may make it, and while there is a place for it.
+pub(super) async fn admit(
+    State(edge): State<Arc<Edge>>,
+    mut request: Request,
+    next: Next,
+) -> Response {
+    let Some(peer) = request.extensions().get::<Arc<Peer>>().cloned() else {
+        return next.run(request).await; // not over the network
+    };
+    // What services ask for the sender's address.
+    request.extensions_mut().insert(TcpConnectInfo {
+        local_addr: None,
+        remote_addr: Some(peer.address),
+    });
+    let open = peer.open();
+    let vital = VITAL.contains(&request.uri().path());
+    if let Err(fault) = edge.hosts.check(request.uri(), request.headers()) {
+        return refused(fault, &request);
+    }
+    if peer.reserved && !vital {
+        return refused(
+            Fault::Exhausted {
+                limit: "max_connections",
+                value: edge.doors.most(),
+                message: "only health and /metrics are answered over one more connection".into(),
+                retry: Some(Duration::from_secs(1)),
+            },
+            &request,
+        );
+    }
+    let place = edge.requests.clone().try_acquire_owned().ok();
+    if place.is_none() && !vital {
+        return refused(
+            Fault::Exhausted {
+                limit: "max_requests",
+                value: edge.max_requests,
+                message: "one more request at a time".into(),
+                retry: Some(Duration::from_millis(100)),
+            },
+            &request,
+        );
+    }
+    let unread = (!vital).then(|| edge.unread.clone());
+    let response = next.run(request).await;
+    response.map(|body| Body::new(Reply::new(body, unread, open, place)))
+}
+
+/// A refusal as the sender understands it: a gRPC status, or a page with a sentence.
+fn refused(fault: Fault, request: &Request) -> Response {
+    count_refusal(&fault);
+    let kind = request.headers().get(header::CONTENT_TYPE);
+    if let Some(kind) = kind.filter(|k| k.as_bytes().starts_with(b"application/grpc")) {
+        let mut response: Response = Status::from(fault).into_http::<Body>();
+        response
+            .headers_mut()
+            .insert(header::CONTENT_TYPE, kind.clone());
+        return response;
+    }
+    let code = match fault {
+        Fault::Refused { .. } => axum::http::StatusCode::FORBIDDEN,
+        _ => axum::http::StatusCode::SERVICE_UNAVAILABLE,
+    };
+    (code, format!("{fault}\n")).into_response()
+}

@@ -1,0 +1,336 @@
+//! Where the desired motion of one drive waits for the next tick.
+//!
+//! What comes from the network is checked, converted and left here at once; nobody waits for the world. The world's
+//! thread takes all of it at the start of a tick. The allowance of the driver bounds what can wait, and drives share no
+//! queue, so a driver who floods his mailbox harms no one else.
+
+use super::admission::{Admission, FRAME_BURST, FRAMES_PER_SECOND};
+use crate::wire::status::Fault;
+use crate::wire::types::{Feedback, MotionSample};
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
+use std::time::{Duration, Instant};
+
+/// Attempts of the world's thread to look into a mailbox that a sender has open. It never waits for one: what it does
+/// not get now it gets in the next tick.
+const ATTEMPTS: usize = 100;
+
+/// A batch that waits.
+#[derive(Debug)]
+pub struct Delivery {
+    /// When it came.
+    pub arrival: Instant,
+    /// What it holds.
+    pub samples: Vec<MotionSample>,
+}
+
+/// What a world's thread finds in a mailbox.
+#[derive(Debug, Default)]
+pub struct Taken {
+    /// Batches in the order in which they came.
+    pub deliveries: Vec<Delivery>,
+    /// The driver pushed since the last time.
+    pub pushed: bool,
+}
+
+#[derive(Debug)]
+struct Inside {
+    /// The stream that may send; `None` for pushes.
+    stream: Option<u64>,
+    /// Why nothing is taken any more.
+    closed: Option<Fault>,
+    allowance: Admission,
+    waiting: Taken,
+    /// Desired postures that wait.
+    postures: usize,
+    received: i64,
+    refused: u64,
+    /// What the driver can be told without asking the world.
+    feedback: Arc<Feedback>,
+}
+
+/// The mailbox of one drive.
+#[derive(Debug)]
+pub struct Mailbox {
+    driver: String,
+    figures: Vec<String>,
+    inside: Mutex<Inside>,
+}
+
+impl Mailbox {
+    /// An empty mailbox of a drive of these figures.
+    pub fn new(driver: String, figures: Vec<String>, stream: Option<u64>, now: Instant) -> Self {
+        let feedback = Feedback {
+            driver: driver.clone(),
+            received_sequence: -1,
+            ..Feedback::default()
+        };
+        let inside = Inside {
+            stream,
+            closed: None,
+            allowance: Admission::new(figures.len(), now),
+            waiting: Taken::default(),
+            postures: 0,
+            received: -1,
+            refused: 0,
+            feedback: Arc::new(feedback),
+        };
+        Self {
+            driver,
+            figures,
+            inside: Mutex::new(inside),
+        }
+    }
+
+    /// Who drives.
+    pub fn driver(&self) -> &str {
+        &self.driver
+    }
+
+    /// Driven figures, last parts of their names.
+    pub fn figures(&self) -> &[String] {
+        &self.figures
+    }
+
+    fn inside(&self) -> MutexGuard<'_, Inside> {
+        // Nothing is left half done by a panic.
+        self.inside.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// As [`Mailbox::inside`], without waiting for who is in it.
+    fn glance(&self) -> Option<MutexGuard<'_, Inside>> {
+        for _ in 0..ATTEMPTS {
+            match self.inside.try_lock() {
+                Ok(inside) => return Some(inside),
+                Err(TryLockError::Poisoned(e)) => return Some(e.into_inner()),
+                Err(TryLockError::WouldBlock) => std::hint::spin_loop(),
+            }
+        }
+        None
+    }
+
+    /// Asks for the allowance of a batch with `postures` desired postures, before it is converted.
+    ///
+    /// # Errors
+    /// It came too fast, or too much waits; it is counted.
+    pub fn admit(&self, postures: usize, now: Instant) -> Result<(), Fault> {
+        let mut inside = self.inside();
+        let room = (FRAME_BURST as usize) * self.figures.len();
+        let refused = if inside.postures + postures.max(1) > room {
+            Some(Duration::from_millis(20)) // the next tick takes it; a stopped clock is looked at every 50 ms
+        } else {
+            inside.allowance.admit(postures, now).err()
+        };
+        let Some(retry) = refused else { return Ok(()) };
+        inside.refused += 1;
+        Err(Fault::Exhausted {
+            limit: "frames_per_second",
+            value: FRAMES_PER_SECOND as u64,
+            message: format!("desired motion of driver {:?} came too fast", self.driver),
+            retry: Some(retry),
+        })
+    }
+
+    /// Leaves a batch, by a stream or by a push.
+    ///
+    /// # Errors
+    /// The drive has ended, or another stream has it.
+    pub fn deliver(
+        &self,
+        stream: Option<u64>,
+        samples: Vec<MotionSample>,
+        now: Instant,
+    ) -> Result<(), Fault> {
+        let mut inside = self.inside();
+        if let Some(why) = &inside.closed {
+            return Err(why.clone());
+        }
+        if stream.is_some() && stream != inside.stream {
+            return Err(self.fenced());
+        }
+        let newest = samples.iter().map(|s| s.sequence).max();
+        inside.received = inside.received.max(newest.unwrap_or(-1));
+        let postures: usize = samples.iter().map(|s| s.figures.len()).sum();
+        inside.postures += postures.max(1);
+        inside.waiting.pushed |= stream.is_none();
+        inside.waiting.deliveries.push(Delivery {
+            arrival: now,
+            samples,
+        });
+        Ok(())
+    }
+
+    /// What a stream learns that no longer drives.
+    pub fn fenced(&self) -> Fault {
+        fenced(&self.driver)
+    }
+
+    /// Why the drive has ended, if it has.
+    pub fn ended(&self) -> Option<Fault> {
+        self.inside().closed.clone()
+    }
+
+    /// Takes what waits, without waiting for a sender. For the world's thread.
+    pub fn take(&self) -> Taken {
+        self.glance().map_or_else(Taken::default, |mut i| i.empty())
+    }
+
+    /// Lets another stream send from now on; `None`: none.
+    pub fn hand_to(&self, stream: Option<u64>) {
+        self.inside().stream = stream;
+    }
+
+    /// Takes nothing any more; senders learn why. The first reason stands.
+    pub fn close(&self, why: Fault) {
+        let mut inside = self.inside();
+        inside.empty();
+        inside.closed.get_or_insert(why);
+    }
+
+    /// Largest sequence that was taken (−1 if none), and batches that were refused.
+    pub fn counts(&self) -> (i64, u64) {
+        let inside = self.inside();
+        (inside.received, inside.refused)
+    }
+
+    /// The driver's sequence started again and has come to `sequence`.
+    pub fn begin_anew(&self, sequence: i64) {
+        self.inside().received = sequence;
+    }
+
+    /// Publishes the state of the drive after a tick. For the world's thread.
+    pub fn publish(&self, feedback: Feedback) {
+        if let Some(mut inside) = self.glance() {
+            inside.feedback = Arc::new(feedback);
+        }
+    }
+
+    /// The state of the drive after the last tick, with what was received and refused until now.
+    pub fn feedback(&self) -> Feedback {
+        let (feedback, received, refused) = {
+            let inside = self.inside();
+            (inside.feedback.clone(), inside.received, inside.refused)
+        };
+        Feedback {
+            received_sequence: received,
+            refused,
+            ..(*feedback).clone()
+        }
+    }
+}
+
+impl Inside {
+    fn empty(&mut self) -> Taken {
+        self.postures = 0;
+        std::mem::take(&mut self.waiting)
+    }
+}
+
+/// The fault of a driver who has no drive any more.
+pub fn fenced(driver: &str) -> Fault {
+    Fault::Aborted {
+        reason: "CONTROL_FENCED",
+        message: format!("{driver:?} has given up its figures or drives by another stream"),
+    }
+}
+
+/// The mailboxes of one world, by driver.
+#[derive(Debug, Default)]
+pub struct Mailboxes(Mutex<HashMap<String, Arc<Mailbox>>>);
+
+impl Mailboxes {
+    fn held(&self) -> MutexGuard<'_, HashMap<String, Arc<Mailbox>>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The mailbox of a driver who drives exactly these figures.
+    pub fn of(&self, driver: &str, figures: &[String]) -> Option<Arc<Mailbox>> {
+        let found = self.held().get(driver).cloned()?;
+        (found.figures() == figures).then_some(found)
+    }
+
+    /// Adds a mailbox.
+    pub fn insert(&self, mailbox: Arc<Mailbox>) {
+        self.held().insert(mailbox.driver().to_owned(), mailbox);
+    }
+
+    /// Removes the mailbox of a driver.
+    pub fn remove(&self, driver: &str) {
+        self.held().remove(driver);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sample(sequence: i64) -> MotionSample {
+        MotionSample {
+            sequence,
+            source_ns: sequence,
+            figures: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn batches_wait_in_order_and_an_old_stream_is_fenced() {
+        let now = Instant::now();
+        let m = Mailbox::new("me".into(), vec!["a".into()], Some(1), now);
+        m.deliver(Some(1), vec![sample(0)], now).unwrap();
+        m.deliver(Some(1), vec![sample(1)], now).unwrap();
+        m.hand_to(Some(2));
+        assert_eq!(
+            m.deliver(Some(1), vec![sample(2)], now),
+            Err(fenced("me")),
+            "another stream has it"
+        );
+        m.deliver(Some(2), vec![sample(3)], now).unwrap();
+        let taken = m.take();
+        let sequences: Vec<i64> = taken
+            .deliveries
+            .iter()
+            .flat_map(|d| &d.samples)
+            .map(|s| s.sequence)
+            .collect();
+        assert_eq!((sequences, taken.pushed), (vec![0, 1, 3], false));
+        assert!(m.take().deliveries.is_empty());
+        m.deliver(None, vec![sample(4)], now).unwrap();
+        assert!(m.take().pushed);
+        m.close(Fault::Draining);
+        m.close(fenced("me"));
+        assert_eq!(
+            m.deliver(Some(2), vec![sample(5)], now),
+            Err(Fault::Draining)
+        );
+        assert_eq!(m.feedback().received_sequence, 4);
+    }
+
+    #[test]
+    fn a_world_whose_thread_never_looks_does_not_collect_motion_without_bound() {
+        let start = Instant::now();
+        let m = Mailbox::new("me".into(), vec!["a".into()], None, start);
+        let figure = crate::wire::types::FigureSample {
+            slot: 0,
+            posture: crate::sim::body::Posture::default(),
+            has_root: false,
+            velocity: None,
+            planted: None,
+        };
+        let full = || MotionSample {
+            figures: vec![figure.clone()],
+            ..sample(0)
+        };
+        let mut taken = 0;
+        for second in 0..10 {
+            let now = start + Duration::from_secs(second);
+            for _ in 0..1000 {
+                if m.admit(1, now).is_ok() {
+                    m.deliver(None, vec![full()], now).unwrap();
+                    taken += 1;
+                }
+            }
+        }
+        assert_eq!(taken, FRAME_BURST as usize);
+        assert_eq!(m.feedback().refused, 10_000 - taken as u64);
+    }
+}

@@ -1,0 +1,174 @@
+//! The pace of a stream: which of its source time is played in a tick.
+//!
+//! Arrivals are stamped by *scheduled time*: where world time would be if the clock had left out no tick. It passes as
+//! the driver's own clock does while the world's clock runs, and stands still with it. Motion is played in world time:
+//! in a world that leaves ticks out it falls behind and is never too fast for the body, and it catches up slowly.
+
+use crate::wire::types::{Delay, DriveSettings};
+use std::collections::VecDeque;
+
+/// Arrivals that the jitter is measured over.
+const WINDOW: usize = 256;
+/// Share of time by which an adaptive delay shrinks: one hundredth is not seen.
+pub(super) const SHRINK: f64 = 0.01;
+/// Share of time by which a stream that fell behind with its world catches up: two hundredths do not tax the balance.
+pub(super) const CATCH_UP: f64 = 0.02;
+/// Farthest that a stream is behind its world's schedule, s: at 240 Hz the buffer is full then.
+pub(super) const MOST_BEHIND: f64 = 2.0;
+
+/// An instant of a world.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Now {
+    /// World time, s.
+    pub time: f64,
+    /// World time that the clock has left out so far, s: with it, this is scheduled time.
+    pub lost: f64,
+}
+
+/// What is played in a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Due {
+    /// Nothing: no frame has come.
+    Nothing,
+    /// Nothing any more: the stream is too far behind.
+    TooFarBehind,
+    /// Playout time, s since the first frame.
+    At(f64),
+}
+
+/// Source time against world time.
+#[derive(Debug)]
+pub(super) struct Playout {
+    /// Source time and scheduled time of the first frame.
+    origin: Option<(i64, f64)>,
+    /// Scheduled time minus (first arrival + source time since then) of recent frames.
+    transit: VecDeque<f64>,
+    /// Scheduled time of the last arrival.
+    arrived: f64,
+    /// p99 of the jitter; `None` while frames have come since it was measured.
+    jitter: Option<f64>,
+    /// Present delay of playout behind the ideal clock, s; may be negative when frames come early.
+    delay: Option<f64>,
+    /// Time that the world had lost at the last tick, s, and how far the stream is behind for it, s.
+    lost: Option<f64>,
+    behind: f64,
+    /// Playout time of the last answer, s since the first frame.
+    pub(super) played: f64,
+}
+
+impl Default for Playout {
+    fn default() -> Self {
+        Self {
+            origin: None,
+            transit: VecDeque::new(),
+            arrived: 0.0,
+            jitter: Some(0.0),
+            delay: None,
+            lost: None,
+            behind: 0.0,
+            played: f64::NEG_INFINITY,
+        }
+    }
+}
+
+impl Playout {
+    /// A source time as seconds since the first frame.
+    pub(super) fn seconds(&self, source_ns: i64) -> f64 {
+        let (first, _) = self.origin.unwrap_or((source_ns, 0.0));
+        // Differences of hostile times must not overflow.
+        (i128::from(source_ns) - i128::from(first)) as f64 * 1e-9
+    }
+
+    /// Scheduled time since the last arrival, s.
+    pub(super) fn since_arrival(&self, now: f64) -> f64 {
+        now - self.arrived
+    }
+
+    /// Notes a frame that arrived at scheduled time `now`; its seconds.
+    pub(super) fn arrive(&mut self, source_ns: i64, now: f64) -> f64 {
+        self.arrived = now;
+        let (_, first) = *self.origin.get_or_insert((source_ns, now));
+        let at = self.seconds(source_ns);
+        if self.transit.len() == WINDOW {
+            self.transit.pop_front();
+        }
+        self.transit.push_back(now - first - at);
+        self.jitter = None;
+        at
+    }
+
+    fn fastest(&self) -> f64 {
+        self.transit
+            .iter()
+            .copied()
+            .fold(f64::INFINITY, f64::min)
+            .min(1e12)
+    }
+
+    /// p99 of the arrival jitter up to the last tick, s.
+    pub(super) fn jitter(&self) -> f64 {
+        self.jitter.unwrap_or_else(|| self.measured())
+    }
+
+    fn measured(&self) -> f64 {
+        let base = self.fastest();
+        let mut late: Vec<f64> = self.transit.iter().map(|t| t - base).collect();
+        if late.is_empty() {
+            return 0.0;
+        }
+        let rank = (late.len() - 1) * 99 / 100;
+        let (_, p99, _) = late.select_nth_unstable_by(rank, f64::total_cmp);
+        *p99
+    }
+
+    /// Delay between arrival and use, s.
+    pub(super) fn delay(&self, settings: &DriveSettings) -> f64 {
+        let delay = match (settings.delay, self.delay) {
+            (Delay::Fixed(d), _) => d,
+            (Delay::Adaptive { .. }, Some(d)) => d - self.fastest(),
+            (Delay::Adaptive { .. }, None) => 0.0,
+        };
+        delay + self.behind
+    }
+
+    /// How far the stream is behind because its world leaves ticks out, s; contained in the delay.
+    pub(super) fn behind(&self) -> f64 {
+        self.behind
+    }
+
+    /// What is played in the tick of `tick` seconds that begins `now`; moves the adaptive delay on.
+    pub(super) fn advance(&mut self, now: Now, tick: f64, settings: &DriveSettings) -> Due {
+        let Some((_, first)) = self.origin else {
+            return Due::Nothing;
+        };
+        let left_out = self.lost.replace(now.lost).map_or(0.0, |l| now.lost - l);
+        self.behind = (self.behind + left_out - CATCH_UP * tick).max(0.0);
+        if self.behind > MOST_BEHIND {
+            return Due::TooFarBehind;
+        }
+        let jitter = self.jitter();
+        self.jitter = Some(jitter);
+        let delay = match settings.delay {
+            Delay::Fixed(d) => d,
+            Delay::Adaptive { most } => {
+                let frame = 1.0 / settings.rate_hz;
+                // Interpolation needs the next frame to be there as well.
+                let wanted = self.fastest() + (jitter + frame + tick).min(most);
+                match self.delay {
+                    None => wanted,
+                    Some(d) if wanted > d => wanted,
+                    Some(d) if d - wanted > most => wanted, // the clocks jumped
+                    Some(d) => (d - SHRINK * tick).max(wanted),
+                }
+            }
+        };
+        self.delay = Some(delay);
+        let p = now.time + now.lost - first - delay - self.behind;
+        // Time may stand still while a delay grows, but does not run backwards.
+        Due::At(if self.played.is_finite() {
+            p.max(self.played)
+        } else {
+            p
+        })
+    }
+}

@@ -1,0 +1,167 @@
+//! What one client may have of what all share.
+//!
+//! Without accounts a client is a connection or an address. On the machine of the server every program has the same
+//! address, so there it is the connection; elsewhere it is the address, however many connections come from it.
+
+use crate::wire::status::Fault;
+use std::net::{IpAddr, SocketAddr};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+/// Who asks. What belongs to one client shares its part of workers, streams and worlds.
+pub type Client = Arc<str>;
+
+/// The client behind a peer address.
+pub fn client_at(peer: Option<SocketAddr>) -> Client {
+    match peer {
+        None => "".into(),
+        Some(at) if at.ip().to_canonical().is_loopback() => at.to_string().into(),
+        Some(at) => match at.ip().to_canonical() {
+            IpAddr::V4(ip) => ip.to_string().into(),
+            // Whoever has one address of a network of IPv6 has all of them.
+            IpAddr::V6(ip) => {
+                let [a, b, c, d, ..] = ip.segments();
+                format!("{a:x}:{b:x}:{c:x}:{d:x}::/64").into()
+            }
+        },
+    }
+}
+
+/// How many of `most` one client may have.
+pub fn part(most: u64, share: f64) -> u64 {
+    ((most as f64 * share).ceil() as u64).max(1)
+}
+
+/// Refuses one more if a client has its part already.
+///
+/// # Errors
+/// `own` is the part of a client of what `limit` bounds.
+pub fn check_part(limit: &'static str, own: u64, most: u64, share: f64) -> Result<(), Fault> {
+    let part = part(most, share);
+    if own < part {
+        return Ok(());
+    }
+    Err(Fault::Exhausted {
+        limit,
+        value: most,
+        message: format!("one client may have {part} of them (max_client_share)"),
+        retry: None,
+    })
+}
+
+/// Places for streams of one kind.
+#[derive(Debug)]
+pub struct Places {
+    taken: Arc<Mutex<Vec<Client>>>,
+    limit: &'static str,
+    most: u64,
+    share: f64,
+    gauge: &'static str,
+}
+
+/// A place that is given back when the stream ends.
+#[derive(Debug)]
+pub struct Place {
+    taken: Arc<Mutex<Vec<Client>>>,
+    client: Client,
+    gauge: &'static str,
+}
+
+fn locked(taken: &Mutex<Vec<Client>>) -> MutexGuard<'_, Vec<Client>> {
+    // Entries are whole.
+    taken.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Drop for Place {
+    fn drop(&mut self) {
+        let mut taken = locked(&self.taken);
+        if let Some(i) = taken.iter().position(|c| *c == self.client) {
+            taken.swap_remove(i);
+        }
+        metrics::gauge!(self.gauge).decrement(1.0);
+    }
+}
+
+impl Places {
+    /// `most` places, as the setting `limit` says, of which one client may have a `share`; `gauge` is their metric.
+    pub fn new(limit: &'static str, most: u64, share: f64, gauge: &'static str) -> Self {
+        Self {
+            taken: Arc::default(),
+            limit,
+            most,
+            share,
+            gauge,
+        }
+    }
+
+    /// Takes a place.
+    ///
+    /// # Errors
+    /// All are taken, or the client has its part.
+    pub fn take(&self, client: Client) -> Result<Place, Fault> {
+        let mut taken = locked(&self.taken);
+        if taken.len() as u64 >= self.most {
+            return Err(Fault::Exhausted {
+                limit: self.limit,
+                value: self.most,
+                message: "one more stream".into(),
+                retry: Some(Duration::from_secs(1)),
+            });
+        }
+        let own = taken.iter().filter(|c| **c == client).count() as u64;
+        check_part(self.limit, own, self.most, self.share)?;
+        taken.push(client.clone());
+        metrics::gauge!(self.gauge).increment(1.0);
+        Ok(Place {
+            taken: Arc::clone(&self.taken),
+            client,
+            gauge: self.gauge,
+        })
+    }
+
+    /// Places that are taken.
+    pub fn taken(&self) -> usize {
+        locked(&self.taken).len()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(text: &str) -> Client {
+        client_at(Some(text.parse().unwrap()))
+    }
+
+    #[test]
+    fn a_client_is_a_connection_here_and_an_address_elsewhere() {
+        assert_ne!(at("127.0.0.1:1"), at("127.0.0.1:2"));
+        assert_ne!(at("[::1]:1"), at("[::1]:2"));
+        assert_eq!(at("192.0.2.1:1"), at("192.0.2.1:2"));
+        assert_eq!(at("192.0.2.1:1"), at("[::ffff:192.0.2.1]:2"));
+        assert_ne!(at("192.0.2.1:1"), at("192.0.2.2:1"));
+        assert_eq!(at("[2001:db8:1:2::1]:1"), at("[2001:db8:1:2:ffff::2]:9"));
+        assert_ne!(at("[2001:db8:1:2::1]:1"), at("[2001:db8:1:3::1]:1"));
+    }
+
+    #[test]
+    fn one_client_leaves_places_for_others_and_gives_its_own_back() {
+        let places = Places::new("max_viewers", 5, 0.5, "test_places");
+        let (a, b) = (at("127.0.0.1:1"), at("127.0.0.1:2"));
+        let held: Vec<Place> = (0..3).map(|_| places.take(a.clone()).unwrap()).collect();
+        let refused = places.take(a.clone()).unwrap_err();
+        assert!(
+            refused.to_string().contains("max_client_share"),
+            "{refused}"
+        );
+        let others: Vec<Place> = (0..2).map(|_| places.take(b.clone()).unwrap()).collect();
+        let full = places.take(b.clone()).unwrap_err();
+        assert!(full.to_string().contains("one more stream"), "{full}");
+        drop(held);
+        assert_eq!(places.taken(), 2);
+        places.take(a).unwrap();
+        drop(others);
+        assert_eq!(places.taken(), 0);
+        assert_eq!((part(2, 0.5), part(1, 0.1), part(16, 1.0)), (1, 1, 16));
+    }
+}

@@ -1,0 +1,10 @@
+#!/bin/sh
+# The attacks of this folder in their long form: those that repeat themselves go on for SINEW_ABUSE_SECONDS (30).
+#
+#   tests/abuse/run.sh [FILTER]      for example `net_`, or the name of one attack
+set -eu
+root=$(CDPATH='' cd -- "$(dirname -- "$0")/../.." && pwd)
+cd "$root"
+SINEW_ABUSE_SECONDS=${SINEW_ABUSE_SECONDS:-30}
+export SINEW_ABUSE_SECONDS
+exec "${CARGO:-cargo}" test --locked --test abuse -- --nocapture "$@"

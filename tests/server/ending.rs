@@ -1,0 +1,195 @@
+//! The end: of the server, which is seen before it comes and is told to everybody, and of figures that are driven.
+
+use crate::support::{TestServer, arm_frame, header, refusal};
+use sinew::client::Client;
+use sinew::wire::pb;
+use std::time::Duration;
+use tokio::io::{AsyncReadExt, AsyncWriteExt};
+use tonic::{Code, Status};
+use tonic_health::pb::HealthCheckRequest;
+use tonic_health::pb::health_check_response::ServingStatus;
+use tonic_health::pb::health_client::HealthClient;
+use tonic_types::StatusExt;
+
+/// Health, asked over a new connection.
+async fn health(server: &TestServer) -> ServingStatus {
+    let endpoint = format!("http://{}", server.address);
+    let channel = tonic::transport::Endpoint::from_shared(endpoint);
+    let channel = channel.unwrap().connect().await.unwrap();
+    let mut client = HealthClient::new(channel);
+    let request = HealthCheckRequest {
+        service: String::new(),
+    };
+    client.check(request).await.unwrap().into_inner().status()
+}
+
+/// The first line of the answer of `/ready`.
+async fn ready(server: &TestServer) -> String {
+    let mut stream = tokio::net::TcpStream::connect(server.address)
+        .await
+        .unwrap();
+    let request = format!(
+        "GET /ready HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n\r\n",
+        server.address
+    );
+    stream.write_all(request.as_bytes()).await.unwrap();
+    let mut answer = String::new();
+    stream.read_to_string(&mut answer).await.unwrap();
+    answer.lines().next().unwrap_or_default().to_owned()
+}
+
+fn is_draining(e: &Status) {
+    let (code, reason, _) = refusal(e);
+    assert_eq!(
+        (code, reason.as_str()),
+        (Code::Unavailable, "DRAINING"),
+        "{e:?}"
+    );
+    assert!(e.get_error_details().retry_info().is_some());
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn the_end_of_the_server_is_seen_before_it_comes() {
+    let mut server = TestServer::with(&[("lame_duck_s", "1.5")]).await;
+    let world = server.paused_world("w").await;
+    server.figure(&world, "a").await;
+    assert_eq!(health(&server).await, ServingStatus::Serving);
+    assert_eq!(ready(&server).await, "HTTP/1.1 200 OK");
+    server.begin_stop();
+    while health(&server).await == ServingStatus::Serving {
+        tokio::task::yield_now().await;
+    }
+    // New connections see it, and what is there goes on; but nothing new begins.
+    assert_eq!(ready(&server).await, "HTTP/1.1 503 Service Unavailable");
+    let client = Client::connect(&server.address.to_string()).await.unwrap();
+    let name = world.clone();
+    let mut worlds = client.worlds();
+    let got = worlds.get_world(pb::GetWorldRequest { name }).await;
+    assert_eq!(got.unwrap().into_inner().world.unwrap().name, world);
+    server.step(&world, 1).await;
+    let create = pb::CreateWorldRequest::default();
+    is_draining(&client.worlds().create_world(create).await.unwrap_err());
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn who_waits_when_the_server_ends_is_told_to_come_again() {
+    let mut server = TestServer::start().await;
+    let world = server.paused_world("w").await;
+    server.figure(&world, "a").await;
+    let mut worlds = server.client.worlds();
+    let name = world.clone();
+    let steps = tokio::spawn(async move {
+        let tick_count = 10_000;
+        worlds
+            .step_world(pb::StepWorldRequest { name, tick_count })
+            .await
+    });
+    let mut simulations = server.client.simulations();
+    let simulation = tokio::spawn(async move {
+        let source = pb::simulate_clip_request::Source::Clip("clips/wave".into());
+        simulations
+            .simulate_clip(pb::SimulateClipRequest {
+                source: Some(source),
+                rate_hz: 1000.0,
+                substeps: 16,
+                duration_s: 120.0,
+                r#loop: true,
+                ..Default::default()
+            })
+            .await
+    });
+    let driver = server.client.drive(header(&world, "a", "me")).await;
+    while server.app.simulations.running() == 0 || server.frame(&world, &["status"]).await.tick == 0
+    {
+        tokio::time::sleep(Duration::from_millis(5)).await;
+    }
+    server.begin_stop();
+    is_draining(&steps.await.unwrap().unwrap_err());
+    is_draining(&simulation.await.unwrap().unwrap_err());
+    is_draining(&end_of(driver.unwrap()).await);
+    server.stop().await;
+}
+
+/// The reason why a drive ended.
+async fn end_of(mut driver: sinew::client::Driver) -> Status {
+    loop {
+        match driver.feedback().await {
+            Ok(Some(_)) => {}
+            Ok(None) => panic!("ended without a reason"),
+            Err(e) => break e,
+        }
+    }
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_driver_whose_figure_is_removed_is_told_so() {
+    let server = TestServer::start().await;
+    let world = server.paused_world("w").await;
+    for figure in ["a", "b", "c"] {
+        server.figure(&world, figure).await;
+    }
+    let watch = pb::WatchEventsRequest {
+        world: world.clone(),
+        figures: vec![],
+        types: vec![pb::EventType::DriveEnded.into()],
+    };
+    let mut events = server.client.states().watch_events(watch).await;
+    let events = events.as_mut().unwrap().get_mut();
+    events.message().await.unwrap().unwrap();
+    let two = pb::DriveHeader {
+        figures: vec!["a".into(), "b".into()],
+        ..header(&world, "", "two")
+    };
+    let mut two = server.client.drive(two).await.unwrap();
+    let one = server
+        .client
+        .drive(header(&world, "c", "one"))
+        .await
+        .unwrap();
+    let remove = |figure: &str| {
+        let name = format!("{world}/figures/{figure}");
+        let mut figures = server.client.figures();
+        async move {
+            figures
+                .delete_figure(pb::DeleteFigureRequest { name })
+                .await
+                .unwrap();
+        }
+    };
+    // One of two: the drive goes on with the other.
+    remove("a").await;
+    let told = events.message().await.unwrap().unwrap().events.remove(0);
+    assert_eq!(told.figure, "a");
+    assert_eq!(told.detail, "two: the figure was removed");
+    assert!(two.send(vec![arm_frame("b", 0)]).await);
+    loop {
+        let feedback = two.feedback().await.unwrap().unwrap();
+        let left: Vec<&str> = feedback.figures.iter().map(|f| f.figure.as_str()).collect();
+        if feedback.received_sequence == 0 && left == ["b"] {
+            break;
+        }
+    }
+    // The last one.
+    remove("c").await;
+    let told = events.message().await.unwrap().unwrap().events.remove(0);
+    assert_eq!(told.figure, "c");
+    let e = end_of(one).await;
+    let details = e.get_error_details();
+    let resource = details.resource_info().unwrap();
+    assert_eq!(refusal(&e).0, Code::NotFound);
+    assert_eq!(resource.resource_name, format!("{world}/figures/c"));
+    // Who pushes is told the same.
+    server.figure(&world, "d").await;
+    let push = || pb::PushMotionRequest {
+        header: Some(header(&world, "d", "pusher")),
+        batch: Some(pb::MotionBatch {
+            frames: vec![arm_frame("d", 0)],
+        }),
+    };
+    server.client.motions().push_motion(push()).await.unwrap();
+    remove("d").await;
+    let e = server.client.motions().push_motion(push()).await;
+    assert_eq!(refusal(&e.unwrap_err()).0, Code::NotFound);
+    server.stop().await;
+}
