@@ -10,7 +10,8 @@ RUFF := .venv/bin/ruff format --quiet --config clients/python/pyproject.toml cli
 oracle load python viewer generate fmt: export PATH := $(ROOT)/.venv/bin:$(PATH)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test recordings ci setup lint physics rust survey release oracle python viewer load abuse soak generate fmt
+.PHONY: help run test recordings ci setup lint physics rust survey release oracle python viewer load abuse soak \
+	generate fmt
 
 help: ## what there is
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(ROOT)/Makefile

@@ -23,6 +23,9 @@ use tonic::transport::server::Connected;
 
 /// Connections beyond the limits, for health and metrics.
 const RESERVED: usize = 16;
+/// Time that each of these has before it makes room: without it a rush of them would push out who asks for health before
+/// the answer is there.
+const RESERVED_TIME: Duration = Duration::from_millis(50);
 /// Least time between two lines of the log about connections that were closed.
 const LOG_EVERY: Duration = Duration::from_secs(10);
 /// Pause after a connection could not be accepted, for example for want of file handles.
@@ -60,6 +63,8 @@ pub(in crate::server) struct Peer {
     pub address: SocketAddr,
     /// Whether it is beyond the limits.
     pub reserved: bool,
+    /// When it was taken in.
+    since: Instant,
     /// Requests that are worked on.
     requests: AtomicUsize,
     /// Whether there was a request.
@@ -95,6 +100,7 @@ impl Peer {
         let peer = Arc::new(Self {
             address,
             reserved,
+            since: Instant::now(),
             requests: AtomicUsize::new(0),
             begun: AtomicBool::new(false),
             used: AtomicU64::new(0),
@@ -178,7 +184,7 @@ struct Log {
 }
 
 impl Table {
-    /// The unused one that was last used before all others of `those`, or, of those beyond the limits, the oldest.
+    /// The one of `those` that was last used before all others; those without any request first.
     fn last(&self, those: impl Fn(&Peer) -> bool) -> Option<u64> {
         let those = self.peers.iter().filter(|(_, p)| those(p));
         those
@@ -228,6 +234,26 @@ impl Doors {
         self.open.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    /// When one more connection from this address can be taken in: at once, unless it is beyond the limits and the others
+    /// that are had too little time.
+    fn opens_at(&self, address: SocketAddr) -> Instant {
+        let table = self.table();
+        let idle = |p: &Peer| !p.reserved && p.is_idle();
+        let of_address = table.by_address.get(&address.ip()).copied().unwrap_or(0);
+        let full = table.peers.len() - table.reserved >= self.most && table.last(idle).is_none();
+        let full_for_address = of_address >= self.most_per_address
+            && table
+                .last(|p| idle(p) && p.address.ip() == address.ip())
+                .is_none();
+        if table.reserved < RESERVED || !(full || full_for_address) {
+            return Instant::now();
+        }
+        let oldest = table.peers.values().filter(|p| p.reserved).map(|p| p.since);
+        oldest
+            .min()
+            .map_or_else(Instant::now, |since| since + RESERVED_TIME)
+    }
+
     /// Takes one more connection in, in place of another one if need be.
     fn enter(self: &Arc<Self>, address: SocketAddr) -> (u64, Arc<Peer>) {
         let mut table = self.table();
@@ -245,8 +271,9 @@ impl Doors {
         let reserved = of_address(&table) >= self.most_per_address
             || table.peers.len() - table.reserved >= self.most;
         if reserved && table.reserved >= RESERVED {
-            let last = table.last(|p| p.reserved);
-            gone.extend(last.and_then(|n| table.remove(n)));
+            let oldest = table.peers.iter().find(|(_, p)| p.reserved);
+            let oldest = oldest.map(|(number, _)| *number);
+            gone.extend(oldest.and_then(|n| table.remove(n)));
         }
         let peer = Peer::new(address, reserved, self);
         let number = table.next;
@@ -317,6 +344,7 @@ pub(in crate::server) fn incoming(
                     // Frames are small and wanted at once.
                     let _ = stream.set_nodelay(true);
                     metrics::counter!("sinew_connections_total").increment(1);
+                    tokio::time::sleep_until(doors.opens_at(address)).await;
                     let (number, peer) = doors.enter(address);
                     let connection = Connection {
                         stream,
@@ -477,11 +505,17 @@ mod tests {
     #[test]
     fn health_has_a_place_when_all_are_at_work() {
         let doors = doors(2, 2);
+        assert!(doors.opens_at(from(9)) <= Instant::now());
         let busy: Vec<_> = (0..2).map(|i| doors.enter(from(i)).1).collect();
         let _requests: Vec<_> = busy.iter().map(Peer::open).collect();
         let extra: Vec<_> = (0..RESERVED + 1).map(|_| doors.enter(from(9)).1).collect();
         assert!(extra.iter().all(|p| p.reserved));
         assert!(extra[0].is_closed(), "the oldest made room");
+        assert_eq!(
+            doors.opens_at(from(9)),
+            extra[1].since + RESERVED_TIME,
+            "but not before it had its time"
+        );
         assert!(extra[1..].iter().all(|p| !p.is_closed()) && busy.iter().all(|p| !p.is_closed()));
     }
 
