@@ -23,8 +23,8 @@ use tonic::transport::server::Connected;
 
 /// Connections beyond the limits, for health and metrics.
 const RESERVED: usize = 64;
-/// Time that each of these has before it makes room: without it a rush of them would push out who asks for health before
-/// the answer is there.
+/// Time that each of these has before it makes room: without it a rush of them would push out who asks for health
+/// before the answer is there.
 const RESERVED_TIME: Duration = Duration::from_millis(50);
 /// Least time between two lines of the log about connections that were closed.
 const LOG_EVERY: Duration = Duration::from_secs(10);
@@ -234,8 +234,8 @@ impl Doors {
         self.open.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// When one more connection from this address can be taken in, if not at once: where it is beyond the limits and the
-    /// others that are had too little time.
+    /// When one more connection from this address can be taken in, if not at once: where it is beyond the limits and
+    /// the others that are had too little time.
     fn opens_at(&self, address: SocketAddr) -> Option<Instant> {
         let table = self.table();
         let idle = |p: &Peer| !p.reserved && p.is_idle();
