@@ -113,7 +113,7 @@ async fn world(client: &Client, figures: usize, paused: bool) -> String {
 /// A world that is stepped as fast as it goes, with nobody who reads the metrics.
 #[test]
 fn stepping_leaves_nothing_behind() {
-    let (used, after) = std::sync::mpsc::channel();
+    let (used, after) = std::sync::mpsc::sync_channel(1);
     let server = survives(&[], |address| async move {
         let client = Client::connect(&address.to_string()).await.unwrap();
         let name = world(&client, 0, true).await;
