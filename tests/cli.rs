@@ -425,6 +425,16 @@ fn the_first_line_of_serve_is_an_address_that_answers() {
 }
 
 #[test]
+fn health_says_whether_a_server_serves() {
+    let server = Server::start(&["--no-demo"]);
+    assert_eq!(succeed(&["health", &server.address]), "serving\n");
+    let address = server.address.clone();
+    drop(server);
+    let out = sinew(&["health", &address]);
+    assert_eq!(out.status.code(), Some(1), "{}", stderr(&out));
+}
+
+#[test]
 fn a_server_whose_output_is_closed_goes_on() {
     let mut server = Server::start(&["--no-demo", "--log", "debug"]);
     drop(server.lines.take());

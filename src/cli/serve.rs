@@ -172,3 +172,21 @@ async fn interrupted() {
     #[cfg(not(unix))]
     let _ = interrupt.await;
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::ErrorKind;
+    use tokio::net::TcpStream;
+
+    #[tokio::test]
+    async fn the_port_is_taken_at_once_and_accepts_when_somebody_answers() {
+        let socket = bind(([127, 0, 0, 1], 0).into()).unwrap();
+        let address = socket.local_addr().unwrap();
+        let early = TcpStream::connect(address).await;
+        assert_eq!(early.unwrap_err().kind(), ErrorKind::ConnectionRefused);
+        let _listener = socket.listen(BACKLOG).unwrap();
+        TcpStream::connect(address).await.unwrap();
+        assert_eq!(bind(address).unwrap_err().kind(), ErrorKind::AddrInUse);
+    }
+}

@@ -39,11 +39,12 @@ pub struct Server {
 impl Server {
     /// Starts it with settings other than the defaults; returns when it says that it serves.
     pub fn start(settings: &[(&str, &str)]) -> Self {
+        let binary = std::env::var("SINEW_BIN").unwrap_or(env!("CARGO_BIN_EXE_sinew").to_owned());
         let mut command = Command::new("sh");
         command
             .arg("-c")
             .arg(format!("ulimit -v {ADDRESS_SPACE_KIB}; exec \"$0\" \"$@\""))
-            .arg(env!("CARGO_BIN_EXE_sinew"))
+            .arg(binary)
             .args(["serve", "--no-demo", "--listen", "127.0.0.1:0"])
             .args(["--log", "warn"])
             .stdout(Stdio::piped())

@@ -227,3 +227,87 @@ async fn encode(
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::wire::convert::state::view;
+
+    fn snapshot(tick: u64) -> Arc<Snapshot> {
+        Arc::new(Snapshot {
+            world: "w".into(),
+            rate_hz: 60.0,
+            gravity: 9.81,
+            tick,
+            time: tick as f64 / 60.0,
+            hash: 0,
+            epoch: 0,
+            server_ns: 0,
+            roster_version: 0,
+            roster: Vec::new().into(),
+            figures: Vec::new(),
+            obstacles: Vec::new(),
+        })
+    }
+
+    fn ticks(resuming: &mut Resuming) -> Vec<u64> {
+        std::iter::from_fn(|| resuming.take_next())
+            .map(|s| s.tick)
+            .collect()
+    }
+
+    #[test]
+    fn viewers_that_never_catch_up_hold_no_more_than_the_history() {
+        let hub = Hub::new(8, 10);
+        // The world goes on and forgets; viewers come, resume and never read.
+        let mut history: VecDeque<_> = (0..9).map(snapshot).collect();
+        let mut stalled = Vec::new();
+        for tick in 9..109 {
+            history.push_back(snapshot(tick));
+            stalled.push(hub.resume(history.iter().cloned()));
+            history.pop_front();
+        }
+        drop(history);
+        assert_eq!(hub.past().snapshots.len(), 10);
+        assert_eq!(
+            ticks(stalled.last_mut().unwrap()),
+            (99..109).collect::<Vec<_>>()
+        );
+        assert_eq!(
+            ticks(&mut stalled[95]),
+            [99, 100, 101, 102, 103, 104],
+            "frames that it missed"
+        );
+        assert!(ticks(&mut stalled[0]).is_empty());
+        for _ in &stalled {
+            hub.resumed();
+        }
+        assert!(
+            hub.past().snapshots.is_empty(),
+            "all have caught up or are gone"
+        );
+    }
+
+    #[tokio::test]
+    async fn a_past_frame_is_encoded_once_and_few_are_kept() {
+        let hub = Hub::new(8, 10);
+        let latest = watch::Sender::new(snapshot(0));
+        let view = view(None).unwrap();
+        let channel = hub.channel(&view, &latest).unwrap();
+        let _resuming = hub.resume([snapshot(1)]);
+        let first = hub.past_frame(&channel, &snapshot(1), &view);
+        let again = hub.past_frame(&channel, &snapshot(1), &view);
+        assert_eq!(first.as_ptr(), again.as_ptr(), "the same bytes");
+        let mut sum = 0;
+        let mut tick = 2;
+        while sum <= 2 * PAST_BYTES {
+            sum += hub.past_frame(&channel, &snapshot(tick), &view).len();
+            tick += 1;
+        }
+        let past = hub.past();
+        assert!(past.bytes <= PAST_BYTES, "{}", past.bytes);
+        assert_eq!(past.frames.len(), past.order.len());
+        let counted: usize = past.frames.values().map(Bytes::len).sum();
+        assert_eq!(counted, past.bytes);
+    }
+}
