@@ -2,8 +2,8 @@
 //!
 //! A connection must bring its first request soon. In total and per address only so many are kept. One more takes the
 //! place of the one that has been without a request the longest. If all are at work, a few more are taken all the same,
-//! for health and metrics only; of these the oldest goes. So whoever holds connections without using them locks out
-//! nobody.
+//! for health and metrics only; of these one that has its answer goes first, then the oldest. So whoever holds
+//! connections without using them locks out nobody.
 
 use super::super::config::Config;
 use futures_util::task::AtomicWaker;
@@ -23,9 +23,6 @@ use tonic::transport::server::Connected;
 
 /// Connections beyond the limits, for health and metrics.
 const RESERVED: usize = 64;
-/// Time that each of these has before it makes room: without it a rush of them would push out who asks for health
-/// before the answer is there.
-const RESERVED_TIME: Duration = Duration::from_millis(50);
 /// Least time between two lines of the log about connections that were closed.
 const LOG_EVERY: Duration = Duration::from_secs(10);
 /// Pause after a connection could not be accepted, for example for want of file handles.
@@ -63,8 +60,6 @@ pub(in crate::server) struct Peer {
     pub address: SocketAddr,
     /// Whether it is beyond the limits.
     pub reserved: bool,
-    /// When it was taken in.
-    since: Instant,
     /// Requests that are worked on.
     requests: AtomicUsize,
     /// Whether there was a request.
@@ -100,7 +95,6 @@ impl Peer {
         let peer = Arc::new(Self {
             address,
             reserved,
-            since: Instant::now(),
             requests: AtomicUsize::new(0),
             begun: AtomicBool::new(false),
             used: AtomicU64::new(0),
@@ -197,6 +191,17 @@ impl Table {
             .map(|(number, _)| *number)
     }
 
+    /// The one beyond the limits that can go best: it asks for one answer, so one that has it does not need its place.
+    /// A rush of others does not push out who has yet to ask.
+    fn last_reserved(&self) -> Option<u64> {
+        let reserved = self.peers.iter().filter(|(_, p)| p.reserved);
+        let last = reserved.min_by_key(|(number, p)| {
+            let answered = p.begun.load(Ordering::Relaxed) && p.is_idle();
+            (!answered, **number)
+        });
+        last.map(|(number, _)| *number)
+    }
+
     fn remove(&mut self, number: u64) -> Option<Arc<Peer>> {
         let peer = self.peers.remove(&number)?;
         if peer.reserved {
@@ -234,24 +239,6 @@ impl Doors {
         self.open.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// When one more connection from this address can be taken in, if not at once: where it is beyond the limits and
-    /// the others that are had too little time.
-    fn opens_at(&self, address: SocketAddr) -> Option<Instant> {
-        let table = self.table();
-        let idle = |p: &Peer| !p.reserved && p.is_idle();
-        let of_address = table.by_address.get(&address.ip()).copied().unwrap_or(0);
-        let full = table.peers.len() - table.reserved >= self.most && table.last(idle).is_none();
-        let full_for_address = of_address >= self.most_per_address
-            && table
-                .last(|p| idle(p) && p.address.ip() == address.ip())
-                .is_none();
-        if table.reserved < RESERVED || !(full || full_for_address) {
-            return None;
-        }
-        let oldest = table.peers.values().find(|p| p.reserved)?;
-        Some(oldest.since + RESERVED_TIME)
-    }
-
     /// Takes one more connection in, in place of another one if need be.
     fn enter(self: &Arc<Self>, address: SocketAddr) -> (u64, Arc<Peer>) {
         let mut table = self.table();
@@ -269,9 +256,8 @@ impl Doors {
         let reserved = of_address(&table) >= self.most_per_address
             || table.peers.len() - table.reserved >= self.most;
         if reserved && table.reserved >= RESERVED {
-            let oldest = table.peers.iter().find(|(_, p)| p.reserved);
-            let oldest = oldest.map(|(number, _)| *number);
-            gone.extend(oldest.and_then(|n| table.remove(n)));
+            let last = table.last_reserved();
+            gone.extend(last.and_then(|n| table.remove(n)));
         }
         let peer = Peer::new(address, reserved, self);
         let number = table.next;
@@ -342,10 +328,6 @@ pub(in crate::server) fn incoming(
                     // Frames are small and wanted at once.
                     let _ = stream.set_nodelay(true);
                     metrics::counter!("sinew_connections_total").increment(1);
-                    // A timer rounds up to a millisecond, so there is none where nothing waits.
-                    if let Some(at) = doors.opens_at(address) {
-                        tokio::time::sleep_until(at).await;
-                    }
                     let (number, peer) = doors.enter(address);
                     let connection = Connection {
                         stream,
@@ -506,18 +488,20 @@ mod tests {
     #[test]
     fn health_has_a_place_when_all_are_at_work() {
         let doors = doors(2, 2);
-        assert_eq!(doors.opens_at(from(9)), None);
         let busy: Vec<_> = (0..2).map(|i| doors.enter(from(i)).1).collect();
         let _requests: Vec<_> = busy.iter().map(Peer::open).collect();
         let extra: Vec<_> = (0..RESERVED + 1).map(|_| doors.enter(from(9)).1).collect();
         assert!(extra.iter().all(|p| p.reserved));
         assert!(extra[0].is_closed(), "the oldest made room");
-        assert_eq!(
-            doors.opens_at(from(9)),
-            Some(extra[1].since + RESERVED_TIME),
-            "but not before it had its time"
-        );
         assert!(extra[1..].iter().all(|p| !p.is_closed()) && busy.iter().all(|p| !p.is_closed()));
+        // One that has its answer goes before one that has yet to ask, and before one that is being answered.
+        let asking = extra[2].open();
+        drop(extra[3].open());
+        doors.enter(from(9));
+        assert!(extra[3].is_closed() && !extra[1].is_closed() && !extra[2].is_closed());
+        drop(asking);
+        doors.enter(from(9));
+        assert!(extra[2].is_closed() && !extra[1].is_closed());
     }
 
     #[test]

@@ -258,7 +258,7 @@ mod tests {
 
     #[test]
     fn viewers_that_never_catch_up_hold_no_more_than_the_history() {
-        let hub = Hub::new(8, 10);
+        let hub = Hub::new(8, 1.0, 10);
         // The world goes on and forgets; viewers come, resume and never read.
         let mut history: VecDeque<_> = (0..9).map(snapshot).collect();
         let mut stalled = Vec::new();
@@ -290,10 +290,10 @@ mod tests {
 
     #[tokio::test]
     async fn a_past_frame_is_encoded_once_and_few_are_kept() {
-        let hub = Hub::new(8, 10);
+        let hub = Hub::new(8, 1.0, 10);
         let latest = watch::Sender::new(snapshot(0));
         let view = view(None).unwrap();
-        let channel = hub.channel(&view, &latest).unwrap();
+        let channel = hub.channel(&view, &latest, "client".into()).unwrap();
         let _resuming = hub.resume([snapshot(1)]);
         let first = hub.past_frame(&channel, &snapshot(1), &view);
         let again = hub.past_frame(&channel, &snapshot(1), &view);
