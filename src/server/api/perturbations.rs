@@ -1,6 +1,6 @@
 //! `PerturbationService`.
 
-use super::{Api, answer, origin};
+use super::{Api, answer, caller, origin};
 use crate::wire::convert::{client_id, perturbation};
 use crate::wire::pb::{self, perturbation_service_server::PerturbationService};
 use tonic::{Request, Response, Status};
@@ -14,13 +14,21 @@ impl PerturbationService for Api {
         let result = async {
             let mut from = origin(&request);
             let r = request.get_ref();
-            let handle = self.world("world", &r.world)?;
+            let handle = self.world(&request, "world", &r.world)?;
             let client = client_id("client_id", &r.client_id)?;
+            let caller = caller(&request)?;
             if !client.is_empty() {
-                from.client = client.into();
+                // By principal first: a name that someone chooses does not push in before others.
+                from.client = if caller.identity.is_anonymous() {
+                    client.into()
+                } else {
+                    format!("{} {client}", caller.principal()).into()
+                };
             }
             from.sequence = r.sequence;
             let batch = perturbation::batch(&r.perturbations)?;
+            let rights = handle.grants.rights(&caller.identity, &handle.id);
+            handle.grants.admit(caller, &rights, &batch)?;
             let tick = handle.call(from, move |s| s.perturb(&batch)).await?;
             Ok(pb::ApplyPerturbationsResponse { tick: tick as i64 })
         };
@@ -32,7 +40,7 @@ impl PerturbationService for Api {
         request: Request<pb::ClearPerturbationsRequest>,
     ) -> Result<Response<pb::ClearPerturbationsResponse>, Status> {
         let result = async {
-            let (handle, figure) = self.figure("figure", &request.get_ref().figure)?;
+            let (handle, figure) = self.figure(&request, "figure", &request.get_ref().figure)?;
             let figure = figure.to_owned();
             let tick = handle
                 .call(origin(&request), move |s| s.clear_perturbations(&figure))
