@@ -7,6 +7,7 @@
 mod corpus;
 mod identity;
 mod leases;
+mod page;
 mod roles;
 mod support;
 mod tenants;
