@@ -85,7 +85,7 @@ async fn create(client: &Client, world: &str) -> anyhow::Result<()> {
 
 async fn grant(args: &GrantArgs, client: &Client, world: &str, who: &str) -> anyhow::Result<()> {
     let bounded = args.max_force.is_some() || args.max_rate.is_some();
-    let bounds = bounded.then(|| pb::PerturbationBounds {
+    let bounds = bounded.then_some(pb::PerturbationBounds {
         max_force_n: args.max_force,
         max_rate_hz: args.max_rate,
         max_mass_kg: None,

@@ -206,8 +206,8 @@ async fn lists_show_what_one_may_see_and_a_name_is_no_more_than_a_guess() {
         .await;
     let stage = world(&a, "studio-a-stage", true).await;
     let other = world(&b, "studio-b-stage", true).await;
-    assert_eq!(names(&a).await, [stage.clone()]);
-    assert_eq!(names(&b).await, [other.clone()]);
+    assert_eq!(names(&a).await, [&*stage]);
+    assert_eq!(names(&b).await, [&*other]);
     // A name outside of the token, one that the server would choose, and one of the other studio.
     for id in ["studio-b-mine", "", "lobby"] {
         let request = pb::CreateWorldRequest {
@@ -244,12 +244,12 @@ async fn lists_show_what_one_may_see_and_a_name_is_no_more_than_a_guess() {
             worlds.into_iter().map(|w| w.world).collect::<Vec<_>>()
         }
     };
-    assert_eq!(stats(&a).await, [stage.clone()]);
+    assert_eq!(stats(&a).await, [&*stage]);
     // A guest sees what it was granted, as long as it is.
     let guest = server.client("guest", &[], None).await;
     assert_eq!(names(&guest).await, Vec::<String>::new());
     let name = grant(&a, &stage, role("user:guest", pb::Role::Viewer)).await;
-    assert_eq!(names(&guest).await, [stage.clone()]);
+    assert_eq!(names(&guest).await, [&*stage]);
     let mut frames = guest
         .watch(&stage, pb::View::default(), None)
         .await

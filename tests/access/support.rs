@@ -85,11 +85,10 @@ pub fn token(secret: &[u8], subject: &str, roles: &[Role], worlds: Option<&[&str
 
 /// A server with TLS and a shared secret.
 pub struct Guarded {
-    pub files: Files,
+    _files: Files,
     pub root: Authority,
     pub secret: Vec<u8>,
     pub address: SocketAddr,
-    pub app: Arc<App>,
     _stop: tokio::sync::oneshot::Sender<()>,
 }
 
@@ -123,21 +122,19 @@ impl Guarded {
         let (stop, stopped) = tokio::sync::oneshot::channel::<()>();
         let (signal, stopping) = tokio::sync::watch::channel(false);
         let app = Arc::new(App::new(Arc::new(config), stopping).unwrap());
-        let served = app.clone();
         tokio::spawn(async move {
             let shutdown = async move {
                 let _ = stopped.await;
             };
-            sinew::server::serve(served, listener, shutdown, signal)
+            sinew::server::serve(app, listener, shutdown, signal)
                 .await
                 .unwrap();
         });
         Self {
             secret: read_secret(&secret).unwrap(),
-            files,
+            _files: files,
             root,
             address,
-            app,
             _stop: stop,
         }
     }

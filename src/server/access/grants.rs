@@ -64,8 +64,8 @@ impl Bounds {
                 Disturbance::Force { force, .. } => ("force", force.norm(), self.force, "N"),
                 Disturbance::Load { mass, .. } => ("mass", *mass, self.mass, "kg"),
             };
-            // Written so that NaN fails.
-            if !(value <= most) {
+            // What came over the wire is finite.
+            if value > most {
                 let limit = format!(
                     "the grant allows a {what} of {most} {unit}, asked for were {value:.3}"
                 );
