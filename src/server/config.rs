@@ -229,9 +229,9 @@ settings! {
     max_clip_total_bytes: int = 536_870_912, 1024, 1_099_511_627_776;
     /// Bodies that are kept ready.
     max_bodies: int = 128, 2, 10_000;
-    /// Share of `max_viewers`, `max_drivers`, `max_worlds`, `max_views_per_world` and `command_queue` that one client may
-    /// have: a principal; without authentication a connection from this machine, an address elsewhere. Principals have
-    /// no more of `max_clips` and `max_clip_total_bytes`, either. Behind a proxy without authentication, 1.
+    /// Share of `max_viewers`, `max_drivers`, `max_worlds`, `max_views_per_world` and `command_queue` that one client
+    /// may have: a principal; without authentication a connection from this machine, an address elsewhere. Principals
+    /// have no more of `max_clips` and `max_clip_total_bytes`, either. Behind a proxy without authentication, 1.
     max_client_share: float = 0.5, 0.001, 1.0;
     /// Share of the processors that the ticks of running worlds may need, and of its period that one world may. What
     /// would need more is refused: figures, worlds, faster clocks.

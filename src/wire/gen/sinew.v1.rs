@@ -101,8 +101,8 @@ pub struct PerturbationBounds {
     /// Largest mass of a load, kg. Absent: as heavy as `max_force_n` under 9.81 m/s².
     #[prost(double, optional, tag = "2")]
     pub max_mass_kg: ::core::option::Option<f64>,
-    /// Perturbations per second in the long run, 0.01…1000; ten seconds' worth, and at least one, may come at once. Absent:
-    /// unbounded.
+    /// Perturbations per second in the long run, 0.01…1000; ten seconds' worth, and at least one, may come at once.
+    /// Absent: unbounded.
     #[prost(double, optional, tag = "3")]
     pub max_rate_hz: ::core::option::Option<f64>,
 }
@@ -3456,8 +3456,8 @@ pub struct UpdateFigureRequest {
     /// `protective_steps` to take. Must not be empty. Fields that it does not name are ignored, whatever they hold.
     #[prost(message, optional, tag = "2")]
     pub update_mask: ::core::option::Option<::prost_types::FieldMask>,
-    /// Token of the lease of the figure (`AcquireControl`). Needed while the figure has one; CONTROL_FENCED if it is not the
-    /// valid one.
+    /// Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
+    /// the valid one.
     #[prost(string, tag = "15")]
     pub control_token: ::prost::alloc::string::String,
 }
@@ -3527,8 +3527,8 @@ pub struct ResetFigureRequest {
     /// Where it stands. Absent: where it was created.
     #[prost(message, optional, tag = "2")]
     pub placement: ::core::option::Option<Placement>,
-    /// Token of the lease of the figure (`AcquireControl`). Needed while the figure has one; CONTROL_FENCED if it is not the
-    /// valid one.
+    /// Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
+    /// the valid one.
     #[prost(string, tag = "15")]
     pub control_token: ::prost::alloc::string::String,
 }
@@ -5217,8 +5217,8 @@ pub struct PlayClipRequest {
     /// stands.
     #[prost(message, optional, tag = "7")]
     pub placement: ::core::option::Option<Placement>,
-    /// Token of the lease of the figure (`AcquireControl`). Needed while the figure has one; CONTROL_FENCED if it is not the
-    /// valid one.
+    /// Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
+    /// the valid one.
     #[prost(string, tag = "15")]
     pub control_token: ::prost::alloc::string::String,
 }
@@ -5258,8 +5258,8 @@ pub struct StopClipRequest {
     /// Figure: resource name `worlds/{world}/figures/{figure}`.
     #[prost(string, tag = "1")]
     pub figure: ::prost::alloc::string::String,
-    /// Token of the lease of the figure (`AcquireControl`). Needed while the figure has one; CONTROL_FENCED if it is not the
-    /// valid one.
+    /// Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
+    /// the valid one.
     #[prost(string, tag = "15")]
     pub control_token: ::prost::alloc::string::String,
 }

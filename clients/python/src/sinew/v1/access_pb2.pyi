@@ -97,8 +97,8 @@ class PerturbationBounds(_message.Message):
     max_mass_kg: _builtins.float
     """Largest mass of a load, kg. Absent: as heavy as `max_force_n` under 9.81 m/s²."""
     max_rate_hz: _builtins.float
-    """Perturbations per second in the long run, 0.01…1000; ten seconds' worth, and at least one, may come at once. Absent:
-    unbounded.
+    """Perturbations per second in the long run, 0.01…1000; ten seconds' worth, and at least one, may come at once.
+    Absent: unbounded.
     """
     def __init__(
         self,

@@ -722,8 +722,8 @@ class UpdateFigureRequest(_message.Message):
     UPDATE_MASK_FIELD_NUMBER: _builtins.int
     CONTROL_TOKEN_FIELD_NUMBER: _builtins.int
     control_token: _builtins.str
-    """Token of the lease of the figure (`AcquireControl`). Needed while the figure has one; CONTROL_FENCED if it is not the
-    valid one.
+    """Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
+    the valid one.
     """
     @_builtins.property
     def figure(self) -> Global___Figure:
@@ -825,8 +825,8 @@ class ResetFigureRequest(_message.Message):
     name: _builtins.str
     """Resource name `worlds/{world}/figures/{figure}`."""
     control_token: _builtins.str
-    """Token of the lease of the figure (`AcquireControl`). Needed while the figure has one; CONTROL_FENCED if it is not the
-    valid one.
+    """Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
+    the valid one.
     """
     @_builtins.property
     def placement(self) -> _types_pb2.Placement:

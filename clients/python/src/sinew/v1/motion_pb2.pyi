@@ -658,8 +658,8 @@ class PlayClipRequest(_message.Message):
     by steps of its own if the recording begins in motion. Without `loop` it ends standing in the same way.
     """
     control_token: _builtins.str
-    """Token of the lease of the figure (`AcquireControl`). Needed while the figure has one; CONTROL_FENCED if it is not the
-    valid one.
+    """Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
+    the valid one.
     """
     @_builtins.property
     def placement(self) -> _types_pb2.Placement:
@@ -726,8 +726,8 @@ class StopClipRequest(_message.Message):
     figure: _builtins.str
     """Figure: resource name `worlds/{world}/figures/{figure}`."""
     control_token: _builtins.str
-    """Token of the lease of the figure (`AcquireControl`). Needed while the figure has one; CONTROL_FENCED if it is not the
-    valid one.
+    """Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
+    the valid one.
     """
     def __init__(
         self,

@@ -108,8 +108,8 @@ export type PerturbationBounds = Message<"sinew.v1.PerturbationBounds"> & {
   maxMassKg?: number | undefined;
 
   /**
-   * Perturbations per second in the long run, 0.01…1000; ten seconds' worth, and at least one, may come at once. Absent:
-   * unbounded.
+   * Perturbations per second in the long run, 0.01…1000; ten seconds' worth, and at least one, may come at once.
+   * Absent: unbounded.
    *
    * @generated from field: optional double max_rate_hz = 3;
    */

@@ -633,8 +633,8 @@ export type UpdateFigureRequest = Message<"sinew.v1.UpdateFigureRequest"> & {
   updateMask?: FieldMask | undefined;
 
   /**
-   * Token of the lease of the figure (`AcquireControl`). Needed while the figure has one; CONTROL_FENCED if it is not the
-   * valid one.
+   * Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
+   * the valid one.
    *
    * @generated from field: string control_token = 15;
    */
@@ -726,8 +726,8 @@ export type ResetFigureRequest = Message<"sinew.v1.ResetFigureRequest"> & {
   placement?: Placement | undefined;
 
   /**
-   * Token of the lease of the figure (`AcquireControl`). Needed while the figure has one; CONTROL_FENCED if it is not the
-   * valid one.
+   * Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
+   * the valid one.
    *
    * @generated from field: string control_token = 15;
    */

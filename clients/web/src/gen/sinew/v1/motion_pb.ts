@@ -624,8 +624,8 @@ export type PlayClipRequest = Message<"sinew.v1.PlayClipRequest"> & {
   placement?: Placement | undefined;
 
   /**
-   * Token of the lease of the figure (`AcquireControl`). Needed while the figure has one; CONTROL_FENCED if it is not the
-   * valid one.
+   * Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
+   * the valid one.
    *
    * @generated from field: string control_token = 15;
    */
@@ -677,8 +677,8 @@ export type StopClipRequest = Message<"sinew.v1.StopClipRequest"> & {
   figure: string;
 
   /**
-   * Token of the lease of the figure (`AcquireControl`). Needed while the figure has one; CONTROL_FENCED if it is not the
-   * valid one.
+   * Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
+   * the valid one.
    *
    * @generated from field: string control_token = 15;
    */
