@@ -22,6 +22,10 @@ enum Command {
     Watch(cli::watch::Args),
     /// Ask a server whether it serves
     Health(cli::health::Args),
+    /// Make a bearer token, or the secret that signs tokens
+    Token(cli::token::TokenArgs),
+    /// Grant roles in a world, take them back, or list them
+    Grant(cli::grant::GrantArgs),
     /// Simulate motions offline and report how closely the figure tracks them
     #[command(after_help = exit::EXIT_CODES)]
     Run(Box<cli::run::RunArgs>),
@@ -52,6 +56,8 @@ fn main() -> ExitCode {
         Some(Command::Push(args)) => cli::push::run(&args).map(Into::into),
         Some(Command::Watch(args)) => cli::watch::run(&args).map(Into::into),
         Some(Command::Health(args)) => cli::health::run(&args).map(Into::into),
+        Some(Command::Token(args)) => cli::token::run(&args).map(Into::into),
+        Some(Command::Grant(args)) => cli::grant::run(&args).map(Into::into),
         Some(Command::Run(args)) => cli::run::run(&args),
         Some(Command::Survey(args)) => cli::survey::run(&args).map(Into::into),
         Some(Command::Lint(args)) => cli::lint::run(&args).map(Into::into),

@@ -4,6 +4,7 @@
 mod body;
 mod constraint;
 mod control;
+mod credentials;
 mod load;
 mod obstacle;
 mod push;
@@ -16,6 +17,7 @@ pub use constraint::ConstraintSpec;
 pub use control::{
     ControllerArg, MetricArg, PaperOptions, PresetArg, PriorityArg, ShareArg, StepperArg,
 };
+pub use credentials::CredentialArgs;
 pub use load::LoadSpec;
 pub use obstacle::ObstacleSpec;
 pub use push::PushSpec;

@@ -1,8 +1,8 @@
 //! `sinew health`: asks a server whether it serves.
 
+use super::args::CredentialArgs;
 use super::explain;
 use super::terminal::print_line;
-use crate::client::Client;
 use std::time::Duration;
 
 /// How long the answer may take.
@@ -14,6 +14,8 @@ pub struct Args {
     /// Server, host:port
     #[arg(default_value = "127.0.0.1:7463")]
     address: String,
+    #[command(flatten)]
+    credentials: CredentialArgs,
 }
 
 /// Succeeds if the server serves.
@@ -26,7 +28,7 @@ pub fn run(args: &Args) -> anyhow::Result<()> {
         .build()?;
     runtime.block_on(async {
         let asked = async {
-            let client = Client::connect(&args.address).await?;
+            let client = args.credentials.connect(&args.address).await?;
             client.serves().await.map_err(|e| explain(&e))
         };
         let serves = tokio::time::timeout(PATIENCE, asked).await;

@@ -8,6 +8,7 @@ pub mod compare;
 pub mod completions;
 pub mod convert;
 pub mod exit;
+pub mod grant;
 pub mod health;
 pub mod lint;
 pub mod number;
@@ -20,6 +21,7 @@ pub mod serve;
 pub mod source;
 pub mod survey;
 pub mod terminal;
+pub mod token;
 pub mod walking;
 pub mod watch;
 

@@ -1,6 +1,6 @@
 //! `sinew push`: streams a motion capture file to a server as live motion for a figure.
 
-use super::args::{BodyNameParser, FileArgs, UpArg};
+use super::args::{BodyNameParser, CredentialArgs, FileArgs, UpArg};
 use super::exit::Usage;
 use super::number::hertz;
 use super::terminal::{note, print_line};
@@ -27,6 +27,8 @@ use tonic::Code;
 pub struct Args {
     /// Server, host:port
     address: String,
+    #[command(flatten)]
+    credentials: CredentialArgs,
     /// BVH file
     clip: PathBuf,
     /// World; created with default settings if it does not exist
@@ -145,7 +147,7 @@ async fn push(args: &Args) -> anyhow::Result<()> {
     check(args)?;
     let bytes = std::fs::read(&args.clip).with_context(|| format!("cannot read {path}"))?;
     let bvh = Bvh::parse(&bytes).with_context(|| format!("{path} is not a BVH file"))?;
-    let client = Client::connect(&args.address).await?;
+    let client = args.credentials.connect(&args.address).await?;
     let world = world_resource(&args.world);
     client.world(&world).await.map_err(|e| explain(&e))?;
 

@@ -24,7 +24,7 @@ pub struct Args {
     /// Address and port to listen on [default: 127.0.0.1:7463]
     #[arg(long, value_name = "ADDR:PORT")]
     listen: Option<SocketAddr>,
-    /// Allow an address that other machines can reach; there is no authentication
+    /// Allow an address that other machines can reach without authentication or without TLS
     #[arg(long)]
     insecure_bind_any: bool,
     /// Log filter, for example `info` or `sinew=debug`; logs go to standard error
@@ -107,7 +107,7 @@ async fn serve(args: &Args, config: Arc<Config>, filter: EnvFilter) -> anyhow::R
     let serving = tokio::spawn(server::serve(app, listener, interrupted(), stop));
     // One write: a reader that wants the first line only takes the rest with it. A server without readers serves all
     // the same.
-    match print(&greeting(address, config.viewer, &figures)) {
+    match print(&greeting(address, &config, &figures)) {
         Err(error) if !error.is::<OutputClosed>() => note(&format!("warning: {error:#}")),
         _ => {}
     }
@@ -135,13 +135,19 @@ fn bind(address: SocketAddr) -> std::io::Result<TcpSocket> {
 }
 
 /// What is printed when the server is ready.
-fn greeting(address: SocketAddr, viewer: bool, figures: &[&str]) -> String {
+fn greeting(address: SocketAddr, config: &Config, figures: &[&str]) -> String {
+    let viewer = config.viewer;
+    let scheme = if config.tls_cert.is_empty() {
+        "http"
+    } else {
+        "https"
+    };
     let pages = if viewer { "viewer, " } else { "" };
     let mut out = format!(
-        "Sinew serves at http://{address} ({pages}gRPC, gRPC-Web, /status, /metrics); Ctrl-C stops it\n"
+        "Sinew serves at {scheme}://{address} ({pages}gRPC, gRPC-Web, /status, /metrics); Ctrl-C stops it\n"
     );
     if viewer {
-        out += &format!("Viewer, in a browser: http://{address}/\n");
+        out += &format!("Viewer, in a browser: {scheme}://{address}/\n");
     }
     if !figures.is_empty() {
         out += &format!(

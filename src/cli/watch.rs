@@ -1,8 +1,8 @@
 //! `sinew watch`: prints the frames of a world.
 
+use super::args::CredentialArgs;
 use super::terminal::print_line;
 use super::{explain, world_resource};
-use crate::client::Client;
 use crate::wire::frame::values;
 use crate::wire::pb;
 use crate::wire::watched::WatchWorldResponse;
@@ -32,6 +32,8 @@ pub struct Args {
     /// End after N frames
     #[arg(long, value_name = "N")]
     count: Option<u64>,
+    #[command(flatten)]
+    credentials: CredentialArgs,
 }
 
 /// Prints until the stream ends.
@@ -46,7 +48,7 @@ pub fn run(args: &Args) -> anyhow::Result<()> {
 }
 
 async fn watch(args: &Args) -> anyhow::Result<()> {
-    let client = Client::connect(&args.address).await?;
+    let client = args.credentials.connect(&args.address).await?;
     let fields = if args.fields.is_empty() {
         vec![
             "root_pose".into(),

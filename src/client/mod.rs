@@ -10,8 +10,11 @@ use crate::wire::pb;
 use crate::wire::watched::WatchWorldResponse;
 use tokio::sync::mpsc;
 use tokio_stream::wrappers::ReceiverStream;
-use tonic::transport::{Channel, Endpoint};
-use tonic::{Code, Status, Streaming};
+use tonic::metadata::{Ascii, MetadataValue};
+use tonic::service::Interceptor;
+use tonic::service::interceptor::InterceptedService;
+use tonic::transport::{Certificate, Channel, ClientTlsConfig, Endpoint, Identity};
+use tonic::{Code, Request, Status, Streaming};
 
 /// Largest message that is taken: an offline simulation with frames.
 const MAX_MESSAGE: usize = 64 * 1024 * 1024;
@@ -20,14 +23,58 @@ const STREAM_WINDOW: u32 = 64 * 1024;
 /// Batches on their way to the server.
 const DRIVE_QUEUE: usize = 8;
 
+/// How a client says who it is, and how it knows the server.
+#[derive(Clone, Default)]
+pub struct Credentials {
+    /// Bearer token.
+    pub token: Option<String>,
+    /// Roots that the server's certificate is checked with, PEM; `None`: those of the system.
+    pub ca: Option<Vec<u8>>,
+    /// Certificate and private key of the client, PEM.
+    pub certificate: Option<(Vec<u8>, Vec<u8>)>,
+}
+
+impl std::fmt::Debug for Credentials {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Credentials") // secrets stay out of messages
+    }
+}
+
+/// Puts the token into every request.
+#[derive(Clone)]
+pub struct WithToken(Option<MetadataValue<Ascii>>);
+
+impl std::fmt::Debug for WithToken {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("WithToken")
+    }
+}
+
+impl Interceptor for WithToken {
+    fn call(&mut self, mut request: Request<()>) -> Result<Request<()>, Status> {
+        if let Some(value) = &self.0 {
+            request
+                .metadata_mut()
+                .insert("authorization", value.clone());
+        }
+        Ok(request)
+    }
+}
+
+/// What the generated clients call through.
+pub type Service = InterceptedService<Channel, WithToken>;
+
 /// Why a connection is not made.
 #[derive(Debug, thiserror::Error)]
 pub enum ConnectError {
     /// Not an address.
     #[error("{0:?} is not an address: give host:port, for example 127.0.0.1:7463")]
     Address(String),
+    /// The credentials cannot be used.
+    #[error("the credentials cannot be used: {0}")]
+    Credentials(String),
     /// Nobody answers.
-    #[error("no server answers at {address}: {error}")]
+    #[error("no server answers at {address}: {}", why(error))]
     Refused {
         /// The address.
         address: String,
@@ -40,33 +87,63 @@ pub enum ConnectError {
 #[derive(Clone, Debug)]
 pub struct Client {
     channel: Channel,
+    token: WithToken,
 }
 
 macro_rules! services {
     ($($(#[doc = $doc:literal])+ $name:ident: $module:ident :: $client:ident;)*) => {
         $($(#[doc = $doc])+
-        pub fn $name(&self) -> pb::$module::$client<Channel> {
-            pb::$module::$client::new(self.channel.clone()).max_decoding_message_size(MAX_MESSAGE)
+        pub fn $name(&self) -> pb::$module::$client<Service> {
+            pb::$module::$client::with_interceptor(self.channel.clone(), self.token.clone())
+                .max_decoding_message_size(MAX_MESSAGE)
         })*
     };
 }
 
 impl Client {
-    /// Connects to `host:port` or `http://host:port`.
+    /// Connects to `host:port`, `http://host:port` or `https://host:port`.
     ///
     /// # Errors
     /// The address is none, or nobody answers there.
     pub async fn connect(address: &str) -> Result<Self, ConnectError> {
+        Self::connect_with(address, &Credentials::default()).await
+    }
+
+    /// As [`Client::connect`], with credentials. Roots or a certificate turn TLS on.
+    ///
+    /// # Errors
+    /// The address is none, the credentials cannot be used, or nobody answers there.
+    pub async fn connect_with(
+        address: &str,
+        credentials: &Credentials,
+    ) -> Result<Self, ConnectError> {
+        let encrypted = credentials.ca.is_some() || credentials.certificate.is_some();
         let url = if address.contains("://") {
             address.to_owned()
         } else {
-            format!("http://{address}")
+            let scheme = if encrypted { "https" } else { "http" };
+            format!("{scheme}://{address}")
         };
+        let token = credentials.token.as_ref().map(|token| {
+            let mut value = MetadataValue::try_from(format!("Bearer {}", token.trim()))
+                .map_err(|_| ConnectError::Credentials("the token has odd characters".into()))?;
+            value.set_sensitive(true); // it stays out of logs
+            Ok(value)
+        });
+        let token = WithToken(token.transpose()?);
+        let secure = url.starts_with("https://");
         let endpoint = Endpoint::from_shared(url)
             .map_err(|_| ConnectError::Address(address.to_owned()))?
             .connect_timeout(std::time::Duration::from_secs(5))
             .initial_stream_window_size(STREAM_WINDOW)
             .tcp_nodelay(true);
+        let endpoint = if secure {
+            endpoint
+                .tls_config(tls(credentials))
+                .map_err(|e| ConnectError::Credentials(why(&e)))?
+        } else {
+            endpoint
+        };
         let channel = endpoint
             .connect()
             .await
@@ -74,7 +151,7 @@ impl Client {
                 address: address.to_owned(),
                 error,
             })?;
-        Ok(Self { channel })
+        Ok(Self { channel, token })
     }
 
     /// Whether the server as a whole serves.
@@ -106,6 +183,10 @@ impl Client {
         simulations: simulation_service_client::SimulationServiceClient;
         /// `ServerService`.
         server: server_service_client::ServerServiceClient;
+        /// `AccessService`.
+        access: access_service_client::AccessServiceClient;
+        /// `ControlService`.
+        control: control_service_client::ControlServiceClient;
     }
 
     /// The world of this name, created with default settings if there is none.
@@ -170,6 +251,29 @@ impl Client {
             .into_inner();
         Ok(Driver { send, feedback })
     }
+}
+
+fn tls(credentials: &Credentials) -> ClientTlsConfig {
+    let tls = ClientTlsConfig::new();
+    let tls = match &credentials.ca {
+        Some(ca) => tls.ca_certificate(Certificate::from_pem(ca)),
+        None => tls.with_native_roots(),
+    };
+    match &credentials.certificate {
+        Some((certificate, key)) => tls.identity(Identity::from_pem(certificate, key)),
+        None => tls,
+    }
+}
+
+/// An error with what it comes from.
+fn why(error: &dyn std::error::Error) -> String {
+    let mut out = error.to_string();
+    let mut source = error.source();
+    while let Some(e) = source {
+        out += &format!(": {e}");
+        source = e.source();
+    }
+    out
 }
 
 /// A live drive. Dropping it gives the figures back.

@@ -47,10 +47,20 @@ pub enum ConfigError {
     },
     /// The address is not loopback and that was not allowed.
     #[error(
-        "listen is {0}, which other machines can reach, and there is no authentication: use a loopback address or give \
+        "listen is {0}, which other machines can reach, and there is no authentication: set tls_cert, tls_key and \
+         jwt_secret_file, jwt_keys or tls_client_ca (docs/sharing.md), use a loopback address, or give \
          --insecure-bind-any"
     )]
     NotLoopback(SocketAddr),
+    /// The address is not loopback and tokens could be read on their way.
+    #[error(
+        "listen is {0}, which other machines can reach, and without TLS tokens could be read on their way: set \
+         tls_cert and tls_key, or, behind a proxy that does TLS, give --insecure-bind-any"
+    )]
+    NotEncrypted(SocketAddr),
+    /// Settings that belong together are not all there.
+    #[error("{0} needs {1}")]
+    Incomplete(&'static str, &'static str),
 }
 
 macro_rules! settings {
@@ -154,9 +164,39 @@ fn typed(text: &str) -> toml::Value {
 settings! {
     /// Address and port of gRPC, gRPC-Web, the status page and the metrics.
     listen: addr = "127.0.0.1:7463", (), ();
-    /// Allows an address that other machines can reach. There is no authentication: any client that reaches the port
-    /// may do everything.
+    /// Allows an address that other machines can reach without authentication, where any client may do everything, or
+    /// without TLS, behind a proxy that does it.
     insecure_bind_any: flag = false, (), ();
+    /// PEM file with the certificate of the server and those between it and a root; read again when it changes. Turns
+    /// TLS on.
+    tls_cert: text = "", (), ();
+    /// PEM file with its private key.
+    tls_key: text = "", (), ();
+    /// PEM file with the roots that issue certificates of clients; such a certificate says who a client is.
+    tls_client_ca: text = "", (), ();
+    /// Refuses connections without a client certificate, also those for health.
+    tls_require_client_cert: flag = false, (), ();
+    /// Principals of client certificates that own every world, as `cert:{name}`; separated by commas.
+    cert_owners: text = "", (), ();
+    /// Principals of client certificates that may create worlds and clips, likewise.
+    cert_creators: text = "", (), ();
+    /// Public keys (JWKS) that bearer tokens are checked with: a file, or an address with https or http.
+    jwt_keys: text = "", (), ();
+    /// PEM file with the roots that the address of the keys is checked with, in place of those of the system.
+    jwt_keys_ca: text = "", (), ();
+    /// How often the keys are fetched again, s.
+    jwt_refresh_s: float = 300.0, 10.0, 86_400.0;
+    /// File with the secret of tokens that `sinew token` makes.
+    jwt_secret_file: text = "", (), ();
+    /// Who must have issued a token (`iss`); empty: anyone with the key.
+    jwt_issuer: text = "", (), ();
+    /// For whom a token must be (`aud`).
+    jwt_audience: text = "sinew", (), ();
+    /// How far clocks of issuers may be off, s.
+    jwt_leeway_s: float = 30.0, 0.0, 600.0;
+    /// Calls per second of one principal, or of one address without authentication; as many may come at once. 0: any
+    /// number. Programs on this machine without authentication are not counted.
+    max_client_calls_per_s: float = 1000.0, 0.0, 1_000_000.0;
     /// Names by which clients may address the server, other than `localhost` and plain addresses; separated by commas.
     allowed_hosts: text = "", (), ();
     /// Origins of browser pages that may call the server, other than those of `localhost` and its own (for example
@@ -189,8 +229,9 @@ settings! {
     max_clip_total_bytes: int = 536_870_912, 1024, 1_099_511_627_776;
     /// Bodies that are kept ready.
     max_bodies: int = 128, 2, 10_000;
-    /// Share of `max_viewers`, `max_drivers`, `max_worlds` and `max_views_per_world` that one client may have: a
-    /// connection from this machine, an address elsewhere. Behind a proxy, which is one client, 1.
+    /// Share of `max_viewers`, `max_drivers`, `max_worlds`, `max_views_per_world` and `command_queue` that one client
+    /// may have: a principal; without authentication a connection from this machine, an address elsewhere. Principals
+    /// have no more of `max_clips` and `max_clip_total_bytes`, either. Behind a proxy without authentication, 1.
     max_client_share: float = 0.5, 0.001, 1.0;
     /// Share of the processors that the ticks of running worlds may need, and of its period that one world may. What
     /// would need more is refused: figures, worlds, faster clocks.
@@ -280,17 +321,61 @@ impl Config {
         for (name, value) in flags {
             config.set_text(&format!("--set {name}"), &name.replace('-', "_"), value)?;
         }
-        if !config.listen.ip().is_loopback() && !config.insecure_bind_any {
-            return Err(ConfigError::NotLoopback(config.listen));
-        }
+        config.check_access()?;
         Ok(config)
+    }
+
+    /// Checks that what strangers can reach is protected.
+    fn check_access(&self) -> Result<(), ConfigError> {
+        let needs = |given: &'static str, other: &'static str, missing: bool| {
+            if missing {
+                Err(ConfigError::Incomplete(given, other))
+            } else {
+                Ok(())
+            }
+        };
+        let set = |text: &String| !text.is_empty();
+        needs(
+            "tls_cert",
+            "tls_key",
+            set(&self.tls_cert) && !set(&self.tls_key),
+        )?;
+        needs(
+            "tls_key",
+            "tls_cert",
+            set(&self.tls_key) && !set(&self.tls_cert),
+        )?;
+        needs(
+            "tls_client_ca",
+            "tls_cert",
+            set(&self.tls_client_ca) && !set(&self.tls_cert),
+        )?;
+        let required = self.tls_require_client_cert && !set(&self.tls_client_ca);
+        needs("tls_require_client_cert", "tls_client_ca", required)?;
+        let tokens = set(&self.jwt_keys) || set(&self.jwt_secret_file);
+        needs(
+            "a token",
+            "jwt_audience",
+            tokens && !set(&self.jwt_audience),
+        )?;
+        if self.listen.ip().is_loopback() || self.insecure_bind_any {
+            return Ok(());
+        }
+        if !tokens && !set(&self.tls_client_ca) {
+            return Err(ConfigError::NotLoopback(self.listen));
+        }
+        if !set(&self.tls_cert) {
+            return Err(ConfigError::NotEncrypted(self.listen));
+        }
+        Ok(())
     }
 }
 
 /// Variables `SINEW_…` that are no settings: the name of the file, and what tests, examples and tools of this project
 /// read.
-const OTHER_VARIABLES: [&str; 18] = [
+const OTHER_VARIABLES: [&str; 19] = [
     "config",
+    "token",
     "bin",
     "bvh",
     "chromium",

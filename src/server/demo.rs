@@ -6,7 +6,7 @@ use super::library::Manner;
 use super::tick::command::Origin;
 use crate::wire::convert;
 use crate::wire::pb;
-use crate::wire::types::{Place, Playback};
+use crate::wire::types::{ControlKey, Place, Playback};
 use std::sync::Arc;
 
 /// The built-in motion that everyone plays.
@@ -29,7 +29,7 @@ pub async fn create(app: &Arc<App>) -> Result<Vec<&'static str>, BoxError> {
     let settings = convert::world::settings(None)?;
     let world = app
         .worlds
-        .create(Some("demo".into()), settings, false, "demo".into())?;
+        .create(Some("demo".into()), settings, false, ("demo".into(), None))?;
     let mut present = Vec::new();
     for (name, body, y) in PEOPLE {
         if convert::body::by_id(body).is_none() {
@@ -75,6 +75,10 @@ pub async fn create(app: &Arc<App>) -> Result<Vec<&'static str>, BoxError> {
             })),
             ..Default::default()
         }])?;
+        let who = ControlKey {
+            principal: "demo".into(),
+            tokens: Vec::new(),
+        };
         let origin = Origin {
             client: "demo".into(),
             sequence: 0,
@@ -82,7 +86,7 @@ pub async fn create(app: &Arc<App>) -> Result<Vec<&'static str>, BoxError> {
         world
             .call(origin, move |s| {
                 s.create_figure(Some(name.to_owned()), settings, built)?;
-                s.play(name, MOTION, clip, playback)?;
+                s.play(name, MOTION, clip, playback, &who)?;
                 s.perturb(&crate_in_hands)
             })
             .await?;

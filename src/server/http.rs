@@ -1,15 +1,18 @@
 //! Plain HTTP on the same port: the viewer, the status page and the metrics.
 
+use super::access::roles::Role;
 use super::api::App;
 use super::edge::Edge;
+use super::edge::connections::Peer;
 use super::telemetry;
 use super::viewer;
+use super::worlds::WorldHandle;
 use crate::wire::status::Fault;
-use axum::Router;
 use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, Uri, header};
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
+use axum::{Extension, Router};
 use std::fmt::Write as _;
 use std::sync::Arc;
 
@@ -18,7 +21,7 @@ const ECHO: usize = 80;
 
 /// Lets browser pages of known origins call gRPC-Web and read its trailers.
 pub(super) fn cors(edge: Arc<Edge>) -> tower_http::cors::CorsLayer {
-    use tower_http::cors::{AllowOrigin, Any, CorsLayer};
+    use tower_http::cors::{AllowHeaders, AllowOrigin, CorsLayer};
     let known = AllowOrigin::predicate(move |origin, _| {
         origin
             .to_str()
@@ -27,7 +30,7 @@ pub(super) fn cors(edge: Arc<Edge>) -> tower_http::cors::CorsLayer {
     CorsLayer::new()
         .allow_origin(known)
         .allow_methods([http::Method::POST])
-        .allow_headers(Any)
+        .allow_headers(AllowHeaders::mirror_request()) // `*` does not stand for authorization
         .expose_headers(
             ["grpc-status", "grpc-message", "grpc-status-details-bin"]
                 .map(header::HeaderName::from_static),
@@ -100,9 +103,20 @@ fn escaped(text: &str) -> String {
 
 const PAGE: &str = include_str!("status_page.html");
 
-async fn status_page(State(app): State<Arc<App>>, headers: HeaderMap) -> Response {
+async fn status_page(
+    State(app): State<Arc<App>>,
+    peer: Option<Extension<Arc<Peer>>>,
+    headers: HeaderMap,
+) -> Response {
     let mut rows = String::new();
-    for world in app.worlds.list() {
+    // Names are shown to those who may watch.
+    let peer = peer.as_deref().map(|p| &**p);
+    let known = app.access.identity(&headers, peer).await.ok();
+    let seen = |w: &WorldHandle| {
+        let rights = known.as_ref().map(|i| w.grants.rights(i, &w.id));
+        rights.is_some_and(|r| r.roles.contain(Role::Viewer))
+    };
+    for world in app.worlds.list().into_iter().filter(|w| seen(w)) {
         let stats = world.stats();
         let snapshot = world.outlet.latest.borrow().clone();
         let names: Vec<&str> = snapshot.roster.iter().map(|e| e.figure.as_str()).collect();
@@ -118,7 +132,12 @@ async fn status_page(State(app): State<Arc<App>>, headers: HeaderMap) -> Respons
         );
     }
     if rows.is_empty() {
-        rows.push_str("<tr><td colspan=6>No worlds yet.</td></tr>");
+        let text = if known.is_some() {
+            "No worlds yet."
+        } else {
+            "Worlds are shown to those who may watch them."
+        };
+        let _ = write!(rows, "<tr><td colspan=6>{text}</td></tr>");
     }
     let address = headers
         .get(header::HOST)

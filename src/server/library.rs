@@ -2,6 +2,7 @@
 
 use super::config::Config;
 use super::engine::{self, BUILTIN_NAMES, Clip};
+use super::shares::check_part;
 use super::workers::Turn;
 use crate::sim::body::{Body, Posture};
 use crate::sim::plan::cycle;
@@ -112,10 +113,22 @@ struct Stored {
     prepared: Mutex<HashMap<(String, Manner), Arc<Clip>>>,
 }
 
+/// A clip that is to be stored.
+#[derive(Clone, Debug)]
+pub struct NewClip {
+    /// Last part of its name; `None`: the server chooses.
+    pub id: Option<String>,
+    /// Name for people.
+    pub display_name: String,
+    /// Whose it is; `None`: everybody's.
+    pub owner: Option<Arc<str>>,
+}
+
 /// Clips by the last parts of their names.
 pub struct Clips {
     most: u64,
     most_bytes: u64,
+    share: f64,
     held: Mutex<BTreeMap<String, Arc<Stored>>>,
     next: std::sync::atomic::AtomicU64,
 }
@@ -141,6 +154,7 @@ impl Clips {
                 id: name.to_owned(),
                 display_name: name.to_owned(),
                 builtin: true,
+                owner: None,
                 body: reference.id.clone(),
                 rate_hz: clip.rate_hz(),
                 frames: clip.len(),
@@ -164,6 +178,7 @@ impl Clips {
         Ok(Self {
             most: config.max_clips,
             most_bytes: config.max_clip_total_bytes,
+            share: config.max_client_share,
             held: Mutex::new(held),
             next: std::sync::atomic::AtomicU64::new(1),
         })
@@ -172,10 +187,10 @@ impl Clips {
     fn room(
         &self,
         held: &BTreeMap<String, Arc<Stored>>,
-        id: Option<&str>,
+        new: &NewClip,
         bytes: u64,
     ) -> Result<(), Fault> {
-        if let Some(id) = id
+        if let Some(id) = &new.id
             && held.contains_key(id)
         {
             return Err(Fault::Exists {
@@ -191,6 +206,13 @@ impl Clips {
                 message: "one more clip".into(),
                 retry: None,
             });
+        }
+        if new.owner.is_some() {
+            // One of many leaves room for the others, in number and in bytes.
+            let own = held.values().filter(|s| s.info.owner == new.owner);
+            let (count, used) = own.fold((0, bytes), |(n, b), s| (n + 1, b + s.used()));
+            check_part("max_clips", count, self.most, self.share)?;
+            check_part("max_clip_total_bytes", used, self.most_bytes, self.share)?;
         }
         self.space(held, bytes)
     }
@@ -218,8 +240,8 @@ impl Clips {
     ///
     /// # Errors
     /// The name is taken or there is no room.
-    pub fn check_room(&self, id: Option<&str>, source: &MotionSource) -> Result<(), Fault> {
-        self.room(&locked(&self.held), id, source_bytes(source))
+    pub fn check_room(&self, new: &NewClip, source: &MotionSource) -> Result<(), Fault> {
+        self.room(&locked(&self.held), new, source_bytes(source))
     }
 
     /// Stores a motion, prepared for one body. Slow: not on an async thread. It is given up once `stop` says so.
@@ -228,15 +250,14 @@ impl Clips {
     /// The file is bad, the name is taken, there is no room, or it was given up. Nothing is stored then.
     pub fn create(
         &self,
-        id: Option<String>,
-        display_name: String,
+        new: NewClip,
         reference: &BodyRef,
         body: &Body,
         source: MotionSource,
         stop: &dyn Fn() -> bool,
     ) -> Result<ClipInfo, Fault> {
         let field = source_field(&source);
-        let title = id.as_deref().unwrap_or("clip").to_owned();
+        let title = new.id.as_deref().unwrap_or("clip").to_owned();
         let (clip, report) = engine::prepare(field, &title, &source, body, 1.0, stop)?;
         if stop() {
             return Err(Turn::gone());
@@ -244,7 +265,8 @@ impl Clips {
         let forecast = engine::forecast(body, &clip);
         let bytes = source_bytes(&source);
         let mut held = locked(&self.held);
-        let id = id.unwrap_or_else(|| {
+        let mut new = new;
+        let id = new.id.take().unwrap_or_else(|| {
             loop {
                 let n = self.next.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
                 let id = format!("clip-{n}");
@@ -253,11 +275,13 @@ impl Clips {
                 }
             }
         });
-        self.room(&held, Some(&id), bytes + clip_bytes(&clip))?;
+        new.id = Some(id.clone());
+        self.room(&held, &new, bytes + clip_bytes(&clip))?;
         let info = ClipInfo {
             id: id.clone(),
-            display_name,
+            display_name: new.display_name,
             builtin: false,
+            owner: new.owner,
             body: reference.id.clone(),
             rate_hz: clip.rate_hz(),
             frames: clip.len(),
@@ -448,8 +472,11 @@ mod tests {
         let source = MotionSource::Bvh(file.into(), BvhReading::default());
         let made = clips
             .create(
-                Some("w".into()),
-                String::new(),
+                NewClip {
+                    id: Some("w".into()),
+                    display_name: String::new(),
+                    owner: None,
+                },
                 &man,
                 &body,
                 source,

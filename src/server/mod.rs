@@ -3,6 +3,7 @@
 //! [`run`] serves one port: gRPC, gRPC-Web, reflection, health, the viewer, a status page and metrics. Each world has a
 //! thread of its own that runs [`tick::run`]; services send it commands and read what it publishes.
 
+pub mod access;
 pub mod api;
 pub mod config;
 pub mod demo;
@@ -101,6 +102,7 @@ pub async fn serve(
         .into_axum_router()
         .reset_fallback()
         .layer(from_fn_with_state(edge.clone(), edge::sizes))
+        .layer(from_fn_with_state(app.access.clone(), access::identify))
         .layer(tonic_web::GrpcWebLayer::new())
         .layer(http::cors(edge.clone()));
     let router = grpc
@@ -145,7 +147,8 @@ pub async fn serve(
             app.worlds.drain().await; // ticks end whole
         }
     };
-    let incoming = edge::connections::incoming(listener, edge.doors.clone());
+    let tls = app.access.tls.as_ref().map(|tls| tls.acceptor.clone());
+    let incoming = edge::connections::incoming(listener, edge.doors.clone(), tls);
     let serving = server
         .add_routes(Routes::from(router))
         .serve_with_incoming_shutdown(incoming, drain);
@@ -157,6 +160,7 @@ pub async fn serve(
             let _ = stopping.wait_for(|s| *s).await;
             tokio::time::sleep(seconds(config.shutdown_grace_s)).await;
         } => tracing::warn!("connections were still open after the grace time"),
+        () = app.access.keep_fresh() => {} // never ends
     }
     tracing::info!("stopped");
     Ok(())

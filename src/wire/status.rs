@@ -68,6 +68,24 @@ pub enum Fault {
         /// Name of the setting that lists what is answered.
         setting: &'static str,
     },
+    /// The caller has not said who it is, or cannot prove it.
+    #[error("{message}")]
+    Unauthenticated {
+        /// Reason in UPPER_SNAKE.
+        reason: &'static str,
+        /// What is wrong. Never the credentials themselves.
+        message: String,
+    },
+    /// The caller may not do this.
+    #[error("{message}")]
+    Denied {
+        /// Reason in UPPER_SNAKE.
+        reason: &'static str,
+        /// What it lacks.
+        message: String,
+        /// Further facts.
+        facts: Vec<(&'static str, String)>,
+    },
     /// The request does not fit the state the resource is in.
     #[error("{message}")]
     Precondition {
@@ -199,6 +217,8 @@ impl Fault {
             Self::Exists { .. } => "ALREADY_EXISTS",
             Self::Precondition { reason, .. }
             | Self::Aborted { reason, .. }
+            | Self::Unauthenticated { reason, .. }
+            | Self::Denied { reason, .. }
             | Self::Refused { reason, .. } => reason,
             Self::Exhausted { .. } => "LIMIT_REACHED",
             Self::Budget { .. } => "TICK_BUDGET",
@@ -282,6 +302,11 @@ impl From<Fault> for Status {
             }
             Fault::Refused { setting, .. } => {
                 facts.insert("setting".to_owned(), (*setting).to_owned());
+                Code::PermissionDenied
+            }
+            Fault::Unauthenticated { .. } => Code::Unauthenticated,
+            Fault::Denied { facts: more, .. } => {
+                facts.extend(more.iter().map(|(k, v)| ((*k).to_owned(), v.clone())));
                 Code::PermissionDenied
             }
             Fault::Aborted { .. } => Code::Aborted,

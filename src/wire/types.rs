@@ -8,6 +8,7 @@ use crate::sim::figure::{
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::Target;
 use std::sync::Arc;
+use std::time::Duration;
 
 /// A place on the ground: world x, y (m) and heading about z (rad).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -308,6 +309,8 @@ pub struct DriveOpen {
     pub figures: Vec<String>,
     /// Who drives; empty: the server chooses.
     pub driver: String,
+    /// Whose drive it is, and by which leases.
+    pub who: ControlKey,
     /// Settings.
     pub settings: DriveSettings,
 }
@@ -551,6 +554,16 @@ pub enum EventKind {
     DriveEnded(String),
     /// The stream of a drive began anew: driver and reason.
     DriveResynced(String),
+    /// A lease began: holder, and from whom.
+    ControlAcquired(String),
+    /// A lease ended: holder, why.
+    ControlReleased(String),
+    /// A lease was taken by higher priority: by whom, from whom.
+    ControlPreempted(String),
+    /// A lease is offered: by whom, to whom.
+    ControlOffered(String),
+    /// Someone was refused: who, which call.
+    AccessRefused(String),
     /// The world was paused.
     Paused,
     /// The world was resumed.
@@ -570,6 +583,60 @@ pub struct WorldEvent {
     pub figure: String,
     /// What happened.
     pub kind: EventKind,
+}
+
+/// Who wants to control a figure, and by which tokens.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ControlKey {
+    /// Who.
+    pub principal: Arc<str>,
+    /// Tokens of leases.
+    pub tokens: Vec<String>,
+}
+
+/// How a lease is wanted.
+#[derive(Clone, Debug)]
+pub struct Acquire {
+    /// Token of a new lease.
+    pub token: String,
+    /// Priority.
+    pub priority: i32,
+    /// How long it is kept unused.
+    pub grace: Duration,
+    /// Who wants it is known, not anonymous.
+    pub known: bool,
+}
+
+/// How a lease is offered.
+#[derive(Clone, Debug)]
+pub struct Transfer {
+    /// To whom; `None`: to who has the token.
+    pub to: Option<Arc<str>>,
+    /// Token of the offer.
+    pub token: String,
+    /// How long the figure goes over, s.
+    pub blend: f64,
+    /// How long it stands.
+    pub lasts: Duration,
+}
+
+/// Who controls a figure.
+#[derive(Clone, Debug, Default)]
+pub struct ControlInfo {
+    /// Last part of the figure's name.
+    pub figure: String,
+    /// Who; `None`: nobody.
+    pub holder: Option<Arc<str>>,
+    /// How often that changed.
+    pub epoch: i64,
+    /// Priority.
+    pub priority: i32,
+    /// When it ends; `None`: not as long as it is used.
+    pub expires_in: Option<Duration>,
+    /// It came with a drive.
+    pub implicit: bool,
+    /// To whom it is offered.
+    pub offered_to: Option<Arc<str>>,
 }
 
 /// Which events a viewer wants.
@@ -625,6 +692,8 @@ pub struct ClipInfo {
     pub display_name: String,
     /// Comes with the server.
     pub builtin: bool,
+    /// Whose it is; `None`: everybody's.
+    pub owner: Option<Arc<str>>,
     /// Last part of the name of the body it was prepared for.
     pub body: String,
     /// Frames per second.

@@ -123,6 +123,7 @@ fn worlds_that_become_expensive_leave_time_for_others() {
         }
         for name in &names {
             let request = pb::UpdateFigureRequest {
+                control_token: String::new(),
                 figure: Some(pb::Figure {
                     name: name.clone(),
                     controller: pb::Controller::Modern.into(),

@@ -274,7 +274,10 @@ async fn a_clip_waits_until_a_walking_figure_stands() {
         assert_eq!(now, (String::new(), "clips/wave".into()));
     }
     let name = stays.clone();
-    let request = pb::StopClipRequest { figure: name };
+    let request = pb::StopClipRequest {
+        figure: name,
+        control_token: String::new(),
+    };
     server.client.motions().stop_clip(request).await.unwrap();
     let expected = server.play(&goes_on, "clips/wave", false).await;
     let mut began = None;

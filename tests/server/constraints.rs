@@ -30,6 +30,7 @@ async fn update(
     figure: pb::Figure,
 ) -> Result<pb::Figure, Status> {
     let request = pb::UpdateFigureRequest {
+        control_token: String::new(),
         figure: Some(figure),
         update_mask: Some(prost_types::FieldMask {
             paths: paths.iter().map(|p| (*p).to_owned()).collect(),
@@ -105,6 +106,7 @@ async fn a_client_holds_a_hand_moves_it_and_lets_it_go() {
 
     constrain(&server, &name, vec![hand(1.2)]).await.unwrap();
     let request = pb::ResetFigureRequest {
+        control_token: String::new(),
         name: name.clone(),
         placement: None,
     };

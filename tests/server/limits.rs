@@ -171,6 +171,7 @@ async fn fields_outside_the_mask_are_ignored_whatever_they_hold() {
     let world = server.paused_world("w").await;
     let made = server.figure(&world, "a").await;
     let request = pb::UpdateFigureRequest {
+        control_token: String::new(),
         figure: Some(pb::Figure {
             name: made.name.clone(),
             display_name: "Anna".into(),

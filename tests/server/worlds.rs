@@ -197,6 +197,7 @@ async fn figures_come_change_and_go() {
 
     let weaker = figures
         .update_figure(pb::UpdateFigureRequest {
+            control_token: String::new(),
             figure: Some(pb::Figure {
                 name: made.name.clone(),
                 controller: pb::Controller::Motors.into(),
@@ -434,7 +435,7 @@ async fn one_port_has_pages_metrics_health_reflection_and_grpc_web() {
             .iter()
             .filter(|s| s.name.starts_with("sinew.v1."))
             .count(),
-        8
+        10
     );
 
     // A service that does not exist is a gRPC answer, not an HTTP one.

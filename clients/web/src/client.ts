@@ -1,8 +1,10 @@
 // The TypeScript client: typed calls over gRPC-Web, and numbers of frames as arrays. Works in browsers and in Node.
 import { BinaryReader, WireType } from "@bufbuild/protobuf/wire";
-import { Code, ConnectError, createClient, type Client, type Transport } from "@connectrpc/connect";
+import { Code, ConnectError, createClient, type Client, type Interceptor, type Transport } from "@connectrpc/connect";
 import { createGrpcWebTransport } from "@connectrpc/connect-web";
+import { AccessService } from "./gen/sinew/v1/access_pb.js";
 import { BodyService } from "./gen/sinew/v1/body_pb.js";
+import { ControlService } from "./gen/sinew/v1/control_pb.js";
 import { FigureService } from "./gen/sinew/v1/figure_pb.js";
 import { MotionService } from "./gen/sinew/v1/motion_pb.js";
 import { PerturbationService } from "./gen/sinew/v1/perturbation_pb.js";
@@ -12,9 +14,24 @@ import { StateService } from "./gen/sinew/v1/state_pb.js";
 import type { Numbers } from "./gen/sinew/v1/types_pb.js";
 import { WorldService } from "./gen/sinew/v1/world_pb.js";
 
+/** Puts a bearer token into every request. */
+function bearer(token: string): Interceptor {
+  return (next) => (request) => {
+    request.header.set("authorization", `Bearer ${token}`);
+    return next(request);
+  };
+}
+
+/** gRPC-Web over the platform's `fetch`, with a bearer token if there is one. */
+export function connect(address: string, token = ""): Transport {
+  return createGrpcWebTransport({ baseUrl: address, interceptors: token ? [bearer(token)] : [] });
+}
+
 /** Every service of one server. */
 export class Sinew {
+  readonly access: Client<typeof AccessService>;
   readonly bodies: Client<typeof BodyService>;
+  readonly control: Client<typeof ControlService>;
   readonly figures: Client<typeof FigureService>;
   readonly motion: Client<typeof MotionService>;
   readonly perturbations: Client<typeof PerturbationService>;
@@ -24,8 +41,10 @@ export class Sinew {
   readonly worlds: Client<typeof WorldService>;
 
   /** `address`: for example `http://127.0.0.1:7463`; in a page that the server gave, `location.origin`. */
-  constructor(address: string, transport: Transport = createGrpcWebTransport({ baseUrl: address })) {
+  constructor(address: string, transport: Transport = connect(address)) {
+    this.access = createClient(AccessService, transport);
     this.bodies = createClient(BodyService, transport);
+    this.control = createClient(ControlService, transport);
     this.figures = createClient(FigureService, transport);
     this.motion = createClient(MotionService, transport);
     this.perturbations = createClient(PerturbationService, transport);

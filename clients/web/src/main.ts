@@ -1,7 +1,7 @@
 // The viewer: puts session, scene and panel together.
 import "./viewer.css";
 import { Captions } from "./captions.js";
-import { message, Sinew } from "./client.js";
+import { connect, message, Sinew } from "./client.js";
 import { Fallen } from "./fallen.js";
 import type { FigureFrame, WorldFrame } from "./gen/sinew/v1/frame_pb.js";
 import type { Person } from "./model.js";
@@ -10,6 +10,7 @@ import { el, Panel, type Anew } from "./panel.js";
 import { Scene, type Shown } from "./scene.js";
 import { Session, type Phase } from "./session.js";
 import { asCommand, asPython, cast, read, settingsOf, write, type Address } from "./share.js";
+import { takeToken } from "./token.js";
 import { kilograms } from "./words.js";
 
 function get<T extends HTMLElement>(id: string, kind: new () => T): T {
@@ -34,6 +35,7 @@ const worldChoice = get("world", HTMLSelectElement);
 const panelToggle = get("panel-toggle", HTMLButtonElement);
 const [resetButton, followButton] = [get("reset", HTMLButtonElement), get("follow", HTMLButtonElement)];
 
+const token = takeToken();
 let address: Address = read(location.hash);
 const shown: Shown = { ghost: true, forces: true, support: true, effort: true };
 for (const key of address.hide) if (key in shown) shown[key as keyof Shown] = false;
@@ -73,7 +75,7 @@ function forFigure(name: string, what: (p: Person) => Promise<unknown>): void {
 const fallen = new Fallen(get("fallen", HTMLElement), (name) => forFigure(name, (p) => session.standUp(p)));
 const obstacles = new Obstacles();
 const session = new Session(
-  new Sinew(location.origin),
+  new Sinew(location.origin, connect(location.origin, token)),
   (what) => {
     if (what === "phase") showPhase(session.phase);
     if (what === "roster") roster();
@@ -503,6 +505,7 @@ canvas.addEventListener("wheel", remember, { passive: true });
 addEventListener("hashchange", () => {
   // The skip link's target is a place on the page, not a scene.
   if (location.hash && !location.hash.includes("=")) return;
+  if (takeToken() !== token) return location.reload(); // someone else from now on
   address = read(location.hash);
   wantedFigure = address.figure;
   reproduced = false;

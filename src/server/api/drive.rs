@@ -1,7 +1,9 @@
 //! Live desired motion: the stream and its unary twin take the same way into the world.
 
-use super::{Api, Client, Place, refusal, stopped};
-use crate::server::ingest::mailbox::Mailbox;
+use super::permit::Permit;
+use super::{Api, Place, refusal, stopped};
+use crate::server::access::caller::Caller;
+use crate::server::ingest::mailbox::{DriverId, Mailbox};
 use crate::server::tick::command::Origin;
 use crate::server::worlds::WorldHandle;
 use crate::wire::convert::motion;
@@ -29,28 +31,45 @@ const PUSHER: &str = "push";
 const FEEDBACK_QUEUE: usize = 16;
 
 /// Commands of a driver come before those that end its drive.
-fn origin(driver: &str) -> Origin {
+fn origin(driver: &DriverId) -> Origin {
     Origin {
-        client: driver.into(),
+        client: driver.to_string().into(),
         sequence: 0,
     }
+}
+
+/// The drive that a header asks for; its driver may be nameless still.
+fn id(open: &DriveOpen) -> DriverId {
+    DriverId {
+        principal: open.who.principal.clone(),
+        name: open.driver.as_str().into(),
+    }
+}
+
+/// The world of a header, for a caller who may drive all of its figures.
+fn enter(api: &Api, caller: &Caller, open: &DriveOpen) -> Result<Arc<WorldHandle>, Fault> {
+    let figures: Vec<&str> = open.figures.iter().map(String::as_str).collect();
+    api.enter_for(caller, &open.world, &figures)
 }
 
 /// A batch by a unary call. Only the first one of a drive waits for the world.
 pub(super) async fn push(
     api: &Api,
+    caller: &Caller,
     r: pb::PushMotionRequest,
 ) -> Result<pb::PushMotionResponse, Fault> {
     let header = r
         .header
         .ok_or_else(|| Fault::invalid("header", "must be given"))?;
-    let mut open = motion::drive_open("header", &header)?;
+    let mut open = motion::drive_open("header", &header, caller.principal())?;
     if open.driver.is_empty() {
         PUSHER.clone_into(&mut open.driver);
     }
     let raw = r.batch.unwrap_or_default();
-    let handle = api.worlds.get(&open.world)?;
-    let known = handle.mailboxes.of(&open.driver, &open.figures);
+    let handle = enter(api, caller, &open)?;
+    let known = handle.mailboxes.of(&id(&open), &open.figures);
+    // With other tokens than those it was opened with, the leases are looked at again.
+    let known = known.filter(|m| m.tokens() == open.who.tokens);
     if let Some(mailbox) = &known {
         mailbox.admit(motion::postures(&raw), Instant::now())?;
     }
@@ -72,17 +91,17 @@ async fn opened(
     stream: Option<u64>,
 ) -> Result<Arc<Mailbox>, Fault> {
     handle
-        .call(origin(&open.driver), move |s| s.open_drive(&open, stream))
+        .call(origin(&id(&open)), move |s| s.open_drive(&open, stream))
         .await
 }
 
 /// A stream of batches.
 pub(super) async fn stream(
     api: &Api,
-    client: Client,
+    caller: Caller,
     mut inbound: Streaming<pb::DriveFiguresRequest>,
 ) -> Result<Response<Feedbacks>, Status> {
-    let place = api.drivers.take(client).map_err(refusal)?;
+    let place = api.drivers.take(caller.client.clone()).map_err(refusal)?;
     let first = tokio::time::timeout(HEADER_TIME, inbound.message())
         .await
         .map_err(|_| refusal(Fault::invalid("header", "did not come within 10 s")))??;
@@ -92,8 +111,9 @@ pub(super) async fn stream(
             "must be the first message",
         )));
     };
-    let open = motion::drive_open("header", &header).map_err(refusal)?;
-    let handle = api.worlds.get(&open.world).map_err(refusal)?;
+    let open = motion::drive_open("header", &header, caller.principal()).map_err(refusal)?;
+    let handle = enter(api, &caller, &open).map_err(refusal)?;
+    let permit = Permit::new(api, &handle, &caller, &open.figures);
     let connection = api.next_stream();
     let mailbox = opened(&handle, open, Some(connection))
         .await
@@ -105,6 +125,7 @@ pub(super) async fn stream(
         connection,
         out,
         ended: false,
+        permit,
         _place: place,
     };
     tokio::spawn(session.run(inbound, api.stopping.clone()));
@@ -117,6 +138,7 @@ struct Session {
     connection: u64,
     out: mpsc::Sender<Result<pb::DriveFiguresResponse, Status>>,
     ended: bool,
+    permit: Permit,
     _place: Place,
 }
 
@@ -145,6 +167,7 @@ impl Session {
                 // An error means that the world's thread is gone, which says the same.
                 _ = closed.changed() => Err(Fault::not_found("world", format!("worlds/{}", self.handle.id))),
                 () = stopped(&mut stopping) => Err(Fault::Draining),
+                fault = self.permit.ended() => Err(fault),
             };
             match step {
                 Ok(true) => {}
@@ -186,7 +209,7 @@ impl Session {
 
     /// Tells the driver; true to go on.
     async fn feedback(&mut self) -> Result<bool, Fault> {
-        let (driver, connection) = (self.mailbox.driver().to_owned(), self.connection);
+        let (driver, connection) = (self.mailbox.driver().clone(), self.connection);
         let feedback = match self
             .handle
             .call(origin(&driver.clone()), move |s| {
@@ -212,10 +235,10 @@ impl Session {
         if std::mem::replace(&mut self.ended, true) {
             return;
         }
-        let (driver, connection) = (self.mailbox.driver().to_owned(), self.connection);
+        let (driver, connection) = (self.mailbox.driver().clone(), self.connection);
         // After everything that this driver has queued.
         let last = Origin {
-            client: driver.as_str().into(),
+            client: driver.to_string().into(),
             sequence: i64::MAX,
         };
         if self
@@ -225,7 +248,7 @@ impl Session {
             })
             .is_err_and(|f| matches!(f, Fault::Exhausted { .. }))
         {
-            let (handle, driver) = (self.handle.clone(), self.mailbox.driver().to_owned());
+            let (handle, driver) = (self.handle.clone(), self.mailbox.driver().clone());
             tokio::spawn(async move {
                 // The queue is full for now; the figures must be given back all the same.
                 loop {

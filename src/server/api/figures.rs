@@ -1,7 +1,8 @@
 //! `FigureService`.
 
-use super::{Api, answer, origin};
-use crate::wire::convert::{figure, figure_name, new_id, page, place};
+use super::{Api, answer, caller, origin};
+use crate::server::access::roles::Role;
+use crate::wire::convert::{control, figure, new_id, page, place};
 use crate::wire::pb::{self, figure_service_server::FigureService};
 use crate::wire::status::Fault;
 use tonic::{Request, Response, Status};
@@ -14,7 +15,7 @@ impl FigureService for Api {
     ) -> Result<Response<pb::CreateFigureResponse>, Status> {
         let result = async {
             let r = request.get_ref();
-            let handle = self.world("parent", &r.parent)?;
+            let handle = self.world(&request, "parent", &r.parent)?;
             let id = new_id("figure_id", &r.figure_id)?;
             let settings = figure::settings("figure", r.figure.as_ref())?;
             let body = self.body("figure.profile", &settings.body).await?;
@@ -35,7 +36,7 @@ impl FigureService for Api {
         request: Request<pb::GetFigureRequest>,
     ) -> Result<Response<pb::GetFigureResponse>, Status> {
         let result = || {
-            let (handle, id) = self.figure("name", &request.get_ref().name)?;
+            let (handle, id) = self.figure(&request, "name", &request.get_ref().name)?;
             Ok(pb::GetFigureResponse {
                 figure: Some(figure::figure_out(&handle.figure(id)?)),
             })
@@ -49,7 +50,7 @@ impl FigureService for Api {
     ) -> Result<Response<pb::ListFiguresResponse>, Status> {
         let result = || {
             let r = request.get_ref();
-            let described = self.world("parent", &r.parent)?.described();
+            let described = self.world(&request, "parent", &r.parent)?.described();
             // Indices grow in the order of creation; padded they sort as text.
             let items = described
                 .figures
@@ -75,12 +76,18 @@ impl FigureService for Api {
                 .figure
                 .as_ref()
                 .ok_or_else(|| Fault::invalid("figure", "must be given"))?;
-            figure_name("figure.name", &f.name)?;
+            let (handle, id) = self.figure(&request, "figure.name", &f.name)?;
             let update = figure::update(f, r.update_mask.as_ref())?;
-            let (handle, id) = self.figure("figure.name", &f.name)?;
             let id = id.to_owned();
+            let caller = caller(&request)?;
+            let who = control::single(caller.principal(), "control_token", &r.control_token)?;
+            let roles = handle.grants.rights(&caller.identity, &handle.id).roles;
+            // A director sets the scene, whoever drives in it.
+            let who = (!roles.contain(Role::Director)).then_some(who);
             let info = handle
-                .call(origin(&request), move |s| s.update_figure(&id, update))
+                .call(origin(&request), move |s| {
+                    s.update_figure(&id, update, who.as_ref())
+                })
                 .await?;
             Ok(pb::UpdateFigureResponse {
                 figure: Some(figure::figure_out(&info)),
@@ -94,7 +101,7 @@ impl FigureService for Api {
         request: Request<pb::DeleteFigureRequest>,
     ) -> Result<Response<pb::DeleteFigureResponse>, Status> {
         let result = async {
-            let (handle, id) = self.figure("name", &request.get_ref().name)?;
+            let (handle, id) = self.figure(&request, "name", &request.get_ref().name)?;
             let id = id.to_owned();
             handle
                 .call(origin(&request), move |s| s.delete_figure(&id))
@@ -110,11 +117,13 @@ impl FigureService for Api {
     ) -> Result<Response<pb::ResetFigureResponse>, Status> {
         let result = async {
             let r = request.get_ref();
-            let (handle, id) = self.figure("name", &r.name)?;
+            let (handle, id) = self.figure(&request, "name", &r.name)?;
             let id = id.to_owned();
             let at = r.placement.map(|p| place("placement", p)).transpose()?;
+            let principal = caller(&request)?.principal();
+            let who = control::single(principal, "control_token", &r.control_token)?;
             let info = handle
-                .call(origin(&request), move |s| s.reset_figure(&id, at))
+                .call(origin(&request), move |s| s.reset_figure(&id, at, &who))
                 .await?;
             Ok(pb::ResetFigureResponse {
                 figure: Some(figure::figure_out(&info)),

@@ -1,6 +1,7 @@
 //! `ServerService`.
 
-use super::{Api, answer};
+use super::{Api, answer, caller};
+use crate::server::access::roles::Role;
 use crate::server::engine::{BUILTIN_NAMES, CAPABILITIES};
 use crate::sim::figure::Flags;
 use crate::wire::convert::{server, timestamp};
@@ -32,10 +33,17 @@ impl ServerService for Api {
     ) -> Result<Response<pb::GetServerStatsResponse>, Status> {
         let stats = || {
             let name = &request.get_ref().world;
+            let caller = caller(&request)?;
             let worlds = if name.is_empty() {
-                self.worlds.list()
+                let mut worlds = self.worlds.list();
+                worlds.retain(|w| self.sees(caller, w));
+                worlds
             } else {
-                vec![self.world("world", name)?]
+                let handle = self.world(&request, "world", name)?;
+                if !self.sees(caller, &handle) {
+                    return Err(caller.denied(Role::Viewer, name));
+                }
+                vec![handle]
             };
             Ok(pb::GetServerStatsResponse {
                 worlds: worlds

@@ -1,19 +1,25 @@
 //! The services: convert, ask the world or the library, convert back.
 
+mod access;
 mod bodies;
 mod clips;
+mod control;
 mod drive;
 mod figures;
 mod info;
+mod permit;
 mod perturbations;
 mod simulation;
 mod state;
 mod watching;
 mod worlds;
 
+use super::access::Access;
+use super::access::caller::Caller;
+use super::access::roles::{Role, Rule};
 use super::config::Config;
 use super::library::{Bodies, Clips};
-use super::shares::{Client, Place, Places, client_at};
+use super::shares::{Client, Place, Places};
 use super::tick::command::Origin;
 use super::workers::Pool;
 use super::worlds::{Registry, WorldHandle};
@@ -28,7 +34,7 @@ use tonic::service::RoutesBuilder;
 use tonic::{Request, Response, Status};
 
 /// Names of the services, for health checks; the empty name is the server as a whole.
-pub const SERVICE_NAMES: [&str; 9] = [
+pub const SERVICE_NAMES: [&str; 11] = [
     "",
     pb::world_service_server::SERVICE_NAME,
     pb::figure_service_server::SERVICE_NAME,
@@ -38,6 +44,8 @@ pub const SERVICE_NAMES: [&str; 9] = [
     pb::state_service_server::SERVICE_NAME,
     pb::simulation_service_server::SERVICE_NAME,
     pb::server_service_server::SERVICE_NAME,
+    pb::access_service_server::SERVICE_NAME,
+    pb::control_service_server::SERVICE_NAME,
 ];
 
 /// Calls that carry a clip in their request: up to `max_clip_bytes`. All others take up to `max_request_bytes`.
@@ -70,6 +78,8 @@ pub struct App {
     pub conversions: Pool,
     /// Where clips are simulated.
     pub simulations: Pool,
+    /// Who may do what.
+    pub access: Arc<Access>,
     /// When the server started.
     pub started: SystemTime,
     /// Turns true when streams are to end.
@@ -83,12 +93,13 @@ impl App {
     /// An application without worlds.
     ///
     /// # Errors
-    /// The built-in data cannot be prepared.
+    /// The built-in data cannot be prepared, or a certificate or key cannot be used.
     pub fn new(config: Arc<Config>, stopping: watch::Receiver<bool>) -> Result<Self, Fault> {
         super::telemetry::metrics();
         let bodies = Bodies::new(&config);
         let share = config.max_client_share;
         Ok(Self {
+            access: Access::new(&config).map_err(Fault::Internal)?,
             clips: Clips::new(&config, &bodies)?,
             bodies,
             worlds: Registry::new(config.clone()),
@@ -113,14 +124,91 @@ impl App {
         })
     }
 
-    fn world(&self, field: &str, name: &str) -> Result<Arc<WorldHandle>, Fault> {
-        self.worlds.get(world_name(field, name)?)
+    /// The world of this name, for a caller who has the role there that its call needs.
+    fn world<T>(
+        &self,
+        request: &Request<T>,
+        field: &str,
+        name: &str,
+    ) -> Result<Arc<WorldHandle>, Fault> {
+        let id = world_name(field, name)?;
+        self.enter(caller(request)?, id)
     }
 
-    /// World and last part of the name of a figure.
-    fn figure<'a>(&self, field: &str, name: &'a str) -> Result<(Arc<WorldHandle>, &'a str), Fault> {
+    /// World and last part of the name of a figure, likewise; a driver must be one of that figure.
+    fn figure<'a, T>(
+        &self,
+        request: &Request<T>,
+        field: &str,
+        name: &'a str,
+    ) -> Result<(Arc<WorldHandle>, &'a str), Fault> {
         let (world, figure) = crate::wire::convert::figure_name(field, name)?;
-        Ok((self.worlds.get(world)?, figure))
+        let handle = self.enter_for(caller(request)?, world, &[figure])?;
+        Ok((handle, figure))
+    }
+
+    /// As [`App::world`], by the last part of the name.
+    fn enter(&self, caller: &Caller, id: &str) -> Result<Arc<WorldHandle>, Fault> {
+        self.enter_for(caller, id, &[])
+    }
+
+    /// The world, for a caller who has the role that its call needs, for these figures.
+    fn enter_for(
+        &self,
+        caller: &Caller,
+        id: &str,
+        figures: &[&str],
+    ) -> Result<Arc<WorldHandle>, Fault> {
+        let Rule::Needs(role) = caller.rule else {
+            return Err(Fault::Internal(format!(
+                "{} does not say what it needs",
+                caller.call
+            )));
+        };
+        let place = format!("worlds/{id}");
+        let handle = match self.worlds.get(id) {
+            Ok(handle) => handle,
+            // Who may not do it does not learn whether it is there.
+            Err(fault) => {
+                let claimed = caller.identity.claims.roles_in(id).contain(role);
+                let shown = claimed || !role.is_of_world() || matches!(fault, Fault::Draining);
+                return Err(if shown {
+                    fault
+                } else {
+                    caller.denied(role, &place)
+                });
+            }
+        };
+        if !role.is_of_world() {
+            return Ok(handle);
+        }
+        let rights = handle.grants.rights(&caller.identity, id);
+        let missing = if !rights.roles.contain(role) {
+            Some((place, figures.first().copied().unwrap_or_default()))
+        } else if role == Role::Driver {
+            let other = figures.iter().find(|f| !rights.drives(f));
+            other.map(|f| (format!("{place}/figures/{f}"), *f))
+        } else {
+            None
+        };
+        match missing {
+            None => Ok(handle),
+            Some((place, figure)) => {
+                if role != Role::Viewer {
+                    handle.tell_refused(caller, figure);
+                }
+                Err(caller.denied(role, &place))
+            }
+        }
+    }
+
+    /// Whether a caller may watch a world.
+    fn sees(&self, caller: &Caller, handle: &WorldHandle) -> bool {
+        handle
+            .grants
+            .rights(&caller.identity, &handle.id)
+            .roles
+            .contain(Role::Viewer)
     }
 
     fn next_stream(&self) -> u64 {
@@ -175,6 +263,8 @@ pub fn add_services(routes: &mut RoutesBuilder, app: &Arc<App>) {
         state_service_server::StateServiceServer;
         simulation_service_server::SimulationServiceServer;
         server_service_server::ServerServiceServer;
+        access_service_server::AccessServiceServer;
+        control_service_server::ControlServiceServer;
     }
 }
 
@@ -184,18 +274,22 @@ async fn stopped(stopping: &mut watch::Receiver<bool>) {
     let _ = stopping.wait_for(|s| *s).await;
 }
 
-/// Who sends a request.
+/// Who makes a call.
+fn caller<T>(request: &Request<T>) -> Result<&Caller, Fault> {
+    // `access::identify` has put it there, or the call has not come here.
+    let caller = request.extensions().get::<Caller>();
+    caller.ok_or_else(|| Fault::Internal("nobody knows who makes this call".into()))
+}
+
+/// Whose share a request takes.
 fn client<T>(request: &Request<T>) -> Client {
-    client_at(request.remote_addr())
+    caller(request).map_or_else(|_| "".into(), |c| c.client.clone())
 }
 
 /// The sender of a request, as commands of its world are ordered by.
 fn origin<T>(request: &Request<T>) -> Origin {
     Origin {
-        client: request
-            .remote_addr()
-            .map_or_else(String::new, |a| a.to_string())
-            .into(),
+        client: caller(request).map_or_else(|_| "".into(), |c| c.order.clone()),
         sequence: 0,
     }
 }

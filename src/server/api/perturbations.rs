@@ -1,9 +1,24 @@
 //! `PerturbationService`.
 
-use super::{Api, answer, origin};
+use super::{Api, answer, caller, origin};
+use crate::server::access::caller::Caller;
 use crate::wire::convert::{client_id, perturbation};
 use crate::wire::pb::{self, perturbation_service_server::PerturbationService};
+use std::sync::Arc;
 use tonic::{Request, Response, Status};
+
+/// What orders a batch among those that meet it in a tick: its principal, then the name that its sender chose. So no
+/// name pushes in before other principals. Without principals the name counts, or the connection.
+fn order(caller: &Caller, client: &str) -> Arc<str> {
+    if client.is_empty() {
+        caller.order.clone()
+    } else if caller.identity.is_anonymous() {
+        client.into()
+    } else {
+        // A space is below every character of a principal.
+        format!("{} {client}", caller.principal()).into()
+    }
+}
 
 #[tonic::async_trait]
 impl PerturbationService for Api {
@@ -14,13 +29,14 @@ impl PerturbationService for Api {
         let result = async {
             let mut from = origin(&request);
             let r = request.get_ref();
-            let handle = self.world("world", &r.world)?;
+            let handle = self.world(&request, "world", &r.world)?;
             let client = client_id("client_id", &r.client_id)?;
-            if !client.is_empty() {
-                from.client = client.into();
-            }
+            let caller = caller(&request)?;
+            from.client = order(caller, &client);
             from.sequence = r.sequence;
             let batch = perturbation::batch(&r.perturbations)?;
+            let rights = handle.grants.rights(&caller.identity, &handle.id);
+            handle.grants.admit(caller, &rights, &batch)?;
             let tick = handle.call(from, move |s| s.perturb(&batch)).await?;
             Ok(pb::ApplyPerturbationsResponse { tick: tick as i64 })
         };
@@ -32,7 +48,7 @@ impl PerturbationService for Api {
         request: Request<pb::ClearPerturbationsRequest>,
     ) -> Result<Response<pb::ClearPerturbationsResponse>, Status> {
         let result = async {
-            let (handle, figure) = self.figure("figure", &request.get_ref().figure)?;
+            let (handle, figure) = self.figure(&request, "figure", &request.get_ref().figure)?;
             let figure = figure.to_owned();
             let tick = handle
                 .call(origin(&request), move |s| s.clear_perturbations(&figure))
@@ -40,5 +56,54 @@ impl PerturbationService for Api {
             Ok(pb::ClearPerturbationsResponse { tick: tick as i64 })
         };
         answer(result.await)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::server::access::caller::{Claims, Identity};
+    use crate::server::access::roles::Rule;
+
+    fn from(principal: &str, connection: &str) -> Caller {
+        let identity = Identity {
+            principal: principal.into(),
+            claims: Arc::new(Claims::default()),
+            expires: None,
+        };
+        let known = !identity.is_anonymous();
+        Caller {
+            order: if known { principal } else { connection }.into(),
+            identity,
+            client: "".into(),
+            rule: Rule::Open,
+            call: "".into(),
+        }
+    }
+
+    #[test]
+    fn batches_are_ordered_by_principal_before_the_names_that_senders_choose() {
+        let (ann, anna) = (from("user:ann", "9"), from("user:anna", "1"));
+        let mut all = [
+            order(&anna, ""),
+            order(&anna, "!"),
+            order(&ann, "zzz"),
+            order(&ann, ""),
+        ];
+        all.sort();
+        assert_eq!(
+            all.each_ref().map(|a| &**a),
+            ["user:ann", "user:ann zzz", "user:anna", "user:anna !"]
+        );
+        // The connection, wherever it comes from, says nothing of a principal.
+        assert_eq!(
+            order(&from("user:ann", "1"), "x"),
+            order(&from("user:ann", "2"), "x")
+        );
+        let nobody = from("anonymous", "127.0.0.1:5");
+        assert_eq!(
+            (&*order(&nobody, ""), &*order(&nobody, "me")),
+            ("127.0.0.1:5", "me")
+        );
     }
 }

@@ -1,6 +1,6 @@
 //! `SimulationService`.
 
-use super::{Api, answer, client};
+use super::{Api, answer, caller, client};
 use crate::server::engine;
 use crate::server::library::Manner;
 use crate::server::simulate::{self, Limits};
@@ -22,13 +22,14 @@ impl SimulationService for Api {
                 bytes: self.config.max_response_bytes,
             };
             let client = client(&request);
+            let caller = caller(&request)?.clone();
             let (source, settings) = simulation::settings(
                 request.into_inner(),
                 self.config.max_clip_bytes,
                 limits.seconds,
             )?;
             if let Source::Clip(id) = &source {
-                self.clips.info(id)?; // an unknown name does not wait for its turn
+                super::clips::seen(self, &caller, id)?; // an unknown name does not wait for its turn
             }
             let app = self.0.clone();
             self.simulations

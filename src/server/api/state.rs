@@ -1,6 +1,7 @@
 //! `StateService`.
 
-use super::{Api, answer, client, refusal, watching};
+use super::permit::Permit;
+use super::{Api, answer, caller, client, refusal, watching};
 use crate::wire::convert::state;
 use crate::wire::frame::{roster, world_frame};
 use crate::wire::pb::{self, state_service_server::StateService};
@@ -36,7 +37,7 @@ impl StateService for Api {
     ) -> Result<Response<pb::GetWorldFrameResponse>, Status> {
         let result = || {
             let r = request.get_ref();
-            let handle = self.world("world", &r.world)?;
+            let handle = self.world(&request, "world", &r.world)?;
             let view = state::view(r.view.as_ref())?;
             let snapshot = match r.tick {
                 None => handle.latest(),
@@ -56,10 +57,11 @@ impl StateService for Api {
     ) -> Result<Response<Self::WatchWorldStream>, Status> {
         let watch = || {
             let r = request.get_ref();
-            let handle = self.world("world", &r.world)?;
+            let handle = self.world(&request, "world", &r.world)?;
             let view = state::view(r.view.as_ref())?;
             check(&view.figures, &handle.outlet.latest.borrow())?;
             let place = self.viewers.take(client(&request))?;
+            let permit = Permit::new(self, &handle, caller(&request)?, &[]);
             let held = match r.resume_tick {
                 None => Vec::new(),
                 Some(tick) => handle.history().after(tick)?,
@@ -71,7 +73,7 @@ impl StateService for Api {
                 handle,
                 (&view, channel),
                 held,
-                self.stopping.clone(),
+                (self.stopping.clone(), permit),
                 place,
             ))
         };
@@ -86,14 +88,15 @@ impl StateService for Api {
     ) -> Result<Response<Self::WatchEventsStream>, Status> {
         let watch = || {
             let r = request.get_ref();
-            let handle = self.world("world", &r.world)?;
+            let handle = self.world(&request, "world", &r.world)?;
             let filter = state::event_filter(r)?;
             check(&filter.figures, &handle.outlet.latest.borrow())?;
             let place = self.viewers.take(client(&request))?;
+            let permit = Permit::new(self, &handle, caller(&request)?, &[]);
             Ok(watching::events(
                 handle,
                 filter,
-                self.stopping.clone(),
+                (self.stopping.clone(), permit),
                 place,
             ))
         };

@@ -1,6 +1,7 @@
 //! Streams of frames and events. A stream is asked for its next message when the connection has room, so a slow viewer
 //! skips frames instead of collecting them.
 
+use super::permit::Permit;
 use super::{Place, refusal, stopped};
 use crate::server::fanout::hub::{Channel, Encoded, Resuming};
 use crate::server::worlds::WorldHandle;
@@ -28,6 +29,7 @@ pub type Events = Pin<Box<dyn Stream<Item = Result<pb::WatchEventsResponse, Stat
 enum End {
     World,
     Server,
+    Refused(Fault),
 }
 
 impl End {
@@ -35,6 +37,7 @@ impl End {
         match self {
             Self::World => Fault::not_found("world", format!("worlds/{}", handle.id)),
             Self::Server => Fault::Draining,
+            Self::Refused(fault) => fault.clone(),
         }
     }
 }
@@ -52,6 +55,7 @@ struct Viewer {
     last: Option<u64>,
     closed: watch::Receiver<()>,
     stopping: watch::Receiver<bool>,
+    permit: Permit,
     over: bool,
     _place: Place,
 }
@@ -70,7 +74,7 @@ pub(super) fn frames(
     handle: Arc<WorldHandle>,
     (view, channel): (&ViewSpec, Arc<Channel>),
     held: Vec<Arc<Snapshot>>,
-    stopping: watch::Receiver<bool>,
+    (stopping, permit): (watch::Receiver<bool>, Permit),
     place: Place,
 ) -> Frames {
     let mut frames = channel.subscribe();
@@ -90,6 +94,7 @@ pub(super) fn frames(
         roster: None,
         last: None,
         stopping,
+        permit,
         over: false,
         _place: place,
     };
@@ -134,6 +139,7 @@ impl Viewer {
                 changed = self.frames.changed() => changed.is_err().then_some(End::World),
                 () = stopped(&mut self.stopping) => Some(End::Server),
                 _ = self.closed.changed() => Some(End::World),
+                fault = self.permit.ended() => Some(End::Refused(fault)),
             };
             if let Some(end) = ended {
                 self.over = true;
@@ -174,6 +180,7 @@ struct Listener {
     stopping: watch::Receiver<bool>,
     missed: u64,
     begun: bool,
+    permit: Permit,
     over: bool,
     _place: Place,
 }
@@ -188,7 +195,7 @@ impl Drop for Listener {
 pub(super) fn events(
     handle: Arc<WorldHandle>,
     filter: EventFilter,
-    stopping: watch::Receiver<bool>,
+    (stopping, permit): (watch::Receiver<bool>, Permit),
     place: Place,
 ) -> Events {
     handle.viewers.fetch_add(1, Ordering::Relaxed);
@@ -198,6 +205,7 @@ pub(super) fn events(
         handle,
         filter,
         stopping,
+        permit,
         missed: 0,
         begun: false,
         over: false,
@@ -239,6 +247,7 @@ impl Listener {
                 },
                 () = stopped(&mut self.stopping) => End::Server,
                 _ = self.closed.changed() => End::World,
+                fault = self.permit.ended() => End::Refused(fault),
             };
             self.over = true;
             return Some(Err(refusal(end.fault(&self.handle))));

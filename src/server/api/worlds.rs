@@ -1,8 +1,9 @@
 //! `WorldService`.
 
-use super::{Api, answer, client, origin};
+use super::{Api, answer, caller, client, origin};
+use crate::server::access::grants::Grant;
 use crate::server::tick::shard::{Shard, StepRequest};
-use crate::wire::convert::{count, new_id, obstacle, page, world, world_name};
+use crate::wire::convert::{count, new_id, obstacle, page, world};
 use crate::wire::pb::{self, world_service_server::WorldService};
 use crate::wire::status::Fault;
 use crate::wire::types::{WorldInfo, WorldUpdate};
@@ -20,7 +21,7 @@ impl Api {
         name: &str,
         f: impl FnOnce(&mut Shard) -> Result<WorldInfo, Fault> + Send + 'static,
     ) -> Result<pb::World, Fault> {
-        let handle = self.world("name", name)?;
+        let handle = self.world(request, "name", name)?;
         let info = handle.call(origin(request), f).await?;
         Ok(world::world_out(&info))
     }
@@ -33,12 +34,18 @@ impl WorldService for Api {
         request: Request<pb::CreateWorldRequest>,
     ) -> Result<Response<pb::CreateWorldResponse>, Status> {
         let owner = client(&request);
+        let caller = caller(&request).cloned();
         let r = request.into_inner();
         let create = || {
+            let caller = caller?;
             let id = new_id("world_id", &r.world_id)?;
-            let handle = self
-                .worlds
-                .create(id, world::settings(r.world)?, r.paused, owner)?;
+            caller.check_new_name("world_id", id.as_deref())?;
+            // Who creates a world owns it.
+            let known = !caller.identity.is_anonymous();
+            let grant = known.then(|| Grant::owner(caller.principal().clone()));
+            let handle =
+                self.worlds
+                    .create(id, world::settings(r.world)?, r.paused, (owner, grant))?;
             Ok(pb::CreateWorldResponse {
                 world: Some(world::world_out(&handle.info())),
             })
@@ -51,7 +58,7 @@ impl WorldService for Api {
         request: Request<pb::GetWorldRequest>,
     ) -> Result<Response<pb::GetWorldResponse>, Status> {
         answer(
-            self.world("name", &request.get_ref().name)
+            self.world(&request, "name", &request.get_ref().name)
                 .map(|handle| pb::GetWorldResponse {
                     world: Some(world::world_out(&handle.info())),
                 }),
@@ -63,10 +70,12 @@ impl WorldService for Api {
         request: Request<pb::ListWorldsRequest>,
     ) -> Result<Response<pb::ListWorldsResponse>, Status> {
         let r = request.get_ref();
+        let caller = caller(&request).map_err(super::refusal)?;
         let items = self
             .worlds
             .list()
             .into_iter()
+            .filter(|w| self.sees(caller, w))
             .map(|w| (w.id.to_string(), w))
             .collect();
         answer(
@@ -92,7 +101,7 @@ impl WorldService for Api {
                 .world
                 .as_ref()
                 .ok_or_else(|| Fault::invalid("world", "must be given"))?;
-            world_name("world.name", &w.name)?;
+            self.world(&request, "world.name", &w.name)?;
             let update = world::update(w, r.update_mask.as_ref())?;
             self.on_world(&request, &w.name, |s| s.update(update)).await
         };
@@ -108,9 +117,8 @@ impl WorldService for Api {
         request: Request<pb::DeleteWorldRequest>,
     ) -> Result<Response<pb::DeleteWorldResponse>, Status> {
         let result = async {
-            self.worlds
-                .delete(world_name("name", &request.get_ref().name)?)
-                .await?;
+            let handle = self.world(&request, "name", &request.get_ref().name)?;
+            self.worlds.delete(&handle.id).await?;
             Ok(pb::DeleteWorldResponse {})
         };
         answer(result.await)
@@ -146,7 +154,7 @@ impl WorldService for Api {
     ) -> Result<Response<pb::StepWorldResponse>, Status> {
         let result = async {
             let r = request.get_ref();
-            let handle = self.world("name", &r.name)?;
+            let handle = self.world(&request, "name", &r.name)?;
             let left = count("tick_count", r.tick_count, 1, 1, MAX_STEPS)?;
             let (tx, rx) = oneshot::channel();
             let slot = Arc::new(std::sync::Mutex::new(Some(tx)));
@@ -189,7 +197,7 @@ impl WorldService for Api {
     ) -> Result<Response<pb::SetWorldSpeedResponse>, Status> {
         let result = async {
             let r = request.get_ref();
-            world_name("name", &r.name)?;
+            self.world(&request, "name", &r.name)?;
             let update = WorldUpdate {
                 speed: Some(world::speed("speed", r.speed)?),
                 ..Default::default()
@@ -209,7 +217,7 @@ impl WorldService for Api {
     ) -> Result<Response<pb::AddObstacleResponse>, Status> {
         let result = async {
             let r = request.get_ref();
-            let handle = self.world("parent", &r.parent)?;
+            let handle = self.world(&request, "parent", &r.parent)?;
             let id = new_id("obstacle_id", &r.obstacle_id)?;
             let setup = obstacle::setup("obstacle", r.obstacle.as_ref())?;
             let info = handle
@@ -228,10 +236,10 @@ impl WorldService for Api {
     ) -> Result<Response<pb::UpdateObstacleResponse>, Status> {
         let result = async {
             let r = request.get_ref();
-            let setup = obstacle::setup("obstacle", r.obstacle.as_ref())?;
             let name = r.obstacle.as_ref().map_or("", |o| &o.name);
             let (world, id) = obstacle::name("obstacle.name", name)?;
-            let handle = self.worlds.get(world)?;
+            let handle = self.enter(caller(&request)?, world)?;
+            let setup = obstacle::setup("obstacle", r.obstacle.as_ref())?;
             let id = id.to_owned();
             let info = handle
                 .call(origin(&request), move |s| s.update_obstacle(&id, setup))
@@ -249,7 +257,7 @@ impl WorldService for Api {
     ) -> Result<Response<pb::RemoveObstacleResponse>, Status> {
         let result = async {
             let (world, id) = obstacle::name("name", &request.get_ref().name)?;
-            let handle = self.worlds.get(world)?;
+            let handle = self.enter(caller(&request)?, world)?;
             let id = id.to_owned();
             handle
                 .call(origin(&request), move |s| s.remove_obstacle(&id))
@@ -264,7 +272,7 @@ impl WorldService for Api {
         request: Request<pb::ListObstaclesRequest>,
     ) -> Result<Response<pb::ListObstaclesResponse>, Status> {
         answer(
-            self.world("parent", &request.get_ref().parent)
+            self.world(&request, "parent", &request.get_ref().parent)
                 .map(|handle| pb::ListObstaclesResponse {
                     obstacles: handle
                         .latest()

@@ -7,17 +7,20 @@
 
 use super::super::config::Config;
 use futures_util::task::AtomicWaker;
+use rustls::pki_types::CertificateDer;
 use std::collections::BTreeMap;
 use std::io;
 use std::net::{IpAddr, SocketAddr};
 use std::pin::Pin;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, PoisonError, Weak};
-use std::task::{Context, Poll};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError, Weak};
+use std::task::{Context, Poll, ready};
 use std::time::Duration;
 use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use tokio::net::{TcpListener, TcpStream};
 use tokio::time::{Instant, Sleep};
+use tokio_rustls::TlsAcceptor;
+use tokio_rustls::server::TlsStream;
 use tokio_stream::Stream;
 use tonic::transport::server::Connected;
 
@@ -39,6 +42,8 @@ pub(super) enum Why {
     Unread,
     /// The other side reset it.
     Reset,
+    /// There was no TLS to agree on.
+    Tls,
 }
 
 impl Why {
@@ -49,6 +54,7 @@ impl Why {
             Self::Room => "room",
             Self::Unread => "unread",
             Self::Reset => "reset",
+            Self::Tls => "tls",
         }
     }
 }
@@ -69,6 +75,8 @@ pub(in crate::server) struct Peer {
     uses: Arc<AtomicU64>,
     closed: AtomicBool,
     reader: AtomicWaker,
+    /// The client's certificate, once TLS is there; verified.
+    certificate: OnceLock<CertificateDer<'static>>,
     doors: Weak<Doors>,
 }
 
@@ -101,6 +109,7 @@ impl Peer {
             uses: doors.uses.clone(),
             closed: AtomicBool::new(false),
             reader: AtomicWaker::new(),
+            certificate: OnceLock::new(),
             doors: Arc::downgrade(doors),
         });
         peer.touch();
@@ -123,6 +132,11 @@ impl Peer {
         self.begun.store(true, Ordering::Relaxed);
         self.touch();
         Open(self.clone())
+    }
+
+    /// The certificate that the client has shown and that was verified.
+    pub(in crate::server) fn certificate(&self) -> Option<&CertificateDer<'static>> {
+        self.certificate.get()
     }
 
     fn touch(&self) {
@@ -305,10 +319,19 @@ impl Doors {
     }
 }
 
+/// What a connection is read from and written to.
+enum Transport {
+    Plain(TcpStream),
+    /// TLS that is still agreed on: by whoever reads or writes, so that accepting waits for nobody.
+    Agreeing(Box<tokio_rustls::Accept<TcpStream>>),
+    Tls(Box<TlsStream<TcpStream>>),
+    /// It was not agreed on.
+    Refused,
+}
+
 /// A connection that leaves when it is dropped.
-#[derive(Debug)]
 pub(in crate::server) struct Connection {
-    stream: TcpStream,
+    transport: Transport,
     peer: Arc<Peer>,
     number: u64,
     doors: Arc<Doors>,
@@ -320,8 +343,10 @@ pub(in crate::server) struct Connection {
 pub(in crate::server) fn incoming(
     listener: TcpListener,
     doors: Arc<Doors>,
+    tls: Option<TlsAcceptor>,
 ) -> impl Stream<Item = io::Result<Connection>> {
-    futures_util::stream::unfold((listener, doors), |(listener, doors)| async move {
+    let state = (listener, doors, tls);
+    futures_util::stream::unfold(state, |(listener, doors, tls)| async move {
         loop {
             match listener.accept().await {
                 Ok((stream, address)) => {
@@ -329,14 +354,18 @@ pub(in crate::server) fn incoming(
                     let _ = stream.set_nodelay(true);
                     metrics::counter!("sinew_connections_total").increment(1);
                     let (number, peer) = doors.enter(address);
+                    let transport = match &tls {
+                        Some(tls) => Transport::Agreeing(Box::new(tls.accept(stream))),
+                        None => Transport::Plain(stream),
+                    };
                     let connection = Connection {
-                        stream,
+                        transport,
                         peer,
                         number,
                         deadline: Some(Box::pin(tokio::time::sleep(doors.first_request))),
                         doors: doors.clone(),
                     };
-                    return Some((Ok(connection), (listener, doors)));
+                    return Some((Ok(connection), (listener, doors, tls)));
                 }
                 Err(error) if is_of_the_client(&error) => doors.count(Why::Reset),
                 Err(error) => {
@@ -372,6 +401,33 @@ impl Drop for Connection {
 }
 
 impl Connection {
+    /// Agrees on TLS, if that is still to be done.
+    fn poll_agreed(&mut self, cx: &mut Context<'_>) -> Poll<io::Result<()>> {
+        let Transport::Agreeing(accept) = &mut self.transport else {
+            return Poll::Ready(match self.transport {
+                Transport::Refused => Err(io::ErrorKind::ConnectionAborted.into()),
+                _ => Ok(()),
+            });
+        };
+        match ready!(Pin::new(&mut **accept).poll(cx)) {
+            Ok(stream) => {
+                let certificates = stream.get_ref().1.peer_certificates();
+                if let Some(first) = certificates.and_then(<[_]>::first) {
+                    // It is set once: here.
+                    let _ = self.peer.certificate.set(first.clone().into_owned());
+                }
+                self.transport = Transport::Tls(Box::new(stream));
+                Poll::Ready(Ok(()))
+            }
+            Err(error) => {
+                self.transport = Transport::Refused;
+                self.peer.close(Why::Tls);
+                tracing::debug!(%error, "no TLS");
+                Poll::Ready(Err(error))
+            }
+        }
+    }
+
     /// Whether the connection is to end now.
     fn is_over(&mut self, cx: &mut Context<'_>) -> bool {
         if self.peer.begun.load(Ordering::Relaxed) {
@@ -399,7 +455,12 @@ impl AsyncRead for Connection {
         if self.is_over(cx) {
             return Poll::Ready(Err(io::ErrorKind::TimedOut.into()));
         }
-        let read = Pin::new(&mut self.stream).poll_read(cx, buf);
+        ready!(self.poll_agreed(cx))?;
+        let read = match &mut self.transport {
+            Transport::Plain(stream) => Pin::new(stream).poll_read(cx, buf),
+            Transport::Tls(stream) => Pin::new(&mut **stream).poll_read(cx, buf),
+            Transport::Agreeing(_) | Transport::Refused => return Poll::Pending, // not after `poll_agreed`
+        };
         if let Poll::Ready(Err(error)) = &read
             && is_of_the_client(error)
             && !self.peer.closed.swap(true, Ordering::AcqRel)
@@ -410,29 +471,50 @@ impl AsyncRead for Connection {
     }
 }
 
+/// Calls a method of what is written to, once TLS is agreed on.
+macro_rules! write_to {
+    ($self:ident, $cx:ident, $method:ident($($argument:expr),*)) => {{
+        ready!($self.poll_agreed($cx))?;
+        match &mut $self.transport {
+            Transport::Plain(stream) => Pin::new(stream).$method($cx $(, $argument)*),
+            Transport::Tls(stream) => Pin::new(&mut **stream).$method($cx $(, $argument)*),
+            Transport::Agreeing(_) | Transport::Refused => {
+                Poll::Ready(Err(io::ErrorKind::ConnectionAborted.into()))
+            }
+        }
+    }};
+}
+
 impl AsyncWrite for Connection {
     fn poll_write(
         mut self: Pin<&mut Self>,
         cx: &mut Context<'_>,
         buf: &[u8],
     ) -> Poll<io::Result<usize>> {
-        Pin::new(&mut self.stream).poll_write(cx, buf)
+        write_to!(self, cx, poll_write(buf))
     }
     fn poll_flush(mut self: Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<io::Result<()>> {
-        Pin::new(&mut self.stream).poll_flush(cx)
+        write_to!(self, cx, poll_flush())
     }
     fn poll_shutdown(mut self: Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<io::Result<()>> {
-        Pin::new(&mut self.stream).poll_shutdown(cx)
+        if matches!(self.transport, Transport::Agreeing(_)) {
+            self.transport = Transport::Refused; // nobody waits for TLS any more
+        }
+        write_to!(self, cx, poll_shutdown())
     }
     fn poll_write_vectored(
         mut self: Pin<&mut Self>,
         cx: &mut Context<'_>,
         bufs: &[io::IoSlice<'_>],
     ) -> Poll<io::Result<usize>> {
-        Pin::new(&mut self.stream).poll_write_vectored(cx, bufs)
+        write_to!(self, cx, poll_write_vectored(bufs))
     }
     fn is_write_vectored(&self) -> bool {
-        self.stream.is_write_vectored()
+        match &self.transport {
+            Transport::Plain(stream) => stream.is_write_vectored(),
+            Transport::Tls(stream) => stream.is_write_vectored(),
+            Transport::Agreeing(_) | Transport::Refused => false,
+        }
     }
 }
 

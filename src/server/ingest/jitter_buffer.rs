@@ -108,6 +108,8 @@ struct Grid {
     head: Option<f64>,
     /// The next sample of the grid.
     next: i64,
+    /// It goes on from another stream: what was due before now was that one's.
+    joins: bool,
     /// Frames that it holds: playout time, sequence, source time.
     held: VecDeque<(f64, i64, i64)>,
 }
@@ -136,6 +138,8 @@ pub struct JitterBuffer {
     last: Target,
     /// Difference to a jump of the desired motion, and when it began to fade (world s).
     blend: Option<(Box<[f64; NV]>, f64)>,
+    /// Time over which it fades, s.
+    blend_time: f64,
     /// Quiet standing.
     stand: Posture,
     body: Arc<Body>,
@@ -208,6 +212,7 @@ impl JitterBuffer {
             applied: None,
             last: now,
             blend: None,
+            blend_time: BLEND,
             stand,
             body,
             grid: Grid::default(),
@@ -573,10 +578,11 @@ impl JitterBuffer {
         }
         if let Some((jump, since)) = &self.blend {
             let fade = |target: &mut Target, t: f64| {
-                let u = ((t - since) / BLEND).clamp(0.0, 1.0);
+                let over = self.blend_time;
+                let u = ((t - since) / over).clamp(0.0, 1.0);
                 // 1 at the start, 0 at the end, flat at both.
                 let s = 1.0 - u * u * (3.0 - 2.0 * u);
-                let moving = if u < 1.0 { 1.0 / BLEND } else { 0.0 };
+                let moving = if u < 1.0 { 1.0 / over } else { 0.0 };
                 let s1 = -6.0 * u * (1.0 - u) * moving;
                 let s2 = -(6.0 - 12.0 * u) * moving * moving;
                 target.posture.integrate(&jump.map(|e| e * s), 1.0);
@@ -587,8 +593,9 @@ impl JitterBuffer {
             };
             fade(&mut now, t);
             fade(&mut next, t + self.tick);
-            if t - since >= BLEND {
+            if t - since >= self.blend_time {
                 self.blend = None;
+                self.blend_time = BLEND;
             }
         }
         self.last = next.clone();
@@ -655,6 +662,9 @@ impl JitterBuffer {
         self.counts.ticks[k] += 1;
         let last = ((p + self.tick) * rate + SAME).floor() as i64;
         // Time that leaps, or a silence, is not made up for sample by sample.
+        if std::mem::take(&mut self.grid.joins) {
+            self.grid.next = last;
+        }
         let first = self.grid.next.max(last.saturating_sub(CAPACITY as i64));
         for g in first..=last {
             let answer = self.at(g as f64 / rate);
@@ -692,6 +702,23 @@ impl JitterBuffer {
             self.frames.pop_front();
         }
         Some((p, self.grid.next))
+    }
+
+    /// True if there is motion for the tick that begins `now`.
+    pub fn is_due(&mut self, now: Now) -> bool {
+        let Some(p) = self.playout(now) else {
+            return false;
+        };
+        // Two frames at least, so that it is known how it moves, and none that would have to be guessed.
+        let newest = self.frames.back().map(|f| self.seconds(f));
+        p >= 0.0 && self.frames.len() >= 2 && newest.is_some_and(|t| t >= p + self.tick)
+    }
+
+    /// Begins from what is asked of the figure now, and goes over to its own motion in `blend` seconds.
+    pub fn begin_from(&mut self, target: Target, blend: f64) {
+        self.last = target;
+        self.blend_time = blend.max(self.tick);
+        self.grid.joins = true;
     }
 
     /// True once, when the figure is to be put into its first desired posture.

@@ -33,6 +33,21 @@ pub struct Taken {
     pub pushed: bool,
 }
 
+/// Which drive: nobody else can have one of the same name.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct DriverId {
+    /// Whose it is.
+    pub principal: Arc<str>,
+    /// As the driver calls itself.
+    pub name: Arc<str>,
+}
+
+impl std::fmt::Display for DriverId {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} {}", self.principal, self.name)
+    }
+}
+
 #[derive(Debug)]
 struct Inside {
     /// The stream that may send; `None` for pushes.
@@ -45,6 +60,10 @@ struct Inside {
     postures: usize,
     received: i64,
     refused: u64,
+    /// Tokens of leases that it was opened with.
+    tokens: Vec<String>,
+    /// Figures that were taken from the driver, by their place in its header.
+    taken_away: Vec<bool>,
     /// What the driver can be told without asking the world.
     feedback: Arc<Feedback>,
 }
@@ -52,16 +71,16 @@ struct Inside {
 /// The mailbox of one drive.
 #[derive(Debug)]
 pub struct Mailbox {
-    driver: String,
+    id: DriverId,
     figures: Vec<String>,
     inside: Mutex<Inside>,
 }
 
 impl Mailbox {
     /// An empty mailbox of a drive of these figures.
-    pub fn new(driver: String, figures: Vec<String>, stream: Option<u64>, now: Instant) -> Self {
+    pub fn new(id: DriverId, figures: Vec<String>, stream: Option<u64>, now: Instant) -> Self {
         let feedback = Feedback {
-            driver: driver.clone(),
+            driver: id.name.to_string(),
             received_sequence: -1,
             ..Feedback::default()
         };
@@ -73,18 +92,20 @@ impl Mailbox {
             postures: 0,
             received: -1,
             refused: 0,
+            tokens: Vec::new(),
+            taken_away: vec![false; figures.len()],
             feedback: Arc::new(feedback),
         };
         Self {
-            driver,
+            id,
             figures,
             inside: Mutex::new(inside),
         }
     }
 
     /// Who drives.
-    pub fn driver(&self) -> &str {
-        &self.driver
+    pub fn driver(&self) -> &DriverId {
+        &self.id
     }
 
     /// Driven figures, last parts of their names.
@@ -126,7 +147,7 @@ impl Mailbox {
         Err(Fault::Exhausted {
             limit: "frames_per_second",
             value: FRAMES_PER_SECOND as u64,
-            message: format!("desired motion of driver {:?} came too fast", self.driver),
+            message: format!("desired motion of driver {:?} came too fast", self.id.name),
             retry: Some(retry),
         })
     }
@@ -148,6 +169,17 @@ impl Mailbox {
         if stream.is_some() && stream != inside.stream {
             return Err(self.fenced());
         }
+        // What is sent for a figure that was taken away is fenced frame by frame.
+        let mut asked = samples.iter().flat_map(|s| &s.figures);
+        if let Some(f) = asked.find(|f| inside.taken_away[f.slot]) {
+            return Err(Fault::Aborted {
+                reason: "CONTROL_FENCED",
+                message: format!(
+                    "figure {:?} was taken from {:?}",
+                    self.figures[f.slot], self.id.name
+                ),
+            });
+        }
         let newest = samples.iter().map(|s| s.sequence).max();
         inside.received = inside.received.max(newest.unwrap_or(-1));
         let postures: usize = samples.iter().map(|s| s.figures.len()).sum();
@@ -162,7 +194,22 @@ impl Mailbox {
 
     /// What a stream learns that no longer drives.
     pub fn fenced(&self) -> Fault {
-        fenced(&self.driver)
+        fenced(&self.id.name)
+    }
+
+    /// Tokens of leases that the drive was opened with.
+    pub fn tokens(&self) -> Vec<String> {
+        self.inside().tokens.clone()
+    }
+
+    /// Notes them.
+    pub fn keep_tokens(&self, tokens: &[String]) {
+        self.inside().tokens = tokens.to_vec();
+    }
+
+    /// Takes no more motion for a figure, by its place in the header.
+    pub fn fence(&self, slot: usize) {
+        self.inside().taken_away[slot] = true;
     }
 
     /// Why the drive has ended, if it has.
@@ -236,26 +283,26 @@ pub fn fenced(driver: &str) -> Fault {
 
 /// The mailboxes of one world, by driver.
 #[derive(Debug, Default)]
-pub struct Mailboxes(Mutex<HashMap<String, Arc<Mailbox>>>);
+pub struct Mailboxes(Mutex<HashMap<DriverId, Arc<Mailbox>>>);
 
 impl Mailboxes {
-    fn held(&self) -> MutexGuard<'_, HashMap<String, Arc<Mailbox>>> {
+    fn held(&self) -> MutexGuard<'_, HashMap<DriverId, Arc<Mailbox>>> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// The mailbox of a driver who drives exactly these figures.
-    pub fn of(&self, driver: &str, figures: &[String]) -> Option<Arc<Mailbox>> {
+    pub fn of(&self, driver: &DriverId, figures: &[String]) -> Option<Arc<Mailbox>> {
         let found = self.held().get(driver).cloned()?;
         (found.figures() == figures).then_some(found)
     }
 
     /// Adds a mailbox.
     pub fn insert(&self, mailbox: Arc<Mailbox>) {
-        self.held().insert(mailbox.driver().to_owned(), mailbox);
+        self.held().insert(mailbox.driver().clone(), mailbox);
     }
 
     /// Removes the mailbox of a driver.
-    pub fn remove(&self, driver: &str) {
+    pub fn remove(&self, driver: &DriverId) {
         self.held().remove(driver);
     }
 }
@@ -263,6 +310,13 @@ impl Mailboxes {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn me() -> DriverId {
+        DriverId {
+            principal: "user:me".into(),
+            name: "me".into(),
+        }
+    }
 
     fn sample(sequence: i64) -> MotionSample {
         MotionSample {
@@ -275,7 +329,7 @@ mod tests {
     #[test]
     fn batches_wait_in_order_and_an_old_stream_is_fenced() {
         let now = Instant::now();
-        let m = Mailbox::new("me".into(), vec!["a".into()], Some(1), now);
+        let m = Mailbox::new(me(), vec!["a".into()], Some(1), now);
         m.deliver(Some(1), vec![sample(0)], now).unwrap();
         m.deliver(Some(1), vec![sample(1)], now).unwrap();
         m.hand_to(Some(2));
@@ -308,7 +362,7 @@ mod tests {
     #[test]
     fn a_world_whose_thread_never_looks_does_not_collect_motion_without_bound() {
         let start = Instant::now();
-        let m = Mailbox::new("me".into(), vec!["a".into()], None, start);
+        let m = Mailbox::new(me(), vec!["a".into()], None, start);
         let figure = crate::wire::types::FigureSample {
             slot: 0,
             posture: crate::sim::body::Posture::default(),

@@ -2,7 +2,7 @@
 
 use crate::server::engine::{self, Figure, FigureKey, LivePlayback};
 use crate::server::ingest::jitter_buffer::{Due, Frame, JitterBuffer, Now};
-use crate::server::ingest::mailbox::Mailbox;
+use crate::server::ingest::mailbox::{DriverId, Mailbox};
 use crate::sim::body::State;
 use crate::sim::motion::TargetPair;
 use crate::sim::plan::StreamPlan;
@@ -29,6 +29,8 @@ pub struct Slot {
     pub body: Arc<crate::sim::body::Body>,
     /// The window that prepares its motion, if there is one.
     pub window: Option<Window>,
+    /// It takes the figure over from another drive, over so many seconds, once its own motion is there.
+    pub takeover: Option<f64>,
 }
 
 /// A window between the buffer and its figure.
@@ -61,7 +63,7 @@ impl Window {
 #[derive(Debug)]
 pub struct Drive {
     /// Who drives.
-    pub driver: String,
+    pub id: DriverId,
     /// The stream that may send; `None` for pushes.
     pub connection: Option<u64>,
     /// Settings.
@@ -77,16 +79,16 @@ pub struct Drive {
 impl Drive {
     /// A drive without motion yet.
     pub fn new(
-        driver: String,
+        id: DriverId,
         connection: Option<u64>,
         settings: DriveSettings,
         slots: Vec<Slot>,
         now: Instant,
     ) -> Self {
         let figures = slots.iter().map(|s| s.figure.clone()).collect();
-        let mailbox = Mailbox::new(driver.clone(), figures, connection, now);
+        let mailbox = Mailbox::new(id.clone(), figures, connection, now);
         let mut drive = Self {
-            driver,
+            id,
             connection,
             settings,
             slots,
@@ -131,14 +133,14 @@ impl Drive {
 
     /// The fault that others get who want one of its figures.
     pub fn controlled(&self, figure: &str, now: Instant) -> Fault {
-        let mut facts = vec![("controller", self.driver.clone())];
+        let mut facts = vec![("controller", self.id.name.to_string())];
         if let Some(at) = self.expires {
             let left = at.saturating_duration_since(now).as_millis();
             facts.push(("lease_expires_ms", left.to_string()));
         }
         Fault::Precondition {
             reason: "FIGURE_CONTROLLED",
-            message: format!("figure {figure:?} is driven by {:?}", self.driver),
+            message: format!("figure {figure:?} is driven by {:?}", self.id.name),
             facts,
         }
     }
@@ -191,7 +193,7 @@ impl Drive {
     pub fn feedback(&self, tick: u64) -> Feedback {
         let (received, refused) = self.mailbox.counts();
         Feedback {
-            driver: self.driver.clone(),
+            driver: self.id.name.to_string(),
             tick,
             received_sequence: received,
             refused,
@@ -237,6 +239,28 @@ impl Window {
 }
 
 impl Slot {
+    /// Takes a figure over from another drive, in the middle of what it does, over `blend` seconds.
+    pub fn join(&mut self, figure: &mut Figure, now: Now, blend: f64) {
+        self.buffer.begin_from(figure.target().next.clone(), blend);
+        let Some(window) = &mut self.window else {
+            return; // the buffer goes over by itself
+        };
+        // The stream that the figure follows goes on with what comes now.
+        let length = window.length;
+        match figure.stream_mut().filter(|l| l.motion.window() == length) {
+            Some(live) => {
+                live.motion.join(blend);
+                window.waiting = None;
+                window.begun = true;
+            }
+            None => {
+                // There is none like it: it finishes its step, and is led in from a stand.
+                figure.stop(now.time);
+                window.lead_in(&figure.target().next.posture);
+            }
+        }
+    }
+
     /// Feeds the window with what is due in the tick that begins `now`; once there is enough of it, the figure
     /// follows. Returns the state that the figure is to be put into, if its driver asked for that.
     pub fn feed(&mut self, now: Now, figure: &mut Figure, reset: bool) -> Option<State> {

@@ -9,6 +9,7 @@ pub mod clock;
 pub mod command;
 pub mod drives;
 pub mod history;
+pub mod leases;
 pub mod planners;
 pub mod shard;
 pub mod stage_times;

@@ -1,6 +1,7 @@
 //! One world with everything that belongs to its clock: figures by name, drivers, held frames. Owned by the world's
 //! thread; others send [`Command`](super::command::Command)s that call these methods between ticks.
 
+mod control;
 mod desired_motion;
 mod figures;
 mod obstacles;
@@ -9,6 +10,7 @@ mod perturbations;
 use super::budget::{Account, Budget, Meter};
 use super::clock::Clock;
 use super::drives::{Drive, Slot};
+use super::leases::Leases;
 use super::planners::Planners;
 use crate::server::engine::{self, FigureKey, ObstacleKey, Planning, World};
 use crate::server::ingest::mailbox::Mailboxes;
@@ -65,6 +67,7 @@ pub struct Shard {
     roster: Arc<[RosterEntry]>,
     roster_version: i32,
     drives: Vec<Drive>,
+    leases: Leases,
     mailboxes: Arc<Mailboxes>,
     next_driver: u64,
     described: bool,
@@ -114,6 +117,7 @@ impl Shard {
             roster: Arc::new([]),
             roster_version: 1,
             drives: Vec::new(),
+            leases: Leases::default(),
             mailboxes: Arc::default(),
             next_driver: 1,
             described: false,

@@ -1,9 +1,11 @@
 //! The worlds of this server, and how others talk to their threads.
 
+use crate::server::access::caller::Caller;
+use crate::server::access::grants::{Grant, Grants};
 use crate::server::config::Config;
 use crate::server::fanout::hub::Hub;
 use crate::server::ingest::mailbox::Mailboxes;
-use crate::server::shares::{Client, check_part};
+use crate::server::shares::{Client, check_part, part};
 use crate::server::tick::budget::Budget;
 use crate::server::tick::command::{Command, Inbox, Origin};
 use crate::server::tick::history::History;
@@ -14,13 +16,13 @@ use crate::server::tick::{self, Outlet};
 use crate::sim::body::Body;
 use crate::wire::status::Fault;
 use crate::wire::types::{Described, FigureInfo, Snapshot, WorldInfo, WorldSettings};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU64, Ordering};
 use std::sync::mpsc::{SyncSender, TrySendError, sync_channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock};
 use std::thread::JoinHandle;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use tokio::sync::{broadcast, oneshot, watch};
 
 /// One world, seen from outside its thread.
@@ -44,12 +46,74 @@ pub struct WorldHandle {
     pub refused: AtomicU64,
     /// Viewers.
     pub viewers: AtomicI64,
+    /// Who has which roles in it.
+    pub grants: Grants,
     /// Who created it.
     owner: Client,
+    /// When those who watch were last told that someone was refused.
+    told_refused: Mutex<Option<Instant>>,
+    /// Commands of each client that wait.
+    waiting: Waiting,
     commands: SyncSender<Command>,
     draining: Arc<AtomicBool>,
     queue: u64,
     thread: Mutex<Option<JoinHandle<()>>>,
+}
+
+/// Least time between two events that tell of refusals.
+const REFUSALS_EVERY: Duration = Duration::from_secs(1);
+
+/// Commands that wait, by client: one client fills no more than its share of a queue.
+#[derive(Clone, Debug)]
+struct Waiting {
+    by_client: Arc<Mutex<HashMap<Arc<str>, u64>>>,
+    most: u64,
+    share: f64,
+}
+
+/// A command that waits.
+struct Waits {
+    waiting: Waiting,
+    client: Arc<str>,
+}
+
+impl Drop for Waits {
+    fn drop(&mut self) {
+        let mut all = self.waiting.lock();
+        if let Some(count) = all.get_mut(&self.client) {
+            *count -= 1;
+            if *count == 0 {
+                all.remove(&self.client);
+            }
+        }
+    }
+}
+
+impl Waiting {
+    fn lock(&self) -> MutexGuard<'_, HashMap<Arc<str>, u64>> {
+        self.by_client
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn enter(&self, client: &Arc<str>) -> Result<Waits, Fault> {
+        let mut all = self.lock();
+        let count = all.entry(client.clone()).or_default();
+        let own = part(self.most, self.share);
+        if *count >= own {
+            return Err(Fault::Exhausted {
+                limit: "command_queue",
+                value: self.most,
+                message: format!("one client may have {own} of them (max_client_share)"),
+                retry: Some(Duration::from_millis(20)),
+            });
+        }
+        *count += 1;
+        Ok(Waits {
+            waiting: self.clone(),
+            client: client.clone(),
+        })
+    }
 }
 
 /// How busy a world is.
@@ -90,18 +154,55 @@ impl WorldHandle {
         }
     }
 
+    /// Tells those who watch events that a caller was refused, once in a while.
+    pub fn tell_refused(&self, caller: &Caller, figure: &str) {
+        let now = Instant::now();
+        let mut told = self
+            .told_refused
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner);
+        if told.is_some_and(|at| now - at < REFUSALS_EVERY) {
+            return;
+        }
+        *told = Some(now);
+        drop(told);
+        let origin = Origin {
+            client: caller.order.clone(),
+            sequence: 0,
+        };
+        let (figure, who, call) = (
+            figure.to_owned(),
+            caller.principal().clone(),
+            caller.call.clone(),
+        );
+        // A full queue has no room for news.
+        let _ = self.send(origin, move |s| {
+            // A name that a stranger made up is not repeated.
+            let figure = if s.figure(&figure).is_ok() {
+                figure.as_str()
+            } else {
+                ""
+            };
+            s.tell_refused(figure, &who, &call);
+        });
+    }
+
     /// Queues something for the start of the next tick.
     ///
     /// # Errors
-    /// The queue is full or the world is gone.
+    /// The queue is full, the client has its share of it, or the world is gone.
     pub fn send(
         &self,
         origin: Origin,
         action: impl FnOnce(&mut Shard) + Send + 'static,
     ) -> Result<(), Fault> {
+        let place = self.waiting.enter(&origin.client)?;
         let command = Command {
             origin,
-            action: Box::new(action),
+            action: Box::new(move |shard| {
+                drop(place);
+                action(shard);
+            }),
         };
         self.commands.try_send(command).map_err(|e| match e {
             TrySendError::Full(_) => {
@@ -257,7 +358,7 @@ impl Registry {
         }
     }
 
-    /// Creates a world for a client and starts its thread.
+    /// Creates a world for a client, with a first grant, and starts its thread.
     ///
     /// # Errors
     /// The name is taken, there are too many worlds or too many of this client, there is no room for its ticks, or the
@@ -267,7 +368,7 @@ impl Registry {
         id: Option<String>,
         settings: WorldSettings,
         paused: bool,
-        owner: Client,
+        (owner, grant): (Client, Option<Grant>),
     ) -> Result<Arc<WorldHandle>, Fault> {
         let mut worlds = self.worlds.write().unwrap_or_else(PoisonError::into_inner);
         if self.draining.load(Ordering::SeqCst) {
@@ -345,7 +446,14 @@ impl Registry {
                 self.config.max_client_share,
                 self.config.history_ticks as usize,
             ),
+            grants: Grants::new(grant),
             owner,
+            told_refused: Mutex::default(),
+            waiting: Waiting {
+                by_client: Arc::default(),
+                most: self.config.command_queue,
+                share: self.config.max_client_share,
+            },
             mailboxes,
             closed,
             rate_hz,

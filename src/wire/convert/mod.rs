@@ -1,8 +1,10 @@
 //! Requests to domain types and domain types to responses. Everything is checked here, once: finite, in range, counted,
 //! named.
 
+pub mod access;
 pub mod body;
 pub mod constraint;
+pub mod control;
 pub mod figure;
 pub mod motion;
 pub mod obstacle;

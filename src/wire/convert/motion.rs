@@ -14,6 +14,7 @@ use crate::sim::body::angles::set_anatomical_angles;
 use crate::sim::body::topology::{BONE_NAMES, PARENT};
 use crate::sim::body::{DOF_COUNT, NV, Posture, SEGMENT_COUNT};
 use crate::sim::math::Quat;
+use std::sync::Arc;
 
 /// Most frames in one batch.
 pub const MAX_BATCH_FRAMES: usize = 64;
@@ -128,7 +129,11 @@ pub fn playback(r: &pb::PlayClipRequest) -> Result<Playback, Fault> {
 }
 
 /// Header of a drive; `field` is where it stands in the request.
-pub fn drive_open(field: &str, h: &pb::DriveHeader) -> Result<DriveOpen, Fault> {
+pub fn drive_open(
+    field: &str,
+    h: &pb::DriveHeader,
+    principal: &Arc<str>,
+) -> Result<DriveOpen, Fault> {
     let at = |part: &str| format!("{field}.{part}");
     let world = super::world_name(&at("world"), &h.world)?.to_owned();
     if h.figures.is_empty() || h.figures.len() > MAX_DRIVEN_FIGURES {
@@ -175,6 +180,7 @@ pub fn drive_open(field: &str, h: &pb::DriveHeader) -> Result<DriveOpen, Fault> 
         2000.0,
     )? / 1e3;
     Ok(DriveOpen {
+        who: super::control::key(principal, &at("control_tokens"), &h.control_tokens)?,
         world,
         figures: h.figures.clone(),
         driver: client_id(&at("driver_id"), &h.driver_id)?,

@@ -117,6 +117,11 @@ fn event_type(kind: &EventKind) -> pb::EventType {
         EventKind::DriveBegan(_) => pb::EventType::DriveBegan,
         EventKind::DriveEnded(_) => pb::EventType::DriveEnded,
         EventKind::DriveResynced(_) => pb::EventType::DriveResynced,
+        EventKind::ControlAcquired(_) => pb::EventType::ControlAcquired,
+        EventKind::ControlReleased(_) => pb::EventType::ControlReleased,
+        EventKind::ControlPreempted(_) => pb::EventType::ControlPreempted,
+        EventKind::ControlOffered(_) => pb::EventType::ControlOffered,
+        EventKind::AccessRefused(_) => pb::EventType::AccessRefused,
         EventKind::Paused => pb::EventType::WorldPaused,
         EventKind::Resumed => pb::EventType::WorldResumed,
         EventKind::Failed(_) => pb::EventType::WorldFailed,
@@ -160,6 +165,11 @@ pub fn event_out(e: &WorldEvent) -> pb::Event {
         EventKind::DriveBegan(t)
         | EventKind::DriveEnded(t)
         | EventKind::DriveResynced(t)
+        | EventKind::ControlAcquired(t)
+        | EventKind::ControlReleased(t)
+        | EventKind::ControlPreempted(t)
+        | EventKind::ControlOffered(t)
+        | EventKind::AccessRefused(t)
         | EventKind::Failed(t) => {
             out.detail = t.clone();
         }

@@ -24,8 +24,10 @@ from sinew.frames import frame as to_frame
 from sinew.motion import Motion, Pose, bvh_source, is_file
 from sinew.recording import RECORDED, Recording, Recordings, collect
 from sinew.v1 import (
+    access_pb2_grpc,
     body_pb2,
     body_pb2_grpc,
+    control_pb2_grpc,
     figure_pb2,
     figure_pb2_grpc,
     frame_pb2,
@@ -100,12 +102,25 @@ class Client:
 
     `address` is host and port, or the URL that the server prints. Calls raise `sinew.SinewError`; unary calls give up
     after `timeout_s` (s). A `NotFoundError` lists the names that there are.
+
+    To a server with TLS: `address` begins with `https://`; `ca` is a PEM file with the roots that its certificate is
+    checked with (those of the system if absent), `token` a bearer token, `certificate` the PEM files of the client's
+    certificate and private key.
     """
 
-    def __init__(self, address: str = f"127.0.0.1:{requests.PORT}", *, timeout_s: float = 60.0) -> None:
+    def __init__(
+        self,
+        address: str = f"127.0.0.1:{requests.PORT}",
+        *,
+        timeout_s: float = 60.0,
+        token: str | None = None,
+        ca: PathLike | None = None,
+        certificate: tuple[PathLike, PathLike] | None = None,
+    ) -> None:
         self.address = requests.address(address)
         self.timeout_s = timeout_s
-        self._channel = open_channel(self.address, requests.OPTIONS)
+        credentials = requests.credentials(address, token=token, ca=ca, certificate=certificate)
+        self._channel = open_channel(self.address, requests.OPTIONS, credentials)
         self.worlds_stub = world_pb2_grpc.WorldServiceStub(self._channel)
         self.figures_stub = figure_pb2_grpc.FigureServiceStub(self._channel)
         self.bodies_stub = body_pb2_grpc.BodyServiceStub(self._channel)
@@ -114,6 +129,8 @@ class Client:
         self.states_stub = state_pb2_grpc.StateServiceStub(self._channel)
         self.simulations_stub = simulation_pb2_grpc.SimulationServiceStub(self._channel)
         self.server_stub = server_pb2_grpc.ServerServiceStub(self._channel)
+        self.access_stub = access_pb2_grpc.AccessServiceStub(self._channel)
+        self.control_stub = control_pb2_grpc.ControlServiceStub(self._channel)
         self._bodies: dict[str, Body] = {}
 
     def __repr__(self) -> str:

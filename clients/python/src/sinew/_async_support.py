@@ -23,9 +23,11 @@ Method = grpc.aio.UnaryUnaryMultiCallable
 _LONG_S = 3600.0
 
 
-def open_channel(address: str, options: list[tuple[str, int]]) -> Channel:
-    """A channel without encryption."""
-    return grpc.aio.insecure_channel(address, options=options)
+def open_channel(address: str, options: list[tuple[str, int]], credentials: grpc.ChannelCredentials | None) -> Channel:
+    """A channel, without encryption if there are no credentials."""
+    if credentials is None:
+        return grpc.aio.insecure_channel(address, options=options)
+    return grpc.aio.secure_channel(address, credentials, options=options)
 
 
 async def call(method: Method[Request, Response], request: Request, timeout_s: float) -> Response:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
 
+import grpc
 from google.protobuf.field_mask_pb2 import FieldMask
 
 from sinew.v1 import figure_pb2, frame_pb2, perturbation_pb2, simulation_pb2, state_pb2, types_pb2, world_pb2
@@ -39,6 +42,26 @@ def address(given: str) -> str:
     if not out:
         raise ValueError(f"no address: {given!r}")
     return out if re.search(r":\d+$", out) else f"{out}:{PORT}"
+
+
+def credentials(
+    given: str,
+    *,
+    token: str | None,
+    ca: str | os.PathLike[str] | None,
+    certificate: tuple[str | os.PathLike[str], str | os.PathLike[str]] | None,
+) -> grpc.ChannelCredentials | None:
+    """What an address, a token, roots and a certificate of the client make of a channel; `None`: no encryption."""
+    if not given.strip().startswith("https://") and ca is None and certificate is None:
+        if token is not None:
+            raise ValueError("a token is not sent without encryption: give an address with https://")
+        return None
+    roots = None if ca is None else Path(ca).read_bytes()
+    chain, key = (None, None) if certificate is None else (Path(part).read_bytes() for part in certificate)
+    tls = grpc.ssl_channel_credentials(roots, key, chain)
+    if token is None:
+        return tls
+    return grpc.composite_channel_credentials(tls, grpc.access_token_call_credentials(token.strip()))
 
 
 def controller(name: Controller) -> figure_pb2.Controller.ValueType:

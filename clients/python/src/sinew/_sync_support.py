@@ -24,9 +24,11 @@ Method = grpc.UnaryUnaryMultiCallable
 _LONG_S = 3600.0
 
 
-def open_channel(address: str, options: list[tuple[str, int]]) -> Channel:
-    """A channel without encryption."""
-    return grpc.insecure_channel(address, options=options)
+def open_channel(address: str, options: list[tuple[str, int]], credentials: grpc.ChannelCredentials | None) -> Channel:
+    """A channel, without encryption if there are no credentials."""
+    if credentials is None:
+        return grpc.insecure_channel(address, options=options)
+    return grpc.secure_channel(address, credentials, options=options)
 
 
 def call(method: Method[Request, Response], request: Request, timeout_s: float) -> Response:

@@ -107,6 +107,14 @@ class AbortedError(SinewError):
     """Something else took over meanwhile."""
 
 
+class UnauthenticatedError(SinewError):
+    """The server does not know who this is: a token or certificate is missing, wrong or over."""
+
+
+class PermissionDeniedError(SinewError, PermissionError):
+    """One may not do this; `facts` has the `required_role`."""
+
+
 class UnimplementedError(SinewError, NotImplementedError):
     """This server cannot do it."""
 
@@ -127,6 +135,8 @@ _BY_CODE: Mapping[grpc.StatusCode, type[SinewError]] = {
     grpc.StatusCode.RESOURCE_EXHAUSTED: LimitError,
     grpc.StatusCode.OUT_OF_RANGE: ExpiredError,
     grpc.StatusCode.ABORTED: AbortedError,
+    grpc.StatusCode.UNAUTHENTICATED: UnauthenticatedError,
+    grpc.StatusCode.PERMISSION_DENIED: PermissionDeniedError,
     grpc.StatusCode.UNIMPLEMENTED: UnimplementedError,
     grpc.StatusCode.UNAVAILABLE: UnavailableError,
     grpc.StatusCode.DEADLINE_EXCEEDED: DeadlineError,

@@ -3,10 +3,10 @@
 use super::Shard;
 use crate::server::engine::{self, Clip, Drive as Motion};
 use crate::server::ingest::jitter_buffer::{JitterBuffer, Now};
-use crate::server::ingest::mailbox::{Mailbox, fenced};
+use crate::server::ingest::mailbox::{DriverId, Mailbox, fenced};
 use crate::server::tick::drives::{Drive, Slot, Window};
 use crate::wire::status::Fault;
-use crate::wire::types::{DriveOpen, EventKind, Feedback, Place, Playback};
+use crate::wire::types::{ControlKey, DriveOpen, EventKind, Feedback, Place, Playback};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -25,10 +25,11 @@ impl Shard {
         clip_id: &str,
         clip: Arc<Clip>,
         p: Playback,
+        who: &ControlKey,
     ) -> Result<f64, Fault> {
         self.working()?;
         let i = self.member(figure)?;
-        self.not_driven(figure)?;
+        self.may_direct(figure, who)?;
         let now = self.world.time();
         let begin = p.start.unwrap_or(now);
         let m = &mut self.members[i];
@@ -67,10 +68,10 @@ impl Shard {
     }
 
     /// Lets a figure finish its step and stand, or hold the posture that is asked of it now if it stands already.
-    pub fn stop(&mut self, figure: &str) -> Result<(), Fault> {
+    pub fn stop(&mut self, figure: &str, who: &ControlKey) -> Result<(), Fault> {
         self.working()?;
         self.member(figure)?;
-        self.not_driven(figure)?;
+        self.may_direct(figure, who)?;
         self.hold(figure);
         Ok(())
     }
@@ -85,36 +86,41 @@ impl Shard {
         self.working()?;
         self.check_figures(&open.figures)?;
         let now = Instant::now();
-        let driver = match (open.driver.as_str(), connection) {
-            ("", None) => "push".to_owned(),
-            ("", Some(_)) => loop {
-                let name = format!("driver-{}", self.next_driver);
-                self.next_driver += 1;
-                if self.drives.iter().all(|d| d.driver != name) {
-                    break name;
-                }
-            },
-            (name, _) => name.to_owned(),
+        let who = &open.who;
+        self.leases
+            .check_all(&open.figures, &who.principal, &who.tokens, now)?;
+        let id = DriverId {
+            principal: who.principal.clone(),
+            name: self.driver_name(&open.driver, connection),
         };
         for figure in &open.figures {
-            if let Some(other) = self
-                .drives
-                .iter()
-                .find(|d| d.driver != driver && d.has(figure))
-            {
+            let other = |d: &&Drive| d.id != id && d.has(figure);
+            let other = self.drives.iter().find(other);
+            if let Some(other) = other.filter(|_| self.takeover(figure).is_none()) {
                 return Err(other.controlled(figure, now));
             }
         }
-        if let Some(d) = self.drives.iter_mut().find(|d| d.driver == driver) {
-            if d.drives(&open.figures) {
+        if let Some(d) = self.drives.iter_mut().find(|d| d.id == id) {
+            if d.drives(&open.figures) && who.tokens == d.mailbox.tokens() {
                 d.touch(connection, now); // the same driver comes back: its motion goes on
-                return Ok(Arc::clone(&d.mailbox));
+                let mailbox = Arc::clone(&d.mailbox);
+                self.use_leases(now);
+                return Ok(mailbox);
             }
-            self.end_drive(&driver, "drives other figures now");
+            self.end_drive(&id, "drives other figures now");
         }
         let mut slots = Vec::with_capacity(open.figures.len());
         for figure in &open.figures {
-            self.hold(figure);
+            let takeover = self.takeover(figure);
+            match takeover {
+                // What it does goes on until there is motion to go over to.
+                Some(_) => self
+                    .leases
+                    .of_mut(figure)
+                    .into_iter()
+                    .for_each(|l| l.takeover = None),
+                None => self.hold(figure),
+            }
             let key = self.members[self.member(figure)?].key;
             let f = self.world.figure(key).expect("members are in the world");
             let stand = engine::standing(f.body(), Place::default());
@@ -125,6 +131,7 @@ impl Shard {
                 key: Some(key),
                 body: f.body().clone(),
                 window,
+                takeover,
                 buffer: JitterBuffer::new(
                     open.settings.clone(),
                     self.world.dt(),
@@ -135,7 +142,7 @@ impl Shard {
             });
         }
         if !open.settings.reset {
-            for slot in &mut slots {
+            for slot in slots.iter_mut().filter(|s| s.takeover.is_none()) {
                 let f = slot.key.and_then(|k| self.world.figure(k));
                 if let (Some(f), Some(window)) = (f, &mut slot.window) {
                     window.lead_in(&f.target().next.posture);
@@ -143,15 +150,40 @@ impl Shard {
             }
         }
         let settings = open.settings.clone();
-        let drive = Drive::new(driver.clone(), connection, settings, slots, now);
+        let drive = Drive::new(id.clone(), connection, settings, slots, now);
         let mailbox = Arc::clone(&drive.mailbox);
+        mailbox.keep_tokens(&who.tokens);
         mailbox.publish(drive.feedback(self.world.tick()));
         self.mailboxes.insert(Arc::clone(&mailbox));
         self.drives.push(drive);
         for figure in &open.figures {
-            self.event(figure, EventKind::DriveBegan(driver.clone()));
+            if self.leases.of(figure).is_none() {
+                self.leases.count(figure); // a lease without a token
+            }
+            self.event(figure, EventKind::DriveBegan(id.name.to_string()));
         }
+        self.use_leases(now);
         Ok(mailbox)
+    }
+
+    /// What a driver is called.
+    fn driver_name(&mut self, asked: &str, connection: Option<u64>) -> Arc<str> {
+        match (asked, connection) {
+            ("", None) => "push".into(),
+            ("", Some(_)) => loop {
+                let name = format!("driver-{}", self.next_driver);
+                self.next_driver += 1;
+                if self.drives.iter().all(|d| *d.id.name != *name) {
+                    break name.into();
+                }
+            },
+            (name, _) => name.into(),
+        }
+    }
+
+    /// How long the figure goes over to the motion of a new holder of its lease, s, if it is to.
+    fn takeover(&self, figure: &str) -> Option<f64> {
+        self.leases.of(figure)?.takeover
     }
 
     /// Takes what drivers have sent since the last tick.
@@ -188,7 +220,7 @@ impl Shard {
         for drive in &mut self.drives {
             for slot in drive.slots.iter_mut().filter(|s| s.key.is_some()) {
                 if let Some(why) = slot.buffer.take_notice() {
-                    let detail = format!("{}: {}", drive.driver, why.reason());
+                    let detail = format!("{}: {}", drive.id.name, why.reason());
                     told.push((slot.figure.clone(), detail));
                 }
             }
@@ -214,46 +246,52 @@ impl Shard {
     }
 
     /// What the driver of a stream is told.
-    pub fn feedback(&mut self, driver: &str, connection: u64) -> Result<Feedback, Fault> {
+    pub fn feedback(&mut self, driver: &DriverId, connection: u64) -> Result<Feedback, Fault> {
         let (tick, scheduled) = (self.world.tick(), self.schedule());
         let d = self
             .drives
             .iter_mut()
-            .find(|d| d.driver == driver && d.connection == Some(connection))
-            .ok_or_else(|| fenced(driver))?;
+            .find(|d| d.id == *driver && d.connection == Some(connection))
+            .ok_or_else(|| fenced(&driver.name))?;
         d.collect(scheduled, Instant::now());
         Ok(d.feedback(tick))
     }
 
     /// A stream ended: `kept` if it was lost and the driver may come back.
-    pub fn close_drive(&mut self, driver: &str, connection: u64, kept: bool) {
+    pub fn close_drive(&mut self, driver: &DriverId, connection: u64, kept: bool) {
         let Some(d) = self
             .drives
             .iter_mut()
-            .find(|d| d.driver == driver && d.connection == Some(connection))
+            .find(|d| d.id == *driver && d.connection == Some(connection))
         else {
             return; // someone with this name has taken over
         };
+        let now = Instant::now();
         if kept {
-            d.lost(Instant::now());
-        } else {
+            d.lost(now);
+        }
+        self.release_leases(driver, now);
+        if !kept {
             self.end_drive(driver, "given back");
         }
     }
 
-    pub(super) fn end_drive(&mut self, driver: &str, why: &str) {
-        let Some(i) = self.drives.iter().position(|d| d.driver == driver) else {
+    pub(super) fn end_drive(&mut self, driver: &DriverId, why: &str) {
+        let Some(i) = self.drives.iter().position(|d| d.id == *driver) else {
             return;
         };
         let drive = self.drives.remove(i);
         self.touch();
-        drive.mailbox.close(fenced(driver));
+        drive.mailbox.close(fenced(&driver.name));
         self.mailboxes.remove(driver);
         for slot in drive.slots.iter().filter(|s| s.key.is_some()) {
-            self.hold(&slot.figure);
+            // One whose motion was never there has nothing to stop.
+            if slot.takeover.is_none() {
+                self.hold(&slot.figure);
+            }
             self.event(
                 &slot.figure,
-                EventKind::DriveEnded(format!("{driver}: {why}")),
+                EventKind::DriveEnded(format!("{}: {why}", driver.name)),
             );
         }
     }
@@ -264,18 +302,50 @@ impl Shard {
             .drives
             .iter()
             .find(|d| d.expires.is_some_and(|at| at <= now))
-            .map(|d| d.driver.clone())
+            .map(|d| d.id.clone())
         {
             self.end_drive(&driver, "its time is over");
+        }
+        self.use_leases(now);
+        self.expire_leases(now);
+    }
+
+    /// Lets figures go over to the motion of those who took them over, where it is there.
+    fn take_over(&mut self, now: Now) {
+        for d in 0..self.drives.len() {
+            for s in 0..self.drives.get(d).map_or(0, |d| d.slots.len()) {
+                let slot = &mut self.drives[d].slots[s];
+                let Some(blend) = slot.takeover.filter(|_| slot.key.is_some()) else {
+                    continue;
+                };
+                if !slot.buffer.is_due(now) {
+                    continue;
+                }
+                slot.takeover = None;
+                let (figure, key) = (slot.figure.clone(), slot.key);
+                // The one before ends here. It came earlier, so it lies before this one.
+                let drives = self.drives.len();
+                self.detach(&figure, "the lease was handed over");
+                let d = d - (drives - self.drives.len());
+                let f = key.and_then(|k| self.world.figure_mut(k));
+                if let Some(f) = f {
+                    self.drives[d].slots[s].join(f, now, blend);
+                }
+                return self.take_over(now);
+            }
         }
     }
 
     /// Hands the desired motion of this tick to driven figures.
     pub(in crate::server::tick) fn sample_motion(&mut self) {
         let now = self.now();
+        self.take_over(now);
         for drive in &mut self.drives {
             for slot in &mut drive.slots {
-                let Some(key) = slot.key else { continue };
+                // Until its own motion is there the one before goes on.
+                let Some(key) = slot.key.filter(|_| slot.takeover.is_none()) else {
+                    continue;
+                };
                 if slot.window.is_some() {
                     let Some(f) = self.world.figure_mut(key) else {
                         continue;

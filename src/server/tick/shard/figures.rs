@@ -5,7 +5,9 @@ use crate::server::engine::{self, Drive as Motion};
 use crate::sim::body::{Body, State};
 use crate::sim::figure::ControlParams;
 use crate::wire::status::Fault;
-use crate::wire::types::{EventKind, FigureInfo, FigureSettings, FigureUpdate, Place, RosterEntry};
+use crate::wire::types::{
+    ControlKey, EventKind, FigureInfo, FigureSettings, FigureUpdate, Place, RosterEntry,
+};
 use std::sync::Arc;
 
 impl Shard {
@@ -41,7 +43,7 @@ impl Shard {
                 .drives
                 .iter()
                 .find(|d| d.has(&m.id))
-                .map(|d| d.driver.clone()),
+                .map(|d| d.id.name.to_string()),
             index: m.index,
             constraints: engine::constraints(f, self.world.time()),
         }
@@ -122,9 +124,16 @@ impl Shard {
     }
 
     /// Changes strength, controller or name.
-    pub fn update_figure(&mut self, figure: &str, u: FigureUpdate) -> Result<FigureInfo, Fault> {
+    /// `who`: a driver, whom others who control the figure keep out; `None`: a director.
+    pub fn update_figure(
+        &mut self,
+        figure: &str,
+        u: FigureUpdate,
+        who: Option<&ControlKey>,
+    ) -> Result<FigureInfo, Fault> {
         self.working()?;
         let i = self.member(figure)?;
+        who.map_or(Ok(()), |who| self.may_adjust(figure, who))?;
         let m = &mut self.members[i];
         if let Some(all) = &u.constraints {
             engine::set_constraints(&mut self.world, m.key, all)?;
@@ -164,6 +173,7 @@ impl Shard {
         self.world.remove_figure(m.key);
         self.budget.remove_figure(&self.account);
         self.take_from_driver(figure);
+        self.leases.forget(figure);
         self.roster_changed();
         self.event(figure, EventKind::FigureRemoved);
         Ok(())
@@ -179,11 +189,11 @@ impl Shard {
         for slot in drive.slots.iter_mut().filter(|s| s.figure == figure) {
             slot.key = None;
         }
-        let ended = format!("{}: the figure was removed", drive.driver);
+        let ended = format!("{}: the figure was removed", drive.id.name);
         if drive.slots.iter().all(|s| s.key.is_none()) {
             let drive = self.drives.remove(i);
             drive.mailbox.close(Fault::not_found("figure", name));
-            self.mailboxes.remove(&drive.driver);
+            self.mailboxes.remove(&drive.id);
         }
         self.event(figure, EventKind::DriveEnded(ended));
     }
@@ -193,10 +203,11 @@ impl Shard {
         &mut self,
         figure: &str,
         place: Option<Place>,
+        who: &ControlKey,
     ) -> Result<FigureInfo, Fault> {
         self.working()?;
         let i = self.member(figure)?;
-        self.not_driven(figure)?;
+        self.may_direct(figure, who)?;
         let m = &mut self.members[i];
         let f = self
             .world

@@ -176,8 +176,11 @@ struct ShiftState {
 struct Placement {
     /// A stream that jumps goes on from where it was.
     frame: PlanarTransform,
-    /// What is left of a jump, and the samples since.
-    fade: Option<([f64; NV], i64)>,
+    /// What is left of a jump, the samples since, and the time over which it fades, s.
+    fade: Option<([f64; NV], i64, f64)>,
+    /// From the sample of this number on it is another stream: that is a jump, however small, that fades over this
+    /// time, s.
+    join: Option<(i64, f64)>,
 }
 
 /// A stream of one figure on its way to a motion. Times count from the first sample, s.
@@ -274,6 +277,12 @@ impl StreamPlan {
         self.input.newest.breaks_off()
     }
 
+    /// Another stream goes on from here: what is pushed next is moved to where this one is, and the difference fades
+    /// over `blend` seconds.
+    pub fn join(&mut self, blend: f64) {
+        self.placement.join = Some((self.fed(), blend.max(H)));
+    }
+
     /// The next sample, 1/[`RATE`] s after the last one.
     ///
     /// * `planted`: feet on the floor (left, right), if the sender knows.
@@ -351,7 +360,9 @@ impl StreamPlan {
         let far = (off[3] * off[3] + off[4] * off[4] + off[5] * off[5]).sqrt();
         let beyond = |e: &&f64| e.abs() > stream::JUMP_ANGLE;
         // One joint alone that snaps is a glitch of its own; a stream that jumps takes the body along.
-        let jumped = far > stream::JUMP_DISTANCE
+        let join = self.placement.join.take_if(|(from, _)| *from <= self.count);
+        let jumped = join.is_some()
+            || far > stream::JUMP_DISTANCE
             || off[..3].iter().any(|e| beyond(&e))
             || off[6..].iter().filter(beyond).count() >= stream::JUMP_JOINTS;
         if jumped {
@@ -370,12 +381,13 @@ impl StreamPlan {
             };
             self.placement.frame = step.after(self.placement.frame);
             step.apply_posture(&mut p);
-            self.placement.fade = Some((p.difference(&led), 0));
+            let time = join.map_or(transition::BLEND_TIME, |(_, blend)| blend);
+            self.placement.fade = Some((p.difference(&led), 0, time));
             faded = self.faded(&p);
         }
-        if let Some((_, since)) = &mut self.placement.fade {
+        if let Some((_, since, time)) = &mut self.placement.fade {
             *since += 1;
-            if *since as f64 * H >= transition::BLEND_TIME {
+            if *since as f64 * H >= *time {
                 self.placement.fade = None;
             }
         }
@@ -384,8 +396,8 @@ impl StreamPlan {
 
     fn faded(&self, posture: &Posture) -> Posture {
         let mut p = *posture;
-        if let Some((e, since)) = &self.placement.fade {
-            let u = (*since as f64 * H / transition::BLEND_TIME).min(1.0);
+        if let Some((e, since, time)) = &self.placement.fade {
+            let u = (*since as f64 * H / time).min(1.0);
             let s = 1.0 - smootherstep(u);
             p.integrate(&e.map(|e| e * s), 1.0);
         }

@@ -720,6 +720,11 @@ class UpdateFigureRequest(_message.Message):
 
     FIGURE_FIELD_NUMBER: _builtins.int
     UPDATE_MASK_FIELD_NUMBER: _builtins.int
+    CONTROL_TOKEN_FIELD_NUMBER: _builtins.int
+    control_token: _builtins.str
+    """Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
+    the valid one.
+    """
     @_builtins.property
     def figure(self) -> Global___Figure:
         """The figure, by `name`, with new values."""
@@ -735,10 +740,11 @@ class UpdateFigureRequest(_message.Message):
         *,
         figure: Global___Figure | None = ...,
         update_mask: _field_mask_pb2.FieldMask | None = ...,
+        control_token: _builtins.str = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["figure", b"figure", "update_mask", b"update_mask"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["figure", b"figure", "update_mask", b"update_mask"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["control_token", b"control_token", "figure", b"figure", "update_mask", b"update_mask"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
@@ -815,8 +821,13 @@ class ResetFigureRequest(_message.Message):
 
     NAME_FIELD_NUMBER: _builtins.int
     PLACEMENT_FIELD_NUMBER: _builtins.int
+    CONTROL_TOKEN_FIELD_NUMBER: _builtins.int
     name: _builtins.str
     """Resource name `worlds/{world}/figures/{figure}`."""
+    control_token: _builtins.str
+    """Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
+    the valid one.
+    """
     @_builtins.property
     def placement(self) -> _types_pb2.Placement:
         """Where it stands. Absent: where it was created."""
@@ -826,10 +837,11 @@ class ResetFigureRequest(_message.Message):
         *,
         name: _builtins.str = ...,
         placement: _types_pb2.Placement | None = ...,
+        control_token: _builtins.str = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["placement", b"placement"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["name", b"name", "placement", b"placement"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["control_token", b"control_token", "name", b"name", "placement", b"placement"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 

@@ -638,6 +638,7 @@ class PlayClipRequest(_message.Message):
     START_TIME_S_FIELD_NUMBER: _builtins.int
     RESET_FIELD_NUMBER: _builtins.int
     PLACEMENT_FIELD_NUMBER: _builtins.int
+    CONTROL_TOKEN_FIELD_NUMBER: _builtins.int
     figure: _builtins.str
     """Figure: resource name `worlds/{world}/figures/{figure}`."""
     clip: _builtins.str
@@ -656,6 +657,10 @@ class PlayClipRequest(_message.Message):
     """Puts the figure into the clip's first posture and velocity at once. Default: false, it comes into it from standing,
     by steps of its own if the recording begins in motion. Without `loop` it ends standing in the same way.
     """
+    control_token: _builtins.str
+    """Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
+    the valid one.
+    """
     @_builtins.property
     def placement(self) -> _types_pb2.Placement:
         """Where the clip begins, with the steps that lead into it. Absent: where the figure is, or where its feet are once it
@@ -672,10 +677,11 @@ class PlayClipRequest(_message.Message):
         start_time_s: _builtins.float | None = ...,
         reset: _builtins.bool = ...,
         placement: _types_pb2.Placement | None = ...,
+        control_token: _builtins.str = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["_start_time_s", b"_start_time_s", "placement", b"placement", "start_time_s", b"start_time_s"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["_start_time_s", b"_start_time_s", "clip", b"clip", "figure", b"figure", "loop", b"loop", "placement", b"placement", "reset", b"reset", "speed", b"speed", "start_time_s", b"start_time_s"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_start_time_s", b"_start_time_s", "clip", b"clip", "control_token", b"control_token", "figure", b"figure", "loop", b"loop", "placement", b"placement", "reset", b"reset", "speed", b"speed", "start_time_s", b"start_time_s"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     _WhichOneofReturnType__start_time_s: _TypeAlias = _typing.Literal["start_time_s"]  # noqa: Y015
     _WhichOneofArgType__start_time_s: _TypeAlias = _typing.Literal["_start_time_s", b"_start_time_s"]  # noqa: Y015
@@ -716,16 +722,22 @@ class StopClipRequest(_message.Message):
     DESCRIPTOR: _descriptor.Descriptor
 
     FIGURE_FIELD_NUMBER: _builtins.int
+    CONTROL_TOKEN_FIELD_NUMBER: _builtins.int
     figure: _builtins.str
     """Figure: resource name `worlds/{world}/figures/{figure}`."""
+    control_token: _builtins.str
+    """Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
+    the valid one.
+    """
     def __init__(
         self,
         *,
         figure: _builtins.str = ...,
+        control_token: _builtins.str = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["figure", b"figure"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["control_token", b"control_token", "figure", b"figure"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
@@ -884,6 +896,7 @@ class DriveHeader(_message.Message):
     GRACE_MS_FIELD_NUMBER: _builtins.int
     RESET_FIELD_NUMBER: _builtins.int
     PREPARATION_WINDOW_MS_FIELD_NUMBER: _builtins.int
+    CONTROL_TOKENS_FIELD_NUMBER: _builtins.int
     world: _builtins.str
     """World: resource name `worlds/{world}`."""
     driver_id: _builtins.str
@@ -920,6 +933,12 @@ class DriveHeader(_message.Message):
     def figures(self) -> _containers.RepeatedScalarFieldContainer[_builtins.str]:
         """Figures that are driven: last parts of their names. At least one."""
 
+    @_builtins.property
+    def control_tokens(self) -> _containers.RepeatedScalarFieldContainer[_builtins.str]:
+        """Tokens of the leases of those figures that have one (`AcquireControl`), in any order. CONTROL_FENCED if one of them
+        is no longer valid.
+        """
+
     def __init__(
         self,
         *,
@@ -935,10 +954,11 @@ class DriveHeader(_message.Message):
         grace_ms: _builtins.float | None = ...,
         reset: _builtins.bool = ...,
         preparation_window_ms: _builtins.float | None = ...,
+        control_tokens: _abc.Iterable[_builtins.str] | None = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["_extrapolation_limit_ms", b"_extrapolation_limit_ms", "_grace_ms", b"_grace_ms", "_hold_limit_ms", b"_hold_limit_ms", "_playout_delay_ms", b"_playout_delay_ms", "_preparation_window_ms", b"_preparation_window_ms", "extrapolation_limit_ms", b"extrapolation_limit_ms", "grace_ms", b"grace_ms", "hold_limit_ms", b"hold_limit_ms", "playout_delay_ms", b"playout_delay_ms", "preparation_window_ms", b"preparation_window_ms"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["_extrapolation_limit_ms", b"_extrapolation_limit_ms", "_grace_ms", b"_grace_ms", "_hold_limit_ms", b"_hold_limit_ms", "_playout_delay_ms", b"_playout_delay_ms", "_preparation_window_ms", b"_preparation_window_ms", "driver_id", b"driver_id", "extrapolation_limit_ms", b"extrapolation_limit_ms", "figures", b"figures", "grace_ms", b"grace_ms", "hold_limit_ms", b"hold_limit_ms", "max_playout_delay_ms", b"max_playout_delay_ms", "nominal_rate_hz", b"nominal_rate_hz", "playout_delay_ms", b"playout_delay_ms", "preparation_window_ms", b"preparation_window_ms", "reset", b"reset", "underrun", b"underrun", "world", b"world"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_extrapolation_limit_ms", b"_extrapolation_limit_ms", "_grace_ms", b"_grace_ms", "_hold_limit_ms", b"_hold_limit_ms", "_playout_delay_ms", b"_playout_delay_ms", "_preparation_window_ms", b"_preparation_window_ms", "control_tokens", b"control_tokens", "driver_id", b"driver_id", "extrapolation_limit_ms", b"extrapolation_limit_ms", "figures", b"figures", "grace_ms", b"grace_ms", "hold_limit_ms", b"hold_limit_ms", "max_playout_delay_ms", b"max_playout_delay_ms", "nominal_rate_hz", b"nominal_rate_hz", "playout_delay_ms", b"playout_delay_ms", "preparation_window_ms", b"preparation_window_ms", "reset", b"reset", "underrun", b"underrun", "world", b"world"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     _WhichOneofReturnType__extrapolation_limit_ms: _TypeAlias = _typing.Literal["extrapolation_limit_ms"]  # noqa: Y015
     _WhichOneofArgType__extrapolation_limit_ms: _TypeAlias = _typing.Literal["_extrapolation_limit_ms", b"_extrapolation_limit_ms"]  # noqa: Y015

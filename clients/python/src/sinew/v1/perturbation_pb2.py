@@ -22,32 +22,37 @@ _runtime_version.ValidateProtobufRuntimeVersion(
 _sym_db = _symbol_database.Default()
 
 
+from sinew.v1 import options_pb2 as sinew_dot_v1_dot_options__pb2
 from sinew.v1 import types_pb2 as sinew_dot_v1_dot_types__pb2
 
 
-DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x1bsinew/v1/perturbation.proto\x12\x08sinew.v1\x1a\x14sinew/v1/types.proto\"\xdc\x01\n\x04Load\x12\x0f\n\x07segment\x18\x01 \x01(\t\x12\"\n\x07point_m\x18\x02 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12\x0f\n\x07mass_kg\x18\x03 \x01(\x01\x12\x12\n\nduration_s\x18\x04 \x01(\x01\x12\'\n\x0cvelocity_mps\x18\x05 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12\x16\n\x0esecond_segment\x18\x06 \x01(\t\x12)\n\x0esecond_point_m\x18\x07 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12\x0e\n\x06grip_n\x18\x08 \x01(\x01\"y\n\x07Impulse\x12\x0f\n\x07segment\x18\x01 \x01(\t\x12\"\n\x07point_m\x18\x02 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12%\n\nimpulse_ns\x18\x03 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12\x12\n\nduration_s\x18\x04 \x01(\x01\"t\n\x05\x46orce\x12\x0f\n\x07segment\x18\x01 \x01(\t\x12\"\n\x07point_m\x18\x02 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12\"\n\x07\x66orce_n\x18\x03 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12\x12\n\nduration_s\x18\x04 \x01(\x01\"\xaa\x01\n\x0cPerturbation\x12\x0e\n\x06\x66igure\x18\x01 \x01(\t\x12\x11\n\x04tick\x18\x02 \x01(\x03H\x01\x88\x01\x01\x12\x1e\n\x04load\x18\x03 \x01(\x0b\x32\x0e.sinew.v1.LoadH\x00\x12$\n\x07impulse\x18\x04 \x01(\x0b\x32\x11.sinew.v1.ImpulseH\x00\x12 \n\x05\x66orce\x18\x05 \x01(\x0b\x32\x0f.sinew.v1.ForceH\x00\x42\x06\n\x04kindB\x07\n\x05_tick\"~\n\x19\x41pplyPerturbationsRequest\x12\r\n\x05world\x18\x01 \x01(\t\x12\x11\n\tclient_id\x18\x02 \x01(\t\x12\x10\n\x08sequence\x18\x03 \x01(\x03\x12-\n\rperturbations\x18\x04 \x03(\x0b\x32\x16.sinew.v1.Perturbation\"*\n\x1a\x41pplyPerturbationsResponse\x12\x0c\n\x04tick\x18\x01 \x01(\x03\"+\n\x19\x43learPerturbationsRequest\x12\x0e\n\x06\x66igure\x18\x01 \x01(\t\"*\n\x1a\x43learPerturbationsResponse\x12\x0c\n\x04tick\x18\x01 \x01(\x03\x32\xd7\x01\n\x13PerturbationService\x12_\n\x12\x41pplyPerturbations\x12#.sinew.v1.ApplyPerturbationsRequest\x1a$.sinew.v1.ApplyPerturbationsResponse\x12_\n\x12\x43learPerturbations\x12#.sinew.v1.ClearPerturbationsRequest\x1a$.sinew.v1.ClearPerturbationsResponseb\x06proto3')
+DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x1bsinew/v1/perturbation.proto\x12\x08sinew.v1\x1a\x16sinew/v1/options.proto\x1a\x14sinew/v1/types.proto\"\xdc\x01\n\x04Load\x12\x0f\n\x07segment\x18\x01 \x01(\t\x12\"\n\x07point_m\x18\x02 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12\x0f\n\x07mass_kg\x18\x03 \x01(\x01\x12\x12\n\nduration_s\x18\x04 \x01(\x01\x12\'\n\x0cvelocity_mps\x18\x05 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12\x16\n\x0esecond_segment\x18\x06 \x01(\t\x12)\n\x0esecond_point_m\x18\x07 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12\x0e\n\x06grip_n\x18\x08 \x01(\x01\"y\n\x07Impulse\x12\x0f\n\x07segment\x18\x01 \x01(\t\x12\"\n\x07point_m\x18\x02 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12%\n\nimpulse_ns\x18\x03 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12\x12\n\nduration_s\x18\x04 \x01(\x01\"t\n\x05\x46orce\x12\x0f\n\x07segment\x18\x01 \x01(\t\x12\"\n\x07point_m\x18\x02 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12\"\n\x07\x66orce_n\x18\x03 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12\x12\n\nduration_s\x18\x04 \x01(\x01\"\xaa\x01\n\x0cPerturbation\x12\x0e\n\x06\x66igure\x18\x01 \x01(\t\x12\x11\n\x04tick\x18\x02 \x01(\x03H\x01\x88\x01\x01\x12\x1e\n\x04load\x18\x03 \x01(\x0b\x32\x0e.sinew.v1.LoadH\x00\x12$\n\x07impulse\x18\x04 \x01(\x0b\x32\x11.sinew.v1.ImpulseH\x00\x12 \n\x05\x66orce\x18\x05 \x01(\x0b\x32\x0f.sinew.v1.ForceH\x00\x42\x06\n\x04kindB\x07\n\x05_tick\"~\n\x19\x41pplyPerturbationsRequest\x12\r\n\x05world\x18\x01 \x01(\t\x12\x11\n\tclient_id\x18\x02 \x01(\t\x12\x10\n\x08sequence\x18\x03 \x01(\x03\x12-\n\rperturbations\x18\x04 \x03(\x0b\x32\x16.sinew.v1.Perturbation\"*\n\x1a\x41pplyPerturbationsResponse\x12\x0c\n\x04tick\x18\x01 \x01(\x03\"+\n\x19\x43learPerturbationsRequest\x12\x0e\n\x06\x66igure\x18\x01 \x01(\t\"*\n\x1a\x43learPerturbationsResponse\x12\x0c\n\x04tick\x18\x01 \x01(\x03\x32\xe3\x01\n\x13PerturbationService\x12\x65\n\x12\x41pplyPerturbations\x12#.sinew.v1.ApplyPerturbationsRequest\x1a$.sinew.v1.ApplyPerturbationsResponse\"\x04\xe8\xe0\x18\x02\x12\x65\n\x12\x43learPerturbations\x12#.sinew.v1.ClearPerturbationsRequest\x1a$.sinew.v1.ClearPerturbationsResponse\"\x04\xe8\xe0\x18\x02\x62\x06proto3')
 
 _globals = globals()
 _builder.BuildMessageAndEnumDescriptors(DESCRIPTOR, _globals)
 _builder.BuildTopDescriptorsAndMessages(DESCRIPTOR, 'sinew.v1.perturbation_pb2', _globals)
 if not _descriptor._USE_C_DESCRIPTORS:
   DESCRIPTOR._loaded_options = None
-  _globals['_LOAD']._serialized_start=64
-  _globals['_LOAD']._serialized_end=284
-  _globals['_IMPULSE']._serialized_start=286
-  _globals['_IMPULSE']._serialized_end=407
-  _globals['_FORCE']._serialized_start=409
-  _globals['_FORCE']._serialized_end=525
-  _globals['_PERTURBATION']._serialized_start=528
-  _globals['_PERTURBATION']._serialized_end=698
-  _globals['_APPLYPERTURBATIONSREQUEST']._serialized_start=700
-  _globals['_APPLYPERTURBATIONSREQUEST']._serialized_end=826
-  _globals['_APPLYPERTURBATIONSRESPONSE']._serialized_start=828
-  _globals['_APPLYPERTURBATIONSRESPONSE']._serialized_end=870
-  _globals['_CLEARPERTURBATIONSREQUEST']._serialized_start=872
-  _globals['_CLEARPERTURBATIONSREQUEST']._serialized_end=915
-  _globals['_CLEARPERTURBATIONSRESPONSE']._serialized_start=917
-  _globals['_CLEARPERTURBATIONSRESPONSE']._serialized_end=959
-  _globals['_PERTURBATIONSERVICE']._serialized_start=962
-  _globals['_PERTURBATIONSERVICE']._serialized_end=1177
+  _globals['_PERTURBATIONSERVICE'].methods_by_name['ApplyPerturbations']._loaded_options = None
+  _globals['_PERTURBATIONSERVICE'].methods_by_name['ApplyPerturbations']._serialized_options = b'\350\340\030\002'
+  _globals['_PERTURBATIONSERVICE'].methods_by_name['ClearPerturbations']._loaded_options = None
+  _globals['_PERTURBATIONSERVICE'].methods_by_name['ClearPerturbations']._serialized_options = b'\350\340\030\002'
+  _globals['_LOAD']._serialized_start=88
+  _globals['_LOAD']._serialized_end=308
+  _globals['_IMPULSE']._serialized_start=310
+  _globals['_IMPULSE']._serialized_end=431
+  _globals['_FORCE']._serialized_start=433
+  _globals['_FORCE']._serialized_end=549
+  _globals['_PERTURBATION']._serialized_start=552
+  _globals['_PERTURBATION']._serialized_end=722
+  _globals['_APPLYPERTURBATIONSREQUEST']._serialized_start=724
+  _globals['_APPLYPERTURBATIONSREQUEST']._serialized_end=850
+  _globals['_APPLYPERTURBATIONSRESPONSE']._serialized_start=852
+  _globals['_APPLYPERTURBATIONSRESPONSE']._serialized_end=894
+  _globals['_CLEARPERTURBATIONSREQUEST']._serialized_start=896
+  _globals['_CLEARPERTURBATIONSREQUEST']._serialized_end=939
+  _globals['_CLEARPERTURBATIONSRESPONSE']._serialized_start=941
+  _globals['_CLEARPERTURBATIONSRESPONSE']._serialized_end=983
+  _globals['_PERTURBATIONSERVICE']._serialized_start=986
+  _globals['_PERTURBATIONSERVICE']._serialized_end=1213
 # @@protoc_insertion_point(module_scope)

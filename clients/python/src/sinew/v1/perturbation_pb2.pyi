@@ -219,8 +219,8 @@ class ApplyPerturbationsRequest(_message.Message):
     world: _builtins.str
     """World: resource name `worlds/{world}`."""
     client_id: _builtins.str
-    """Name of the client, at most 64 bytes. Requests that meet in one tick act in the order of (client, sequence). Empty:
-    the connection.
+    """Name of the client, at most 64 bytes. Requests that meet in one tick act in the order of (principal, client,
+    sequence); without authentication, of (client, sequence). Empty: the connection, if there is no principal.
     """
     sequence: _builtins.int
     """Number of the request at this client. Default: 0."""

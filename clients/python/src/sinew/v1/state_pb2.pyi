@@ -78,6 +78,18 @@ class _EventTypeEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_EventType.V
     """An obstacle was added."""
     EVENT_TYPE_OBSTACLE_REMOVED: _EventType.ValueType  # 34
     """An obstacle was removed."""
+    EVENT_TYPE_CONTROL_ACQUIRED: _EventType.ValueType  # 40
+    """A lease of the figure began, or went to another holder; the detail names the holder."""
+    EVENT_TYPE_CONTROL_RELEASED: _EventType.ValueType  # 41
+    """A lease of the figure ended; the detail names the holder and says why."""
+    EVENT_TYPE_CONTROL_PREEMPTED: _EventType.ValueType  # 42
+    """A lease was taken by someone of higher priority; the detail names both."""
+    EVENT_TYPE_CONTROL_OFFERED: _EventType.ValueType  # 43
+    """The holder of a lease offered it to someone; the detail names both."""
+    EVENT_TYPE_ACCESS_REFUSED: _EventType.ValueType  # 44
+    """Someone was refused what only the holder of the lease, or a higher role, may do; the detail names him. At most one
+    a second of each world.
+    """
 
 class EventType(_EventType, metaclass=_EventTypeEnumTypeWrapper):
     """What happened."""
@@ -132,6 +144,18 @@ EVENT_TYPE_OBSTACLE_ADDED: EventType.ValueType  # 33
 """An obstacle was added."""
 EVENT_TYPE_OBSTACLE_REMOVED: EventType.ValueType  # 34
 """An obstacle was removed."""
+EVENT_TYPE_CONTROL_ACQUIRED: EventType.ValueType  # 40
+"""A lease of the figure began, or went to another holder; the detail names the holder."""
+EVENT_TYPE_CONTROL_RELEASED: EventType.ValueType  # 41
+"""A lease of the figure ended; the detail names the holder and says why."""
+EVENT_TYPE_CONTROL_PREEMPTED: EventType.ValueType  # 42
+"""A lease was taken by someone of higher priority; the detail names both."""
+EVENT_TYPE_CONTROL_OFFERED: EventType.ValueType  # 43
+"""The holder of a lease offered it to someone; the detail names both."""
+EVENT_TYPE_ACCESS_REFUSED: EventType.ValueType  # 44
+"""Someone was refused what only the holder of the lease, or a higher role, may do; the detail names him. At most one
+a second of each world.
+"""
 Global___EventType: _TypeAlias = EventType  # noqa: Y015
 
 @_typing.final

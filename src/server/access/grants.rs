@@ -1,0 +1,368 @@
+//! Who has which roles in one world.
+
+use super::caller::{Caller, EVERYONE, Identity};
+use super::limits::Bucket;
+use super::roles::{Role, Roles};
+use crate::wire::status::Fault;
+use crate::wire::types::{Disturbance, FigureDisturbance};
+use std::collections::{BTreeMap, HashMap};
+use std::sync::{Arc, Mutex, PoisonError, RwLock};
+use std::time::{Instant, SystemTime};
+use tokio::sync::watch;
+
+/// Grants of a world.
+const MOST_GRANTS: usize = 256;
+/// Priority that owners and directors take leases with at most.
+pub const TOP_PRIORITY: i32 = 100;
+/// Seconds' worth of perturbations that may come at once.
+const PERTURBATION_BURST_S: f64 = 10.0;
+/// Gravity by which the mass of a load is a force, m/s².
+const GRAVITY: f64 = 9.81;
+
+/// What a perturber may do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// Largest force, N.
+    pub force: f64,
+    /// Largest mass of a load, kg.
+    pub mass: f64,
+    /// Perturbations per second in the long run.
+    pub rate: f64,
+}
+
+impl Bounds {
+    /// None but those of the calls.
+    pub const NONE: Self = Self {
+        force: f64::INFINITY,
+        mass: f64::INFINITY,
+        rate: f64::INFINITY,
+    };
+
+    /// Bounds as they are given: the mass is as heavy as the force if it is not told.
+    pub fn new(force: Option<f64>, mass: Option<f64>, rate: Option<f64>) -> Self {
+        let force = force.unwrap_or(f64::INFINITY);
+        Self {
+            force,
+            mass: mass.unwrap_or(force / GRAVITY),
+            rate: rate.unwrap_or(f64::INFINITY),
+        }
+    }
+
+    /// What either allows.
+    fn or(self, other: Self) -> Self {
+        Self {
+            force: self.force.max(other.force),
+            mass: self.mass.max(other.mass),
+            rate: self.rate.max(other.rate),
+        }
+    }
+
+    /// Checks the sizes of a batch.
+    fn check(&self, batch: &[FigureDisturbance]) -> Result<(), (String, String)> {
+        for (i, d) in batch.iter().enumerate() {
+            let (what, value, most, unit) = match &d.what {
+                Disturbance::Force { force, .. } => ("force", force.norm(), self.force, "N"),
+                Disturbance::Load { mass, .. } => ("mass", *mass, self.mass, "kg"),
+            };
+            // What came over the wire is finite.
+            if value > most {
+                let limit = format!(
+                    "the grant allows a {what} of {most} {unit}, asked for were {value:.3}"
+                );
+                return Err((format!("perturbations[{i}]"), limit));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Roles of one principal.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grant {
+    /// Last part of its name.
+    pub id: String,
+    /// To whom.
+    pub principal: Arc<str>,
+    /// Roles as they were given.
+    pub roles: Vec<Role>,
+    /// Figures that the role of a driver is for; empty: all.
+    pub figures: Vec<String>,
+    /// Bounds of a perturber, as they were given: force (N), mass (kg), rate (1/s).
+    pub bounds: Option<[Option<f64>; 3]>,
+    /// Highest priority of a driver's leases.
+    pub max_priority: i32,
+    /// When it was created.
+    pub created: SystemTime,
+    /// When it ends.
+    pub expires: Option<SystemTime>,
+}
+
+impl Grant {
+    /// All of a principal's own world.
+    pub fn owner(principal: Arc<str>) -> Self {
+        Self {
+            id: "creator".to_owned(),
+            principal,
+            roles: vec![Role::Owner],
+            figures: Vec::new(),
+            bounds: None,
+            max_priority: 0,
+            created: SystemTime::now(),
+            expires: None,
+        }
+    }
+
+    fn is_for(&self, identity: &Identity, now: SystemTime) -> bool {
+        let whom = self.principal == identity.principal || &*self.principal == EVERYONE;
+        whom && self.expires.is_none_or(|at| at > now)
+    }
+}
+
+/// What changes of a grant; `None` stays.
+#[derive(Clone, Debug, Default)]
+pub struct GrantUpdate {
+    /// Roles.
+    pub roles: Option<Vec<Role>>,
+    /// Figures.
+    pub figures: Option<Vec<String>>,
+    /// Bounds.
+    pub bounds: Option<Option<[Option<f64>; 3]>>,
+    /// Priority.
+    pub max_priority: Option<i32>,
+    /// End.
+    pub expires: Option<Option<SystemTime>>,
+}
+
+/// What a caller may do in a world, all in all.
+#[derive(Clone, Debug)]
+pub struct Rights {
+    /// Its roles.
+    pub roles: Roles,
+    /// Figures that it may drive; `None`: all.
+    pub figures: Option<Vec<String>>,
+    /// Bounds of its perturbations.
+    pub bounds: Bounds,
+    /// Highest priority of its leases.
+    pub max_priority: i32,
+}
+
+impl Rights {
+    /// Whether it may drive a figure.
+    pub fn drives(&self, figure: &str) -> bool {
+        let named = |figures: &Vec<String>| figures.iter().any(|f| f == figure);
+        self.roles.contain(Role::Driver) && self.figures.as_ref().is_none_or(named)
+    }
+}
+
+/// The grants of one world.
+#[derive(Debug)]
+pub struct Grants {
+    all: RwLock<BTreeMap<String, Grant>>,
+    /// Changes with them.
+    version: watch::Sender<u64>,
+    rates: Mutex<HashMap<Arc<str>, Bucket>>,
+}
+
+impl Grants {
+    /// Those of a new world.
+    pub fn new(first: Option<Grant>) -> Self {
+        Self {
+            all: RwLock::new(first.into_iter().map(|g| (g.id.clone(), g)).collect()),
+            version: watch::Sender::new(0),
+            rates: Mutex::default(),
+        }
+    }
+
+    fn read(&self) -> std::sync::RwLockReadGuard<'_, BTreeMap<String, Grant>> {
+        self.all.read().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn write(&self) -> std::sync::RwLockWriteGuard<'_, BTreeMap<String, Grant>> {
+        self.all.write().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Tells when grants change.
+    pub fn changes(&self) -> watch::Receiver<u64> {
+        self.version.subscribe()
+    }
+
+    /// When the next one ends that has not yet.
+    pub fn next_end(&self) -> Option<SystemTime> {
+        let now = SystemTime::now();
+        self.read()
+            .values()
+            .filter_map(|g| g.expires)
+            .filter(|at| *at > now)
+            .min()
+    }
+
+    /// What a caller may do in this world, which has this name.
+    pub fn rights(&self, identity: &Identity, world: &str) -> Rights {
+        let claimed = identity.claims.roles_in(world);
+        let mut rights = Rights {
+            roles: claimed,
+            figures: (!claimed.contain(Role::Driver)).then(Vec::new),
+            bounds: if claimed.contain(Role::Perturber) {
+                Bounds::NONE
+            } else {
+                Bounds::new(Some(0.0), None, Some(0.0))
+            },
+            max_priority: 0,
+        };
+        let now = SystemTime::now();
+        for grant in self.read().values().filter(|g| g.is_for(identity, now)) {
+            let roles: Roles = grant.roles.iter().copied().collect();
+            rights.roles = rights.roles.and(roles);
+            if roles.contain(Role::Driver) {
+                rights.max_priority = rights.max_priority.max(grant.max_priority);
+                match &mut rights.figures {
+                    _ if grant.figures.is_empty() => rights.figures = None,
+                    Some(figures) => figures.extend(grant.figures.iter().cloned()),
+                    None => {}
+                }
+            }
+            if roles.contain(Role::Perturber) {
+                let given = grant
+                    .bounds
+                    .map_or(Bounds::NONE, |[f, m, r]| Bounds::new(f, m, r));
+                rights.bounds = rights.bounds.or(given);
+            }
+        }
+        if rights.roles.contain(Role::Director) {
+            rights.figures = None;
+            rights.bounds = Bounds::NONE;
+            rights.max_priority = TOP_PRIORITY;
+        }
+        rights
+    }
+
+    /// Checks that a batch of perturbations is within the bounds of a caller, and counts it.
+    ///
+    /// # Errors
+    /// One is too strong, or they come too often.
+    pub fn admit(
+        &self,
+        caller: &Caller,
+        rights: &Rights,
+        batch: &[FigureDisturbance],
+    ) -> Result<(), Fault> {
+        rights
+            .bounds
+            .check(batch)
+            .map_err(|(field, message)| Fault::Denied {
+                reason: "PERTURBATION_BOUND",
+                message: format!("{field}: {message}"),
+                facts: vec![("field", field)],
+            })?;
+        let rate = rights.bounds.rate;
+        if rate.is_infinite() {
+            return Ok(());
+        }
+        let now = Instant::now();
+        let burst = (rate * PERTURBATION_BURST_S).max(1.0);
+        let mut rates = self.rates.lock().unwrap_or_else(PoisonError::into_inner);
+        if rates.len() >= 4 * MOST_GRANTS {
+            rates.clear(); // `*` may stand for any number of principals
+        }
+        let bucket = rates
+            .entry(caller.principal().clone())
+            .or_insert_with(|| Bucket::full(burst, now));
+        let taken = bucket.take(batch.len() as f64, rate, burst, now);
+        taken.map_err(|retry| Fault::Exhausted {
+            limit: "max_rate_hz",
+            value: rate.ceil() as u64,
+            message: "perturbations of one principal, as its grant says".into(),
+            retry: Some(retry),
+        })
+    }
+
+    /// Adds a grant; an empty name is chosen here.
+    ///
+    /// # Errors
+    /// The name is taken, or there are too many.
+    pub fn add(&self, world: &str, mut grant: Grant) -> Result<Grant, Fault> {
+        let mut all = self.write();
+        if grant.id.is_empty() {
+            grant.id = (1..)
+                .map(|n| format!("grant-{n}"))
+                .find(|id| !all.contains_key(id))
+                .expect("there is a free number");
+        }
+        if all.contains_key(&grant.id) {
+            return Err(Fault::Exists {
+                kind: "grant",
+                name: format!("worlds/{world}/grants/{}", grant.id),
+            });
+        }
+        if all.len() >= MOST_GRANTS {
+            return Err(Fault::Exhausted {
+                limit: "max_grants_per_world",
+                value: MOST_GRANTS as u64,
+                message: "one more grant".into(),
+                retry: None,
+            });
+        }
+        all.insert(grant.id.clone(), grant.clone());
+        drop(all);
+        self.version.send_modify(|v| *v += 1);
+        Ok(grant)
+    }
+
+    /// All of them, by name.
+    pub fn list(&self) -> Vec<Grant> {
+        self.read().values().cloned().collect()
+    }
+
+    /// One of them.
+    ///
+    /// # Errors
+    /// There is none of that name.
+    pub fn get(&self, world: &str, id: &str) -> Result<Grant, Fault> {
+        self.read()
+            .get(id)
+            .cloned()
+            .ok_or_else(|| missing(world, id))
+    }
+
+    /// Changes one.
+    ///
+    /// # Errors
+    /// There is none of that name.
+    pub fn update(&self, world: &str, id: &str, u: GrantUpdate) -> Result<Grant, Fault> {
+        let mut all = self.write();
+        let grant = all.get_mut(id).ok_or_else(|| missing(world, id))?;
+        if let Some(roles) = u.roles {
+            grant.roles = roles;
+        }
+        if let Some(figures) = u.figures {
+            grant.figures = figures;
+        }
+        if let Some(bounds) = u.bounds {
+            grant.bounds = bounds;
+        }
+        if let Some(priority) = u.max_priority {
+            grant.max_priority = priority;
+        }
+        if let Some(expires) = u.expires {
+            grant.expires = expires;
+        }
+        let grant = grant.clone();
+        drop(all);
+        self.version.send_modify(|v| *v += 1);
+        Ok(grant)
+    }
+
+    /// Takes one back.
+    ///
+    /// # Errors
+    /// There is none of that name.
+    pub fn remove(&self, world: &str, id: &str) -> Result<(), Fault> {
+        self.write().remove(id).ok_or_else(|| missing(world, id))?;
+        self.version.send_modify(|v| *v += 1);
+        Ok(())
+    }
+}
+
+fn missing(world: &str, id: &str) -> Fault {
+    Fault::not_found("grant", format!("worlds/{world}/grants/{id}"))
+}

@@ -1,0 +1,185 @@
+//! `AccessService`.
+
+use super::{Api, answer, caller};
+use crate::server::access::grants::{Grant, GrantUpdate};
+use crate::server::access::roles::Role;
+use crate::wire::convert::{access, new_id, page, timestamp, world_name};
+use crate::wire::pb::{self, access_service_server::AccessService};
+use crate::wire::status::Fault;
+use std::time::SystemTime;
+use tonic::{Request, Response, Status};
+
+/// Roles of a grant, checked.
+fn roles(field: &str, wire: &[i32]) -> Result<Vec<Role>, Fault> {
+    let role = |(i, n): (usize, &i32)| {
+        let role = pb::Role::try_from(*n).ok().and_then(Role::from_wire);
+        role.filter(|r| r.is_of_world())
+            .ok_or_else(|| Fault::invalid(format!("{field}[{i}]"), "must be a role in a world"))
+    };
+    let roles = wire.iter().take(access::MOST_ROLES).enumerate().map(role);
+    let roles = roles.collect::<Result<Vec<_>, _>>()?;
+    if roles.is_empty() {
+        return Err(Fault::invalid(field, "must name at least one role"));
+    }
+    Ok(roles)
+}
+
+fn out(world: &str, g: &Grant) -> pb::Grant {
+    pb::Grant {
+        name: format!("worlds/{world}/grants/{}", g.id),
+        principal: g.principal.to_string(),
+        roles: g.roles.iter().map(|r| r.to_wire().into()).collect(),
+        figures: g.figures.clone(),
+        bounds: g.bounds.map(access::bounds_out),
+        max_priority: g.max_priority,
+        create_time: Some(timestamp(g.created)),
+        expire_time: g.expires.map(timestamp),
+    }
+}
+
+#[tonic::async_trait]
+impl AccessService for Api {
+    async fn get_caller(
+        &self,
+        request: Request<pb::GetCallerRequest>,
+    ) -> Result<Response<pb::GetCallerResponse>, Status> {
+        let result = || {
+            let caller = caller(&request)?;
+            let claims = &caller.identity.claims;
+            let of_server = claims.roles.iter().filter(|r| !r.is_of_world());
+            let mut roles: Vec<i32> = of_server.map(|r| r.to_wire().into()).collect();
+            let world = &request.get_ref().world;
+            if !world.is_empty() {
+                let id = world_name("world", world)?;
+                // Whether there is such a world is told to those who may see it.
+                let rights = match self.worlds.get(id) {
+                    Ok(handle) => handle.grants.rights(&caller.identity, id).roles,
+                    Err(_) => claims.roles_in(id),
+                };
+                let in_world = rights.iter().filter(|r| r.is_of_world());
+                roles.extend(in_world.map(|r| i32::from(r.to_wire())));
+            }
+            roles.sort_unstable();
+            Ok(pb::GetCallerResponse {
+                principal: caller.principal().to_string(),
+                roles,
+                expire_time: caller.identity.expires.map(timestamp),
+            })
+        };
+        answer(result())
+    }
+
+    async fn create_grant(
+        &self,
+        request: Request<pb::CreateGrantRequest>,
+    ) -> Result<Response<pb::CreateGrantResponse>, Status> {
+        let result = || {
+            let r = request.get_ref();
+            let handle = self.world(&request, "parent", &r.parent)?;
+            let id = new_id("grant_id", &r.grant_id)?.unwrap_or_default();
+            let g = r
+                .grant
+                .as_ref()
+                .ok_or_else(|| Fault::invalid("grant", "must be given"))?;
+            let grant = Grant {
+                id,
+                principal: access::principal("grant.principal", &g.principal)?.into(),
+                roles: roles("grant.roles", &g.roles)?,
+                figures: access::figures("grant.figures", &g.figures)?,
+                bounds: access::bounds("grant.bounds", g.bounds.as_ref())?,
+                max_priority: access::max_priority("grant.max_priority", g.max_priority)?,
+                created: SystemTime::now(),
+                expires: access::expiry("grant.expire_time", g.expire_time)?,
+            };
+            let grant = handle.grants.add(&handle.id, grant)?;
+            Ok(pb::CreateGrantResponse {
+                grant: Some(out(&handle.id, &grant)),
+            })
+        };
+        answer(result())
+    }
+
+    async fn get_grant(
+        &self,
+        request: Request<pb::GetGrantRequest>,
+    ) -> Result<Response<pb::GetGrantResponse>, Status> {
+        let result = || {
+            let (world, id) = access::grant_name("name", &request.get_ref().name)?;
+            let handle = self.enter(caller(&request)?, world)?;
+            Ok(pb::GetGrantResponse {
+                grant: Some(out(world, &handle.grants.get(world, id)?)),
+            })
+        };
+        answer(result())
+    }
+
+    async fn list_grants(
+        &self,
+        request: Request<pb::ListGrantsRequest>,
+    ) -> Result<Response<pb::ListGrantsResponse>, Status> {
+        let result = || {
+            let r = request.get_ref();
+            let handle = self.world(&request, "parent", &r.parent)?;
+            let all = handle.grants.list();
+            let items = all.iter().map(|g| (g.id.clone(), out(&handle.id, g)));
+            let (grants, next_page_token) = page(items.collect(), r.page_size, &r.page_token)?;
+            Ok(pb::ListGrantsResponse {
+                grants,
+                next_page_token,
+            })
+        };
+        answer(result())
+    }
+
+    async fn update_grant(
+        &self,
+        request: Request<pb::UpdateGrantRequest>,
+    ) -> Result<Response<pb::UpdateGrantResponse>, Status> {
+        let result = || {
+            let r = request.get_ref();
+            let g = r
+                .grant
+                .as_ref()
+                .ok_or_else(|| Fault::invalid("grant", "must be given"))?;
+            let (world, id) = access::grant_name("grant.name", &g.name)?;
+            let handle = self.enter(caller(&request)?, world)?;
+            let mut update = GrantUpdate::default();
+            for path in access::mask(r.update_mask.as_ref())? {
+                match path.as_str() {
+                    "roles" => update.roles = Some(roles("grant.roles", &g.roles)?),
+                    "figures" => {
+                        update.figures = Some(access::figures("grant.figures", &g.figures)?);
+                    }
+                    "bounds" => {
+                        update.bounds = Some(access::bounds("grant.bounds", g.bounds.as_ref())?);
+                    }
+                    "max_priority" => {
+                        let priority = access::max_priority("grant.max_priority", g.max_priority)?;
+                        update.max_priority = Some(priority);
+                    }
+                    _ => {
+                        update.expires = Some(access::expiry("grant.expire_time", g.expire_time)?);
+                    }
+                }
+            }
+            let grant = handle.grants.update(world, id, update)?;
+            Ok(pb::UpdateGrantResponse {
+                grant: Some(out(world, &grant)),
+            })
+        };
+        answer(result())
+    }
+
+    async fn delete_grant(
+        &self,
+        request: Request<pb::DeleteGrantRequest>,
+    ) -> Result<Response<pb::DeleteGrantResponse>, Status> {
+        let result = || {
+            let (world, id) = access::grant_name("name", &request.get_ref().name)?;
+            let handle = self.enter(caller(&request)?, world)?;
+            handle.grants.remove(world, id)?;
+            Ok(pb::DeleteGrantResponse {})
+        };
+        answer(result())
+    }
+}

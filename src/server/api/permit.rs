@@ -1,0 +1,73 @@
+//! How long a stream may go on: as long as its caller has the role that it was opened with, and its proof of identity.
+
+use super::App;
+use crate::server::access::caller::Caller;
+use crate::server::worlds::WorldHandle;
+use crate::wire::status::Fault;
+use std::sync::Arc;
+use std::time::{Duration, SystemTime};
+use tokio::sync::watch;
+
+/// Longest sleep of a timer.
+const DAY: Duration = Duration::from_secs(86_400);
+
+/// The right of a stream to go on.
+pub(super) struct Permit {
+    app: Arc<App>,
+    handle: Arc<WorldHandle>,
+    caller: Caller,
+    figures: Vec<String>,
+    changes: watch::Receiver<u64>,
+}
+
+impl Permit {
+    /// For a caller who has just been let in.
+    pub(super) fn new(
+        app: &Arc<App>,
+        handle: &Arc<WorldHandle>,
+        caller: &Caller,
+        figures: &[String],
+    ) -> Self {
+        Self {
+            app: app.clone(),
+            changes: handle.grants.changes(),
+            handle: handle.clone(),
+            caller: caller.clone(),
+            figures: figures.to_vec(),
+        }
+    }
+
+    fn check(&self) -> Result<(), Fault> {
+        if self.caller.expires_in() == Some(Duration::ZERO) {
+            return Err(Caller::expired());
+        }
+        let figures: Vec<&str> = self.figures.iter().map(String::as_str).collect();
+        let entered = self.app.enter_for(&self.caller, &self.handle.id, &figures);
+        match entered {
+            // That its world is gone a stream learns elsewhere.
+            Err(fault @ Fault::Denied { .. }) => Err(fault),
+            _ => Ok(()),
+        }
+    }
+
+    /// Completes with the reason when the right ends. May be dropped and called again.
+    pub(super) async fn ended(&mut self) -> Fault {
+        loop {
+            if let Err(fault) = self.check() {
+                return fault;
+            }
+            let end = self.handle.grants.next_end();
+            let end = end.map(|at| at.duration_since(SystemTime::now()).unwrap_or_default());
+            let wait = [self.caller.expires_in(), end, Some(DAY)]
+                .into_iter()
+                .flatten()
+                .min();
+            tokio::select! {
+                changed = self.changes.changed() => if changed.is_err() {
+                    std::future::pending::<()>().await; // the world is gone
+                },
+                () = tokio::time::sleep(wait.unwrap_or(DAY) + Duration::from_millis(1)) => {}
+            }
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! Grants of roles.
+
+use super::super::pb;
+use super::super::status::Fault;
+use super::{mask_paths, shortened, within};
+use std::time::SystemTime;
+
+/// Entries of the list of roles: more than there are.
+pub const MOST_ROLES: usize = 8;
+/// Figures that a grant names.
+const MOST_FIGURES: usize = 64;
+/// Bytes of a principal.
+const MOST_PRINCIPAL: usize = 256;
+/// Fields that an update may name.
+const MASK: [&str; 5] = ["roles", "figures", "bounds", "max_priority", "expire_time"];
+
+/// To whom a grant is.
+pub fn principal<'a>(field: &str, name: &'a str) -> Result<&'a str, Fault> {
+    let known = ["user:", "cert:"]
+        .iter()
+        .any(|kind| name.strip_prefix(kind).is_some_and(|rest| !rest.is_empty()));
+    let odd = |c: char| c.is_control() || c.is_whitespace();
+    if (known || name == "*") && name.len() <= MOST_PRINCIPAL && !name.contains(odd) {
+        return Ok(name);
+    }
+    Err(Fault::invalid(
+        field,
+        format!(
+            "must be user:{{sub}}, cert:{{name}} or *, at most {MOST_PRINCIPAL} bytes without spaces, got {:?}",
+            shortened(name)
+        ),
+    ))
+}
+
+/// Figures that the role of a driver is for. They need not be there yet.
+pub fn figures(field: &str, names: &[String]) -> Result<Vec<String>, Fault> {
+    if names.len() > MOST_FIGURES {
+        return Err(Fault::invalid(
+            field,
+            format!(
+                "must be at most {MOST_FIGURES} figures, got {}",
+                names.len()
+            ),
+        ));
+    }
+    let names = names.iter().enumerate().map(|(i, name)| {
+        let field = format!("{field}[{i}]");
+        super::new_id(&field, name)?.ok_or_else(|| Fault::invalid(field, "must not be empty"))
+    });
+    names.collect()
+}
+
+/// Bounds of a perturber: force (N), mass (kg), rate (1/s).
+pub fn bounds(
+    field: &str,
+    b: Option<&pb::PerturbationBounds>,
+) -> Result<Option<[Option<f64>; 3]>, Fault> {
+    let Some(b) = b else { return Ok(None) };
+    let checked = |part: &str, value: Option<f64>, least: f64, most: f64| {
+        let at = format!("{field}.{part}");
+        value.map(|v| within(&at, v, least, most)).transpose()
+    };
+    Ok(Some([
+        checked("max_force_n", b.max_force_n, 0.0, 1e6)?,
+        checked("max_mass_kg", b.max_mass_kg, 0.0, 500.0)?,
+        checked("max_rate_hz", b.max_rate_hz, 0.01, 1000.0)?,
+    ]))
+}
+
+/// Bounds for a response.
+pub fn bounds_out(
+    [max_force_n, max_mass_kg, max_rate_hz]: [Option<f64>; 3],
+) -> pb::PerturbationBounds {
+    pb::PerturbationBounds {
+        max_force_n,
+        max_mass_kg,
+        max_rate_hz,
+    }
+}
+
+/// Highest priority of the leases of a driver.
+pub fn max_priority(field: &str, value: i32) -> Result<i32, Fault> {
+    within(field, f64::from(value), 0.0, 99.0).map(|_| value)
+}
+
+/// When a grant ends; it must not be over.
+pub fn expiry(
+    field: &str,
+    at: Option<prost_types::Timestamp>,
+) -> Result<Option<SystemTime>, Fault> {
+    let Some(at) = at else { return Ok(None) };
+    let time = SystemTime::try_from(at)
+        .ok()
+        .filter(|t| *t > SystemTime::now());
+    time.map(Some)
+        .ok_or_else(|| Fault::invalid(field, "must be a time that is still to come"))
+}
+
+/// The paths of an update mask.
+pub fn mask(mask: Option<&prost_types::FieldMask>) -> Result<&[String], Fault> {
+    let paths = mask_paths(mask)?;
+    for (i, path) in paths.iter().enumerate() {
+        if !MASK.contains(&path.as_str()) {
+            return Err(Fault::invalid(
+                format!("update_mask.paths[{i}]"),
+                format!(
+                    "must be one of {}, got {:?}",
+                    MASK.join(", "),
+                    shortened(path)
+                ),
+            ));
+        }
+    }
+    Ok(paths)
+}
+
+/// World and grant of `worlds/{world}/grants/{grant}`.
+pub fn grant_name<'a>(field: &str, name: &'a str) -> Result<(&'a str, &'a str), Fault> {
+    let parts: Vec<&str> = name.splitn(5, '/').collect();
+    match parts[..] {
+        ["worlds", world, "grants", grant] if !world.is_empty() && !grant.is_empty() => {
+            Ok((world, grant))
+        }
+        _ => Err(Fault::invalid(
+            field,
+            format!(
+                "must be a resource name worlds/{{world}}/grants/{{grant}}, got {:?}",
+                shortened(name)
+            ),
+        )),
+    }
+}
