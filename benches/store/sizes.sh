@@ -1,6 +1,6 @@
 #!/bin/sh
-# Build time and size of this program with each store alone: sizes.sh TARGET_DIR. Both count the program around it, whose
-# row is "none".
+# Build time and size of this program with each store alone: sizes.sh TARGET_DIR. Both count the program around it,
+# whose row is "none".
 set -eu
 cd "$(dirname "$0")"
 target=${1:?a directory for the builds}

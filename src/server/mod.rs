@@ -6,6 +6,7 @@
 pub mod api;
 pub mod config;
 pub mod demo;
+pub mod durable;
 pub mod engine;
 pub mod fanout;
 pub mod ingest;
