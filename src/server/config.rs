@@ -1,6 +1,7 @@
 //! Settings of the server: defaults, then a TOML file, then environment variables, then flags. Checked as a whole
 //! before a port is bound, and printed.
 
+use super::durable::store::Durability;
 use std::net::SocketAddr;
 use std::path::Path;
 
@@ -164,6 +165,21 @@ settings! {
     allowed_origins: text = "", (), ();
     /// Serves the viewer at `/`; without it the status page is there.
     viewer: flag = true, (), ();
+    /// Directory in which worlds and clips outlive the server; empty: they end with it.
+    data_dir: text = "", (), ();
+    /// How much of a world may be lost when the server ends without notice: `none` (all since the last orderly end),
+    /// `group` (10 ms) or `each` (nothing that was answered).
+    durability: text = "group", (), ();
+    /// Worlds that are let out of quarantine at this start; separated by commas.
+    release_worlds: text = "", (), ();
+    /// History of worlds that is kept on disk, s.
+    history_s: float = 60.0, 5.0, 86_400.0;
+    /// Bytes of history of one world.
+    max_world_history_bytes: int = 268_435_456, 1_048_576, 1_099_511_627_776;
+    /// Bytes of history of all worlds.
+    max_history_bytes: int = 2_147_483_648, 1_048_576, 1_099_511_627_776;
+    /// Bytes that wait for the disk; what comes on top is not written, and counted.
+    max_store_queue_bytes: int = 67_108_864, 1_048_576, 4_294_967_296;
     /// Which messages are logged, as `level` or `target=level` lists.
     log: text = "info", (), ();
     /// Logs as JSON lines.
@@ -279,6 +295,14 @@ impl Config {
         }
         for (name, value) in flags {
             config.set_text(&format!("--set {name}"), &name.replace('-', "_"), value)?;
+        }
+        if Durability::by_name(&config.durability).is_none() {
+            return Err(ConfigError::Value {
+                source_name: "settings".to_owned(),
+                name: "durability",
+                expected: "none, group or each".to_owned(),
+                value: config.durability,
+            });
         }
         if !config.listen.ip().is_loopback() && !config.insecure_bind_any {
             return Err(ConfigError::NotLoopback(config.listen));

@@ -11,6 +11,7 @@ pub mod engine;
 pub mod fanout;
 pub mod ingest;
 pub mod library;
+pub mod persistence;
 pub mod shares;
 pub mod simulate;
 pub mod telemetry;
@@ -63,6 +64,7 @@ pub async fn run(
 ) -> Result<(), BoxError> {
     let (stop, stopping) = watch::channel(false);
     let app = Arc::new(App::new(Arc::new(config), stopping)?);
+    app.restore().await;
     serve(app, listener, shutdown, stop).await
 }
 
@@ -144,6 +146,9 @@ pub async fn serve(
             app.conversions.close();
             app.simulations.close();
             app.worlds.drain().await; // ticks end whole
+            if let Some(persistence) = &app.persistence {
+                persistence.close().await;
+            }
         }
     };
     let incoming = edge::connections::incoming(listener, edge.doors.clone());

@@ -126,6 +126,9 @@ pub enum Fault {
     /// The server shuts down.
     #[error("the server is shutting down")]
     Draining,
+    /// It could not be written to disk, so it was not done.
+    #[error("it could not be stored: {0}")]
+    Storage(String),
     /// The resource failed; the server's log has more.
     #[error("{0}")]
     Internal(String),
@@ -205,6 +208,7 @@ impl Fault {
             Self::Expired { .. } => "RESUME_EXPIRED",
             Self::Unimplemented(_) => "NOT_AVAILABLE",
             Self::Draining => "DRAINING",
+            Self::Storage(_) => "STORAGE",
             Self::Internal(_) => "INTERNAL",
         }
     }
@@ -287,6 +291,10 @@ impl From<Fault> for Status {
             Fault::Aborted { .. } => Code::Aborted,
             Fault::Unimplemented(_) => Code::Unimplemented,
             Fault::Draining => {
+                details.set_retry_info(Some(Duration::from_secs(5)));
+                Code::Unavailable
+            }
+            Fault::Storage(_) => {
                 details.set_retry_info(Some(Duration::from_secs(5)));
                 Code::Unavailable
             }

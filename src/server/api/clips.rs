@@ -19,6 +19,8 @@ impl MotionService for Api {
             let reference = body::reference("body", &r.body, "profile", None)?;
             let max_bytes = self.config.max_clip_bytes;
             let app = self.0.clone();
+            let persistence = self.persistence.as_ref();
+            let stored = persistence.map(|_| r.clone());
             let info = self
                 .conversions
                 .run(&client, move |turn| {
@@ -30,9 +32,14 @@ impl MotionService for Api {
                         .create(id, title, &reference, &built, source, &stop)
                 })
                 .await?;
-            Ok(pb::CreateClipResponse {
-                clip: Some(motion::clip_out(&info, true)),
-            })
+            let clip = motion::clip_out(&info, true);
+            if let (Some(persistence), Some(r)) = (persistence, stored)
+                && let Err(fault) = persistence.clip_created(&clip, r).await
+            {
+                self.clips.delete(&info.id)?;
+                return Err(fault);
+            }
+            Ok(pb::CreateClipResponse { clip: Some(clip) })
         };
         answer(result.await)
     }
@@ -75,11 +82,15 @@ impl MotionService for Api {
         &self,
         request: Request<pb::DeleteClipRequest>,
     ) -> Result<Response<pb::DeleteClipResponse>, Status> {
-        answer(
-            clip_name("name", &request.get_ref().name)
-                .and_then(|id| self.clips.delete(id))
-                .map(|()| pb::DeleteClipResponse {}),
-        )
+        let result = async {
+            let id = clip_name("name", &request.get_ref().name)?;
+            self.clips.delete(id)?;
+            if let Some(persistence) = &self.persistence {
+                persistence.clip_deleted(id).await?;
+            }
+            Ok(pb::DeleteClipResponse {})
+        };
+        answer(result.await)
     }
 
     async fn play_clip(

@@ -13,6 +13,7 @@ mod worlds;
 
 use super::config::Config;
 use super::library::{Bodies, Clips};
+use super::persistence::Persistence;
 use super::shares::{Client, Place, Places, client_at};
 use super::tick::command::Origin;
 use super::workers::Pool;
@@ -70,6 +71,8 @@ pub struct App {
     pub conversions: Pool,
     /// Where clips are simulated.
     pub simulations: Pool,
+    /// The data directory.
+    pub persistence: Option<Persistence>,
     /// When the server started.
     pub started: SystemTime,
     /// Turns true when streams are to end.
@@ -80,10 +83,10 @@ pub struct App {
 }
 
 impl App {
-    /// An application without worlds.
+    /// An application without worlds; [`restore`](Self::restore) brings those of the data directory back.
     ///
     /// # Errors
-    /// The built-in data cannot be prepared.
+    /// The built-in data cannot be prepared, or the data directory cannot be used.
     pub fn new(config: Arc<Config>, stopping: watch::Receiver<bool>) -> Result<Self, Fault> {
         super::telemetry::metrics();
         let bodies = Bodies::new(&config);
@@ -104,6 +107,7 @@ impl App {
                 config.max_simulations,
                 config.max_waiting_simulations,
             ),
+            persistence: Persistence::open(&config).map_err(|e| Fault::Storage(e.to_string()))?,
             started: SystemTime::now(),
             stopping,
             viewers: Places::new("max_viewers", config.max_viewers, share, "sinew_viewers"),
@@ -113,8 +117,19 @@ impl App {
         })
     }
 
+    /// Brings the worlds and clips of the data directory back.
+    pub async fn restore(self: &Arc<Self>) {
+        if let Some(persistence) = &self.persistence {
+            persistence.restore(self).await;
+        }
+    }
+
     fn world(&self, field: &str, name: &str) -> Result<Arc<WorldHandle>, Fault> {
-        self.worlds.get(world_name(field, name)?)
+        let name = world_name(field, name)?;
+        self.worlds.get(name).map_err(|missing| {
+            let quarantined = self.persistence.as_ref().map(|p| p.check(name));
+            quarantined.and_then(Result::err).unwrap_or(missing)
+        })
     }
 
     /// World and last part of the name of a figure.

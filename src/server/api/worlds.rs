@@ -34,16 +34,26 @@ impl WorldService for Api {
     ) -> Result<Response<pb::CreateWorldResponse>, Status> {
         let owner = client(&request);
         let r = request.into_inner();
-        let create = || {
+        let create = async {
             let id = new_id("world_id", &r.world_id)?;
+            let persistence = self.persistence.as_ref();
+            if let (Some(id), Some(persistence)) = (&id, persistence) {
+                persistence.check(id)?;
+            }
             let handle = self
                 .worlds
                 .create(id, world::settings(r.world)?, r.paused, owner)?;
+            if let Some(persistence) = persistence
+                && let Err(fault) = persistence.created(&handle).await
+            {
+                self.worlds.delete(&handle.id).await?;
+                return Err(fault);
+            }
             Ok(pb::CreateWorldResponse {
                 world: Some(world::world_out(&handle.info())),
             })
         };
-        answer(create())
+        answer(create.await)
     }
 
     async fn get_world(
@@ -108,9 +118,16 @@ impl WorldService for Api {
         request: Request<pb::DeleteWorldRequest>,
     ) -> Result<Response<pb::DeleteWorldResponse>, Status> {
         let result = async {
-            self.worlds
-                .delete(world_name("name", &request.get_ref().name)?)
-                .await?;
+            let name = world_name("name", &request.get_ref().name)?;
+            let ended = self.worlds.delete(name).await;
+            // One that is in quarantine is only stored.
+            let stored = match &self.persistence {
+                Some(persistence) => persistence.deleted(name).await?,
+                None => false,
+            };
+            if !stored {
+                ended?;
+            }
             Ok(pb::DeleteWorldResponse {})
         };
         answer(result.await)

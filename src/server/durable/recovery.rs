@@ -18,11 +18,11 @@ pub struct Recovered {
 }
 
 /// Reads everything that a start needs. A world that was being stepped when the process ended twice in a row is put
-/// into quarantine.
+/// into quarantine; those named in `release` are let out.
 ///
 /// # Errors
 /// The directory cannot be read, or a decision could not be written down.
-pub fn recover(store: &mut LocalStore) -> Result<Recovered, StoreError> {
+pub fn recover(store: &mut LocalStore, release: &[&str]) -> Result<Recovered, StoreError> {
     let last_end = store.last_end().clone();
     let mut out = Recovered {
         damaged: last_end.damage,
@@ -37,6 +37,8 @@ pub fn recover(store: &mut LocalStore) -> Result<Recovered, StoreError> {
             world.quarantined.get_or_insert_with(|| {
                 format!("the process ended twice in a row, the second time while tick {tick} was computed")
             });
+            store.put_world(&world)?;
+        } else if release.contains(&&*world.name) && world.quarantined.take().is_some() {
             store.put_world(&world)?;
         }
         if world.quarantined.is_some() {

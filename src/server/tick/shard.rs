@@ -10,6 +10,7 @@ use super::budget::{Account, Budget, Meter};
 use super::clock::Clock;
 use super::drives::{Drive, Slot};
 use super::planners::Planners;
+use crate::server::durable::marks::Mark;
 use crate::server::engine::{self, FigureKey, ObstacleKey, Planning, World};
 use crate::server::ingest::mailbox::Mailboxes;
 use crate::wire::status::Fault;
@@ -79,6 +80,8 @@ pub struct Shard {
     pub(super) changed: bool,
     /// Why the world ends after this round.
     pub(super) closing: Option<Fault>,
+    /// Where it notes that it is being stepped, and until when.
+    step_notes: Option<(Mark, Instant)>,
 }
 
 impl Shard {
@@ -126,8 +129,14 @@ impl Shard {
             failed: None,
             changed: true,
             closing: None,
+            step_notes: None,
             settings,
         })
+    }
+
+    /// Notes each step for some time, so that a world that crashes the process is known afterwards.
+    pub fn note_steps(&mut self, mark: Mark, until: Instant) {
+        self.step_notes = Some((mark, until));
     }
 
     /// Last part of its name.
@@ -329,7 +338,17 @@ impl Shard {
         } else {
             self.planners.planning()
         });
+        if let Some((mark, until)) = &self.step_notes {
+            if Instant::now() < *until {
+                mark.begin(self.world.tick() + 1);
+            } else {
+                self.step_notes = None;
+            }
+        }
         self.world.step();
+        if let Some((mark, _)) = &self.step_notes {
+            mark.end();
+        }
         let late = self.world.late_plans();
         if late > 0 {
             metrics::counter!("sinew_plans_late_total").increment(late as u64);

@@ -1,0 +1,410 @@
+//! Worlds and clips of this server in its data directory: what there was is brought back, what is created, changed or
+//! deleted is written down before the client learns that it is done.
+//!
+//! A world is brought back from its settings, its figures and its obstacles. [`Persistence::recorder`] gives what writes
+//! its states and inputs, for worlds that go on where they were.
+
+use super::api::App;
+use super::config::Config;
+use super::durable::keeper::{Keeper, Recorder, Sizes};
+use super::durable::local::LocalStore;
+use super::durable::marks::Marks;
+use super::durable::recovery::{Recovered, recover};
+use super::durable::store::{
+    ClipRecord, Durability, History, Retention, StoreError, WorldKey, WorldRecord,
+};
+use super::tick::command::Origin;
+use super::worlds::WorldHandle;
+use crate::wire::convert::{body, figure, motion, new_id, obstacle, world};
+use crate::wire::pb;
+use crate::wire::status::Fault;
+use prost::Message;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// How often a world is looked at for changes that it does not announce.
+const LOOK_EVERY: Duration = Duration::from_secs(1);
+/// How long worlds note each step after an end that was not orderly.
+const NOTE_STEPS: Duration = Duration::from_secs(3);
+
+/// What is stored of a world besides its states.
+#[derive(Clone, PartialEq, Message)]
+struct Described {
+    #[prost(message, optional, tag = "1")]
+    world: Option<pb::World>,
+    #[prost(message, repeated, tag = "2")]
+    figures: Vec<pb::Figure>,
+    #[prost(message, repeated, tag = "3")]
+    obstacles: Vec<pb::Obstacle>,
+}
+
+fn storage(error: StoreError) -> Fault {
+    match error {
+        StoreError::Ended => Fault::Draining,
+        other => Fault::Storage(other.to_string()),
+    }
+}
+
+/// The data directory of a server.
+pub struct Persistence {
+    keeper: Arc<Keeper>,
+    marks: Arc<Marks>,
+    /// The server before this one did not end in good order.
+    crashed: bool,
+    durability: Durability,
+    worlds: Mutex<BTreeMap<String, WorldRecord>>,
+    recovered: Mutex<Option<Recovered>>,
+}
+
+impl Persistence {
+    /// Opens the data directory; `None` without one. Blocks.
+    ///
+    /// # Errors
+    /// It cannot be used: another server has it, it cannot be written to, or a later version has written it.
+    pub fn open(config: &Config) -> Result<Option<Self>, StoreError> {
+        if config.data_dir.is_empty() {
+            return Ok(None);
+        }
+        let begun = Instant::now();
+        let mut store = LocalStore::open(Path::new(&config.data_dir))?;
+        let release: Vec<&str> = config.release_worlds.split(',').map(str::trim).collect();
+        let recovered = recover(&mut store, &release)?;
+        let (marks, crashed) = (store.marks(), !store.last_end().orderly);
+        let sizes = Sizes {
+            queue_bytes: config.max_store_queue_bytes as usize,
+            retention: Retention {
+                age: Duration::from_secs_f64(config.history_s),
+                world_bytes: config.max_world_history_bytes,
+                total_bytes: config.max_history_bytes,
+            },
+        };
+        let worlds = recovered.worlds.iter().map(|(w, _)| w);
+        let worlds = worlds.chain(&recovered.quarantined);
+        let worlds = worlds.map(|w| (w.name.clone(), w.clone())).collect();
+        for why in &recovered.damaged {
+            tracing::error!(why, "a part of the data directory is damaged");
+        }
+        for world in &recovered.quarantined {
+            let (world, why) = (&*world.name, world.quarantined.as_deref());
+            tracing::error!(
+                world,
+                why,
+                "a world is in quarantine: release_worlds lets it out"
+            );
+        }
+        let (directory, seconds) = (&*config.data_dir, begun.elapsed().as_secs_f64());
+        tracing::info!(directory, crashed, seconds, "data directory opened");
+        Ok(Some(Self {
+            keeper: Arc::new(Keeper::start(Box::new(store), sizes)?),
+            marks,
+            crashed,
+            durability: Durability::by_name(&config.durability).unwrap_or_default(),
+            worlds: Mutex::new(worlds),
+            recovered: Mutex::new(Some(recovered)),
+        }))
+    }
+
+    fn worlds(&self) -> MutexGuard<'_, BTreeMap<String, WorldRecord>> {
+        // Entries are inserted whole.
+        self.worlds.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Refuses what a world in quarantine cannot do.
+    ///
+    /// # Errors
+    /// The world of that name is in quarantine.
+    pub fn check(&self, name: &str) -> Result<(), Fault> {
+        let worlds = self.worlds();
+        let Some(why) = worlds.get(name).and_then(|w| w.quarantined.clone()) else {
+            return Ok(());
+        };
+        Err(Fault::Precondition {
+            reason: "WORLD_QUARANTINED",
+            message: format!("world {name:?} is in quarantine: {why}"),
+            facts: vec![("world", name.to_owned())],
+        })
+    }
+
+    /// Why less is written than was promised.
+    pub fn degraded(&self) -> Option<String> {
+        self.keeper.degraded()
+    }
+
+    /// What writes states and inputs of a world.
+    pub fn recorder(&self, name: &str) -> Option<Recorder> {
+        self.worlds().get(name).map(|w| self.keeper.recorder(w))
+    }
+
+    /// Brings everything back that can be.
+    pub async fn restore(&self, app: &Arc<App>) {
+        let recovered = self
+            .recovered
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .take();
+        let Some(recovered) = recovered else {
+            return;
+        };
+        let begun = Instant::now();
+        let mut counts = (0_usize, 0_usize);
+        for clip in &recovered.clips {
+            match restore_clip(app, clip) {
+                Ok(()) => {
+                    counts.1 += 1;
+                    self.complete_clip(app, clip.name.clone());
+                }
+                Err(why) => tracing::error!(clip = clip.name, %why, "clip is not brought back"),
+            }
+        }
+        for (record, history) in recovered.worlds {
+            match self.restore_world(app, &record, &history).await {
+                Ok(()) => counts.0 += 1,
+                Err(why) => {
+                    let world = &*record.name;
+                    tracing::error!(world, %why, "world is not brought back");
+                    let why = format!("it could not be brought back: {why}");
+                    if let Some(w) = self.worlds().get_mut(&record.name) {
+                        // Not written: the next start tries again, perhaps with other limits.
+                        w.quarantined = Some(why);
+                    }
+                }
+            }
+        }
+        let (worlds, clips) = counts;
+        let seconds = begun.elapsed().as_secs_f64();
+        tracing::info!(worlds, clips, seconds, "brought back");
+    }
+
+    async fn restore_world(
+        &self,
+        app: &Arc<App>,
+        record: &WorldRecord,
+        history: &History,
+    ) -> Result<(), Fault> {
+        for loss in &history.losses {
+            tracing::error!(world = record.name, %loss, "a part of a world is lost");
+        }
+        let described = Described::decode(record.settings.clone());
+        let described = described.map_err(|e| Fault::Internal(e.to_string()))?;
+        let paused = described
+            .world
+            .as_ref()
+            .is_some_and(|w| w.state == i32::from(pb::WorldState::Paused));
+        let settings = world::settings(described.world)?;
+        // Worlds of before belong to nobody who is connected.
+        let owner = format!("stored {}", record.name).into();
+        let id = Some(record.name.clone());
+        let handle = app.worlds.create(id, settings, paused, owner)?;
+        if self.crashed
+            && let Some(mark) = self.marks.place(record.key)
+        {
+            let until = Instant::now() + NOTE_STEPS;
+            handle.send(origin(), move |s| s.note_steps(mark, until))?;
+        }
+        for f in described.figures {
+            let id = f.name.rsplit('/').next().unwrap_or_default();
+            let id = new_id("figure_id", id)?;
+            let settings = figure::settings("figure", Some(&f))?;
+            let built = app.bodies.get("figure.profile", &settings.body)?;
+            handle
+                .call(origin(), move |s| s.create_figure(id, settings, built))
+                .await?;
+        }
+        for o in described.obstacles {
+            let setup = obstacle::setup("obstacle", Some(&o))?;
+            let id = o.name.rsplit('/').next().unwrap_or_default();
+            let id = new_id("obstacle_id", id)?;
+            handle
+                .call(origin(), move |s| s.add_obstacle(id, setup))
+                .await?;
+        }
+        self.follow(&handle, record.clone());
+        Ok(())
+    }
+
+    /// Writes a new world down.
+    ///
+    /// # Errors
+    /// It could not be written.
+    pub async fn created(&self, handle: &Arc<WorldHandle>) -> Result<(), Fault> {
+        let mut record = WorldRecord {
+            key: WorldKey(0),
+            name: handle.id.to_string(),
+            durability: self.durability,
+            quarantined: None,
+            settings: describe(handle).encode_to_vec().into(),
+        };
+        let record = self
+            .keeper
+            .call(move |store| {
+                record.key = store.new_key();
+                store.put_world(&record)?;
+                Ok(record)
+            })
+            .await
+            .map_err(storage)?;
+        self.worlds().insert(record.name.clone(), record.clone());
+        self.follow(handle, record);
+        Ok(())
+    }
+
+    /// Writes changes of a world down until it ends.
+    fn follow(&self, handle: &Arc<WorldHandle>, mut record: WorldRecord) {
+        let keeper = self.keeper.clone();
+        let mut changes = handle.outlet.described.subscribe();
+        let mut closed = handle.closed.clone();
+        let handle = Arc::downgrade(handle);
+        tokio::spawn(async move {
+            loop {
+                tokio::select! {
+                    _ = closed.changed() => break,
+                    changed = changes.changed() => if changed.is_err() { break },
+                    () = tokio::time::sleep(LOOK_EVERY) => {}
+                }
+                let Some(handle) = handle.upgrade() else {
+                    break;
+                };
+                let settings = describe(&handle).encode_to_vec();
+                drop(handle);
+                if record.settings == settings {
+                    continue;
+                }
+                let changed = WorldRecord {
+                    settings: settings.into(),
+                    ..record.clone()
+                };
+                let written = changed.clone();
+                match keeper.call(move |store| store.put_world(&written)).await {
+                    Ok(()) => record = changed,
+                    Err(StoreError::Ended) => break,
+                    // Tried again: it still differs from what is written.
+                    Err(error) => {
+                        tracing::warn!(world = record.name, %error, "a change is not written");
+                        tokio::time::sleep(LOOK_EVERY).await;
+                    }
+                }
+            }
+        });
+    }
+
+    /// Forgets a world. False: there is none of that name.
+    ///
+    /// # Errors
+    /// It could not be done.
+    pub async fn deleted(&self, name: &str) -> Result<bool, Fault> {
+        let Some(key) = self.worlds().get(name).map(|w| w.key) else {
+            return Ok(false);
+        };
+        let done = self.keeper.call(move |store| store.delete_world(key)).await;
+        done.map_err(storage)?;
+        self.worlds().remove(name);
+        Ok(true)
+    }
+
+    /// Writes a clip down: the request that made it and what it became.
+    ///
+    /// # Errors
+    /// It could not be written.
+    pub async fn clip_created(
+        &self,
+        clip: &pb::Clip,
+        request: pb::CreateClipRequest,
+    ) -> Result<(), Fault> {
+        let short = pb::Clip {
+            report: None,
+            forecast: None,
+            ..clip.clone()
+        };
+        let record = ClipRecord {
+            name: clip.name.rsplit('/').next().unwrap_or_default().to_owned(),
+            description: short.encode_to_vec().into(),
+            content: request.encode_to_vec().into(),
+        };
+        let written = self.keeper.call(move |store| store.put_clip(&record)).await;
+        written.map_err(storage)
+    }
+
+    /// Forgets a clip.
+    ///
+    /// # Errors
+    /// It could not be done.
+    pub async fn clip_deleted(&self, name: &str) -> Result<(), Fault> {
+        let name = name.to_owned();
+        let done = self
+            .keeper
+            .call(move |store| store.delete_clip(&name))
+            .await;
+        done.map_err(storage)
+    }
+
+    /// Works out again what is not stored of a clip: how its file was understood, and what will come of it.
+    fn complete_clip(&self, app: &Arc<App>, name: String) {
+        let app = app.clone();
+        tokio::spawn(async move {
+            let library = app.clone();
+            let id = name.clone();
+            let turns = "stored".into();
+            let done = app.conversions.run(&turns, move |turn| {
+                let reference = library.clips.info(&id)?.body;
+                let reference = crate::wire::convert::body::by_id(&reference)
+                    .ok_or_else(|| Fault::not_found("body", reference))?;
+                let built = library.bodies.get("body", &reference)?;
+                library.clips.complete(&id, &built, &|| turn.stop())
+            });
+            if let Err(why) = done.await {
+                tracing::debug!(clip = name, %why, "the report of a clip is not there");
+            }
+        });
+    }
+
+    /// Writes what is left and ends.
+    pub async fn close(&self) {
+        let keeper = self.keeper.clone();
+        // An error: it panicked, which was reported where it happened.
+        let _ = tokio::task::spawn_blocking(move || keeper.close()).await;
+    }
+}
+
+fn origin() -> Origin {
+    Origin {
+        client: "".into(),
+        sequence: 0,
+    }
+}
+
+/// What is stored of a world, without what changes in each tick.
+fn describe(handle: &WorldHandle) -> Described {
+    let described = handle.described();
+    let obstacles = &handle.latest().obstacles;
+    let figures = described.figures.iter().map(|f| {
+        pb::Figure {
+            profile: None, // the name of the body says it
+            clip: String::new(),
+            next_clip: String::new(),
+            driver_id: String::new(),
+            constraints: Vec::new(),
+            ..figure::figure_out(f)
+        }
+    });
+    let obstacles = obstacles.iter().map(|o| obstacle::out(&handle.id, o));
+    Described {
+        world: Some(pb::World {
+            tick: 0,
+            time_s: 0.0,
+            ..world::world_out(&described.world)
+        }),
+        figures: figures.collect(),
+        obstacles: obstacles.collect(),
+    }
+}
+
+fn restore_clip(app: &Arc<App>, clip: &ClipRecord) -> Result<(), Fault> {
+    let unreadable = |e: prost::DecodeError| Fault::Internal(e.to_string());
+    let shown = pb::Clip::decode(clip.description.clone()).map_err(unreadable)?;
+    let request = pb::CreateClipRequest::decode(clip.content.clone()).map_err(unreadable)?;
+    let source = motion::clip_source(request.source, app.config.max_clip_bytes)?;
+    let reference = body::reference("body", &request.body, "profile", None)?;
+    app.clips.restore(&clip.name, &shown, &reference, source)
+}
