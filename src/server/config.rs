@@ -313,7 +313,7 @@ impl Config {
 
 /// Variables `SINEW_…` that are no settings: the name of the file, and what tests, examples and tools of this project
 /// read.
-const OTHER_VARIABLES: [&str; 18] = [
+const OTHER_VARIABLES: [&str; 19] = [
     "config",
     "bin",
     "bvh",
@@ -332,6 +332,7 @@ const OTHER_VARIABLES: [&str; 18] = [
     "soak_seed",
     "soak_ticks",
     "abuse_seconds",
+    "chaos_seconds",
 ];
 
 /// True for a variable that is no setting. Kubernetes sets `SINEW_SERVICE_…` and `SINEW_PORT…` in every container next

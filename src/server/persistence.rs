@@ -56,6 +56,8 @@ pub struct Persistence {
     durability: Durability,
     worlds: Mutex<BTreeMap<String, WorldRecord>>,
     recovered: Mutex<Option<Recovered>>,
+    /// Held while the description of a world is written.
+    writing: tokio::sync::Mutex<()>,
 }
 
 impl Persistence {
@@ -103,6 +105,7 @@ impl Persistence {
             durability: Durability::by_name(&config.durability).unwrap_or_default(),
             worlds: Mutex::new(worlds),
             recovered: Mutex::new(Some(recovered)),
+            writing: tokio::sync::Mutex::default(),
         }))
     }
 
@@ -138,7 +141,7 @@ impl Persistence {
     }
 
     /// Brings everything back that can be.
-    pub async fn restore(&self, app: &Arc<App>) {
+    pub async fn restore(self: &Arc<Self>, app: &Arc<App>) {
         let recovered = self
             .recovered
             .lock()
@@ -178,7 +181,7 @@ impl Persistence {
     }
 
     async fn restore_world(
-        &self,
+        self: &Arc<Self>,
         app: &Arc<App>,
         record: &WorldRecord,
         history: &History,
@@ -220,7 +223,7 @@ impl Persistence {
                 .call(origin(), move |s| s.add_obstacle(id, setup))
                 .await?;
         }
-        self.follow(&handle, record.clone());
+        self.follow(&handle);
         Ok(())
     }
 
@@ -228,7 +231,7 @@ impl Persistence {
     ///
     /// # Errors
     /// It could not be written.
-    pub async fn created(&self, handle: &Arc<WorldHandle>) -> Result<(), Fault> {
+    pub async fn created(self: &Arc<Self>, handle: &Arc<WorldHandle>) -> Result<(), Fault> {
         let mut record = WorldRecord {
             key: WorldKey(0),
             name: handle.id.to_string(),
@@ -245,17 +248,46 @@ impl Persistence {
             })
             .await
             .map_err(storage)?;
-        self.worlds().insert(record.name.clone(), record.clone());
-        self.follow(handle, record);
+        self.worlds().insert(record.name.clone(), record);
+        self.follow(handle);
         Ok(())
     }
 
-    /// Writes changes of a world down until it ends.
-    fn follow(&self, handle: &Arc<WorldHandle>, mut record: WorldRecord) {
-        let keeper = self.keeper.clone();
+    /// Writes down what has changed of a world.
+    ///
+    /// # Errors
+    /// It could not be written; it is tried again.
+    pub async fn changed(&self, handle: &WorldHandle) -> Result<(), Fault> {
+        // One after the other, so that what is described last is written last.
+        let _turn = self.writing.lock().await;
+        let settings = describe(handle).encode_to_vec();
+        let Some(record) = self.worlds().get(&*handle.id).cloned() else {
+            return Ok(()); // deleted meanwhile
+        };
+        if record.settings == settings {
+            return Ok(());
+        }
+        let changed = WorldRecord {
+            settings: settings.into(),
+            ..record
+        };
+        let written = changed.clone();
+        let done = self
+            .keeper
+            .call(move |store| store.put_world(&written))
+            .await;
+        done.map_err(storage)?;
+        if let Some(record) = self.worlds().get_mut(&*handle.id) {
+            *record = changed;
+        }
+        Ok(())
+    }
+
+    /// Writes changes of a world that nobody waits for down until it ends.
+    fn follow(self: &Arc<Self>, handle: &Arc<WorldHandle>) {
         let mut changes = handle.outlet.described.subscribe();
         let mut closed = handle.closed.clone();
-        let handle = Arc::downgrade(handle);
+        let (this, handle) = (Arc::downgrade(self), Arc::downgrade(handle));
         tokio::spawn(async move {
             loop {
                 tokio::select! {
@@ -263,25 +295,14 @@ impl Persistence {
                     changed = changes.changed() => if changed.is_err() { break },
                     () = tokio::time::sleep(LOOK_EVERY) => {}
                 }
-                let Some(handle) = handle.upgrade() else {
+                let (Some(this), Some(handle)) = (this.upgrade(), handle.upgrade()) else {
                     break;
                 };
-                let settings = describe(&handle).encode_to_vec();
-                drop(handle);
-                if record.settings == settings {
-                    continue;
-                }
-                let changed = WorldRecord {
-                    settings: settings.into(),
-                    ..record.clone()
-                };
-                let written = changed.clone();
-                match keeper.call(move |store| store.put_world(&written)).await {
-                    Ok(()) => record = changed,
-                    Err(StoreError::Ended) => break,
-                    // Tried again: it still differs from what is written.
+                match this.changed(&handle).await {
+                    Ok(()) => {}
+                    Err(Fault::Draining) => break,
                     Err(error) => {
-                        tracing::warn!(world = record.name, %error, "a change is not written");
+                        tracing::warn!(world = &*handle.id, %error, "a change is not written");
                         tokio::time::sleep(LOOK_EVERY).await;
                     }
                 }
@@ -294,6 +315,8 @@ impl Persistence {
     /// # Errors
     /// It could not be done.
     pub async fn deleted(&self, name: &str) -> Result<bool, Fault> {
+        // A change of it that is being written would bring it back.
+        let _turn = self.writing.lock().await;
         let Some(key) = self.worlds().get(name).map(|w| w.key) else {
             return Ok(false);
         };

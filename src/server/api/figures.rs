@@ -23,6 +23,7 @@ impl FigureService for Api {
                     s.create_figure(id, settings, body)
                 })
                 .await?;
+            self.stored(&handle).await?;
             Ok(pb::CreateFigureResponse {
                 figure: Some(figure::figure_out(&info)),
             })
@@ -82,6 +83,7 @@ impl FigureService for Api {
             let info = handle
                 .call(origin(&request), move |s| s.update_figure(&id, update))
                 .await?;
+            self.stored(&handle).await?;
             Ok(pb::UpdateFigureResponse {
                 figure: Some(figure::figure_out(&info)),
             })
@@ -99,6 +101,7 @@ impl FigureService for Api {
             handle
                 .call(origin(&request), move |s| s.delete_figure(&id))
                 .await?;
+            self.stored(&handle).await?;
             Ok(pb::DeleteFigureResponse {})
         };
         answer(result.await)

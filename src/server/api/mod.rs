@@ -72,7 +72,7 @@ pub struct App {
     /// Where clips are simulated.
     pub simulations: Pool,
     /// The data directory.
-    pub persistence: Option<Persistence>,
+    pub persistence: Option<Arc<Persistence>>,
     /// When the server started.
     pub started: SystemTime,
     /// Turns true when streams are to end.
@@ -107,7 +107,9 @@ impl App {
                 config.max_simulations,
                 config.max_waiting_simulations,
             ),
-            persistence: Persistence::open(&config).map_err(|e| Fault::Storage(e.to_string()))?,
+            persistence: Persistence::open(&config)
+                .map_err(|e| Fault::Storage(e.to_string()))?
+                .map(Arc::new),
             started: SystemTime::now(),
             stopping,
             viewers: Places::new("max_viewers", config.max_viewers, share, "sinew_viewers"),
@@ -121,6 +123,14 @@ impl App {
     pub async fn restore(self: &Arc<Self>) {
         if let Some(persistence) = &self.persistence {
             persistence.restore(self).await;
+        }
+    }
+
+    /// Waits until what has changed of a world is on disk.
+    async fn stored(&self, handle: &WorldHandle) -> Result<(), Fault> {
+        match &self.persistence {
+            Some(persistence) => persistence.changed(handle).await,
+            None => Ok(()),
         }
     }
 

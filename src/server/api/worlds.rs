@@ -22,6 +22,7 @@ impl Api {
     ) -> Result<pb::World, Fault> {
         let handle = self.world("name", name)?;
         let info = handle.call(origin(request), f).await?;
+        self.stored(&handle).await?;
         Ok(world::world_out(&info))
     }
 }
@@ -232,6 +233,7 @@ impl WorldService for Api {
             let info = handle
                 .call(origin(&request), move |s| s.add_obstacle(id, setup))
                 .await?;
+            self.stored(&handle).await?;
             Ok(pb::AddObstacleResponse {
                 obstacle: Some(obstacle::out(&handle.id, &info)),
             })
@@ -253,6 +255,7 @@ impl WorldService for Api {
             let info = handle
                 .call(origin(&request), move |s| s.update_obstacle(&id, setup))
                 .await?;
+            self.stored(&handle).await?;
             Ok(pb::UpdateObstacleResponse {
                 obstacle: Some(obstacle::out(&handle.id, &info)),
             })
@@ -271,6 +274,7 @@ impl WorldService for Api {
             handle
                 .call(origin(&request), move |s| s.remove_obstacle(&id))
                 .await?;
+            self.stored(&handle).await?;
             Ok(pb::RemoveObstacleResponse {})
         };
         answer(result.await)
