@@ -104,6 +104,8 @@ async fn serve(args: &Args, config: Arc<Config>, filter: EnvFilter) -> anyhow::R
     };
     let socket = bind(config.listen).with_context(cannot_listen)?;
     let address = socket.local_addr()?;
+    // Before the data directory is opened: what is damaged in it is logged.
+    telemetry::init_logs(filter, config.log_json, stderr_shows_colour());
     let (stop, stopping) = tokio::sync::watch::channel(false);
     let app = Arc::new(App::new(config.clone(), stopping)?);
     app.restore().await;
@@ -121,7 +123,6 @@ async fn serve(args: &Args, config: Arc<Config>, filter: EnvFilter) -> anyhow::R
         Err(error) if !error.is::<OutputClosed>() => note(&format!("warning: {error:#}")),
         _ => {}
     }
-    telemetry::init_logs(filter, config.log_json, stderr_shows_colour());
     for (name, _, value) in config.table() {
         tracing::info!("setting {name} = {value}");
     }

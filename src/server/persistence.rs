@@ -1,8 +1,8 @@
 //! Worlds and clips of this server in its data directory: what there was is brought back, what is created, changed or
 //! deleted is written down before the client learns that it is done.
 //!
-//! A world is brought back from its settings, its figures and its obstacles. [`Persistence::recorder`] gives what writes
-//! its states and inputs, for worlds that go on where they were.
+//! A world is brought back from its settings, its figures and its obstacles. [`Persistence::recorder`] gives what
+//! writes its states and inputs, for worlds that go on where they were.
 
 use super::api::App;
 use super::config::Config;
@@ -161,16 +161,20 @@ impl Persistence {
                 Err(why) => tracing::error!(clip = clip.name, %why, "clip is not brought back"),
             }
         }
-        for (record, history) in recovered.worlds {
-            match self.restore_world(app, &record, &history).await {
+        // Each waits for ticks of its own; together they wait once.
+        let worlds = recovered.worlds.iter().map(|(record, history)| async move {
+            let restored = self.restore_world(app, record, history).await;
+            restored.map_err(|why| (record, why))
+        });
+        for restored in futures_util::future::join_all(worlds).await {
+            match restored {
                 Ok(()) => counts.0 += 1,
-                Err(why) => {
+                Err((record, why)) => {
                     let world = &*record.name;
                     tracing::error!(world, %why, "world is not brought back");
-                    let why = format!("it could not be brought back: {why}");
                     if let Some(w) = self.worlds().get_mut(&record.name) {
                         // Not written: the next start tries again, perhaps with other limits.
-                        w.quarantined = Some(why);
+                        w.quarantined = Some(format!("it could not be brought back: {why}"));
                     }
                 }
             }

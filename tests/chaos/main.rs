@@ -1,5 +1,6 @@
 //! Goal: what a client was told to be done outlives `kill -9`. Method: the real server with a data directory; a client
-//! creates and deletes worlds, figures and clips as fast as it is answered, and keeps a book of the answers; every few seconds the server is killed, started again, and held against the book.
+//! creates and deletes worlds, figures and clips as fast as it is answered, and keeps a book of the answers; every few
+//! seconds the server is killed, started again, and held against the book.
 #![cfg(all(feature = "net", unix))]
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking")]
 

@@ -1,8 +1,8 @@
 //! What an embedded store costs under the load of a log of inputs and checkpoints.
 //!
 //! `sinew-store-bench run ENGINE FORM WORLDS SECONDS DIR` writes at 60 Hz and prints one row; `recover ENGINE WORLDS
-//! DIR` opens what a killed `run` left and reads what a restart needs; `table SECONDS DIR` does all of it and prints the
-//! table. Every engine holds the same thing: a log of records by a key that grows, cut off at its old end.
+//! DIR` opens what a killed `run` left and reads what a restart needs; `table SECONDS DIR` does all of it and prints
+//! the table. Every engine holds the same thing: a log of records by a key that grows, cut off at its old end.
 
 mod engines;
 

@@ -108,7 +108,11 @@ impl App {
                 config.max_waiting_simulations,
             ),
             persistence: Persistence::open(&config)
-                .map_err(|e| Fault::Storage(e.to_string()))?
+                .map_err(|e| Fault::Precondition {
+                    reason: "DATA_DIR",
+                    message: e.to_string(),
+                    facts: vec![],
+                })?
                 .map(Arc::new),
             started: SystemTime::now(),
             stopping,

@@ -2,8 +2,8 @@
 //! thread commits what has come within 10 ms as one group.
 //!
 //! Nothing waits for the disk but this thread. When it cannot keep up or the disk takes no more, entries are left out
-//! and counted, the worlds they belong to are told to hand in a whole checkpoint, and the store is called degraded until
-//! one is on disk again.
+//! and counted, the worlds they belong to are told to hand in a whole checkpoint, and the store is called degraded
+//! until one is on disk again.
 
 use super::store::{
     CheckpointStore, Durability, Entry, Item, Retention, StoreError, WorldKey, WorldRecord,

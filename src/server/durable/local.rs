@@ -1,7 +1,7 @@
 //! Worlds and clips in a directory of this machine.
 //!
-//! What is small and rarely written is a file of its own, so that damage to one takes nothing else with it: that a world
-//! exists, one earlier state of it, a clip, its content. What is written all the time is in one log
+//! What is small and rarely written is a file of its own, so that damage to one takes nothing else with it: that a
+//! world exists, one earlier state of it, a clip, its content. What is written all the time is in one log
 //! ([`Log`](super::log::Log)), because one `fsync` then serves all worlds.
 
 use super::files::{self, Packed, Unpacked};

@@ -1,7 +1,7 @@
 //! The log of all worlds in one SQLite file: checkpoints, inputs and hashes in the order in which they were committed.
 //!
-//! A row holds what one group commit has of one world. Rows are only appended at one end and deleted at the other, so
-//! a commit writes few pages besides those of its own bytes. SQLite has no checksums of pages; each row has its own, and
+//! A row holds what one group commit has of one world. Rows are only appended at one end and deleted at the other, so a
+//! commit writes few pages besides those of its own bytes. SQLite has no checksums of pages; each row has its own, and
 //! the rows of a world are numbered, so that damage shows as a wrong checksum or as a hole, and never as other input.
 
 use super::store::{Entry, History, Item, Logged, Loss, Retention, StoreError, Usage, WorldKey};

@@ -1,6 +1,7 @@
 //! Goal: what is read from a store is what was written, or is named as lost, whatever happens to its files; and what
-//! was promised to be on disk is there after the process has gone. Method: worlds whose every byte follows from world and
-//! tick are written, the files are copied while the store is open (what a killed process leaves), damaged, and read.
+//! was promised to be on disk is there after the process has gone. Method: worlds whose every byte follows from world
+//! and tick are written, the files are copied while the store is open (what a killed process leaves), damaged, and
+//! read.
 
 #![allow(clippy::unwrap_used)] // a panic here is the failure message
 
