@@ -16,6 +16,7 @@ pub mod params;
 pub mod plan;
 pub mod report;
 pub mod retarget;
+pub mod saved;
 pub mod setup;
 pub mod strength;
 pub mod support;
