@@ -1,6 +1,6 @@
 //! One foot of a stream: when it stands, where, and how it gets from one place to the next.
 
-use super::{H, MOST_SAMPLES, RATE};
+use super::{H, RATE, is_sample};
 use crate::sim::math::curve::{fall, quintic, smoothstep_to};
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::plan::foot_lock::{FootOffset, FootPlacement, FootPose, Sole};
@@ -134,13 +134,14 @@ fn swing_toe(pitch: f64) -> f64 {
 impl Foot {
     /// False if it cannot be what was written into a checkpoint.
     pub fn is_valid(&self) -> bool {
-        let known = |i: i64| (-MOST_SAMPLES..MOST_SAMPLES).contains(&i);
+        let known = is_sample;
         let times = |s: &Stance| known(s.start) && (known(s.end) || s.end == i64::MAX);
         self.count <= STANCES
             && self.stances.iter().chain(&self.coming).all(times)
-            && [self.moving, self.strayed, self.steep, self.posed]
+            && [self.strayed, self.steep, self.posed]
                 .into_iter()
                 .all(known)
+            && (known(self.moving) || self.moving == i64::MIN)
     }
 
     /// A foot of which nothing is known.

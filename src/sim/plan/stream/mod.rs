@@ -52,8 +52,10 @@ const LABEL: i64 = stream::SMOOTH + 1 + contact::STREAM_STEADY;
 /// Samples that may wait to be prepared: ten seconds.
 pub const MOST_PENDING: usize = 600;
 
-/// Samples that no stream gets to: a thousand years.
-const MOST_SAMPLES: i64 = 1 << 41;
+/// True for the number of a sample that a stream can get to within a thousand years.
+fn is_sample(number: i64) -> bool {
+    number.unsigned_abs() < 1 << 41
+}
 
 /// A sample as it came.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
@@ -280,7 +282,7 @@ impl StreamPlan {
             && self.ring.len() == fresh.ring.len()
             && self.output.knots.len() == fresh.output.knots.len()
             && self.input.pending.len() <= MOST_PENDING
-            && counts.iter().all(|c| (-1..MOST_SAMPLES).contains(c))
+            && counts.iter().all(|c| *c >= -1 && is_sample(*c))
             && self.count >= 0
             && self.output.last < self.count.max(1)
             && self.feet.iter().all(Foot::is_valid)

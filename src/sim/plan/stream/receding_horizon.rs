@@ -1,7 +1,7 @@
 //! The shift of the trunk that keeps the balance of a stream: a small optimal control problem over the window, solved
 //! on with every sample.
 
-use super::{H, MOST_SAMPLES, RATE};
+use super::{H, RATE, is_sample};
 use crate::sim::math::banded::{Factor, Pentadiagonal};
 use crate::sim::math::exp::exp;
 use crate::sim::math::polygon::SmallPolygon;
@@ -152,7 +152,8 @@ impl Balance {
             && self.samples.len() < room
             && self.solved <= room
             && self.first.1 <= room
-            && (0..MOST_SAMPLES).contains(&self.first.0)
+            && self.first.0 >= 0
+            && is_sample(self.first.0)
     }
 
     /// The next sample that is known.
