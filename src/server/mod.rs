@@ -4,6 +4,7 @@
 //! thread of its own that runs [`tick::run`]; services send it commands and read what it publishes.
 
 pub mod api;
+pub mod checkpoints;
 pub mod config;
 pub mod demo;
 pub mod engine;

@@ -108,9 +108,9 @@ impl WorldService for Api {
         request: Request<pb::DeleteWorldRequest>,
     ) -> Result<Response<pb::DeleteWorldResponse>, Status> {
         let result = async {
-            self.worlds
-                .delete(world_name("name", &request.get_ref().name)?)
-                .await?;
+            let id = world_name("name", &request.get_ref().name)?;
+            self.worlds.delete(id).await?;
+            self.checkpoints.forget_world(id);
             Ok(pb::DeleteWorldResponse {})
         };
         answer(result.await)
