@@ -43,7 +43,8 @@ pub const SERVICE_NAMES: [&str; 10] = [
     pb::checkpoint_service_server::SERVICE_NAME,
 ];
 
-/// Calls that carry a clip or a checkpoint in their request: up to `max_clip_bytes`. All others take up to `max_request_bytes`.
+/// Calls that carry a clip or a checkpoint in their request: up to `max_clip_bytes`. All others take up to
+/// `max_request_bytes`.
 pub const UPLOADS: [&str; 4] = [
     "/sinew.v1.MotionService/CreateClip",
     "/sinew.v1.SimulationService/SimulateClip",

@@ -139,9 +139,8 @@ impl Figure {
             return Err("steps or a way of getting up that cannot be");
         }
         let surroundings = surroundings.into_owned();
-        if !(surroundings.touches.is_valid() && surroundings.disturbances.is_valid())
-            || !desired.constraints.is_valid()
-        {
+        let counts = surroundings.touches.is_valid() && surroundings.disturbances.is_valid();
+        if !(counts && desired.constraints.is_valid()) {
             return Err("more touches, perturbations or constraints than a figure can have");
         }
         let mut modern = Box::new(Modern::new(friction));
