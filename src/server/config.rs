@@ -167,8 +167,8 @@ settings! {
     viewer: flag = true, (), ();
     /// Directory in which worlds and clips outlive the server; empty: they end with it.
     data_dir: text = "", (), ();
-    /// How much of a world may be lost when the server ends without notice: `none` (all since the last orderly end),
-    /// `group` (10 ms) or `each` (nothing that was answered).
+    /// How states of worlds go to disk: `none` (only at orderly ends), `group` (what comes within 10 ms together) or
+    /// `each` (at once).
     durability: text = "group", (), ();
     /// Worlds that are let out of quarantine at this start; separated by commas.
     release_worlds: text = "", (), ();

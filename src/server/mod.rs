@@ -4,6 +4,7 @@
 //! thread of its own that runs [`tick::run`]; services send it commands and read what it publishes.
 
 pub mod api;
+pub mod checkpoints;
 pub mod config;
 pub mod demo;
 pub mod durable;
@@ -145,6 +146,9 @@ pub async fn serve(
             stop.send_replace(true); // streams end with UNAVAILABLE
             app.conversions.close();
             app.simulations.close();
+            if let Some(persistence) = &app.persistence {
+                persistence.checkpoint_all(&app).await;
+            }
             app.worlds.drain().await; // ticks end whole
             if let Some(persistence) = &app.persistence {
                 persistence.close().await;

@@ -1,19 +1,21 @@
 //! Worlds and clips of this server in its data directory: what there was is brought back, what is created, changed or
 //! deleted is written down before the client learns that it is done.
 //!
-//! A world is brought back from its settings, its figures and its obstacles. [`Persistence::recorder`] gives what
-//! writes its states and inputs, for worlds that go on where they were.
+//! A world is brought back from its last state on disk, which is at most some seconds old, and from its settings,
+//! figures and obstacles, which are always those of the last answer.
 
 use super::api::App;
+use super::checkpoints;
 use super::config::Config;
 use super::durable::keeper::{Keeper, Recorder, Sizes};
 use super::durable::local::LocalStore;
 use super::durable::marks::Marks;
 use super::durable::recovery::{Recovered, recover};
 use super::durable::store::{
-    ClipRecord, Durability, History, Retention, StoreError, WorldKey, WorldRecord,
+    ClipRecord, Durability, History, Item, Retention, StoreError, WorldKey, WorldRecord,
 };
 use super::tick::command::Origin;
+use super::tick::shard::Restored;
 use super::worlds::WorldHandle;
 use crate::wire::convert::{body, figure, motion, new_id, obstacle, world};
 use crate::wire::pb;
@@ -26,6 +28,8 @@ use std::time::{Duration, Instant};
 
 /// How often a world is looked at for changes that it does not announce.
 const LOOK_EVERY: Duration = Duration::from_secs(1);
+/// Time between two states of one world on disk.
+const CHECKPOINT_EVERY: Duration = Duration::from_secs(5);
 /// How long worlds note each step after an end that was not orderly.
 const NOTE_STEPS: Duration = Duration::from_secs(3);
 
@@ -135,9 +139,19 @@ impl Persistence {
         self.keeper.degraded()
     }
 
-    /// What writes states and inputs of a world.
-    pub fn recorder(&self, name: &str) -> Option<Recorder> {
-        self.worlds().get(name).map(|w| self.keeper.recorder(w))
+    /// Writes the state of every world.
+    pub async fn checkpoint_all(&self, app: &App) {
+        let worlds = app.worlds.list();
+        let all = worlds.iter().map(|handle| async move {
+            let record = self.worlds().get(&*handle.id).cloned()?;
+            let recorder = self.keeper.recorder(&record);
+            let written = checkpoint(handle, &recorder, None).await;
+            if let Err(error) = &written {
+                tracing::error!(world = &*handle.id, %error, "the last state is not written");
+            }
+            written.ok()
+        });
+        futures_util::future::join_all(all).await;
     }
 
     /// Brings everything back that can be.
@@ -199,30 +213,61 @@ impl Persistence {
             .world
             .as_ref()
             .is_some_and(|w| w.state == i32::from(pb::WorldState::Paused));
+        let shown = described.world.clone().unwrap_or_default();
         let settings = world::settings(described.world)?;
         // Worlds of before belong to nobody who is connected.
         let owner = format!("stored {}", record.name).into();
         let id = Some(record.name.clone());
-        let handle = app.worlds.create(id, settings, paused, owner)?;
+        let handle = match restored_state(record, history).await {
+            Some(state) => {
+                let handle = app.worlds.fork(id, state, paused, owner)?;
+                let update = world::update(&shown, None)?;
+                handle.call(origin(), move |s| s.update(update)).await?;
+                handle
+            }
+            None => app.worlds.create(id, settings, paused, owner)?,
+        };
         if self.crashed
             && let Some(mark) = self.marks.place(record.key)
         {
             let until = Instant::now() + NOTE_STEPS;
             handle.send(origin(), move |s| s.note_steps(mark, until))?;
         }
-        for f in described.figures {
-            let id = f.name.rsplit('/').next().unwrap_or_default();
-            let id = new_id("figure_id", id)?;
-            let settings = figure::settings("figure", Some(&f))?;
+        // What was created or deleted since the state was written is done again.
+        let there = handle
+            .call(origin(), |s| Ok((s.figures(), s.obstacles())))
+            .await?;
+        let last = |name: &str| name.rsplit('/').next().unwrap_or_default().to_owned();
+        let figures: Vec<String> = described.figures.iter().map(|f| last(&f.name)).collect();
+        for f in there.0.iter().filter(|f| !figures.contains(&f.id)) {
+            let id = f.id.clone();
+            handle.call(origin(), move |s| s.delete_figure(&id)).await?;
+        }
+        let obstacles = described.obstacles.iter().map(|o| last(&o.name));
+        let obstacles: Vec<String> = obstacles.collect();
+        for o in there.1.iter().filter(|o| !obstacles.contains(&o.id)) {
+            let id = o.id.clone();
+            handle
+                .call(origin(), move |s| s.remove_obstacle(&id))
+                .await?;
+        }
+        for (f, id) in described.figures.iter().zip(figures) {
+            if there.0.iter().any(|t| t.id == id) {
+                continue;
+            }
+            let id = new_id("figure_id", &id)?;
+            let settings = figure::settings("figure", Some(f))?;
             let built = app.bodies.get("figure.profile", &settings.body)?;
             handle
                 .call(origin(), move |s| s.create_figure(id, settings, built))
                 .await?;
         }
-        for o in described.obstacles {
-            let setup = obstacle::setup("obstacle", Some(&o))?;
-            let id = o.name.rsplit('/').next().unwrap_or_default();
-            let id = new_id("obstacle_id", id)?;
+        for (o, id) in described.obstacles.iter().zip(obstacles) {
+            if there.1.iter().any(|t| t.id == id) {
+                continue;
+            }
+            let setup = obstacle::setup("obstacle", Some(o))?;
+            let id = new_id("obstacle_id", &id)?;
             handle
                 .call(origin(), move |s| s.add_obstacle(id, setup))
                 .await?;
@@ -287,10 +332,15 @@ impl Persistence {
         Ok(())
     }
 
-    /// Writes changes of a world that nobody waits for down until it ends.
+    /// Writes states of a world down, and changes that nobody waits for, until it ends.
     fn follow(self: &Arc<Self>, handle: &Arc<WorldHandle>) {
         let mut changes = handle.outlet.described.subscribe();
         let mut closed = handle.closed.clone();
+        let recorder = self
+            .worlds()
+            .get(&*handle.id)
+            .map(|w| self.keeper.recorder(w));
+        let mut written = (None, Instant::now());
         let (this, handle) = (Arc::downgrade(self), Arc::downgrade(handle));
         tokio::spawn(async move {
             loop {
@@ -302,6 +352,20 @@ impl Persistence {
                 let (Some(this), Some(handle)) = (this.upgrade(), handle.upgrade()) else {
                     break;
                 };
+                if let Some(recorder) = &recorder
+                    && recorder.durability() != Durability::None
+                    && (written.0.is_none()
+                        || written.1.elapsed() >= CHECKPOINT_EVERY
+                        || recorder.needs_checkpoint())
+                {
+                    match checkpoint(&handle, recorder, written.0).await {
+                        Ok(tick) => written = (Some(tick), Instant::now()),
+                        Err(Fault::Draining) => break,
+                        Err(error) => {
+                            tracing::warn!(world = &*handle.id, %error, "a state is not written");
+                        }
+                    }
+                }
                 match this.changed(&handle).await {
                     Ok(()) => {}
                     Err(Fault::Draining) => break,
@@ -391,6 +455,59 @@ impl Persistence {
         let keeper = self.keeper.clone();
         // An error: it panicked, which was reported where it happened.
         let _ = tokio::task::spawn_blocking(move || keeper.close()).await;
+    }
+}
+
+/// Hands the state of a world in, unless it is that of the tick before. Returns its tick.
+async fn checkpoint(
+    handle: &Arc<WorldHandle>,
+    recorder: &Recorder,
+    before: Option<u64>,
+) -> Result<u64, Fault> {
+    if before == Some(handle.latest().tick) && !recorder.needs_checkpoint() {
+        return Ok(handle.latest().tick);
+    }
+    let (shard, capture) = handle.call(origin(), |s| s.capture()).await?;
+    let (tick, hash) = (capture.tick(), capture.hash());
+    let encoded = tokio::task::spawn_blocking(move || {
+        let begun = Instant::now();
+        let bytes = checkpoints::encode(&shard, &capture);
+        let seconds = begun.elapsed().as_secs_f64();
+        metrics::histogram!("sinew_store_checkpoint_seconds").record(seconds);
+        bytes
+    });
+    let bytes = encoded
+        .await
+        .map_err(|e| Fault::Internal(e.to_string()))??;
+    recorder.checkpoint(tick, bytes.into());
+    recorder.hash(tick, hash);
+    Ok(tick)
+}
+
+/// The last state of a world that is whole; `None`: there is none, or this program cannot go on from it.
+async fn restored_state(record: &WorldRecord, history: &History) -> Option<Restored> {
+    let (tick, bytes) = history.checkpoint.clone()?;
+    let expected = history.entries.iter().find_map(|e| match e.item {
+        Item::Hash(hash) if e.tick == tick => Some(hash),
+        _ => None,
+    });
+    let decoded = tokio::task::spawn_blocking(move || checkpoints::decode("checkpoint", &bytes));
+    let decoded = decoded.await.map_err(|e| Fault::Internal(e.to_string()));
+    let world = &*record.name;
+    match decoded.and_then(|d| d) {
+        Ok(state) if expected.is_none_or(|hash| hash == state.world.state_hash()) => Some(state),
+        Ok(_) => {
+            tracing::error!(
+                world,
+                tick,
+                "the state has another hash: the world begins anew"
+            );
+            None
+        }
+        Err(why) => {
+            tracing::error!(world, tick, %why, "the state is lost: the world begins anew");
+            None
+        }
     }
 }
 

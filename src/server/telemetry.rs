@@ -92,6 +92,11 @@ fn describe() {
         "Time in which one group of worlds was written to disk."
     );
     describe_histogram!(
+        "sinew_store_checkpoint_seconds",
+        Unit::Seconds,
+        "Time in which the state of one world became bytes."
+    );
+    describe_histogram!(
         "sinew_store_upkeep_seconds",
         Unit::Seconds,
         "Time in which old history was cut off."

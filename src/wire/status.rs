@@ -120,6 +120,14 @@ pub enum Fault {
         /// What happened.
         message: String,
     },
+    /// What was kept cannot be read any more.
+    #[error("{message}")]
+    DataLoss {
+        /// Reason in UPPER_SNAKE.
+        reason: &'static str,
+        /// What is lost.
+        message: String,
+    },
     /// This server cannot do it.
     #[error("{0} is not available in this server")]
     Unimplemented(String),
@@ -202,6 +210,7 @@ impl Fault {
             Self::Exists { .. } => "ALREADY_EXISTS",
             Self::Precondition { reason, .. }
             | Self::Aborted { reason, .. }
+            | Self::DataLoss { reason, .. }
             | Self::Refused { reason, .. } => reason,
             Self::Exhausted { .. } => "LIMIT_REACHED",
             Self::Budget { .. } => "TICK_BUDGET",
@@ -289,6 +298,7 @@ impl From<Fault> for Status {
                 Code::PermissionDenied
             }
             Fault::Aborted { .. } => Code::Aborted,
+            Fault::DataLoss { .. } => Code::DataLoss,
             Fault::Unimplemented(_) => Code::Unimplemented,
             Fault::Draining => {
                 details.set_retry_info(Some(Duration::from_secs(5)));

@@ -15,6 +15,8 @@ use tonic::Code;
 
 /// Worlds at a time.
 const WORLDS: usize = 16;
+/// Most time that a world goes back: states are written every 5 s, one second after they are due.
+const STATE_S: f64 = 6.5;
 struct Server {
     child: Child,
     address: String,
@@ -199,6 +201,14 @@ fn clip_source() -> pb::create_clip_request::Source {
     })
 }
 
+/// Ticks of all worlds.
+async fn ticks(client: &Client) -> BTreeMap<String, i64> {
+    let request = pb::ListWorldsRequest::default();
+    let worlds = client.worlds().list_worlds(request).await.unwrap();
+    let worlds = worlds.into_inner().worlds;
+    worlds.into_iter().map(|w| (w.name, w.tick)).collect()
+}
+
 /// What the server has, as the book has it.
 async fn found(client: &Client) -> Book {
     let mut book = Book::default();
@@ -248,27 +258,38 @@ async fn what_was_answered_outlives_kill_9() {
     let mut book = Book::default();
     let begun = Instant::now();
     println!(
-        "| kill | answers before | worlds | clips | lost worlds | lost figures | lost clips | back after ms |"
+        "| kill | answers before | worlds | clips | lost worlds | lost figures | lost clips | back after ms | behind s |"
     );
-    println!("|---|---|---|---|---|---|---|---|");
+    println!("|---|---|---|---|---|---|---|---|---|");
     let mut server = Server::start(&dir.0);
-    let (mut lost, mut kills) = (0, 0);
+    let (mut lost, mut kills, mut went_on) = (0, 0, 0);
     while begun.elapsed() < seconds || kills < 2 {
         kills += 1;
         let client = Client::connect(&server.address).await.unwrap();
         // Longer than the time in which a second crash puts a world into quarantine.
         let life = Duration::from_millis(3500 + 700 * (kills % 3));
+        let second = Client::connect(&server.address).await.unwrap();
         let killed = async {
             tokio::time::sleep(life).await;
+            let before = ticks(&second).await;
             server.kill();
+            before
         };
-        let (answers, ()) = tokio::join!(book.write(&client), killed);
+        let (answers, before) = tokio::join!(book.write(&client), killed);
 
         let start = Instant::now();
         server = Server::start(&dir.0);
         let client = Client::connect(&server.address).await.unwrap();
         let there = found(&client).await;
         let back = start.elapsed();
+        // How far worlds have gone back, s; a world that was created just before has no state yet.
+        let mut behind = 0.0_f64;
+        let mut restored = 0;
+        for (name, after) in ticks(&client).await {
+            let before = before.get(&name).copied().unwrap_or(0);
+            restored += usize::from(after > 90);
+            behind = behind.max((before - after) as f64 / 60.0);
+        }
         let missing = |ours: &BTreeSet<String>, theirs: &BTreeSet<String>| {
             ours.difference(theirs)
                 .filter(|n| !book.doubtful.contains(*n))
@@ -285,7 +306,7 @@ async fn what_was_answered_outlives_kill_9() {
                 .map_or(0, |theirs| missing(ours, theirs));
         }
         println!(
-            "| {kills} | {answers} | {} | {} | {worlds} | {figures} | {clips} | {} |",
+            "| {kills} | {answers} | {} | {} | {worlds} | {figures} | {clips} | {} | {behind:.1} |",
             there.worlds.len(),
             there.clips.len(),
             back.as_millis()
@@ -306,9 +327,12 @@ async fn what_was_answered_outlives_kill_9() {
                 .all(|c| book.clips.contains(c) || known(c))
         );
         assert!(answers > 0);
+        assert!(behind <= STATE_S, "{behind} s");
+        went_on += restored;
         book.worlds = there.worlds;
         book.clips = there.clips;
         book.doubtful.clear();
     }
     assert_eq!(lost, 0, "lost");
+    assert!(went_on > 0, "no world went on where it was");
 }

@@ -1,6 +1,7 @@
 //! The services: convert, ask the world or the library, convert back.
 
 mod bodies;
+mod checkpoints;
 mod clips;
 mod drive;
 mod figures;
@@ -11,6 +12,7 @@ mod state;
 mod watching;
 mod worlds;
 
+use super::checkpoints::Checkpoints;
 use super::config::Config;
 use super::library::{Bodies, Clips};
 use super::persistence::Persistence;
@@ -29,7 +31,7 @@ use tonic::service::RoutesBuilder;
 use tonic::{Request, Response, Status};
 
 /// Names of the services, for health checks; the empty name is the server as a whole.
-pub const SERVICE_NAMES: [&str; 9] = [
+pub const SERVICE_NAMES: [&str; 10] = [
     "",
     pb::world_service_server::SERVICE_NAME,
     pb::figure_service_server::SERVICE_NAME,
@@ -39,12 +41,16 @@ pub const SERVICE_NAMES: [&str; 9] = [
     pb::state_service_server::SERVICE_NAME,
     pb::simulation_service_server::SERVICE_NAME,
     pb::server_service_server::SERVICE_NAME,
+    pb::checkpoint_service_server::SERVICE_NAME,
 ];
 
-/// Calls that carry a clip in their request: up to `max_clip_bytes`. All others take up to `max_request_bytes`.
-pub const UPLOADS: [&str; 2] = [
+/// Calls that carry a clip or a checkpoint in their request: up to `max_clip_bytes`. All others take up to
+/// `max_request_bytes`.
+pub const UPLOADS: [&str; 4] = [
     "/sinew.v1.MotionService/CreateClip",
     "/sinew.v1.SimulationService/SimulateClip",
+    "/sinew.v1.CheckpointService/RestoreWorld",
+    "/sinew.v1.CheckpointService/ForkWorld",
 ];
 
 /// Whether a call takes exactly one message. Of calls of other packages, reflection for example, nothing is known.
@@ -67,6 +73,8 @@ pub struct App {
     pub bodies: Bodies,
     /// Clips.
     pub clips: Clips,
+    /// Checkpoints of worlds.
+    pub checkpoints: Checkpoints,
     /// Where files become clips.
     pub conversions: Pool,
     /// Where clips are simulated.
@@ -95,6 +103,7 @@ impl App {
             clips: Clips::new(&config, &bodies)?,
             bodies,
             worlds: Registry::new(config.clone()),
+            checkpoints: Checkpoints::new(share),
             conversions: Pool::new(
                 "file conversion",
                 "max_waiting_conversions",
@@ -204,6 +213,7 @@ pub fn add_services(routes: &mut RoutesBuilder, app: &Arc<App>) {
         state_service_server::StateServiceServer;
         simulation_service_server::SimulationServiceServer;
         server_service_server::ServerServiceServer;
+        checkpoint_service_server::CheckpointServiceServer;
     }
 }
 

@@ -129,6 +129,7 @@ impl WorldService for Api {
             if !stored {
                 ended?;
             }
+            self.checkpoints.forget_world(name);
             Ok(pb::DeleteWorldResponse {})
         };
         answer(result.await)

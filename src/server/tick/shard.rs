@@ -1,10 +1,13 @@
 //! One world with everything that belongs to its clock: figures by name, drivers, held frames. Owned by the world's
 //! thread; others send [`Command`](super::command::Command)s that call these methods between ticks.
 
+mod checkpoint;
 mod desired_motion;
 mod figures;
 mod obstacles;
 mod perturbations;
+
+pub use checkpoint::{Restored, SavedShard};
 
 use super::budget::{Account, Budget, Meter};
 use super::clock::Clock;
@@ -54,6 +57,8 @@ pub struct Shard {
     id: Arc<str>,
     settings: WorldSettings,
     created: SystemTime,
+    /// Counts the times that its past was replaced.
+    epoch: i32,
     limits: Limits,
     planners: Arc<Planners>,
     budget: Arc<Budget>,
@@ -105,6 +110,7 @@ impl Shard {
         Ok(Self {
             id,
             created: SystemTime::now(),
+            epoch: 1,
             limits,
             planners,
             budget,
@@ -180,7 +186,7 @@ impl Shard {
             tick: self.world.tick(),
             time: self.world.time(),
             figures: self.members.len(),
-            epoch: 1,
+            epoch: self.epoch,
             created: self.created,
         }
     }
@@ -434,7 +440,7 @@ impl Shard {
             tick: self.world.tick(),
             time: self.world.time(),
             hash: self.world.state_hash(),
-            epoch: 1,
+            epoch: self.epoch,
             server_ns: i64::try_from(since.as_nanos()).unwrap_or(i64::MAX),
             roster_version: self.roster_version,
             roster: self.roster.clone(),

@@ -8,7 +8,7 @@ use crate::server::tick::budget::Budget;
 use crate::server::tick::command::{Command, Inbox, Origin};
 use crate::server::tick::history::History;
 use crate::server::tick::planners::Planners;
-use crate::server::tick::shard::{Limits, Shard};
+use crate::server::tick::shard::{Limits, Restored, Shard};
 use crate::server::tick::stage_times::{Percentiles, STAGES};
 use crate::server::tick::{self, Outlet};
 use crate::sim::body::Body;
@@ -269,6 +269,31 @@ impl Registry {
         paused: bool,
         owner: Client,
     ) -> Result<Arc<WorldHandle>, Fault> {
+        self.start(id, (settings, None), paused, owner)
+    }
+
+    /// Creates a world in the state of a checkpoint.
+    ///
+    /// # Errors
+    /// Those of [`Self::create`] and of [`Shard::restore`].
+    pub fn fork(
+        &self,
+        id: Option<String>,
+        from: Restored,
+        paused: bool,
+        owner: Client,
+    ) -> Result<Arc<WorldHandle>, Fault> {
+        let settings = from.shard.settings.clone();
+        self.start(id, (settings, Some(from)), paused, owner)
+    }
+
+    fn start(
+        &self,
+        id: Option<String>,
+        (settings, from): (WorldSettings, Option<Restored>),
+        paused: bool,
+        owner: Client,
+    ) -> Result<Arc<WorldHandle>, Fault> {
         let mut worlds = self.worlds.write().unwrap_or_else(PoisonError::into_inner);
         if self.draining.load(Ordering::SeqCst) {
             return Err(Fault::Draining);
@@ -308,13 +333,16 @@ impl Registry {
         let planners = Arc::clone(&self.planners);
         let budget = Arc::clone(&self.budget);
         let mut shard = Shard::new(name.clone(), settings, paused, limits, planners, budget)?;
+        if let Some(from) = from {
+            shard.restore(from)?;
+        }
         let (commands, queue) = sync_channel(self.config.command_queue as usize);
         let first = shard.snapshot();
         let mut history = History::new(self.config.history_ticks as usize);
         history.push(first.clone());
         let described = Described {
             world: shard.info(),
-            figures: Vec::new(),
+            figures: shard.figures(),
         };
         let outlet = Arc::new(Outlet {
             latest: watch::Sender::new(first),

@@ -2,6 +2,7 @@
 //! named.
 
 pub mod body;
+pub mod checkpoint;
 pub mod constraint;
 pub mod figure;
 pub mod motion;

@@ -117,6 +117,7 @@ fn event_type(kind: &EventKind) -> pb::EventType {
         EventKind::DriveBegan(_) => pb::EventType::DriveBegan,
         EventKind::DriveEnded(_) => pb::EventType::DriveEnded,
         EventKind::DriveResynced(_) => pb::EventType::DriveResynced,
+        EventKind::Restored(_) => pb::EventType::WorldRestored,
         EventKind::Paused => pb::EventType::WorldPaused,
         EventKind::Resumed => pb::EventType::WorldResumed,
         EventKind::Failed(_) => pb::EventType::WorldFailed,
@@ -157,6 +158,7 @@ pub fn event_out(e: &WorldEvent) -> pb::Event {
         EventKind::ObstacleAdded(other) | EventKind::ObstacleRemoved(other) => {
             out.other = other.clone();
         }
+        EventKind::Restored(tick) => out.detail = tick.to_string(),
         EventKind::DriveBegan(t)
         | EventKind::DriveEnded(t)
         | EventKind::DriveResynced(t)
