@@ -20,6 +20,7 @@ use super::worlds::WorldHandle;
 use crate::wire::convert::{body, figure, motion, new_id, obstacle, world};
 use crate::wire::pb;
 use crate::wire::status::Fault;
+use crate::wire::types::WorldUpdate;
 use prost::Message;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -213,15 +214,18 @@ impl Persistence {
             .world
             .as_ref()
             .is_some_and(|w| w.state == i32::from(pb::WorldState::Paused));
-        let shown = described.world.clone().unwrap_or_default();
         let settings = world::settings(described.world)?;
+        let speed = settings.pace.speed;
         // Worlds of before belong to nobody who is connected.
         let owner = format!("stored {}", record.name).into();
         let id = Some(record.name.clone());
         let handle = match restored_state(record, history).await {
             Some(state) => {
                 let handle = app.worlds.fork(id, state, paused, owner)?;
-                let update = world::update(&shown, None)?;
+                let update = WorldUpdate {
+                    speed: Some(speed),
+                    ..Default::default()
+                };
                 handle.call(origin(), move |s| s.update(update)).await?;
                 handle
             }
@@ -359,7 +363,7 @@ impl Persistence {
                         || recorder.needs_checkpoint())
                 {
                     match checkpoint(&handle, recorder, written.0).await {
-                        Ok(tick) => written = (Some(tick), Instant::now()),
+                        Ok(state) => written = (Some(state), Instant::now()),
                         Err(Fault::Draining) => break,
                         Err(error) => {
                             tracing::warn!(world = &*handle.id, %error, "a state is not written");
@@ -458,14 +462,16 @@ impl Persistence {
     }
 }
 
-/// Hands the state of a world in, unless it is that of the tick before. Returns its tick.
+/// Hands the state of a world in, unless tick and hash are those that were written before. Returns both.
 async fn checkpoint(
     handle: &Arc<WorldHandle>,
     recorder: &Recorder,
-    before: Option<u64>,
-) -> Result<u64, Fault> {
-    if before == Some(handle.latest().tick) && !recorder.needs_checkpoint() {
-        return Ok(handle.latest().tick);
+    before: Option<(u64, u64)>,
+) -> Result<(u64, u64), Fault> {
+    let latest = handle.latest();
+    let now = (latest.tick, latest.hash);
+    if before == Some(now) && !recorder.needs_checkpoint() {
+        return Ok(now);
     }
     let (shard, capture) = handle.call(origin(), |s| s.capture()).await?;
     let (tick, hash) = (capture.tick(), capture.hash());
@@ -481,7 +487,7 @@ async fn checkpoint(
         .map_err(|e| Fault::Internal(e.to_string()))??;
     recorder.checkpoint(tick, bytes.into());
     recorder.hash(tick, hash);
-    Ok(tick)
+    Ok((tick, hash))
 }
 
 /// The last state of a world that is whole; `None`: there is none, or this program cannot go on from it.

@@ -258,7 +258,7 @@ async fn what_was_answered_outlives_kill_9() {
     let mut book = Book::default();
     let begun = Instant::now();
     println!(
-        "| kill | answers before | worlds | clips | lost worlds | lost figures | lost clips | back after ms | behind s |"
+        "| kill | answers | worlds | clips | lost worlds | lost figures | lost clips | back after ms | behind s |"
     );
     println!("|---|---|---|---|---|---|---|---|---|");
     let mut server = Server::start(&dir.0);
@@ -266,8 +266,8 @@ async fn what_was_answered_outlives_kill_9() {
     while begun.elapsed() < seconds || kills < 2 {
         kills += 1;
         let client = Client::connect(&server.address).await.unwrap();
-        // Longer than the time in which a second crash puts a world into quarantine.
-        let life = Duration::from_millis(3500 + 700 * (kills % 3));
+        // Longer than the time between two states, and than that in which a second crash puts a world into quarantine.
+        let life = Duration::from_millis(6500 + 700 * (kills % 3));
         let second = Client::connect(&server.address).await.unwrap();
         let killed = async {
             tokio::time::sleep(life).await;
