@@ -26,6 +26,7 @@ const PARTS: &[(&str, &[&str])] = &[
 /// Layers of the physics, from the left to the right; modules of one layer do not use each other. `contact` (the Newton
 /// kernel of motors, limits and friction) lies right of `control`, because the modern controller is solved by the same
 /// kernel. `setup`, `report` and `touch` are plain data: how a figure is set up, and what it says.
+/// `saved` helps the derives of all of them to write a checkpoint.
 const SIM: &[&[&str]] = &[
     &["world"],
     &["figure"],
@@ -43,6 +44,7 @@ const SIM: &[&[&str]] = &[
     &["touch"],
     &["body"],
     &["math", "params"],
+    &["saved"],
 ];
 
 /// Layers of the server, likewise.
@@ -54,7 +56,6 @@ const FORBIDDEN_IN_SIM: &[&str] = &[
     "tonic",
     "prost",
     "tracing",
-    "serde",
     "serde_json",
     "Instant",
     "SystemTime",

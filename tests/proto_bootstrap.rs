@@ -44,6 +44,8 @@ fn generated_code_matches_the_protos() {
         .out_dir(&out)
         .bytes(".sinew.v1.Numbers.i16")
         .bytes(".sinew.v1.BvhSource.data")
+        .bytes(".sinew.v1.RestoreWorldRequest.data")
+        .bytes(".sinew.v1.ForkWorldRequest.data")
         // Encoded once and shared by all viewers: wire::watched implements this message by hand.
         .extern_path(
             ".sinew.v1.WatchWorldResponse",

@@ -24,6 +24,9 @@ pub struct Args {
     /// Address and port to listen on [default: 127.0.0.1:7463]
     #[arg(long, value_name = "ADDR:PORT")]
     listen: Option<SocketAddr>,
+    /// Directory in which worlds and clips outlive the server; it is made if need be
+    #[arg(long, value_name = "DIR")]
+    data_dir: Option<PathBuf>,
     /// Allow an address that other machines can reach without authentication or without TLS
     #[arg(long)]
     insecure_bind_any: bool,
@@ -53,6 +56,12 @@ impl Args {
         let mut flag = |name: &str, value: String| flags.push((name.to_owned(), value));
         if let Some(listen) = self.listen {
             flag("listen", listen.to_string());
+        }
+        if let Some(dir) = &self.data_dir {
+            let Some(dir) = dir.to_str().filter(|d| !d.is_empty()) else {
+                anyhow::bail!("--data-dir must be a path in UTF-8, got {}", dir.display());
+            };
+            flag("data_dir", dir.to_owned());
         }
         if self.insecure_bind_any {
             flag("insecure_bind_any", "true".to_owned());
@@ -95,10 +104,13 @@ async fn serve(args: &Args, config: Arc<Config>, filter: EnvFilter) -> anyhow::R
     };
     let socket = bind(config.listen).with_context(cannot_listen)?;
     let address = socket.local_addr()?;
+    // Before the data directory is opened: what is damaged in it is logged.
+    telemetry::init_logs(filter, config.log_json, stderr_shows_colour());
     let (stop, stopping) = tokio::sync::watch::channel(false);
     let app = Arc::new(App::new(config.clone(), stopping)?);
+    app.restore().await;
     let mut figures = Vec::new();
-    if !args.no_demo {
+    if !args.no_demo && app.worlds.get("demo").is_err() {
         figures = server::demo::create(&app)
             .await
             .map_err(|e| anyhow::anyhow!(e))?;
@@ -111,7 +123,6 @@ async fn serve(args: &Args, config: Arc<Config>, filter: EnvFilter) -> anyhow::R
         Err(error) if !error.is::<OutputClosed>() => note(&format!("warning: {error:#}")),
         _ => {}
     }
-    telemetry::init_logs(filter, config.log_json, stderr_shows_colour());
     for (name, _, value) in config.table() {
         tracing::info!("setting {name} = {value}");
     }

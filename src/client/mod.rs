@@ -181,6 +181,8 @@ impl Client {
         states: state_service_client::StateServiceClient;
         /// `SimulationService`.
         simulations: simulation_service_client::SimulationServiceClient;
+        /// `CheckpointService`.
+        checkpoints: checkpoint_service_client::CheckpointServiceClient;
         /// `ServerService`.
         server: server_service_client::ServerServiceClient;
         /// `AccessService`.

@@ -1,6 +1,7 @@
 //! Settings of the server: defaults, then a TOML file, then environment variables, then flags. Checked as a whole
 //! before a port is bound, and printed.
 
+use super::durable::store::Durability;
 use std::net::SocketAddr;
 use std::path::Path;
 
@@ -204,6 +205,21 @@ settings! {
     allowed_origins: text = "", (), ();
     /// Serves the viewer at `/`; without it the status page is there.
     viewer: flag = true, (), ();
+    /// Directory in which worlds and clips outlive the server; empty: they end with it.
+    data_dir: text = "", (), ();
+    /// How states of worlds go to disk: `none` (only at orderly ends), `group` (what comes within 10 ms together) or
+    /// `each` (at once).
+    durability: text = "group", (), ();
+    /// Worlds that are let out of quarantine at this start; separated by commas.
+    release_worlds: text = "", (), ();
+    /// History of worlds that is kept on disk, s.
+    history_s: float = 60.0, 5.0, 86_400.0;
+    /// Bytes of history of one world.
+    max_world_history_bytes: int = 268_435_456, 1_048_576, 1_099_511_627_776;
+    /// Bytes of history of all worlds.
+    max_history_bytes: int = 2_147_483_648, 1_048_576, 1_099_511_627_776;
+    /// Bytes that wait for the disk; what comes on top is not written, and counted.
+    max_store_queue_bytes: int = 67_108_864, 1_048_576, 4_294_967_296;
     /// Which messages are logged, as `level` or `target=level` lists.
     log: text = "info", (), ();
     /// Logs as JSON lines.
@@ -321,6 +337,14 @@ impl Config {
         for (name, value) in flags {
             config.set_text(&format!("--set {name}"), &name.replace('-', "_"), value)?;
         }
+        if Durability::by_name(&config.durability).is_none() {
+            return Err(ConfigError::Value {
+                source_name: "settings".to_owned(),
+                name: "durability",
+                expected: "none, group or each".to_owned(),
+                value: config.durability,
+            });
+        }
         config.check_access()?;
         Ok(config)
     }
@@ -373,7 +397,7 @@ impl Config {
 
 /// Variables `SINEW_…` that are no settings: the name of the file, and what tests, examples and tools of this project
 /// read.
-const OTHER_VARIABLES: [&str; 19] = [
+const OTHER_VARIABLES: [&str; 20] = [
     "config",
     "token",
     "bin",
@@ -393,6 +417,7 @@ const OTHER_VARIABLES: [&str; 19] = [
     "soak_seed",
     "soak_ticks",
     "abuse_seconds",
+    "chaos_seconds",
 ];
 
 /// True for a variable that is no setting. Kubernetes sets `SINEW_SERVICE_…` and `SINEW_PORT…` in every container next

@@ -27,9 +27,12 @@ const PEOPLE: [(&str, &str, f64); 3] = [
 /// The world is there already, or a limit of the configuration is too small for it.
 pub async fn create(app: &Arc<App>) -> Result<Vec<&'static str>, BoxError> {
     let settings = convert::world::settings(None)?;
-    let world = app
-        .worlds
-        .create(Some("demo".into()), settings, false, ("demo".into(), None))?;
+    let world = app.worlds.create(
+        Some("demo".into()),
+        settings,
+        false,
+        ("demo".into(), Vec::new()),
+    )?;
     let mut present = Vec::new();
     for (name, body, y) in PEOPLE {
         if convert::body::by_id(body).is_none() {

@@ -8,6 +8,7 @@ use crate::sim::body::{Body, Posture};
 use crate::sim::plan::cycle;
 use crate::sim::retarget::TEMPI;
 use crate::wire::convert::body::{NAMED, by_id};
+use crate::wire::pb;
 use crate::wire::status::Fault;
 use crate::wire::types::{BodyRef, ClipInfo, MotionSource};
 use std::collections::{BTreeMap, HashMap};
@@ -302,6 +303,80 @@ impl Clips {
         held.insert(id, Arc::new(stored));
         metrics::gauge!("sinew_clips").set(held.len() as f64);
         Ok(info)
+    }
+
+    /// Takes a clip back that was stored before. It is prepared when it is played.
+    ///
+    /// # Errors
+    /// The name is taken or there is no room.
+    pub fn restore(
+        &self,
+        new: NewClip,
+        shown: &pb::Clip,
+        reference: &BodyRef,
+        source: MotionSource,
+    ) -> Result<(), Fault> {
+        let bytes = source_bytes(&source);
+        let created = shown.create_time.and_then(|t| t.try_into().ok());
+        let id = (new.id.clone())
+            .ok_or_else(|| Fault::Internal("a stored clip without a name".into()))?;
+        let info = ClipInfo {
+            id: id.clone(),
+            display_name: new.display_name.clone(),
+            owner: new.owner.clone(),
+            builtin: false,
+            body: reference.id.clone(),
+            rate_hz: shown.rate_hz,
+            frames: usize::try_from(shown.frame_count).unwrap_or(0),
+            duration: shown.duration_s,
+            report: None,
+            created,
+            forecast: None,
+        };
+        let mut held = locked(&self.held);
+        self.room(&held, &new, bytes)?;
+        let stored = Stored {
+            info,
+            source: Some(source),
+            bytes,
+            prepared: Mutex::default(),
+        };
+        held.insert(id, Arc::new(stored));
+        metrics::gauge!("sinew_clips").set(held.len() as f64);
+        Ok(())
+    }
+
+    /// Works out the report and the forecast of a clip that was taken back. Slow: not on an async thread.
+    ///
+    /// # Errors
+    /// There is none of that name, it cannot be prepared any more, or it was given up.
+    pub fn complete(&self, id: &str, body: &Body, stop: &dyn Fn() -> bool) -> Result<(), Fault> {
+        let stored = self.stored(id)?;
+        let Some(source) = stored.source.clone() else {
+            return Ok(());
+        };
+        let field = source_field(&source);
+        let (clip, report) = engine::prepare(field, id, &source, body, 1.0, stop)?;
+        let info = ClipInfo {
+            report: report.map(Arc::new),
+            forecast: Some(Arc::new(engine::forecast(body, &clip))),
+            ..stored.info.clone()
+        };
+        let mut held = locked(&self.held);
+        // It may have been deleted, and another one of its name created.
+        if held.get(id).is_some_and(|now| Arc::ptr_eq(now, &stored)) {
+            let key = (info.body.clone(), Manner::recorded(false));
+            let mut prepared = locked(&stored.prepared).clone();
+            prepared.insert(key, Arc::new(clip));
+            let stored = Stored {
+                info,
+                source: Some(source),
+                bytes: stored.bytes,
+                prepared: Mutex::new(prepared),
+            };
+            held.insert(id.to_owned(), Arc::new(stored));
+        }
+        Ok(())
     }
 
     fn stored(&self, id: &str) -> Result<Arc<Stored>, Fault> {

@@ -5,12 +5,15 @@
 
 pub mod access;
 pub mod api;
+pub mod checkpoints;
 pub mod config;
 pub mod demo;
+pub mod durable;
 pub mod engine;
 pub mod fanout;
 pub mod ingest;
 pub mod library;
+pub mod persistence;
 pub mod shares;
 pub mod simulate;
 pub mod telemetry;
@@ -63,6 +66,7 @@ pub async fn run(
 ) -> Result<(), BoxError> {
     let (stop, stopping) = watch::channel(false);
     let app = Arc::new(App::new(Arc::new(config), stopping)?);
+    app.restore().await;
     serve(app, listener, shutdown, stop).await
 }
 
@@ -144,7 +148,13 @@ pub async fn serve(
             stop.send_replace(true); // streams end with UNAVAILABLE
             app.conversions.close();
             app.simulations.close();
+            if let Some(persistence) = &app.persistence {
+                persistence.checkpoint_all(&app).await;
+            }
             app.worlds.drain().await; // ticks end whole
+            if let Some(persistence) = &app.persistence {
+                persistence.close().await;
+            }
         }
     };
     let tls = app.access.tls.as_ref().map(|tls| tls.acceptor.clone());

@@ -13,6 +13,12 @@ const TICK_SECONDS: &str = "sinew_tick_seconds";
 const TICK_BUCKETS_S: [f64; 12] = [
     0.000_01, 0.000_1, 0.000_5, 0.001, 0.002, 0.004, 0.008, 0.016, 0.033, 0.066, 0.25, 1.0,
 ];
+/// Times of the disk: one group, one look at what can be cut off.
+const STORE_SECONDS: &str = "sinew_store_";
+/// Upper bounds of their buckets, s: from a fast disk to one that holds the server up.
+const STORE_BUCKETS_S: [f64; 11] = [
+    0.000_5, 0.001, 0.002, 0.004, 0.008, 0.016, 0.033, 0.066, 0.25, 1.0, 5.0,
+];
 /// Interval at which times are counted into buckets. An empty world that is stepped by hand does a million and a half
 /// ticks a second, of 16 bytes each: 6 MB within this time.
 const UPKEEP_EVERY: Duration = Duration::from_millis(250);
@@ -24,6 +30,12 @@ pub fn metrics() -> Option<PrometheusHandle> {
         .get_or_init(|| {
             let handle = PrometheusBuilder::new()
                 .set_buckets_for_metric(Matcher::Full(TICK_SECONDS.to_owned()), &TICK_BUCKETS_S)
+                .and_then(|b| {
+                    b.set_buckets_for_metric(
+                        Matcher::Prefix(STORE_SECONDS.to_owned()),
+                        &STORE_BUCKETS_S,
+                    )
+                })
                 .and_then(PrometheusBuilder::install_recorder)
                 .ok()?;
             describe();
@@ -73,6 +85,38 @@ fn describe() {
     describe_counter!(
         "sinew_connections_closed_total",
         "Connections that ended other than by their clients' wish, by reason."
+    );
+    describe_histogram!(
+        "sinew_store_commit_seconds",
+        Unit::Seconds,
+        "Time in which one group of worlds was written to disk."
+    );
+    describe_histogram!(
+        "sinew_store_checkpoint_seconds",
+        Unit::Seconds,
+        "Time in which the state of one world became bytes."
+    );
+    describe_histogram!(
+        "sinew_store_upkeep_seconds",
+        Unit::Seconds,
+        "Time in which old history was cut off."
+    );
+    describe_counter!(
+        "sinew_store_written_bytes_total",
+        "Bytes of worlds written to disk."
+    );
+    describe_counter!(
+        "sinew_store_lost_entries_total",
+        "States, inputs and hashes that were not written to disk."
+    );
+    describe_gauge!("sinew_store_queue_bytes", "Bytes that wait for the disk.");
+    describe_gauge!(
+        "sinew_store_history_bytes",
+        "Bytes of history of all worlds on disk."
+    );
+    describe_gauge!(
+        "sinew_store_degraded",
+        "1: less is written to disk than was promised."
     );
     describe_counter!("sinew_faults_total", "Requests refused, by reason.");
 }

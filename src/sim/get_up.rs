@@ -26,6 +26,7 @@ use crate::sim::motion::{PlanarTransform, Target, TargetPair};
 use goals::Goals;
 use params::layout::{NEAR_HEIGHT, ON_SIDE, PRONE, REFERENCE_LEG, TOUCH_HEIGHT, UPDATE_TIME};
 use reference_pose::ReferencePoses;
+use serde::{Deserialize, Serialize};
 use solver::{BALL, HANDS, KNEE, SHANKS, Solver, TOES};
 use stages::{FloorContacts, Layout, Stage};
 
@@ -50,12 +51,11 @@ impl GetUpSolver {
 }
 
 /// The motion of one figure that gets up.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct GetUpMotion {
     layout: Layout,
     /// Where the way lies in the world.
     place: PlanarTransform,
-    stages: &'static [Stage],
     /// They lead over onto the belly, not up.
     turns_over: bool,
     stage: usize,
@@ -69,6 +69,7 @@ pub struct GetUpMotion {
     from: Goals,
     now: Goals,
     posture: Posture,
+    #[serde(with = "crate::sim::saved::array")]
     velocity: [f64; NV],
 }
 
@@ -104,7 +105,6 @@ impl GetUpMotion {
                 hands: o,
             },
             place: PlanarTransform::default(),
-            stages: stages::UP,
             turns_over: false,
             stage: 0,
             mirrored: false,
@@ -150,7 +150,6 @@ impl GetUpMotion {
                 inverse(self.place, terms.segment_position(HANDS[side].index()));
         }
         self.turns_over = !prone;
-        self.stages = if prone { stages::UP } else { stages::OVER };
         self.mirrored = !prone && self.layout.roll < 0.0;
         let first = if !prone && self.layout.roll.abs() < ON_SIDE {
             SIDE
@@ -167,9 +166,23 @@ impl GetUpMotion {
         self.enter(first);
     }
 
+    /// What it goes through.
+    fn stages(&self) -> &'static [Stage] {
+        if self.turns_over {
+            stages::OVER
+        } else {
+            stages::UP
+        }
+    }
+
+    /// True if it is in one of its stages: what was read from a checkpoint may be anything.
+    pub fn is_valid(&self) -> bool {
+        self.stage < self.stages().len()
+    }
+
     /// Goals of a stage.
     fn goals(&self, poses: &ReferencePoses, stage: usize) -> Goals {
-        let goals = self.stages[stage].goals;
+        let goals = self.stages()[stage].goals;
         if self.mirrored {
             goals(&self.layout.mirrored(), poses).mirrored()
         } else {
@@ -198,13 +211,13 @@ impl GetUpMotion {
     /// True once the last stage is over.
     pub fn is_over(&self) -> bool {
         !self.turns_over
-            && self.stage + 1 == self.stages.len()
-            && self.since >= self.stages[self.stage].seconds
+            && self.stage + 1 == self.stages().len()
+            && self.since >= self.stages()[self.stage].seconds
     }
 
     /// True if a segment that touches the floor carries: arms and feet on their way elsewhere slide.
     pub fn carries(&self, s: SegmentId) -> bool {
-        let down = self.stages[self.stage].down;
+        let down = self.stages()[self.stage].down;
         match s {
             _ if down.whole => true,
             L_UPPER_ARM | L_FOREARM | L_HAND => down.hands[0],
@@ -218,13 +231,13 @@ impl GetUpMotion {
 
     /// True while the trunk lies on the floor.
     pub fn lies(&self) -> bool {
-        let down = self.stages[self.stage].down;
+        let down = self.stages()[self.stage].down;
         down.whole || !down.balls
     }
 
     /// True while it rolls over.
     pub fn rolls(&self) -> bool {
-        self.stages[self.stage].down.whole
+        self.stages()[self.stage].down.whole
     }
 
     /// Segments that may slide over the floor.
@@ -244,7 +257,7 @@ impl GetUpMotion {
             out[R_HAND.index()] = false;
             out
         };
-        match self.stages[self.stage].down {
+        match self.stages()[self.stage].down {
             FloorContacts { whole: true, .. } => &BUT_FEET,
             FloorContacts { slides: true, .. } => &BUT_HANDS,
             _ => &NONE,
@@ -258,7 +271,7 @@ impl GetUpMotion {
 
     /// What it is about.
     pub fn stage(&self) -> &'static str {
-        self.stages[self.stage].name
+        self.stages()[self.stage].name
     }
 
     /// Desired motion of a tick of `dt` seconds at a share `pace` of its own pace, for the body of `terms`. No
@@ -273,9 +286,9 @@ impl GetUpMotion {
     ) -> TargetPair {
         let before = self.target();
         self.since += dt * pace;
-        let stage = self.stages[self.stage];
-        if self.since >= stage.seconds && self.stage + 1 < self.stages.len() {
-            if is_down(&with.solver, terms, self.stages[self.stage + 1].down) {
+        let stage = self.stages()[self.stage];
+        if self.since >= stage.seconds && self.stage + 1 < self.stages().len() {
+            if is_down(&with.solver, terms, self.stages()[self.stage + 1].down) {
                 self.enter(self.stage + 1);
             } else {
                 self.since = stage.seconds;
@@ -285,7 +298,7 @@ impl GetUpMotion {
             self.begin(with, terms);
         }
         self.update_layout(with, terms, dt);
-        let stage = &self.stages[self.stage];
+        let stage = &self.stages()[self.stage];
         let u = (self.since / stage.seconds).min(1.0);
         let share = smootherstep(u);
         self.now = self.from.mix(&self.goals(&with.poses, self.stage), share);
@@ -308,7 +321,7 @@ impl GetUpMotion {
         let share = 1.0 - exp(-dt / UPDATE_TIME);
         let real = &terms.state.posture;
         self.layout.pelvis = inverse(self.place, real.root_position);
-        let heading = if self.stages[self.stage].down.whole {
+        let heading = if self.stages()[self.stage].down.whole {
             real.root_rotation.rotate(Vec3::Z)
         } else {
             real.root_rotation.rotate(Vec3::Y).cross(Vec3::Z)
@@ -316,7 +329,7 @@ impl GetUpMotion {
         let yaw = trig::atan2(heading.y, heading.x) - self.place.yaw;
         let off = trig::wrapped(yaw - self.layout.yaw);
         self.layout.yaw += share * off;
-        let down = self.stages[self.stage].down;
+        let down = self.stages()[self.stage].down;
         for side in 0..2 {
             let knee = self.real(with, terms, (SHANKS[side], KNEE));
             let ball = self.ball(with, terms, side);
@@ -344,7 +357,7 @@ impl GetUpMotion {
     fn target(&self) -> Target {
         let mut out = Target::still(self.posture);
         out.velocity = self.velocity;
-        let d = self.stages[self.stage].down;
+        let d = self.stages()[self.stage].down;
         out.planted = [d.balls && !d.knees && d.hands == [false; 2]; 2];
         self.place.apply_to(&mut out);
         out

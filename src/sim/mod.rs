@@ -1,7 +1,7 @@
 //! Physics and control: pure, synchronous, without I/O, clock or logging.
 //!
 //! `world` ─► `figure` ─► `track` ─► `control` ─► `collide` ─► `contact` ─► `retarget` ─► `plan` ─► `motion`, `support`
-//! ─► `setup` ─► `strength` ─► `dynamics` ─► `report` ─► `touch` ─► `body` ─► `math`.
+//! ─► `setup` ─► `strength` ─► `dynamics` ─► `report` ─► `touch` ─► `body` ─► `math` ─► `saved`.
 
 pub mod body;
 pub mod collide;
@@ -16,6 +16,7 @@ pub mod params;
 pub mod plan;
 pub mod report;
 pub mod retarget;
+pub mod saved;
 pub mod setup;
 pub mod strength;
 pub mod support;

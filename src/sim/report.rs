@@ -3,6 +3,7 @@
 use crate::sim::body::{DOF_COUNT, NV, SEGMENT_COUNT, SegmentId, State};
 use crate::sim::math::Vec3;
 use crate::sim::touch::{MAX_TOUCHES, Touch};
+use serde::{Deserialize, Serialize};
 
 /// Most contact points of one segment.
 pub const POINTS_PER_SEGMENT: usize = 8;
@@ -10,7 +11,7 @@ pub const POINTS_PER_SEGMENT: usize = 8;
 pub const MAX_CONTACTS: usize = POINTS_PER_SEGMENT * SEGMENT_COUNT;
 
 /// One touching point.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ContactPoint {
     /// Segment that touches.
     pub segment: SegmentId,
@@ -23,7 +24,7 @@ pub struct ContactPoint {
 }
 
 /// Which safeguards acted and what state the figure is in; a set of flags.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Flags(pub u32);
 
 #[allow(missing_docs)]
@@ -77,16 +78,19 @@ impl Flags {
 
 /// The last substep as it was solved. It satisfies the equations of motion to rounding:
 /// `M v̇ + h = Sᵀτ + Σ Jᵀ f + assist`, with `h` from Coriolis forces and gravity.
-#[derive(Debug, PartialEq)]
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub struct Audit {
     /// State at the start of the substep.
     pub state: State,
     /// Acceleration over the substep `(v⁺ − v)/h`, layout of `State::velocity`; with the kinematic stepper the one that
     /// was applied, to which impacts and the return of the support to its place come on top.
+    #[serde(with = "crate::sim::saved::array")]
     pub acceleration: [f64; NV],
     /// Joint torques of muscles, N·m.
+    #[serde(with = "crate::sim::saved::array")]
     pub torque: [f64; DOF_COUNT],
     /// Joint torques that no muscle gives: joint limits and stretched tissue, N·m.
+    #[serde(with = "crate::sim::saved::array")]
     pub ligament_torque: [f64; DOF_COUNT],
     /// Ground and object contacts, at the start of the substep.
     pub contacts: Vec<ContactPoint>,
@@ -146,18 +150,23 @@ impl Clone for Audit {
 }
 
 /// Joints in one tick: torques are means over it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct JointReport {
     /// Muscle torque, N·m.
+    #[serde(with = "crate::sim::saved::array")]
     pub torque: [f64; DOF_COUNT],
     /// Ligament torque (joint limits), N·m.
+    #[serde(with = "crate::sim::saved::array")]
     pub ligament_torque: [f64; DOF_COUNT],
     /// Least available torque at the start of the tick, N·m (negative).
+    #[serde(with = "crate::sim::saved::array")]
     pub torque_lower: [f64; DOF_COUNT],
     /// Largest available torque at the start of the tick, N·m.
+    #[serde(with = "crate::sim::saved::array")]
     pub torque_upper: [f64; DOF_COUNT],
     /// What fatigue has left of the strength at the end of the tick, positive and negative direction of each DOF; 1
     /// when it is off.
+    #[serde(with = "crate::sim::saved::array")]
     pub remaining: [[f64; 2]; DOF_COUNT],
     /// Largest violation of the strength of any substep relative to that limit (0 when none).
     pub over_limit: f64,
@@ -166,11 +175,12 @@ pub struct JointReport {
     /// DOFs in the saturated set L of the secondary constraints.
     pub saturated_secondary: u64,
     /// Joint error `desired ⊖ actual` at the start of the tick, rad.
+    #[serde(with = "crate::sim::saved::array")]
     pub joint_error: [f64; DOF_COUNT],
 }
 
 /// What carried the body in one tick, and where its centre of mass was.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BalanceReport {
     /// Main supporting segment, if any.
     pub main_support: Option<SegmentId>,
@@ -191,7 +201,7 @@ pub struct BalanceReport {
 }
 
 /// What one tick of one figure did. Torques and forces are means over the tick.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TickReport {
     /// Torques, limits and errors of the joints.
     pub joints: JointReport,
@@ -200,6 +210,7 @@ pub struct TickReport {
     /// Assist on the pelvis: moment about its origin (N·m), then force (N), world axes; zero unless it is on.
     pub assist: [f64; 6],
     /// Acceleration over the tick, layout of `State::velocity`.
+    #[serde(with = "crate::sim::saved::array")]
     pub acceleration: [f64; NV],
     /// Touching points with their mean force.
     pub contacts: Vec<ContactPoint>,

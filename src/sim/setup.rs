@@ -2,16 +2,18 @@
 
 use crate::sim::body::{Body, SegmentId, State};
 use crate::sim::math::Vec3;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 pub use crate::sim::strength::StrengthScale;
 
 /// Everything a figure is made of.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct FigureSetup {
     /// Name, for people.
     pub name: String,
     /// The body.
+    #[serde(with = "crate::sim::saved::definition")]
     pub body: Arc<Body>,
     /// Scale of its strength.
     pub strength: StrengthScale,
@@ -44,7 +46,7 @@ impl FigureSetup {
 }
 
 /// What computes accelerations and torques.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ControllerKind {
     /// The paper's controller, equations (4)–(17), with safeguards (docs/equations.md).
     Paper,
@@ -55,7 +57,7 @@ pub enum ControllerKind {
 }
 
 /// What moves the body.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum StepperKind {
     /// Torques drive full rigid-body dynamics with contact (docs/equations.md).
     Torque,
@@ -65,7 +67,7 @@ pub enum StepperKind {
 }
 
 /// Norm in which the change of acceleration is least (10).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Metric {
     /// `W = I`, the paper's.
     Identity,
@@ -76,7 +78,7 @@ pub enum Metric {
 }
 
 /// How (12) orders centre of mass and end-effectors.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Priority {
     /// As printed.
     Paper,
@@ -85,7 +87,7 @@ pub enum Priority {
 }
 
 /// How the ground reaction is shared between supports.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Share {
     /// Ratios (2) times the total force.
     Paper,
@@ -94,7 +96,7 @@ pub enum Share {
 }
 
 /// Choices and gains of the tracking controllers.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ControlParams {
     /// Blend of position and velocity demand in (4) per 1/30 s; used when `horizon` is `None`.
     pub alpha: f64,
@@ -161,7 +163,7 @@ impl ControlParams {
 }
 
 /// What a figure can have beyond its controller; everything is off by default.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FigureOptions {
     /// Seconds of muscle fatigue per simulated second, 0…1000; 0: muscles never tire.
     pub fatigue_time_scale: f64,
@@ -170,7 +172,7 @@ pub struct FigureOptions {
 }
 
 /// A disturbance of one figure. Times are world seconds.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Perturbation {
     /// A point mass held by a segment.
     Load {
@@ -203,7 +205,7 @@ pub enum Perturbation {
 }
 
 /// A load that may come flying, be held in two hands, and slip.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HeldLoad {
     /// Carrying segment.
     pub segment: SegmentId,

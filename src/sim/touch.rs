@@ -2,13 +2,14 @@
 
 use crate::sim::body::SegmentId;
 use crate::sim::math::Vec3;
+use serde::{Deserialize, Serialize};
 
 /// Identity of an obstacle in a world; never used again after removal.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct ObstacleKey(pub u64);
 
 /// What a body touches.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Other {
     /// A segment of another figure, by the number of its key.
     Figure(u64, SegmentId),
@@ -17,7 +18,7 @@ pub enum Other {
 }
 
 /// One pair of parts that touched during a tick, as one of the two sees it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Touch {
     /// Own segment.
     pub segment: SegmentId,

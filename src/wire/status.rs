@@ -138,12 +138,23 @@ pub enum Fault {
         /// What happened.
         message: String,
     },
+    /// What was kept cannot be read any more.
+    #[error("{message}")]
+    DataLoss {
+        /// Reason in UPPER_SNAKE.
+        reason: &'static str,
+        /// What is lost.
+        message: String,
+    },
     /// This server cannot do it.
     #[error("{0} is not available in this server")]
     Unimplemented(String),
     /// The server shuts down.
     #[error("the server is shutting down")]
     Draining,
+    /// It could not be written to disk, so it was not done.
+    #[error("it could not be stored: {0}")]
+    Storage(String),
     /// The resource failed; the server's log has more.
     #[error("{0}")]
     Internal(String),
@@ -219,12 +230,14 @@ impl Fault {
             | Self::Aborted { reason, .. }
             | Self::Unauthenticated { reason, .. }
             | Self::Denied { reason, .. }
+            | Self::DataLoss { reason, .. }
             | Self::Refused { reason, .. } => reason,
             Self::Exhausted { .. } => "LIMIT_REACHED",
             Self::Budget { .. } => "TICK_BUDGET",
             Self::Expired { .. } => "RESUME_EXPIRED",
             Self::Unimplemented(_) => "NOT_AVAILABLE",
             Self::Draining => "DRAINING",
+            Self::Storage(_) => "STORAGE",
             Self::Internal(_) => "INTERNAL",
         }
     }
@@ -310,8 +323,13 @@ impl From<Fault> for Status {
                 Code::PermissionDenied
             }
             Fault::Aborted { .. } => Code::Aborted,
+            Fault::DataLoss { .. } => Code::DataLoss,
             Fault::Unimplemented(_) => Code::Unimplemented,
             Fault::Draining => {
+                details.set_retry_info(Some(Duration::from_secs(5)));
+                Code::Unavailable
+            }
+            Fault::Storage(_) => {
                 details.set_retry_info(Some(Duration::from_secs(5)));
                 Code::Unavailable
             }

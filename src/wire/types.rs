@@ -7,11 +7,12 @@ use crate::sim::figure::{
 };
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::Target;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 use std::time::Duration;
 
 /// A place on the ground: world x, y (m) and heading about z (rad).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Place {
     /// World x, m.
     pub x: f64,
@@ -22,7 +23,7 @@ pub struct Place {
 }
 
 /// What the clock does when a tick takes longer than its period.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Overrun {
     /// Leaves out the deadlines that were missed.
     Skip,
@@ -33,7 +34,7 @@ pub enum Overrun {
 }
 
 /// Settings of a world that may change while it runs.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pace {
     /// Name for people.
     pub display_name: String,
@@ -46,7 +47,7 @@ pub struct Pace {
 }
 
 /// Settings of a new world.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WorldSettings {
     /// Ticks per second.
     pub rate_hz: f64,
@@ -108,7 +109,7 @@ pub struct WorldUpdate {
 }
 
 /// Which body: a name that says its profile, see [`super::convert::body`].
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BodyRef {
     /// Last part of the name.
     pub id: String,
@@ -117,7 +118,7 @@ pub struct BodyRef {
 }
 
 /// Settings of a new figure.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FigureSettings {
     /// Name for people.
     pub display_name: String,
@@ -140,7 +141,7 @@ pub struct FigureSettings {
 }
 
 /// Where a part of a figure is wanted.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ConstraintSettings {
     /// Segment and point, segment frame; no point: the middle of a hand, else the centre of mass. `None`: the figure's
     /// centre of mass.
@@ -566,6 +567,8 @@ pub enum EventKind {
     AccessRefused(String),
     /// The world was paused.
     Paused,
+    /// The world was put into the state of a checkpoint of this tick.
+    Restored(u64),
     /// The world was resumed.
     Resumed,
     /// The world failed: why.

@@ -1,6 +1,7 @@
 //! Scenes shared by the tests that run whole figures: bodies, clips, one figure in a world, and its measures.
 #![allow(dead_code, clippy::unwrap_used)] // every test file uses its own part
 
+pub mod actors;
 pub mod collisions;
 pub mod corpus;
 pub mod mocap;

@@ -2,6 +2,7 @@
 #![cfg(feature = "net")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking")]
 
+mod checkpoints;
 mod clips;
 mod constraints;
 #[allow(dead_code)] // not every function

@@ -435,7 +435,7 @@ async fn one_port_has_pages_metrics_health_reflection_and_grpc_web() {
             .iter()
             .filter(|s| s.name.starts_with("sinew.v1."))
             .count(),
-        10
+        11
     );
 
     // A service that does not exist is a gRPC answer, not an HTTP one.

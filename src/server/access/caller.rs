@@ -143,6 +143,17 @@ impl Caller {
         })
     }
 
+    /// Checks that its token, not a grant, gives it a role in a world.
+    ///
+    /// # Errors
+    /// It does not.
+    pub fn check_claim(&self, role: Role, world: &str) -> Result<(), Fault> {
+        if self.identity.claims.roles_in(world).contain(role) {
+            return Ok(());
+        }
+        Err(self.denied(role, &format!("worlds/{world}")))
+    }
+
     /// That a role is missing; `place`: where, empty for the server.
     pub fn denied(&self, role: Role, place: &str) -> Fault {
         let place = if place.is_empty() {

@@ -165,7 +165,7 @@ pub struct Grants {
 
 impl Grants {
     /// Those of a new world.
-    pub fn new(first: Option<Grant>) -> Self {
+    pub fn new(first: Vec<Grant>) -> Self {
         Self {
             all: RwLock::new(first.into_iter().map(|g| (g.id.clone(), g)).collect()),
             version: watch::Sender::new(0),

@@ -24,7 +24,8 @@ fn roles(field: &str, wire: &[i32]) -> Result<Vec<Role>, Fault> {
     Ok(roles)
 }
 
-fn out(world: &str, g: &Grant) -> pb::Grant {
+/// A grant on the wire.
+pub fn grant_out(world: &str, g: &Grant) -> pb::Grant {
     pb::Grant {
         name: format!("worlds/{world}/grants/{}", g.id),
         principal: g.principal.to_string(),
@@ -35,6 +36,25 @@ fn out(world: &str, g: &Grant) -> pb::Grant {
         create_time: Some(timestamp(g.created)),
         expire_time: g.expires.map(timestamp),
     }
+}
+
+/// A grant as it was written by [`grant_out`].
+///
+/// # Errors
+/// What could not be granted today.
+pub fn grant_in(g: &pb::Grant) -> Result<Grant, Fault> {
+    let (_, id) = access::grant_name("grant.name", &g.name)?;
+    let created = access::time("grant.create_time", g.create_time)?;
+    Ok(Grant {
+        id: id.to_owned(),
+        principal: access::principal("grant.principal", &g.principal)?.into(),
+        roles: roles("grant.roles", &g.roles)?,
+        figures: access::figures("grant.figures", &g.figures)?,
+        bounds: access::bounds("grant.bounds", g.bounds.as_ref())?,
+        max_priority: access::max_priority("grant.max_priority", g.max_priority)?,
+        created: created.unwrap_or_else(SystemTime::now),
+        expires: access::time("grant.expire_time", g.expire_time)?,
+    })
 }
 
 #[tonic::async_trait]
@@ -73,7 +93,7 @@ impl AccessService for Api {
         &self,
         request: Request<pb::CreateGrantRequest>,
     ) -> Result<Response<pb::CreateGrantResponse>, Status> {
-        let result = || {
+        let result = async {
             let r = request.get_ref();
             let handle = self.world(&request, "parent", &r.parent)?;
             let id = new_id("grant_id", &r.grant_id)?.unwrap_or_default();
@@ -92,11 +112,12 @@ impl AccessService for Api {
                 expires: access::expiry("grant.expire_time", g.expire_time)?,
             };
             let grant = handle.grants.add(&handle.id, grant)?;
+            self.stored(&handle).await?;
             Ok(pb::CreateGrantResponse {
-                grant: Some(out(&handle.id, &grant)),
+                grant: Some(grant_out(&handle.id, &grant)),
             })
         };
-        answer(result())
+        answer(result.await)
     }
 
     async fn get_grant(
@@ -107,7 +128,7 @@ impl AccessService for Api {
             let (world, id) = access::grant_name("name", &request.get_ref().name)?;
             let handle = self.enter(caller(&request)?, world)?;
             Ok(pb::GetGrantResponse {
-                grant: Some(out(world, &handle.grants.get(world, id)?)),
+                grant: Some(grant_out(world, &handle.grants.get(world, id)?)),
             })
         };
         answer(result())
@@ -121,7 +142,7 @@ impl AccessService for Api {
             let r = request.get_ref();
             let handle = self.world(&request, "parent", &r.parent)?;
             let all = handle.grants.list();
-            let items = all.iter().map(|g| (g.id.clone(), out(&handle.id, g)));
+            let items = all.iter().map(|g| (g.id.clone(), grant_out(&handle.id, g)));
             let (grants, next_page_token) = page(items.collect(), r.page_size, &r.page_token)?;
             Ok(pb::ListGrantsResponse {
                 grants,
@@ -135,7 +156,7 @@ impl AccessService for Api {
         &self,
         request: Request<pb::UpdateGrantRequest>,
     ) -> Result<Response<pb::UpdateGrantResponse>, Status> {
-        let result = || {
+        let result = async {
             let r = request.get_ref();
             let g = r
                 .grant
@@ -163,23 +184,25 @@ impl AccessService for Api {
                 }
             }
             let grant = handle.grants.update(world, id, update)?;
+            self.stored(&handle).await?;
             Ok(pb::UpdateGrantResponse {
-                grant: Some(out(world, &grant)),
+                grant: Some(grant_out(world, &grant)),
             })
         };
-        answer(result())
+        answer(result.await)
     }
 
     async fn delete_grant(
         &self,
         request: Request<pb::DeleteGrantRequest>,
     ) -> Result<Response<pb::DeleteGrantResponse>, Status> {
-        let result = || {
+        let result = async {
             let (world, id) = access::grant_name("name", &request.get_ref().name)?;
             let handle = self.enter(caller(&request)?, world)?;
             handle.grants.remove(world, id)?;
+            self.stored(&handle).await?;
             Ok(pb::DeleteGrantResponse {})
         };
-        answer(result())
+        answer(result.await)
     }
 }

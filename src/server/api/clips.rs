@@ -54,6 +54,8 @@ impl MotionService for Api {
             let reference = body::reference("body", &r.body, "profile", None)?;
             let max_bytes = self.config.max_clip_bytes;
             let app = self.0.clone();
+            let persistence = self.persistence.as_ref();
+            let stored = persistence.map(|_| r.clone());
             let info = self
                 .conversions
                 .run(&client, move |turn| {
@@ -64,9 +66,16 @@ impl MotionService for Api {
                     app.clips.create(new, &reference, &built, source, &stop)
                 })
                 .await?;
-            Ok(pb::CreateClipResponse {
-                clip: Some(motion::clip_out(&info, true)),
-            })
+            let clip = motion::clip_out(&info, true);
+            if let (Some(persistence), Some(r)) = (persistence, stored)
+                && let Err(fault) = persistence
+                    .clip_created(&clip, info.owner.as_deref(), r)
+                    .await
+            {
+                self.clips.delete(&info.id)?;
+                return Err(fault);
+            }
+            Ok(pb::CreateClipResponse { clip: Some(clip) })
         };
         answer(result.await)
     }
@@ -111,19 +120,21 @@ impl MotionService for Api {
         &self,
         request: Request<pb::DeleteClipRequest>,
     ) -> Result<Response<pb::DeleteClipResponse>, Status> {
-        answer(
-            clip_name("name", &request.get_ref().name)
-                .and_then(|id| {
-                    let caller = caller(&request)?;
-                    let info = seen(self, caller, id)?;
-                    // Built-in clips say themselves that they stay.
-                    if !info.builtin && !may(caller, &info, Role::Owner) {
-                        return Err(caller.denied(Role::Owner, &format!("clips/{id}")));
-                    }
-                    self.clips.delete(id)
-                })
-                .map(|()| pb::DeleteClipResponse {}),
-        )
+        let result = async {
+            let id = clip_name("name", &request.get_ref().name)?;
+            let caller = caller(&request)?;
+            let info = seen(self, caller, id)?;
+            // Built-in clips say themselves that they stay.
+            if !info.builtin && !may(caller, &info, Role::Owner) {
+                return Err(caller.denied(Role::Owner, &format!("clips/{id}")));
+            }
+            self.clips.delete(id)?;
+            if let Some(persistence) = &self.persistence {
+                persistence.clip_deleted(id).await?;
+            }
+            Ok(pb::DeleteClipResponse {})
+        };
+        answer(result.await)
     }
 
     async fn play_clip(

@@ -24,6 +24,7 @@ impl FigureService for Api {
                     s.create_figure(id, settings, body)
                 })
                 .await?;
+            self.stored(&handle).await?;
             Ok(pb::CreateFigureResponse {
                 figure: Some(figure::figure_out(&info)),
             })
@@ -89,6 +90,7 @@ impl FigureService for Api {
                     s.update_figure(&id, update, who.as_ref())
                 })
                 .await?;
+            self.stored(&handle).await?;
             Ok(pb::UpdateFigureResponse {
                 figure: Some(figure::figure_out(&info)),
             })
@@ -106,6 +108,7 @@ impl FigureService for Api {
             handle
                 .call(origin(&request), move |s| s.delete_figure(&id))
                 .await?;
+            self.stored(&handle).await?;
             Ok(pb::DeleteFigureResponse {})
         };
         answer(result.await)

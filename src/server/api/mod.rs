@@ -1,7 +1,8 @@
 //! The services: convert, ask the world or the library, convert back.
 
-mod access;
+pub mod access;
 mod bodies;
+mod checkpoints;
 mod clips;
 mod control;
 mod drive;
@@ -16,9 +17,12 @@ mod worlds;
 
 use super::access::Access;
 use super::access::caller::Caller;
+use super::access::grants::Grant;
 use super::access::roles::{Role, Rule};
+use super::checkpoints::Checkpoints;
 use super::config::Config;
 use super::library::{Bodies, Clips};
+use super::persistence::Persistence;
 use super::shares::{Client, Place, Places};
 use super::tick::command::Origin;
 use super::workers::Pool;
@@ -34,7 +38,7 @@ use tonic::service::RoutesBuilder;
 use tonic::{Request, Response, Status};
 
 /// Names of the services, for health checks; the empty name is the server as a whole.
-pub const SERVICE_NAMES: [&str; 11] = [
+pub const SERVICE_NAMES: [&str; 12] = [
     "",
     pb::world_service_server::SERVICE_NAME,
     pb::figure_service_server::SERVICE_NAME,
@@ -46,13 +50,24 @@ pub const SERVICE_NAMES: [&str; 11] = [
     pb::server_service_server::SERVICE_NAME,
     pb::access_service_server::SERVICE_NAME,
     pb::control_service_server::SERVICE_NAME,
+    pb::checkpoint_service_server::SERVICE_NAME,
 ];
 
-/// Calls that carry a clip in their request: up to `max_clip_bytes`. All others take up to `max_request_bytes`.
-pub const UPLOADS: [&str; 2] = [
+/// Calls that carry a clip or a checkpoint in their request: up to `max_clip_bytes`. All others take up to
+/// `max_request_bytes`.
+pub const UPLOADS: [&str; 4] = [
     "/sinew.v1.MotionService/CreateClip",
     "/sinew.v1.SimulationService/SimulateClip",
+    "/sinew.v1.CheckpointService/RestoreWorld",
+    "/sinew.v1.CheckpointService/ForkWorld",
 ];
+
+/// Grants of a world that a caller makes: who has said who it is owns it.
+fn first_grants(caller: &Caller) -> Vec<Grant> {
+    let known = !caller.identity.is_anonymous();
+    let owner = known.then(|| Grant::owner(caller.principal().clone()));
+    owner.into_iter().collect()
+}
 
 /// Whether a call takes exactly one message. Of calls of other packages, reflection for example, nothing is known.
 pub fn is_unary(path: &str) -> bool {
@@ -74,12 +89,16 @@ pub struct App {
     pub bodies: Bodies,
     /// Clips.
     pub clips: Clips,
+    /// Checkpoints of worlds.
+    pub checkpoints: Checkpoints,
     /// Where files become clips.
     pub conversions: Pool,
     /// Where clips are simulated.
     pub simulations: Pool,
     /// Who may do what.
     pub access: Arc<Access>,
+    /// The data directory.
+    pub persistence: Option<Arc<Persistence>>,
     /// When the server started.
     pub started: SystemTime,
     /// Turns true when streams are to end.
@@ -90,10 +109,10 @@ pub struct App {
 }
 
 impl App {
-    /// An application without worlds.
+    /// An application without worlds; [`restore`](Self::restore) brings those of the data directory back.
     ///
     /// # Errors
-    /// The built-in data cannot be prepared, or a certificate or key cannot be used.
+    /// The built-in data cannot be prepared, the data directory cannot be used, or a certificate or key cannot be used.
     pub fn new(config: Arc<Config>, stopping: watch::Receiver<bool>) -> Result<Self, Fault> {
         super::telemetry::metrics();
         let bodies = Bodies::new(&config);
@@ -103,6 +122,7 @@ impl App {
             clips: Clips::new(&config, &bodies)?,
             bodies,
             worlds: Registry::new(config.clone()),
+            checkpoints: Checkpoints::new(share),
             conversions: Pool::new(
                 "file conversion",
                 "max_waiting_conversions",
@@ -115,12 +135,53 @@ impl App {
                 config.max_simulations,
                 config.max_waiting_simulations,
             ),
+            persistence: Persistence::open(&config)
+                .map_err(|e| Fault::Precondition {
+                    reason: "DATA_DIR",
+                    message: e.to_string(),
+                    facts: vec![],
+                })?
+                .map(Arc::new),
             started: SystemTime::now(),
             stopping,
             viewers: Places::new("max_viewers", config.max_viewers, share, "sinew_viewers"),
             drivers: Places::new("max_drivers", config.max_drivers, share, "sinew_drivers"),
             next_stream: AtomicU64::new(1),
             config,
+        })
+    }
+
+    /// Brings the worlds and clips of the data directory back.
+    pub async fn restore(self: &Arc<Self>) {
+        if let Some(persistence) = &self.persistence {
+            persistence.restore(self).await;
+        }
+    }
+
+    /// Waits until what has changed of a world is on disk.
+    async fn stored(&self, handle: &WorldHandle) -> Result<(), Fault> {
+        match &self.persistence {
+            Some(persistence) => persistence.changed(handle).await,
+            None => Ok(()),
+        }
+    }
+
+    /// Writes a new world down; one that cannot be is ended again.
+    async fn written(&self, handle: &Arc<WorldHandle>) -> Result<(), Fault> {
+        if let Some(persistence) = &self.persistence
+            && let Err(fault) = persistence.created(handle).await
+        {
+            self.worlds.delete(&handle.id).await?;
+            return Err(fault);
+        }
+        Ok(())
+    }
+
+    /// A world by the last part of its name; one in quarantine says so.
+    fn existing(&self, id: &str) -> Result<Arc<WorldHandle>, Fault> {
+        self.worlds.get(id).map_err(|missing| {
+            let quarantined = self.persistence.as_ref().map(|p| p.check(id));
+            quarantined.and_then(Result::err).unwrap_or(missing)
         })
     }
 
@@ -166,7 +227,7 @@ impl App {
             )));
         };
         let place = format!("worlds/{id}");
-        let handle = match self.worlds.get(id) {
+        let handle = match self.existing(id) {
             Ok(handle) => handle,
             // Who may not do it does not learn whether it is there.
             Err(fault) => {
@@ -182,6 +243,18 @@ impl App {
         if !role.is_of_world() {
             return Ok(handle);
         }
+        self.admit(caller, handle, (role, figures))
+    }
+
+    /// The world, for a caller who has this role there, for these figures.
+    fn admit(
+        &self,
+        caller: &Caller,
+        handle: Arc<WorldHandle>,
+        (role, figures): (Role, &[&str]),
+    ) -> Result<Arc<WorldHandle>, Fault> {
+        let id = &*handle.id;
+        let place = format!("worlds/{id}");
         let rights = handle.grants.rights(&caller.identity, id);
         let missing = if !rights.roles.contain(role) {
             Some((place, figures.first().copied().unwrap_or_default()))
@@ -199,6 +272,14 @@ impl App {
                 }
                 Err(caller.denied(role, &place))
             }
+        }
+    }
+
+    /// The world, for a caller who has this role there, whatever role its call needs.
+    fn enter_as(&self, caller: &Caller, role: Role, id: &str) -> Result<Arc<WorldHandle>, Fault> {
+        match self.existing(id) {
+            Ok(handle) => self.admit(caller, handle, (role, &[])),
+            Err(fault) => caller.check_claim(role, id).and(Err(fault)),
         }
     }
 
@@ -265,6 +346,7 @@ pub fn add_services(routes: &mut RoutesBuilder, app: &Arc<App>) {
         server_service_server::ServerServiceServer;
         access_service_server::AccessServiceServer;
         control_service_server::ControlServiceServer;
+        checkpoint_service_server::CheckpointServiceServer;
     }
 }
 

@@ -1,9 +1,9 @@
 //! `WorldService`.
 
-use super::{Api, answer, caller, client, origin};
-use crate::server::access::grants::Grant;
+use super::{Api, answer, caller, client, first_grants, origin};
+use crate::server::access::roles::Role;
 use crate::server::tick::shard::{Shard, StepRequest};
-use crate::wire::convert::{count, new_id, obstacle, page, world};
+use crate::wire::convert::{count, new_id, obstacle, page, world, world_name};
 use crate::wire::pb::{self, world_service_server::WorldService};
 use crate::wire::status::Fault;
 use crate::wire::types::{WorldInfo, WorldUpdate};
@@ -23,6 +23,7 @@ impl Api {
     ) -> Result<pb::World, Fault> {
         let handle = self.world(request, "name", name)?;
         let info = handle.call(origin(request), f).await?;
+        self.stored(&handle).await?;
         Ok(world::world_out(&info))
     }
 }
@@ -36,21 +37,23 @@ impl WorldService for Api {
         let owner = client(&request);
         let caller = caller(&request).cloned();
         let r = request.into_inner();
-        let create = || {
+        let create = async {
             let caller = caller?;
             let id = new_id("world_id", &r.world_id)?;
             caller.check_new_name("world_id", id.as_deref())?;
-            // Who creates a world owns it.
-            let known = !caller.identity.is_anonymous();
-            let grant = known.then(|| Grant::owner(caller.principal().clone()));
-            let handle =
-                self.worlds
-                    .create(id, world::settings(r.world)?, r.paused, (owner, grant))?;
+            let persistence = self.persistence.as_ref();
+            if let (Some(id), Some(persistence)) = (&id, persistence) {
+                persistence.check(id)?;
+            }
+            let settings = world::settings(r.world)?;
+            let owner = (owner, first_grants(&caller));
+            let handle = self.worlds.create(id, settings, r.paused, owner)?;
+            self.written(&handle).await?;
             Ok(pb::CreateWorldResponse {
                 world: Some(world::world_out(&handle.info())),
             })
         };
-        answer(create())
+        answer(create.await)
     }
 
     async fn get_world(
@@ -117,8 +120,27 @@ impl WorldService for Api {
         request: Request<pb::DeleteWorldRequest>,
     ) -> Result<Response<pb::DeleteWorldResponse>, Status> {
         let result = async {
-            let handle = self.world(&request, "name", &request.get_ref().name)?;
-            self.worlds.delete(&handle.id).await?;
+            let caller = caller(&request)?;
+            let name = world_name("name", &request.get_ref().name)?;
+            // One that is in quarantine is only stored: its grants are, too, and only claims count.
+            let quarantined = self
+                .persistence
+                .as_ref()
+                .is_some_and(|p| p.check(name).is_err());
+            if quarantined {
+                caller.check_claim(Role::Owner, name)?;
+            } else {
+                self.enter(caller, name)?;
+            }
+            let ended = self.worlds.delete(name).await;
+            let stored = match &self.persistence {
+                Some(persistence) => persistence.deleted(name).await?,
+                None => false,
+            };
+            if !stored {
+                ended?;
+            }
+            self.checkpoints.forget_world(name);
             Ok(pb::DeleteWorldResponse {})
         };
         answer(result.await)
@@ -223,6 +245,7 @@ impl WorldService for Api {
             let info = handle
                 .call(origin(&request), move |s| s.add_obstacle(id, setup))
                 .await?;
+            self.stored(&handle).await?;
             Ok(pb::AddObstacleResponse {
                 obstacle: Some(obstacle::out(&handle.id, &info)),
             })
@@ -244,6 +267,7 @@ impl WorldService for Api {
             let info = handle
                 .call(origin(&request), move |s| s.update_obstacle(&id, setup))
                 .await?;
+            self.stored(&handle).await?;
             Ok(pb::UpdateObstacleResponse {
                 obstacle: Some(obstacle::out(&handle.id, &info)),
             })
@@ -262,6 +286,7 @@ impl WorldService for Api {
             handle
                 .call(origin(&request), move |s| s.remove_obstacle(&id))
                 .await?;
+            self.stored(&handle).await?;
             Ok(pb::RemoveObstacleResponse {})
         };
         answer(result.await)

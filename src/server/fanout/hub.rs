@@ -61,9 +61,9 @@ struct Past {
     viewers: usize,
     /// Ticks that they may ask for, at most as many as the world's history.
     snapshots: BTreeMap<u64, Arc<Snapshot>>,
-    /// Frames of them, by channel and tick, and in the order in which they were encoded.
-    frames: HashMap<(u64, u64), Bytes>,
-    order: VecDeque<(u64, u64)>,
+    /// Frames of them, by channel, epoch and tick, and in the order in which they were encoded.
+    frames: HashMap<(u64, i32, u64), Bytes>,
+    order: VecDeque<(u64, i32, u64)>,
     bytes: usize,
 }
 
@@ -127,7 +127,7 @@ impl Hub {
 
     /// A past frame of a view, encoded once for all that ask for it soon after each other.
     pub fn past_frame(&self, channel: &Channel, snapshot: &Snapshot, view: &ViewSpec) -> Bytes {
-        let key = (channel.number, snapshot.tick);
+        let key = (channel.number, snapshot.epoch, snapshot.tick);
         if let Some(bytes) = self.past().frames.get(&key) {
             return bytes.clone();
         }

@@ -32,6 +32,11 @@ impl History {
         }
     }
 
+    /// Forgets all: the world has another past now.
+    pub fn clear(&mut self) {
+        self.held.clear();
+    }
+
     fn expired(&self, asked: i64) -> Fault {
         let tick = |s: Option<&Arc<Snapshot>>| s.map_or(-1, |s| s.tick as i64);
         Fault::Expired {

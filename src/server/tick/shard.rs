@@ -1,17 +1,21 @@
 //! One world with everything that belongs to its clock: figures by name, drivers, held frames. Owned by the world's
 //! thread; others send [`Command`](super::command::Command)s that call these methods between ticks.
 
+mod checkpoint;
 mod control;
 mod desired_motion;
 mod figures;
 mod obstacles;
 mod perturbations;
 
+pub use checkpoint::{Restored, SavedShard};
+
 use super::budget::{Account, Budget, Meter};
 use super::clock::Clock;
 use super::drives::{Drive, Slot};
 use super::leases::Leases;
 use super::planners::Planners;
+use crate::server::durable::marks::Mark;
 use crate::server::engine::{self, FigureKey, ObstacleKey, Planning, World};
 use crate::server::ingest::mailbox::Mailboxes;
 use crate::wire::status::Fault;
@@ -55,6 +59,8 @@ pub struct Shard {
     id: Arc<str>,
     settings: WorldSettings,
     created: SystemTime,
+    /// Counts the times that its past was replaced.
+    epoch: i32,
     limits: Limits,
     planners: Arc<Planners>,
     budget: Arc<Budget>,
@@ -82,6 +88,8 @@ pub struct Shard {
     pub(super) changed: bool,
     /// Why the world ends after this round.
     pub(super) closing: Option<Fault>,
+    /// Where it notes that it is being stepped, and until when.
+    step_notes: Option<(Mark, Instant)>,
 }
 
 impl Shard {
@@ -105,6 +113,7 @@ impl Shard {
         Ok(Self {
             id,
             created: SystemTime::now(),
+            epoch: 1,
             limits,
             planners,
             budget,
@@ -130,8 +139,14 @@ impl Shard {
             failed: None,
             changed: true,
             closing: None,
+            step_notes: None,
             settings,
         })
+    }
+
+    /// Notes each step for some time, so that a world that crashes the process is known afterwards.
+    pub fn note_steps(&mut self, mark: Mark, until: Instant) {
+        self.step_notes = Some((mark, until));
     }
 
     /// Last part of its name.
@@ -175,7 +190,7 @@ impl Shard {
             tick: self.world.tick(),
             time: self.world.time(),
             figures: self.members.len(),
-            epoch: 1,
+            epoch: self.epoch,
             created: self.created,
         }
     }
@@ -333,7 +348,17 @@ impl Shard {
         } else {
             self.planners.planning()
         });
+        if let Some((mark, until)) = &self.step_notes {
+            if Instant::now() < *until {
+                mark.begin(self.world.tick() + 1);
+            } else {
+                self.step_notes = None;
+            }
+        }
         self.world.step();
+        if let Some((mark, _)) = &self.step_notes {
+            mark.end();
+        }
         let late = self.world.late_plans();
         if late > 0 {
             metrics::counter!("sinew_plans_late_total").increment(late as u64);
@@ -419,7 +444,7 @@ impl Shard {
             tick: self.world.tick(),
             time: self.world.time(),
             hash: self.world.state_hash(),
-            epoch: 1,
+            epoch: self.epoch,
             server_ns: i64::try_from(since.as_nanos()).unwrap_or(i64::MAX),
             roster_version: self.roster_version,
             roster: self.roster.clone(),

@@ -10,7 +10,7 @@ use crate::server::tick::budget::Budget;
 use crate::server::tick::command::{Command, Inbox, Origin};
 use crate::server::tick::history::History;
 use crate::server::tick::planners::Planners;
-use crate::server::tick::shard::{Limits, Shard};
+use crate::server::tick::shard::{Limits, Restored, Shard};
 use crate::server::tick::stage_times::{Percentiles, STAGES};
 use crate::server::tick::{self, Outlet};
 use crate::sim::body::Body;
@@ -358,7 +358,7 @@ impl Registry {
         }
     }
 
-    /// Creates a world for a client, with a first grant, and starts its thread.
+    /// Creates a world for a client, with its grants, and starts its thread.
     ///
     /// # Errors
     /// The name is taken, there are too many worlds or too many of this client, there is no room for its ticks, or the
@@ -368,7 +368,32 @@ impl Registry {
         id: Option<String>,
         settings: WorldSettings,
         paused: bool,
-        (owner, grant): (Client, Option<Grant>),
+        owner: (Client, Vec<Grant>),
+    ) -> Result<Arc<WorldHandle>, Fault> {
+        self.start(id, (settings, None), paused, owner)
+    }
+
+    /// Creates a world in the state of a checkpoint.
+    ///
+    /// # Errors
+    /// Those of [`Self::create`] and of [`Shard::restore`].
+    pub fn fork(
+        &self,
+        id: Option<String>,
+        from: Restored,
+        paused: bool,
+        owner: (Client, Vec<Grant>),
+    ) -> Result<Arc<WorldHandle>, Fault> {
+        let settings = from.shard.settings.clone();
+        self.start(id, (settings, Some(from)), paused, owner)
+    }
+
+    fn start(
+        &self,
+        id: Option<String>,
+        (settings, from): (WorldSettings, Option<Restored>),
+        paused: bool,
+        (owner, grants): (Client, Vec<Grant>),
     ) -> Result<Arc<WorldHandle>, Fault> {
         let mut worlds = self.worlds.write().unwrap_or_else(PoisonError::into_inner);
         if self.draining.load(Ordering::SeqCst) {
@@ -409,13 +434,16 @@ impl Registry {
         let planners = Arc::clone(&self.planners);
         let budget = Arc::clone(&self.budget);
         let mut shard = Shard::new(name.clone(), settings, paused, limits, planners, budget)?;
+        if let Some(from) = from {
+            shard.restore(from)?;
+        }
         let (commands, queue) = sync_channel(self.config.command_queue as usize);
         let first = shard.snapshot();
         let mut history = History::new(self.config.history_ticks as usize);
         history.push(first.clone());
         let described = Described {
             world: shard.info(),
-            figures: Vec::new(),
+            figures: shard.figures(),
         };
         let outlet = Arc::new(Outlet {
             latest: watch::Sender::new(first),
@@ -446,7 +474,7 @@ impl Registry {
                 self.config.max_client_share,
                 self.config.history_ticks as usize,
             ),
-            grants: Grants::new(grant),
+            grants: Grants::new(grants),
             owner,
             told_refused: Mutex::default(),
             waiting: Waiting {

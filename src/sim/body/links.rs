@@ -3,11 +3,12 @@
 use super::model::Body;
 use super::topology::{DOF_COUNT, SEGMENT_COUNT, SegmentId};
 use crate::sim::math::{Lane, Sym3, Vec3};
+use serde::{Deserialize, Serialize};
 
 /// Joint offsets and mass properties of every segment, loads included.
 ///
 /// Mass properties are about the *segment origin* (the joint), so that a load carried by the segment simply adds.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Links<L = f64> {
     /// Joint position in the parent's frame, m.
     pub offset: [Vec3<L>; SEGMENT_COUNT],
@@ -18,7 +19,21 @@ pub struct Links<L = f64> {
     /// Inertia about the segment origin, segment axes, kg·m².
     pub inertia: [Sym3<L>; SEGMENT_COUNT],
     /// Reflected inertia per joint DOF, kg·m².
+    #[serde(with = "crate::sim::saved::array")]
     pub armature: [L; DOF_COUNT],
+}
+
+impl Default for Links<f64> {
+    /// Of no body: place for one.
+    fn default() -> Self {
+        Self {
+            offset: [Vec3::zero(); SEGMENT_COUNT],
+            mass: [0.0; SEGMENT_COUNT],
+            moment: [Vec3::zero(); SEGMENT_COUNT],
+            inertia: [Sym3::zero(); SEGMENT_COUNT],
+            armature: [0.0; DOF_COUNT],
+        }
+    }
 }
 
 impl Links<f64> {

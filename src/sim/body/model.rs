@@ -2,9 +2,10 @@
 
 use super::topology::{DOF_COUNT, DOF_NAMES, JOINT_NAMES, SEGMENT_COUNT, SEGMENT_NAMES, SegmentId};
 use crate::sim::math::{Sym3, Vec3};
+use serde::{Deserialize, Serialize};
 
 /// Biological sex, as the body and strength tables are split.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[allow(missing_docs)]
 pub enum Sex {
     Male,
@@ -12,7 +13,7 @@ pub enum Sex {
 }
 
 /// The person that a body stands for.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Profile {
     /// Which tables are used.
     pub sex: Sex,
@@ -25,7 +26,7 @@ pub struct Profile {
 }
 
 /// A closed triangulated surface, outward facing (counter-clockwise seen from outside), segment frame, m.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Mesh {
     /// Vertex positions.
     pub vertices: Vec<Vec3>,
@@ -34,7 +35,7 @@ pub struct Mesh {
 }
 
 /// One rigid segment. The segment frame sits at the proximal joint; in the zero pose it is parallel to the world.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Segment {
     /// Mass, kg.
     pub mass: f64,
@@ -51,7 +52,7 @@ pub struct Segment {
 }
 
 /// An immutable body.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Body {
     /// The person that it stands for.
     pub profile: Profile,
@@ -60,10 +61,13 @@ pub struct Body {
     /// Joint position in the parent's frame, m; entry 0 unused.
     pub joint_offset: [Vec3; SEGMENT_COUNT],
     /// Least anatomical angle of each DOF, rad.
+    #[serde(with = "crate::sim::saved::array")]
     pub lower: [f64; DOF_COUNT],
     /// Largest anatomical angle of each DOF, rad.
+    #[serde(with = "crate::sim::saved::array")]
     pub upper: [f64; DOF_COUNT],
     /// Reflected inertia added to the diagonal of the inertia matrix, kg·m² (safeguard, `docs/model.md`; 0 = paper).
+    #[serde(with = "crate::sim::saved::array")]
     pub armature: [f64; DOF_COUNT],
 }
 

@@ -5,9 +5,10 @@ use super::topology::{
     SEGMENT_COUNT,
 };
 use crate::sim::math::{Lane, Quat, Vec3};
+use serde::{Deserialize, Serialize};
 
 /// Where every segment is: pelvis pose and joint positions.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Posture<L = f64> {
     /// Pelvis origin (midpoint of the hip centres), world, m.
     pub root_position: Vec3<L>,
@@ -35,11 +36,12 @@ impl<L: Lane> Default for Posture<L> {
 ///
 /// `velocity` is angular first: pelvis angular velocity (rad/s) and velocity of the pelvis origin (m/s), both in world
 /// axes, then the 39 joint rates (rad/s).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct State<L = f64> {
     /// Positions.
     pub posture: Posture<L>,
     /// Velocities, 45 components.
+    #[serde(with = "crate::sim::saved::array")]
     pub velocity: [L; NV],
 }
 

@@ -6,6 +6,8 @@
 //! joints are hinges in series. Angles are anatomically signed (flexion, abduction, internal rotation positive on both
 //! sides): the sign is carried by the axis. The tree is a constant so that kernels unroll it.
 
+use serde::{Deserialize, Serialize};
+
 /// Segments, pelvis first.
 pub const SEGMENT_COUNT: usize = 18;
 /// Joint degrees of freedom.
@@ -18,8 +20,17 @@ pub const BALL_COUNT: usize = 9;
 pub const HINGE_COUNT: usize = 12;
 
 /// One of the 18 segments.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(try_from = "u8")]
 pub struct SegmentId(u8);
+
+impl TryFrom<u8> for SegmentId {
+    type Error = &'static str;
+
+    fn try_from(index: u8) -> Result<Self, Self::Error> {
+        Self::new(index.into()).ok_or("no such segment")
+    }
+}
 
 impl SegmentId {
     /// All segments, in order.

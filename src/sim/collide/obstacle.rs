@@ -4,12 +4,13 @@ use super::shape::Capsule;
 use crate::sim::math::hash::Fnv;
 use crate::sim::math::vec3::vec3;
 use crate::sim::math::{Mat3, Quat, Vec3};
+use serde::{Deserialize, Serialize};
 
 /// Most obstacles of one world.
 pub const MAX_OBSTACLES: usize = 256;
 
 /// Shape of an obstacle in its own frame, whose origin is its centre of mass.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Shape {
     /// A ball.
     Sphere {
@@ -91,7 +92,7 @@ impl Shape {
 }
 
 /// How an obstacle moves.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Mobility {
     /// Not at all.
     Fixed,
@@ -102,7 +103,7 @@ pub enum Mobility {
 }
 
 /// Everything an obstacle is made of.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ObstacleSetup {
     /// Name, for people.
     pub name: String,
@@ -123,7 +124,7 @@ pub struct ObstacleSetup {
 }
 
 /// One obstacle of a world.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Obstacle {
     pub(crate) setup: ObstacleSetup,
     /// Angular momentum about the centre, world axes, kg·m²/s: what a free body keeps.
@@ -131,6 +132,7 @@ pub struct Obstacle {
     /// Mean force on it over the last tick, world axes, N.
     pub(crate) force: Vec3,
     /// The cluster of bodies that it is near in this tick.
+    #[serde(skip)]
     pub(crate) cluster: usize,
 }
 

@@ -15,8 +15,8 @@ pub mod torque_limits;
 pub mod tracking;
 
 pub use goals::Goal;
-pub use modern::Modern;
-pub use paper::Paper;
+pub use modern::{Modern, ModernMemory};
+pub use paper::{Paper, PaperMemory};
 pub use tracking::Law;
 
 use crate::sim::body::topology::{L_HAND, R_HAND, SEGMENT_COUNT};
@@ -28,9 +28,10 @@ use crate::sim::report::Flags;
 use crate::sim::report::MAX_CONTACTS;
 use crate::sim::setup::ControlParams;
 use crate::sim::support::Support;
+use serde::{Deserialize, Serialize};
 
 /// Where a point should be and how it should move, world axes, at the start and at the end of the tick.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PointTarget {
     /// Position at the start, m.
     pub now: Vec3,

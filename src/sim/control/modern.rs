@@ -26,6 +26,7 @@ use crate::sim::report::Flags;
 use crate::sim::report::MAX_CONTACTS;
 use crate::sim::support::Polygon;
 use multiversion::multiversion;
+use serde::{Deserialize, Serialize};
 use tasks::pendulum_time;
 
 mod contacts;
@@ -153,7 +154,42 @@ impl std::fmt::Debug for Modern {
     }
 }
 
+/// What [`Modern`] remembers from tick to tick.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct ModernMemory {
+    #[serde(with = "crate::sim::saved::array")]
+    price: [f64; NV],
+    #[serde(with = "crate::sim::saved::array")]
+    last_torque: [f64; DOF_COUNT],
+    /// Contact forces that are not zero, by index.
+    last_force: Vec<(u8, Vec3)>,
+}
+
 impl Modern {
+    /// What it remembers, to be written into a checkpoint.
+    pub fn memory(&self) -> ModernMemory {
+        let forces = (0u8..).zip(self.last_force.iter());
+        ModernMemory {
+            price: self.price,
+            last_torque: self.last_torque,
+            last_force: forces
+                .filter(|(_, f)| f.to_array().iter().any(|x| x.to_bits() != 0))
+                .map(|(k, f)| (k, *f))
+                .collect(),
+        }
+    }
+
+    /// Remembers what was read from a checkpoint. False if it cannot be what was written.
+    #[must_use]
+    pub fn remember(&mut self, memory: &ModernMemory) -> bool {
+        (self.price, self.last_torque) = (memory.price, memory.last_torque);
+        self.last_force.fill(Vec3::zero());
+        memory.last_force.iter().all(|(k, f)| {
+            let place = self.last_force.get_mut(usize::from(*k));
+            place.map(|p| *p = *f).is_some()
+        })
+    }
+
     /// The last decision.
     pub fn command(&self) -> &Command {
         &self.command

@@ -24,6 +24,7 @@ use crate::sim::report::MAX_CONTACTS;
 use crate::sim::setup::Metric;
 use crate::sim::support::zmp::LEAST_NORMAL_FORCE;
 use crate::sim::support::{Pivot, Polygon, Sharing, pivot, unblocked_pivot, zmp};
+use serde::{Deserialize, Serialize};
 use supports::Planned;
 
 /// Overload: more members of K and L together than this (0.6 n).
@@ -110,7 +111,34 @@ struct Stand {
     pivot: Option<Pivot>,
 }
 
+/// What [`Paper`] remembers from tick to tick.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct PaperMemory {
+    anchors: [Option<(Vec3, Quat)>; 2],
+    previous: Option<Previous>,
+    overload: bool,
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct Previous(#[serde(with = "crate::sim::saved::array")] Row);
+
 impl Paper {
+    /// What it remembers, to be written into a checkpoint.
+    pub fn memory(&self) -> PaperMemory {
+        PaperMemory {
+            anchors: self.anchors,
+            previous: self.previous.map(Previous),
+            overload: self.overload,
+        }
+    }
+
+    /// Remembers what was read from a checkpoint.
+    pub fn remember(&mut self, memory: &PaperMemory) {
+        self.anchors = memory.anchors;
+        self.previous = memory.previous.as_ref().map(|p| p.0);
+        self.overload = memory.overload;
+    }
+
     /// A controller that has seen nothing yet.
     pub fn new() -> Self {
         Self::default()

@@ -15,9 +15,10 @@
 use super::drive::{Drive, QueuedClip};
 use super::tick::ExitPlan;
 use crate::sim::body::Posture;
+use serde::{Deserialize, Serialize};
 
 /// What a figure does.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) enum Activity {
     /// Hold a posture.
     Hold,
@@ -32,7 +33,7 @@ pub(super) enum Activity {
 }
 
 /// A switch to another motion; empty if there is none.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Switch {
     /// The exit from the present motion, while it is planned.
     pub exit: Option<Box<ExitPlan>>,
@@ -49,7 +50,7 @@ impl Switch {
 }
 
 /// What a figure does, and where its desired motion comes from.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct MotionState {
     source: Drive,
     activity: Activity,

@@ -9,6 +9,7 @@ use crate::sim::figure::params::balance::{
 };
 use crate::sim::report::MAX_CONTACTS;
 use crate::sim::support::{Polygon, Support};
+use serde::{Deserialize, Serialize};
 
 /// What brings the capture point back from where, m.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,8 +55,9 @@ pub struct Observation<'a> {
 }
 
 /// Watches the capture point.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct BalanceWatch {
+    #[serde(skip)]
     polygon: Polygon,
     lost: bool,
     inside: f64,

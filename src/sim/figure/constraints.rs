@@ -14,6 +14,7 @@ use crate::sim::figure::params::constraints::{
 use crate::sim::math::curve::smoothstep;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::support::{Polygon, Support};
+use serde::{Deserialize, Serialize};
 
 /// Most constraints on one figure.
 pub const MAX_CONSTRAINTS: usize = 8;
@@ -21,7 +22,7 @@ pub const MAX_CONSTRAINTS: usize = 8;
 pub const MAX_EASE: f64 = 60.0;
 
 /// What a constraint is on.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Constrained {
     /// The centre of mass, loads included.
     CenterOfMass,
@@ -33,7 +34,7 @@ pub enum Constrained {
 ///
 /// At least one of `position` and `rotation` is given; the centre of mass has no rotation. The part moves there from
 /// wherever it is. What cannot be reached is approached as far as balance, strength and joints let it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Constraint {
     /// What it is on.
     pub on: Constrained,
@@ -74,7 +75,7 @@ impl Constraint {
 }
 
 /// A place that is given again and again.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Stream {
     on: Constrained,
     position: Vec3,
@@ -110,15 +111,20 @@ impl Stream {
 }
 
 /// The constraints of a figure: those that were given, and those that fade because they were taken off.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Constraints {
     given: Vec<Constraint>,
     streams: Vec<Stream>,
     fading: Vec<Constraint>,
+    #[serde(skip)]
     goals: Vec<Goal>,
+    #[serde(skip)]
     hands: [Option<Effector>; 2],
+    #[serde(skip)]
     polygon: Polygon,
+    #[serde(skip)]
     inset: Polygon,
+    #[serde(skip)]
     errors: Vec<[f64; 2]>,
 }
 
@@ -167,6 +173,12 @@ impl Constraints {
             }
         }
         self.given.extend(given.into_iter().flatten());
+    }
+
+    /// False if it cannot be what was written into a checkpoint.
+    pub fn is_valid(&self) -> bool {
+        let most = MAX_CONSTRAINTS;
+        self.given.len() <= most && self.streams.len() <= most && self.fading.len() <= most
     }
 
     /// Those that are given, in the order in which they were.

@@ -1,7 +1,7 @@
 //! Where a figure's desired motion comes from.
 
 use super::plan_task::{PlanRequest, PlanTask};
-use crate::sim::body::Posture;
+use crate::sim::body::{Body, Posture};
 use crate::sim::math::Vec3;
 use crate::sim::motion::clip::{Clip, PlanarTransform};
 use crate::sim::motion::{Target, TargetPair};
@@ -9,12 +9,14 @@ use crate::sim::plan::StreamPlan;
 use crate::sim::plan::motion_transition::{NextClip, TransitionClip};
 use crate::sim::track::StepPlan;
 use crate::sim::track::planned_to_world::Anchor;
+use serde::{Deserialize, Serialize, Serializer};
 use std::sync::Arc;
 
 /// A clip being played.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct ClipPlayback {
     /// The motion.
+    #[serde(with = "crate::sim::saved::definition")]
     pub clip: Arc<Clip>,
     /// World time at which the clip's time 0 plays, s.
     pub start: f64,
@@ -26,11 +28,12 @@ pub struct ClipPlayback {
     pub origin: PlanarTransform,
     /// How the figure came into it, if that was out of another motion without standing in between, or from a stand that
     /// is not like its beginning.
+    #[serde(with = "crate::sim::saved::definition::option")]
     pub way_in: Option<Arc<TransitionClip>>,
 }
 
 /// A stream that is prepared while it comes.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct LivePlayback {
     /// The stream.
     pub motion: StreamPlan,
@@ -47,7 +50,7 @@ impl LivePlayback {
 }
 
 /// Source of the desired motion.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 #[allow(clippy::large_enum_variant)] // one per figure; boxing a posture would only add a pointer chase
 pub enum Drive {
     /// Stand still in a posture.
@@ -107,7 +110,7 @@ impl ClipPlayback {
 }
 
 /// A clip that begins as soon as its figure stands.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct QueuedClip {
     /// The clip, as it would play if it began now.
     pub play: ClipPlayback,
@@ -125,13 +128,55 @@ pub(super) struct QueuedClip {
     /// It begins standing, where its figure is.
     pub led: bool,
     /// The way from that stand into the clip, if it does not begin so.
-    pub entry: Option<PlanTask<Option<TransitionClip>>>,
+    pub entry: Option<Entry>,
+}
+
+/// The way from a stand into a clip, while it is planned.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(from = "EntryProblem")]
+pub(super) struct Entry {
+    problem: EntryProblem,
+    pub task: PlanTask<Option<TransitionClip>>,
+}
+
+/// What [`Entry`] is planned from.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct EntryProblem {
+    #[serde(with = "crate::sim::saved::definition")]
+    pub body: Arc<Body>,
+    /// The clip, entered at clip time `first`, s.
+    pub next: NextClip,
+    pub first: f64,
+    pub stand: Posture,
+}
+
+impl EntryProblem {
+    /// True if the clip begins as the figure stands: there is nothing to plan.
+    pub fn begins(&self) -> bool {
+        self.next.begins_as(&self.body, self.first, &self.stand)
+    }
+}
+
+impl From<EntryProblem> for Entry {
+    fn from(problem: EntryProblem) -> Self {
+        let p = problem.clone();
+        Self {
+            problem,
+            task: PlanTask::new(move || p.next.from_stand(&p.body, p.first, &p.stand)),
+        }
+    }
+}
+
+impl Serialize for Entry {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        self.problem.serialize(to)
+    }
 }
 
 impl QueuedClip {
     /// Asks for the way into the clip, if it is to be planned.
     pub fn request(&self) -> Option<PlanRequest> {
-        self.entry.as_ref()?.request()
+        self.entry.as_ref()?.task.request()
     }
 
     /// Begins at world time `time`, for a figure whose feet stand at `stance`.

@@ -5,9 +5,10 @@ use crate::sim::body::topology::{DOF_COUNT, SEGMENT_COUNT};
 use crate::sim::collide::Other;
 use crate::sim::report::{Flags, TickReport};
 use crate::sim::support::Support;
+use serde::{Deserialize, Serialize};
 
 /// Something worth telling.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum FigureEvent {
     /// A segment began to carry.
     SupportGained {
@@ -82,11 +83,13 @@ pub const SATURATION_TICKS: u16 = 6;
 const MAX_EVENTS: usize = 128;
 
 /// Turns reports into events; remembers the last tick.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Watcher {
     events: Vec<FigureEvent>,
     supports: [bool; SEGMENT_COUNT],
+    #[serde(with = "crate::sim::saved::array")]
     saturated: [bool; DOF_COUNT],
+    #[serde(with = "crate::sim::saved::array")]
     streak: [u16; DOF_COUNT],
     balanced: bool,
     fallen: bool,

@@ -19,9 +19,10 @@ use crate::sim::get_up::{GetUpMotion, GetUpSolver};
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::TargetPair;
 use crate::sim::report::{MAX_CONTACTS, POINTS_PER_SEGMENT};
+use serde::{Deserialize, Serialize};
 
 /// How a fallen figure gets up, and when.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(super) struct GetUp {
     motion: GetUpMotion,
     /// The commanded motion has lain down since the figure fell.
@@ -70,6 +71,11 @@ impl GetUp {
             stalled: 0.0,
             off: 0.0,
         }
+    }
+
+    /// False if it cannot be what was written into a checkpoint.
+    pub fn is_valid(&self) -> bool {
+        self.motion.is_valid()
     }
 
     /// Forgets that the commanded motion gets up.

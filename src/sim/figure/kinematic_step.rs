@@ -92,6 +92,16 @@ impl KinematicStepper {
         self.anchor = None;
     }
 
+    /// What it remembers from tick to tick: the segment that supports, and where it stands.
+    pub(super) fn memory(&self) -> Option<(SegmentId, Vec3, Quat)> {
+        self.anchor
+    }
+
+    /// Remembers what was read from a checkpoint.
+    pub(super) fn remember(&mut self, anchor: Option<(SegmentId, Vec3, Quat)>) {
+        self.anchor = anchor;
+    }
+
     /// Deepest contact point below the surface at the start of the last tick, m.
     pub fn penetration(&self) -> f64 {
         self.penetration

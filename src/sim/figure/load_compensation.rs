@@ -23,9 +23,10 @@ use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::leg_ik::{forward, solve_leg};
 use crate::sim::motion::{Target, TargetPair};
 use arm::{ARMS, Arm, Habit, Poses};
+use serde::{Deserialize, Serialize};
 
 /// Masses and first moments of mass of the segments with a load, segment frames, kg and kg·m.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Masses {
     mass: [f64; SEGMENT_COUNT],
     moment: [Vec3; SEGMENT_COUNT],
@@ -78,7 +79,7 @@ struct LoadEffect {
 }
 
 /// What one figure carries, and its effect on the motion.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct LoadCompensation {
     unloaded: Masses,
     /// What it carries as it follows from loads that come and go at once: after one time constant, and after both.

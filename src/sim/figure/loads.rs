@@ -9,6 +9,7 @@ use crate::sim::dynamics::terms::AppliedForce;
 use crate::sim::dynamics::{Kinematics, MassMatrix, Terms, crba, factor, solve};
 use crate::sim::math::Vec3;
 use crate::sim::setup::{HeldLoad, Perturbation};
+use serde::{Deserialize, Serialize};
 
 /// Most perturbations a figure can have scheduled at once.
 pub const MAX_PERTURBATIONS: usize = 64;
@@ -17,7 +18,7 @@ pub const MAX_EXTERNAL: usize = crate::sim::touch::MAX_ISLAND_CONTACTS;
 /// Most applied forces in an audit: perturbations, a bar, other bodies.
 pub const MAX_APPLIED: usize = MAX_PERTURBATIONS + 2 + MAX_EXTERNAL;
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Scheduled {
     what: Perturbation,
     carried: bool,
@@ -27,7 +28,7 @@ struct Scheduled {
 }
 
 /// A rigid bar between two points of the body: a load in two hands.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Bar {
     /// Segments and points (segment frame, m) of its ends.
     pub ends: [(SegmentId, Vec3); 2],
@@ -36,7 +37,7 @@ pub struct Bar {
 }
 
 /// The perturbations of a figure.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Disturbances {
     scheduled: Vec<Scheduled>,
     applied: Vec<AppliedForce>,
@@ -68,6 +69,11 @@ impl Disturbances {
             });
         }
         room
+    }
+
+    /// False if it cannot be what was written into a checkpoint.
+    pub fn is_valid(&self) -> bool {
+        self.scheduled.len() <= MAX_PERTURBATIONS && self.applied.len() <= MAX_APPLIED
     }
 
     /// Drops everything that is scheduled or acts; the loads are let go at the next tick.

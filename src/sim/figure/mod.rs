@@ -1,5 +1,7 @@
 //! One figure, one tick. The stages are listed in [`step`].
 
+use serde::{Deserialize, Serialize};
+
 mod activity;
 pub mod assist;
 pub mod balance_loss;
@@ -26,9 +28,10 @@ pub use crate::sim::setup::{
 pub use constraints::{Constrained, Constraint, MAX_CONSTRAINTS};
 pub use drive::{ClipPlayback, Drive, LivePlayback};
 pub use events::FigureEvent;
-pub use plan_task::{PlanRequest, Planning};
+pub use plan_task::{LatePlans, PlanRequest, Planning};
+pub(crate) use tick::SavedFigure;
 pub use tick::{Figure, TickContext};
 
 /// Identity of a figure in a world; never used again after removal.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct FigureKey(pub u64);

@@ -5,6 +5,7 @@
 //! own ([`World::plan_requests`](crate::sim::world::World::plan_requests)). A problem that is not solved by then is
 //! solved by the tick that takes it ([`Planning::InTick`]), or planned anew for a later tick ([`Planning::Aside`]).
 
+use serde::{Deserialize, Serialize};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock, Weak};
@@ -17,6 +18,22 @@ pub enum Planning {
     InTick,
     /// It does not wait: the figure goes on with what it does, and takes a plan in a later tick.
     Aside,
+}
+
+/// Plans that a tick needed and that were not there.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct LatePlans {
+    /// How the motion is left.
+    pub exit: bool,
+    /// The way into the clip that waits.
+    pub entry: bool,
+}
+
+impl LatePlans {
+    /// How many.
+    pub fn count(self) -> usize {
+        usize::from(self.exit) + usize::from(self.entry)
+    }
 }
 
 /// A problem and, once it is solved, its result.

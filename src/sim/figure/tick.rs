@@ -18,9 +18,11 @@ mod fall_detection;
 mod motion_switch;
 mod playback;
 mod reporting;
+mod saved;
 mod state;
 
 pub(super) use motion_switch::ExitPlan;
+pub(crate) use saved::SavedFigure;
 
 use crate::sim::figure::params::support::REST_SHARE;
 use state::{
@@ -34,7 +36,7 @@ use super::constraints::MAX_CONSTRAINTS;
 use super::events::Watcher;
 use super::kinematic_step::{Decision, KinematicStepper};
 use super::loads::MAX_APPLIED;
-use super::plan_task::Planning;
+use super::plan_task::{LatePlans, Planning};
 use super::tasks::TaskPoints;
 use super::torque_step::{ExternalForces, StepInput, Stepper, TorqueStepper};
 use crate::sim::body::State;
@@ -130,7 +132,8 @@ impl Figure {
                 report: TickReport::empty(&setup.state, MAX_CONSTRAINTS, MAX_APPLIED),
                 reported: false,
                 watcher: Watcher::default(),
-                late_plans: 0,
+                late: LatePlans::default(),
+                told_late: LatePlans::default(),
             },
             neighbours: Neighbours {
                 cluster: 0,
@@ -143,7 +146,7 @@ impl Figure {
     /// Stages 1–5 of a tick: everything before the body moves. False for a frozen figure, whose tick ends here.
     pub(crate) fn prepare(&mut self, world: &TickContext) -> bool {
         self.outcome.watcher.begin();
-        self.outcome.late_plans = 0;
+        self.outcome.late = LatePlans::default();
         self.commands(world);
         if self.physical.frozen {
             self.outcome.report.flags = Flags::QUARANTINED;
@@ -196,6 +199,7 @@ impl Figure {
         self.leave_broken_stream(world.time());
         self.follow_exit_if_due(world);
         self.begin_next_if_ready(world);
+        self.outcome.told_late = LatePlans::default();
         self.update_get_up(world.time());
     }
 

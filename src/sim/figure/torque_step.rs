@@ -292,6 +292,17 @@ impl TorqueStepper {
         }
     }
 
+    /// What it remembers from tick to tick: impulse along the bar between two hands, N·s, and its mean force, N.
+    pub(super) fn memory(&self) -> (f64, Vec3) {
+        (self.bar.impulse, self.forces.bar)
+    }
+
+    /// Remembers what was read from a checkpoint.
+    pub(super) fn remember(&mut self, impulse: f64, force: Vec3) {
+        self.bar.impulse = impulse;
+        self.forces.bar = force;
+    }
+
     /// Deepest contact point below the surface at the start of any substep of the last tick, m.
     pub fn penetration(&self) -> f64 {
         self.means.penetration

@@ -10,6 +10,7 @@ use crate::sim::figure::params::support::{
 };
 use crate::sim::math::Vec3;
 use crate::sim::support::Rest;
+use serde::{Deserialize, Serialize};
 
 /// Places by which one part rests on one thing: buttocks and thighs do not turn on a stool as on a point.
 const SPOTS: usize = 4;
@@ -34,7 +35,7 @@ pub struct Contacting {
 }
 
 /// A place by which a part rests.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct Spot {
     /// Where on the segment, segment frame, m.
     local: Vec3,
@@ -46,7 +47,7 @@ struct Spot {
     expected: Vec3,
 }
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Entry {
     touch: Touch,
     /// Sum of normal forces, weight of the mean position, N.
@@ -151,7 +152,7 @@ impl Entry {
 }
 
 /// Touches of one tick and of the one before.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Touches {
     now: Vec<Entry>,
     before: Vec<Entry>,
@@ -171,6 +172,13 @@ fn key(e: &Entry) -> (SegmentId, Other) {
 }
 
 impl Touches {
+    /// False if it cannot be what was written into a checkpoint.
+    pub fn is_valid(&self) -> bool {
+        [&self.now, &self.before]
+            .into_iter()
+            .all(|all| all.len() <= MAX_TOUCHES && all.iter().all(|e| e.count <= SPOTS))
+    }
+
     /// Starts the substeps of a tick.
     pub fn begin(&mut self) {
         std::mem::swap(&mut self.now, &mut self.before);

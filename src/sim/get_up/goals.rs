@@ -3,9 +3,10 @@
 use crate::sim::body::topology::{
     DOF_COUNT, DOF_START, L_THIGH, L_UPPER_ARM, R_THIGH, R_UPPER_ARM,
 };
+use serde::{Deserialize, Serialize};
 
 /// A number that should be `at`, if it has weight.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Aim {
     pub at: f64,
     pub weight: f64,
@@ -38,7 +39,7 @@ impl Aim {
 
 /// Goals of an instant: places along x (ahead), y (to the left) and z of the way, m; angles, rad. Pairs are left and
 /// right.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Goals {
     pub pelvis: [Aim; 3],
     /// How far the pelvis is bent forward from upright, its turn about its own long axis before, and the way's heading
@@ -57,6 +58,7 @@ pub struct Goals {
     /// Height of the front of the chest.
     pub chest: Aim,
     /// Anatomical angles.
+    #[serde(with = "crate::sim::saved::array")]
     pub pose: [Aim; DOF_COUNT],
 }
 

@@ -13,10 +13,11 @@ use crate::sim::get_up::params::layout::{
 };
 use crate::sim::get_up::params::weights::{COM, FIRM, HAND, POSE};
 use crate::sim::math::Vec3;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
 
 /// Where everything is.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Layout {
     /// Length over that of the reference body.
     pub scale: f64,

@@ -1,10 +1,11 @@
 //! 3×3 matrices and symmetric 3×3 tensors over lanes.
 
 use super::{Lane, Vec3, vec3::vec3};
+use serde::{Deserialize, Serialize};
 use std::ops::{Add, AddAssign, Mul, Sub};
 
 /// A 3×3 matrix, held by its columns; mostly a rotation `world_from_segment`.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Mat3<L = f64> {
     /// First column (image of x).
     pub x: Vec3<L>,
@@ -70,7 +71,7 @@ impl<L: Lane> Mul for Mat3<L> {
 }
 
 /// A symmetric 3×3 tensor, mostly a rotational inertia (kg·m²).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[allow(missing_docs)]
 pub struct Sym3<L = f64> {
     pub xx: L,

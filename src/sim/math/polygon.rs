@@ -4,6 +4,8 @@
 //! plain data of fixed size, and the functions on slices allocate (offline). A point and a segment are polygons here
 //! too, because a figure may stand on the edge of a shoe or on one corner.
 
+use serde::{Deserialize, Serialize};
+
 /// A point of the floor, m.
 type Point = [f64; 2];
 
@@ -254,10 +256,29 @@ impl Region {
 }
 
 /// Corners of a convex polygon without allocation, at most 40; what does not fit is left out.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[serde(into = "Vec<Point>", try_from = "Vec<Point>")]
 pub struct SmallPolygon {
     points: [Point; MOST],
     len: usize,
+}
+
+impl From<SmallPolygon> for Vec<Point> {
+    fn from(p: SmallPolygon) -> Self {
+        p.points[..p.len].to_vec()
+    }
+}
+
+impl TryFrom<Vec<Point>> for SmallPolygon {
+    type Error = &'static str;
+
+    fn try_from(corners: Vec<Point>) -> Result<Self, Self::Error> {
+        let mut out = Self::default();
+        let to = out.points.get_mut(..corners.len());
+        to.ok_or("too many corners")?.copy_from_slice(&corners);
+        out.len = corners.len();
+        Ok(out)
+    }
 }
 
 impl Default for SmallPolygon {
@@ -345,9 +366,10 @@ impl SmallPolygon {
 }
 
 /// Corners of a convex set, counter-clockwise seen from above; one corner is a point, two are a segment.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Polygon {
     corners: Vec<Point>,
+    #[serde(skip)]
     scratch: Vec<Point>,
 }
 

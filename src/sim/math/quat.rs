@@ -1,10 +1,11 @@
 //! Unit quaternions (x, y, z, w), active rotations, over lanes.
 
 use super::{Lane, Mat3, Vec3, trig, vec3::vec3};
+use serde::{Deserialize, Serialize};
 use std::ops::Mul;
 
 /// A unit quaternion, stored x, y, z, w.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[allow(missing_docs)]
 pub struct Quat<L = f64> {
     pub x: L,

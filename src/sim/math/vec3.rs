@@ -1,10 +1,11 @@
 //! Three-vectors over lanes.
 
 use super::Lane;
+use serde::{Deserialize, Serialize};
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
 /// A vector of three components in a frame that its name tells.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Vec3<L = f64> {
     /// Forward.
     pub x: L,

@@ -20,6 +20,7 @@ use crate::sim::math::curve;
 use crate::sim::math::rotation_vector;
 use crate::sim::math::{Quat, Vec3, trig};
 use seam::Seam;
+use serde::{Deserialize, Serialize, Serializer};
 
 /// Most samples of a clip: 15 minutes at 120 Hz, some 130 MB.
 pub const MAX_SAMPLES: usize = 108_000;
@@ -55,13 +56,15 @@ pub enum ClipError {
 }
 
 /// A sample with its rates, in the layout of a state's velocity, but with the pelvis's angular part in pelvis axes.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Knot {
     /// Posture.
     pub posture: Posture,
     /// First derivative.
+    #[serde(with = "crate::sim::saved::array")]
     pub first: [f64; NV],
     /// Second derivative.
+    #[serde(with = "crate::sim::saved::array")]
     pub second: [f64; NV],
     /// Feet that the motion keeps on the floor.
     pub planted: [bool; 2],
@@ -81,7 +84,8 @@ impl Knot {
 }
 
 /// A motion at a uniform rate. Immutable.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize)]
+#[serde(try_from = "ClipSamples")]
 pub struct Clip {
     name: String,
     rate_hz: f64,
@@ -90,6 +94,40 @@ pub struct Clip {
     lead_in: usize,
     lead_out: usize,
     seam: Option<Box<Seam>>,
+}
+
+/// What a clip is made of.
+#[derive(Serialize, Deserialize)]
+struct ClipSamples {
+    name: String,
+    rate_hz: f64,
+    samples: Vec<(Posture, [bool; 2])>,
+    ends: [usize; 2],
+}
+
+impl Serialize for Clip {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let samples = self.samples().map(|(p, planted)| (*p, planted));
+        ClipSamples {
+            name: self.name.clone(),
+            rate_hz: self.rate_hz,
+            samples: samples.collect(),
+            ends: [self.lead_in, self.lead_out],
+        }
+        .serialize(to)
+    }
+}
+
+impl TryFrom<ClipSamples> for Clip {
+    type Error = ClipError;
+
+    /// Takes postures as they are: they are checked, not normalised once more, since that would change their last bits.
+    fn try_from(from: ClipSamples) -> Result<Self, ClipError> {
+        let (postures, planted) = from.samples.into_iter().unzip();
+        let clip = Self::of(&from.name, from.rate_hz, postures, planted, false)?;
+        let [lead_in, lead_out] = from.ends;
+        Ok(clip.with_ends(lead_in, lead_out))
+    }
 }
 
 impl Clip {
@@ -109,6 +147,16 @@ impl Clip {
         postures: Vec<Posture>,
         planted: Vec<[bool; 2]>,
     ) -> Result<Self, ClipError> {
+        Self::of(name, rate_hz, postures, planted, true)
+    }
+
+    fn of(
+        name: &str,
+        rate_hz: f64,
+        postures: Vec<Posture>,
+        planted: Vec<[bool; 2]>,
+        normalise: bool,
+    ) -> Result<Self, ClipError> {
         let count = postures.len();
         if count == 0 {
             return Err(ClipError::Empty);
@@ -127,7 +175,11 @@ impl Clip {
         }
         let mut postures = postures;
         for (sample, posture) in postures.iter_mut().enumerate() {
-            check(sample, posture)?;
+            let mut checked = *posture;
+            check(sample, &mut checked)?;
+            if normalise {
+                *posture = checked;
+            }
         }
         let h = 1.0 / rate_hz;
         let knots: Vec<Knot> = (0..count)

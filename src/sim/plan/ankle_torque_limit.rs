@@ -25,7 +25,7 @@ pub struct Over {
 }
 
 /// Limits of the support of one foot that carries a whole body.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AnkleTorqueLimit {
     /// Distance before the ankle at which the weight of the body takes [`ankle::STRENGTH_SHARE`] of the strength of the
     /// ankle, or [`ankle::LEAST_SOLE`] of the sole, m.

@@ -22,13 +22,15 @@ use crate::sim::motion::clip::Clip;
 use crate::sim::motion::target::Target;
 use crate::sim::plan::params::{stop, transition};
 use candidates::{Features, moments};
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The clip that is to follow, in its own place and time.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct NextClip {
     /// The clip.
+    #[serde(with = "crate::sim::saved::definition")]
     pub clip: Arc<Clip>,
     /// Clip seconds per second.
     pub speed: f64,
@@ -66,7 +68,7 @@ impl NextClip {
 
 /// The way from a motion or a stand into a clip, in the place and time of the clip: it plays instead of what the clip
 /// has before `until`.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct TransitionClip {
     /// The motion: first the one that is left, at last the clip itself.
     pub clip: Clip,
@@ -88,14 +90,28 @@ impl TransitionClip {
 
 /// The ways from a motion into a clip, at the moments that are most alike. Each can be worked out on its own; the first
 /// one that a body can go is taken.
+#[derive(Serialize, Deserialize)]
 pub struct TransitionCandidates {
+    #[serde(with = "crate::sim::saved::definition")]
     body: Arc<Body>,
     known: Vec<Sample>,
     now: usize,
     next: NextClip,
     moments: Vec<Moment>,
     /// First way that a body can go, as far as is known: those after it are not wanted.
+    #[serde(skip, default = "none_yet")]
     found: AtomicUsize,
+}
+
+/// No way was found, as far as is known.
+fn none_yet() -> AtomicUsize {
+    AtomicUsize::new(usize::MAX)
+}
+
+impl std::fmt::Debug for TransitionCandidates {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("TransitionCandidates")
+    }
 }
 
 impl TransitionCandidates {
@@ -119,7 +135,7 @@ impl TransitionCandidates {
             now,
             next,
             moments,
-            found: AtomicUsize::new(usize::MAX),
+            found: none_yet(),
         }
     }
 

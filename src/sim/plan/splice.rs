@@ -13,6 +13,7 @@ use crate::sim::body::{Body, Posture};
 use crate::sim::math::curve::{fade, smootherstep};
 use crate::sim::motion::clip::{Clip, PlanarTransform};
 use crate::sim::plan::params::{balance, leg, likeness, stop, stream};
+use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 
@@ -34,15 +35,24 @@ pub type Sample = (Posture, [bool; 2]);
 /// The ends of a motion by the steps that bring it to a stand: the moments of the step to come are tried as the
 /// beginning of the end, in turn, until one asks little of the ground; else the one that asks least is taken. Each can
 /// be worked out on its own.
+#[derive(Serialize, Deserialize)]
 pub struct StopCandidates {
+    #[serde(with = "crate::sim::saved::definition")]
     body: Arc<Body>,
     known: Vec<Sample>,
     now: usize,
     goal: Option<Posture>,
     streamed: bool,
+    #[serde(skip)]
     way: OnceLock<Option<KnownMotion>>,
     /// First end that was easy, as far as is known: those after it are not wanted.
+    #[serde(skip, default = "none_yet")]
     easy: AtomicUsize,
+}
+
+/// No end is easy, as far as is known.
+fn none_yet() -> AtomicUsize {
+    AtomicUsize::new(usize::MAX)
 }
 
 /// What all ends have in common: the motion with samples at [`stop::RATE`], with its step finished, and its labels.
@@ -51,6 +61,12 @@ struct KnownMotion {
     postures: Vec<Posture>,
     label: Vec<[bool; 2]>,
     now: usize,
+}
+
+impl std::fmt::Debug for StopCandidates {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("StopCandidates")
+    }
 }
 
 impl StopCandidates {
@@ -74,8 +90,19 @@ impl StopCandidates {
             goal,
             streamed,
             way: OnceLock::new(),
-            easy: AtomicUsize::new(usize::MAX),
+            easy: none_yet(),
         }
+    }
+
+    /// True if it is given how the figure stands in the end.
+    pub fn have_goal(&self) -> bool {
+        self.goal.is_some()
+    }
+
+    /// The end that leads to a stand like `goal`, of all that do.
+    pub fn like(&self, goal: Posture) -> Option<Clip> {
+        let how = (Some(goal), self.streamed);
+        stop(&self.body, self.known.clone(), self.now, how)
     }
 
     fn way(&self) -> Option<&KnownMotion> {

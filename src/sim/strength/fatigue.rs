@@ -13,6 +13,7 @@ use super::tables::Origin;
 use crate::sim::body::DOF_COUNT;
 use crate::sim::math::exp::exp;
 use crate::sim::math::hash::Fnv;
+use serde::{Deserialize, Serialize};
 
 /// Fastest time scale: seconds of fatigue per simulated second.
 pub const MAX_TIME_SCALE: f64 = 1000.0;
@@ -108,7 +109,7 @@ impl FatigueRow {
 }
 
 /// Fibres of one direction of one DOF; resting ones are what is left of 1.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Compartments {
     /// MA.
     pub active: f64,
@@ -137,11 +138,12 @@ impl Compartments {
 }
 
 /// Fatigue of a figure.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Fatigue {
     /// Seconds of fatigue per simulated second.
     pub time_scale: f64,
     /// Positive and negative direction of each DOF.
+    #[serde(with = "crate::sim::saved::array")]
     pub fibres: [[Compartments; 2]; DOF_COUNT],
 }
 

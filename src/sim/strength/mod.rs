@@ -16,6 +16,7 @@ use crate::sim::body::{Body, DOF_COUNT, Sex};
 use crate::sim::math::curve::rise;
 use crate::sim::math::exp::{exp, ln};
 use curve::{AngleFactor, Muscle, VelocityFactor};
+use serde::{Deserialize, Serialize};
 use tables::{Action, AndersonRow, Group, Leg, Origin, Tissue};
 
 /// Ligaments act within this angle before a limit, rad (4°): `docs/model.md#strength`.
@@ -38,11 +39,12 @@ const LEAST_RISE: f64 = 1.0;
 const SLACK: f64 = -35.0;
 
 /// Scale of a figure's strength.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StrengthScale {
     /// Factor on every DOF, 0.01…100.
     pub all: f64,
     /// Factor per DOF, 0.01…100.
+    #[serde(with = "crate::sim::saved::array")]
     pub dof: [f64; DOF_COUNT],
     /// Which person of that sex, age and size: percentile of strength, 5…95; 50 is the average.
     pub percentile: f64,
@@ -74,8 +76,8 @@ impl StrengthScale {
 }
 
 /// Factors on the muscles of each DOF for its positive and its negative direction, > 0.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MuscleScale(pub [[f64; 2]; DOF_COUNT]);
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MuscleScale(#[serde(with = "crate::sim::saved::array")] pub [[f64; 2]; DOF_COUNT]);
 
 impl Default for MuscleScale {
     fn default() -> Self {

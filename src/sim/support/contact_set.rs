@@ -5,6 +5,7 @@ use crate::sim::body::{Body, SEGMENT_COUNT, SegmentId};
 use crate::sim::dynamics::Terms;
 use crate::sim::math::Vec3;
 use crate::sim::report::MAX_CONTACTS;
+use serde::{Deserialize, Serialize};
 
 /// A point that comes below this height touches, m.
 pub const ENTER_HEIGHT: f64 = 0.006;
@@ -14,7 +15,7 @@ pub const LEAVE_HEIGHT: f64 = 0.010;
 const POINTS_PER_SEGMENT: usize = MAX_CONTACTS / SEGMENT_COUNT;
 
 /// One touching point.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SupportPoint {
     /// Segment it belongs to.
     pub segment: SegmentId,
@@ -27,7 +28,7 @@ pub struct SupportPoint {
 }
 
 /// Touching points of one figure; remembers the last tick.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct ContactSet {
     touching: [u64; SEGMENT_COUNT],
     points: Vec<SupportPoint>,

@@ -26,14 +26,16 @@ use crate::sim::dynamics::Terms;
 use crate::sim::math::Vec3;
 use crate::sim::report::MAX_CONTACTS;
 use crate::sim::touch::MAX_TOUCHES;
+use serde::{Deserialize, Serialize};
 
 /// Supports of one figure, computed once per tick and shared by controllers and steppers. Remembers what hysteresis
 /// needs.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Support {
     contacts: ContactSet,
     ratio: [f64; SEGMENT_COUNT],
     load: [f64; SEGMENT_COUNT],
+    #[serde(skip)]
     sharing: Sharing,
     main: Option<SegmentId>,
     polygon: Polygon,

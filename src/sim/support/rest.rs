@@ -2,9 +2,10 @@
 
 use crate::sim::body::SegmentId;
 use crate::sim::math::{Mat3, Vec3};
+use serde::{Deserialize, Serialize};
 
 /// A part of the body that rests on an obstacle: a seat, a table, a wall.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rest {
     /// The part.
     pub segment: SegmentId,

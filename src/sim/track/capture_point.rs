@@ -26,12 +26,13 @@ use crate::sim::math::exp::exp;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::Target;
 use crate::sim::support::Polygon;
+use serde::{Deserialize, Serialize};
 
 /// Corners that a support polygon has room for.
 const CORNERS: usize = 64;
 
 /// The capture point against the motion's. Points and directions are horizontal, world axes.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Capture {
     /// Error `e` of the capture point, m.
     pub error: [f64; 2],
@@ -45,10 +46,14 @@ pub struct Capture {
     momentum_offset: [f64; 2],
     /// Acceleration `a` of the body by outside forces, m/s².
     disturbance: [f64; 2],
+    #[serde(skip)]
     inner: Polygon,
+    #[serde(skip)]
     stance: Polygon,
     /// Inertia of the body without loads.
+    #[serde(skip)]
     links: Links,
+    #[serde(skip)]
     kin: Kinematics<f64>,
 }
 
@@ -72,6 +77,11 @@ impl Capture {
             links: Links::new(body),
             kin: Kinematics::default(),
         }
+    }
+
+    /// Adds what follows from the body to what was read from a checkpoint.
+    pub(super) fn complete(&mut self, body: &Body) {
+        self.links = Links::new(body);
     }
 
     /// Ankles and rotations of both feet in a posture.

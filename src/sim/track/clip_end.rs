@@ -9,9 +9,10 @@ use crate::sim::body::topology::NV;
 use crate::sim::dynamics::Terms;
 use crate::sim::math::curve::smoothstep;
 use crate::sim::motion::{Target, TargetPair};
+use serde::{Deserialize, Serialize};
 
 /// How a figure comes to a stand.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Stop {
     /// Last posture of the clip, as the map to the world puts it into place.
     from: Posture,

@@ -2,9 +2,10 @@
 
 use super::params::flight::LEANING_TIME;
 use super::{StepPlan, StepTracker};
+use serde::{Deserialize, Serialize};
 
 /// The next flight phase of the plan.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Flight {
     /// Time until no foot is to be on the floor, s.
     pub after: f64,

@@ -51,6 +51,7 @@ use foot_places::{stance_points, turn};
 use params::common::{LEAST_SPEED, SETTLED_OFFSET, SETTLED_SPEED};
 use params::flight::ANNOUNCED;
 use planned_to_world::Anchor;
+use serde::{Deserialize, Serialize};
 use step_decision::{UnplannedStep, is_misplaced};
 use step_timing::StepTiming;
 use support_recovery::SupportRecovery;
@@ -60,7 +61,7 @@ const FOOT: [SegmentId; 2] = [L_FOOT, R_FOOT];
 const TOES: [SegmentId; 2] = [L_TOES, R_TOES];
 
 /// State of one foot.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Foot {
     /// On the floor, by events.
     down: bool,
@@ -93,7 +94,7 @@ impl Foot {
 }
 
 /// A touch-down.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Landing {
     /// 0 left, 1 right.
     pub side: usize,
@@ -119,7 +120,7 @@ pub struct TaskTargets<'a> {
 }
 
 /// Dimensions of the legs: constants of the body.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 struct Legs {
     soles: [Sole; 2],
     /// Length of a leg, m.
@@ -128,8 +129,20 @@ struct Legs {
     at_ease: Posture,
 }
 
+impl Legs {
+    fn of(body: &Body) -> Self {
+        let length =
+            body.joint_offset[L_FOOT.index()].norm() + body.joint_offset[L_FOOT.index() - 1].norm();
+        Self {
+            soles: [Sole::new(body, 0), Sole::new(body, 1)],
+            length,
+            at_ease: at_ease(body),
+        }
+    }
+}
+
 /// The plan that is followed: it is replaced as a whole.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct FollowedPlan {
     plan: StepPlan,
     /// Clip seconds per second.
@@ -152,7 +165,7 @@ impl FollowedPlan {
 }
 
 /// Time of the plan.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct Clock {
     /// Clip time now, s.
     phase: f64,
@@ -165,14 +178,14 @@ struct Clock {
 }
 
 /// What happens in this tick, for the report and the controller.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct TickEvents {
     landing: Option<Landing>,
     flight: Option<Flight>,
 }
 
 /// By how much the centre of mass was above the motion's in the last tick: what a fall from a flight starts from.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct HeightError {
     /// Height above the motion's, m.
     height: f64,
@@ -183,7 +196,7 @@ struct HeightError {
 }
 
 /// What keeps or restores balance and stance beside the plan.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct Recovery {
     step: UnplannedStep,
     /// A raised foot that was put down before its time, for which the plan waits.
@@ -195,8 +208,10 @@ struct Recovery {
 }
 
 /// Footstep tracking of one figure. Remembers phase and footholds; nothing allocates in a tick.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct StepTracker {
+    /// What follows from the body.
+    #[serde(skip)]
     legs: Legs,
     /// `None` for a motion whose feet never leave the floor.
     followed: Option<FollowedPlan>,
@@ -213,14 +228,8 @@ pub struct StepTracker {
 impl StepTracker {
     /// Tracking for figures with this body, standing.
     pub fn new(body: &Body) -> Self {
-        let length =
-            body.joint_offset[L_FOOT.index()].norm() + body.joint_offset[L_FOOT.index() - 1].norm();
         Self {
-            legs: Legs {
-                soles: [Sole::new(body, 0), Sole::new(body, 1)],
-                length,
-                at_ease: at_ease(body),
-            },
+            legs: Legs::of(body),
             followed: None,
             clock: Clock::default(),
             anchor: Anchor::default(),
@@ -231,6 +240,25 @@ impl StepTracker {
             recovery: Recovery::default(),
             timing: StepTiming::default(),
         }
+    }
+
+    /// Adds what follows from the body to a tracker that was read from a checkpoint.
+    pub fn complete(&mut self, body: &Body) {
+        self.legs = Legs::of(body);
+        self.capture.complete(body);
+    }
+
+    /// False if it cannot be what was written into a checkpoint: there are two feet.
+    pub fn is_valid(&self) -> bool {
+        let sides = [
+            self.events.landing.map(|l| l.side),
+            self.timing.side(),
+            self.timing.early.map(|e| e.side),
+        ];
+        let mut all = sides.into_iter().flatten();
+        all.all(|side| side < 2)
+            && self.recovery.step.is_valid()
+            && self.recovery.support.is_valid()
     }
 
     /// Follows another motion from the next tick on: a clip with its plan, speed (clip seconds per second) and origin,

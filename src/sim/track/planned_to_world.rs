@@ -10,9 +10,10 @@ use super::foot_places::{horizontal, turn};
 use super::params::world_map::{HEADING_GAIN, HEADING_RETURN, SETTLING_TIME};
 use crate::sim::math::{Vec3, trig};
 use crate::sim::motion::PlanarTransform;
+use serde::{Deserialize, Serialize};
 
 /// The map at one time, and what it approaches.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Anchor {
     /// Foothold as planned, m.
     planned: Vec3,

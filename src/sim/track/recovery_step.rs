@@ -19,9 +19,10 @@ use crate::sim::math::curve::{arc, smootherstep};
 use crate::sim::math::exp::exp;
 use crate::sim::math::{Vec3, trig};
 use crate::sim::plan::foot_lock::Sole;
+use serde::{Deserialize, Serialize};
 
 /// What a step is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Purpose {
     /// To catch the body, across the stance foot if need be.
     Recover,
@@ -34,7 +35,7 @@ pub enum Purpose {
 }
 
 /// A step under way.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RecoveryStep {
     /// Swinging foot: 0 left, 1 right.
     pub side: usize,

@@ -14,9 +14,10 @@ use super::{FOOT, Landing, StepTracker, TOES, TaskTargets};
 use crate::sim::dynamics::Terms;
 use crate::sim::math::{Vec3, trig};
 use crate::sim::support::Support;
+use serde::{Deserialize, Serialize};
 
 /// The step that no plan has.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) enum UnplannedStep {
     /// None is made.
     #[default]
@@ -33,6 +34,15 @@ pub(super) enum UnplannedStep {
 }
 
 impl UnplannedStep {
+    /// False if it cannot be what was written into a checkpoint: there are two feet.
+    pub(super) fn is_valid(&self) -> bool {
+        match self {
+            Self::None => true,
+            Self::Unloading(side) => *side < 2,
+            Self::Swinging { step, unloaded } => step.side < 2 && unloaded.is_none_or(|s| s < 2),
+        }
+    }
+
     /// The step, while the foot swings.
     pub(super) fn swing(&self) -> Option<&RecoveryStep> {
         match self {

@@ -16,9 +16,10 @@ use crate::sim::plan::motion_transition::TransitionClip;
 use crate::sim::plan::pelvis_shift::mass_track;
 use crate::sim::plan::stream;
 use crate::sim::plan::stream::StreamPlan;
+use serde::{Deserialize, Serialize};
 
 /// A stance of one foot as the clip has it. Times in clip seconds, place and heading in clip coordinates.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Footfall {
     /// Touch-down, s.
     pub on: f64,
@@ -42,7 +43,7 @@ impl Footfall {
 }
 
 /// The stances of a clip. Made when a clip begins to play; queries allocate nothing.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct StepPlan {
     /// Of the left and the right foot.
     stances: [Vec<Footfall>; 2],
@@ -56,11 +57,12 @@ pub struct StepPlan {
     round: Option<PlanarTransform>,
     /// What holds instead before some time: the way into a clip that repeats, with its first round, or the one out of
     /// another motion.
+    #[serde(with = "crate::sim::saved::nested")]
     lead: Option<Box<Lead>>,
 }
 
 /// A plan that holds before another one.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Lead {
     plan: StepPlan,
     /// It holds before this time, s.

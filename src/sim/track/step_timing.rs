@@ -23,9 +23,10 @@ use crate::sim::dynamics::Terms;
 use crate::sim::math::Vec3;
 use crate::sim::motion::Target;
 use crate::sim::support::Support;
+use serde::{Deserialize, Serialize};
 
 /// Where the motion has its capture point at a touch-down.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct PlannedLanding {
     /// Foot: 0 left, 1 right.
     side: usize,
@@ -36,7 +37,7 @@ pub(super) struct PlannedLanding {
 }
 
 /// A step that comes sooner than planned.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct EarlyStep {
     /// Foot: 0 left, 1 right.
     pub(super) side: usize,
@@ -51,12 +52,19 @@ pub(super) struct EarlyStep {
 }
 
 /// The next landing and what is decided about it.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(super) struct StepTiming {
     /// What the motion has at the landing, while that matters.
     pub(super) landing: Option<PlannedLanding>,
     /// The step, if it comes sooner than planned.
     pub(super) early: Option<EarlyStep>,
+}
+
+impl StepTiming {
+    /// The foot that lands next, if that matters.
+    pub(super) fn side(&self) -> Option<usize> {
+        self.landing.map(|l| l.side)
+    }
 }
 
 impl StepTracker {

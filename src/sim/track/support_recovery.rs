@@ -31,6 +31,7 @@ use crate::sim::math::Vec3;
 use crate::sim::math::curve::smoothstep;
 use crate::sim::motion::TargetPair;
 use crate::sim::support::Support;
+use serde::{Deserialize, Serialize};
 
 const LEG: [[SegmentId; 4]; 2] = [
     [L_THIGH, L_SHANK, L_FOOT, L_TOES],
@@ -38,7 +39,7 @@ const LEG: [[SegmentId; 4]; 2] = [
 ];
 
 /// The foot that was put down, and the plan that waits for it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct SupportRecovery {
     /// The foot that was put down before its turn, or is about to be, and the time since that began, s.
     foot: Option<(usize, f64)>,
@@ -71,6 +72,11 @@ impl Default for SupportRecovery {
 }
 
 impl SupportRecovery {
+    /// False if it cannot be what was written into a checkpoint: there are two feet.
+    pub(super) fn is_valid(&self) -> bool {
+        self.leg < 2 && self.foot.is_none_or(|(side, _)| side < 2)
+    }
+
     /// True while a foot stands that the plan has raised.
     pub(super) fn is_active(&self) -> bool {
         self.foot.is_some()

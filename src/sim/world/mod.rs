@@ -1,5 +1,6 @@
 //! A shared scene: a clock and figures on one ground. The physics of one tick is [`World::step`].
 
+pub mod checkpoint;
 mod collisions;
 mod validate;
 
@@ -13,13 +14,14 @@ use crate::sim::body::State;
 use crate::sim::collide::{MAX_OBSTACLES, Obstacle, ObstacleKey, ObstacleSetup};
 use crate::sim::figure::loads::MAX_PERTURBATIONS;
 use crate::sim::figure::{
-    Constraint, ControlParams, ControllerKind, FigureOptions, MAX_CONSTRAINTS, Perturbation,
-    PlanRequest, Planning, StrengthScale, TickContext,
+    Constraint, ControlParams, ControllerKind, FigureOptions, LatePlans, MAX_CONSTRAINTS,
+    Perturbation, PlanRequest, Planning, StrengthScale, TickContext,
 };
 use crate::sim::math::hash::Fnv;
+use serde::{Deserialize, Serialize};
 
 /// Fixed properties of a world.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WorldParams {
     /// Ticks per second, 10…1000.
     pub rate_hz: f64,
@@ -185,7 +187,25 @@ impl World {
     }
     /// Plans that the last tick needed and that were not there: 0 with [`Planning::InTick`].
     pub fn late_plans(&self) -> usize {
-        self.figures.iter().map(|(_, f)| f.late_plans()).sum()
+        self.figures
+            .iter()
+            .map(|(_, f)| f.late_plans().count())
+            .sum()
+    }
+    /// Plans that the last tick needed and that were not there, by figure.
+    pub fn late_plans_of_figures(&self) -> impl Iterator<Item = (FigureKey, LatePlans)> + '_ {
+        let all = self.figures.iter().map(|(k, f)| (*k, f.late_plans()));
+        all.filter(|(_, late)| late.count() > 0)
+    }
+    /// The next tick does without these plans of a figure, as if they were late: a replay repeats what threads have
+    /// decided. False if there is no such figure.
+    pub fn delay_plans(&mut self, key: FigureKey, late: LatePlans) -> bool {
+        let figure = self.figure_mut(key);
+        figure.map(|f| f.delay_plans(late)).is_some()
+    }
+    /// Steps with so many threads (1…64) from now on. The result does not depend on it.
+    pub fn set_threads(&mut self, threads: usize) {
+        self.params.threads = threads.clamp(1, 64);
     }
     /// Fixed properties.
     pub fn params(&self) -> &WorldParams {

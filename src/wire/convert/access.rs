@@ -88,12 +88,23 @@ pub fn expiry(
     field: &str,
     at: Option<prost_types::Timestamp>,
 ) -> Result<Option<SystemTime>, Fault> {
-    let Some(at) = at else { return Ok(None) };
-    let time = SystemTime::try_from(at)
-        .ok()
-        .filter(|t| *t > SystemTime::now());
-    time.map(Some)
-        .ok_or_else(|| Fault::invalid(field, "must be a time that is still to come"))
+    let time = time(field, at)?;
+    if time.is_some_and(|t| t <= SystemTime::now()) {
+        return Err(Fault::invalid(
+            field,
+            "must be a time that is still to come",
+        ));
+    }
+    Ok(time)
+}
+
+/// A time, if there is one.
+///
+/// # Errors
+/// There is no such time.
+pub fn time(field: &str, at: Option<prost_types::Timestamp>) -> Result<Option<SystemTime>, Fault> {
+    let time = at.map(SystemTime::try_from).transpose();
+    time.map_err(|_| Fault::invalid(field, "must be a time"))
 }
 
 /// The paths of an update mask.

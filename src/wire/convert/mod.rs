@@ -3,6 +3,7 @@
 
 pub mod access;
 pub mod body;
+pub mod checkpoint;
 pub mod constraint;
 pub mod control;
 pub mod figure;

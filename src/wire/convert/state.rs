@@ -122,6 +122,7 @@ fn event_type(kind: &EventKind) -> pb::EventType {
         EventKind::ControlPreempted(_) => pb::EventType::ControlPreempted,
         EventKind::ControlOffered(_) => pb::EventType::ControlOffered,
         EventKind::AccessRefused(_) => pb::EventType::AccessRefused,
+        EventKind::Restored(_) => pb::EventType::WorldRestored,
         EventKind::Paused => pb::EventType::WorldPaused,
         EventKind::Resumed => pb::EventType::WorldResumed,
         EventKind::Failed(_) => pb::EventType::WorldFailed,
@@ -162,6 +163,7 @@ pub fn event_out(e: &WorldEvent) -> pb::Event {
         EventKind::ObstacleAdded(other) | EventKind::ObstacleRemoved(other) => {
             out.other = other.clone();
         }
+        EventKind::Restored(tick) => out.detail = tick.to_string(),
         EventKind::DriveBegan(t)
         | EventKind::DriveEnded(t)
         | EventKind::DriveResynced(t)

@@ -2219,6 +2219,3032 @@ pub mod body_service_server {
         const NAME: &'static str = SERVICE_NAME;
     }
 }
+/// One world.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct World {
+    /// Resource name `worlds/{world}`. Ignored in requests to create one.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+    /// Name for people, at most 128 bytes. Default: empty.
+    #[prost(string, tag = "2")]
+    pub display_name: ::prost::alloc::string::String,
+    /// Ticks per second of world time, 10…1000. 0 or absent: 60. Fixed at creation.
+    #[prost(double, tag = "3")]
+    pub rate_hz: f64,
+    /// Substeps of the dynamics in one tick, 1…16. 0 or absent: 2. Fixed at creation.
+    #[prost(int32, tag = "4")]
+    pub substeps: i32,
+    /// Downward acceleration of gravity, m/s², 0…30. Absent: 9.81. Fixed at creation.
+    #[prost(double, optional, tag = "5")]
+    pub gravity_mps2: ::core::option::Option<f64>,
+    /// Coefficient of friction of the ground, 0.05…2. Absent: 0.9. Fixed at creation.
+    #[prost(double, optional, tag = "6")]
+    pub friction: ::core::option::Option<f64>,
+    /// What happens when ticks take too long.
+    #[prost(enumeration = "OverrunPolicy", tag = "7")]
+    pub overrun_policy: i32,
+    /// Most ticks that are caught up at once with OVERRUN_POLICY_CATCH_UP, 1…100. 0 or absent: 5.
+    #[prost(int32, tag = "8")]
+    pub catch_up_limit: i32,
+    /// World seconds per wall second, 0.01…10. 0 or absent: 1.
+    #[prost(double, tag = "9")]
+    pub speed: f64,
+    /// What the world is doing. Output only.
+    #[prost(enumeration = "WorldState", tag = "10")]
+    pub state: i32,
+    /// Ticks computed since creation. Output only.
+    #[prost(int64, tag = "11")]
+    pub tick: i64,
+    /// World time, s: tick / rate_hz. Output only.
+    #[prost(double, tag = "12")]
+    pub time_s: f64,
+    /// Number of figures. Output only.
+    #[prost(int32, tag = "13")]
+    pub figure_count: i32,
+    /// Counts up when the world's identity changes (restored or moved); 1 for a new world. Output only.
+    #[prost(int32, tag = "14")]
+    pub epoch: i32,
+    /// When it was created. Output only.
+    #[prost(message, optional, tag = "15")]
+    pub create_time: ::core::option::Option<::prost_types::Timestamp>,
+    /// Why the world failed; empty otherwise. Output only.
+    #[prost(string, tag = "16")]
+    pub failure: ::prost::alloc::string::String,
+    /// Figures and obstacles touch each other. Absent: true. False: figures touch nothing but the ground. Fixed at
+    /// creation.
+    #[prost(bool, optional, tag = "17")]
+    pub collisions: ::core::option::Option<bool>,
+}
+impl ::prost::Name for World {
+    const NAME: &'static str = "World";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.World".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.World".into()
+    }
+}
+/// Asks for a new world.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct CreateWorldRequest {
+    /// Last part of the new name: 1 to 63 of `a-z 0-9 -`, beginning with a letter. Empty: the server chooses.
+    #[prost(string, tag = "1")]
+    pub world_id: ::prost::alloc::string::String,
+    /// Settings. Absent: all defaults.
+    #[prost(message, optional, tag = "2")]
+    pub world: ::core::option::Option<World>,
+    /// Leaves the clock stopped. Default: false.
+    #[prost(bool, tag = "3")]
+    pub paused: bool,
+}
+impl ::prost::Name for CreateWorldRequest {
+    const NAME: &'static str = "CreateWorldRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.CreateWorldRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.CreateWorldRequest".into()
+    }
+}
+/// The new world.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct CreateWorldResponse {
+    /// As it was created, with defaults filled in.
+    #[prost(message, optional, tag = "1")]
+    pub world: ::core::option::Option<World>,
+}
+impl ::prost::Name for CreateWorldResponse {
+    const NAME: &'static str = "CreateWorldResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.CreateWorldResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.CreateWorldResponse".into()
+    }
+}
+/// Asks for one world.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct GetWorldRequest {
+    /// Resource name `worlds/{world}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+}
+impl ::prost::Name for GetWorldRequest {
+    const NAME: &'static str = "GetWorldRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetWorldRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetWorldRequest".into()
+    }
+}
+/// One world.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct GetWorldResponse {
+    /// As it is now.
+    #[prost(message, optional, tag = "1")]
+    pub world: ::core::option::Option<World>,
+}
+impl ::prost::Name for GetWorldResponse {
+    const NAME: &'static str = "GetWorldResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetWorldResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetWorldResponse".into()
+    }
+}
+/// Asks for worlds.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct ListWorldsRequest {
+    /// Most worlds to return, 0…1000. 0: 100.
+    #[prost(int32, tag = "1")]
+    pub page_size: i32,
+    /// `next_page_token` of the page before. Empty: from the start.
+    #[prost(string, tag = "2")]
+    pub page_token: ::prost::alloc::string::String,
+}
+impl ::prost::Name for ListWorldsRequest {
+    const NAME: &'static str = "ListWorldsRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ListWorldsRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ListWorldsRequest".into()
+    }
+}
+/// A page of worlds.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct ListWorldsResponse {
+    /// Ordered by name.
+    #[prost(message, repeated, tag = "1")]
+    pub worlds: ::prost::alloc::vec::Vec<World>,
+    /// Token of the next page; empty at the end.
+    #[prost(string, tag = "2")]
+    pub next_page_token: ::prost::alloc::string::String,
+}
+impl ::prost::Name for ListWorldsResponse {
+    const NAME: &'static str = "ListWorldsResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ListWorldsResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ListWorldsResponse".into()
+    }
+}
+/// Changes a world.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct UpdateWorldRequest {
+    /// The world, by `name`, with new values.
+    #[prost(message, optional, tag = "1")]
+    pub world: ::core::option::Option<World>,
+    /// Which of `display_name`, `overrun_policy`, `catch_up_limit`, `speed` to take. Must not be empty.
+    #[prost(message, optional, tag = "2")]
+    pub update_mask: ::core::option::Option<::prost_types::FieldMask>,
+}
+impl ::prost::Name for UpdateWorldRequest {
+    const NAME: &'static str = "UpdateWorldRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.UpdateWorldRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.UpdateWorldRequest".into()
+    }
+}
+/// The changed world.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct UpdateWorldResponse {
+    /// As it is now.
+    #[prost(message, optional, tag = "1")]
+    pub world: ::core::option::Option<World>,
+}
+impl ::prost::Name for UpdateWorldResponse {
+    const NAME: &'static str = "UpdateWorldResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.UpdateWorldResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.UpdateWorldResponse".into()
+    }
+}
+/// Ends a world.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct DeleteWorldRequest {
+    /// Resource name `worlds/{world}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+}
+impl ::prost::Name for DeleteWorldRequest {
+    const NAME: &'static str = "DeleteWorldRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.DeleteWorldRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.DeleteWorldRequest".into()
+    }
+}
+/// The world is gone.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct DeleteWorldResponse {}
+impl ::prost::Name for DeleteWorldResponse {
+    const NAME: &'static str = "DeleteWorldResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.DeleteWorldResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.DeleteWorldResponse".into()
+    }
+}
+/// Stops a world's clock.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct PauseWorldRequest {
+    /// Resource name `worlds/{world}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+}
+impl ::prost::Name for PauseWorldRequest {
+    const NAME: &'static str = "PauseWorldRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.PauseWorldRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.PauseWorldRequest".into()
+    }
+}
+/// The paused world.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct PauseWorldResponse {
+    /// As it is now.
+    #[prost(message, optional, tag = "1")]
+    pub world: ::core::option::Option<World>,
+}
+impl ::prost::Name for PauseWorldResponse {
+    const NAME: &'static str = "PauseWorldResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.PauseWorldResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.PauseWorldResponse".into()
+    }
+}
+/// Starts a world's clock.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct ResumeWorldRequest {
+    /// Resource name `worlds/{world}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+}
+impl ::prost::Name for ResumeWorldRequest {
+    const NAME: &'static str = "ResumeWorldRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ResumeWorldRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ResumeWorldRequest".into()
+    }
+}
+/// The running world.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct ResumeWorldResponse {
+    /// As it is now.
+    #[prost(message, optional, tag = "1")]
+    pub world: ::core::option::Option<World>,
+}
+impl ::prost::Name for ResumeWorldResponse {
+    const NAME: &'static str = "ResumeWorldResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ResumeWorldResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ResumeWorldResponse".into()
+    }
+}
+/// Advances a paused world.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct StepWorldRequest {
+    /// Resource name `worlds/{world}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+    /// Number of ticks, 1…10000. 0: 1.
+    #[prost(int32, tag = "2")]
+    pub tick_count: i32,
+}
+impl ::prost::Name for StepWorldRequest {
+    const NAME: &'static str = "StepWorldRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.StepWorldRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.StepWorldRequest".into()
+    }
+}
+/// The ticks are done.
+#[derive(Clone, Copy, PartialEq, ::prost::Message)]
+pub struct StepWorldResponse {
+    /// Tick after the last step.
+    #[prost(int64, tag = "1")]
+    pub tick: i64,
+    /// World time after the last step, s.
+    #[prost(double, tag = "2")]
+    pub time_s: f64,
+    /// State hash of the world after the last step; equal inputs by tick give equal hashes.
+    #[prost(sfixed64, tag = "3")]
+    pub state_hash: i64,
+}
+impl ::prost::Name for StepWorldResponse {
+    const NAME: &'static str = "StepWorldResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.StepWorldResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.StepWorldResponse".into()
+    }
+}
+/// Sets a world's speed.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct SetWorldSpeedRequest {
+    /// Resource name `worlds/{world}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+    /// World seconds per wall second, 0.01…10.
+    #[prost(double, tag = "2")]
+    pub speed: f64,
+}
+impl ::prost::Name for SetWorldSpeedRequest {
+    const NAME: &'static str = "SetWorldSpeedRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.SetWorldSpeedRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.SetWorldSpeedRequest".into()
+    }
+}
+/// The world at its new speed.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct SetWorldSpeedResponse {
+    /// As it is now.
+    #[prost(message, optional, tag = "1")]
+    pub world: ::core::option::Option<World>,
+}
+impl ::prost::Name for SetWorldSpeedResponse {
+    const NAME: &'static str = "SetWorldSpeedResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.SetWorldSpeedResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.SetWorldSpeedResponse".into()
+    }
+}
+/// A ball around the obstacle's origin.
+#[derive(Clone, Copy, PartialEq, ::prost::Message)]
+pub struct SphereShape {
+    /// Radius, m, 0.005…100.
+    #[prost(double, tag = "1")]
+    pub radius_m: f64,
+}
+impl ::prost::Name for SphereShape {
+    const NAME: &'static str = "SphereShape";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.SphereShape".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.SphereShape".into()
+    }
+}
+/// A cylinder with round ends along z of the obstacle's frame, around its origin.
+#[derive(Clone, Copy, PartialEq, ::prost::Message)]
+pub struct CapsuleShape {
+    /// Radius, m, 0.005…100.
+    #[prost(double, tag = "1")]
+    pub radius_m: f64,
+    /// Half the length of the cylinder without its ends, m, 0…100.
+    #[prost(double, tag = "2")]
+    pub half_length_m: f64,
+}
+impl ::prost::Name for CapsuleShape {
+    const NAME: &'static str = "CapsuleShape";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.CapsuleShape".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.CapsuleShape".into()
+    }
+}
+/// A box around the obstacle's origin.
+#[derive(Clone, Copy, PartialEq, ::prost::Message)]
+pub struct BoxShape {
+    /// Half of its edges along the axes of the obstacle's frame, m, each 0.005…1000.
+    #[prost(message, optional, tag = "1")]
+    pub half_m: ::core::option::Option<Vector3>,
+}
+impl ::prost::Name for BoxShape {
+    const NAME: &'static str = "BoxShape";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.BoxShape".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.BoxShape".into()
+    }
+}
+/// Everything below z = 0 of the obstacle's frame.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct PlaneShape {}
+impl ::prost::Name for PlaneShape {
+    const NAME: &'static str = "PlaneShape";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.PlaneShape".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.PlaneShape".into()
+    }
+}
+/// A thing that figures can touch.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct Obstacle {
+    /// Resource name `worlds/{world}/obstacles/{obstacle}`. Ignored in requests to add one.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+    /// How it moves.
+    #[prost(enumeration = "ObstacleMobility", tag = "6")]
+    pub mobility: i32,
+    /// Mass of a free obstacle, kg, 0.01…10000; spread evenly over its shape. Ignored for others.
+    #[prost(double, tag = "7")]
+    pub mass_kg: f64,
+    /// Coefficient of friction, 0.05…2; of two obstacles the smaller one counts. Absent: 0.6.
+    #[prost(double, optional, tag = "8")]
+    pub friction: ::core::option::Option<f64>,
+    /// Where it is; the origin of its frame is its centre. Absent: at the world's origin.
+    #[prost(message, optional, tag = "9")]
+    pub pose: ::core::option::Option<Pose>,
+    /// Velocity of its centre, m/s, each component within ±100. Ignored for fixed ones. Absent: at rest.
+    #[prost(message, optional, tag = "10")]
+    pub velocity_mps: ::core::option::Option<Vector3>,
+    /// Angular velocity, world axes, rad/s, each component within ±100. Ignored for fixed ones. Absent: none.
+    #[prost(message, optional, tag = "11")]
+    pub angular_velocity_radps: ::core::option::Option<Vector3>,
+    /// Shape. Required. A plane cannot be free.
+    #[prost(oneof = "obstacle::Shape", tags = "2, 3, 4, 5")]
+    pub shape: ::core::option::Option<obstacle::Shape>,
+}
+/// Nested message and enum types in `Obstacle`.
+pub mod obstacle {
+    /// Shape. Required. A plane cannot be free.
+    #[derive(Clone, Copy, PartialEq, ::prost::Oneof)]
+    pub enum Shape {
+        /// A ball.
+        #[prost(message, tag = "2")]
+        Sphere(super::SphereShape),
+        /// A cylinder with round ends.
+        #[prost(message, tag = "3")]
+        Capsule(super::CapsuleShape),
+        /// A box.
+        #[prost(message, tag = "4")]
+        Box(super::BoxShape),
+        /// A half-space.
+        #[prost(message, tag = "5")]
+        Plane(super::PlaneShape),
+    }
+}
+impl ::prost::Name for Obstacle {
+    const NAME: &'static str = "Obstacle";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Obstacle".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Obstacle".into()
+    }
+}
+/// Asks to put an obstacle into a world.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct AddObstacleRequest {
+    /// World: resource name `worlds/{world}`.
+    #[prost(string, tag = "1")]
+    pub parent: ::prost::alloc::string::String,
+    /// Last part of the new name: 1 to 63 of `a-z 0-9 -`, beginning with a letter. Empty: the server chooses.
+    #[prost(string, tag = "2")]
+    pub obstacle_id: ::prost::alloc::string::String,
+    /// The obstacle. Required.
+    #[prost(message, optional, tag = "3")]
+    pub obstacle: ::core::option::Option<Obstacle>,
+}
+impl ::prost::Name for AddObstacleRequest {
+    const NAME: &'static str = "AddObstacleRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.AddObstacleRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.AddObstacleRequest".into()
+    }
+}
+/// The new obstacle.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct AddObstacleResponse {
+    /// As it was added, with defaults filled in.
+    #[prost(message, optional, tag = "1")]
+    pub obstacle: ::core::option::Option<Obstacle>,
+}
+impl ::prost::Name for AddObstacleResponse {
+    const NAME: &'static str = "AddObstacleResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.AddObstacleResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.AddObstacleResponse".into()
+    }
+}
+/// Replaces an obstacle.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct UpdateObstacleRequest {
+    /// The obstacle, by `name`, with all its new values.
+    #[prost(message, optional, tag = "1")]
+    pub obstacle: ::core::option::Option<Obstacle>,
+}
+impl ::prost::Name for UpdateObstacleRequest {
+    const NAME: &'static str = "UpdateObstacleRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.UpdateObstacleRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.UpdateObstacleRequest".into()
+    }
+}
+/// The changed obstacle.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct UpdateObstacleResponse {
+    /// As it is now.
+    #[prost(message, optional, tag = "1")]
+    pub obstacle: ::core::option::Option<Obstacle>,
+}
+impl ::prost::Name for UpdateObstacleResponse {
+    const NAME: &'static str = "UpdateObstacleResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.UpdateObstacleResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.UpdateObstacleResponse".into()
+    }
+}
+/// Takes an obstacle out.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct RemoveObstacleRequest {
+    /// Resource name `worlds/{world}/obstacles/{obstacle}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+}
+impl ::prost::Name for RemoveObstacleRequest {
+    const NAME: &'static str = "RemoveObstacleRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.RemoveObstacleRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.RemoveObstacleRequest".into()
+    }
+}
+/// The obstacle is gone.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct RemoveObstacleResponse {}
+impl ::prost::Name for RemoveObstacleResponse {
+    const NAME: &'static str = "RemoveObstacleResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.RemoveObstacleResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.RemoveObstacleResponse".into()
+    }
+}
+/// Asks for the obstacles of a world.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct ListObstaclesRequest {
+    /// World: resource name `worlds/{world}`.
+    #[prost(string, tag = "1")]
+    pub parent: ::prost::alloc::string::String,
+}
+impl ::prost::Name for ListObstaclesRequest {
+    const NAME: &'static str = "ListObstaclesRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ListObstaclesRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ListObstaclesRequest".into()
+    }
+}
+/// The obstacles of a world: at most 256.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct ListObstaclesResponse {
+    /// In the order they were added.
+    #[prost(message, repeated, tag = "1")]
+    pub obstacles: ::prost::alloc::vec::Vec<Obstacle>,
+}
+impl ::prost::Name for ListObstaclesResponse {
+    const NAME: &'static str = "ListObstaclesResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ListObstaclesResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ListObstaclesResponse".into()
+    }
+}
+/// What the clock does when a tick takes longer than its period.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum OverrunPolicy {
+    /// The default: OVERRUN_POLICY_SKIP.
+    Unspecified = 0,
+    /// Keeps wall time by leaving out the deadlines that were missed; they are counted. World time then runs behind.
+    Skip = 1,
+    /// Computes up to `catch_up_limit` missed ticks back to back, then leaves out the rest.
+    CatchUp = 2,
+    /// Lets world time run slower: every tick is computed and the next deadline is one period after its end.
+    Dilate = 3,
+}
+impl OverrunPolicy {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "OVERRUN_POLICY_UNSPECIFIED",
+            Self::Skip => "OVERRUN_POLICY_SKIP",
+            Self::CatchUp => "OVERRUN_POLICY_CATCH_UP",
+            Self::Dilate => "OVERRUN_POLICY_DILATE",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "OVERRUN_POLICY_UNSPECIFIED" => Some(Self::Unspecified),
+            "OVERRUN_POLICY_SKIP" => Some(Self::Skip),
+            "OVERRUN_POLICY_CATCH_UP" => Some(Self::CatchUp),
+            "OVERRUN_POLICY_DILATE" => Some(Self::Dilate),
+            _ => None,
+        }
+    }
+}
+/// What a world is doing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum WorldState {
+    /// Never sent.
+    Unspecified = 0,
+    /// Its clock runs.
+    Running = 1,
+    /// Its clock is stopped; `StepWorld` advances it.
+    Paused = 2,
+    /// A step ended abnormally. The world keeps its last frame and can only be read or deleted.
+    Failed = 3,
+}
+impl WorldState {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "WORLD_STATE_UNSPECIFIED",
+            Self::Running => "WORLD_STATE_RUNNING",
+            Self::Paused => "WORLD_STATE_PAUSED",
+            Self::Failed => "WORLD_STATE_FAILED",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "WORLD_STATE_UNSPECIFIED" => Some(Self::Unspecified),
+            "WORLD_STATE_RUNNING" => Some(Self::Running),
+            "WORLD_STATE_PAUSED" => Some(Self::Paused),
+            "WORLD_STATE_FAILED" => Some(Self::Failed),
+            _ => None,
+        }
+    }
+}
+/// How an obstacle moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum ObstacleMobility {
+    /// The default: OBSTACLE_MOBILITY_FIXED.
+    Unspecified = 0,
+    /// Not at all.
+    Fixed = 1,
+    /// With its velocity, whatever it meets.
+    Led = 2,
+    /// As a rigid body of `mass_kg`, under gravity and on the ground.
+    Free = 3,
+}
+impl ObstacleMobility {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "OBSTACLE_MOBILITY_UNSPECIFIED",
+            Self::Fixed => "OBSTACLE_MOBILITY_FIXED",
+            Self::Led => "OBSTACLE_MOBILITY_LED",
+            Self::Free => "OBSTACLE_MOBILITY_FREE",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "OBSTACLE_MOBILITY_UNSPECIFIED" => Some(Self::Unspecified),
+            "OBSTACLE_MOBILITY_FIXED" => Some(Self::Fixed),
+            "OBSTACLE_MOBILITY_LED" => Some(Self::Led),
+            "OBSTACLE_MOBILITY_FREE" => Some(Self::Free),
+            _ => None,
+        }
+    }
+}
+/// Generated client implementations.
+pub mod world_service_client {
+    #![allow(
+        unused_variables,
+        dead_code,
+        missing_docs,
+        clippy::wildcard_imports,
+        clippy::let_unit_value,
+    )]
+    use tonic::codegen::*;
+    use tonic::codegen::http::Uri;
+    /// Creates, lists and controls worlds. A world is one shared scene with a clock of its own: gravity, ground, figures.
+    #[derive(Debug, Clone)]
+    pub struct WorldServiceClient<T> {
+        inner: tonic::client::Grpc<T>,
+    }
+    impl WorldServiceClient<tonic::transport::Channel> {
+        /// Attempt to create a new client by connecting to a given endpoint.
+        pub async fn connect<D>(dst: D) -> Result<Self, tonic::transport::Error>
+        where
+            D: TryInto<tonic::transport::Endpoint>,
+            D::Error: Into<StdError>,
+        {
+            let conn = tonic::transport::Endpoint::new(dst)?.connect().await?;
+            Ok(Self::new(conn))
+        }
+    }
+    impl<T> WorldServiceClient<T>
+    where
+        T: tonic::client::GrpcService<tonic::body::Body>,
+        T::Error: Into<StdError>,
+        T::ResponseBody: Body<Data = Bytes> + std::marker::Send + 'static,
+        <T::ResponseBody as Body>::Error: Into<StdError> + std::marker::Send,
+    {
+        pub fn new(inner: T) -> Self {
+            let inner = tonic::client::Grpc::new(inner);
+            Self { inner }
+        }
+        pub fn with_origin(inner: T, origin: Uri) -> Self {
+            let inner = tonic::client::Grpc::with_origin(inner, origin);
+            Self { inner }
+        }
+        pub fn with_interceptor<F>(
+            inner: T,
+            interceptor: F,
+        ) -> WorldServiceClient<InterceptedService<T, F>>
+        where
+            F: tonic::service::Interceptor,
+            T::ResponseBody: Default,
+            T: tonic::codegen::Service<
+                http::Request<tonic::body::Body>,
+                Response = http::Response<
+                    <T as tonic::client::GrpcService<tonic::body::Body>>::ResponseBody,
+                >,
+            >,
+            <T as tonic::codegen::Service<
+                http::Request<tonic::body::Body>,
+            >>::Error: Into<StdError> + std::marker::Send + std::marker::Sync,
+        {
+            WorldServiceClient::new(InterceptedService::new(inner, interceptor))
+        }
+        /// Compress requests with the given encoding.
+        ///
+        /// This requires the server to support it otherwise it might respond with an
+        /// error.
+        #[must_use]
+        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.inner = self.inner.send_compressed(encoding);
+            self
+        }
+        /// Enable decompressing responses.
+        #[must_use]
+        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.inner = self.inner.accept_compressed(encoding);
+            self
+        }
+        /// Limits the maximum size of a decoded message.
+        ///
+        /// Default: `4MB`
+        #[must_use]
+        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
+            self.inner = self.inner.max_decoding_message_size(limit);
+            self
+        }
+        /// Limits the maximum size of an encoded message.
+        ///
+        /// Default: `usize::MAX`
+        #[must_use]
+        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
+            self.inner = self.inner.max_encoding_message_size(limit);
+            self
+        }
+        /// Creates a world and starts its clock, unless `paused`. RESOURCE_EXHAUSTED when the server or this client has as
+        /// many as it may, or when there is no processor time for its ticks (`TICK_BUDGET`).
+        pub async fn create_world(
+            &mut self,
+            request: impl tonic::IntoRequest<super::CreateWorldRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::CreateWorldResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.WorldService/CreateWorld",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.WorldService", "CreateWorld"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// One world.
+        pub async fn get_world(
+            &mut self,
+            request: impl tonic::IntoRequest<super::GetWorldRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::GetWorldResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.WorldService/GetWorld",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.WorldService", "GetWorld"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// All worlds, by name.
+        pub async fn list_worlds(
+            &mut self,
+            request: impl tonic::IntoRequest<super::ListWorldsRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::ListWorldsResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.WorldService/ListWorlds",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.WorldService", "ListWorlds"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// Changes what may change while the world runs. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time
+        /// for a faster clock.
+        pub async fn update_world(
+            &mut self,
+            request: impl tonic::IntoRequest<super::UpdateWorldRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::UpdateWorldResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.WorldService/UpdateWorld",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.WorldService", "UpdateWorld"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// Ends a world: its streams end with NOT_FOUND.
+        pub async fn delete_world(
+            &mut self,
+            request: impl tonic::IntoRequest<super::DeleteWorldRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::DeleteWorldResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.WorldService/DeleteWorld",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.WorldService", "DeleteWorld"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// Stops the clock after the running tick. Pausing a paused world does nothing.
+        pub async fn pause_world(
+            &mut self,
+            request: impl tonic::IntoRequest<super::PauseWorldRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::PauseWorldResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.WorldService/PauseWorld",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.WorldService", "PauseWorld"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// Starts the clock again; no time is caught up. Resuming a running world does nothing. RESOURCE_EXHAUSTED
+        /// (`TICK_BUDGET`) when there is no processor time for its ticks.
+        pub async fn resume_world(
+            &mut self,
+            request: impl tonic::IntoRequest<super::ResumeWorldRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::ResumeWorldResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.WorldService/ResumeWorld",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.WorldService", "ResumeWorld"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// Advances a paused world by some ticks as fast as they compute and returns when they are done. FAILED_PRECONDITION
+        /// (`WORLD_NOT_PAUSED`) for a running world.
+        pub async fn step_world(
+            &mut self,
+            request: impl tonic::IntoRequest<super::StepWorldRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::StepWorldResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.WorldService/StepWorld",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.WorldService", "StepWorld"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// Sets how fast world time passes. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time for it.
+        pub async fn set_world_speed(
+            &mut self,
+            request: impl tonic::IntoRequest<super::SetWorldSpeedRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::SetWorldSpeedResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.WorldService/SetWorldSpeed",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.WorldService", "SetWorldSpeed"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256
+        /// (RESOURCE_EXHAUSTED).
+        pub async fn add_obstacle(
+            &mut self,
+            request: impl tonic::IntoRequest<super::AddObstacleRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::AddObstacleResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.WorldService/AddObstacle",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.WorldService", "AddObstacle"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// Replaces an obstacle by another of the same name: shape, mobility, pose and velocity.
+        pub async fn update_obstacle(
+            &mut self,
+            request: impl tonic::IntoRequest<super::UpdateObstacleRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::UpdateObstacleResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.WorldService/UpdateObstacle",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.WorldService", "UpdateObstacle"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// Takes an obstacle out of its world.
+        pub async fn remove_obstacle(
+            &mut self,
+            request: impl tonic::IntoRequest<super::RemoveObstacleRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::RemoveObstacleResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.WorldService/RemoveObstacle",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.WorldService", "RemoveObstacle"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// All obstacles of a world as they are now, in the order they were added.
+        pub async fn list_obstacles(
+            &mut self,
+            request: impl tonic::IntoRequest<super::ListObstaclesRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::ListObstaclesResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.WorldService/ListObstacles",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.WorldService", "ListObstacles"));
+            self.inner.unary(req, path, codec).await
+        }
+    }
+}
+/// Generated server implementations.
+pub mod world_service_server {
+    #![allow(
+        unused_variables,
+        dead_code,
+        missing_docs,
+        clippy::wildcard_imports,
+        clippy::let_unit_value,
+    )]
+    use tonic::codegen::*;
+    /// Generated trait containing gRPC methods that should be implemented for use with WorldServiceServer.
+    #[async_trait]
+    pub trait WorldService: std::marker::Send + std::marker::Sync + 'static {
+        /// Creates a world and starts its clock, unless `paused`. RESOURCE_EXHAUSTED when the server or this client has as
+        /// many as it may, or when there is no processor time for its ticks (`TICK_BUDGET`).
+        async fn create_world(
+            &self,
+            request: tonic::Request<super::CreateWorldRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::CreateWorldResponse>,
+            tonic::Status,
+        >;
+        /// One world.
+        async fn get_world(
+            &self,
+            request: tonic::Request<super::GetWorldRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::GetWorldResponse>,
+            tonic::Status,
+        >;
+        /// All worlds, by name.
+        async fn list_worlds(
+            &self,
+            request: tonic::Request<super::ListWorldsRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::ListWorldsResponse>,
+            tonic::Status,
+        >;
+        /// Changes what may change while the world runs. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time
+        /// for a faster clock.
+        async fn update_world(
+            &self,
+            request: tonic::Request<super::UpdateWorldRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::UpdateWorldResponse>,
+            tonic::Status,
+        >;
+        /// Ends a world: its streams end with NOT_FOUND.
+        async fn delete_world(
+            &self,
+            request: tonic::Request<super::DeleteWorldRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::DeleteWorldResponse>,
+            tonic::Status,
+        >;
+        /// Stops the clock after the running tick. Pausing a paused world does nothing.
+        async fn pause_world(
+            &self,
+            request: tonic::Request<super::PauseWorldRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::PauseWorldResponse>,
+            tonic::Status,
+        >;
+        /// Starts the clock again; no time is caught up. Resuming a running world does nothing. RESOURCE_EXHAUSTED
+        /// (`TICK_BUDGET`) when there is no processor time for its ticks.
+        async fn resume_world(
+            &self,
+            request: tonic::Request<super::ResumeWorldRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::ResumeWorldResponse>,
+            tonic::Status,
+        >;
+        /// Advances a paused world by some ticks as fast as they compute and returns when they are done. FAILED_PRECONDITION
+        /// (`WORLD_NOT_PAUSED`) for a running world.
+        async fn step_world(
+            &self,
+            request: tonic::Request<super::StepWorldRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::StepWorldResponse>,
+            tonic::Status,
+        >;
+        /// Sets how fast world time passes. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time for it.
+        async fn set_world_speed(
+            &self,
+            request: tonic::Request<super::SetWorldSpeedRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::SetWorldSpeedResponse>,
+            tonic::Status,
+        >;
+        /// Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256
+        /// (RESOURCE_EXHAUSTED).
+        async fn add_obstacle(
+            &self,
+            request: tonic::Request<super::AddObstacleRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::AddObstacleResponse>,
+            tonic::Status,
+        >;
+        /// Replaces an obstacle by another of the same name: shape, mobility, pose and velocity.
+        async fn update_obstacle(
+            &self,
+            request: tonic::Request<super::UpdateObstacleRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::UpdateObstacleResponse>,
+            tonic::Status,
+        >;
+        /// Takes an obstacle out of its world.
+        async fn remove_obstacle(
+            &self,
+            request: tonic::Request<super::RemoveObstacleRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::RemoveObstacleResponse>,
+            tonic::Status,
+        >;
+        /// All obstacles of a world as they are now, in the order they were added.
+        async fn list_obstacles(
+            &self,
+            request: tonic::Request<super::ListObstaclesRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::ListObstaclesResponse>,
+            tonic::Status,
+        >;
+    }
+    /// Creates, lists and controls worlds. A world is one shared scene with a clock of its own: gravity, ground, figures.
+    #[derive(Debug)]
+    pub struct WorldServiceServer<T> {
+        inner: Arc<T>,
+        accept_compression_encodings: EnabledCompressionEncodings,
+        send_compression_encodings: EnabledCompressionEncodings,
+        max_decoding_message_size: Option<usize>,
+        max_encoding_message_size: Option<usize>,
+    }
+    impl<T> WorldServiceServer<T> {
+        pub fn new(inner: T) -> Self {
+            Self::from_arc(Arc::new(inner))
+        }
+        pub fn from_arc(inner: Arc<T>) -> Self {
+            Self {
+                inner,
+                accept_compression_encodings: Default::default(),
+                send_compression_encodings: Default::default(),
+                max_decoding_message_size: None,
+                max_encoding_message_size: None,
+            }
+        }
+        pub fn with_interceptor<F>(
+            inner: T,
+            interceptor: F,
+        ) -> InterceptedService<Self, F>
+        where
+            F: tonic::service::Interceptor,
+        {
+            InterceptedService::new(Self::new(inner), interceptor)
+        }
+        /// Enable decompressing requests with the given encoding.
+        #[must_use]
+        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.accept_compression_encodings.enable(encoding);
+            self
+        }
+        /// Compress responses with the given encoding, if the client supports it.
+        #[must_use]
+        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.send_compression_encodings.enable(encoding);
+            self
+        }
+        /// Limits the maximum size of a decoded message.
+        ///
+        /// Default: `4MB`
+        #[must_use]
+        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
+            self.max_decoding_message_size = Some(limit);
+            self
+        }
+        /// Limits the maximum size of an encoded message.
+        ///
+        /// Default: `usize::MAX`
+        #[must_use]
+        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
+            self.max_encoding_message_size = Some(limit);
+            self
+        }
+    }
+    impl<T, B> tonic::codegen::Service<http::Request<B>> for WorldServiceServer<T>
+    where
+        T: WorldService,
+        B: Body + std::marker::Send + 'static,
+        B::Error: Into<StdError> + std::marker::Send + 'static,
+    {
+        type Response = http::Response<tonic::body::Body>;
+        type Error = std::convert::Infallible;
+        type Future = BoxFuture<Self::Response, Self::Error>;
+        fn poll_ready(
+            &mut self,
+            _cx: &mut Context<'_>,
+        ) -> Poll<std::result::Result<(), Self::Error>> {
+            Poll::Ready(Ok(()))
+        }
+        fn call(&mut self, req: http::Request<B>) -> Self::Future {
+            match req.uri().path() {
+                "/sinew.v1.WorldService/CreateWorld" => {
+                    #[allow(non_camel_case_types)]
+                    struct CreateWorldSvc<T: WorldService>(pub Arc<T>);
+                    impl<
+                        T: WorldService,
+                    > tonic::server::UnaryService<super::CreateWorldRequest>
+                    for CreateWorldSvc<T> {
+                        type Response = super::CreateWorldResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::CreateWorldRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as WorldService>::create_world(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = CreateWorldSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.WorldService/GetWorld" => {
+                    #[allow(non_camel_case_types)]
+                    struct GetWorldSvc<T: WorldService>(pub Arc<T>);
+                    impl<
+                        T: WorldService,
+                    > tonic::server::UnaryService<super::GetWorldRequest>
+                    for GetWorldSvc<T> {
+                        type Response = super::GetWorldResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::GetWorldRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as WorldService>::get_world(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = GetWorldSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.WorldService/ListWorlds" => {
+                    #[allow(non_camel_case_types)]
+                    struct ListWorldsSvc<T: WorldService>(pub Arc<T>);
+                    impl<
+                        T: WorldService,
+                    > tonic::server::UnaryService<super::ListWorldsRequest>
+                    for ListWorldsSvc<T> {
+                        type Response = super::ListWorldsResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::ListWorldsRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as WorldService>::list_worlds(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = ListWorldsSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.WorldService/UpdateWorld" => {
+                    #[allow(non_camel_case_types)]
+                    struct UpdateWorldSvc<T: WorldService>(pub Arc<T>);
+                    impl<
+                        T: WorldService,
+                    > tonic::server::UnaryService<super::UpdateWorldRequest>
+                    for UpdateWorldSvc<T> {
+                        type Response = super::UpdateWorldResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::UpdateWorldRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as WorldService>::update_world(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = UpdateWorldSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.WorldService/DeleteWorld" => {
+                    #[allow(non_camel_case_types)]
+                    struct DeleteWorldSvc<T: WorldService>(pub Arc<T>);
+                    impl<
+                        T: WorldService,
+                    > tonic::server::UnaryService<super::DeleteWorldRequest>
+                    for DeleteWorldSvc<T> {
+                        type Response = super::DeleteWorldResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::DeleteWorldRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as WorldService>::delete_world(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = DeleteWorldSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.WorldService/PauseWorld" => {
+                    #[allow(non_camel_case_types)]
+                    struct PauseWorldSvc<T: WorldService>(pub Arc<T>);
+                    impl<
+                        T: WorldService,
+                    > tonic::server::UnaryService<super::PauseWorldRequest>
+                    for PauseWorldSvc<T> {
+                        type Response = super::PauseWorldResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::PauseWorldRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as WorldService>::pause_world(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = PauseWorldSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.WorldService/ResumeWorld" => {
+                    #[allow(non_camel_case_types)]
+                    struct ResumeWorldSvc<T: WorldService>(pub Arc<T>);
+                    impl<
+                        T: WorldService,
+                    > tonic::server::UnaryService<super::ResumeWorldRequest>
+                    for ResumeWorldSvc<T> {
+                        type Response = super::ResumeWorldResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::ResumeWorldRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as WorldService>::resume_world(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = ResumeWorldSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.WorldService/StepWorld" => {
+                    #[allow(non_camel_case_types)]
+                    struct StepWorldSvc<T: WorldService>(pub Arc<T>);
+                    impl<
+                        T: WorldService,
+                    > tonic::server::UnaryService<super::StepWorldRequest>
+                    for StepWorldSvc<T> {
+                        type Response = super::StepWorldResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::StepWorldRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as WorldService>::step_world(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = StepWorldSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.WorldService/SetWorldSpeed" => {
+                    #[allow(non_camel_case_types)]
+                    struct SetWorldSpeedSvc<T: WorldService>(pub Arc<T>);
+                    impl<
+                        T: WorldService,
+                    > tonic::server::UnaryService<super::SetWorldSpeedRequest>
+                    for SetWorldSpeedSvc<T> {
+                        type Response = super::SetWorldSpeedResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::SetWorldSpeedRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as WorldService>::set_world_speed(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = SetWorldSpeedSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.WorldService/AddObstacle" => {
+                    #[allow(non_camel_case_types)]
+                    struct AddObstacleSvc<T: WorldService>(pub Arc<T>);
+                    impl<
+                        T: WorldService,
+                    > tonic::server::UnaryService<super::AddObstacleRequest>
+                    for AddObstacleSvc<T> {
+                        type Response = super::AddObstacleResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::AddObstacleRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as WorldService>::add_obstacle(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = AddObstacleSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.WorldService/UpdateObstacle" => {
+                    #[allow(non_camel_case_types)]
+                    struct UpdateObstacleSvc<T: WorldService>(pub Arc<T>);
+                    impl<
+                        T: WorldService,
+                    > tonic::server::UnaryService<super::UpdateObstacleRequest>
+                    for UpdateObstacleSvc<T> {
+                        type Response = super::UpdateObstacleResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::UpdateObstacleRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as WorldService>::update_obstacle(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = UpdateObstacleSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.WorldService/RemoveObstacle" => {
+                    #[allow(non_camel_case_types)]
+                    struct RemoveObstacleSvc<T: WorldService>(pub Arc<T>);
+                    impl<
+                        T: WorldService,
+                    > tonic::server::UnaryService<super::RemoveObstacleRequest>
+                    for RemoveObstacleSvc<T> {
+                        type Response = super::RemoveObstacleResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::RemoveObstacleRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as WorldService>::remove_obstacle(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = RemoveObstacleSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.WorldService/ListObstacles" => {
+                    #[allow(non_camel_case_types)]
+                    struct ListObstaclesSvc<T: WorldService>(pub Arc<T>);
+                    impl<
+                        T: WorldService,
+                    > tonic::server::UnaryService<super::ListObstaclesRequest>
+                    for ListObstaclesSvc<T> {
+                        type Response = super::ListObstaclesResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::ListObstaclesRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as WorldService>::list_obstacles(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = ListObstaclesSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                _ => {
+                    Box::pin(async move {
+                        let mut response = http::Response::new(
+                            tonic::body::Body::default(),
+                        );
+                        let headers = response.headers_mut();
+                        headers
+                            .insert(
+                                tonic::Status::GRPC_STATUS,
+                                (tonic::Code::Unimplemented as i32).into(),
+                            );
+                        headers
+                            .insert(
+                                http::header::CONTENT_TYPE,
+                                tonic::metadata::GRPC_CONTENT_TYPE,
+                            );
+                        Ok(response)
+                    })
+                }
+            }
+        }
+    }
+    impl<T> Clone for WorldServiceServer<T> {
+        fn clone(&self) -> Self {
+            let inner = self.inner.clone();
+            Self {
+                inner,
+                accept_compression_encodings: self.accept_compression_encodings,
+                send_compression_encodings: self.send_compression_encodings,
+                max_decoding_message_size: self.max_decoding_message_size,
+                max_encoding_message_size: self.max_encoding_message_size,
+            }
+        }
+    }
+    /// Generated gRPC service name
+    pub const SERVICE_NAME: &str = "sinew.v1.WorldService";
+    impl<T> tonic::server::NamedService for WorldServiceServer<T> {
+        const NAME: &'static str = SERVICE_NAME;
+    }
+}
+/// The state of a world at a tick, kept in the memory of the server until it is deleted, its world is deleted, or the
+/// server ends.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct Checkpoint {
+    /// Resource name `worlds/{world}/checkpoints/{checkpoint}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+    /// Tick of the state.
+    #[prost(int64, tag = "2")]
+    pub tick: i64,
+    /// World time of the state, s.
+    #[prost(double, tag = "3")]
+    pub time_s: f64,
+    /// State hash of the world, as in its frames.
+    #[prost(sfixed64, tag = "4")]
+    pub state_hash: i64,
+    /// Size of the checkpoint, bytes.
+    #[prost(int64, tag = "5")]
+    pub size_bytes: i64,
+    /// When it was taken.
+    #[prost(message, optional, tag = "6")]
+    pub create_time: ::core::option::Option<::prost_types::Timestamp>,
+}
+impl ::prost::Name for Checkpoint {
+    const NAME: &'static str = "Checkpoint";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Checkpoint".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Checkpoint".into()
+    }
+}
+/// Keeps the state of a world.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct CheckpointWorldRequest {
+    /// Resource name `worlds/{world}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+    /// Last part of the name of the checkpoint, 1…63 characters of a…z, 0…9 and `-`. Empty: one that is free.
+    #[prost(string, tag = "2")]
+    pub checkpoint_id: ::prost::alloc::string::String,
+    /// Return the bytes, too.
+    #[prost(bool, tag = "3")]
+    pub return_data: bool,
+}
+impl ::prost::Name for CheckpointWorldRequest {
+    const NAME: &'static str = "CheckpointWorldRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.CheckpointWorldRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.CheckpointWorldRequest".into()
+    }
+}
+/// The checkpoint.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct CheckpointWorldResponse {
+    /// As it is kept.
+    #[prost(message, optional, tag = "1")]
+    pub checkpoint: ::core::option::Option<Checkpoint>,
+    /// Its bytes, if they were asked for. Opaque: only for `RestoreWorld` and `ForkWorld` of a server of this version.
+    #[prost(bytes = "vec", tag = "2")]
+    pub data: ::prost::alloc::vec::Vec<u8>,
+}
+impl ::prost::Name for CheckpointWorldResponse {
+    const NAME: &'static str = "CheckpointWorldResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.CheckpointWorldResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.CheckpointWorldResponse".into()
+    }
+}
+/// Asks for a checkpoint.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct GetCheckpointRequest {
+    /// Resource name `worlds/{world}/checkpoints/{checkpoint}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+    /// Return the bytes, too.
+    #[prost(bool, tag = "2")]
+    pub return_data: bool,
+}
+impl ::prost::Name for GetCheckpointRequest {
+    const NAME: &'static str = "GetCheckpointRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetCheckpointRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetCheckpointRequest".into()
+    }
+}
+/// The checkpoint.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct GetCheckpointResponse {
+    /// As it is kept.
+    #[prost(message, optional, tag = "1")]
+    pub checkpoint: ::core::option::Option<Checkpoint>,
+    /// Its bytes, if they were asked for.
+    #[prost(bytes = "vec", tag = "2")]
+    pub data: ::prost::alloc::vec::Vec<u8>,
+}
+impl ::prost::Name for GetCheckpointResponse {
+    const NAME: &'static str = "GetCheckpointResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetCheckpointResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetCheckpointResponse".into()
+    }
+}
+/// Asks for the checkpoints of a world.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct ListCheckpointsRequest {
+    /// Resource name `worlds/{world}`.
+    #[prost(string, tag = "1")]
+    pub parent: ::prost::alloc::string::String,
+    /// Most checkpoints of the page, 1…1000. 0: 100.
+    #[prost(int32, tag = "2")]
+    pub page_size: i32,
+    /// `next_page_token` of the page before. Empty: the first page.
+    #[prost(string, tag = "3")]
+    pub page_token: ::prost::alloc::string::String,
+}
+impl ::prost::Name for ListCheckpointsRequest {
+    const NAME: &'static str = "ListCheckpointsRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ListCheckpointsRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ListCheckpointsRequest".into()
+    }
+}
+/// A page of checkpoints.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct ListCheckpointsResponse {
+    /// By name.
+    #[prost(message, repeated, tag = "1")]
+    pub checkpoints: ::prost::alloc::vec::Vec<Checkpoint>,
+    /// For the next page. Empty: this is the last one.
+    #[prost(string, tag = "2")]
+    pub next_page_token: ::prost::alloc::string::String,
+}
+impl ::prost::Name for ListCheckpointsResponse {
+    const NAME: &'static str = "ListCheckpointsResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ListCheckpointsResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ListCheckpointsResponse".into()
+    }
+}
+/// Forgets a checkpoint.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct DeleteCheckpointRequest {
+    /// Resource name `worlds/{world}/checkpoints/{checkpoint}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+}
+impl ::prost::Name for DeleteCheckpointRequest {
+    const NAME: &'static str = "DeleteCheckpointRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.DeleteCheckpointRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.DeleteCheckpointRequest".into()
+    }
+}
+/// The checkpoint is gone.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct DeleteCheckpointResponse {}
+impl ::prost::Name for DeleteCheckpointResponse {
+    const NAME: &'static str = "DeleteCheckpointResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.DeleteCheckpointResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.DeleteCheckpointResponse".into()
+    }
+}
+/// Puts a world into the state of a checkpoint.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct RestoreWorldRequest {
+    /// Resource name `worlds/{world}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+    /// The state. Required.
+    #[prost(oneof = "restore_world_request::Source", tags = "2, 3")]
+    pub source: ::core::option::Option<restore_world_request::Source>,
+}
+/// Nested message and enum types in `RestoreWorldRequest`.
+pub mod restore_world_request {
+    /// The state. Required.
+    #[derive(Clone, PartialEq, Eq, Hash, ::prost::Oneof)]
+    pub enum Source {
+        /// Resource name of a checkpoint of any world of this server.
+        #[prost(string, tag = "2")]
+        Checkpoint(::prost::alloc::string::String),
+        /// Bytes of a checkpoint.
+        #[prost(bytes, tag = "3")]
+        Data(::prost::bytes::Bytes),
+    }
+}
+impl ::prost::Name for RestoreWorldRequest {
+    const NAME: &'static str = "RestoreWorldRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.RestoreWorldRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.RestoreWorldRequest".into()
+    }
+}
+/// The world is in that state.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct RestoreWorldResponse {
+    /// As it is now.
+    #[prost(message, optional, tag = "1")]
+    pub world: ::core::option::Option<World>,
+}
+impl ::prost::Name for RestoreWorldResponse {
+    const NAME: &'static str = "RestoreWorldResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.RestoreWorldResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.RestoreWorldResponse".into()
+    }
+}
+/// Makes a world of a checkpoint.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct ForkWorldRequest {
+    /// Last part of the name of the new world, as for `CreateWorld`. Empty: one that is free.
+    #[prost(string, tag = "4")]
+    pub world_id: ::prost::alloc::string::String,
+    /// Its clock stands still until it is resumed.
+    #[prost(bool, tag = "5")]
+    pub paused: bool,
+    /// The state. Required.
+    #[prost(oneof = "fork_world_request::Source", tags = "1, 2, 3")]
+    pub source: ::core::option::Option<fork_world_request::Source>,
+}
+/// Nested message and enum types in `ForkWorldRequest`.
+pub mod fork_world_request {
+    /// The state. Required.
+    #[derive(Clone, PartialEq, Eq, Hash, ::prost::Oneof)]
+    pub enum Source {
+        /// Resource name of a checkpoint of any world of this server.
+        #[prost(string, tag = "1")]
+        Checkpoint(::prost::alloc::string::String),
+        /// Bytes of a checkpoint.
+        #[prost(bytes, tag = "2")]
+        Data(::prost::bytes::Bytes),
+        /// Resource name `worlds/{world}` of a world, whose state between two ticks is taken now.
+        #[prost(string, tag = "3")]
+        World(::prost::alloc::string::String),
+    }
+}
+impl ::prost::Name for ForkWorldRequest {
+    const NAME: &'static str = "ForkWorldRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ForkWorldRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ForkWorldRequest".into()
+    }
+}
+/// The new world.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct ForkWorldResponse {
+    /// As it is now.
+    #[prost(message, optional, tag = "1")]
+    pub world: ::core::option::Option<World>,
+}
+impl ::prost::Name for ForkWorldResponse {
+    const NAME: &'static str = "ForkWorldResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ForkWorldResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ForkWorldResponse".into()
+    }
+}
+/// Generated client implementations.
+pub mod checkpoint_service_client {
+    #![allow(
+        unused_variables,
+        dead_code,
+        missing_docs,
+        clippy::wildcard_imports,
+        clippy::let_unit_value,
+    )]
+    use tonic::codegen::*;
+    use tonic::codegen::http::Uri;
+    /// Keeps the whole state of a world at a tick, and makes worlds of it that go on bit for bit.
+    #[derive(Debug, Clone)]
+    pub struct CheckpointServiceClient<T> {
+        inner: tonic::client::Grpc<T>,
+    }
+    impl CheckpointServiceClient<tonic::transport::Channel> {
+        /// Attempt to create a new client by connecting to a given endpoint.
+        pub async fn connect<D>(dst: D) -> Result<Self, tonic::transport::Error>
+        where
+            D: TryInto<tonic::transport::Endpoint>,
+            D::Error: Into<StdError>,
+        {
+            let conn = tonic::transport::Endpoint::new(dst)?.connect().await?;
+            Ok(Self::new(conn))
+        }
+    }
+    impl<T> CheckpointServiceClient<T>
+    where
+        T: tonic::client::GrpcService<tonic::body::Body>,
+        T::Error: Into<StdError>,
+        T::ResponseBody: Body<Data = Bytes> + std::marker::Send + 'static,
+        <T::ResponseBody as Body>::Error: Into<StdError> + std::marker::Send,
+    {
+        pub fn new(inner: T) -> Self {
+            let inner = tonic::client::Grpc::new(inner);
+            Self { inner }
+        }
+        pub fn with_origin(inner: T, origin: Uri) -> Self {
+            let inner = tonic::client::Grpc::with_origin(inner, origin);
+            Self { inner }
+        }
+        pub fn with_interceptor<F>(
+            inner: T,
+            interceptor: F,
+        ) -> CheckpointServiceClient<InterceptedService<T, F>>
+        where
+            F: tonic::service::Interceptor,
+            T::ResponseBody: Default,
+            T: tonic::codegen::Service<
+                http::Request<tonic::body::Body>,
+                Response = http::Response<
+                    <T as tonic::client::GrpcService<tonic::body::Body>>::ResponseBody,
+                >,
+            >,
+            <T as tonic::codegen::Service<
+                http::Request<tonic::body::Body>,
+            >>::Error: Into<StdError> + std::marker::Send + std::marker::Sync,
+        {
+            CheckpointServiceClient::new(InterceptedService::new(inner, interceptor))
+        }
+        /// Compress requests with the given encoding.
+        ///
+        /// This requires the server to support it otherwise it might respond with an
+        /// error.
+        #[must_use]
+        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.inner = self.inner.send_compressed(encoding);
+            self
+        }
+        /// Enable decompressing responses.
+        #[must_use]
+        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.inner = self.inner.accept_compressed(encoding);
+            self
+        }
+        /// Limits the maximum size of a decoded message.
+        ///
+        /// Default: `4MB`
+        #[must_use]
+        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
+            self.inner = self.inner.max_decoding_message_size(limit);
+            self
+        }
+        /// Limits the maximum size of an encoded message.
+        ///
+        /// Default: `usize::MAX`
+        #[must_use]
+        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
+            self.inner = self.inner.max_encoding_message_size(limit);
+            self
+        }
+        /// Keeps the state of a world between two ticks. The world goes on meanwhile. RESOURCE_EXHAUSTED when the server, the
+        /// world or this client has as many checkpoints as it may.
+        pub async fn checkpoint_world(
+            &mut self,
+            request: impl tonic::IntoRequest<super::CheckpointWorldRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::CheckpointWorldResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.CheckpointService/CheckpointWorld",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(
+                    GrpcMethod::new("sinew.v1.CheckpointService", "CheckpointWorld"),
+                );
+            self.inner.unary(req, path, codec).await
+        }
+        /// One checkpoint, with its bytes if asked for.
+        pub async fn get_checkpoint(
+            &mut self,
+            request: impl tonic::IntoRequest<super::GetCheckpointRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::GetCheckpointResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.CheckpointService/GetCheckpoint",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.CheckpointService", "GetCheckpoint"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// The checkpoints of a world, by name.
+        pub async fn list_checkpoints(
+            &mut self,
+            request: impl tonic::IntoRequest<super::ListCheckpointsRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::ListCheckpointsResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.CheckpointService/ListCheckpoints",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(
+                    GrpcMethod::new("sinew.v1.CheckpointService", "ListCheckpoints"),
+                );
+            self.inner.unary(req, path, codec).await
+        }
+        /// Forgets a checkpoint.
+        pub async fn delete_checkpoint(
+            &mut self,
+            request: impl tonic::IntoRequest<super::DeleteCheckpointRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::DeleteCheckpointResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.CheckpointService/DeleteCheckpoint",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(
+                    GrpcMethod::new("sinew.v1.CheckpointService", "DeleteCheckpoint"),
+                );
+            self.inner.unary(req, path, codec).await
+        }
+        /// Puts a world back, or forward, into the state of a checkpoint. Viewers get a full frame of the next epoch and the
+        /// event `EVENT_TYPE_WORLD_RESTORED`; drives end, and figures that were driven finish their step and stand. Speed,
+        /// overrun policy and whether the world is paused stay as they are. DATA_LOSS for a checkpoint that is damaged,
+        /// FAILED_PRECONDITION for one of another rate, number of substeps, program version or numerics.
+        pub async fn restore_world(
+            &mut self,
+            request: impl tonic::IntoRequest<super::RestoreWorldRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::RestoreWorldResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.CheckpointService/RestoreWorld",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.CheckpointService", "RestoreWorld"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// Makes a new world in the state of a checkpoint, or of a world as it is now, of which the caller is a director. A paused one can be changed before it
+        /// goes on: what if the load were 1 kg less?
+        pub async fn fork_world(
+            &mut self,
+            request: impl tonic::IntoRequest<super::ForkWorldRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::ForkWorldResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.CheckpointService/ForkWorld",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.CheckpointService", "ForkWorld"));
+            self.inner.unary(req, path, codec).await
+        }
+    }
+}
+/// Generated server implementations.
+pub mod checkpoint_service_server {
+    #![allow(
+        unused_variables,
+        dead_code,
+        missing_docs,
+        clippy::wildcard_imports,
+        clippy::let_unit_value,
+    )]
+    use tonic::codegen::*;
+    /// Generated trait containing gRPC methods that should be implemented for use with CheckpointServiceServer.
+    #[async_trait]
+    pub trait CheckpointService: std::marker::Send + std::marker::Sync + 'static {
+        /// Keeps the state of a world between two ticks. The world goes on meanwhile. RESOURCE_EXHAUSTED when the server, the
+        /// world or this client has as many checkpoints as it may.
+        async fn checkpoint_world(
+            &self,
+            request: tonic::Request<super::CheckpointWorldRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::CheckpointWorldResponse>,
+            tonic::Status,
+        >;
+        /// One checkpoint, with its bytes if asked for.
+        async fn get_checkpoint(
+            &self,
+            request: tonic::Request<super::GetCheckpointRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::GetCheckpointResponse>,
+            tonic::Status,
+        >;
+        /// The checkpoints of a world, by name.
+        async fn list_checkpoints(
+            &self,
+            request: tonic::Request<super::ListCheckpointsRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::ListCheckpointsResponse>,
+            tonic::Status,
+        >;
+        /// Forgets a checkpoint.
+        async fn delete_checkpoint(
+            &self,
+            request: tonic::Request<super::DeleteCheckpointRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::DeleteCheckpointResponse>,
+            tonic::Status,
+        >;
+        /// Puts a world back, or forward, into the state of a checkpoint. Viewers get a full frame of the next epoch and the
+        /// event `EVENT_TYPE_WORLD_RESTORED`; drives end, and figures that were driven finish their step and stand. Speed,
+        /// overrun policy and whether the world is paused stay as they are. DATA_LOSS for a checkpoint that is damaged,
+        /// FAILED_PRECONDITION for one of another rate, number of substeps, program version or numerics.
+        async fn restore_world(
+            &self,
+            request: tonic::Request<super::RestoreWorldRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::RestoreWorldResponse>,
+            tonic::Status,
+        >;
+        /// Makes a new world in the state of a checkpoint, or of a world as it is now, of which the caller is a director. A paused one can be changed before it
+        /// goes on: what if the load were 1 kg less?
+        async fn fork_world(
+            &self,
+            request: tonic::Request<super::ForkWorldRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::ForkWorldResponse>,
+            tonic::Status,
+        >;
+    }
+    /// Keeps the whole state of a world at a tick, and makes worlds of it that go on bit for bit.
+    #[derive(Debug)]
+    pub struct CheckpointServiceServer<T> {
+        inner: Arc<T>,
+        accept_compression_encodings: EnabledCompressionEncodings,
+        send_compression_encodings: EnabledCompressionEncodings,
+        max_decoding_message_size: Option<usize>,
+        max_encoding_message_size: Option<usize>,
+    }
+    impl<T> CheckpointServiceServer<T> {
+        pub fn new(inner: T) -> Self {
+            Self::from_arc(Arc::new(inner))
+        }
+        pub fn from_arc(inner: Arc<T>) -> Self {
+            Self {
+                inner,
+                accept_compression_encodings: Default::default(),
+                send_compression_encodings: Default::default(),
+                max_decoding_message_size: None,
+                max_encoding_message_size: None,
+            }
+        }
+        pub fn with_interceptor<F>(
+            inner: T,
+            interceptor: F,
+        ) -> InterceptedService<Self, F>
+        where
+            F: tonic::service::Interceptor,
+        {
+            InterceptedService::new(Self::new(inner), interceptor)
+        }
+        /// Enable decompressing requests with the given encoding.
+        #[must_use]
+        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.accept_compression_encodings.enable(encoding);
+            self
+        }
+        /// Compress responses with the given encoding, if the client supports it.
+        #[must_use]
+        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.send_compression_encodings.enable(encoding);
+            self
+        }
+        /// Limits the maximum size of a decoded message.
+        ///
+        /// Default: `4MB`
+        #[must_use]
+        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
+            self.max_decoding_message_size = Some(limit);
+            self
+        }
+        /// Limits the maximum size of an encoded message.
+        ///
+        /// Default: `usize::MAX`
+        #[must_use]
+        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
+            self.max_encoding_message_size = Some(limit);
+            self
+        }
+    }
+    impl<T, B> tonic::codegen::Service<http::Request<B>> for CheckpointServiceServer<T>
+    where
+        T: CheckpointService,
+        B: Body + std::marker::Send + 'static,
+        B::Error: Into<StdError> + std::marker::Send + 'static,
+    {
+        type Response = http::Response<tonic::body::Body>;
+        type Error = std::convert::Infallible;
+        type Future = BoxFuture<Self::Response, Self::Error>;
+        fn poll_ready(
+            &mut self,
+            _cx: &mut Context<'_>,
+        ) -> Poll<std::result::Result<(), Self::Error>> {
+            Poll::Ready(Ok(()))
+        }
+        fn call(&mut self, req: http::Request<B>) -> Self::Future {
+            match req.uri().path() {
+                "/sinew.v1.CheckpointService/CheckpointWorld" => {
+                    #[allow(non_camel_case_types)]
+                    struct CheckpointWorldSvc<T: CheckpointService>(pub Arc<T>);
+                    impl<
+                        T: CheckpointService,
+                    > tonic::server::UnaryService<super::CheckpointWorldRequest>
+                    for CheckpointWorldSvc<T> {
+                        type Response = super::CheckpointWorldResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::CheckpointWorldRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as CheckpointService>::checkpoint_world(&inner, request)
+                                    .await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = CheckpointWorldSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.CheckpointService/GetCheckpoint" => {
+                    #[allow(non_camel_case_types)]
+                    struct GetCheckpointSvc<T: CheckpointService>(pub Arc<T>);
+                    impl<
+                        T: CheckpointService,
+                    > tonic::server::UnaryService<super::GetCheckpointRequest>
+                    for GetCheckpointSvc<T> {
+                        type Response = super::GetCheckpointResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::GetCheckpointRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as CheckpointService>::get_checkpoint(&inner, request)
+                                    .await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = GetCheckpointSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.CheckpointService/ListCheckpoints" => {
+                    #[allow(non_camel_case_types)]
+                    struct ListCheckpointsSvc<T: CheckpointService>(pub Arc<T>);
+                    impl<
+                        T: CheckpointService,
+                    > tonic::server::UnaryService<super::ListCheckpointsRequest>
+                    for ListCheckpointsSvc<T> {
+                        type Response = super::ListCheckpointsResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::ListCheckpointsRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as CheckpointService>::list_checkpoints(&inner, request)
+                                    .await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = ListCheckpointsSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.CheckpointService/DeleteCheckpoint" => {
+                    #[allow(non_camel_case_types)]
+                    struct DeleteCheckpointSvc<T: CheckpointService>(pub Arc<T>);
+                    impl<
+                        T: CheckpointService,
+                    > tonic::server::UnaryService<super::DeleteCheckpointRequest>
+                    for DeleteCheckpointSvc<T> {
+                        type Response = super::DeleteCheckpointResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::DeleteCheckpointRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as CheckpointService>::delete_checkpoint(&inner, request)
+                                    .await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = DeleteCheckpointSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.CheckpointService/RestoreWorld" => {
+                    #[allow(non_camel_case_types)]
+                    struct RestoreWorldSvc<T: CheckpointService>(pub Arc<T>);
+                    impl<
+                        T: CheckpointService,
+                    > tonic::server::UnaryService<super::RestoreWorldRequest>
+                    for RestoreWorldSvc<T> {
+                        type Response = super::RestoreWorldResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::RestoreWorldRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as CheckpointService>::restore_world(&inner, request)
+                                    .await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = RestoreWorldSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.CheckpointService/ForkWorld" => {
+                    #[allow(non_camel_case_types)]
+                    struct ForkWorldSvc<T: CheckpointService>(pub Arc<T>);
+                    impl<
+                        T: CheckpointService,
+                    > tonic::server::UnaryService<super::ForkWorldRequest>
+                    for ForkWorldSvc<T> {
+                        type Response = super::ForkWorldResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::ForkWorldRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as CheckpointService>::fork_world(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = ForkWorldSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                _ => {
+                    Box::pin(async move {
+                        let mut response = http::Response::new(
+                            tonic::body::Body::default(),
+                        );
+                        let headers = response.headers_mut();
+                        headers
+                            .insert(
+                                tonic::Status::GRPC_STATUS,
+                                (tonic::Code::Unimplemented as i32).into(),
+                            );
+                        headers
+                            .insert(
+                                http::header::CONTENT_TYPE,
+                                tonic::metadata::GRPC_CONTENT_TYPE,
+                            );
+                        Ok(response)
+                    })
+                }
+            }
+        }
+    }
+    impl<T> Clone for CheckpointServiceServer<T> {
+        fn clone(&self) -> Self {
+            let inner = self.inner.clone();
+            Self {
+                inner,
+                accept_compression_encodings: self.accept_compression_encodings,
+                send_compression_encodings: self.send_compression_encodings,
+                max_decoding_message_size: self.max_decoding_message_size,
+                max_encoding_message_size: self.max_encoding_message_size,
+            }
+        }
+    }
+    /// Generated gRPC service name
+    pub const SERVICE_NAME: &str = "sinew.v1.CheckpointService";
+    impl<T> tonic::server::NamedService for CheckpointServiceServer<T> {
+        const NAME: &'static str = SERVICE_NAME;
+    }
+}
 /// The lease of a figure.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ControlLease {
@@ -8093,6 +11119,8 @@ pub enum EventType {
     WorldFailed = 17,
     /// The figure stands again after a fall.
     GotUp = 18,
+    /// The world was put into the state of a checkpoint; `detail` is its tick.
+    WorldRestored = 45,
     /// A segment began to touch another figure or an obstacle.
     Touched = 31,
     /// A segment no longer touches it.
@@ -8141,6 +11169,7 @@ impl EventType {
             Self::WorldResumed => "EVENT_TYPE_WORLD_RESUMED",
             Self::WorldFailed => "EVENT_TYPE_WORLD_FAILED",
             Self::GotUp => "EVENT_TYPE_GOT_UP",
+            Self::WorldRestored => "EVENT_TYPE_WORLD_RESTORED",
             Self::Touched => "EVENT_TYPE_TOUCHED",
             Self::Parted => "EVENT_TYPE_PARTED",
             Self::ObstacleAdded => "EVENT_TYPE_OBSTACLE_ADDED",
@@ -8176,6 +11205,7 @@ impl EventType {
             "EVENT_TYPE_WORLD_RESUMED" => Some(Self::WorldResumed),
             "EVENT_TYPE_WORLD_FAILED" => Some(Self::WorldFailed),
             "EVENT_TYPE_GOT_UP" => Some(Self::GotUp),
+            "EVENT_TYPE_WORLD_RESTORED" => Some(Self::WorldRestored),
             "EVENT_TYPE_TOUCHED" => Some(Self::Touched),
             "EVENT_TYPE_PARTED" => Some(Self::Parted),
             "EVENT_TYPE_OBSTACLE_ADDED" => Some(Self::ObstacleAdded),
@@ -9118,2023 +12148,6 @@ pub mod simulation_service_server {
     /// Generated gRPC service name
     pub const SERVICE_NAME: &str = "sinew.v1.SimulationService";
     impl<T> tonic::server::NamedService for SimulationServiceServer<T> {
-        const NAME: &'static str = SERVICE_NAME;
-    }
-}
-/// One world.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct World {
-    /// Resource name `worlds/{world}`. Ignored in requests to create one.
-    #[prost(string, tag = "1")]
-    pub name: ::prost::alloc::string::String,
-    /// Name for people, at most 128 bytes. Default: empty.
-    #[prost(string, tag = "2")]
-    pub display_name: ::prost::alloc::string::String,
-    /// Ticks per second of world time, 10…1000. 0 or absent: 60. Fixed at creation.
-    #[prost(double, tag = "3")]
-    pub rate_hz: f64,
-    /// Substeps of the dynamics in one tick, 1…16. 0 or absent: 2. Fixed at creation.
-    #[prost(int32, tag = "4")]
-    pub substeps: i32,
-    /// Downward acceleration of gravity, m/s², 0…30. Absent: 9.81. Fixed at creation.
-    #[prost(double, optional, tag = "5")]
-    pub gravity_mps2: ::core::option::Option<f64>,
-    /// Coefficient of friction of the ground, 0.05…2. Absent: 0.9. Fixed at creation.
-    #[prost(double, optional, tag = "6")]
-    pub friction: ::core::option::Option<f64>,
-    /// What happens when ticks take too long.
-    #[prost(enumeration = "OverrunPolicy", tag = "7")]
-    pub overrun_policy: i32,
-    /// Most ticks that are caught up at once with OVERRUN_POLICY_CATCH_UP, 1…100. 0 or absent: 5.
-    #[prost(int32, tag = "8")]
-    pub catch_up_limit: i32,
-    /// World seconds per wall second, 0.01…10. 0 or absent: 1.
-    #[prost(double, tag = "9")]
-    pub speed: f64,
-    /// What the world is doing. Output only.
-    #[prost(enumeration = "WorldState", tag = "10")]
-    pub state: i32,
-    /// Ticks computed since creation. Output only.
-    #[prost(int64, tag = "11")]
-    pub tick: i64,
-    /// World time, s: tick / rate_hz. Output only.
-    #[prost(double, tag = "12")]
-    pub time_s: f64,
-    /// Number of figures. Output only.
-    #[prost(int32, tag = "13")]
-    pub figure_count: i32,
-    /// Counts up when the world's identity changes (restored or moved); 1 for a new world. Output only.
-    #[prost(int32, tag = "14")]
-    pub epoch: i32,
-    /// When it was created. Output only.
-    #[prost(message, optional, tag = "15")]
-    pub create_time: ::core::option::Option<::prost_types::Timestamp>,
-    /// Why the world failed; empty otherwise. Output only.
-    #[prost(string, tag = "16")]
-    pub failure: ::prost::alloc::string::String,
-    /// Figures and obstacles touch each other. Absent: true. False: figures touch nothing but the ground. Fixed at
-    /// creation.
-    #[prost(bool, optional, tag = "17")]
-    pub collisions: ::core::option::Option<bool>,
-}
-impl ::prost::Name for World {
-    const NAME: &'static str = "World";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.World".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.World".into()
-    }
-}
-/// Asks for a new world.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct CreateWorldRequest {
-    /// Last part of the new name: 1 to 63 of `a-z 0-9 -`, beginning with a letter. Empty: the server chooses.
-    #[prost(string, tag = "1")]
-    pub world_id: ::prost::alloc::string::String,
-    /// Settings. Absent: all defaults.
-    #[prost(message, optional, tag = "2")]
-    pub world: ::core::option::Option<World>,
-    /// Leaves the clock stopped. Default: false.
-    #[prost(bool, tag = "3")]
-    pub paused: bool,
-}
-impl ::prost::Name for CreateWorldRequest {
-    const NAME: &'static str = "CreateWorldRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.CreateWorldRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.CreateWorldRequest".into()
-    }
-}
-/// The new world.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct CreateWorldResponse {
-    /// As it was created, with defaults filled in.
-    #[prost(message, optional, tag = "1")]
-    pub world: ::core::option::Option<World>,
-}
-impl ::prost::Name for CreateWorldResponse {
-    const NAME: &'static str = "CreateWorldResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.CreateWorldResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.CreateWorldResponse".into()
-    }
-}
-/// Asks for one world.
-#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct GetWorldRequest {
-    /// Resource name `worlds/{world}`.
-    #[prost(string, tag = "1")]
-    pub name: ::prost::alloc::string::String,
-}
-impl ::prost::Name for GetWorldRequest {
-    const NAME: &'static str = "GetWorldRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.GetWorldRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.GetWorldRequest".into()
-    }
-}
-/// One world.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct GetWorldResponse {
-    /// As it is now.
-    #[prost(message, optional, tag = "1")]
-    pub world: ::core::option::Option<World>,
-}
-impl ::prost::Name for GetWorldResponse {
-    const NAME: &'static str = "GetWorldResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.GetWorldResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.GetWorldResponse".into()
-    }
-}
-/// Asks for worlds.
-#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct ListWorldsRequest {
-    /// Most worlds to return, 0…1000. 0: 100.
-    #[prost(int32, tag = "1")]
-    pub page_size: i32,
-    /// `next_page_token` of the page before. Empty: from the start.
-    #[prost(string, tag = "2")]
-    pub page_token: ::prost::alloc::string::String,
-}
-impl ::prost::Name for ListWorldsRequest {
-    const NAME: &'static str = "ListWorldsRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.ListWorldsRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.ListWorldsRequest".into()
-    }
-}
-/// A page of worlds.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct ListWorldsResponse {
-    /// Ordered by name.
-    #[prost(message, repeated, tag = "1")]
-    pub worlds: ::prost::alloc::vec::Vec<World>,
-    /// Token of the next page; empty at the end.
-    #[prost(string, tag = "2")]
-    pub next_page_token: ::prost::alloc::string::String,
-}
-impl ::prost::Name for ListWorldsResponse {
-    const NAME: &'static str = "ListWorldsResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.ListWorldsResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.ListWorldsResponse".into()
-    }
-}
-/// Changes a world.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct UpdateWorldRequest {
-    /// The world, by `name`, with new values.
-    #[prost(message, optional, tag = "1")]
-    pub world: ::core::option::Option<World>,
-    /// Which of `display_name`, `overrun_policy`, `catch_up_limit`, `speed` to take. Must not be empty.
-    #[prost(message, optional, tag = "2")]
-    pub update_mask: ::core::option::Option<::prost_types::FieldMask>,
-}
-impl ::prost::Name for UpdateWorldRequest {
-    const NAME: &'static str = "UpdateWorldRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.UpdateWorldRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.UpdateWorldRequest".into()
-    }
-}
-/// The changed world.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct UpdateWorldResponse {
-    /// As it is now.
-    #[prost(message, optional, tag = "1")]
-    pub world: ::core::option::Option<World>,
-}
-impl ::prost::Name for UpdateWorldResponse {
-    const NAME: &'static str = "UpdateWorldResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.UpdateWorldResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.UpdateWorldResponse".into()
-    }
-}
-/// Ends a world.
-#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct DeleteWorldRequest {
-    /// Resource name `worlds/{world}`.
-    #[prost(string, tag = "1")]
-    pub name: ::prost::alloc::string::String,
-}
-impl ::prost::Name for DeleteWorldRequest {
-    const NAME: &'static str = "DeleteWorldRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.DeleteWorldRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.DeleteWorldRequest".into()
-    }
-}
-/// The world is gone.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct DeleteWorldResponse {}
-impl ::prost::Name for DeleteWorldResponse {
-    const NAME: &'static str = "DeleteWorldResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.DeleteWorldResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.DeleteWorldResponse".into()
-    }
-}
-/// Stops a world's clock.
-#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct PauseWorldRequest {
-    /// Resource name `worlds/{world}`.
-    #[prost(string, tag = "1")]
-    pub name: ::prost::alloc::string::String,
-}
-impl ::prost::Name for PauseWorldRequest {
-    const NAME: &'static str = "PauseWorldRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.PauseWorldRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.PauseWorldRequest".into()
-    }
-}
-/// The paused world.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct PauseWorldResponse {
-    /// As it is now.
-    #[prost(message, optional, tag = "1")]
-    pub world: ::core::option::Option<World>,
-}
-impl ::prost::Name for PauseWorldResponse {
-    const NAME: &'static str = "PauseWorldResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.PauseWorldResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.PauseWorldResponse".into()
-    }
-}
-/// Starts a world's clock.
-#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct ResumeWorldRequest {
-    /// Resource name `worlds/{world}`.
-    #[prost(string, tag = "1")]
-    pub name: ::prost::alloc::string::String,
-}
-impl ::prost::Name for ResumeWorldRequest {
-    const NAME: &'static str = "ResumeWorldRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.ResumeWorldRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.ResumeWorldRequest".into()
-    }
-}
-/// The running world.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct ResumeWorldResponse {
-    /// As it is now.
-    #[prost(message, optional, tag = "1")]
-    pub world: ::core::option::Option<World>,
-}
-impl ::prost::Name for ResumeWorldResponse {
-    const NAME: &'static str = "ResumeWorldResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.ResumeWorldResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.ResumeWorldResponse".into()
-    }
-}
-/// Advances a paused world.
-#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct StepWorldRequest {
-    /// Resource name `worlds/{world}`.
-    #[prost(string, tag = "1")]
-    pub name: ::prost::alloc::string::String,
-    /// Number of ticks, 1…10000. 0: 1.
-    #[prost(int32, tag = "2")]
-    pub tick_count: i32,
-}
-impl ::prost::Name for StepWorldRequest {
-    const NAME: &'static str = "StepWorldRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.StepWorldRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.StepWorldRequest".into()
-    }
-}
-/// The ticks are done.
-#[derive(Clone, Copy, PartialEq, ::prost::Message)]
-pub struct StepWorldResponse {
-    /// Tick after the last step.
-    #[prost(int64, tag = "1")]
-    pub tick: i64,
-    /// World time after the last step, s.
-    #[prost(double, tag = "2")]
-    pub time_s: f64,
-    /// State hash of the world after the last step; equal inputs by tick give equal hashes.
-    #[prost(sfixed64, tag = "3")]
-    pub state_hash: i64,
-}
-impl ::prost::Name for StepWorldResponse {
-    const NAME: &'static str = "StepWorldResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.StepWorldResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.StepWorldResponse".into()
-    }
-}
-/// Sets a world's speed.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct SetWorldSpeedRequest {
-    /// Resource name `worlds/{world}`.
-    #[prost(string, tag = "1")]
-    pub name: ::prost::alloc::string::String,
-    /// World seconds per wall second, 0.01…10.
-    #[prost(double, tag = "2")]
-    pub speed: f64,
-}
-impl ::prost::Name for SetWorldSpeedRequest {
-    const NAME: &'static str = "SetWorldSpeedRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.SetWorldSpeedRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.SetWorldSpeedRequest".into()
-    }
-}
-/// The world at its new speed.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct SetWorldSpeedResponse {
-    /// As it is now.
-    #[prost(message, optional, tag = "1")]
-    pub world: ::core::option::Option<World>,
-}
-impl ::prost::Name for SetWorldSpeedResponse {
-    const NAME: &'static str = "SetWorldSpeedResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.SetWorldSpeedResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.SetWorldSpeedResponse".into()
-    }
-}
-/// A ball around the obstacle's origin.
-#[derive(Clone, Copy, PartialEq, ::prost::Message)]
-pub struct SphereShape {
-    /// Radius, m, 0.005…100.
-    #[prost(double, tag = "1")]
-    pub radius_m: f64,
-}
-impl ::prost::Name for SphereShape {
-    const NAME: &'static str = "SphereShape";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.SphereShape".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.SphereShape".into()
-    }
-}
-/// A cylinder with round ends along z of the obstacle's frame, around its origin.
-#[derive(Clone, Copy, PartialEq, ::prost::Message)]
-pub struct CapsuleShape {
-    /// Radius, m, 0.005…100.
-    #[prost(double, tag = "1")]
-    pub radius_m: f64,
-    /// Half the length of the cylinder without its ends, m, 0…100.
-    #[prost(double, tag = "2")]
-    pub half_length_m: f64,
-}
-impl ::prost::Name for CapsuleShape {
-    const NAME: &'static str = "CapsuleShape";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.CapsuleShape".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.CapsuleShape".into()
-    }
-}
-/// A box around the obstacle's origin.
-#[derive(Clone, Copy, PartialEq, ::prost::Message)]
-pub struct BoxShape {
-    /// Half of its edges along the axes of the obstacle's frame, m, each 0.005…1000.
-    #[prost(message, optional, tag = "1")]
-    pub half_m: ::core::option::Option<Vector3>,
-}
-impl ::prost::Name for BoxShape {
-    const NAME: &'static str = "BoxShape";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.BoxShape".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.BoxShape".into()
-    }
-}
-/// Everything below z = 0 of the obstacle's frame.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct PlaneShape {}
-impl ::prost::Name for PlaneShape {
-    const NAME: &'static str = "PlaneShape";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.PlaneShape".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.PlaneShape".into()
-    }
-}
-/// A thing that figures can touch.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct Obstacle {
-    /// Resource name `worlds/{world}/obstacles/{obstacle}`. Ignored in requests to add one.
-    #[prost(string, tag = "1")]
-    pub name: ::prost::alloc::string::String,
-    /// How it moves.
-    #[prost(enumeration = "ObstacleMobility", tag = "6")]
-    pub mobility: i32,
-    /// Mass of a free obstacle, kg, 0.01…10000; spread evenly over its shape. Ignored for others.
-    #[prost(double, tag = "7")]
-    pub mass_kg: f64,
-    /// Coefficient of friction, 0.05…2; of two obstacles the smaller one counts. Absent: 0.6.
-    #[prost(double, optional, tag = "8")]
-    pub friction: ::core::option::Option<f64>,
-    /// Where it is; the origin of its frame is its centre. Absent: at the world's origin.
-    #[prost(message, optional, tag = "9")]
-    pub pose: ::core::option::Option<Pose>,
-    /// Velocity of its centre, m/s, each component within ±100. Ignored for fixed ones. Absent: at rest.
-    #[prost(message, optional, tag = "10")]
-    pub velocity_mps: ::core::option::Option<Vector3>,
-    /// Angular velocity, world axes, rad/s, each component within ±100. Ignored for fixed ones. Absent: none.
-    #[prost(message, optional, tag = "11")]
-    pub angular_velocity_radps: ::core::option::Option<Vector3>,
-    /// Shape. Required. A plane cannot be free.
-    #[prost(oneof = "obstacle::Shape", tags = "2, 3, 4, 5")]
-    pub shape: ::core::option::Option<obstacle::Shape>,
-}
-/// Nested message and enum types in `Obstacle`.
-pub mod obstacle {
-    /// Shape. Required. A plane cannot be free.
-    #[derive(Clone, Copy, PartialEq, ::prost::Oneof)]
-    pub enum Shape {
-        /// A ball.
-        #[prost(message, tag = "2")]
-        Sphere(super::SphereShape),
-        /// A cylinder with round ends.
-        #[prost(message, tag = "3")]
-        Capsule(super::CapsuleShape),
-        /// A box.
-        #[prost(message, tag = "4")]
-        Box(super::BoxShape),
-        /// A half-space.
-        #[prost(message, tag = "5")]
-        Plane(super::PlaneShape),
-    }
-}
-impl ::prost::Name for Obstacle {
-    const NAME: &'static str = "Obstacle";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.Obstacle".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.Obstacle".into()
-    }
-}
-/// Asks to put an obstacle into a world.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct AddObstacleRequest {
-    /// World: resource name `worlds/{world}`.
-    #[prost(string, tag = "1")]
-    pub parent: ::prost::alloc::string::String,
-    /// Last part of the new name: 1 to 63 of `a-z 0-9 -`, beginning with a letter. Empty: the server chooses.
-    #[prost(string, tag = "2")]
-    pub obstacle_id: ::prost::alloc::string::String,
-    /// The obstacle. Required.
-    #[prost(message, optional, tag = "3")]
-    pub obstacle: ::core::option::Option<Obstacle>,
-}
-impl ::prost::Name for AddObstacleRequest {
-    const NAME: &'static str = "AddObstacleRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.AddObstacleRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.AddObstacleRequest".into()
-    }
-}
-/// The new obstacle.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct AddObstacleResponse {
-    /// As it was added, with defaults filled in.
-    #[prost(message, optional, tag = "1")]
-    pub obstacle: ::core::option::Option<Obstacle>,
-}
-impl ::prost::Name for AddObstacleResponse {
-    const NAME: &'static str = "AddObstacleResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.AddObstacleResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.AddObstacleResponse".into()
-    }
-}
-/// Replaces an obstacle.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct UpdateObstacleRequest {
-    /// The obstacle, by `name`, with all its new values.
-    #[prost(message, optional, tag = "1")]
-    pub obstacle: ::core::option::Option<Obstacle>,
-}
-impl ::prost::Name for UpdateObstacleRequest {
-    const NAME: &'static str = "UpdateObstacleRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.UpdateObstacleRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.UpdateObstacleRequest".into()
-    }
-}
-/// The changed obstacle.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct UpdateObstacleResponse {
-    /// As it is now.
-    #[prost(message, optional, tag = "1")]
-    pub obstacle: ::core::option::Option<Obstacle>,
-}
-impl ::prost::Name for UpdateObstacleResponse {
-    const NAME: &'static str = "UpdateObstacleResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.UpdateObstacleResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.UpdateObstacleResponse".into()
-    }
-}
-/// Takes an obstacle out.
-#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct RemoveObstacleRequest {
-    /// Resource name `worlds/{world}/obstacles/{obstacle}`.
-    #[prost(string, tag = "1")]
-    pub name: ::prost::alloc::string::String,
-}
-impl ::prost::Name for RemoveObstacleRequest {
-    const NAME: &'static str = "RemoveObstacleRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.RemoveObstacleRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.RemoveObstacleRequest".into()
-    }
-}
-/// The obstacle is gone.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct RemoveObstacleResponse {}
-impl ::prost::Name for RemoveObstacleResponse {
-    const NAME: &'static str = "RemoveObstacleResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.RemoveObstacleResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.RemoveObstacleResponse".into()
-    }
-}
-/// Asks for the obstacles of a world.
-#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct ListObstaclesRequest {
-    /// World: resource name `worlds/{world}`.
-    #[prost(string, tag = "1")]
-    pub parent: ::prost::alloc::string::String,
-}
-impl ::prost::Name for ListObstaclesRequest {
-    const NAME: &'static str = "ListObstaclesRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.ListObstaclesRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.ListObstaclesRequest".into()
-    }
-}
-/// The obstacles of a world: at most 256.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct ListObstaclesResponse {
-    /// In the order they were added.
-    #[prost(message, repeated, tag = "1")]
-    pub obstacles: ::prost::alloc::vec::Vec<Obstacle>,
-}
-impl ::prost::Name for ListObstaclesResponse {
-    const NAME: &'static str = "ListObstaclesResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.ListObstaclesResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.ListObstaclesResponse".into()
-    }
-}
-/// What the clock does when a tick takes longer than its period.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
-#[repr(i32)]
-pub enum OverrunPolicy {
-    /// The default: OVERRUN_POLICY_SKIP.
-    Unspecified = 0,
-    /// Keeps wall time by leaving out the deadlines that were missed; they are counted. World time then runs behind.
-    Skip = 1,
-    /// Computes up to `catch_up_limit` missed ticks back to back, then leaves out the rest.
-    CatchUp = 2,
-    /// Lets world time run slower: every tick is computed and the next deadline is one period after its end.
-    Dilate = 3,
-}
-impl OverrunPolicy {
-    /// String value of the enum field names used in the ProtoBuf definition.
-    ///
-    /// The values are not transformed in any way and thus are considered stable
-    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
-    pub fn as_str_name(&self) -> &'static str {
-        match self {
-            Self::Unspecified => "OVERRUN_POLICY_UNSPECIFIED",
-            Self::Skip => "OVERRUN_POLICY_SKIP",
-            Self::CatchUp => "OVERRUN_POLICY_CATCH_UP",
-            Self::Dilate => "OVERRUN_POLICY_DILATE",
-        }
-    }
-    /// Creates an enum from field names used in the ProtoBuf definition.
-    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
-        match value {
-            "OVERRUN_POLICY_UNSPECIFIED" => Some(Self::Unspecified),
-            "OVERRUN_POLICY_SKIP" => Some(Self::Skip),
-            "OVERRUN_POLICY_CATCH_UP" => Some(Self::CatchUp),
-            "OVERRUN_POLICY_DILATE" => Some(Self::Dilate),
-            _ => None,
-        }
-    }
-}
-/// What a world is doing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
-#[repr(i32)]
-pub enum WorldState {
-    /// Never sent.
-    Unspecified = 0,
-    /// Its clock runs.
-    Running = 1,
-    /// Its clock is stopped; `StepWorld` advances it.
-    Paused = 2,
-    /// A step ended abnormally. The world keeps its last frame and can only be read or deleted.
-    Failed = 3,
-}
-impl WorldState {
-    /// String value of the enum field names used in the ProtoBuf definition.
-    ///
-    /// The values are not transformed in any way and thus are considered stable
-    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
-    pub fn as_str_name(&self) -> &'static str {
-        match self {
-            Self::Unspecified => "WORLD_STATE_UNSPECIFIED",
-            Self::Running => "WORLD_STATE_RUNNING",
-            Self::Paused => "WORLD_STATE_PAUSED",
-            Self::Failed => "WORLD_STATE_FAILED",
-        }
-    }
-    /// Creates an enum from field names used in the ProtoBuf definition.
-    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
-        match value {
-            "WORLD_STATE_UNSPECIFIED" => Some(Self::Unspecified),
-            "WORLD_STATE_RUNNING" => Some(Self::Running),
-            "WORLD_STATE_PAUSED" => Some(Self::Paused),
-            "WORLD_STATE_FAILED" => Some(Self::Failed),
-            _ => None,
-        }
-    }
-}
-/// How an obstacle moves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
-#[repr(i32)]
-pub enum ObstacleMobility {
-    /// The default: OBSTACLE_MOBILITY_FIXED.
-    Unspecified = 0,
-    /// Not at all.
-    Fixed = 1,
-    /// With its velocity, whatever it meets.
-    Led = 2,
-    /// As a rigid body of `mass_kg`, under gravity and on the ground.
-    Free = 3,
-}
-impl ObstacleMobility {
-    /// String value of the enum field names used in the ProtoBuf definition.
-    ///
-    /// The values are not transformed in any way and thus are considered stable
-    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
-    pub fn as_str_name(&self) -> &'static str {
-        match self {
-            Self::Unspecified => "OBSTACLE_MOBILITY_UNSPECIFIED",
-            Self::Fixed => "OBSTACLE_MOBILITY_FIXED",
-            Self::Led => "OBSTACLE_MOBILITY_LED",
-            Self::Free => "OBSTACLE_MOBILITY_FREE",
-        }
-    }
-    /// Creates an enum from field names used in the ProtoBuf definition.
-    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
-        match value {
-            "OBSTACLE_MOBILITY_UNSPECIFIED" => Some(Self::Unspecified),
-            "OBSTACLE_MOBILITY_FIXED" => Some(Self::Fixed),
-            "OBSTACLE_MOBILITY_LED" => Some(Self::Led),
-            "OBSTACLE_MOBILITY_FREE" => Some(Self::Free),
-            _ => None,
-        }
-    }
-}
-/// Generated client implementations.
-pub mod world_service_client {
-    #![allow(
-        unused_variables,
-        dead_code,
-        missing_docs,
-        clippy::wildcard_imports,
-        clippy::let_unit_value,
-    )]
-    use tonic::codegen::*;
-    use tonic::codegen::http::Uri;
-    /// Creates, lists and controls worlds. A world is one shared scene with a clock of its own: gravity, ground, figures.
-    #[derive(Debug, Clone)]
-    pub struct WorldServiceClient<T> {
-        inner: tonic::client::Grpc<T>,
-    }
-    impl WorldServiceClient<tonic::transport::Channel> {
-        /// Attempt to create a new client by connecting to a given endpoint.
-        pub async fn connect<D>(dst: D) -> Result<Self, tonic::transport::Error>
-        where
-            D: TryInto<tonic::transport::Endpoint>,
-            D::Error: Into<StdError>,
-        {
-            let conn = tonic::transport::Endpoint::new(dst)?.connect().await?;
-            Ok(Self::new(conn))
-        }
-    }
-    impl<T> WorldServiceClient<T>
-    where
-        T: tonic::client::GrpcService<tonic::body::Body>,
-        T::Error: Into<StdError>,
-        T::ResponseBody: Body<Data = Bytes> + std::marker::Send + 'static,
-        <T::ResponseBody as Body>::Error: Into<StdError> + std::marker::Send,
-    {
-        pub fn new(inner: T) -> Self {
-            let inner = tonic::client::Grpc::new(inner);
-            Self { inner }
-        }
-        pub fn with_origin(inner: T, origin: Uri) -> Self {
-            let inner = tonic::client::Grpc::with_origin(inner, origin);
-            Self { inner }
-        }
-        pub fn with_interceptor<F>(
-            inner: T,
-            interceptor: F,
-        ) -> WorldServiceClient<InterceptedService<T, F>>
-        where
-            F: tonic::service::Interceptor,
-            T::ResponseBody: Default,
-            T: tonic::codegen::Service<
-                http::Request<tonic::body::Body>,
-                Response = http::Response<
-                    <T as tonic::client::GrpcService<tonic::body::Body>>::ResponseBody,
-                >,
-            >,
-            <T as tonic::codegen::Service<
-                http::Request<tonic::body::Body>,
-            >>::Error: Into<StdError> + std::marker::Send + std::marker::Sync,
-        {
-            WorldServiceClient::new(InterceptedService::new(inner, interceptor))
-        }
-        /// Compress requests with the given encoding.
-        ///
-        /// This requires the server to support it otherwise it might respond with an
-        /// error.
-        #[must_use]
-        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
-            self.inner = self.inner.send_compressed(encoding);
-            self
-        }
-        /// Enable decompressing responses.
-        #[must_use]
-        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
-            self.inner = self.inner.accept_compressed(encoding);
-            self
-        }
-        /// Limits the maximum size of a decoded message.
-        ///
-        /// Default: `4MB`
-        #[must_use]
-        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
-            self.inner = self.inner.max_decoding_message_size(limit);
-            self
-        }
-        /// Limits the maximum size of an encoded message.
-        ///
-        /// Default: `usize::MAX`
-        #[must_use]
-        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
-            self.inner = self.inner.max_encoding_message_size(limit);
-            self
-        }
-        /// Creates a world and starts its clock, unless `paused`. RESOURCE_EXHAUSTED when the server or this client has as
-        /// many as it may, or when there is no processor time for its ticks (`TICK_BUDGET`).
-        pub async fn create_world(
-            &mut self,
-            request: impl tonic::IntoRequest<super::CreateWorldRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::CreateWorldResponse>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.WorldService/CreateWorld",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.WorldService", "CreateWorld"));
-            self.inner.unary(req, path, codec).await
-        }
-        /// One world.
-        pub async fn get_world(
-            &mut self,
-            request: impl tonic::IntoRequest<super::GetWorldRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::GetWorldResponse>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.WorldService/GetWorld",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.WorldService", "GetWorld"));
-            self.inner.unary(req, path, codec).await
-        }
-        /// All worlds, by name.
-        pub async fn list_worlds(
-            &mut self,
-            request: impl tonic::IntoRequest<super::ListWorldsRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::ListWorldsResponse>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.WorldService/ListWorlds",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.WorldService", "ListWorlds"));
-            self.inner.unary(req, path, codec).await
-        }
-        /// Changes what may change while the world runs. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time
-        /// for a faster clock.
-        pub async fn update_world(
-            &mut self,
-            request: impl tonic::IntoRequest<super::UpdateWorldRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::UpdateWorldResponse>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.WorldService/UpdateWorld",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.WorldService", "UpdateWorld"));
-            self.inner.unary(req, path, codec).await
-        }
-        /// Ends a world: its streams end with NOT_FOUND.
-        pub async fn delete_world(
-            &mut self,
-            request: impl tonic::IntoRequest<super::DeleteWorldRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::DeleteWorldResponse>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.WorldService/DeleteWorld",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.WorldService", "DeleteWorld"));
-            self.inner.unary(req, path, codec).await
-        }
-        /// Stops the clock after the running tick. Pausing a paused world does nothing.
-        pub async fn pause_world(
-            &mut self,
-            request: impl tonic::IntoRequest<super::PauseWorldRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::PauseWorldResponse>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.WorldService/PauseWorld",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.WorldService", "PauseWorld"));
-            self.inner.unary(req, path, codec).await
-        }
-        /// Starts the clock again; no time is caught up. Resuming a running world does nothing. RESOURCE_EXHAUSTED
-        /// (`TICK_BUDGET`) when there is no processor time for its ticks.
-        pub async fn resume_world(
-            &mut self,
-            request: impl tonic::IntoRequest<super::ResumeWorldRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::ResumeWorldResponse>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.WorldService/ResumeWorld",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.WorldService", "ResumeWorld"));
-            self.inner.unary(req, path, codec).await
-        }
-        /// Advances a paused world by some ticks as fast as they compute and returns when they are done. FAILED_PRECONDITION
-        /// (`WORLD_NOT_PAUSED`) for a running world.
-        pub async fn step_world(
-            &mut self,
-            request: impl tonic::IntoRequest<super::StepWorldRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::StepWorldResponse>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.WorldService/StepWorld",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.WorldService", "StepWorld"));
-            self.inner.unary(req, path, codec).await
-        }
-        /// Sets how fast world time passes. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time for it.
-        pub async fn set_world_speed(
-            &mut self,
-            request: impl tonic::IntoRequest<super::SetWorldSpeedRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::SetWorldSpeedResponse>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.WorldService/SetWorldSpeed",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.WorldService", "SetWorldSpeed"));
-            self.inner.unary(req, path, codec).await
-        }
-        /// Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256
-        /// (RESOURCE_EXHAUSTED).
-        pub async fn add_obstacle(
-            &mut self,
-            request: impl tonic::IntoRequest<super::AddObstacleRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::AddObstacleResponse>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.WorldService/AddObstacle",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.WorldService", "AddObstacle"));
-            self.inner.unary(req, path, codec).await
-        }
-        /// Replaces an obstacle by another of the same name: shape, mobility, pose and velocity.
-        pub async fn update_obstacle(
-            &mut self,
-            request: impl tonic::IntoRequest<super::UpdateObstacleRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::UpdateObstacleResponse>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.WorldService/UpdateObstacle",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.WorldService", "UpdateObstacle"));
-            self.inner.unary(req, path, codec).await
-        }
-        /// Takes an obstacle out of its world.
-        pub async fn remove_obstacle(
-            &mut self,
-            request: impl tonic::IntoRequest<super::RemoveObstacleRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::RemoveObstacleResponse>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.WorldService/RemoveObstacle",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.WorldService", "RemoveObstacle"));
-            self.inner.unary(req, path, codec).await
-        }
-        /// All obstacles of a world as they are now, in the order they were added.
-        pub async fn list_obstacles(
-            &mut self,
-            request: impl tonic::IntoRequest<super::ListObstaclesRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::ListObstaclesResponse>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.WorldService/ListObstacles",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.WorldService", "ListObstacles"));
-            self.inner.unary(req, path, codec).await
-        }
-    }
-}
-/// Generated server implementations.
-pub mod world_service_server {
-    #![allow(
-        unused_variables,
-        dead_code,
-        missing_docs,
-        clippy::wildcard_imports,
-        clippy::let_unit_value,
-    )]
-    use tonic::codegen::*;
-    /// Generated trait containing gRPC methods that should be implemented for use with WorldServiceServer.
-    #[async_trait]
-    pub trait WorldService: std::marker::Send + std::marker::Sync + 'static {
-        /// Creates a world and starts its clock, unless `paused`. RESOURCE_EXHAUSTED when the server or this client has as
-        /// many as it may, or when there is no processor time for its ticks (`TICK_BUDGET`).
-        async fn create_world(
-            &self,
-            request: tonic::Request<super::CreateWorldRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::CreateWorldResponse>,
-            tonic::Status,
-        >;
-        /// One world.
-        async fn get_world(
-            &self,
-            request: tonic::Request<super::GetWorldRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::GetWorldResponse>,
-            tonic::Status,
-        >;
-        /// All worlds, by name.
-        async fn list_worlds(
-            &self,
-            request: tonic::Request<super::ListWorldsRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::ListWorldsResponse>,
-            tonic::Status,
-        >;
-        /// Changes what may change while the world runs. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time
-        /// for a faster clock.
-        async fn update_world(
-            &self,
-            request: tonic::Request<super::UpdateWorldRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::UpdateWorldResponse>,
-            tonic::Status,
-        >;
-        /// Ends a world: its streams end with NOT_FOUND.
-        async fn delete_world(
-            &self,
-            request: tonic::Request<super::DeleteWorldRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::DeleteWorldResponse>,
-            tonic::Status,
-        >;
-        /// Stops the clock after the running tick. Pausing a paused world does nothing.
-        async fn pause_world(
-            &self,
-            request: tonic::Request<super::PauseWorldRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::PauseWorldResponse>,
-            tonic::Status,
-        >;
-        /// Starts the clock again; no time is caught up. Resuming a running world does nothing. RESOURCE_EXHAUSTED
-        /// (`TICK_BUDGET`) when there is no processor time for its ticks.
-        async fn resume_world(
-            &self,
-            request: tonic::Request<super::ResumeWorldRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::ResumeWorldResponse>,
-            tonic::Status,
-        >;
-        /// Advances a paused world by some ticks as fast as they compute and returns when they are done. FAILED_PRECONDITION
-        /// (`WORLD_NOT_PAUSED`) for a running world.
-        async fn step_world(
-            &self,
-            request: tonic::Request<super::StepWorldRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::StepWorldResponse>,
-            tonic::Status,
-        >;
-        /// Sets how fast world time passes. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time for it.
-        async fn set_world_speed(
-            &self,
-            request: tonic::Request<super::SetWorldSpeedRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::SetWorldSpeedResponse>,
-            tonic::Status,
-        >;
-        /// Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256
-        /// (RESOURCE_EXHAUSTED).
-        async fn add_obstacle(
-            &self,
-            request: tonic::Request<super::AddObstacleRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::AddObstacleResponse>,
-            tonic::Status,
-        >;
-        /// Replaces an obstacle by another of the same name: shape, mobility, pose and velocity.
-        async fn update_obstacle(
-            &self,
-            request: tonic::Request<super::UpdateObstacleRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::UpdateObstacleResponse>,
-            tonic::Status,
-        >;
-        /// Takes an obstacle out of its world.
-        async fn remove_obstacle(
-            &self,
-            request: tonic::Request<super::RemoveObstacleRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::RemoveObstacleResponse>,
-            tonic::Status,
-        >;
-        /// All obstacles of a world as they are now, in the order they were added.
-        async fn list_obstacles(
-            &self,
-            request: tonic::Request<super::ListObstaclesRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::ListObstaclesResponse>,
-            tonic::Status,
-        >;
-    }
-    /// Creates, lists and controls worlds. A world is one shared scene with a clock of its own: gravity, ground, figures.
-    #[derive(Debug)]
-    pub struct WorldServiceServer<T> {
-        inner: Arc<T>,
-        accept_compression_encodings: EnabledCompressionEncodings,
-        send_compression_encodings: EnabledCompressionEncodings,
-        max_decoding_message_size: Option<usize>,
-        max_encoding_message_size: Option<usize>,
-    }
-    impl<T> WorldServiceServer<T> {
-        pub fn new(inner: T) -> Self {
-            Self::from_arc(Arc::new(inner))
-        }
-        pub fn from_arc(inner: Arc<T>) -> Self {
-            Self {
-                inner,
-                accept_compression_encodings: Default::default(),
-                send_compression_encodings: Default::default(),
-                max_decoding_message_size: None,
-                max_encoding_message_size: None,
-            }
-        }
-        pub fn with_interceptor<F>(
-            inner: T,
-            interceptor: F,
-        ) -> InterceptedService<Self, F>
-        where
-            F: tonic::service::Interceptor,
-        {
-            InterceptedService::new(Self::new(inner), interceptor)
-        }
-        /// Enable decompressing requests with the given encoding.
-        #[must_use]
-        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
-            self.accept_compression_encodings.enable(encoding);
-            self
-        }
-        /// Compress responses with the given encoding, if the client supports it.
-        #[must_use]
-        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
-            self.send_compression_encodings.enable(encoding);
-            self
-        }
-        /// Limits the maximum size of a decoded message.
-        ///
-        /// Default: `4MB`
-        #[must_use]
-        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
-            self.max_decoding_message_size = Some(limit);
-            self
-        }
-        /// Limits the maximum size of an encoded message.
-        ///
-        /// Default: `usize::MAX`
-        #[must_use]
-        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
-            self.max_encoding_message_size = Some(limit);
-            self
-        }
-    }
-    impl<T, B> tonic::codegen::Service<http::Request<B>> for WorldServiceServer<T>
-    where
-        T: WorldService,
-        B: Body + std::marker::Send + 'static,
-        B::Error: Into<StdError> + std::marker::Send + 'static,
-    {
-        type Response = http::Response<tonic::body::Body>;
-        type Error = std::convert::Infallible;
-        type Future = BoxFuture<Self::Response, Self::Error>;
-        fn poll_ready(
-            &mut self,
-            _cx: &mut Context<'_>,
-        ) -> Poll<std::result::Result<(), Self::Error>> {
-            Poll::Ready(Ok(()))
-        }
-        fn call(&mut self, req: http::Request<B>) -> Self::Future {
-            match req.uri().path() {
-                "/sinew.v1.WorldService/CreateWorld" => {
-                    #[allow(non_camel_case_types)]
-                    struct CreateWorldSvc<T: WorldService>(pub Arc<T>);
-                    impl<
-                        T: WorldService,
-                    > tonic::server::UnaryService<super::CreateWorldRequest>
-                    for CreateWorldSvc<T> {
-                        type Response = super::CreateWorldResponse;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::Response>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::CreateWorldRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as WorldService>::create_world(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = CreateWorldSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.unary(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                "/sinew.v1.WorldService/GetWorld" => {
-                    #[allow(non_camel_case_types)]
-                    struct GetWorldSvc<T: WorldService>(pub Arc<T>);
-                    impl<
-                        T: WorldService,
-                    > tonic::server::UnaryService<super::GetWorldRequest>
-                    for GetWorldSvc<T> {
-                        type Response = super::GetWorldResponse;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::Response>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::GetWorldRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as WorldService>::get_world(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = GetWorldSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.unary(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                "/sinew.v1.WorldService/ListWorlds" => {
-                    #[allow(non_camel_case_types)]
-                    struct ListWorldsSvc<T: WorldService>(pub Arc<T>);
-                    impl<
-                        T: WorldService,
-                    > tonic::server::UnaryService<super::ListWorldsRequest>
-                    for ListWorldsSvc<T> {
-                        type Response = super::ListWorldsResponse;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::Response>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::ListWorldsRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as WorldService>::list_worlds(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = ListWorldsSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.unary(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                "/sinew.v1.WorldService/UpdateWorld" => {
-                    #[allow(non_camel_case_types)]
-                    struct UpdateWorldSvc<T: WorldService>(pub Arc<T>);
-                    impl<
-                        T: WorldService,
-                    > tonic::server::UnaryService<super::UpdateWorldRequest>
-                    for UpdateWorldSvc<T> {
-                        type Response = super::UpdateWorldResponse;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::Response>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::UpdateWorldRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as WorldService>::update_world(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = UpdateWorldSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.unary(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                "/sinew.v1.WorldService/DeleteWorld" => {
-                    #[allow(non_camel_case_types)]
-                    struct DeleteWorldSvc<T: WorldService>(pub Arc<T>);
-                    impl<
-                        T: WorldService,
-                    > tonic::server::UnaryService<super::DeleteWorldRequest>
-                    for DeleteWorldSvc<T> {
-                        type Response = super::DeleteWorldResponse;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::Response>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::DeleteWorldRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as WorldService>::delete_world(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = DeleteWorldSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.unary(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                "/sinew.v1.WorldService/PauseWorld" => {
-                    #[allow(non_camel_case_types)]
-                    struct PauseWorldSvc<T: WorldService>(pub Arc<T>);
-                    impl<
-                        T: WorldService,
-                    > tonic::server::UnaryService<super::PauseWorldRequest>
-                    for PauseWorldSvc<T> {
-                        type Response = super::PauseWorldResponse;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::Response>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::PauseWorldRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as WorldService>::pause_world(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = PauseWorldSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.unary(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                "/sinew.v1.WorldService/ResumeWorld" => {
-                    #[allow(non_camel_case_types)]
-                    struct ResumeWorldSvc<T: WorldService>(pub Arc<T>);
-                    impl<
-                        T: WorldService,
-                    > tonic::server::UnaryService<super::ResumeWorldRequest>
-                    for ResumeWorldSvc<T> {
-                        type Response = super::ResumeWorldResponse;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::Response>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::ResumeWorldRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as WorldService>::resume_world(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = ResumeWorldSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.unary(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                "/sinew.v1.WorldService/StepWorld" => {
-                    #[allow(non_camel_case_types)]
-                    struct StepWorldSvc<T: WorldService>(pub Arc<T>);
-                    impl<
-                        T: WorldService,
-                    > tonic::server::UnaryService<super::StepWorldRequest>
-                    for StepWorldSvc<T> {
-                        type Response = super::StepWorldResponse;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::Response>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::StepWorldRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as WorldService>::step_world(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = StepWorldSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.unary(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                "/sinew.v1.WorldService/SetWorldSpeed" => {
-                    #[allow(non_camel_case_types)]
-                    struct SetWorldSpeedSvc<T: WorldService>(pub Arc<T>);
-                    impl<
-                        T: WorldService,
-                    > tonic::server::UnaryService<super::SetWorldSpeedRequest>
-                    for SetWorldSpeedSvc<T> {
-                        type Response = super::SetWorldSpeedResponse;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::Response>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::SetWorldSpeedRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as WorldService>::set_world_speed(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = SetWorldSpeedSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.unary(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                "/sinew.v1.WorldService/AddObstacle" => {
-                    #[allow(non_camel_case_types)]
-                    struct AddObstacleSvc<T: WorldService>(pub Arc<T>);
-                    impl<
-                        T: WorldService,
-                    > tonic::server::UnaryService<super::AddObstacleRequest>
-                    for AddObstacleSvc<T> {
-                        type Response = super::AddObstacleResponse;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::Response>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::AddObstacleRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as WorldService>::add_obstacle(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = AddObstacleSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.unary(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                "/sinew.v1.WorldService/UpdateObstacle" => {
-                    #[allow(non_camel_case_types)]
-                    struct UpdateObstacleSvc<T: WorldService>(pub Arc<T>);
-                    impl<
-                        T: WorldService,
-                    > tonic::server::UnaryService<super::UpdateObstacleRequest>
-                    for UpdateObstacleSvc<T> {
-                        type Response = super::UpdateObstacleResponse;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::Response>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::UpdateObstacleRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as WorldService>::update_obstacle(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = UpdateObstacleSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.unary(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                "/sinew.v1.WorldService/RemoveObstacle" => {
-                    #[allow(non_camel_case_types)]
-                    struct RemoveObstacleSvc<T: WorldService>(pub Arc<T>);
-                    impl<
-                        T: WorldService,
-                    > tonic::server::UnaryService<super::RemoveObstacleRequest>
-                    for RemoveObstacleSvc<T> {
-                        type Response = super::RemoveObstacleResponse;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::Response>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::RemoveObstacleRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as WorldService>::remove_obstacle(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = RemoveObstacleSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.unary(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                "/sinew.v1.WorldService/ListObstacles" => {
-                    #[allow(non_camel_case_types)]
-                    struct ListObstaclesSvc<T: WorldService>(pub Arc<T>);
-                    impl<
-                        T: WorldService,
-                    > tonic::server::UnaryService<super::ListObstaclesRequest>
-                    for ListObstaclesSvc<T> {
-                        type Response = super::ListObstaclesResponse;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::Response>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::ListObstaclesRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as WorldService>::list_obstacles(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = ListObstaclesSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.unary(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                _ => {
-                    Box::pin(async move {
-                        let mut response = http::Response::new(
-                            tonic::body::Body::default(),
-                        );
-                        let headers = response.headers_mut();
-                        headers
-                            .insert(
-                                tonic::Status::GRPC_STATUS,
-                                (tonic::Code::Unimplemented as i32).into(),
-                            );
-                        headers
-                            .insert(
-                                http::header::CONTENT_TYPE,
-                                tonic::metadata::GRPC_CONTENT_TYPE,
-                            );
-                        Ok(response)
-                    })
-                }
-            }
-        }
-    }
-    impl<T> Clone for WorldServiceServer<T> {
-        fn clone(&self) -> Self {
-            let inner = self.inner.clone();
-            Self {
-                inner,
-                accept_compression_encodings: self.accept_compression_encodings,
-                send_compression_encodings: self.send_compression_encodings,
-                max_decoding_message_size: self.max_decoding_message_size,
-                max_encoding_message_size: self.max_encoding_message_size,
-            }
-        }
-    }
-    /// Generated gRPC service name
-    pub const SERVICE_NAME: &str = "sinew.v1.WorldService";
-    impl<T> tonic::server::NamedService for WorldServiceServer<T> {
         const NAME: &'static str = SERVICE_NAME;
     }
 }

@@ -16,6 +16,7 @@ use crate::sim::math::curve::fall;
 use crate::sim::math::exp::exp;
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::leg_ik::forward;
+use serde::{Deserialize, Serialize};
 
 /// Upper arm, forearm and hand, left and right.
 pub(super) const ARMS: [[SegmentId; 3]; 2] = [
@@ -27,7 +28,7 @@ pub(super) const ARMS: [[SegmentId; 3]; 2] = [
 pub(super) type Poses = [(Vec3, Quat); SEGMENT_COUNT];
 
 /// How an arm is held: its joints.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Arm {
     shoulder: Quat,
     /// Elbow and wrist, rad.
@@ -71,7 +72,7 @@ impl Arm {
 }
 
 /// What an arm has done lately.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Habit {
     /// How much it is used to hang, 0…1.
     pub(super) hangs: f64,

@@ -10,7 +10,7 @@ use crate::sim::dynamics::Terms;
 use crate::sim::figure::constraints::Constraint;
 use crate::sim::figure::drive::{Drive, LivePlayback, QueuedClip};
 use crate::sim::figure::events::FigureEvent;
-use crate::sim::figure::plan_task::PlanRequest;
+use crate::sim::figure::plan_task::{LatePlans, PlanRequest};
 use crate::sim::figure::touches::Touches;
 use crate::sim::math::Vec3;
 use crate::sim::motion::{PlanarTransform, TargetPair};
@@ -91,8 +91,12 @@ impl Figure {
         exit.chain(entry)
     }
     /// Plans that the last tick needed and that were not there.
-    pub(crate) fn late_plans(&self) -> usize {
-        self.outcome.late_plans
+    pub fn late_plans(&self) -> LatePlans {
+        self.outcome.late
+    }
+    /// The next tick does without these plans, as if they were late: a replay repeats what threads have decided.
+    pub(crate) fn delay_plans(&mut self, late: LatePlans) {
+        self.outcome.told_late = late;
     }
     /// Name of the stage of getting up, while it gets up.
     pub fn rising(&self) -> Option<&'static str> {

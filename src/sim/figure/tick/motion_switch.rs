@@ -12,6 +12,7 @@ use crate::sim::plan::motion_transition::{TransitionCandidates, TransitionClip};
 use crate::sim::plan::splice;
 use crate::sim::plan::splice::{RUN_UP, Sample, StopCandidates};
 use crate::sim::track::StepPlan;
+use serde::{Deserialize, Serialize, Serializer};
 use std::sync::Arc;
 
 /// A way to a stand, with what it asks of the ground.
@@ -20,7 +21,7 @@ type Stop = Option<(f64, Clip)>;
 type Over = Option<(TransitionClip, PlanarTransform)>;
 
 /// What the exit from a motion is to lead to.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(super) struct ExitGoal {
     /// The posture in which the figure is to stand if it hardly moves or does not reach the clip from step to step; at
     /// ease if not given.
@@ -32,19 +33,30 @@ pub(super) struct ExitGoal {
 }
 
 /// How a motion is left, while that is planned.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize)]
+#[serde(from = "ExitProblem")]
 pub(in crate::sim::figure) struct ExitPlan {
-    goal: ExitGoal,
-    /// Samples that there were to plan it.
-    lead: usize,
+    problem: ExitProblem,
     /// Over to the clip that waits, best first.
     over: Vec<PlanTask<Over>>,
-    /// World time of the first sample of these, s.
-    known_from: f64,
     /// To a stand.
     stops: Vec<PlanTask<Stop>>,
     /// To a stand like the beginning of the next clip, if there is no such way.
     last_resort: Option<PlanTask<Option<Clip>>>,
+}
+
+/// What [`ExitPlan`] is planned from.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct ExitProblem {
+    goal: ExitGoal,
+    /// Samples that there were to plan it.
+    lead: usize,
+    /// The ways over to the clip that waits, if there are any.
+    ways: Option<Arc<TransitionCandidates>>,
+    /// World time of the first sample of these, s.
+    known_from: f64,
+    /// The ways to a stand, if the motion is to be ended.
+    ends: Option<Arc<StopCandidates>>,
     /// When the motion turns from its own way to that one, s.
     due: f64,
     /// World time of the first sample of the way to a stand, and time of the present motion then, s.
@@ -76,23 +88,76 @@ impl ExitPlan {
                 || self.last_resort.as_ref().is_none_or(PlanTask::is_ready))
     }
 
+    /// True if it may lead over to the clip that waits.
+    pub fn leads_over(&self) -> bool {
+        !self.over.is_empty()
+    }
+}
+
+impl ExitProblem {
     fn at(due: f64, goal: ExitGoal, lead: usize) -> Self {
         Self {
             goal,
             lead,
-            over: Vec::new(),
+            ways: None,
             known_from: 0.0,
-            stops: Vec::new(),
-            last_resort: None,
+            ends: None,
             due,
             begin: 0.0,
             before: 0.0,
         }
     }
+}
 
-    /// True if it may lead over to the clip that waits.
-    pub fn leads_over(&self) -> bool {
-        !self.over.is_empty()
+impl From<ExitProblem> for ExitPlan {
+    fn from(problem: ExitProblem) -> Self {
+        let ways = problem.ways.as_ref();
+        let over = |k| {
+            let ways = Arc::clone(ways?);
+            Some(PlanTask::new(move || ways.way(k)))
+        };
+        let count = ways.map_or(0, |w| w.moments().len());
+        let over = (0..count).filter_map(over).collect();
+        let Some(ends) = &problem.ends else {
+            return Self {
+                over,
+                stops: Vec::new(),
+                last_resort: None,
+                problem,
+            };
+        };
+        // Ends are left out if there is a way over.
+        let end = |k| {
+            let (ends, ways) = (Arc::clone(ends), ways.cloned());
+            PlanTask::new(move || {
+                let needed = ways.as_ref().is_none_or(|w| !w.found());
+                needed.then(|| ends.end(k)).flatten()
+            })
+        };
+        let stops: Vec<_> = (0..StopCandidates::MOST).map(end).collect();
+        let posture = problem.goal.posture.filter(|_| !ends.have_goal());
+        let last_resort = posture.map(|posture| {
+            let (ends, ways, stops) = (Arc::clone(ends), ways.cloned(), stops.clone());
+            PlanTask::new(move || {
+                let found = stops.iter().any(|e| matches!(e.result(), Some(Some(_))));
+                if found || ways.as_ref().is_some_and(|w| w.found()) {
+                    return None;
+                }
+                ends.like(posture)
+            })
+        });
+        Self {
+            over,
+            stops,
+            last_resort,
+            problem,
+        }
+    }
+}
+
+impl Serialize for ExitPlan {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        self.problem.serialize(to)
     }
 }
 
@@ -126,25 +191,20 @@ impl Figure {
             Drive::Hold(_) | Drive::External(_) => time,
             Drive::Clip(_) | Drive::Live(_) => time + STOP_TIME,
         };
-        let pending = self.motion.exit().map(|l| l.due);
+        let pending = self.motion.exit().map(|l| l.problem.due);
         // A stream that is being stopped has ended.
         if matches!(self.motion.source(), Drive::Live(_)) && pending.is_some() {
             return (stands, None);
         }
         let due = pending.unwrap_or(time + lead as f64 / splice::RATE);
-        let mut leaving = ExitPlan::at(due, goal, lead);
-        let over = if goal.fixed {
+        let mut leaving = ExitProblem::at(due, goal, lead);
+        leaving.ways = if goal.fixed {
             None
         } else {
             self.ways_over(play, (due, goal.from), time)
         };
-        let entered = over.as_ref().map(|ways| {
+        let entered = leaving.ways.as_ref().map(|ways| {
             leaving.known_from = time - self.desired.tracker.lag() - motion_transition::RUN_UP;
-            let plan = |k| {
-                let ways = Arc::clone(ways);
-                PlanTask::new(move || ways.way(k))
-            };
-            leaving.over = (0..ways.moments().len()).map(plan).collect();
             let first = &ways.moments()[0];
             let at = time - motion_transition::RUN_UP + first.left as f64 / motion_transition::RATE;
             at - ways.enters(first) / play.speed
@@ -156,10 +216,10 @@ impl Figure {
                 Drive::External(_) => false,
             };
         if ends {
-            self.plan_stops(&mut leaving, over.as_ref(), time);
+            self.plan_stops(&mut leaving, time);
         }
-        self.motion
-            .plan_exit((ends || leaving.leads_over()).then_some(leaving));
+        let leaving = (ends || leaving.ways.is_some()).then(|| leaving.into());
+        self.motion.plan_exit(leaving);
         (stands, entered)
     }
 
@@ -199,9 +259,9 @@ impl Figure {
             fixed: false,
             from: time,
         };
-        let mut leaving = ExitPlan::at(time + lead as f64 / splice::RATE, goal, lead);
-        self.plan_stops(&mut leaving, None, time);
-        self.motion.plan_exit(Some(leaving));
+        let mut leaving = ExitProblem::at(time + lead as f64 / splice::RATE, goal, lead);
+        self.plan_stops(&mut leaving, time);
+        self.motion.plan_exit(Some(leaving.into()));
     }
 
     /// True if it hardly moves, or stands in its motion.
@@ -210,40 +270,15 @@ impl Figure {
         (v.x * v.x + v.y * v.y).sqrt() < SLOW || !self.desired.tracker.is_walking()
     }
 
-    /// Begins to work out the ends of the motion; they are left out if there is a way over.
-    fn plan_stops(
-        &mut self,
-        leaving: &mut ExitPlan,
-        over: Option<&Arc<TransitionCandidates>>,
-        time: f64,
-    ) {
+    /// States the ends of the motion.
+    fn plan_stops(&mut self, leaving: &mut ExitProblem, time: f64) {
         let after = ((leaving.due - time) * splice::RATE).round() as usize;
         let (given, so_far) = self.motion_until_stop(time, after);
         (leaving.begin, leaving.before) = (given.begin, given.before);
-        let (body, now, streamed) = (&self.setup.body, given.now, given.streamed);
-        let posture = leaving.goal.posture;
-        let slow = self.is_slow() && posture.is_some();
-        let how = (posture.filter(|_| slow), streamed);
-        let ends = Arc::new(StopCandidates::new(body, so_far.clone(), now, how));
-        let plan = |k| {
-            let (ends, over) = (Arc::clone(&ends), over.cloned());
-            PlanTask::new(move || {
-                let needed = over.as_ref().is_none_or(|o| !o.found());
-                needed.then(|| ends.end(k)).flatten()
-            })
-        };
-        leaving.stops = (0..StopCandidates::MOST).map(plan).collect();
-        let Some(posture) = posture.filter(|_| !slow) else {
-            return;
-        };
-        let (body, over, ends) = (Arc::clone(body), over.cloned(), leaving.stops.clone());
-        leaving.last_resort = Some(PlanTask::new(move || {
-            let found = ends.iter().any(|e| matches!(e.result(), Some(Some(_))));
-            if found || over.as_ref().is_some_and(|o| o.found()) {
-                return None;
-            }
-            splice::stop(&body, so_far.clone(), now, (Some(posture), streamed))
-        }));
+        let posture = leaving.goal.posture.filter(|_| self.is_slow());
+        let how = (posture, given.streamed);
+        let ends = StopCandidates::new(&self.setup.body, so_far, given.now, how);
+        leaving.ends = Some(Arc::new(ends));
     }
 
     /// A stream that breaks off in the middle of a step, its last posture held, is left by the steps to a stand.
@@ -261,16 +296,17 @@ impl Figure {
     /// plans goes on without one that is not there: the way out begins with samples that the motion has passed by then,
     /// so it is planned anew from a later one.
     pub(super) fn follow_exit_if_due(&mut self, world: &TickContext) {
-        let due = |l: &&ExitPlan| world.time() + world.dt > l.due + 1e-9;
+        let due = |l: &&ExitPlan| world.time() + world.dt > l.problem.due + 1e-9;
         let Some(exit) = self.motion.exit().filter(due) else {
             return;
         };
-        if world.planning == Planning::InTick || exit.is_ready() {
+        let missing = world.planning == Planning::Aside && !exit.is_ready();
+        if !(missing || self.outcome.told_late.exit) {
             self.follow_exit();
             return;
         }
-        let (goal, lead) = (exit.goal, (2 * exit.lead).min(MOST_LEAD));
-        self.outcome.late_plans += 1;
+        let (goal, lead) = (exit.problem.goal, (2 * exit.problem.lead).min(MOST_LEAD));
+        self.outcome.late.exit = true;
         self.motion.plan_exit(None);
         let time = world.time();
         match self.motion.next().map(|q| q.play.clone()) {
@@ -294,11 +330,14 @@ impl Figure {
             over,
             stops,
             last_resort,
-            known_from,
-            due,
-            begin,
-            before,
-            ..
+            problem:
+                ExitProblem {
+                    known_from,
+                    due,
+                    begin,
+                    before,
+                    ..
+                },
         } = leaving;
         if let Some(way) = over.into_iter().find_map(PlanTask::take) {
             self.go_over(way, known_from);

@@ -7,13 +7,13 @@ use super::state::Scratch;
 use super::{Figure, TickContext};
 use crate::sim::body::Posture;
 use crate::sim::control::Controller;
-use crate::sim::figure::drive::{ClipPlayback, Drive, QueuedClip};
+use crate::sim::figure::drive::{ClipPlayback, Drive, Entry, EntryProblem, QueuedClip};
 use crate::sim::figure::get_up::GetUpDecision;
 use crate::sim::figure::params::get_up::UP_HEIGHT;
 use crate::sim::figure::params::switch::{
     EARLIEST_BEGIN, ENTRY_TIME, LEAD, PATIENCE, STILL, UPRIGHT,
 };
-use crate::sim::figure::plan_task::{PlanTask, Planning};
+use crate::sim::figure::plan_task::Planning;
 use crate::sim::motion::{Clip, Target};
 use crate::sim::plan::splice;
 use crate::sim::setup::ControllerKind;
@@ -148,13 +148,18 @@ impl Figure {
         let stands = !self.motion.has_fallen() && !self.crouches();
         let (next, first) = (q.play.motion(), q.first);
         let (body, stand) = (Arc::clone(&self.setup.body), self.comes_to());
-        if !stands || !q.led || next.begins_as(&body, first, &stand) {
+        let problem = EntryProblem {
+            body,
+            next,
+            first,
+            stand,
+        };
+        if !stands || !q.led || problem.begins() {
             return;
         }
-        let way = move || next.from_stand(&body, first, &stand);
         self.motion.update_next(|q| {
             q.from = q.from.max(time + LEAD as f64 / splice::RATE);
-            q.entry = Some(PlanTask::new(way));
+            q.entry = Some(Entry::from(problem));
         });
     }
 
@@ -205,14 +210,15 @@ impl Figure {
         if !ready {
             return;
         }
-        let planned = q.entry.as_ref().is_none_or(PlanTask::is_ready);
-        if !planned && world.planning == Planning::Aside {
-            self.outcome.late_plans += 1;
+        let planned = q.entry.as_ref().is_none_or(|e| e.task.is_ready());
+        let missing = !planned && world.planning == Planning::Aside;
+        if missing || self.outcome.told_late.entry {
+            self.outcome.late.entry = true;
             return;
         }
         let stance = self.desired.tracker.stance(&self.scratch.terms);
         if let Some(mut q) = self.motion.take_next() {
-            if let Some(way) = q.entry.take().and_then(PlanTask::take) {
+            if let Some(way) = q.entry.take().and_then(|e| e.task.take()) {
                 let begins = way.clip.sample(0.0).posture;
                 q.stance = Some(self.desired.tracker.stance_of(&self.setup.body, &begins));
                 q.first = way.begin;

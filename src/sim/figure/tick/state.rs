@@ -18,6 +18,7 @@ use crate::sim::figure::get_up::GetUp;
 use crate::sim::figure::kinematic_step::KinematicStepper;
 use crate::sim::figure::load_compensation::LoadCompensation;
 use crate::sim::figure::loads::Disturbances;
+use crate::sim::figure::plan_task::LatePlans;
 use crate::sim::figure::tasks::{TaskPoints, TaskWorkspace};
 use crate::sim::figure::torque_step::{MotorCommand, TorqueRange, TorqueStepper};
 use crate::sim::figure::touches::Touches;
@@ -31,6 +32,7 @@ use crate::sim::strength::fatigue::Fatigue;
 use crate::sim::strength::{MuscleScale, Strength};
 use crate::sim::support::Support;
 use crate::sim::track::StepTracker;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// What follows from the body alone.
@@ -59,7 +61,7 @@ impl BodyConstants {
 }
 
 /// Body and muscles: where they are, and what they can give.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct PhysicalState {
     /// Positions and velocities.
     pub state: State,
@@ -98,7 +100,7 @@ pub(super) fn rested(options: &FigureOptions) -> Option<Box<Fatigue>> {
 }
 
 /// The desired motion of a tick, and what changes it from what its source says.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct DesiredMotion {
     /// Desired motion of the tick.
     pub target: TargetPair,
@@ -132,7 +134,7 @@ impl DesiredMotion {
 }
 
 /// What acts on the figure from outside, and how it stands on it.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Surroundings {
     /// Loads and pushes.
     pub disturbances: Disturbances,
@@ -145,7 +147,7 @@ pub(super) struct Surroundings {
 }
 
 /// Which stepper moves the figure: accelerations can be handed over to torques for a while.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(super) struct StepperChoice {
     /// Torques move the figure though accelerations should: for how long it has been calm since, s.
     pub handed_over: Option<f64>,
@@ -236,7 +238,7 @@ impl StageResults {
 }
 
 /// What the last tick showed.
-#[derive(Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Outcome {
     pub report: TickReport,
     /// There was a tick.
@@ -244,7 +246,9 @@ pub(super) struct Outcome {
     /// Events.
     pub watcher: Watcher,
     /// Plans that it needed and that were not there.
-    pub late_plans: usize,
+    pub late: LatePlans,
+    /// Plans that the next tick is to do without.
+    pub told_late: LatePlans,
 }
 
 /// What the world notes of the figure when it looks for neighbours.

@@ -3,9 +3,10 @@
 use crate::sim::body::Posture;
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::target::Target;
+use serde::{Deserialize, Serialize};
 
 /// A turn about the vertical through the origin, then a shift along the ground.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PlanarTransform {
     /// Shift forward, m.
     pub x: f64,

@@ -5,9 +5,10 @@ use crate::sim::body::Body;
 use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::plan::params::pitch;
+use serde::{Deserialize, Serialize};
 
 /// Pose of one foot: ankle position, `world_from_foot`, toe extension.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FootPose {
     /// Ankle, m.
     pub ankle: Vec3,
@@ -40,7 +41,7 @@ impl FootPose {
 }
 
 /// The sole of one foot of a body.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Sole {
     pub(super) foot: Vec<Vec3>,
     pub(super) toes: Vec<Vec3>,
@@ -52,7 +53,7 @@ pub struct Sole {
 }
 
 /// Where a planted foot stands in one sample.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FootPlacement {
     /// Point of the floor under the flat ankle, m (z = 0).
     pub place: Vec3,

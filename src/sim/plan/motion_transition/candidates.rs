@@ -10,9 +10,10 @@ use crate::sim::plan::foot_lock::{FootPlacement, Sole};
 use crate::sim::plan::params::{balance, likeness, stop, transition};
 use crate::sim::plan::splice::Sample;
 use crate::sim::plan::turned_on_floor;
+use serde::{Deserialize, Serialize};
 
 /// A moment at which a motion is like another one's beginning.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Moment {
     /// Sample at which the first one is left.
     pub left: usize,

@@ -1,10 +1,11 @@
 //! One foot of a stream: when it stands, where, and how it gets from one place to the next.
 
-use super::{H, RATE};
+use super::{H, RATE, is_sample};
 use crate::sim::math::curve::{fall, quintic, smoothstep_to};
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::plan::foot_lock::{FootOffset, FootPlacement, FootPose, Sole};
 use crate::sim::plan::params::{contact, pitch, stance, swing};
+use serde::{Deserialize, Serialize};
 
 /// A foot that has stood for less than this is not taken off the floor again, samples.
 const SHORTEST: i64 = (stance::SHORTEST * RATE) as i64;
@@ -13,7 +14,7 @@ const KEPT: usize = 192;
 /// Stances that are kept.
 pub(super) const STANCES: usize = 8;
 /// One stance of one foot. Times in samples of the grid.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Stance {
     /// First sample.
     pub start: i64,
@@ -56,9 +57,11 @@ pub struct Posed {
 }
 
 /// Labels, stances and the swing of one foot.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Foot {
+    #[serde(with = "crate::sim::saved::array")]
     on: [bool; KEPT],
+    #[serde(with = "crate::sim::saved::array")]
     down: [bool; KEPT],
     level: [f64; 3],
     touches: [bool; 3],
@@ -129,6 +132,18 @@ fn swing_toe(pitch: f64) -> f64 {
 }
 
 impl Foot {
+    /// False if it cannot be what was written into a checkpoint.
+    pub fn is_valid(&self) -> bool {
+        let known = is_sample;
+        let times = |s: &Stance| known(s.start) && (known(s.end) || s.end == i64::MAX);
+        self.count <= STANCES
+            && self.stances.iter().chain(&self.coming).all(times)
+            && [self.strayed, self.steep, self.posed]
+                .into_iter()
+                .all(known)
+            && (known(self.moving) || self.moving == i64::MIN)
+    }
+
     /// A foot of which nothing is known.
     pub fn new() -> Self {
         let none = Stance {

@@ -32,6 +32,7 @@ pub use foot::Stance;
 use receding_horizon::Balance;
 use repeated_samples::RepeatedSamples;
 pub use repeated_samples::is_same;
+use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 use std::sync::Arc;
 use whole_body::PelvisLowering;
@@ -51,15 +52,20 @@ const LABEL: i64 = stream::SMOOTH + 1 + contact::STREAM_STEADY;
 /// Samples that may wait to be prepared: ten seconds.
 pub const MOST_PENDING: usize = 600;
 
+/// True for the number of a sample that a stream can get to within a thousand years.
+fn is_sample(number: i64) -> bool {
+    number.unsigned_abs() < 1 << 41
+}
+
 /// A sample as it came.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Raw {
     posture: Posture,
     planted: Option<[bool; 2]>,
 }
 
 /// What came with a sample.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Received {
     /// Points of the feet as they came: ankle, toe joint, toe tip.
     points: [[Vec3; 3]; 2],
@@ -70,12 +76,14 @@ struct Received {
 }
 
 /// A sample on its way through the window.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Sample {
     /// As it came, where the stream lies now, jumps spread.
     raw: Posture,
     received: Received,
     smooth: Posture,
+    /// Of the segments of `smooth`.
+    #[serde(skip, default = "unposed")]
     poses: [(Vec3, Quat); SEGMENT_COUNT],
     com: Vec3,
     /// Angular momentum about the centre of mass, kg·m²/s.
@@ -93,8 +101,12 @@ struct Sample {
     drop: f64,
 }
 
+fn unposed() -> [(Vec3, Quat); SEGMENT_COUNT] {
+    [(Vec3::zero(), Quat::identity()); SEGMENT_COUNT]
+}
+
 /// A body as it is to be.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Built {
     poses: [(Vec3, Quat); SEGMENT_COUNT],
     com: Vec3,
@@ -134,7 +146,7 @@ impl Sample {
 }
 
 /// How far behind the newest sample things happen.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Timing {
     /// Samples between the newest one and the output.
     window: i64,
@@ -145,14 +157,14 @@ struct Timing {
 }
 
 /// What has come and waits.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Input {
     pending: VecDeque<Raw>,
     newest: RepeatedSamples,
 }
 
 /// What was put out.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Output {
     knots: Vec<Knot>,
     /// Last five postures, for their rates.
@@ -162,7 +174,7 @@ struct Output {
 }
 
 /// The shift for balance and what it goes by.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct ShiftState {
     /// Shift of the centre of mass for balance, at the output and one sample before, newest last, m.
     shift: [[f64; 2]; 2],
@@ -171,23 +183,30 @@ struct ShiftState {
     horizon: Balance,
 }
 
+/// Components of a posture minus those of another one.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct Difference(#[serde(with = "crate::sim::saved::array")] [f64; NV]);
+
 /// Where the stream lies in the world.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 struct Placement {
     /// A stream that jumps goes on from where it was.
     frame: PlanarTransform,
     /// What is left of a jump, the samples since, and the time over which it fades, s.
-    fade: Option<([f64; NV], i64, f64)>,
+    fade: Option<(Difference, i64, f64)>,
     /// From the sample of this number on it is another stream: that is a jump, however small, that fades over this
     /// time, s.
     join: Option<(i64, f64)>,
 }
 
 /// A stream of one figure on its way to a motion. Times count from the first sample, s.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct StreamPlan {
+    #[serde(with = "crate::sim::saved::definition")]
     body: Arc<Body>,
+    #[serde(skip)]
     soles: [Sole; 2],
+    #[serde(skip)]
     ankle_limit: AnkleTorqueLimit,
     timing: Timing,
     input: Input,
@@ -244,6 +263,33 @@ impl StreamPlan {
             placement: Placement::default(),
             body,
         }
+    }
+
+    /// Adds what follows from the body and the buffers to a stream that was read from a checkpoint. False if it cannot
+    /// be what was written.
+    #[must_use]
+    pub fn complete(&mut self) -> bool {
+        let window = self.timing.window as f64 * H;
+        if !(WINDOW.0 - H..=WINDOW.1).contains(&window) {
+            return false;
+        }
+        let fresh = Self::new(Arc::clone(&self.body), window + 0.5 * H);
+        (self.soles, self.ankle_limit) = (fresh.soles, fresh.ankle_limit);
+        let body = Arc::clone(&self.body);
+        for sample in &mut self.ring {
+            sample.poses = forward(&body, &sample.smooth);
+        }
+        let counts = [self.count, self.output.last];
+        self.timing.window == fresh.timing.window
+            && self.timing.ahead == fresh.timing.ahead
+            && self.ring.len() == fresh.ring.len()
+            && self.output.knots.len() == fresh.output.knots.len()
+            && self.input.pending.len() <= MOST_PENDING
+            && counts.iter().all(|c| *c >= -1 && is_sample(*c))
+            && self.count >= 0
+            && self.output.last < self.count.max(1)
+            && self.feet.iter().all(Foot::is_valid)
+            && self.balance.horizon.complete(self.timing.window as usize)
     }
 
     /// Length of the window, s.
@@ -382,7 +428,7 @@ impl StreamPlan {
             self.placement.frame = step.after(self.placement.frame);
             step.apply_posture(&mut p);
             let time = join.map_or(transition::BLEND_TIME, |(_, blend)| blend);
-            self.placement.fade = Some((p.difference(&led), 0, time));
+            self.placement.fade = Some((Difference(p.difference(&led)), 0, time));
             faded = self.faded(&p);
         }
         if let Some((_, since, time)) = &mut self.placement.fade {
@@ -396,7 +442,7 @@ impl StreamPlan {
 
     fn faded(&self, posture: &Posture) -> Posture {
         let mut p = *posture;
-        if let Some((e, since, time)) = &self.placement.fade {
+        if let Some((Difference(e), since, time)) = &self.placement.fade {
             let u = (*since as f64 * H / time).min(1.0);
             let s = 1.0 - smootherstep(u);
             p.integrate(&e.map(|e| e * s), 1.0);

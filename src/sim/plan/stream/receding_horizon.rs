@@ -1,17 +1,18 @@
 //! The shift of the trunk that keeps the balance of a stream: a small optimal control problem over the window, solved
 //! on with every sample.
 
-use super::{H, RATE};
+use super::{H, RATE, is_sample};
 use crate::sim::math::banded::{Factor, Pentadiagonal};
 use crate::sim::math::exp::exp;
 use crate::sim::math::polygon::SmallPolygon;
 use crate::sim::plan::params::balance;
 use crate::sim::plan::pelvis_shift::PRICE;
 use crate::sim::plan::turned_on_floor;
+use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
 /// What is known of the balance in one sample.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Balanced {
     /// Zero-moment point as it came, m.
     pub zmp: [f64; 2],
@@ -81,10 +82,12 @@ impl Balanced {
 }
 
 /// The samples of the window whose balance is known, and buffers of the problem.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Balance {
     samples: VecDeque<Balanced>,
+    #[serde(skip)]
     matrix: Pentadiagonal,
+    #[serde(skip)]
     rows: Vec<[f64; 3]>,
     shift: Vec<[f64; 2]>,
     /// Number of the first of the samples, and of its shift among the shifts.
@@ -95,7 +98,7 @@ pub struct Balance {
 }
 
 /// What zero-moment points lack to be over the feet, on average, in the body's axes, m.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct Lacking {
     /// Sum and weight over the last second or so.
     lately: [f64; 2],
@@ -138,6 +141,19 @@ impl Balance {
             solved: 0,
             lacking: Lacking::default(),
         }
+    }
+
+    /// Adds the buffers to what was read from a checkpoint. False if it is not for windows of at most `most` samples.
+    pub fn complete(&mut self, most: usize) -> bool {
+        let fresh = Self::new(most);
+        let room = fresh.shift.len();
+        (self.matrix, self.rows) = (fresh.matrix, fresh.rows);
+        self.shift.len() == room
+            && self.samples.len() < room
+            && self.solved <= room
+            && self.first.1 <= room
+            && self.first.0 >= 0
+            && is_sample(self.first.0)
     }
 
     /// The next sample that is known.

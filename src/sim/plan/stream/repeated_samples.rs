@@ -3,6 +3,7 @@
 use super::RATE;
 use crate::sim::body::Posture;
 use crate::sim::plan::params::stream;
+use serde::{Deserialize, Serialize};
 
 /// True if nothing moved between two postures.
 pub fn is_same(a: &Posture, b: &Posture) -> bool {
@@ -10,7 +11,7 @@ pub fn is_same(a: &Posture, b: &Posture) -> bool {
 }
 
 /// The newest sample, how it came to be there, and for how long.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(super) struct RepeatedSamples {
     posture: Option<Posture>,
     /// Samples that have repeated it.

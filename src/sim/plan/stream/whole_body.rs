@@ -9,10 +9,11 @@ use crate::sim::body::topology::{L_FOOT, L_THIGH, R_FOOT, R_THIGH};
 use crate::sim::math::Vec3;
 use crate::sim::motion::leg_ik::{knee_axis, solve_leg_in_plane};
 use crate::sim::plan::params::{balance, leg};
+use serde::{Deserialize, Serialize};
 
 /// PelvisLowering of the pelvis: as low as was needed in the last seconds, so that it does not add to the ups and downs
 /// of the gait.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(super) struct PelvisLowering {
     /// What is needed, forgotten slowly, m.
     needed: f64,

@@ -18,9 +18,10 @@ use crate::sim::figure::TickContext;
 use crate::sim::math::Vec3;
 use cast::Cast;
 pub(super) use neighbourhood::Neighbourhood;
+use serde::{Deserialize, Serialize};
 
 /// What the collisions of one tick came to.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct CollisionReport {
     /// Pairs of bodies whose boxes overlapped.
     pub pairs: u64,

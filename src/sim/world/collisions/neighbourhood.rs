@@ -92,6 +92,24 @@ fn obstacle_bounds(o: &Obstacle, body: usize, dt: f64) -> Bounds {
 }
 
 impl Neighbourhood {
+    /// What passes on to the next tick: who passes through whom; and the report of the last one.
+    pub(in super::super) fn saved(&self) -> (&[(FigureKey, FigureKey)], &CollisionReport) {
+        (&self.through, &self.report)
+    }
+
+    /// What [`Self::saved`] has said. `through` is brought into order.
+    pub(in super::super) fn restored(
+        mut through: Vec<(FigureKey, FigureKey)>,
+        report: CollisionReport,
+    ) -> Self {
+        through.sort_unstable();
+        Self {
+            through,
+            report,
+            ..Self::default()
+        }
+    }
+
     /// True if the last [`Self::gather`] found a cluster.
     pub(in super::super) fn any(&self) -> bool {
         self.count > 0

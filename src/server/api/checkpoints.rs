@@ -1,0 +1,241 @@
+//! `CheckpointService`.
+
+use super::{Api, answer, caller, client, first_grants, origin};
+use crate::server::access::caller::Caller;
+use crate::server::access::roles::Role;
+use crate::server::checkpoints::{self, Kept};
+use crate::server::shares::Client;
+use crate::server::tick::command::Origin;
+use crate::server::tick::shard::{Restored, SavedShard};
+use crate::sim::world::checkpoint::Capture;
+use crate::wire::convert::checkpoint::{CheckpointInfo, checkpoint_name, checkpoint_out};
+use crate::wire::convert::{new_id, page, world, world_name};
+use crate::wire::pb::checkpoint_service_server::CheckpointService;
+use crate::wire::pb::{self, fork_world_request, restore_world_request};
+use crate::wire::status::Fault;
+use std::sync::Arc;
+use std::time::SystemTime;
+use tonic::{Request, Response, Status};
+
+/// A state that was asked for.
+enum Source {
+    Kept(Arc<Kept>),
+    Data(&'static str, bytes::Bytes),
+    Now(Box<(SavedShard, Capture)>),
+}
+
+fn out(kept: &Kept) -> pb::Checkpoint {
+    checkpoint_out(&CheckpointInfo {
+        name: (&kept.world, &kept.id),
+        tick: kept.tick,
+        time: kept.time,
+        hash: kept.hash,
+        size: kept.bytes.len(),
+        created: kept.created,
+    })
+}
+
+impl Api {
+    /// The bytes for a response, if they are wanted.
+    fn data(&self, kept: &Kept, wanted: bool) -> Result<Vec<u8>, Fault> {
+        let most = self.config.max_response_bytes;
+        match wanted {
+            false => Ok(Vec::new()),
+            true if kept.bytes.len() as u64 <= most => Ok(kept.bytes.clone()),
+            true => Err(Fault::Exhausted {
+                limit: "max_response_bytes",
+                value: most,
+                message: format!("a checkpoint of {} bytes", kept.bytes.len()),
+                retry: None,
+            }),
+        }
+    }
+
+    async fn captured(
+        &self,
+        (caller, origin): (&Caller, Origin),
+        (field, name): (&str, &str),
+    ) -> Result<(Arc<str>, SavedShard, Capture), Fault> {
+        let handle = self.enter_as(caller, Role::Director, world_name(field, name)?)?;
+        let (shard, capture) = handle.call(origin, |s| s.capture()).await?;
+        Ok((Arc::clone(&handle.id), shard, capture))
+    }
+
+    /// The world of a source, made where there is time for it.
+    async fn restored(&self, client: &Client, source: Source) -> Result<Restored, Fault> {
+        let most = self.config.max_clip_bytes;
+        let work = move || match source {
+            Source::Kept(kept) => checkpoints::decode("checkpoint", &kept.bytes),
+            Source::Data(field, data) if data.len() as u64 > most => Err(Fault::Exhausted {
+                limit: "max_clip_bytes",
+                value: most,
+                message: format!("{field}: {} bytes", data.len()),
+                retry: None,
+            }),
+            Source::Data(field, data) => checkpoints::decode(field, &data),
+            Source::Now(both) => checkpoints::encode(&both.0, &both.1)
+                .and_then(|bytes| checkpoints::decode("world", &bytes)),
+        };
+        self.conversions.run(client, move |_| work()).await
+    }
+
+    /// A checkpoint, for directors of its world: it holds all that there is of the world.
+    fn kept(&self, caller: &Caller, field: &str, name: &str) -> Result<Arc<Kept>, Fault> {
+        let (world, id) = checkpoint_name(field, name)?;
+        self.enter_as(caller, Role::Director, world)?;
+        self.checkpoints.get(world, id)
+    }
+}
+
+#[tonic::async_trait]
+impl CheckpointService for Api {
+    async fn checkpoint_world(
+        &self,
+        request: Request<pb::CheckpointWorldRequest>,
+    ) -> Result<Response<pb::CheckpointWorldResponse>, Status> {
+        let result = async {
+            let (owner, origin) = (client(&request), origin(&request));
+            let caller = caller(&request)?.clone();
+            let r = request.into_inner();
+            let id = new_id("checkpoint_id", &r.checkpoint_id)?.unwrap_or_default();
+            let from = (&caller, origin);
+            let (world, shard, capture) = self.captured(from, ("name", &r.name)).await?;
+            let app = self.0.clone();
+            let (created, client) = (SystemTime::now(), owner.clone());
+            let work = move || {
+                let new = Kept {
+                    world: world.to_string(),
+                    id,
+                    tick: capture.tick(),
+                    time: capture.tick() as f64 / shard.settings.rate_hz,
+                    hash: capture.hash(),
+                    bytes: checkpoints::encode(&shard, &capture)?,
+                    created,
+                    owner,
+                };
+                app.checkpoints.keep(new)
+            };
+            let kept = self.conversions.run(&client, move |_| work()).await?;
+            Ok(pb::CheckpointWorldResponse {
+                checkpoint: Some(out(&kept)),
+                data: self.data(&kept, r.return_data)?,
+            })
+        };
+        answer(result.await)
+    }
+
+    async fn get_checkpoint(
+        &self,
+        request: Request<pb::GetCheckpointRequest>,
+    ) -> Result<Response<pb::GetCheckpointResponse>, Status> {
+        let r = request.get_ref();
+        let get = || {
+            let kept = self.kept(caller(&request)?, "name", &r.name)?;
+            Ok(pb::GetCheckpointResponse {
+                checkpoint: Some(out(&kept)),
+                data: self.data(&kept, r.return_data)?,
+            })
+        };
+        answer(get())
+    }
+
+    async fn list_checkpoints(
+        &self,
+        request: Request<pb::ListCheckpointsRequest>,
+    ) -> Result<Response<pb::ListCheckpointsResponse>, Status> {
+        let r = request.get_ref();
+        let list = || {
+            let handle = self.world(&request, "parent", &r.parent)?;
+            let all = self.checkpoints.of_world(&handle.id);
+            let items = all.into_iter().map(|k| (k.id.clone(), k)).collect();
+            let (kept, next_page_token) = page(items, r.page_size, &r.page_token)?;
+            Ok(pb::ListCheckpointsResponse {
+                checkpoints: kept.iter().map(|k| out(k)).collect(),
+                next_page_token,
+            })
+        };
+        answer(list())
+    }
+
+    async fn delete_checkpoint(
+        &self,
+        request: Request<pb::DeleteCheckpointRequest>,
+    ) -> Result<Response<pb::DeleteCheckpointResponse>, Status> {
+        let delete = || {
+            let (world, id) = checkpoint_name("name", &request.get_ref().name)?;
+            self.enter(caller(&request)?, world)?;
+            self.checkpoints.remove(world, id)?;
+            Ok(pb::DeleteCheckpointResponse {})
+        };
+        answer(delete())
+    }
+
+    async fn restore_world(
+        &self,
+        request: Request<pb::RestoreWorldRequest>,
+    ) -> Result<Response<pb::RestoreWorldResponse>, Status> {
+        let result = async {
+            let (client, origin) = (client(&request), origin(&request));
+            let caller = caller(&request)?.clone();
+            let handle = self.world(&request, "name", &request.get_ref().name)?;
+            let r = request.into_inner();
+            let source = match r.source {
+                Some(restore_world_request::Source::Checkpoint(name)) => {
+                    Source::Kept(self.kept(&caller, "checkpoint", &name)?)
+                }
+                Some(restore_world_request::Source::Data(data)) => Source::Data("data", data),
+                None => return Err(Fault::invalid("source", "must be given")),
+            };
+            let restored = self.restored(&client, source).await?;
+            let cleared = handle.clone();
+            let info = handle
+                .call(origin, move |s| {
+                    let info = s.restore(restored)?;
+                    // What viewers could resume with is of another time.
+                    cleared.history().clear();
+                    Ok(info)
+                })
+                .await?;
+            Ok(pb::RestoreWorldResponse {
+                world: Some(world::world_out(&info)),
+            })
+        };
+        answer(result.await)
+    }
+
+    async fn fork_world(
+        &self,
+        request: Request<pb::ForkWorldRequest>,
+    ) -> Result<Response<pb::ForkWorldResponse>, Status> {
+        let result = async {
+            let (owner, origin) = (client(&request), origin(&request));
+            let caller = caller(&request)?.clone();
+            let r = request.into_inner();
+            let id = new_id("world_id", &r.world_id)?;
+            caller.check_new_name("world_id", id.as_deref())?;
+            let source = match r.source {
+                Some(fork_world_request::Source::Checkpoint(name)) => {
+                    Source::Kept(self.kept(&caller, "checkpoint", &name)?)
+                }
+                Some(fork_world_request::Source::Data(data)) => Source::Data("data", data),
+                Some(fork_world_request::Source::World(name)) => {
+                    let from = (&caller, origin);
+                    let (_, shard, capture) = self.captured(from, ("world", &name)).await?;
+                    Source::Now(Box::new((shard, capture)))
+                }
+                None => return Err(Fault::invalid("source", "must be given")),
+            };
+            let restored = self.restored(&owner, source).await?;
+            if let (Some(id), Some(persistence)) = (&id, &self.persistence) {
+                persistence.check(id)?;
+            }
+            let owner = (owner, first_grants(&caller));
+            let handle = self.worlds.fork(id, restored, r.paused, owner)?;
+            self.written(&handle).await?;
+            Ok(pb::ForkWorldResponse {
+                world: Some(world::world_out(&handle.info())),
+            })
+        };
+        answer(result.await)
+    }
+}

@@ -1,0 +1,220 @@
+//! Checkpoints as they are kept in memory and handed out: bytes with the physics of a world and what belongs to it on
+//! the server.
+//!
+//! ```text
+//!   magic 8 │ format u16 │ length of the server's part u32 │ checksum of it u64 │ server's part │ physics
+//! ```
+
+use super::shares::{Client, check_part};
+use super::tick::shard::{Restored, SavedShard};
+use crate::sim::world::checkpoint::{Capture, Checkpoint, CheckpointError, Definitions};
+use crate::wire::status::Fault;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::SystemTime;
+use xxhash_rust::xxh3::xxh3_64;
+
+const MAGIC: [u8; 8] = *b"SINEWWLD";
+/// Version of the server's part.
+const FORMAT: u16 = 1;
+const HEADER: usize = 22;
+
+/// Most checkpoints that are kept: some minutes of one every few seconds, for several worlds.
+pub const MAX_CHECKPOINTS: u64 = 1024;
+/// Most bytes of all of them together.
+pub const MAX_CHECKPOINT_BYTES: u64 = 512 << 20;
+
+/// A state of a world as bytes.
+///
+/// # Errors
+/// None for a world of this server.
+pub fn encode(shard: &SavedShard, capture: &Capture) -> Result<Vec<u8>, Fault> {
+    let failed = |e: &dyn std::fmt::Display| Fault::Internal(format!("writing a checkpoint: {e}"));
+    let part = postcard::to_stdvec(shard).map_err(|e| failed(&e))?;
+    let checkpoint = capture.checkpoint(&mut Definitions::default());
+    let physics = checkpoint.map_err(|e| failed(&e))?.to_bytes();
+    let mut out = Vec::with_capacity(HEADER + part.len() + physics.len());
+    out.extend(MAGIC);
+    out.extend(FORMAT.to_le_bytes());
+    out.extend((part.len() as u32).to_le_bytes());
+    out.extend(xxh3_64(&part).to_le_bytes());
+    out.extend(part);
+    out.extend(physics);
+    Ok(out)
+}
+
+/// The world that bytes describe. Slow: not on the thread of a tick.
+///
+/// # Errors
+/// With `field` as their place in the request: they are no checkpoint, damaged, of another version or other numerics.
+pub fn decode(field: &str, bytes: &[u8]) -> Result<Restored, Fault> {
+    let lost = |message: String| Fault::DataLoss {
+        reason: "CHECKPOINT_DAMAGED",
+        message: format!("{field}: {message}"),
+    };
+    let none = || Fault::invalid(field, "these bytes are not a checkpoint");
+    let header = bytes.get(..HEADER).ok_or_else(none)?;
+    if header[..8] != MAGIC {
+        return Err(none());
+    }
+    let version = u16::from_le_bytes([header[8], header[9]]);
+    if version != FORMAT {
+        return Err(other_version(format!(
+            "{field}: a checkpoint of format {version}, this server reads format {FORMAT}"
+        )));
+    }
+    let length = u32::from_le_bytes(std::array::from_fn(|i| header[10 + i])) as usize;
+    let sum = u64::from_le_bytes(std::array::from_fn(|i| header[14 + i]));
+    let rest = &bytes[HEADER..];
+    let part = rest
+        .get(..length)
+        .ok_or_else(|| lost("it ends too soon".into()))?;
+    if xxh3_64(part) != sum {
+        return Err(lost("its checksum does not fit".into()));
+    }
+    let (shard, left): (SavedShard, _) =
+        postcard::take_from_bytes(part).map_err(|e| lost(e.to_string()))?;
+    if !left.is_empty() {
+        return Err(lost("bytes are left over".into()));
+    }
+    let refused = |e: CheckpointError| match e {
+        CheckpointError::Format { .. } => other_version(format!("{field}: {e}")),
+        CheckpointError::TooLarge(_) => Fault::invalid(field, e.to_string()),
+        e => lost(e.to_string()),
+    };
+    let read = Checkpoint::from_bytes(&rest[length..]).map_err(refused)?;
+    if !read.is_of_this_numerics() {
+        return Err(other_version(format!(
+            "{field}: a checkpoint of a program that computes otherwise: it would not go on bit for bit"
+        )));
+    }
+    let world = read.restore(|_| None).map_err(refused)?;
+    Restored::new(world, shard).map_err(|e| lost(e.to_owned()))
+}
+
+fn other_version(message: String) -> Fault {
+    Fault::Precondition {
+        reason: "CHECKPOINT_VERSION",
+        message,
+        facts: vec![],
+    }
+}
+
+/// A checkpoint that is kept.
+#[derive(Debug)]
+pub struct Kept {
+    /// Last part of the name of its world.
+    pub world: String,
+    /// Last part of its name.
+    pub id: String,
+    /// Tick and time (s) of the state.
+    pub tick: u64,
+    /// World time, s.
+    pub time: f64,
+    /// State hash.
+    pub hash: u64,
+    /// The state.
+    pub bytes: Vec<u8>,
+    /// When it was taken.
+    pub created: SystemTime,
+    /// Who took it.
+    pub owner: Client,
+}
+
+/// All checkpoints that are kept, by world and name.
+#[derive(Debug)]
+pub struct Checkpoints {
+    all: Mutex<BTreeMap<(String, String), Arc<Kept>>>,
+    share: f64,
+}
+
+impl Checkpoints {
+    /// None yet; one client may have `share` of what there is room for.
+    pub fn new(share: f64) -> Self {
+        Self {
+            all: Mutex::default(),
+            share,
+        }
+    }
+
+    fn all(&self) -> MutexGuard<'_, BTreeMap<(String, String), Arc<Kept>>> {
+        // Entries are whole.
+        self.all.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Keeps one, under a name that is free if `id` is empty.
+    ///
+    /// # Errors
+    /// The name is taken; there are too many, or too many bytes, of all or of this client.
+    pub fn keep(&self, mut new: Kept) -> Result<Arc<Kept>, Fault> {
+        let mut all = self.all();
+        if new.id.is_empty() {
+            let free = |id: &String| !all.contains_key(&(new.world.clone(), id.clone()));
+            let mut names = (new.tick..).map(|n| format!("tick-{n}"));
+            new.id = names.find(free).expect("there is a free number");
+        }
+        let key = (new.world.clone(), new.id.clone());
+        if all.contains_key(&key) {
+            let name = format!("worlds/{}/checkpoints/{}", new.world, new.id);
+            return Err(Fault::Exists {
+                kind: "checkpoint",
+                name,
+            });
+        }
+        let own = || all.values().filter(|k| k.owner == new.owner);
+        let bytes = |k: &Arc<Kept>| k.bytes.len() as u64;
+        let size = new.bytes.len() as u64;
+        let full = |limit, value| Fault::Exhausted {
+            limit,
+            value,
+            message: "one more checkpoint".into(),
+            retry: None,
+        };
+        if all.len() as u64 >= MAX_CHECKPOINTS {
+            return Err(full("max_checkpoints", MAX_CHECKPOINTS));
+        }
+        if all.values().map(bytes).sum::<u64>() + size > MAX_CHECKPOINT_BYTES {
+            return Err(full("max_checkpoint_bytes", MAX_CHECKPOINT_BYTES));
+        }
+        let (count, used) = (own().count() as u64, own().map(bytes).sum::<u64>());
+        check_part("max_checkpoints", count, MAX_CHECKPOINTS, self.share)?;
+        let most = MAX_CHECKPOINT_BYTES;
+        check_part("max_checkpoint_bytes", used + size, most, self.share)?;
+        let kept = Arc::new(new);
+        all.insert(key, Arc::clone(&kept));
+        Ok(kept)
+    }
+
+    /// One.
+    ///
+    /// # Errors
+    /// There is none of that name.
+    pub fn get(&self, world: &str, id: &str) -> Result<Arc<Kept>, Fault> {
+        let found = self.all().get(&(world.to_owned(), id.to_owned())).cloned();
+        found.ok_or_else(|| missing(world, id))
+    }
+
+    /// Those of a world, by name.
+    pub fn of_world(&self, world: &str) -> Vec<Arc<Kept>> {
+        let all = self.all();
+        all.values().filter(|k| k.world == world).cloned().collect()
+    }
+
+    /// Forgets one.
+    ///
+    /// # Errors
+    /// There is none of that name.
+    pub fn remove(&self, world: &str, id: &str) -> Result<(), Fault> {
+        let gone = self.all().remove(&(world.to_owned(), id.to_owned()));
+        gone.map(drop).ok_or_else(|| missing(world, id))
+    }
+
+    /// Forgets those of a world.
+    pub fn forget_world(&self, world: &str) {
+        self.all().retain(|_, k| k.world != world);
+    }
+}
+
+fn missing(world: &str, id: &str) -> Fault {
+    Fault::not_found("checkpoint", format!("worlds/{world}/checkpoints/{id}"))
+}

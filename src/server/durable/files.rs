@@ -1,0 +1,160 @@
+//! Small files that are whole or damaged, never half written: a new one is written beside the old one, brought to disk
+//! and renamed. Each begins with what it is, its format and a checksum.
+
+use super::store::StoreError;
+use std::fs::File;
+use std::io::{ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+/// First bytes of each file.
+const MAGIC: &[u8; 5] = b"SINEW";
+/// Magic, kind, format, checksum.
+const HEAD: usize = MAGIC.len() + 1 + 4 + 4;
+
+/// What the disk said about a file.
+pub(super) fn io_error(path: &Path, error: &std::io::Error) -> StoreError {
+    let place = path.display();
+    match error.kind() {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge => {
+            StoreError::Full(place.to_string())
+        }
+        ErrorKind::ReadOnlyFilesystem | ErrorKind::PermissionDenied => {
+            StoreError::ReadOnly(place.to_string())
+        }
+        _ => StoreError::Io(format!("{place}: {error}")),
+    }
+}
+
+fn framed(kind: u8, format: u32, bytes: &[u8]) -> Vec<u8> {
+    let mut out = Vec::with_capacity(HEAD + bytes.len());
+    out.extend_from_slice(MAGIC);
+    out.push(kind);
+    out.extend_from_slice(&format.to_le_bytes());
+    let mut sum = crc32fast::Hasher::new();
+    sum.update(&out);
+    sum.update(bytes);
+    out.extend_from_slice(&sum.finalize().to_le_bytes());
+    out.extend_from_slice(bytes);
+    out
+}
+
+/// Brings a directory to disk, so that names in it are there after a power cut.
+pub(super) fn sync_directory(dir: &Path) -> Result<(), StoreError> {
+    // Elsewhere directories cannot be opened, and names are on disk when files are.
+    if cfg!(unix) {
+        let synced = File::open(dir).and_then(|d| d.sync_all());
+        synced.map_err(|e| io_error(dir, &e))?;
+    }
+    Ok(())
+}
+
+/// Writes a file as a whole.
+///
+/// # Errors
+/// It could not be written; what was there before is still there.
+pub(super) fn write(path: &Path, kind: u8, format: u32, bytes: &[u8]) -> Result<(), StoreError> {
+    let fresh = path.with_extension("new");
+    let written = File::create(&fresh).and_then(|mut file| {
+        file.write_all(&framed(kind, format, bytes))?;
+        file.sync_all()?;
+        std::fs::rename(&fresh, path)
+    });
+    if let Err(error) = written {
+        let _ = std::fs::remove_file(&fresh); // it is of no use to anybody
+        return Err(io_error(path, &error));
+    }
+    sync_directory(path.parent().unwrap_or(Path::new(".")))
+}
+
+/// Reads a file whole.
+///
+/// # Errors
+/// It cannot be read, is damaged, of another kind, or of a later format.
+pub(super) fn read(path: &Path, kind: u8, format: u32) -> Result<Vec<u8>, StoreError> {
+    let mut bytes = std::fs::read(path).map_err(|e| io_error(path, &e))?;
+    let damaged = |why: &str| StoreError::Damaged(format!("{}: {why}", path.display()));
+    let head = bytes
+        .first_chunk::<HEAD>()
+        .ok_or_else(|| damaged("the file is cut off"))?;
+    let (front, sum) = head.split_at(HEAD - 4);
+    let mut expected = crc32fast::Hasher::new();
+    expected.update(front);
+    expected.update(&bytes[HEAD..]);
+    if expected.finalize().to_le_bytes() != sum || !front.starts_with(MAGIC) {
+        return Err(damaged("the checksum is wrong"));
+    }
+    if front[MAGIC.len()] != kind {
+        return Err(damaged("it is a file of another kind"));
+    }
+    let found = u32::from_le_bytes([front[6], front[7], front[8], front[9]]);
+    if found > format {
+        return Err(StoreError::NewerFormat {
+            path: path.to_owned(),
+            found,
+            known: format,
+        });
+    }
+    bytes.drain(..HEAD);
+    Ok(bytes)
+}
+
+/// Removes a file; one that is not there is removed already.
+///
+/// # Errors
+/// It could not be removed.
+pub(super) fn remove(path: &Path) -> Result<(), StoreError> {
+    match std::fs::remove_file(path) {
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(io_error(path, &error)),
+        Err(_) => Ok(()),
+        Ok(()) => sync_directory(path.parent().unwrap_or(Path::new("."))),
+    }
+}
+
+/// Files of a directory with an extension, by name.
+///
+/// # Errors
+/// The directory cannot be read.
+pub(super) fn list(dir: &Path, extension: &str) -> Result<Vec<PathBuf>, StoreError> {
+    let entries = std::fs::read_dir(dir).map_err(|e| io_error(dir, &e))?;
+    let mut out = Vec::new();
+    for entry in entries {
+        let path = entry.map_err(|e| io_error(dir, &e))?.path();
+        if path.extension().is_some_and(|e| e == extension) {
+            out.push(path);
+        }
+    }
+    out.sort();
+    Ok(out)
+}
+
+/// Writes values one behind the other.
+#[derive(Default)]
+pub(super) struct Packed(pub Vec<u8>);
+
+impl Packed {
+    /// Appends bytes with their length.
+    pub fn bytes(mut self, bytes: &[u8]) -> Self {
+        let length = u32::try_from(bytes.len()).expect("records are smaller than 4 GiB");
+        self.0.extend_from_slice(&length.to_le_bytes());
+        self.0.extend_from_slice(bytes);
+        self
+    }
+}
+
+/// Reads what [`Packed`] has written.
+pub(super) struct Unpacked<'a>(pub &'a [u8]);
+
+impl<'a> Unpacked<'a> {
+    /// The next bytes; `None` if they are cut off.
+    pub fn bytes(&mut self) -> Option<&'a [u8]> {
+        let (length, rest) = self.0.split_first_chunk::<4>()?;
+        let (bytes, rest) = rest.split_at_checked(u32::from_le_bytes(*length) as usize)?;
+        self.0 = rest;
+        Some(bytes)
+    }
+
+    /// The next text; `None` if it is cut off or no text.
+    pub fn text(&mut self) -> Option<&'a str> {
+        std::str::from_utf8(self.bytes()?).ok()
+    }
+}

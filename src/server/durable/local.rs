@@ -1,0 +1,503 @@
+//! Worlds and clips in a directory of this machine.
+//!
+//! What is small and rarely written is a file of its own, so that damage to one takes nothing else with it: that a
+//! world exists, one earlier state of it, a clip, its content. What is written all the time is in one log
+//! ([`Log`](super::log::Log)), because one `fsync` then serves all worlds.
+
+use super::files::{self, Packed, Unpacked};
+use super::log::Log;
+use super::marks::Marks;
+use super::store::{
+    CheckpointStore, ClipRecord, Durability, Entry, Found, History, Loss, Retention, StoreError,
+    Usage, WorldKey, WorldRecord,
+};
+use bytes::Bytes;
+use sha2::{Digest, Sha256};
+use std::collections::HashMap;
+use std::fs::{File, TryLockError};
+use std::io::{Read, Seek, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, Instant, SystemTime};
+
+/// Format of the directory.
+const FORMAT: u32 = 1;
+/// Age at which the earlier state of a world, which is kept beside the log in case that is lost, is written anew.
+const STATE_EVERY: Duration = Duration::from_secs(60);
+/// States that are written in one go, so that commits do not wait for long.
+const STATES_AT_ONCE: usize = 2;
+
+// Kinds of files.
+const DIRECTORY: u8 = b'D';
+const WORLD: u8 = b'W';
+const STATE: u8 = b'S';
+const CLIP: u8 = b'C';
+const CONTENT: u8 = b'M';
+const END: u8 = b'E';
+
+/// How the server before this one ended.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct LastEnd {
+    /// In good order, or there was none.
+    pub orderly: bool,
+    /// Worlds that were being stepped when it ended otherwise, and the ticks.
+    pub stepping: Vec<(WorldKey, u64)>,
+    /// What is wrong with the log as a whole.
+    pub damage: Vec<String>,
+}
+
+/// A directory with worlds and clips. It is locked as long as this lives.
+pub struct LocalStore {
+    dir: PathBuf,
+    log: Log,
+    marks: Arc<Marks>,
+    last_end: LastEnd,
+    last_key: u64,
+    /// When and at which tick the earlier states were written.
+    states: HashMap<WorldKey, (Instant, u64)>,
+    /// Held for its lock.
+    _lock: File,
+}
+
+impl LocalStore {
+    /// Opens a directory, or makes one, and locks it.
+    ///
+    /// # Errors
+    /// It is no directory or cannot be written to, another server uses it, or a later version has written it.
+    pub fn open(dir: &Path) -> Result<Self, StoreError> {
+        let unusable = |why: String| StoreError::Directory {
+            path: dir.to_owned(),
+            why,
+        };
+        if dir.exists() && !dir.is_dir() {
+            return Err(unusable("data_dir must be a directory".to_owned()));
+        }
+        for sub in ["", "worlds", "clips", "contents"] {
+            std::fs::create_dir_all(dir.join(sub))
+                .map_err(|e| unusable(format!("the directory cannot be made: {e}")))?;
+        }
+        let lock = lock(dir)?;
+        let format = dir.join("format");
+        match files::read(&format, DIRECTORY, FORMAT) {
+            Ok(_) => {}
+            Err(StoreError::Io(_)) if !format.exists() => {
+                files::write(&format, DIRECTORY, FORMAT, b"worlds and clips of sinew")?;
+            }
+            Err(error) => return Err(error),
+        }
+        let mut last_end = LastEnd::default();
+        let end = dir.join("end");
+        let fresh = !dir.join("log.sqlite").exists();
+        last_end.orderly = fresh || files::read(&end, END, FORMAT).is_ok();
+        files::remove(&end)?;
+        let marks = Marks::open(&dir.join("stepping"))?;
+        if !last_end.orderly {
+            last_end.stepping = marks.found().to_vec();
+        }
+        let log = match Log::open(&dir.join("log.sqlite")) {
+            Err(StoreError::Damaged(why)) => {
+                let aside = set_aside(dir)?;
+                last_end.damage.push(format!(
+                    "{why}; it is kept in {}, worlds come back from their earlier states",
+                    aside.display()
+                ));
+                Log::open(&dir.join("log.sqlite"))?
+            }
+            log => log?,
+        };
+        let mut store = Self {
+            dir: dir.to_owned(),
+            log,
+            marks: Arc::new(marks),
+            last_end,
+            last_key: 0,
+            states: HashMap::new(),
+            _lock: lock,
+        };
+        if let Some(missing) = store.missing_end() {
+            store.last_end.damage.push(missing);
+        }
+        Ok(store)
+    }
+
+    /// How the server before this one ended.
+    pub fn last_end(&self) -> &LastEnd {
+        &self.last_end
+    }
+
+    /// Where worlds note that they are being stepped.
+    pub fn marks(&self) -> Arc<Marks> {
+        self.marks.clone()
+    }
+
+    fn world_path(&self, key: WorldKey, extension: &str) -> PathBuf {
+        self.dir.join("worlds").join(format!("{key}.{extension}"))
+    }
+
+    fn clip_path(&self, name: &str) -> PathBuf {
+        // Names are as long as clients like, and of their letters.
+        let name = hex::encode(&Sha256::digest(name)[..16]);
+        self.dir.join("clips").join(format!("{name}.clip"))
+    }
+
+    fn content_path(&self, hash: &[u8]) -> PathBuf {
+        let name = format!("{}.motion", hex::encode(hash));
+        self.dir.join("contents").join(name)
+    }
+
+    /// Notes how far the log goes, without waiting for the disk: after a power cut the note may be behind the log,
+    /// never before it.
+    fn note_end(&self) -> Result<(), StoreError> {
+        let end = self.log.end().to_le_bytes();
+        let path = self.dir.join("log.end");
+        let note = [end, (!self.log.end()).to_le_bytes()].concat();
+        let written = File::options()
+            .write(true)
+            .create(true)
+            .truncate(false)
+            .open(&path)
+            .and_then(|mut f| f.write_all(&note));
+        written.map_err(|e| files::io_error(&path, &e))
+    }
+
+    /// What a log that ends before its note has lost. SQLite leaves damaged ends of its write-ahead log out silently.
+    fn missing_end(&self) -> Option<String> {
+        let note = std::fs::read(self.dir.join("log.end")).ok()?;
+        let (end, check) = note.split_first_chunk::<8>()?;
+        let end = i64::from_le_bytes(*end);
+        let whole = check == (!end).to_le_bytes();
+        (whole && self.log.end() < end && self.last_end.damage.is_empty()).then(|| {
+            format!(
+                "{}: the last {} commits of worlds are missing: the write-ahead log is damaged",
+                self.dir.join("log.sqlite").display(),
+                end - self.log.end()
+            )
+        })
+    }
+
+    /// Writes states beside the log, in case the log is lost.
+    fn write_states(&mut self) -> Result<(), StoreError> {
+        let mut worlds: Vec<WorldKey> = self.log.worlds().collect();
+        worlds.retain(|w| {
+            let state = self.states.get(w);
+            state.is_none_or(|(at, _)| at.elapsed() >= STATE_EVERY)
+        });
+        for world in worlds.into_iter().take(STATES_AT_ONCE) {
+            self.write_state(world)?;
+        }
+        Ok(())
+    }
+
+    fn write_state(&mut self, world: WorldKey) -> Result<(), StoreError> {
+        let written = self.states.get(&world).map(|(_, tick)| *tick);
+        let checkpoint = self.log.checkpoint(world)?;
+        let tick = checkpoint.as_ref().map_or(0, |c| c.0);
+        if let Some((tick, bytes)) = checkpoint
+            && written != Some(tick)
+        {
+            let packed = Packed::default().bytes(&tick.to_le_bytes()).bytes(&bytes);
+            files::write(&self.world_path(world, "state"), STATE, FORMAT, &packed.0)?;
+        }
+        self.states.insert(world, (Instant::now(), tick));
+        Ok(())
+    }
+
+    /// The state beside the log.
+    fn state(&self, world: WorldKey) -> Result<(u64, Bytes), StoreError> {
+        let path = self.world_path(world, "state");
+        let bytes = files::read(&path, STATE, FORMAT)?;
+        let mut fields = Unpacked(&bytes);
+        let tick = fields.bytes().and_then(|t| t.try_into().ok());
+        tick.map(u64::from_le_bytes)
+            .zip(fields.bytes())
+            .map(|(tick, bytes)| (tick, Bytes::copy_from_slice(bytes)))
+            .ok_or_else(|| StoreError::Damaged(format!("{}: fields are missing", path.display())))
+    }
+
+    fn read_world(path: &Path) -> Result<WorldRecord, StoreError> {
+        let bytes = files::read(path, WORLD, FORMAT)?;
+        let mut fields = Unpacked(&bytes);
+        (|| {
+            Some(WorldRecord {
+                key: WorldKey(u64::from_le_bytes(fields.bytes()?.try_into().ok()?)),
+                name: fields.text()?.to_owned(),
+                durability: Durability::by_name(fields.text()?)?,
+                quarantined: Some(fields.text()?.to_owned()).filter(|why| !why.is_empty()),
+                settings: Bytes::copy_from_slice(fields.bytes()?),
+            })
+        })()
+        .ok_or_else(|| StoreError::Damaged(format!("{}: fields are missing", path.display())))
+    }
+
+    fn read_clip(&self, path: &Path) -> Result<ClipRecord, StoreError> {
+        let bytes = files::read(path, CLIP, FORMAT)?;
+        let mut fields = Unpacked(&bytes);
+        let damaged = |why: &str| StoreError::Damaged(format!("{}: {why}", path.display()));
+        let (name, description, hash) =
+            (|| Some((fields.text()?, fields.bytes()?, fields.bytes()?)))()
+                .ok_or_else(|| damaged("fields are missing"))?;
+        let content = files::read(&self.content_path(hash), CONTENT, FORMAT);
+        let content = content.map_err(|e| damaged(&format!("clip {name:?} is lost: {e}")))?;
+        if Sha256::digest(&content)[..] != *hash {
+            return Err(damaged(&format!(
+                "clip {name:?} is lost: its content is another one"
+            )));
+        }
+        Ok(ClipRecord {
+            name: name.to_owned(),
+            description: Bytes::copy_from_slice(description),
+            content: content.into(),
+        })
+    }
+
+    /// Contents that clips refer to.
+    fn contents(&self) -> Result<Vec<PathBuf>, StoreError> {
+        let mut used = Vec::new();
+        for path in files::list(&self.dir.join("clips"), "clip")? {
+            let bytes = files::read(&path, CLIP, FORMAT)?;
+            let mut fields = Unpacked(&bytes);
+            let hash = (|| {
+                fields.bytes()?;
+                fields.bytes()?;
+                fields.bytes()
+            })();
+            used.extend(hash.map(|h| self.content_path(h)));
+        }
+        Ok(used)
+    }
+}
+
+fn found<T>(
+    paths: Vec<PathBuf>,
+    read: impl Fn(&Path) -> Result<T, StoreError>,
+) -> Result<Found<T>, StoreError> {
+    let mut out = Found {
+        whole: Vec::new(),
+        damaged: Vec::new(),
+    };
+    for path in paths {
+        match read(&path) {
+            Ok(item) => out.whole.push(item),
+            Err(StoreError::Damaged(why)) => out.damaged.push(why),
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(out)
+}
+
+fn lock(dir: &Path) -> Result<File, StoreError> {
+    let path = dir.join("lock");
+    let failed = |e: std::io::Error| files::io_error(&path, &e);
+    let mut lock = File::options()
+        .read(true)
+        .write(true)
+        .create(true)
+        .truncate(false)
+        .open(&path)
+        .map_err(failed)?;
+    match lock.try_lock() {
+        Ok(()) => {}
+        Err(TryLockError::WouldBlock) => {
+            let mut holder = String::new();
+            let _ = lock.read_to_string(&mut holder); // the message does without it
+            return Err(StoreError::InUse {
+                path: dir.to_owned(),
+                holder: holder.trim().to_owned(),
+            });
+        }
+        Err(TryLockError::Error(error)) => return Err(failed(error)),
+    }
+    let holder = format!("process {}\n", std::process::id());
+    lock.set_len(0)
+        .and_then(|()| lock.rewind())
+        .and_then(|()| lock.write_all(holder.as_bytes()))
+        .map_err(failed)?;
+    Ok(lock)
+}
+
+/// Moves a damaged log out of the way, where it can be looked at.
+fn set_aside(dir: &Path) -> Result<PathBuf, StoreError> {
+    let since = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
+    let aside = dir.join(format!("damaged-{}", since.unwrap_or_default().as_millis()));
+    std::fs::create_dir_all(&aside).map_err(|e| files::io_error(&aside, &e))?;
+    for name in ["log.sqlite", "log.sqlite-wal", "log.sqlite-shm"] {
+        let from = dir.join(name);
+        if from.exists() {
+            std::fs::rename(&from, aside.join(name)).map_err(|e| files::io_error(&from, &e))?;
+        }
+    }
+    files::sync_directory(dir)?;
+    Ok(aside)
+}
+
+impl CheckpointStore for LocalStore {
+    fn worlds(&mut self) -> Result<Found<WorldRecord>, StoreError> {
+        let paths = files::list(&self.dir.join("worlds"), "world")?;
+        let mut out = found(paths.clone(), Self::read_world)?;
+        // A world of which only the log knows: its own file is gone. One whose file is damaged is named already.
+        for key in self.log.worlds() {
+            let path = self.world_path(key, "world");
+            if !paths.contains(&path) {
+                out.damaged
+                    .push(format!("{}: the file is missing", path.display()));
+            }
+        }
+        Ok(out)
+    }
+
+    fn new_key(&mut self) -> WorldKey {
+        let since = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
+        let now = u64::try_from(since.unwrap_or_default().as_micros()).unwrap_or(0);
+        let known = self.log.worlds().map(|w| w.0).max().unwrap_or(0);
+        self.last_key = now.max(self.last_key + 1).max(known + 1);
+        WorldKey(self.last_key)
+    }
+
+    fn put_world(&mut self, world: &WorldRecord) -> Result<(), StoreError> {
+        let packed = Packed::default()
+            .bytes(&world.key.0.to_le_bytes())
+            .bytes(world.name.as_bytes())
+            .bytes(world.durability.name().as_bytes())
+            .bytes(world.quarantined.as_deref().unwrap_or("").as_bytes())
+            .bytes(&world.settings);
+        files::write(
+            &self.world_path(world.key, "world"),
+            WORLD,
+            FORMAT,
+            &packed.0,
+        )
+    }
+
+    fn delete_world(&mut self, key: WorldKey) -> Result<(), StoreError> {
+        self.log.forget(key)?;
+        files::remove(&self.world_path(key, "state"))?;
+        self.states.remove(&key);
+        // Last: a world whose other parts are gone is still there to be deleted again.
+        files::remove(&self.world_path(key, "world"))
+    }
+
+    fn commit(&mut self, entries: &[Entry]) -> Result<(), StoreError> {
+        self.log.commit(entries)?;
+        self.note_end()
+    }
+
+    fn latest(&mut self, worlds: &[WorldKey]) -> Result<Vec<History>, StoreError> {
+        let mut out = self.log.read(worlds, None)?;
+        for (history, world) in out.iter_mut().zip(worlds) {
+            if history.checkpoint.is_some() {
+                continue;
+            }
+            // A world that has just been created has neither.
+            match self.state(*world) {
+                Ok((tick, bytes)) => {
+                    history.losses.push(Loss {
+                        after_tick: Some(tick),
+                        why: "its log is lost; this is its earlier state".to_owned(),
+                    });
+                    history.checkpoint = Some((tick, bytes));
+                }
+                Err(StoreError::Damaged(why)) => history.losses.push(Loss {
+                    after_tick: None,
+                    why,
+                }),
+                Err(StoreError::Io(_)) => {}
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(out)
+    }
+
+    fn history_at(&mut self, world: WorldKey, tick: u64) -> Result<History, StoreError> {
+        let mut histories = self.log.read(&[world], Some(tick))?;
+        Ok(histories.pop().unwrap_or_default())
+    }
+
+    fn cut(&mut self, limits: &Retention) -> Result<Usage, StoreError> {
+        let usage = self.log.cut(limits)?;
+        self.write_states()?;
+        Ok(usage)
+    }
+
+    fn repair(&mut self, fault: &StoreError) -> Result<Option<String>, StoreError> {
+        match fault {
+            StoreError::Full(_) => {
+                // The copy of the write-ahead log to where its pages belong frees it for new rows.
+                self.log.shrink()?;
+                self.log.cut(&Retention {
+                    age: Duration::ZERO,
+                    world_bytes: 0,
+                    total_bytes: 0,
+                })?;
+                self.log.shrink()?;
+                Ok(Some("the oldest history is given up".to_owned()))
+            }
+            StoreError::Damaged(_) | StoreError::Io(_) => {
+                // Closed first: SQLite removes files by their names when it closes.
+                self.log.close();
+                let aside = set_aside(&self.dir)?;
+                self.log = Log::open(&self.dir.join("log.sqlite"))?;
+                Ok(Some(format!(
+                    "a new log is begun; the old one is kept in {}",
+                    aside.display()
+                )))
+            }
+            _ => Ok(None),
+        }
+    }
+
+    fn clips(&mut self) -> Result<Found<ClipRecord>, StoreError> {
+        let paths = files::list(&self.dir.join("clips"), "clip")?;
+        found(paths, |path| self.read_clip(path))
+    }
+
+    fn put_clip(&mut self, clip: &ClipRecord) -> Result<(), StoreError> {
+        let hash = Sha256::digest(&clip.content);
+        let content = self.content_path(&hash);
+        // What is there may be damaged: it is not taken for the same.
+        if files::read(&content, CONTENT, FORMAT).is_ok_and(|there| there == clip.content) {
+            tracing::debug!(
+                clip = clip.name,
+                "the content of the clip is stored already"
+            );
+        } else {
+            files::write(&content, CONTENT, FORMAT, &clip.content)?;
+        }
+        let packed = Packed::default()
+            .bytes(clip.name.as_bytes())
+            .bytes(&clip.description)
+            .bytes(&hash);
+        files::write(&self.clip_path(&clip.name), CLIP, FORMAT, &packed.0)
+    }
+
+    fn delete_clip(&mut self, name: &str) -> Result<(), StoreError> {
+        files::remove(&self.clip_path(name))?;
+        // With a clip that cannot be read it is not known what the others need.
+        let Ok(used) = self.contents() else {
+            return Ok(());
+        };
+        for path in files::list(&self.dir.join("contents"), "motion")? {
+            if !used.contains(&path) {
+                files::remove(&path)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn close(&mut self) -> Result<(), StoreError> {
+        let worlds: Vec<WorldKey> = self.log.worlds().collect();
+        for world in worlds {
+            self.write_state(world)?;
+        }
+        self.log.shrink()?;
+        self.marks.clear_all()?;
+        files::write(&self.dir.join("end"), END, FORMAT, b"in good order")
+    }
+}
+
+#[cfg(test)]
+impl LocalStore {
+    /// The log, to take its disk away.
+    pub(super) fn log(&self) -> &Log {
+        &self.log
+    }
+}

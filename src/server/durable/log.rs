@@ -1,0 +1,766 @@
+//! The log of all worlds in one SQLite file: checkpoints, inputs and hashes in the order in which they were committed.
+//!
+//! A row holds what one group commit has of one world. Rows are only appended at one end and deleted at the other, so a
+//! commit writes few pages besides those of its own bytes. SQLite has no checksums of pages; each row has its own, and
+//! the rows of a world are numbered, so that damage shows as a wrong checksum or as a hole, and never as other input.
+
+use super::store::{Entry, History, Item, Logged, Loss, Retention, StoreError, Usage, WorldKey};
+use bytes::Bytes;
+use rusqlite::{Connection, ErrorCode, Row, params};
+use std::collections::{BTreeMap, HashMap, VecDeque};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, SystemTime};
+
+/// "SNWL", so that no other database is taken for a log.
+const APPLICATION: i32 = 0x534e_574c;
+/// Format of the tables and of what is in them.
+pub(super) const FORMAT: u32 = 1;
+/// Bytes of one page: a row of ten figures fits into one.
+const PAGE_BYTES: u32 = 16_384;
+/// Pages of the write-ahead log after which they are copied to where they belong: 32 MB.
+const WAL_PAGES: u32 = 2000;
+/// Bytes of pages that are held in memory.
+const CACHE_KIB: u32 = 16_384;
+/// Rows that one call of [`Log::cut`] deletes, so that commits do not wait for long.
+const CUT_ROWS: usize = 20_000;
+/// Damaged places in one file after which the rest of it is given up.
+const MAX_DAMAGED: u32 = 1000;
+
+const CHECKPOINT: u8 = 1;
+const GROUP: u8 = 2;
+const INPUT: u8 = 1;
+const HASH: u8 = 2;
+
+const TABLES: &str = "
+    CREATE TABLE log (
+        id INTEGER PRIMARY KEY, world INTEGER NOT NULL, session INTEGER NOT NULL, seq INTEGER NOT NULL,
+        kind INTEGER NOT NULL, tick INTEGER NOT NULL, sum INTEGER NOT NULL, bytes BLOB NOT NULL
+    );
+    -- Where in the log the checkpoints are. What is lost of it is found again by a look at all rows.
+    CREATE TABLE checkpoints (
+        id INTEGER PRIMARY KEY, world INTEGER NOT NULL, session INTEGER NOT NULL, seq INTEGER NOT NULL,
+        tick INTEGER NOT NULL, time_ms INTEGER NOT NULL, bytes_before INTEGER NOT NULL
+    );";
+
+/// A checkpoint in the log.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Place {
+    id: i64,
+    session: i64,
+    /// Number of the first group behind it.
+    seq: i64,
+    tick: u64,
+    time_ms: i64,
+    /// Bytes of this world before it.
+    bytes_before: u64,
+}
+
+/// What the log knows of one world.
+#[derive(Clone, Debug, Default)]
+struct Track {
+    /// From the oldest to the latest.
+    places: VecDeque<Place>,
+    /// Bytes ever written.
+    written: u64,
+    /// Number of the next group of this session; `None` until there is a checkpoint.
+    next: Option<i64>,
+}
+
+impl Track {
+    fn held(&self) -> u64 {
+        self.places
+            .front()
+            .map_or(0, |p| self.written.saturating_sub(p.bytes_before))
+    }
+}
+
+/// One row, as it is on disk.
+struct Record {
+    id: i64,
+    world: WorldKey,
+    session: i64,
+    seq: i64,
+    kind: u8,
+    tick: u64,
+    bytes: Bytes,
+}
+
+impl Record {
+    fn sum(&self) -> i64 {
+        let mut sum = crc32fast::Hasher::new();
+        for number in [self.id, self.world.0 as i64, self.session, self.seq] {
+            sum.update(&number.to_le_bytes());
+        }
+        sum.update(&[self.kind]);
+        sum.update(&self.tick.to_le_bytes());
+        sum.update(&self.bytes);
+        i64::from(sum.finalize())
+    }
+
+    /// What is on disk, and whether it is what was written.
+    fn read(row: &Row<'_>) -> rusqlite::Result<(Self, bool)> {
+        let number = |i: usize| row.get_ref(i).map(|v| v.as_i64().unwrap_or(-1));
+        let bytes = row.get_ref(7)?.as_blob().unwrap_or_default();
+        let record = Self {
+            id: number(0)?,
+            world: WorldKey(number(1)? as u64),
+            session: number(2)?,
+            seq: number(3)?,
+            kind: u8::try_from(number(4)?).unwrap_or(0),
+            tick: number(5)? as u64,
+            bytes: Bytes::copy_from_slice(bytes),
+        };
+        let whole = record.sum() == number(6)?;
+        Ok((record, whole))
+    }
+
+    fn frames(&self) -> Option<Vec<Logged>> {
+        let mut rest = self.bytes.clone();
+        let mut out = Vec::new();
+        while !rest.is_empty() {
+            let head = rest.first_chunk::<13>()?;
+            let tick = u64::from_le_bytes(head[1..9].try_into().ok()?);
+            let length = u32::from_le_bytes(head[9..].try_into().ok()?) as usize;
+            let kind = head[0];
+            let _ = rest.split_to(13);
+            if rest.len() < length {
+                return None;
+            }
+            let bytes = rest.split_to(length);
+            let item = match kind {
+                INPUT => Item::Input(bytes),
+                HASH => Item::Hash(u64::from_le_bytes(bytes[..].try_into().ok()?)),
+                _ => return None,
+            };
+            out.push(Logged { tick, item });
+        }
+        Some(out)
+    }
+}
+
+fn frame(out: &mut Vec<u8>, kind: u8, tick: u64, bytes: &[u8]) {
+    out.push(kind);
+    out.extend_from_slice(&tick.to_le_bytes());
+    let length = u32::try_from(bytes.len()).expect("requests are smaller than 4 GiB");
+    out.extend_from_slice(&length.to_le_bytes());
+    out.extend_from_slice(bytes);
+}
+
+fn now_ms() -> i64 {
+    let since = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
+    i64::try_from(since.unwrap_or_default().as_millis()).unwrap_or(i64::MAX)
+}
+
+/// What SQLite said.
+fn fault(path: &Path, error: &rusqlite::Error) -> StoreError {
+    let place = path.display();
+    let code = error.sqlite_error_code();
+    match code {
+        Some(ErrorCode::DiskFull | ErrorCode::TooBig) => StoreError::Full(place.to_string()),
+        Some(ErrorCode::ReadOnly | ErrorCode::CannotOpen | ErrorCode::PermissionDenied) => {
+            StoreError::ReadOnly(place.to_string())
+        }
+        Some(
+            ErrorCode::DatabaseCorrupt | ErrorCode::NotADatabase | ErrorCode::ConstraintViolation,
+        ) => StoreError::Damaged(format!("{place}: {error}")),
+        // Tables or columns that are not there: the list of tables is damaged.
+        Some(ErrorCode::Unknown) => StoreError::Damaged(format!("{place}: {error}")),
+        _ => StoreError::Io(format!("{place}: {error}")),
+    }
+}
+
+/// One world while the log is read.
+struct Reading {
+    place: Place,
+    /// Number of the next group.
+    next: i64,
+    history: History,
+    ended: bool,
+    /// Highest number of a group of it that is damaged.
+    damaged: Option<i64>,
+}
+
+impl Reading {
+    fn take(&mut self, record: &Record, whole: bool) {
+        if self.ended || record.id < self.place.id {
+            return;
+        }
+        if record.id == self.place.id {
+            if whole && record.kind == CHECKPOINT {
+                self.history.checkpoint = Some((record.tick, record.bytes.clone()));
+            }
+            return;
+        }
+        if !whole {
+            if record.session == self.place.session {
+                self.damaged = self.damaged.max(Some(record.seq));
+            }
+            return;
+        }
+        if record.session != self.place.session {
+            self.ended = true;
+        } else if record.kind == GROUP {
+            match record.frames().filter(|_| record.seq == self.next) {
+                Some(frames) => {
+                    self.history.entries.extend(frames);
+                    self.next += 1;
+                }
+                None => {
+                    self.ended = true;
+                    self.lose("a part of its log is damaged or was not written");
+                }
+            }
+        }
+    }
+
+    fn lose(&mut self, why: &str) {
+        self.history.losses.push(Loss {
+            after_tick: self.history.last_tick(),
+            why: why.to_owned(),
+        });
+    }
+
+    /// `latest`: the latest checkpoint there has been.
+    fn end(mut self, latest: Place) -> History {
+        let short = latest.session != self.place.session
+            || self.next < latest.seq
+            || self.history.last_tick() < Some(latest.tick);
+        if self.history.losses.is_empty() {
+            if self.damaged.is_some_and(|seq| seq >= self.next) {
+                self.lose("a part of its log is damaged");
+            } else if short {
+                self.lose("its latest checkpoint is damaged");
+            }
+        }
+        self.history
+    }
+}
+
+/// The log.
+pub(super) struct Log {
+    db: Connection,
+    path: PathBuf,
+    session: i64,
+    next_id: i64,
+    tracks: HashMap<WorldKey, Track>,
+    /// Rows with wrong checksums that were met, and places that could not be read.
+    pub damaged_rows: u64,
+}
+
+impl Log {
+    /// Opens the log or begins one.
+    ///
+    /// # Errors
+    /// It is damaged, of a later format, or cannot be read.
+    pub fn open(path: &Path) -> Result<Self, StoreError> {
+        let open = || -> rusqlite::Result<(Connection, i32, u32)> {
+            let db = Connection::open(path)?;
+            db.busy_timeout(Duration::from_secs(5))?; // a backup that reads it
+            db.execute_batch(&format!(
+                "PRAGMA page_size = {PAGE_BYTES};
+                 PRAGMA journal_mode = WAL;
+                 PRAGMA synchronous = FULL;
+                 PRAGMA cell_size_check = ON;
+                 PRAGMA wal_autocheckpoint = {WAL_PAGES};
+                 PRAGMA cache_size = -{CACHE_KIB};"
+            ))?;
+            let application = db.pragma_query_value(None, "application_id", |r| r.get(0))?;
+            let version = db.pragma_query_value(None, "user_version", |r| r.get(0))?;
+            Ok((db, application, version))
+        };
+        let failed = |e: rusqlite::Error| fault(path, &e);
+        let (db, application, version) = open().map_err(failed)?;
+        if version > FORMAT && application == APPLICATION {
+            return Err(StoreError::NewerFormat {
+                path: path.to_owned(),
+                found: version,
+                known: FORMAT,
+            });
+        }
+        if version == 0 && application == 0 {
+            let begin = format!(
+                "BEGIN; {TABLES} PRAGMA application_id = {APPLICATION}; PRAGMA user_version = {FORMAT}; COMMIT;"
+            );
+            db.execute_batch(&begin).map_err(failed)?;
+        } else if application != APPLICATION || version != FORMAT {
+            return Err(StoreError::Damaged(format!(
+                "{}: not a log of sinew",
+                path.display()
+            )));
+        }
+        let mut log = Self {
+            db,
+            path: path.to_owned(),
+            session: now_ms(),
+            next_id: 1,
+            tracks: HashMap::new(),
+            damaged_rows: 0,
+        };
+        log.load()?;
+        Ok(log)
+    }
+
+    fn fault(&self, error: &rusqlite::Error) -> StoreError {
+        fault(&self.path, error)
+    }
+
+    /// Reads where the checkpoints are.
+    fn load(&mut self) -> Result<(), StoreError> {
+        let last = |table: &str| {
+            let sql = format!("SELECT COALESCE(MAX(id), 0) FROM {table}");
+            self.db.query_row(&sql, [], |r| r.get::<_, i64>(0))
+        };
+        let last = last("log").and_then(|log| Ok(log.max(last("checkpoints")?)));
+        self.next_id = last.map_err(|e| self.fault(&e))? + 1;
+        let mut found = BTreeMap::new();
+        let listed = (|| {
+            let mut all = self.db.prepare("SELECT * FROM checkpoints ORDER BY id")?;
+            let mut rows = all.query([])?;
+            while let Some(row) = rows.next()? {
+                let place = Place {
+                    id: row.get(0)?,
+                    session: row.get(2)?,
+                    seq: row.get(3)?,
+                    tick: row.get::<_, i64>(4)? as u64,
+                    time_ms: row.get(5)?,
+                    bytes_before: row.get::<_, i64>(6)? as u64,
+                };
+                found.insert(place.id, (WorldKey(row.get::<_, i64>(1)? as u64), place));
+            }
+            Ok::<_, rusqlite::Error>(())
+        })();
+        if listed.is_err() {
+            self.damaged_rows += 1;
+            let mut rest = Vec::new();
+            self.scan(0, &mut |record, whole| {
+                if whole && record.kind == CHECKPOINT {
+                    rest.push((
+                        record.world,
+                        record.id,
+                        record.session,
+                        record.seq,
+                        record.tick,
+                    ));
+                }
+            })?;
+            for (world, id, session, seq, tick) in rest {
+                let place = Place {
+                    id,
+                    session,
+                    seq,
+                    tick,
+                    time_ms: now_ms(),
+                    bytes_before: 0,
+                };
+                found.insert(id, (world, place));
+            }
+        }
+        for (world, place) in found.into_values() {
+            self.session = self.session.max(place.session.saturating_add(1));
+            let track = self.tracks.entry(world).or_default();
+            track.written = track.written.max(place.bytes_before);
+            track.places.push_back(place);
+        }
+        Ok(())
+    }
+
+    /// Worlds that the log knows.
+    pub fn worlds(&self) -> impl Iterator<Item = WorldKey> + '_ {
+        self.tracks.keys().copied()
+    }
+
+    /// Session and number of the last row, for the note beside the log.
+    pub fn end(&self) -> i64 {
+        self.next_id - 1
+    }
+
+    /// Writes entries: all or none.
+    ///
+    /// # Errors
+    /// They could not be written.
+    pub fn commit(&mut self, entries: &[Entry]) -> Result<(), StoreError> {
+        let mut changed: HashMap<WorldKey, Track> = HashMap::new();
+        let mut groups: BTreeMap<WorldKey, (u64, Vec<u8>)> = BTreeMap::new();
+        let mut rows = Rows {
+            next_id: self.next_id,
+            session: self.session,
+            out: Vec::new(),
+        };
+        let mut places = Vec::new();
+        for entry in entries {
+            let track = changed.entry(entry.world).or_insert_with(|| {
+                // Only what commits change of it.
+                let known = self.tracks.get(&entry.world);
+                Track {
+                    places: VecDeque::new(),
+                    written: known.map_or(0, |t| t.written),
+                    next: known.and_then(|t| t.next),
+                }
+            });
+            let (kind, bytes) = match &entry.item {
+                Item::Checkpoint { bytes, after_gap } => {
+                    rows.group(entry.world, track, groups.remove(&entry.world));
+                    let next = track.next.map_or(0, |n| n + i64::from(*after_gap));
+                    track.next = Some(next);
+                    let place = Place {
+                        id: rows.next_id,
+                        session: self.session,
+                        seq: next,
+                        tick: entry.tick,
+                        time_ms: now_ms(),
+                        bytes_before: track.written,
+                    };
+                    rows.push(entry.world, track, CHECKPOINT, entry.tick, bytes.clone());
+                    track.places.push_back(place);
+                    places.push((entry.world, place));
+                    continue;
+                }
+                Item::Input(bytes) => (INPUT, bytes.clone()),
+                Item::Hash(hash) => (HASH, Bytes::copy_from_slice(&hash.to_le_bytes())),
+            };
+            if track.next.is_none() {
+                return Err(StoreError::Io(format!(
+                    "world {}: input of tick {} without a checkpoint before it",
+                    entry.world, entry.tick
+                )));
+            }
+            let group = groups
+                .entry(entry.world)
+                .or_insert((entry.tick, Vec::new()));
+            frame(&mut group.1, kind, entry.tick, &bytes);
+        }
+        for (world, group) in groups {
+            let track = changed.get_mut(&world).expect("each group has a track");
+            rows.group(world, track, Some(group));
+        }
+        self.write(&rows.out, &places).map_err(|e| self.fault(&e))?;
+        self.next_id = rows.next_id;
+        for (world, new) in changed {
+            let track = self.tracks.entry(world).or_default();
+            track.written = new.written;
+            track.next = new.next;
+            track.places.extend(new.places);
+        }
+        Ok(())
+    }
+
+    fn write(&mut self, rows: &[Record], places: &[(WorldKey, Place)]) -> rusqlite::Result<()> {
+        let tx = self.db.transaction()?;
+        {
+            let mut insert =
+                tx.prepare_cached("INSERT INTO log VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)")?;
+            for r in rows {
+                let (world, tick) = (r.world.0 as i64, r.tick as i64);
+                let bytes = &r.bytes[..];
+                insert.execute(params![
+                    r.id,
+                    world,
+                    r.session,
+                    r.seq,
+                    r.kind,
+                    tick,
+                    r.sum(),
+                    bytes
+                ])?;
+            }
+            let mut insert =
+                tx.prepare_cached("INSERT INTO checkpoints VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)")?;
+            for (world, p) in places {
+                let (world, tick) = (world.0 as i64, p.tick as i64);
+                let before = p.bytes_before as i64;
+                insert.execute(params![
+                    p.id, world, p.session, p.seq, tick, p.time_ms, before
+                ])?;
+            }
+        }
+        tx.commit()
+    }
+
+    /// Calls `f` with each row from `from` on and whether it is what was written. Places that cannot be read are
+    /// counted and left out.
+    fn scan(&mut self, from: i64, f: &mut dyn FnMut(&Record, bool)) -> Result<(), StoreError> {
+        let sql = "SELECT * FROM log WHERE id >= ?1 ORDER BY id";
+        let (mut from, mut step, mut damaged) = (from, 1, 0);
+        while from < self.next_id {
+            let mut last = from - 1;
+            let mut bad = 0;
+            let read = (|| {
+                let mut all = self.db.prepare_cached(sql)?;
+                let mut rows = all.query([from])?;
+                while let Some(row) = rows.next()? {
+                    let (record, whole) = Record::read(row)?;
+                    // Rows out of order would be read again and again.
+                    if record.id <= last {
+                        return Err(rusqlite::Error::InvalidQuery);
+                    }
+                    last = record.id;
+                    bad += u64::from(!whole);
+                    f(&record, whole);
+                }
+                Ok(())
+            })();
+            self.damaged_rows += bad;
+            match read {
+                Ok(()) => break,
+                Err(error) => {
+                    damaged += 1;
+                    self.damaged_rows += 1;
+                    if damaged > MAX_DAMAGED {
+                        return Err(self.fault(&error));
+                    }
+                    step = if last >= from { 1 } else { step * 2 };
+                    from = last + 1 + step;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// For each world its latest state that is whole and what was written behind it, from the last checkpoint at or
+    /// before a tick if one is given.
+    ///
+    /// # Errors
+    /// Nothing can be read.
+    pub fn read(
+        &mut self,
+        worlds: &[WorldKey],
+        at: Option<u64>,
+    ) -> Result<Vec<History>, StoreError> {
+        // Candidates from the oldest to the latest.
+        let mut candidates: Vec<VecDeque<Place>> = worlds
+            .iter()
+            .map(|w| {
+                let places = self.tracks.get(w).map(|t| t.places.clone());
+                let mut places = places.unwrap_or_default();
+                places.retain(|p| at.is_none_or(|at| p.tick <= at));
+                places
+            })
+            .collect();
+        let latest: Vec<Option<Place>> = candidates.iter().map(|c| c.back().copied()).collect();
+        let mut out: Vec<Option<History>> = vec![None; worlds.len()];
+        loop {
+            let mut open: HashMap<WorldKey, (usize, Reading)> = HashMap::new();
+            for (i, places) in candidates.iter_mut().enumerate() {
+                if out[i].is_some() {
+                    continue;
+                }
+                let Some(place) = places.pop_back() else {
+                    continue;
+                };
+                let reading = Reading {
+                    place,
+                    next: place.seq,
+                    history: History::default(),
+                    ended: false,
+                    damaged: None,
+                };
+                open.insert(worlds[i], (i, reading));
+            }
+            let Some(from) = open.values().map(|(_, r)| r.place.id).min() else {
+                break;
+            };
+            self.scan(from, &mut |record, whole| {
+                if let Some((_, reading)) = open.get_mut(&record.world) {
+                    reading.take(record, whole);
+                }
+            })?;
+            for (i, reading) in open.into_values() {
+                // Without its checkpoint the one before it is looked for.
+                if reading.history.checkpoint.is_some() {
+                    let newest = latest[i].unwrap_or(reading.place);
+                    out[i] = Some(reading.end(newest));
+                }
+            }
+        }
+        let missing = |i: usize| History {
+            losses: latest[i]
+                .map(|_| Loss {
+                    after_tick: None,
+                    why: "no checkpoint of it is whole".to_owned(),
+                })
+                .into_iter()
+                .collect(),
+            ..History::default()
+        };
+        Ok(out
+            .into_iter()
+            .enumerate()
+            .map(|(i, history)| history.unwrap_or_else(|| missing(i)))
+            .collect())
+    }
+
+    /// The bytes of the latest checkpoint of a world and its tick.
+    ///
+    /// # Errors
+    /// It cannot be read.
+    pub fn checkpoint(&mut self, world: WorldKey) -> Result<Option<(u64, Bytes)>, StoreError> {
+        let Some(place) = self.tracks.get(&world).and_then(|t| t.places.back()) else {
+            return Ok(None);
+        };
+        let read = self
+            .db
+            .query_row("SELECT * FROM log WHERE id = ?1", [place.id], |row| {
+                Record::read(row)
+            });
+        match read {
+            Ok((record, true)) => Ok(Some((record.tick, record.bytes))),
+            Ok((_, false)) => Ok(None),
+            Err(error) => Err(self.fault(&error)),
+        }
+    }
+
+    /// Forgets a world; its rows go with the next cuts.
+    ///
+    /// # Errors
+    /// It could not be done.
+    pub fn forget(&mut self, world: WorldKey) -> Result<(), StoreError> {
+        let sql = "DELETE FROM checkpoints WHERE world = ?1";
+        let done = self.db.execute(sql, [world.0 as i64]);
+        done.map_err(|e| self.fault(&e))?;
+        self.tracks.remove(&world);
+        Ok(())
+    }
+
+    /// Cuts old history off.
+    ///
+    /// # Errors
+    /// It could not be done.
+    pub fn cut(&mut self, limits: &Retention) -> Result<Usage, StoreError> {
+        let age = i64::try_from(limits.age.as_millis()).unwrap_or(i64::MAX);
+        let oldest = now_ms().saturating_sub(age);
+        let mut dropped = Vec::new();
+        for track in self.tracks.values_mut() {
+            while let [_, second, ..] = *track.places.make_contiguous()
+                && (second.time_ms <= oldest || track.held() > limits.world_bytes)
+            {
+                dropped.extend(track.places.pop_front());
+            }
+        }
+        let mut total: u64 = self.tracks.values().map(Track::held).sum();
+        while total > limits.total_bytes {
+            let largest = self.tracks.values_mut().filter(|t| t.places.len() > 1);
+            let Some(track) = largest.max_by_key(|t| t.held()) else {
+                break;
+            };
+            total -= track.held();
+            dropped.extend(track.places.pop_front());
+            total += track.held();
+        }
+        self.delete(&dropped).map_err(|e| self.fault(&e))?;
+        Ok(Usage {
+            history_bytes: total,
+            checkpoints: self.tracks.values().map(|t| t.places.len()).sum(),
+        })
+    }
+
+    fn delete(&mut self, dropped: &[Place]) -> rusqlite::Result<()> {
+        // Each world keeps what is behind its oldest checkpoint.
+        let kept = |world: WorldKey| {
+            let first = self.tracks.get(&world).and_then(|t| t.places.front());
+            first.map_or(i64::MAX, |p| p.id)
+        };
+        let upto = self
+            .tracks
+            .values()
+            .filter_map(|t| t.places.front())
+            .map(|p| p.id)
+            .max()
+            .unwrap_or(self.next_id);
+        let mut old = Vec::new();
+        {
+            let sql = "SELECT id, world FROM log WHERE id < ?1 ORDER BY id LIMIT ?2";
+            let mut all = self.db.prepare_cached(sql)?;
+            let mut rows = all.query(params![upto, CUT_ROWS as i64])?;
+            while let Some(row) = rows.next()? {
+                let (id, world): (i64, i64) = (row.get(0)?, row.get(1)?);
+                if id < kept(WorldKey(world as u64)) {
+                    old.push(id);
+                }
+            }
+        }
+        if old.is_empty() && dropped.is_empty() {
+            return Ok(());
+        }
+        let tx = self.db.transaction()?;
+        {
+            let mut delete = tx.prepare_cached("DELETE FROM log WHERE id = ?1")?;
+            for id in old {
+                delete.execute([id])?;
+            }
+            let mut delete = tx.prepare_cached("DELETE FROM checkpoints WHERE id = ?1")?;
+            for place in dropped {
+                delete.execute([place.id])?;
+            }
+        }
+        tx.commit()
+    }
+
+    /// Lets go of the file. What is asked of the log afterwards fails.
+    pub fn close(&mut self) {
+        if let Ok(nothing) = Connection::open_in_memory() {
+            self.db = nothing;
+        }
+    }
+
+    /// Gives the space of the write-ahead log back.
+    ///
+    /// # Errors
+    /// It could not be done.
+    pub fn shrink(&mut self) -> Result<(), StoreError> {
+        let done = self
+            .db
+            .query_row("PRAGMA wal_checkpoint(TRUNCATE)", [], |_| Ok(()));
+        done.map_err(|e| self.fault(&e))
+    }
+}
+
+/// Rows of one commit.
+struct Rows {
+    next_id: i64,
+    session: i64,
+    out: Vec<Record>,
+}
+
+impl Rows {
+    fn push(&mut self, world: WorldKey, track: &mut Track, kind: u8, tick: u64, bytes: Bytes) {
+        track.written += bytes.len() as u64;
+        self.out.push(Record {
+            id: self.next_id,
+            world,
+            session: self.session,
+            seq: track.next.unwrap_or(0),
+            kind,
+            tick,
+            bytes,
+        });
+        self.next_id += 1;
+    }
+
+    fn group(&mut self, world: WorldKey, track: &mut Track, group: Option<(u64, Vec<u8>)>) {
+        if let Some((tick, bytes)) = group {
+            self.push(world, track, GROUP, tick, bytes.into());
+            track.next = track.next.map(|n| n + 1);
+        }
+    }
+}
+
+#[cfg(test)]
+impl Log {
+    /// Lets the log have no more pages than now and a few, as on a full disk.
+    pub fn fill_disk(&self) {
+        let pages: i64 = self
+            .db
+            .pragma_query_value(None, "page_count", |r| r.get(0))
+            .expect("a count");
+        self.db
+            .pragma_update_and_check(None, "max_page_count", pages, |_| Ok(()))
+            .expect("a limit");
+    }
+
+    /// Takes no writes any more, as on a read-only disk.
+    pub fn refuse_writes(&self) {
+        self.db
+            .pragma_update(None, "query_only", true)
+            .expect("a setting");
+    }
+}

@@ -1,0 +1,185 @@
+//! A store in memory, for tests: what it holds outlives it as long as its [`Disk`] does, and its disk can be made to
+//! fail.
+
+use super::store::{
+    CheckpointStore, ClipRecord, Entry, Found, History, Item, Logged, Loss, Retention, StoreError,
+    Usage, WorldKey, WorldRecord,
+};
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// What a [`MemoryStore`] writes to.
+#[derive(Clone, Debug, Default)]
+pub struct Disk(Arc<Mutex<Content>>);
+
+#[derive(Debug, Default)]
+struct Content {
+    worlds: BTreeMap<WorldKey, WorldRecord>,
+    clips: BTreeMap<String, ClipRecord>,
+    log: Vec<Entry>,
+    fault: Option<StoreError>,
+    commit_time: Duration,
+    commits: u64,
+    last_key: u64,
+    closed: bool,
+}
+
+impl Disk {
+    fn content(&self) -> MutexGuard<'_, Content> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Lets every write fail from now on, or none.
+    pub fn fail(&self, fault: Option<StoreError>) {
+        self.content().fault = fault;
+    }
+
+    /// How long each commit takes.
+    pub fn slow_down(&self, commit_time: Duration) {
+        self.content().commit_time = commit_time;
+    }
+
+    /// Commits so far.
+    pub fn commits(&self) -> u64 {
+        self.content().commits
+    }
+
+    /// Everything that was written, in order.
+    pub fn log(&self) -> Vec<Entry> {
+        self.content().log.clone()
+    }
+
+    /// True once a store on it has ended in good order.
+    pub fn is_closed(&self) -> bool {
+        self.content().closed
+    }
+}
+
+/// A store in memory.
+#[derive(Clone, Debug, Default)]
+pub struct MemoryStore(pub Disk);
+
+impl MemoryStore {
+    fn writable(&self) -> Result<MutexGuard<'_, Content>, StoreError> {
+        let content = self.0.content();
+        match &content.fault {
+            Some(fault) => Err(fault.clone()),
+            None => Ok(content),
+        }
+    }
+
+    fn history(content: &Content, world: WorldKey, at: Option<u64>) -> History {
+        let mut history = History::default();
+        for entry in content.log.iter().filter(|e| e.world == world) {
+            match &entry.item {
+                Item::Checkpoint { bytes, after_gap } => {
+                    if at.is_none_or(|at| entry.tick <= at) {
+                        history.checkpoint = Some((entry.tick, bytes.clone()));
+                        history.entries.clear();
+                    } else if *after_gap {
+                        history.losses.push(Loss {
+                            after_tick: history.last_tick(),
+                            why: "a part of its log was not written".to_owned(),
+                        });
+                        break;
+                    }
+                }
+                item => history.entries.push(Logged {
+                    tick: entry.tick,
+                    item: item.clone(),
+                }),
+            }
+        }
+        history
+    }
+}
+
+impl CheckpointStore for MemoryStore {
+    fn worlds(&mut self) -> Result<Found<WorldRecord>, StoreError> {
+        Ok(Found {
+            whole: self.0.content().worlds.values().cloned().collect(),
+            damaged: Vec::new(),
+        })
+    }
+
+    fn new_key(&mut self) -> WorldKey {
+        let mut content = self.0.content();
+        content.last_key += 1;
+        WorldKey(content.last_key)
+    }
+
+    fn put_world(&mut self, world: &WorldRecord) -> Result<(), StoreError> {
+        self.writable()?.worlds.insert(world.key, world.clone());
+        Ok(())
+    }
+
+    fn delete_world(&mut self, key: WorldKey) -> Result<(), StoreError> {
+        let mut content = self.writable()?;
+        content.worlds.remove(&key);
+        content.log.retain(|e| e.world != key);
+        Ok(())
+    }
+
+    fn commit(&mut self, entries: &[Entry]) -> Result<(), StoreError> {
+        let until = Instant::now() + self.0.content().commit_time;
+        while let Some(left) = until
+            .checked_duration_since(Instant::now())
+            .filter(|d| !d.is_zero())
+        {
+            std::thread::park_timeout(left);
+        }
+        let mut content = self.writable()?;
+        content.log.extend_from_slice(entries);
+        content.commits += 1;
+        Ok(())
+    }
+
+    fn latest(&mut self, worlds: &[WorldKey]) -> Result<Vec<History>, StoreError> {
+        let content = self.0.content();
+        let history = |w: &WorldKey| Self::history(&content, *w, None);
+        Ok(worlds.iter().map(history).collect())
+    }
+
+    fn history_at(&mut self, world: WorldKey, tick: u64) -> Result<History, StoreError> {
+        Ok(Self::history(&self.0.content(), world, Some(tick)))
+    }
+
+    /// Holds everything: tests are short.
+    fn cut(&mut self, _limits: &Retention) -> Result<Usage, StoreError> {
+        let content = self.0.content();
+        let checkpoint = |e: &&Entry| matches!(e.item, Item::Checkpoint { .. });
+        Ok(Usage {
+            history_bytes: content.log.iter().map(|e| e.size() as u64).sum(),
+            checkpoints: content.log.iter().filter(checkpoint).count(),
+        })
+    }
+
+    fn repair(&mut self, _fault: &StoreError) -> Result<Option<String>, StoreError> {
+        Ok(None)
+    }
+
+    fn clips(&mut self) -> Result<Found<ClipRecord>, StoreError> {
+        Ok(Found {
+            whole: self.0.content().clips.values().cloned().collect(),
+            damaged: Vec::new(),
+        })
+    }
+
+    fn put_clip(&mut self, clip: &ClipRecord) -> Result<(), StoreError> {
+        self.writable()?
+            .clips
+            .insert(clip.name.clone(), clip.clone());
+        Ok(())
+    }
+
+    fn delete_clip(&mut self, name: &str) -> Result<(), StoreError> {
+        self.writable()?.clips.remove(name);
+        Ok(())
+    }
+
+    fn close(&mut self) -> Result<(), StoreError> {
+        self.0.content().closed = true;
+        Ok(())
+    }
+}

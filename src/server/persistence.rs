@@ -1,0 +1,590 @@
+//! Worlds and clips of this server in its data directory: what there was is brought back, what is created, changed or
+//! deleted is written down before the client learns that it is done.
+//!
+//! A world is brought back from its last state on disk, which is at most some seconds old, and from its settings,
+//! figures and obstacles, which are always those of the last answer.
+
+use super::api::{App, access};
+use super::checkpoints;
+use super::config::Config;
+use super::durable::keeper::{Keeper, Recorder, Sizes};
+use super::durable::local::LocalStore;
+use super::durable::marks::Marks;
+use super::durable::recovery::{Recovered, recover};
+use super::durable::store::{
+    ClipRecord, Durability, History, Item, Retention, StoreError, WorldKey, WorldRecord,
+};
+use super::library::NewClip;
+use super::tick::command::Origin;
+use super::tick::shard::Restored;
+use super::worlds::WorldHandle;
+use crate::wire::convert::{body, figure, motion, new_id, obstacle, world};
+use crate::wire::pb;
+use crate::wire::status::Fault;
+use crate::wire::types::WorldUpdate;
+use prost::Message;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// How often a world is looked at for changes that it does not announce.
+const LOOK_EVERY: Duration = Duration::from_secs(1);
+/// Time between two states of one world on disk.
+const CHECKPOINT_EVERY: Duration = Duration::from_secs(5);
+/// How long worlds note each step after an end that was not orderly.
+const NOTE_STEPS: Duration = Duration::from_secs(3);
+
+/// What is stored of a world besides its states.
+#[derive(Clone, PartialEq, Message)]
+struct Described {
+    #[prost(message, optional, tag = "1")]
+    world: Option<pb::World>,
+    #[prost(message, repeated, tag = "2")]
+    figures: Vec<pb::Figure>,
+    #[prost(message, repeated, tag = "3")]
+    obstacles: Vec<pb::Obstacle>,
+    #[prost(message, repeated, tag = "4")]
+    grants: Vec<pb::Grant>,
+}
+
+/// What is stored of a clip besides the request that made it.
+#[derive(Clone, PartialEq, Message)]
+struct DescribedClip {
+    #[prost(message, optional, tag = "1")]
+    clip: Option<pb::Clip>,
+    /// Principal whose it is.
+    #[prost(string, optional, tag = "2")]
+    owner: Option<String>,
+}
+
+fn storage(error: StoreError) -> Fault {
+    match error {
+        StoreError::Ended => Fault::Draining,
+        other => Fault::Storage(other.to_string()),
+    }
+}
+
+/// The data directory of a server.
+pub struct Persistence {
+    keeper: Arc<Keeper>,
+    marks: Arc<Marks>,
+    /// The server before this one did not end in good order.
+    crashed: bool,
+    durability: Durability,
+    worlds: Mutex<BTreeMap<String, WorldRecord>>,
+    recovered: Mutex<Option<Recovered>>,
+    /// Held while the description of a world is written.
+    writing: tokio::sync::Mutex<()>,
+}
+
+impl Persistence {
+    /// Opens the data directory; `None` without one. Blocks.
+    ///
+    /// # Errors
+    /// It cannot be used: another server has it, it cannot be written to, or a later version has written it.
+    pub fn open(config: &Config) -> Result<Option<Self>, StoreError> {
+        if config.data_dir.is_empty() {
+            return Ok(None);
+        }
+        let begun = Instant::now();
+        let mut store = LocalStore::open(Path::new(&config.data_dir))?;
+        let release: Vec<&str> = config.release_worlds.split(',').map(str::trim).collect();
+        let recovered = recover(&mut store, &release)?;
+        let (marks, crashed) = (store.marks(), !store.last_end().orderly);
+        let sizes = Sizes {
+            queue_bytes: config.max_store_queue_bytes as usize,
+            retention: Retention {
+                age: Duration::from_secs_f64(config.history_s),
+                world_bytes: config.max_world_history_bytes,
+                total_bytes: config.max_history_bytes,
+            },
+        };
+        let worlds = recovered.worlds.iter().map(|(w, _)| w);
+        let worlds = worlds.chain(&recovered.quarantined);
+        let worlds = worlds.map(|w| (w.name.clone(), w.clone())).collect();
+        for why in &recovered.damaged {
+            tracing::error!(why, "a part of the data directory is damaged");
+        }
+        for world in &recovered.quarantined {
+            let (world, why) = (&*world.name, world.quarantined.as_deref());
+            tracing::error!(
+                world,
+                why,
+                "a world is in quarantine: release_worlds lets it out"
+            );
+        }
+        let (directory, seconds) = (&*config.data_dir, begun.elapsed().as_secs_f64());
+        tracing::info!(directory, crashed, seconds, "data directory opened");
+        Ok(Some(Self {
+            keeper: Arc::new(Keeper::start(Box::new(store), sizes)?),
+            marks,
+            crashed,
+            durability: Durability::by_name(&config.durability).unwrap_or_default(),
+            worlds: Mutex::new(worlds),
+            recovered: Mutex::new(Some(recovered)),
+            writing: tokio::sync::Mutex::default(),
+        }))
+    }
+
+    fn worlds(&self) -> MutexGuard<'_, BTreeMap<String, WorldRecord>> {
+        // Entries are inserted whole.
+        self.worlds.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Refuses what a world in quarantine cannot do.
+    ///
+    /// # Errors
+    /// The world of that name is in quarantine.
+    pub fn check(&self, name: &str) -> Result<(), Fault> {
+        let worlds = self.worlds();
+        let Some(why) = worlds.get(name).and_then(|w| w.quarantined.clone()) else {
+            return Ok(());
+        };
+        Err(Fault::Precondition {
+            reason: "WORLD_QUARANTINED",
+            message: format!("world {name:?} is in quarantine: {why}"),
+            facts: vec![("world", name.to_owned())],
+        })
+    }
+
+    /// Why less is written than was promised.
+    pub fn degraded(&self) -> Option<String> {
+        self.keeper.degraded()
+    }
+
+    /// Writes the state of every world.
+    pub async fn checkpoint_all(&self, app: &App) {
+        let worlds = app.worlds.list();
+        let all = worlds.iter().map(|handle| async move {
+            let record = self.worlds().get(&*handle.id).cloned()?;
+            let recorder = self.keeper.recorder(&record);
+            let written = checkpoint(handle, &recorder, None).await;
+            if let Err(error) = &written {
+                tracing::error!(world = &*handle.id, %error, "the last state is not written");
+            }
+            written.ok()
+        });
+        futures_util::future::join_all(all).await;
+    }
+
+    /// Brings everything back that can be.
+    pub async fn restore(self: &Arc<Self>, app: &Arc<App>) {
+        let recovered = self
+            .recovered
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .take();
+        let Some(recovered) = recovered else {
+            return;
+        };
+        let begun = Instant::now();
+        let mut counts = (0_usize, 0_usize);
+        for clip in &recovered.clips {
+            match restore_clip(app, clip) {
+                Ok(()) => {
+                    counts.1 += 1;
+                    self.complete_clip(app, clip.name.clone());
+                }
+                Err(why) => tracing::error!(clip = clip.name, %why, "clip is not brought back"),
+            }
+        }
+        // Each waits for ticks of its own; together they wait once.
+        let worlds = recovered.worlds.iter().map(|(record, history)| async move {
+            let restored = self.restore_world(app, record, history).await;
+            restored.map_err(|why| (record, why))
+        });
+        for restored in futures_util::future::join_all(worlds).await {
+            match restored {
+                Ok(()) => counts.0 += 1,
+                Err((record, why)) => {
+                    let world = &*record.name;
+                    tracing::error!(world, %why, "world is not brought back");
+                    if let Some(w) = self.worlds().get_mut(&record.name) {
+                        // Not written: the next start tries again, perhaps with other limits.
+                        w.quarantined = Some(format!("it could not be brought back: {why}"));
+                    }
+                }
+            }
+        }
+        let (worlds, clips) = counts;
+        let seconds = begun.elapsed().as_secs_f64();
+        tracing::info!(worlds, clips, seconds, "brought back");
+    }
+
+    async fn restore_world(
+        self: &Arc<Self>,
+        app: &Arc<App>,
+        record: &WorldRecord,
+        history: &History,
+    ) -> Result<(), Fault> {
+        for loss in &history.losses {
+            tracing::error!(world = record.name, %loss, "a part of a world is lost");
+        }
+        let described = Described::decode(record.settings.clone());
+        let described = described.map_err(|e| Fault::Internal(e.to_string()))?;
+        let paused = described
+            .world
+            .as_ref()
+            .is_some_and(|w| w.state == i32::from(pb::WorldState::Paused));
+        let settings = world::settings(described.world)?;
+        let grants = described.grants.iter().map(access::grant_in);
+        let grants = grants.collect::<Result<Vec<_>, _>>()?;
+        let speed = settings.pace.speed;
+        // Worlds of before belong to nobody who is connected.
+        let owner = (format!("stored {}", record.name).into(), grants);
+        let id = Some(record.name.clone());
+        let handle = match restored_state(record, history).await {
+            Some(state) => {
+                let handle = app.worlds.fork(id, state, paused, owner)?;
+                let update = WorldUpdate {
+                    speed: Some(speed),
+                    ..Default::default()
+                };
+                handle.call(origin(), move |s| s.update(update)).await?;
+                handle
+            }
+            None => app.worlds.create(id, settings, paused, owner)?,
+        };
+        if self.crashed
+            && let Some(mark) = self.marks.place(record.key)
+        {
+            let until = Instant::now() + NOTE_STEPS;
+            handle.send(origin(), move |s| s.note_steps(mark, until))?;
+        }
+        // What was created or deleted since the state was written is done again.
+        let there = handle
+            .call(origin(), |s| Ok((s.figures(), s.obstacles())))
+            .await?;
+        let last = |name: &str| name.rsplit('/').next().unwrap_or_default().to_owned();
+        let figures: Vec<String> = described.figures.iter().map(|f| last(&f.name)).collect();
+        for f in there.0.iter().filter(|f| !figures.contains(&f.id)) {
+            let id = f.id.clone();
+            handle.call(origin(), move |s| s.delete_figure(&id)).await?;
+        }
+        let obstacles = described.obstacles.iter().map(|o| last(&o.name));
+        let obstacles: Vec<String> = obstacles.collect();
+        for o in there.1.iter().filter(|o| !obstacles.contains(&o.id)) {
+            let id = o.id.clone();
+            handle
+                .call(origin(), move |s| s.remove_obstacle(&id))
+                .await?;
+        }
+        for (f, id) in described.figures.iter().zip(figures) {
+            if there.0.iter().any(|t| t.id == id) {
+                continue;
+            }
+            let id = new_id("figure_id", &id)?;
+            let settings = figure::settings("figure", Some(f))?;
+            let built = app.bodies.get("figure.profile", &settings.body)?;
+            handle
+                .call(origin(), move |s| s.create_figure(id, settings, built))
+                .await?;
+        }
+        for (o, id) in described.obstacles.iter().zip(obstacles) {
+            if there.1.iter().any(|t| t.id == id) {
+                continue;
+            }
+            let setup = obstacle::setup("obstacle", Some(o))?;
+            let id = new_id("obstacle_id", &id)?;
+            handle
+                .call(origin(), move |s| s.add_obstacle(id, setup))
+                .await?;
+        }
+        self.follow(&handle);
+        Ok(())
+    }
+
+    /// Writes a new world down.
+    ///
+    /// # Errors
+    /// It could not be written.
+    pub async fn created(self: &Arc<Self>, handle: &Arc<WorldHandle>) -> Result<(), Fault> {
+        let mut record = WorldRecord {
+            key: WorldKey(0),
+            name: handle.id.to_string(),
+            durability: self.durability,
+            quarantined: None,
+            settings: describe(handle).encode_to_vec().into(),
+        };
+        let record = self
+            .keeper
+            .call(move |store| {
+                record.key = store.new_key();
+                store.put_world(&record)?;
+                Ok(record)
+            })
+            .await
+            .map_err(storage)?;
+        self.worlds().insert(record.name.clone(), record);
+        self.follow(handle);
+        Ok(())
+    }
+
+    /// Writes down what has changed of a world.
+    ///
+    /// # Errors
+    /// It could not be written; it is tried again.
+    pub async fn changed(&self, handle: &WorldHandle) -> Result<(), Fault> {
+        // One after the other, so that what is described last is written last.
+        let _turn = self.writing.lock().await;
+        let settings = describe(handle).encode_to_vec();
+        let Some(record) = self.worlds().get(&*handle.id).cloned() else {
+            return Ok(()); // deleted meanwhile
+        };
+        if record.settings == settings {
+            return Ok(());
+        }
+        let changed = WorldRecord {
+            settings: settings.into(),
+            ..record
+        };
+        let written = changed.clone();
+        let done = self
+            .keeper
+            .call(move |store| store.put_world(&written))
+            .await;
+        done.map_err(storage)?;
+        if let Some(record) = self.worlds().get_mut(&*handle.id) {
+            *record = changed;
+        }
+        Ok(())
+    }
+
+    /// Writes states of a world down, and changes that nobody waits for, until it ends.
+    fn follow(self: &Arc<Self>, handle: &Arc<WorldHandle>) {
+        let mut changes = handle.outlet.described.subscribe();
+        let mut closed = handle.closed.clone();
+        let recorder = self
+            .worlds()
+            .get(&*handle.id)
+            .map(|w| self.keeper.recorder(w));
+        let mut written = (None, Instant::now());
+        let (this, handle) = (Arc::downgrade(self), Arc::downgrade(handle));
+        tokio::spawn(async move {
+            loop {
+                tokio::select! {
+                    _ = closed.changed() => break,
+                    changed = changes.changed() => if changed.is_err() { break },
+                    () = tokio::time::sleep(LOOK_EVERY) => {}
+                }
+                let (Some(this), Some(handle)) = (this.upgrade(), handle.upgrade()) else {
+                    break;
+                };
+                if let Some(recorder) = &recorder
+                    && recorder.durability() != Durability::None
+                    && (written.0.is_none()
+                        || written.1.elapsed() >= CHECKPOINT_EVERY
+                        || recorder.needs_checkpoint())
+                {
+                    match checkpoint(&handle, recorder, written.0).await {
+                        Ok(state) => written = (Some(state), Instant::now()),
+                        Err(Fault::Draining) => break,
+                        Err(error) => {
+                            tracing::warn!(world = &*handle.id, %error, "a state is not written");
+                        }
+                    }
+                }
+                match this.changed(&handle).await {
+                    Ok(()) => {}
+                    Err(Fault::Draining) => break,
+                    Err(error) => {
+                        tracing::warn!(world = &*handle.id, %error, "a change is not written");
+                        tokio::time::sleep(LOOK_EVERY).await;
+                    }
+                }
+            }
+        });
+    }
+
+    /// Forgets a world. False: there is none of that name.
+    ///
+    /// # Errors
+    /// It could not be done.
+    pub async fn deleted(&self, name: &str) -> Result<bool, Fault> {
+        // A change of it that is being written would bring it back.
+        let _turn = self.writing.lock().await;
+        let Some(key) = self.worlds().get(name).map(|w| w.key) else {
+            return Ok(false);
+        };
+        let done = self.keeper.call(move |store| store.delete_world(key)).await;
+        done.map_err(storage)?;
+        self.worlds().remove(name);
+        Ok(true)
+    }
+
+    /// Writes a clip down: the request that made it and what it became.
+    ///
+    /// # Errors
+    /// It could not be written.
+    pub async fn clip_created(
+        &self,
+        clip: &pb::Clip,
+        owner: Option<&str>,
+        request: pb::CreateClipRequest,
+    ) -> Result<(), Fault> {
+        let short = pb::Clip {
+            report: None,
+            forecast: None,
+            ..clip.clone()
+        };
+        let record = ClipRecord {
+            name: clip.name.rsplit('/').next().unwrap_or_default().to_owned(),
+            description: DescribedClip {
+                clip: Some(short),
+                owner: owner.map(str::to_owned),
+            }
+            .encode_to_vec()
+            .into(),
+            content: request.encode_to_vec().into(),
+        };
+        let written = self.keeper.call(move |store| store.put_clip(&record)).await;
+        written.map_err(storage)
+    }
+
+    /// Forgets a clip.
+    ///
+    /// # Errors
+    /// It could not be done.
+    pub async fn clip_deleted(&self, name: &str) -> Result<(), Fault> {
+        let name = name.to_owned();
+        let done = self
+            .keeper
+            .call(move |store| store.delete_clip(&name))
+            .await;
+        done.map_err(storage)
+    }
+
+    /// Works out again what is not stored of a clip: how its file was understood, and what will come of it.
+    fn complete_clip(&self, app: &Arc<App>, name: String) {
+        let app = app.clone();
+        tokio::spawn(async move {
+            let library = app.clone();
+            let id = name.clone();
+            let turns = "stored".into();
+            let done = app.conversions.run(&turns, move |turn| {
+                let reference = library.clips.info(&id)?.body;
+                let reference = crate::wire::convert::body::by_id(&reference)
+                    .ok_or_else(|| Fault::not_found("body", reference))?;
+                let built = library.bodies.get("body", &reference)?;
+                library.clips.complete(&id, &built, &|| turn.stop())
+            });
+            if let Err(why) = done.await {
+                tracing::debug!(clip = name, %why, "the report of a clip is not there");
+            }
+        });
+    }
+
+    /// Writes what is left and ends.
+    pub async fn close(&self) {
+        let keeper = self.keeper.clone();
+        // An error: it panicked, which was reported where it happened.
+        let _ = tokio::task::spawn_blocking(move || keeper.close()).await;
+    }
+}
+
+/// Hands the state of a world in, unless tick and hash are those that were written before. Returns both.
+async fn checkpoint(
+    handle: &Arc<WorldHandle>,
+    recorder: &Recorder,
+    before: Option<(u64, u64)>,
+) -> Result<(u64, u64), Fault> {
+    let latest = handle.latest();
+    let now = (latest.tick, latest.hash);
+    if before == Some(now) && !recorder.needs_checkpoint() {
+        return Ok(now);
+    }
+    let (shard, capture) = handle.call(origin(), |s| s.capture()).await?;
+    let (tick, hash) = (capture.tick(), capture.hash());
+    let encoded = tokio::task::spawn_blocking(move || {
+        let begun = Instant::now();
+        let bytes = checkpoints::encode(&shard, &capture);
+        let seconds = begun.elapsed().as_secs_f64();
+        metrics::histogram!("sinew_store_checkpoint_seconds").record(seconds);
+        bytes
+    });
+    let bytes = encoded
+        .await
+        .map_err(|e| Fault::Internal(e.to_string()))??;
+    recorder.checkpoint(tick, bytes.into());
+    recorder.hash(tick, hash);
+    Ok((tick, hash))
+}
+
+/// The last state of a world that is whole; `None`: there is none, or this program cannot go on from it.
+async fn restored_state(record: &WorldRecord, history: &History) -> Option<Restored> {
+    let (tick, bytes) = history.checkpoint.clone()?;
+    let expected = history.entries.iter().find_map(|e| match e.item {
+        Item::Hash(hash) if e.tick == tick => Some(hash),
+        _ => None,
+    });
+    let decoded = tokio::task::spawn_blocking(move || checkpoints::decode("checkpoint", &bytes));
+    let decoded = decoded.await.map_err(|e| Fault::Internal(e.to_string()));
+    let world = &*record.name;
+    match decoded.and_then(|d| d) {
+        Ok(state) if expected.is_none_or(|hash| hash == state.world.state_hash()) => Some(state),
+        Ok(_) => {
+            tracing::error!(
+                world,
+                tick,
+                "the state has another hash: the world begins anew"
+            );
+            None
+        }
+        Err(why) => {
+            tracing::error!(world, tick, %why, "the state is lost: the world begins anew");
+            None
+        }
+    }
+}
+
+fn origin() -> Origin {
+    Origin {
+        client: "".into(),
+        sequence: 0,
+    }
+}
+
+/// What is stored of a world, without what changes in each tick.
+fn describe(handle: &WorldHandle) -> Described {
+    let described = handle.described();
+    let obstacles = &handle.latest().obstacles;
+    let figures = described.figures.iter().map(|f| {
+        pb::Figure {
+            profile: None, // the name of the body says it
+            clip: String::new(),
+            next_clip: String::new(),
+            driver_id: String::new(),
+            constraints: Vec::new(),
+            ..figure::figure_out(f)
+        }
+    });
+    let obstacles = obstacles.iter().map(|o| obstacle::out(&handle.id, o));
+    Described {
+        world: Some(pb::World {
+            tick: 0,
+            time_s: 0.0,
+            ..world::world_out(&described.world)
+        }),
+        figures: figures.collect(),
+        obstacles: obstacles.collect(),
+        grants: (handle.grants.list().iter())
+            .map(|g| access::grant_out(&handle.id, g))
+            .collect(),
+    }
+}
+
+fn restore_clip(app: &Arc<App>, clip: &ClipRecord) -> Result<(), Fault> {
+    let unreadable = |e: prost::DecodeError| Fault::Internal(e.to_string());
+    let described = DescribedClip::decode(clip.description.clone()).map_err(unreadable)?;
+    let shown = described.clip.unwrap_or_default();
+    let request = pb::CreateClipRequest::decode(clip.content.clone()).map_err(unreadable)?;
+    let source = motion::clip_source(request.source, app.config.max_clip_bytes)?;
+    let reference = body::reference("body", &request.body, "profile", None)?;
+    let new = NewClip {
+        id: Some(clip.name.clone()),
+        display_name: shown.display_name.clone(),
+        owner: described.owner.map(Into::into),
+    };
+    app.clips.restore(new, &shown, &reference, source)
+}

@@ -1,0 +1,185 @@
+//! A figure as it is written into a checkpoint, and made again from one.
+//!
+//! What passes from tick to tick is written. What follows from the body, and buffers, are made anew.
+
+use super::Figure;
+use super::state::{
+    BodyConstants, Controllers, DesiredMotion, Neighbours, Outcome, PhysicalState, Scratch,
+    StepperChoice, Steppers, Surroundings,
+};
+use crate::sim::body::{SegmentId, State};
+use crate::sim::control::{Command, Modern, ModernMemory, Paper, PaperMemory};
+use crate::sim::figure::activity::MotionState;
+use crate::sim::figure::drive::Drive;
+use crate::sim::figure::kinematic_step::KinematicStepper;
+use crate::sim::figure::torque_step::TorqueStepper;
+use crate::sim::math::{Quat, Vec3};
+use crate::sim::setup::FigureSetup;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+
+/// What a figure consists of from tick to tick.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct SavedFigure<'a> {
+    pub setup: Cow<'a, FigureSetup>,
+    physical: Cow<'a, PhysicalState>,
+    motion: Cow<'a, MotionState>,
+    desired: Cow<'a, DesiredMotion>,
+    surroundings: Cow<'a, Surroundings>,
+    stepping: StepperChoice,
+    controllers: ControllerMemory,
+    steppers: StepperMemory,
+    outcome: Cow<'a, Outcome>,
+    /// State at the start of the last tick: commands look at the dynamics of it.
+    before: Cow<'a, State>,
+    /// Put where it is since the last tick.
+    is_new: bool,
+}
+
+/// What the controllers remember.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct ControllerMemory {
+    paper: PaperMemory,
+    modern: ModernMemory,
+}
+
+/// What the steppers remember.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+struct StepperMemory {
+    /// Impulse along the bar between two hands, N·s: first guess of the next substep.
+    bar_impulse: f64,
+    /// Its mean force in the last tick, N.
+    bar_force: Vec3,
+    /// Where the support of prescribed accelerations stands.
+    anchor: Option<(SegmentId, Vec3, Quat)>,
+}
+
+impl Figure {
+    /// What passes on to the next tick. Every part is named here, so that none that is added is forgotten.
+    pub(crate) fn saved(&self) -> SavedFigure<'_> {
+        let Self {
+            setup,
+            constants: _, // follows from the setup
+            physical,
+            motion,
+            desired,
+            surroundings,
+            stepping,
+            controllers:
+                Controllers {
+                    paper,
+                    modern,
+                    motors: _, // written anew in each tick that uses it
+                },
+            steppers: Steppers { torque, kinematic },
+            scratch,
+            outcome,
+            neighbours: Neighbours { cluster: _, is_new },
+        } = self;
+        let (bar_impulse, bar_force) = torque.memory();
+        SavedFigure {
+            setup: Cow::Borrowed(setup),
+            physical: Cow::Borrowed(physical),
+            motion: Cow::Borrowed(motion),
+            desired: Cow::Borrowed(desired),
+            surroundings: Cow::Borrowed(surroundings),
+            stepping: *stepping,
+            controllers: ControllerMemory {
+                paper: paper.memory(),
+                modern: modern.memory(),
+            },
+            steppers: StepperMemory {
+                bar_impulse,
+                bar_force,
+                anchor: kinematic.memory(),
+            },
+            outcome: Cow::Borrowed(outcome),
+            before: Cow::Borrowed(&scratch.results.before),
+            is_new: *is_new,
+        }
+    }
+
+    /// The figure that [`Self::saved`] described, in a world with this friction and gravity (m/s²). The setup was
+    /// checked.
+    ///
+    /// # Errors
+    /// What cannot have been written.
+    pub(crate) fn restored(
+        saved: SavedFigure<'_>,
+        friction: f64,
+        gravity: f64,
+    ) -> Result<Self, &'static str> {
+        let SavedFigure {
+            setup,
+            physical,
+            motion,
+            desired,
+            surroundings,
+            stepping,
+            controllers,
+            steppers,
+            outcome,
+            before,
+            is_new,
+        } = saved;
+        let setup = setup.into_owned();
+        let physical = physical.into_owned();
+        if !(physical.state.is_finite() && physical.last_good.is_finite()) {
+            return Err("a state that is not finite");
+        }
+        let mut motion = motion.into_owned();
+        if let Drive::Live(live) = motion.source_mut()
+            && !live.motion.complete()
+        {
+            return Err("a stream that cannot be");
+        }
+        let mut desired = desired.into_owned();
+        desired.tracker.complete(&setup.body);
+        if !(desired.tracker.is_valid() && desired.get_up.is_valid()) {
+            return Err("steps or a way of getting up that cannot be");
+        }
+        let surroundings = surroundings.into_owned();
+        let counts = surroundings.touches.is_valid() && surroundings.disturbances.is_valid();
+        if !(counts && desired.constraints.is_valid()) {
+            return Err("more touches, perturbations or constraints than a figure can have");
+        }
+        let mut modern = Box::new(Modern::new(friction));
+        if !modern.remember(&controllers.modern) {
+            return Err("contact forces of points that no body has");
+        }
+        let mut paper = Box::<Paper>::default();
+        paper.remember(&controllers.paper);
+        let mut torque = TorqueStepper::new(friction);
+        torque.remember(steppers.bar_impulse, steppers.bar_force);
+        let mut kinematic = Box::new(KinematicStepper::new(friction));
+        kinematic.remember(steppers.anchor);
+        let outcome = outcome.into_owned();
+        let mut scratch = Scratch::new(&setup);
+        scratch.results.before = before.into_owned();
+        if outcome.reported {
+            let applied = surroundings.disturbances.applied();
+            let state = &scratch.results.before;
+            scratch
+                .terms
+                .compute(&physical.links, state, applied, gravity);
+        }
+        Ok(Self {
+            constants: BodyConstants::new(&setup.body, &setup.strength),
+            physical,
+            motion,
+            desired,
+            surroundings,
+            stepping,
+            controllers: Controllers {
+                paper,
+                modern,
+                motors: Command::default(),
+            },
+            steppers: Steppers { torque, kinematic },
+            scratch,
+            outcome,
+            neighbours: Neighbours { cluster: 0, is_new },
+            setup,
+        })
+    }
+}

@@ -1,0 +1,56 @@
+//! Checkpoints of worlds.
+
+use super::{shortened, timestamp};
+use crate::wire::pb;
+use crate::wire::status::Fault;
+use std::time::SystemTime;
+
+/// What a checkpoint is told by.
+#[derive(Clone, Debug)]
+pub struct CheckpointInfo<'a> {
+    /// Last parts of the names of its world and its own.
+    pub name: (&'a str, &'a str),
+    /// Tick and time (s) of the state.
+    pub tick: u64,
+    /// World time, s.
+    pub time: f64,
+    /// State hash.
+    pub hash: u64,
+    /// Bytes.
+    pub size: usize,
+    /// When it was taken.
+    pub created: SystemTime,
+}
+
+/// A checkpoint for a response.
+pub fn checkpoint_out(c: &CheckpointInfo<'_>) -> pb::Checkpoint {
+    let (world, id) = c.name;
+    pb::Checkpoint {
+        name: format!("worlds/{world}/checkpoints/{id}"),
+        tick: c.tick as i64,
+        time_s: c.time,
+        state_hash: c.hash as i64,
+        size_bytes: c.size as i64,
+        create_time: Some(timestamp(c.created)),
+    }
+}
+
+/// World and checkpoint of `worlds/{world}/checkpoints/{checkpoint}`.
+///
+/// # Errors
+/// It is not such a name.
+pub fn checkpoint_name<'a>(field: &str, name: &'a str) -> Result<(&'a str, &'a str), Fault> {
+    let parts: Vec<&str> = name.splitn(5, '/').collect();
+    match parts[..] {
+        ["worlds", world, "checkpoints", id] if !world.is_empty() && !id.is_empty() => {
+            Ok((world, id))
+        }
+        _ => Err(Fault::invalid(
+            field,
+            format!(
+                "must be a resource name worlds/{{world}}/checkpoints/{{checkpoint}}, got {:?}",
+                shortened(name)
+            ),
+        )),
+    }
+}

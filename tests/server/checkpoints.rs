@@ -1,0 +1,334 @@
+//! Checkpoints over the wire: kept, read, restored and forked, and what viewers and drivers see of it.
+
+use crate::support::{TestServer, header, refusal, view};
+use sinew::wire::pb;
+use sinew::wire::pb::fork_world_request::Source as From;
+use sinew::wire::pb::restore_world_request::Source;
+use sinew::wire::watched::WatchWorldResponse;
+use tonic::{Code, Status};
+
+impl TestServer {
+    async fn checkpoint(
+        &self,
+        world: &str,
+        id: &str,
+        return_data: bool,
+    ) -> pb::CheckpointWorldResponse {
+        let request = pb::CheckpointWorldRequest {
+            name: world.into(),
+            checkpoint_id: id.into(),
+            return_data,
+        };
+        let kept = self.client.checkpoints().checkpoint_world(request).await;
+        kept.unwrap().into_inner()
+    }
+
+    async fn restore(&self, world: &str, source: Source) -> Result<pb::World, Status> {
+        let request = pb::RestoreWorldRequest {
+            name: world.into(),
+            source: Some(source),
+        };
+        let done = self.client.checkpoints().restore_world(request).await?;
+        Ok(done.into_inner().world.unwrap())
+    }
+
+    async fn fork(&self, id: &str, source: From) -> Result<pb::World, Status> {
+        let request = pb::ForkWorldRequest {
+            world_id: id.into(),
+            paused: true,
+            source: Some(source),
+        };
+        let done = self.client.checkpoints().fork_world(request).await?;
+        Ok(done.into_inner().world.unwrap())
+    }
+
+    async fn hashes(&self, world: &str, ticks: usize) -> Vec<i64> {
+        let mut out = Vec::new();
+        for _ in 0..ticks {
+            out.push(self.step(world, 1).await.state_hash);
+        }
+        out
+    }
+
+    async fn push_it(&self, world: &str, figure: &str, newtons: f64) {
+        let push = pb::Force {
+            segment: "chest".into(),
+            force_n: Some(pb::Vector3 {
+                x: newtons,
+                ..Default::default()
+            }),
+            duration_s: 0.2,
+            ..Default::default()
+        };
+        let what = pb::Perturbation {
+            figure: figure.into(),
+            kind: Some(pb::perturbation::Kind::Force(push)),
+            ..Default::default()
+        };
+        let request = pb::ApplyPerturbationsRequest {
+            world: world.into(),
+            perturbations: vec![what],
+            ..Default::default()
+        };
+        self.client
+            .perturbations()
+            .apply_perturbations(request)
+            .await
+            .unwrap();
+    }
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_world_goes_back_and_two_futures_part_by_what_is_done_to_them() {
+    let server = TestServer::start().await;
+    let world = server.paused_world("w").await;
+    server.figure(&world, "a").await;
+    let figure = format!("{world}/figures/a");
+    server.play(&figure, "clips/walk", true).await;
+    server.step(&world, 40).await;
+    let kept = server.checkpoint(&world, "before", true).await;
+    let told = kept.checkpoint.unwrap();
+    assert_eq!(told.name, "worlds/w/checkpoints/before");
+    assert_eq!((told.tick, told.size_bytes), (40, kept.data.len() as i64));
+    let now = server.frame(&world, &["root_pose"]).await;
+    assert_eq!(told.state_hash, now.state_hash);
+    let future = server.hashes(&world, 30).await;
+
+    // Other things happen; then it is put back, and goes on as it did.
+    server.figure(&world, "b").await;
+    server.step(&world, 5).await;
+    let back = server
+        .restore(&world, Source::Checkpoint(told.name.clone()))
+        .await
+        .unwrap();
+    assert_eq!((back.tick, back.epoch, back.figure_count), (40, 2, 1));
+    assert_eq!(server.look(&figure).await.clip, "clips/walk");
+    assert_eq!(server.hashes(&world, 30).await, future);
+
+    // A new world from bytes does the same; another that is pushed does not.
+    let same = server
+        .fork("same", From::Data(kept.data.clone().into()))
+        .await
+        .unwrap();
+    assert_eq!((same.tick, same.state), (40, pb::WorldState::Paused as i32));
+    assert_eq!(server.hashes("worlds/same", 30).await, future);
+    server
+        .fork("other", From::Checkpoint(told.name))
+        .await
+        .unwrap();
+    server.push_it("worlds/other", "a", 60.0).await;
+    assert_ne!(server.hashes("worlds/other", 30).await, future);
+    // A fork of a world as it is now.
+    let ahead = server.hashes(&world, 10).await;
+    server
+        .restore(&world, Source::Data(kept.data.into()))
+        .await
+        .unwrap();
+    server.hashes(&world, 30).await;
+    let now = server
+        .fork("now", From::World(world.clone()))
+        .await
+        .unwrap();
+    assert_eq!(now.tick, 70);
+    assert_eq!(server.hashes("worlds/now", 10).await, ahead);
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn viewers_see_the_jump_and_drivers_are_told() {
+    let server = TestServer::start().await;
+    let world = server.paused_world("w").await;
+    server.figure(&world, "a").await;
+    server.step(&world, 20).await;
+    server.checkpoint(&world, "c", false).await;
+    server.step(&world, 20).await;
+    let mut frames = server
+        .client
+        .watch(&world, view(&["root_pose"]), None)
+        .await
+        .unwrap();
+    let request = pb::WatchEventsRequest {
+        world: world.clone(),
+        ..Default::default()
+    };
+    let mut events = server
+        .client
+        .states()
+        .watch_events(request)
+        .await
+        .unwrap()
+        .into_inner();
+    assert!(events.message().await.unwrap().unwrap().events.is_empty());
+    let first = loop {
+        let message = frames.message().await.unwrap().unwrap();
+        if let WatchWorldResponse::Frame(f) = message {
+            break f;
+        }
+    };
+    assert_eq!((first.tick, first.epoch), (40, 1));
+    let mut drive = server
+        .client
+        .drive(header(&world, "a", "me"))
+        .await
+        .unwrap();
+
+    let name = "worlds/w/checkpoints/c".to_owned();
+    server
+        .restore(&world, Source::Checkpoint(name))
+        .await
+        .unwrap();
+    let mut roster = false;
+    let jumped = loop {
+        let message = frames.message().await.unwrap().unwrap();
+        match message {
+            WatchWorldResponse::Roster(_) => roster = true,
+            WatchWorldResponse::Frame(f) => break f,
+            _ => {}
+        }
+    };
+    assert_eq!((jumped.tick, jumped.epoch, roster), (20, 2, true));
+    let restored = loop {
+        let batch = events.message().await.unwrap().unwrap().events;
+        let restored = pb::EventType::WorldRestored as i32;
+        if let Some(e) = batch.into_iter().find(|e| e.r#type == restored) {
+            break e;
+        }
+    };
+    assert_eq!((restored.tick, restored.detail.as_str()), (20, "20"));
+    let ended = loop {
+        match drive.feedback().await {
+            Ok(Some(_)) => {}
+            Ok(None) => panic!("a driver is told why"),
+            Err(status) => break status,
+        }
+    };
+    assert_eq!(ended.code(), Code::Aborted);
+    assert_eq!(
+        server.look(&format!("{world}/figures/a")).await.driver_id,
+        ""
+    );
+    server.step(&world, 1).await;
+    let next = loop {
+        let message = frames.message().await.unwrap().unwrap();
+        if let WatchWorldResponse::Frame(f) = message {
+            break f;
+        }
+    };
+    assert_eq!((next.tick, next.epoch), (21, 2));
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn checkpoints_are_resources_with_names() {
+    let server = TestServer::start().await;
+    let world = server.paused_world("w").await;
+    let mut checkpoints = server.client.checkpoints();
+    for id in ["b", "a", ""] {
+        server.checkpoint(&world, id, false).await;
+    }
+    let mut list = async || {
+        let request = pb::ListCheckpointsRequest {
+            parent: "worlds/w".into(),
+            ..Default::default()
+        };
+        let all = checkpoints
+            .list_checkpoints(request)
+            .await?
+            .into_inner()
+            .checkpoints;
+        Ok::<_, Status>(all.into_iter().map(|c| c.name).collect::<Vec<_>>())
+    };
+    let name = |id: &str| format!("worlds/w/checkpoints/{id}");
+    assert_eq!(
+        list().await.unwrap(),
+        [name("a"), name("b"), name("tick-0")]
+    );
+    let mut checkpoints = server.client.checkpoints();
+    let request = pb::CheckpointWorldRequest {
+        name: world.clone(),
+        checkpoint_id: "a".into(),
+        return_data: false,
+    };
+    let taken = checkpoints.checkpoint_world(request).await.unwrap_err();
+    assert_eq!(refusal(&taken).0, Code::AlreadyExists);
+    let delete = |id: &str| pb::DeleteCheckpointRequest { name: name(id) };
+    checkpoints.delete_checkpoint(delete("a")).await.unwrap();
+    let gone = checkpoints
+        .delete_checkpoint(delete("a"))
+        .await
+        .unwrap_err();
+    assert_eq!(refusal(&gone).0, Code::NotFound);
+    let get = |id: &str| pb::GetCheckpointRequest {
+        name: name(id),
+        return_data: true,
+    };
+    let got = checkpoints
+        .get_checkpoint(get("b"))
+        .await
+        .unwrap()
+        .into_inner();
+    assert_eq!(got.data.len() as i64, got.checkpoint.unwrap().size_bytes);
+    // They go with their world.
+    let request = pb::DeleteWorldRequest { name: world };
+    server.client.worlds().delete_world(request).await.unwrap();
+    let gone = checkpoints.get_checkpoint(get("b")).await.unwrap_err();
+    assert_eq!(refusal(&gone).0, Code::NotFound);
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn what_is_no_checkpoint_changes_nothing() {
+    let server = TestServer::start().await;
+    let world = server.paused_world("w").await;
+    server.figure(&world, "a").await;
+    server.step(&world, 3).await;
+    let good = server.checkpoint(&world, "", true).await.data;
+    let fast = pb::World {
+        rate_hz: 120.0,
+        ..Default::default()
+    };
+    server.world("fast", true, fast).await;
+    let bad = |at: usize| {
+        let mut bytes = good.clone();
+        bytes[at] ^= 0x10;
+        Source::Data(bytes.into())
+    };
+    let middle = good.len() / 2;
+    for (what, source, code) in [
+        ("text", Source::Data("hello".into()), Code::InvalidArgument),
+        ("magic", bad(0), Code::InvalidArgument),
+        ("version", bad(8), Code::FailedPrecondition),
+        ("server's part", bad(30), Code::DataLoss),
+        ("physics", bad(middle), Code::DataLoss),
+        (
+            "cut",
+            Source::Data(good[..middle].to_vec().into()),
+            Code::DataLoss,
+        ),
+        (
+            "name",
+            Source::Checkpoint("worlds/w".into()),
+            Code::InvalidArgument,
+        ),
+        (
+            "missing",
+            Source::Checkpoint("worlds/w/checkpoints/x".into()),
+            Code::NotFound,
+        ),
+    ] {
+        let status = server.restore(&world, source).await.unwrap_err();
+        assert_eq!(refusal(&status).0, code, "{what}: {status}");
+    }
+    let source = Source::Data(good.clone().into());
+    let other = server.restore("worlds/fast", source).await.unwrap_err();
+    assert_eq!(refusal(&other).1, "CHECKPOINT_OF_ANOTHER_RATE");
+    let request = pb::RestoreWorldRequest {
+        name: world.clone(),
+        source: None,
+    };
+    let none = server.client.checkpoints().restore_world(request).await;
+    assert_eq!(refusal(&none.unwrap_err()).0, Code::InvalidArgument);
+    let frame = server.frame(&world, &["root_pose"]).await;
+    assert_eq!((frame.tick, frame.epoch), (3, 1), "nothing has changed");
+    server.stop().await;
+}
