@@ -200,6 +200,8 @@ impl Persistence {
                 Err((record, why)) => {
                     let world = &*record.name;
                     tracing::error!(world, %why, "world is not brought back");
+                    // It may be there in part; most often it is not there at all.
+                    let _ = app.worlds.delete(world).await;
                     if let Some(w) = self.worlds().get_mut(&record.name) {
                         // Not written: the next start tries again, perhaps with other limits.
                         w.quarantined = Some(format!("it could not be brought back: {why}"));
@@ -230,7 +232,7 @@ impl Persistence {
         let settings = world::settings(described.world)?;
         let grants = described.grants.iter().map(access::grant_in);
         let grants = grants.collect::<Result<Vec<_>, _>>()?;
-        let speed = settings.pace.speed;
+        let pace = settings.pace.clone();
         // Worlds of before belong to nobody who is connected.
         let owner = (format!("stored {}", record.name).into(), grants);
         let id = Some(record.name.clone());
@@ -238,8 +240,10 @@ impl Persistence {
             Some(state) => {
                 let handle = app.worlds.fork(id, state, paused, owner)?;
                 let update = WorldUpdate {
-                    speed: Some(speed),
-                    ..Default::default()
+                    display_name: Some(pace.display_name),
+                    overrun: Some(pace.overrun),
+                    catch_up_limit: Some(pace.catch_up_limit),
+                    speed: Some(pace.speed),
                 };
                 handle.call(origin(), move |s| s.update(update)).await?;
                 handle

@@ -141,7 +141,8 @@ impl Book {
     async fn figure(&mut self, client: &Client, n: u64) -> Result<(), tonic::Status> {
         // Few: what is tested is the disk, not the physics.
         let Some((world, figures)) = self.worlds.iter_mut().find(|(_, f)| f.is_empty()) else {
-            return Ok(tokio::time::sleep(Duration::from_millis(5)).await);
+            tokio::time::sleep(Duration::from_millis(5)).await;
+            return Ok(());
         };
         let figure_id = format!("f{n}");
         let request = pb::CreateFigureRequest {
