@@ -77,7 +77,7 @@ impl Drop for Temporary {
 /// What the server has answered. A request without an answer may have been carried out or not.
 #[derive(Default)]
 struct Book {
-    /// Worlds with their figures.
+    /// Worlds with their figures and their grants.
     worlds: BTreeMap<String, BTreeSet<String>>,
     clips: BTreeSet<String>,
     /// Being created or deleted when the server was killed.
@@ -151,7 +151,19 @@ impl Book {
             ..Default::default()
         };
         client.figures().create_figure(request).await?;
-        figures.insert(figure_id);
+        figures.insert(figure_id.clone());
+        let request = pb::CreateGrantRequest {
+            parent: format!("worlds/{world}"),
+            grant_id: figure_id.clone(),
+            grant: Some(pb::Grant {
+                principal: "jwt:somebody".into(),
+                roles: vec![pb::Role::Driver.into()],
+                figures: vec![figure_id.clone()],
+                ..Default::default()
+            }),
+        };
+        client.access().create_grant(request).await?;
+        figures.insert(format!("grant {figure_id}"));
         Ok(())
     }
 
@@ -231,7 +243,22 @@ async fn found(client: &Client) -> Book {
             .into_inner()
             .figures;
         let last = |name: &str| name.rsplit('/').next().unwrap().to_owned();
-        let figures = figures.iter().map(|f| last(&f.name)).collect();
+        let request = pb::ListGrantsRequest {
+            parent: world.name.clone(),
+            ..Default::default()
+        };
+        let grants = client.access().list_grants(request).await.unwrap();
+        let grants = grants.into_inner().grants;
+        // A grant comes back with its principal, roles and figures.
+        let whole = |g: &&pb::Grant| {
+            g.principal == "jwt:somebody"
+                && g.roles == [i32::from(pb::Role::Driver)]
+                && g.figures == [last(&g.name)]
+        };
+        let grants = grants.iter().filter(whole);
+        let figures = figures.iter().map(|f| last(&f.name));
+        let figures = figures.chain(grants.map(|g| format!("grant {}", last(&g.name))));
+        let figures = figures.collect();
         book.worlds.insert(last(&world.name), figures);
     }
     let request = pb::ListClipsRequest {

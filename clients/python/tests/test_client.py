@@ -133,6 +133,24 @@ def test_errors_carry_what_was_wrong(server: sinew.Client) -> None:
         nobody.info()
 
 
+def test_a_world_goes_on_from_its_checkpoint(server: sinew.Client) -> None:
+    with server.create_world() as world:
+        figure = world.add_figure("anna")
+        figure.play("walk", reset=True)
+        world.step(60)
+        checkpoint = world.checkpoint()
+        data = world.checkpoint_data(checkpoint)
+        with server.fork_world(data) as other, server.fork_world(world) as now:
+            first, *others = (w.record(0.5)["anna"] for w in (world, other, now))
+        assert np.ptp(first.root_pose[:, 0]) > 0.2
+        world.restore(checkpoint)
+        for again in (*others, world.record(0.5)["anna"]):
+            assert (again.torque == first.torque).all() and (again.root_pose == first.root_pose).all()
+        world.delete_checkpoint(checkpoint)
+        with pytest.raises(sinew.NotFoundError):
+            world.restore(checkpoint)
+
+
 def test_the_paper_and_its_stepper_are_chosen(server: sinew.Client) -> None:
     as_printed = sinew.Paper(preset="2000", alpha=0.5, metric="inertia", hand_over=True)
     kinematic = server.simulate(

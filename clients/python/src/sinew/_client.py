@@ -27,6 +27,8 @@ from sinew.v1 import (
     access_pb2_grpc,
     body_pb2,
     body_pb2_grpc,
+    checkpoint_pb2,
+    checkpoint_pb2_grpc,
     control_pb2_grpc,
     figure_pb2,
     figure_pb2_grpc,
@@ -131,6 +133,7 @@ class Client:
         self.server_stub = server_pb2_grpc.ServerServiceStub(self._channel)
         self.access_stub = access_pb2_grpc.AccessServiceStub(self._channel)
         self.control_stub = control_pb2_grpc.ControlServiceStub(self._channel)
+        self.checkpoints_stub = checkpoint_pb2_grpc.CheckpointServiceStub(self._channel)
         self._bodies: dict[str, Body] = {}
 
     def __repr__(self) -> str:
@@ -343,6 +346,20 @@ class Client:
         w = (self._ask(self.worlds_stub.GetWorld, request)).world
         return World(self, w.name, w.rate_hz)
 
+    def fork_world(self, source: World | str | bytes, name: str = "", *, paused: bool = True) -> World:
+        """Makes a new world that goes on bit for bit from a state: that of a world as it is now, of a checkpoint on the
+        server by its resource name, or of the bytes of one.
+        """
+        request = checkpoint_pb2.ForkWorldRequest(world_id=name, paused=paused)
+        if isinstance(source, World):
+            request.world = source.resource
+        elif isinstance(source, bytes):
+            request.data = source
+        else:
+            request.checkpoint = source
+        w = (self._ask(self.checkpoints_stub.ForkWorld, request)).world
+        return World(self, w.name, w.rate_hz)
+
     def worlds(self) -> list[World]:
         """All worlds, by name."""
         out: list[World] = []
@@ -551,6 +568,30 @@ class World:
         """Starts the clock."""
         request = world_pb2.ResumeWorldRequest(name=self.resource)
         self.client._ask(self.client.worlds_stub.ResumeWorld, request)
+
+    def checkpoint(self, name: str = "") -> str:
+        """Keeps its state on the server. Returns the resource name, for `restore` and `Client.fork_world`."""
+        request = checkpoint_pb2.CheckpointWorldRequest(name=self.resource, checkpoint_id=name)
+        return (self.client._ask(self.client.checkpoints_stub.CheckpointWorld, request)).checkpoint.name
+
+    def checkpoint_data(self, checkpoint: str) -> bytes:
+        """The bytes of a checkpoint, for a server of the same version."""
+        request = checkpoint_pb2.GetCheckpointRequest(name=checkpoint, return_data=True)
+        return (self.client._ask(self.client.checkpoints_stub.GetCheckpoint, request)).data
+
+    def delete_checkpoint(self, checkpoint: str) -> None:
+        """Forgets a checkpoint."""
+        request = checkpoint_pb2.DeleteCheckpointRequest(name=checkpoint)
+        self.client._ask(self.client.checkpoints_stub.DeleteCheckpoint, request)
+
+    def restore(self, checkpoint: str | bytes) -> None:
+        """Puts it into the state of a checkpoint, by its resource name or its bytes. Drives end."""
+        request = checkpoint_pb2.RestoreWorldRequest(name=self.resource)
+        if isinstance(checkpoint, bytes):
+            request.data = checkpoint
+        else:
+            request.checkpoint = checkpoint
+        self.client._ask(self.client.checkpoints_stub.RestoreWorld, request)
 
     def set_speed(self, speed: float) -> None:
         """Sets how fast world time passes: `speed` is world seconds per wall second, 0.01 to 10."""

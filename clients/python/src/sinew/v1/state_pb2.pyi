@@ -70,6 +70,8 @@ class _EventTypeEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_EventType.V
     """The world failed."""
     EVENT_TYPE_GOT_UP: _EventType.ValueType  # 18
     """The figure stands again after a fall."""
+    EVENT_TYPE_WORLD_RESTORED: _EventType.ValueType  # 45
+    """The world was put into the state of a checkpoint; `detail` is its tick."""
     EVENT_TYPE_TOUCHED: _EventType.ValueType  # 31
     """A segment began to touch another figure or an obstacle."""
     EVENT_TYPE_PARTED: _EventType.ValueType  # 32
@@ -136,6 +138,8 @@ EVENT_TYPE_WORLD_FAILED: EventType.ValueType  # 17
 """The world failed."""
 EVENT_TYPE_GOT_UP: EventType.ValueType  # 18
 """The figure stands again after a fall."""
+EVENT_TYPE_WORLD_RESTORED: EventType.ValueType  # 45
+"""The world was put into the state of a checkpoint; `detail` is its tick."""
 EVENT_TYPE_TOUCHED: EventType.ValueType  # 31
 """A segment began to touch another figure or an obstacle."""
 EVENT_TYPE_PARTED: EventType.ValueType  # 32
