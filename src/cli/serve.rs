@@ -104,8 +104,16 @@ async fn serve(args: &Args, config: Arc<Config>, filter: EnvFilter) -> anyhow::R
     };
     let socket = bind(config.listen).with_context(cannot_listen)?;
     let address = socket.local_addr()?;
-    // Before the data directory is opened: what is damaged in it is logged.
-    telemetry::init_logs(filter, config.log_json, stderr_shows_colour());
+    let log = || telemetry::init_logs(filter, config.log_json, stderr_shows_colour());
+    // What is damaged in a data directory is logged as it is opened. Otherwise the address is the first line even where
+    // both outputs are one.
+    let opens = !config.data_dir.is_empty();
+    let log = if opens {
+        log();
+        None
+    } else {
+        Some(log)
+    };
     let (stop, stopping) = tokio::sync::watch::channel(false);
     let app = Arc::new(App::new(config.clone(), stopping)?);
     app.restore().await;
@@ -122,6 +130,9 @@ async fn serve(args: &Args, config: Arc<Config>, filter: EnvFilter) -> anyhow::R
     match print(&greeting(address, &config, &figures)) {
         Err(error) if !error.is::<OutputClosed>() => note(&format!("warning: {error:#}")),
         _ => {}
+    }
+    if let Some(log) = log {
+        log();
     }
     for (name, _, value) in config.table() {
         tracing::info!("setting {name} = {value}");

@@ -48,7 +48,15 @@ impl Decoder for Raw {
 
 /// Fills the names of a request, so that it means something in this world.
 fn name_things(message: &mut DynamicMessage, method: &str, world: &str) {
-    let kind = ["Figure", "Obstacle", "Grant", "Clip", "Body"];
+    let kind = [
+        "Figure",
+        "Obstacle",
+        "Grant",
+        "Clip",
+        "Body",
+        "GetCheckpoint",
+        "DeleteCheckpoint",
+    ];
     let kind = kind
         .into_iter()
         .find(|k| method.contains(k))
@@ -57,6 +65,7 @@ fn name_things(message: &mut DynamicMessage, method: &str, world: &str) {
         "Figure" => format!("{world}/figures/a"),
         "Obstacle" => format!("{world}/obstacles/o"),
         "Grant" => format!("{world}/grants/creator"),
+        "GetCheckpoint" | "DeleteCheckpoint" => format!("{world}/checkpoints/c"),
         "Clip" => "clips/wave".to_owned(),
         "Body" => "bodies/adult-man".to_owned(),
         _ => world.to_owned(),
@@ -67,6 +76,8 @@ fn name_things(message: &mut DynamicMessage, method: &str, world: &str) {
         let value = match field.name() {
             // Without a world everyone sees what it may see of all.
             "world" if method == "GetServerStats" => continue,
+            // What is forked needs a role of its own, below.
+            "world" if method == "ForkWorld" => continue,
             "world" | "parent" if field.kind().as_message().is_none() => text(world),
             "name" => text(&name),
             "figure" if field.kind().as_message().is_none() => text(&format!("{world}/figures/a")),
@@ -338,4 +349,54 @@ async fn a_perturber_pushes_as_hard_and_as_often_as_its_grant_says() {
     );
     // The owner is not bounded.
     push(&owner, 5000.0).await.unwrap();
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn only_directors_of_a_world_read_and_fork_its_state() {
+    let server = Guarded::start(&[]).await;
+    let admin = server
+        .client("admin", &[Role::Owner, Role::Creator], None)
+        .await;
+    let world = world(&admin, "w", true).await;
+    let keep = |client: &Client| {
+        let mut checkpoints = client.checkpoints();
+        let name = world.clone();
+        async move {
+            let request = pb::CheckpointWorldRequest {
+                name,
+                ..Default::default()
+            };
+            checkpoints.checkpoint_world(request).await
+        }
+    };
+    let kept = keep(&admin).await.unwrap().into_inner().checkpoint.unwrap();
+    let maker = server.client("maker", &[Role::Creator], None).await;
+    let viewer = [Role::Viewer, Role::Creator];
+    let viewer = server.client("viewer", &viewer, None).await;
+    use pb::fork_world_request::Source;
+    let sources = [
+        Source::World(world.clone()),
+        Source::Checkpoint(kept.name.clone()),
+    ];
+    for (client, may) in [(&maker, false), (&viewer, false), (&admin, true)] {
+        for source in sources.clone() {
+            let request = pb::ForkWorldRequest {
+                source: Some(source),
+                paused: true,
+                ..Default::default()
+            };
+            let forked = client.checkpoints().fork_world(request).await;
+            match forked {
+                Ok(_) => assert!(may),
+                Err(e) => assert!(!may && e.code() == Code::PermissionDenied, "{e:?}"),
+            }
+        }
+        let request = pb::GetCheckpointRequest {
+            name: kept.name.clone(),
+            return_data: true,
+        };
+        let read = client.checkpoints().get_checkpoint(request).await;
+        assert_eq!(read.is_ok(), may, "{read:?}");
+        assert_eq!(keep(client).await.is_ok(), may);
+    }
 }

@@ -156,7 +156,7 @@ impl Book {
             parent: format!("worlds/{world}"),
             grant_id: figure_id.clone(),
             grant: Some(pb::Grant {
-                principal: "jwt:somebody".into(),
+                principal: "user:somebody".into(),
                 roles: vec![pb::Role::Driver.into()],
                 figures: vec![figure_id.clone()],
                 ..Default::default()
@@ -251,7 +251,7 @@ async fn found(client: &Client) -> Book {
         let grants = grants.into_inner().grants;
         // A grant comes back with its principal, roles and figures.
         let whole = |g: &&pb::Grant| {
-            g.principal == "jwt:somebody"
+            g.principal == "user:somebody"
                 && g.roles == [i32::from(pb::Role::Driver)]
                 && g.figures == [last(&g.name)]
         };
