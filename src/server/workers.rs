@@ -470,13 +470,12 @@ mod tests {
         // All three are gone.
         assert_eq!(pool.run(&a, |_| Ok(7)).await.unwrap(), 7);
         // The worker answers first and is free an instant later.
+        let busy = || {
+            let state = pool.state();
+            !state.waiting.is_empty() || (state.running, state.begun) != (0, 0)
+        };
         let freed = async {
-            loop {
-                let state = pool.state();
-                if state.waiting.is_empty() && (state.running, state.begun) == (0, 0) {
-                    return;
-                }
-                drop(state);
+            while busy() {
                 tokio::time::sleep(SLICE).await;
             }
         };

@@ -4758,8 +4758,8 @@ pub mod checkpoint_service_client {
                 .insert(GrpcMethod::new("sinew.v1.CheckpointService", "RestoreWorld"));
             self.inner.unary(req, path, codec).await
         }
-        /// Makes a new world in the state of a checkpoint, or of a world as it is now, of which the caller is a director. A paused one can be changed before it
-        /// goes on: what if the load were 1 kg less?
+        /// Makes a new world in the state of a checkpoint, or of a world as it is now; the caller must be a director of the
+        /// world that it is of. A paused one can be changed before it goes on: what if the load were 1 kg less?
         pub async fn fork_world(
             &mut self,
             request: impl tonic::IntoRequest<super::ForkWorldRequest>,
@@ -4843,8 +4843,8 @@ pub mod checkpoint_service_server {
             tonic::Response<super::RestoreWorldResponse>,
             tonic::Status,
         >;
-        /// Makes a new world in the state of a checkpoint, or of a world as it is now, of which the caller is a director. A paused one can be changed before it
-        /// goes on: what if the load were 1 kg less?
+        /// Makes a new world in the state of a checkpoint, or of a world as it is now; the caller must be a director of the
+        /// world that it is of. A paused one can be changed before it goes on: what if the load were 1 kg less?
         async fn fork_world(
             &self,
             request: tonic::Request<super::ForkWorldRequest>,

@@ -111,8 +111,8 @@ class CheckpointServiceServicer:
         raise NotImplementedError('Method not implemented!')
 
     def ForkWorld(self, request, context):
-        """Makes a new world in the state of a checkpoint, or of a world as it is now, of which the caller is a director. A paused one can be changed before it
-        goes on: what if the load were 1 kg less?
+        """Makes a new world in the state of a checkpoint, or of a world as it is now; the caller must be a director of the
+        world that it is of. A paused one can be changed before it goes on: what if the load were 1 kg less?
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')

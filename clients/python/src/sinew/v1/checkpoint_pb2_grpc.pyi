@@ -50,8 +50,8 @@ class CheckpointServiceStub:
     FAILED_PRECONDITION for one of another rate, number of substeps, program version or numerics.
     """
     ForkWorld: _grpc.UnaryUnaryMultiCallable[_checkpoint_pb2.ForkWorldRequest, _checkpoint_pb2.ForkWorldResponse]
-    """Makes a new world in the state of a checkpoint, or of a world as it is now, of which the caller is a director. A paused one can be changed before it
-    goes on: what if the load were 1 kg less?
+    """Makes a new world in the state of a checkpoint, or of a world as it is now; the caller must be a director of the
+    world that it is of. A paused one can be changed before it goes on: what if the load were 1 kg less?
     """
 
 @_typing.type_check_only
@@ -76,8 +76,8 @@ class CheckpointServiceAsyncStub(CheckpointServiceStub):
     FAILED_PRECONDITION for one of another rate, number of substeps, program version or numerics.
     """
     ForkWorld: _aio.UnaryUnaryMultiCallable[_checkpoint_pb2.ForkWorldRequest, _checkpoint_pb2.ForkWorldResponse]  # type: ignore[assignment]
-    """Makes a new world in the state of a checkpoint, or of a world as it is now, of which the caller is a director. A paused one can be changed before it
-    goes on: what if the load were 1 kg less?
+    """Makes a new world in the state of a checkpoint, or of a world as it is now; the caller must be a director of the
+    world that it is of. A paused one can be changed before it goes on: what if the load were 1 kg less?
     """
 
 class CheckpointServiceServicer(metaclass=_abc_1.ABCMeta):
@@ -135,8 +135,8 @@ class CheckpointServiceServicer(metaclass=_abc_1.ABCMeta):
         request: _checkpoint_pb2.ForkWorldRequest,
         context: _ServicerContext,
     ) -> _typing.Union[_checkpoint_pb2.ForkWorldResponse, _abc.Awaitable[_checkpoint_pb2.ForkWorldResponse]]:
-        """Makes a new world in the state of a checkpoint, or of a world as it is now, of which the caller is a director. A paused one can be changed before it
-        goes on: what if the load were 1 kg less?
+        """Makes a new world in the state of a checkpoint, or of a world as it is now; the caller must be a director of the
+        world that it is of. A paused one can be changed before it goes on: what if the load were 1 kg less?
         """
 
 def add_CheckpointServiceServicer_to_server(servicer: CheckpointServiceServicer, server: _typing.Union[_grpc.Server, _aio.Server]) -> None: ...

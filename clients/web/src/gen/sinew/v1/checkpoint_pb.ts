@@ -498,8 +498,8 @@ export const CheckpointService: GenService<{
     output: typeof RestoreWorldResponseSchema;
   },
   /**
-   * Makes a new world in the state of a checkpoint, or of a world as it is now, of which the caller is a director. A paused one can be changed before it
-   * goes on: what if the load were 1 kg less?
+   * Makes a new world in the state of a checkpoint, or of a world as it is now; the caller must be a director of the
+   * world that it is of. A paused one can be changed before it goes on: what if the load were 1 kg less?
    *
    * @generated from rpc sinew.v1.CheckpointService.ForkWorld
    */
