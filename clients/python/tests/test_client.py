@@ -137,7 +137,7 @@ def test_a_world_goes_on_from_its_checkpoint(server: sinew.Client) -> None:
     with server.create_world() as world:
         figure = world.add_figure("anna")
         figure.play("walk", reset=True)
-        world.step(60)
+        world.step(120)
         checkpoint = world.checkpoint()
         data = world.checkpoint_data(checkpoint)
         with server.fork_world(data) as other, server.fork_world(world) as now:
