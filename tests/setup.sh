@@ -22,6 +22,8 @@ command -v cc >/dev/null 2>&1 || wanted="$wanted gcc libc6-dev"
 command -v git >/dev/null 2>&1 || wanted="$wanted git"
 command -v ps >/dev/null 2>&1 || wanted="$wanted procps"
 "$python" -c 'import ensurepip, venv' >/dev/null 2>&1 || wanted="$wanted python3 python3-venv"
+# The commands of docs/sharing.md make a certificate.
+command -v openssl >/dev/null 2>&1 || wanted="$wanted openssl"
 if [ -n "$wanted" ]; then
     # $wanted is a list of words.
     # shellcheck disable=SC2086
