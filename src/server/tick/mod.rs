@@ -9,8 +9,11 @@ pub mod clock;
 pub mod command;
 pub mod drives;
 pub mod history;
+pub mod journal;
 pub mod leases;
 pub mod planners;
+pub mod replay;
+pub mod scene;
 pub mod shard;
 pub mod stage_times;
 
@@ -114,6 +117,7 @@ pub fn run(mut shard: Shard, mut inbox: Inbox, outlet: &Outlet) {
             shard.clock.deadline() <= start
         };
         if !due {
+            guarded(&mut shard, "the record", |s| s.note(false, start));
             if shard.changed {
                 publish(&mut shard, outlet);
             }
@@ -129,6 +133,7 @@ pub fn run(mut shard: Shard, mut inbox: Inbox, outlet: &Outlet) {
             guarded(&mut shard, "the physics", Shard::step_world);
         }
         let step_done = Instant::now();
+        guarded(&mut shard, "the record", |s| s.note(true, start));
         let snapshot = match shard.failed {
             None => publish(&mut shard, outlet),
             Some(_) => None,
@@ -166,6 +171,7 @@ pub fn run(mut shard: Shard, mut inbox: Inbox, outlet: &Outlet) {
             finish_steps(&mut shard, &snapshot); // last, so that who waits finds everything done
         }
     }
+    guarded(&mut shard, "the record", |s| s.note(false, Instant::now()));
     shard.send_replies();
     let why = shard.closing.take().unwrap_or(Fault::Draining);
     for step in shard.steps.drain(..) {
