@@ -557,11 +557,17 @@ async fn replayed(record: &WorldRecord, history: &History) -> Option<Scene> {
                 reached.store(scene.world().tick(), Ordering::Relaxed);
                 true
             });
-            Ok::<_, Fault>((replay.scene, through))
+            let compared = replay.compared;
+            Ok::<_, Fault>((replay.scene, through, compared))
         });
         let (why, state) = match done.await {
-            Ok(Ok((scene, Ok(())))) => return Some(scene),
-            Ok(Ok((_, Err(why)))) => (why.to_string(), last.load(Ordering::Relaxed)),
+            Ok(Ok((scene, Ok(()), compared))) => {
+                let (tick, hash) = (scene.world().tick(), scene.world().state_hash());
+                let hash = format!("{hash:016x}");
+                tracing::info!(world, tick, hash, compared, "world is as it was");
+                return Some(scene);
+            }
+            Ok(Ok((_, Err(why), _))) => (why.to_string(), last.load(Ordering::Relaxed)),
             Ok(Err(why)) => {
                 tracing::error!(world, tick, %why, "the state is lost: the world begins anew");
                 return None;

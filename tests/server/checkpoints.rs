@@ -32,17 +32,18 @@ impl TestServer {
         Ok(done.into_inner().world.unwrap())
     }
 
-    async fn fork(&self, id: &str, source: From) -> Result<pb::World, Status> {
+    pub async fn fork(&self, id: &str, source: From) -> Result<pb::World, Status> {
         let request = pb::ForkWorldRequest {
             world_id: id.into(),
             paused: true,
             source: Some(source),
+            ..Default::default()
         };
         let done = self.client.checkpoints().fork_world(request).await?;
         Ok(done.into_inner().world.unwrap())
     }
 
-    async fn hashes(&self, world: &str, ticks: usize) -> Vec<i64> {
+    pub async fn hashes(&self, world: &str, ticks: usize) -> Vec<i64> {
         let mut out = Vec::new();
         for _ in 0..ticks {
             out.push(self.step(world, 1).await.state_hash);
@@ -50,7 +51,7 @@ impl TestServer {
         out
     }
 
-    async fn push_it(&self, world: &str, figure: &str, newtons: f64) {
+    pub async fn push_it(&self, world: &str, figure: &str, newtons: f64) {
         let push = pb::Force {
             segment: "chest".into(),
             force_n: Some(pb::Vector3 {

@@ -12,6 +12,7 @@ mod drives;
 mod edge;
 mod ending;
 mod forecast;
+mod history;
 mod limits;
 mod live;
 mod obstacles;

@@ -12,7 +12,7 @@ use crate::server::tick::shard::Origin as Past;
 use crate::server::worlds::WorldHandle;
 use crate::sim::world::checkpoint::Capture;
 use crate::wire::convert::checkpoint::{CheckpointInfo, checkpoint_name, checkpoint_out};
-use crate::wire::convert::{new_id, page, world, world_name};
+use crate::wire::convert::{new_id, not_negative, page, world, world_name};
 use crate::wire::pb::checkpoint_service_server::CheckpointService;
 use crate::wire::pb::{self, fork_world_request, restore_world_request};
 use crate::wire::status::Fault;
@@ -25,6 +25,7 @@ enum Source {
     Kept(Arc<Kept>),
     Data(&'static str, bytes::Bytes),
     Now(Box<Capture>),
+    Past(Box<Scene>),
 }
 
 fn out(kept: &Kept) -> pb::Checkpoint {
@@ -77,6 +78,7 @@ impl Api {
             }),
             Source::Data(field, data) => checkpoints::decode(field, &data),
             Source::Now(capture) => journal::scene_of(&capture),
+            Source::Past(scene) => Ok(*scene),
         };
         self.conversions.run(client, move |_| work()).await
     }
@@ -220,6 +222,15 @@ impl CheckpointService for Api {
                     Source::Kept(self.kept(&caller, "checkpoint", &name)?)
                 }
                 Some(fork_world_request::Source::Data(data)) => Source::Data("data", data),
+                Some(fork_world_request::Source::World(name)) if r.tick.is_some() => {
+                    let tick = not_negative("tick", r.tick.unwrap_or_default())?;
+                    let of = world_name("world", &name)?;
+                    let handle = self.enter_as(&caller, Role::Director, of)?;
+                    Source::Past(Box::new(self.at_tick(&owner, &handle, tick).await?))
+                }
+                Some(_) if r.tick.is_some() => {
+                    return Err(Fault::invalid("tick", "needs world"));
+                }
                 Some(fork_world_request::Source::World(name)) => {
                     let from = (&caller, origin);
                     let (_, capture) = self.captured(from, ("world", &name)).await?;

@@ -7,9 +7,11 @@ mod clips;
 mod control;
 mod drive;
 mod figures;
+mod history;
 mod info;
 mod permit;
 mod perturbations;
+mod recordings;
 mod simulation;
 mod state;
 mod watching;
@@ -23,6 +25,7 @@ use super::checkpoints::Checkpoints;
 use super::config::Config;
 use super::library::{Bodies, Clips};
 use super::persistence::Persistence;
+use super::recordings::Recordings;
 use super::shares::{Client, Place, Places};
 use super::tick::command::Origin;
 use super::workers::Pool;
@@ -38,7 +41,7 @@ use tonic::service::RoutesBuilder;
 use tonic::{Request, Response, Status};
 
 /// Names of the services, for health checks; the empty name is the server as a whole.
-pub const SERVICE_NAMES: [&str; 12] = [
+pub const SERVICE_NAMES: [&str; 14] = [
     "",
     pb::world_service_server::SERVICE_NAME,
     pb::figure_service_server::SERVICE_NAME,
@@ -51,6 +54,8 @@ pub const SERVICE_NAMES: [&str; 12] = [
     pb::access_service_server::SERVICE_NAME,
     pb::control_service_server::SERVICE_NAME,
     pb::checkpoint_service_server::SERVICE_NAME,
+    pb::history_service_server::SERVICE_NAME,
+    pb::recording_service_server::SERVICE_NAME,
 ];
 
 /// Calls that carry a clip or a checkpoint in their request: up to `max_clip_bytes`. All others take up to
@@ -91,6 +96,8 @@ pub struct App {
     pub clips: Clips,
     /// Checkpoints of worlds.
     pub checkpoints: Checkpoints,
+    /// Parts of their past that are kept.
+    pub recordings: Recordings,
     /// Where files become clips.
     pub conversions: Pool,
     /// Where clips are simulated.
@@ -123,6 +130,7 @@ impl App {
             bodies,
             worlds: Registry::new(config.clone()),
             checkpoints: Checkpoints::new(share),
+            recordings: Recordings::new(config.max_recordings, config.max_recording_bytes, share),
             conversions: Pool::new(
                 "file conversion",
                 "max_waiting_conversions",
@@ -347,6 +355,8 @@ pub fn add_services(routes: &mut RoutesBuilder, app: &Arc<App>) {
         access_service_server::AccessServiceServer;
         control_service_server::ControlServiceServer;
         checkpoint_service_server::CheckpointServiceServer;
+        history_service_server::HistoryServiceServer;
+        recording_service_server::RecordingServiceServer;
     }
 }
 

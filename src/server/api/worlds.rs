@@ -141,6 +141,7 @@ impl WorldService for Api {
                 ended?;
             }
             self.checkpoints.forget_world(name);
+            self.recordings.forget_world(name);
             Ok(pb::DeleteWorldResponse {})
         };
         answer(result.await)

@@ -13,7 +13,7 @@ use crate::sim::world::checkpoint::{Capture, read_definitions, write_definitions
 use crate::wire::status::Fault;
 use bytes::Bytes;
 use std::collections::VecDeque;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::{Duration, Instant};
 use tokio::sync::Notify;
 
@@ -109,6 +109,62 @@ pub fn scene_of(capture: &Capture) -> Result<Scene, Fault> {
     Scene::restored(world, saved).map_err(|e| failed(&e))
 }
 
+/// Why a pinned part of the past has an end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PinEnd {
+    /// It was told to end.
+    Stopped,
+    /// It has as many bytes as it may.
+    Full,
+    /// The world has another past now.
+    Restored,
+}
+
+/// A part of the past that is kept as long as this is.
+#[derive(Debug)]
+pub struct Pin {
+    most_bytes: u64,
+    first: u64,
+    inside: Mutex<Pinned>,
+}
+
+#[derive(Debug, Default)]
+struct Pinned {
+    kept: Vec<Arc<Segment>>,
+    bytes: u64,
+    end: Option<PinEnd>,
+}
+
+impl Pin {
+    fn inside(&self) -> MutexGuard<'_, Pinned> {
+        // Every holder leaves it whole.
+        self.inside.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Tick that it begins with.
+    pub fn first_tick(&self) -> u64 {
+        self.first
+    }
+
+    /// Why it has ended; `None`: it goes on.
+    pub fn end(&self) -> Option<PinEnd> {
+        self.inside().end
+    }
+
+    /// Keeps one more segment. False: it has ended.
+    fn keep(&self, segment: &Arc<Segment>, end: Option<PinEnd>) -> bool {
+        let mut inside = self.inside();
+        if inside.end.is_some() {
+            return false;
+        }
+        inside.bytes += segment.bytes as u64;
+        inside.kept.push(Arc::clone(segment));
+        let full = (inside.bytes > self.most_bytes).then_some(PinEnd::Full);
+        inside.end = end.or(full);
+        inside.end.is_none()
+    }
+}
+
 #[derive(Debug)]
 struct Inside {
     /// From the oldest on.
@@ -120,6 +176,8 @@ struct Inside {
     holds: bool,
     /// The last entry that was handed in.
     ticket: Option<Ticket>,
+    /// Parts that are kept longer.
+    pins: Vec<Weak<Pin>>,
 }
 
 /// The last minutes of one world.
@@ -142,6 +200,7 @@ impl Journal {
                 recorder: None,
                 holds: false,
                 ticket: None,
+                pins: Vec::new(),
             }),
             written: Notify::new(),
         }
@@ -194,7 +253,9 @@ impl Journal {
         let mut inside = self.inside();
         let next = Segment::new(Arc::new(capture), now);
         if let Some(before) = inside.current.replace(next) {
-            inside.sealed.push_back(Arc::new(before));
+            let before = Arc::new(before);
+            inside.pin(&before, None);
+            inside.sealed.push_back(before);
         }
         inside.cut(&self.room, now);
     }
@@ -204,8 +265,10 @@ impl Journal {
     pub fn begin_anew(&self, capture: Capture, goes_back: bool, now: Instant) {
         let mut inside = self.inside();
         let (tick, hash) = (capture.tick(), capture.hash());
-        let before = inside.current.take();
-        inside.sealed.extend(before.map(Arc::new));
+        if let Some(before) = inside.current.take().map(Arc::new) {
+            inside.pin(&before, Some(PinEnd::Restored));
+            inside.sealed.push_back(before);
+        }
         if goes_back {
             inside.sealed.retain(|s| s.start.tick() <= tick);
             if let Some(last) = inside.sealed.pop_back() {
@@ -290,13 +353,7 @@ impl Journal {
 
     /// The first tick that is held and the last; `None`: nothing is.
     pub fn held(&self) -> Option<(u64, u64)> {
-        let inside = self.inside();
-        if !self.room.any() {
-            return None;
-        }
-        let current = inside.current.as_ref()?;
-        let first = inside.sealed.front().map_or(&current.start, |s| &s.start);
-        Some((first.tick(), current.last_tick()))
+        self.inside().held(&self.room)
     }
 
     /// The segments that lead from the last checkpoint at or before `from` to `until`.
@@ -304,26 +361,93 @@ impl Journal {
     /// # Errors
     /// `from` is not held any more, or `until` is not reached yet.
     pub fn past(&self, from: u64, until: u64) -> Result<Vec<Arc<Segment>>, Fault> {
-        let expired = |oldest: i64, newest: i64| Fault::Expired {
-            asked: i64::try_from(from).unwrap_or(i64::MAX),
-            oldest,
-            newest,
-        };
-        let (oldest, newest) = self.held().ok_or_else(|| expired(-1, -1))?;
-        if from < oldest || until > newest || from > until {
-            return Err(expired(oldest as i64, newest as i64));
-        }
+        self.inside().past(&self.room, from, until)
+    }
+}
+
+impl Journal {
+    /// Keeps the past from tick `first` on (`None`: from now on), at most `most_bytes` of it.
+    ///
+    /// # Errors
+    /// That tick is not held.
+    pub fn pin(&self, first: Option<u64>, most_bytes: u64) -> Result<Arc<Pin>, Fault> {
+        let mut inside = self.inside();
+        let (_, newest) = inside.held(&self.room).ok_or_else(|| expired(0, None))?;
+        let first = first.unwrap_or(newest);
+        let mut past = inside.past(&self.room, first, first.max(newest))?;
+        // What is appended to is kept when it is whole.
+        past.pop();
+        let pin = Arc::new(Pin {
+            most_bytes,
+            first,
+            inside: Mutex::new(Pinned {
+                bytes: past.iter().map(|s| s.bytes as u64).sum(),
+                kept: past,
+                end: None,
+            }),
+        });
+        inside.pins.push(Arc::downgrade(&pin));
+        Ok(pin)
+    }
+
+    /// Ends a pin, unless it has ended.
+    pub fn unpin(&self, pin: &Pin) {
         let inside = self.inside();
-        let mut all: Vec<Arc<Segment>> = inside.sealed.iter().cloned().collect();
-        all.extend(inside.current.clone().map(Arc::new));
-        drop(inside);
-        let first = all.partition_point(|s| s.start.tick() <= from).max(1) - 1;
-        let last = all.partition_point(|s| s.start.tick() <= until).max(1);
-        Ok(all.drain(first..last.max(first + 1)).collect())
+        if let Some(current) = &inside.current {
+            pin.keep(&Arc::new(current.clone()), Some(PinEnd::Stopped));
+        }
+    }
+
+    /// What a pin keeps, up to now, its last tick, and its bytes.
+    pub fn pinned(&self, pin: &Pin) -> (Vec<Arc<Segment>>, u64, u64) {
+        let inside = self.inside();
+        let pinned = pin.inside();
+        let (mut kept, mut bytes) = (pinned.kept.clone(), pinned.bytes);
+        if pinned.end.is_none()
+            && let Some(current) = &inside.current
+        {
+            bytes += current.bytes as u64;
+            kept.push(Arc::new(current.clone()));
+        }
+        let last = kept.last().map_or(pin.first, |s| s.last_tick());
+        (kept, last.max(pin.first), bytes)
+    }
+}
+
+fn expired(asked: u64, held: Option<(u64, u64)>) -> Fault {
+    let tick = |t: u64| i64::try_from(t).unwrap_or(i64::MAX);
+    Fault::Expired {
+        asked: tick(asked),
+        oldest: held.map_or(-1, |h| tick(h.0)),
+        newest: held.map_or(-1, |h| tick(h.1)),
     }
 }
 
 impl Inside {
+    fn held(&self, room: &Room) -> Option<(u64, u64)> {
+        let current = self.current.as_ref().filter(|_| room.any())?;
+        let first = self.sealed.front().map_or(&current.start, |s| &s.start);
+        Some((first.tick(), current.last_tick()))
+    }
+
+    fn past(&self, room: &Room, from: u64, until: u64) -> Result<Vec<Arc<Segment>>, Fault> {
+        let held = self.held(room);
+        if held.is_none_or(|(oldest, newest)| from < oldest || until > newest || from > until) {
+            return Err(expired(from, held));
+        }
+        let mut all: Vec<Arc<Segment>> = self.sealed.iter().cloned().collect();
+        all.extend(self.current.clone().map(Arc::new));
+        let first = all.partition_point(|s| s.start.tick() <= from).max(1) - 1;
+        let last = all.partition_point(|s| s.start.tick() <= until);
+        Ok(all.drain(first..last.max(first + 1)).collect())
+    }
+
+    /// Lets those that keep the past keep this, too.
+    fn pin(&mut self, segment: &Arc<Segment>, end: Option<PinEnd>) {
+        let keeps = |pin: &Weak<Pin>| pin.upgrade().is_some_and(|p| p.keep(segment, end));
+        self.pins.retain(keeps);
+    }
+
     fn hand_in(&mut self, entry: &Logged) {
         if let Some(recorder) = self.recorder.as_ref().filter(|_| !self.holds) {
             self.ticket = Some(hand_in(recorder, entry));

@@ -16,9 +16,9 @@ use super::drives::Drive;
 use super::journal::Journal;
 use super::leases::Leases;
 use super::planners::Planners;
-use super::scene::{Input, Player, Scene};
+use super::scene::{Input, Scene};
 use crate::server::durable::marks::Mark;
-use crate::server::engine::{self, FigureKey, Planning};
+use crate::server::engine::{self, Planning};
 use crate::server::ingest::mailbox::Mailboxes;
 use crate::wire::status::Fault;
 use crate::wire::types::{
@@ -408,7 +408,7 @@ impl Shard {
                 tick,
                 time,
                 figure: m.id.clone(),
-                kind: engine::event_kind(e, |o| self.name_of(o)),
+                kind: engine::event_kind(e, |o| self.scene.name_of(o)),
             }));
         }
         self.events = events;
@@ -442,26 +442,7 @@ impl Shard {
 
     /// What the world looks like now.
     pub fn snapshot(&mut self) -> Arc<Snapshot> {
-        // When the last tick began, which is what its report is about.
-        let start = self.scene.world().tick().saturating_sub(1) as f64 * self.scene.world().dt();
-        let applied = |key: FigureKey| {
-            let mut players = self.scene.players().iter();
-            let player = players.find(|p| p.figure == key && p.takeover.is_none());
-            player.and_then(Player::applied).unwrap_or((-1, 0))
-        };
-        let figures = self
-            .scene
-            .members()
-            .iter()
-            .map(|m| {
-                let f = self.scene.figure(m.key);
-                let mut shown = engine::snapshot(f, start, self.scene.world().dt(), applied(m.key));
-                if let Some(r) = &shown.report {
-                    shown.touched = r.touches.iter().map(|t| self.name_of(t.other)).collect();
-                }
-                shown
-            })
-            .collect();
+        let figures = self.scene.figures();
         let obstacles = self.obstacles();
         let since = SystemTime::now()
             .duration_since(SystemTime::UNIX_EPOCH)

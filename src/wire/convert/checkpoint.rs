@@ -1,6 +1,6 @@
 //! Checkpoints of worlds.
 
-use super::{shortened, timestamp};
+use super::timestamp;
 use crate::wire::pb;
 use crate::wire::status::Fault;
 use std::time::SystemTime;
@@ -40,17 +40,5 @@ pub fn checkpoint_out(c: &CheckpointInfo<'_>) -> pb::Checkpoint {
 /// # Errors
 /// It is not such a name.
 pub fn checkpoint_name<'a>(field: &str, name: &'a str) -> Result<(&'a str, &'a str), Fault> {
-    let parts: Vec<&str> = name.splitn(5, '/').collect();
-    match parts[..] {
-        ["worlds", world, "checkpoints", id] if !world.is_empty() && !id.is_empty() => {
-            Ok((world, id))
-        }
-        _ => Err(Fault::invalid(
-            field,
-            format!(
-                "must be a resource name worlds/{{world}}/checkpoints/{{checkpoint}}, got {:?}",
-                shortened(name)
-            ),
-        )),
-    }
+    super::child_name(field, name, "checkpoints", "checkpoint")
 }

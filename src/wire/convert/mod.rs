@@ -216,6 +216,40 @@ pub fn world_name<'a>(field: &str, name: &'a str) -> Result<&'a str, Fault> {
     last_part(field, name, "worlds/{world}", "worlds/")
 }
 
+/// World and last part of a name `worlds/{world}/KINDS/{kind}`.
+///
+/// # Errors
+/// It is not such a name.
+pub fn child_name<'a>(
+    field: &str,
+    name: &'a str,
+    kinds: &str,
+    kind: &str,
+) -> Result<(&'a str, &'a str), Fault> {
+    let parts: Vec<&str> = name.splitn(5, '/').collect();
+    match parts[..] {
+        ["worlds", world, k, id] if k == kinds && !world.is_empty() && !id.is_empty() => {
+            Ok((world, id))
+        }
+        _ => Err(Fault::invalid(
+            field,
+            format!(
+                "must be a resource name worlds/{{world}}/{kinds}/{{{kind}}}, got {:?}",
+                shortened(name)
+            ),
+        )),
+    }
+}
+
+/// A count on the wire, where it has a sign.
+///
+/// # Errors
+/// It is negative.
+pub fn not_negative(field: &str, value: i64) -> Result<u64, Fault> {
+    u64::try_from(value)
+        .map_err(|_| Fault::invalid(field, format!("must not be negative, got {value}")))
+}
+
 /// Last part of `clips/{clip}`.
 pub fn clip_name<'a>(field: &str, name: &'a str) -> Result<&'a str, Fault> {
     last_part(field, name, "clips/{clip}", "clips/")

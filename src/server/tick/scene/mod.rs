@@ -10,6 +10,7 @@ mod motion;
 mod player;
 mod record;
 mod saved;
+mod shown;
 
 pub use input::{Done, Input, PlayerKey};
 pub use player::{Player, Window};

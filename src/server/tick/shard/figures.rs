@@ -6,7 +6,7 @@ use crate::server::tick::scene::{Input, Member};
 use crate::sim::body::Body;
 use crate::wire::status::Fault;
 use crate::wire::types::{
-    ControlKey, EventKind, FigureInfo, FigureSettings, FigureUpdate, Place, RosterEntry,
+    ControlKey, EventKind, FigureInfo, FigureSettings, FigureUpdate, Place,
 };
 use std::sync::Arc;
 
@@ -67,16 +67,7 @@ impl Shard {
     pub(super) fn roster_changed(&mut self) {
         self.roster_version += 1;
         self.changed = true;
-        self.roster = self
-            .scene
-            .members()
-            .iter()
-            .map(|m| RosterEntry {
-                index: m.index,
-                figure: m.id.clone(),
-                body: m.settings.body.id.clone(),
-            })
-            .collect();
+        self.roster = self.scene.roster();
     }
 
     /// Adds a figure.

@@ -1,9 +1,8 @@
 //! Obstacles of a world.
 
 use super::Shard;
-use crate::server::engine::ObstacleKey;
 use crate::server::tick::scene::{Done, Input};
-use crate::sim::collide::{ObstacleSetup, Other};
+use crate::sim::collide::ObstacleSetup;
 use crate::wire::status::Fault;
 use crate::wire::types::{EventKind, ObstacleInfo};
 
@@ -15,23 +14,10 @@ impl Shard {
         })
     }
 
-    pub(super) fn obstacle_info(&self, (id, key): &(String, ObstacleKey)) -> ObstacleInfo {
-        let o = self
-            .scene
-            .world()
-            .obstacle(*key)
-            .expect("it is in the world");
-        ObstacleInfo {
-            id: id.clone(),
-            setup: o.setup().clone(),
-            force: o.force(),
-        }
-    }
-
     /// All obstacles, in the order they were added.
     pub fn obstacles(&self) -> Vec<ObstacleInfo> {
         let all = self.scene.obstacles().iter();
-        all.map(|o| self.obstacle_info(o)).collect()
+        all.map(|o| self.scene.obstacle_info(o)).collect()
     }
 
     /// Adds an obstacle.
@@ -55,7 +41,7 @@ impl Shard {
         };
         self.changed = true;
         self.world_event(EventKind::ObstacleAdded(format!("obstacles/{id}")));
-        Ok(self.obstacle_info(&(id, key)))
+        Ok(self.scene.obstacle_info(&(id, key)))
     }
 
     /// Replaces an obstacle.
@@ -69,7 +55,7 @@ impl Shard {
         let key = self.scene.obstacles()[i].1;
         self.scene.apply(Input::UpdateObstacle(key, setup))?;
         self.changed = true;
-        Ok(self.obstacle_info(&self.scene.obstacles()[i]))
+        Ok(self.scene.obstacle_info(&self.scene.obstacles()[i]))
     }
 
     /// Removes an obstacle.
@@ -81,19 +67,5 @@ impl Shard {
         self.changed = true;
         self.world_event(EventKind::ObstacleRemoved(format!("obstacles/{id}")));
         Ok(())
-    }
-
-    /// What a figure touches, as it is called outside; empty for something that has gone.
-    pub(super) fn name_of(&self, other: Other) -> String {
-        match other {
-            Other::Figure(key, _) => {
-                let m = self.scene.members().iter().find(|m| m.key.0 == key);
-                m.map_or_else(String::new, |m| format!("figures/{}", m.id))
-            }
-            Other::Obstacle(key) => {
-                let o = self.scene.obstacles().iter().find(|(_, k)| *k == key);
-                o.map_or_else(String::new, |(id, _)| format!("obstacles/{id}"))
-            }
-        }
     }
 }
