@@ -510,13 +510,7 @@ async fn write_state(
     // A world that goes back meanwhile has another one by then.
     while let Some(capture) = journal.to_write(before) {
         let encoded = Arc::clone(&capture);
-        let bytes = tokio::task::spawn_blocking(move || {
-            let begun = Instant::now();
-            let bytes = checkpoints::encode(&encoded);
-            let seconds = begun.elapsed().as_secs_f64();
-            metrics::histogram!("sinew_store_checkpoint_seconds").record(seconds);
-            bytes
-        });
+        let bytes = tokio::task::spawn_blocking(move || checkpoints::encode(&encoded));
         let bytes = bytes.await.map_err(|e| Fault::Internal(e.to_string()))??;
         if journal.write(&capture, bytes.into()) {
             return Ok(Some((capture.tick(), capture.hash())));

@@ -129,7 +129,7 @@ impl App {
             clips: Clips::new(&config, &bodies)?,
             bodies,
             worlds: Registry::new(config.clone()),
-            checkpoints: Checkpoints::new(share),
+            checkpoints: Checkpoints::new(&config),
             recordings: Recordings::new(config.max_recordings, config.max_recording_bytes, share),
             conversions: Pool::new(
                 "file conversion",

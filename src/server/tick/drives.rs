@@ -1,7 +1,7 @@
 //! Who drives which figure live: at most one driver per figure, kept for a grace time when the driver is gone.
 
 use super::scene::{PlayerKey, Scene};
-use crate::server::ingest::jitter_buffer::Frame;
+use crate::server::ingest::jitter_buffer::{Counts, Frame};
 use crate::server::ingest::mailbox::{DriverId, Mailbox};
 use crate::wire::status::Fault;
 use crate::wire::types::{DriveSettings, Feedback, FigureFeedback, MotionSample};
@@ -111,17 +111,17 @@ impl Drive {
         if taken.pushed {
             self.touch(None, now);
         }
-        let mut samples: Vec<(f64, MotionSample)> = taken
+        let mut samples: Vec<((f64, Instant), MotionSample)> = taken
             .deliveries
             .into_iter()
             .flat_map(|d| {
-                let at = scheduled(d.arrival);
+                let at = (scheduled(d.arrival), d.arrival);
                 d.samples.into_iter().map(move |s| (at, s))
             })
             .collect();
         samples.sort_by_key(|(_, s)| s.sequence);
         let mut anew = None;
-        for (at, sample) in samples {
+        for ((at, arrival), sample) in samples {
             for f in sample.figures {
                 let Some(key) = self.slots[f.slot].player else {
                     continue;
@@ -142,8 +142,12 @@ impl Drive {
                     velocity: f.velocity,
                     planted: f.planted,
                     guess: Cell::default(),
+                    arrival,
                 };
-                if scene.take_frame(key, frame, at) || anew.is_some() {
+                let before = player.buffer.counts();
+                let begins = scene.take_frame(key, frame, at);
+                count_dropped(before, scene.player(key).map(|p| p.buffer.counts()));
+                if begins || anew.is_some() {
                     anew = Some(sample.sequence);
                 }
             }
@@ -186,6 +190,21 @@ impl Drive {
                     }
                 })
                 .collect(),
+        }
+    }
+}
+
+/// Counts what a frame has led to that a buffer has dropped. Not the buffer itself: what is done again is not counted.
+fn count_dropped(before: Counts, after: Option<Counts>) {
+    let after = after.unwrap_or(before);
+    for (reason, dropped) in [
+        ("stale", after.stale - before.stale),
+        ("overflow", after.overflow - before.overflow),
+        ("late", after.late - before.late),
+    ] {
+        if dropped > 0 {
+            metrics::counter!("sinew_motion_frames_dropped_total", "reason" => reason)
+                .increment(dropped);
         }
     }
 }

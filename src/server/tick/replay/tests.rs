@@ -127,6 +127,7 @@ impl Script {
             velocity: (player == 1).then(|| Box::new([0.0; crate::sim::body::NV])),
             planted: (i % 5 == 0).then_some([true, true]),
             guess: Cell::default(),
+            arrival: Instant::now(),
         };
         let jitter = 0.004 * f64::from((i * 7919 % 11) as i32);
         self.scene

@@ -27,6 +27,7 @@ use crate::wire::types::{FigureDisturbance, FigureSettings, FigureUpdate, Place,
 use record::Writer;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
+use std::time::Instant;
 
 /// A figure with what is known of it besides its physics.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -351,6 +352,13 @@ impl Scene {
     pub fn take_notice(&mut self, key: PlayerKey) -> Option<Resync> {
         let player = self.players.iter_mut().find(|p| p.key == key);
         player?.buffer.take_notice()
+    }
+
+    /// When the frames came that act now, once for each: what they do has been published.
+    pub fn take_shown(&mut self) -> impl Iterator<Item = Instant> + '_ {
+        self.players
+            .iter_mut()
+            .filter_map(|p| p.buffer.take_shown())
     }
 
     /// Hands the desired motion of the next tick to figures with players. The clock has left out `lost` seconds of

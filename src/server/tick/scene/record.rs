@@ -22,6 +22,7 @@ use crate::sim::math::{Quat, Vec3};
 use crate::sim::saved::{self, Definition};
 use bytes::Bytes;
 use std::cell::Cell;
+use std::time::Instant;
 
 /// Numbers of a posture.
 const POSTURE: usize = 7 + 4 * BALL_COUNT + HINGE_COUNT;
@@ -508,6 +509,7 @@ impl Reader {
             velocity,
             planted: (flags & 4 != 0).then_some([flags & 1 != 0, flags & 2 != 0]),
             guess: Cell::default(),
+            arrival: Instant::now(),
         };
         Ok(Item::Frame(player, Box::new(frame), at))
     }
@@ -538,6 +540,7 @@ mod tests {
             velocity,
             planted: [None, Some([true, false])][(i % 2) as usize],
             guess: Cell::default(),
+            arrival: Instant::now(),
         }
     }
 
@@ -585,7 +588,10 @@ mod tests {
                     panic!("{item:?}")
                 };
                 assert_eq!((key, *at), (player, 0.1 * i as f64));
-                let wrote = frame(i + *player as i64);
+                let wrote = Frame {
+                    arrival: read.arrival,
+                    ..frame(i + *player as i64)
+                };
                 assert_eq!(format!("{read:?}"), format!("{wrote:?}"));
             }
             let late = items

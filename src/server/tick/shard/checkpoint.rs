@@ -1,6 +1,7 @@
 //! A world that goes on from another state.
 
 use super::Shard;
+use crate::server::telemetry::metrics::CheckpointTimer;
 use crate::server::tick::scene::{Input, Scene};
 use crate::sim::world::checkpoint::Capture;
 use crate::wire::status::Fault;
@@ -23,6 +24,7 @@ impl Shard {
     /// The world has failed.
     pub fn capture(&mut self) -> Result<Capture, Fault> {
         self.working()?;
+        let _timed = CheckpointTimer::new("capture");
         self.flush();
         Ok(self.scene.capture())
     }

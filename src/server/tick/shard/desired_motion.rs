@@ -3,6 +3,7 @@
 use super::Shard;
 use crate::server::engine::Clip;
 use crate::server::ingest::mailbox::{DriverId, Mailbox, fenced};
+use crate::server::telemetry::metrics::ticks;
 use crate::server::tick::drives::{Drive, Slot};
 use crate::server::tick::scene::{Done, Input};
 use crate::wire::status::Fault;
@@ -199,6 +200,14 @@ impl Shard {
     pub(in crate::server::tick) fn publish_feedback(&self) {
         for drive in self.drives.iter().filter(|d| d.connection.is_none()) {
             drive.mailbox.publish(drive.feedback(&self.scene));
+        }
+    }
+
+    /// Notes that a frame has been published: how long the motion that it shows took to get there.
+    pub(in crate::server::tick) fn note_shown(&mut self) {
+        let now = Instant::now();
+        for arrival in self.scene.take_shown() {
+            ticks().input_to_frame.record(now - arrival);
         }
     }
 
