@@ -332,6 +332,28 @@ pub fn new_world(s: &WorldSettings) -> Result<World, Fault> {
     .map_err(|e| refused("world", &e))
 }
 
+/// Checks that a world with these settings would take a figure: one that nobody sees is made of it.
+///
+/// # Errors
+/// What the physics refuses.
+pub fn check_figure(
+    world: &WorldSettings,
+    figure: &FigureSettings,
+    body: Arc<Body>,
+) -> Result<(), Fault> {
+    let mut scratch = new_world(world)?;
+    add_figure(&mut scratch, "figure", figure, body).map(|_| ())
+}
+
+/// Checks an obstacle; `new`: whether there is room for it, too.
+///
+/// # Errors
+/// What the physics refuses.
+pub fn check_obstacle(world: &World, setup: &ObstacleSetup, new: bool) -> Result<(), Fault> {
+    let checked = world.check_obstacle(setup, new);
+    checked.map_err(|e| refused_obstacle(&e))
+}
+
 /// Adds an obstacle.
 pub fn add_obstacle(world: &mut World, setup: ObstacleSetup) -> Result<ObstacleKey, Fault> {
     world.add_obstacle(setup).map_err(|e| refused_obstacle(&e))

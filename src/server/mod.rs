@@ -13,7 +13,10 @@ pub mod engine;
 pub mod fanout;
 pub mod ingest;
 pub mod library;
+pub mod operations;
 pub mod persistence;
+pub mod progress;
+pub mod repeats;
 pub mod shares;
 pub mod simulate;
 pub mod telemetry;
@@ -171,6 +174,7 @@ pub async fn serve(
             tokio::time::sleep(seconds(config.shutdown_grace_s)).await;
         } => tracing::warn!("connections were still open after the grace time"),
         () = app.access.keep_fresh() => {} // never ends
+        () = app.end_idle_worlds() => {}   // nor does this
     }
     tracing::info!("stopped");
     Ok(())

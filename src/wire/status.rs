@@ -243,6 +243,23 @@ impl Fault {
     }
 }
 
+/// Type of a kind of resource, as the protos call it: `sinew/World`.
+fn resource_type(kind: &str) -> String {
+    let (first, rest) = kind.split_at(kind.len().min(1));
+    format!("sinew/{}{rest}", first.to_uppercase())
+}
+
+/// A fault as a message, for operations that tell later what a call would have told.
+pub fn rpc_status(fault: Fault) -> tonic_types::Status {
+    let status = Status::from(fault);
+    // The details of a status are its whole message.
+    prost::Message::decode(status.details()).unwrap_or_else(|_| tonic_types::Status {
+        code: status.code().into(),
+        message: status.message().to_owned(),
+        details: Vec::new(),
+    })
+}
+
 impl From<Fault> for Status {
     fn from(fault: Fault) -> Self {
         let mut details = ErrorDetails::new();
@@ -272,11 +289,11 @@ impl From<Fault> for Status {
                 Code::ResourceExhausted
             }
             Fault::NotFound { kind, name } => {
-                details.set_resource_info(format!("sinew/{kind}"), name, "", fault.to_string());
+                details.set_resource_info(resource_type(kind), name, "", fault.to_string());
                 Code::NotFound
             }
             Fault::Exists { kind, name } => {
-                details.set_resource_info(format!("sinew/{kind}"), name, "", fault.to_string());
+                details.set_resource_info(resource_type(kind), name, "", fault.to_string());
                 Code::AlreadyExists
             }
             Fault::Precondition {

@@ -5,6 +5,7 @@
 mod checkpoints;
 mod clips;
 mod constraints;
+mod contract;
 #[allow(dead_code)] // not every function
 #[path = "../common/corpus.rs"]
 mod corpus;

@@ -922,7 +922,7 @@ class Obstacle:
     @property
     def angular_velocity(self) -> NDArray[np.float64]:
         """World axes, rad/s, (3,)."""
-        w = self.message.angular_velocity_radps
+        w = self.message.angular_velocity_rad_s
         return np.array([w.x, w.y, w.z])
 
     def get(self) -> Self:
@@ -1206,12 +1206,12 @@ class Figure:
         *,
         start_s: float = 0.0,
         duration_s: float = 0.0,
-        grip_n: float = 0.0,
+        grip_newtons: float = 0.0,
     ) -> int:
         """Gives it a load of `mass_kg` (kg) in the palm of one hand, or of two, half each; until `clear` unless
         `duration_s` (s) says otherwise.
 
-        `start_s` (s) counts from now. Beyond `grip_n` (N) at one hand it slips; 0: never. A `Load` takes more: where in
+        `start_s` (s) counts from now. Beyond `grip_newtons` (N) at one hand it slips; 0: never. A `Load` takes more: where in
         the segment, and how fast it moves. Returns the tick at whose start the request was taken.
         """
         return self.apply(
@@ -1221,29 +1221,29 @@ class Figure:
                 second_segment=second_segment,
                 start_s=start_s,
                 duration_s=duration_s,
-                grip_n=grip_n,
+                grip_newtons=grip_newtons,
             )
         )
 
     def push(
-        self, impulse_ns: Vector, segment: str = "chest", *, start_s: float = 0.0, duration_s: float = 0.1
+        self, impulse_newton_seconds: Vector, segment: str = "chest", *, start_s: float = 0.0, duration_s: float = 0.1
     ) -> int:
         """Pushes it: an impulse in N·s, world axes, at the segment's centre of mass, over `duration_s` (s), `start_s`
         (s) from now on.
 
         Returns the tick at whose start the request was taken.
         """
-        return self.apply(Push(impulse_ns=impulse_ns, segment=segment, start_s=start_s, duration_s=duration_s))
+        return self.apply(Push(impulse_newton_seconds=impulse_newton_seconds, segment=segment, start_s=start_s, duration_s=duration_s))
 
     def pull(
-        self, force_n: Vector, segment: str = "pelvis", *, start_s: float = 0.0, duration_s: float = 0.0
+        self, force_newtons: Vector, segment: str = "pelvis", *, start_s: float = 0.0, duration_s: float = 0.0
     ) -> int:
         """A constant force in N, world axes, at the segment's centre of mass; until `clear` unless `duration_s` (s)
         says otherwise.
 
         `start_s` (s) counts from now. Returns the tick at whose start the request was taken.
         """
-        return self.apply(Force(force_n=force_n, segment=segment, start_s=start_s, duration_s=duration_s))
+        return self.apply(Force(force_newtons=force_newtons, segment=segment, start_s=start_s, duration_s=duration_s))
 
     def clear(self) -> None:
         """Takes all loads and forces off it."""
