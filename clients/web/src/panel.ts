@@ -375,7 +375,10 @@ export class Panel {
         perturbations: [
           {
             figureId: p.name,
-            kind: { case: "impulse", value: { segment: this.target.value, impulseNewtonSeconds: impulse, durationS: 0.1 } },
+            kind: {
+              case: "impulse",
+              value: { segment: this.target.value, impulseNewtonSeconds: impulse, durationS: 0.1 },
+            },
           },
         ],
       })

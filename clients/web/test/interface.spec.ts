@@ -64,7 +64,10 @@ async function fell(api: Sinew, world: string, figure: string): Promise<void> {
     perturbations: [
       {
         figureId: figure,
-        kind: { case: "impulse", value: { segment: "chest", impulseNewtonSeconds: { x: 300, y: 0, z: 0 }, durationS: 0.1 } },
+        kind: {
+          case: "impulse",
+          value: { segment: "chest", impulseNewtonSeconds: { x: 300, y: 0, z: 0 }, durationS: 0.1 },
+        },
       },
     ],
   });

@@ -1087,8 +1087,8 @@ class Figure:
         first frame plays, s.
 
         A figure that walks goes over to it from step to step where the two motions are alike; else it finishes its step
-        and stands first. The time is what is expected then, and until then `status.next_clip` of `get()` names the clip.
-        `reset` puts the figure into the first posture at once; otherwise it moves there by itself. It begins where the
+        and stands first. The time is what is expected then, and until then `status.next_clip` of `get()` names the
+        clip. `reset` puts the figure into the first posture at once; otherwise it moves there by itself. It begins where the
         figure is, unless `position` (world x, y, m) and `yaw` (rad) are given. A recording is prepared for its `speed`
         (0.5 to 2), which takes a moment the first time.
         """
@@ -1225,8 +1225,8 @@ class Figure:
         """Gives it a load of `mass_kg` (kg) in the palm of one hand, or of two, half each; until `clear` unless
         `duration_s` (s) says otherwise.
 
-        `start_s` (s) counts from now. Beyond `grip_newtons` (N) at one hand it slips; 0: never. A `Load` takes more: where in
-        the segment, and how fast it moves. Returns the tick at whose start the request was taken.
+        `start_s` (s) counts from now. Beyond `grip_newtons` (N) at one hand it slips; 0: never. A `Load` takes more:
+        where in the segment, and how fast it moves. Returns the tick at whose start the request was taken.
         """
         return await self.apply(
             Load(
@@ -1247,7 +1247,9 @@ class Figure:
 
         Returns the tick at whose start the request was taken.
         """
-        return await self.apply(Push(impulse_newton_seconds=impulse_newton_seconds, segment=segment, start_s=start_s, duration_s=duration_s))
+        return await self.apply(
+            Push(impulse_newton_seconds=impulse_newton_seconds, segment=segment, start_s=start_s, duration_s=duration_s)
+        )
 
     async def pull(
         self, force_newtons: Vector, segment: str = "pelvis", *, start_s: float = 0.0, duration_s: float = 0.0
@@ -1257,7 +1259,9 @@ class Figure:
 
         `start_s` (s) counts from now. Returns the tick at whose start the request was taken.
         """
-        return await self.apply(Force(force_newtons=force_newtons, segment=segment, start_s=start_s, duration_s=duration_s))
+        return await self.apply(
+            Force(force_newtons=force_newtons, segment=segment, start_s=start_s, duration_s=duration_s)
+        )
 
     async def clear(self) -> None:
         """Takes all loads and forces off it."""
@@ -1425,7 +1429,7 @@ class Drive:
         origin); now if `None`.
         """
         wanted = pose if isinstance(pose, Pose) else Pose(angles=pose)
-        await self.send_all({self._header.figures[0]: wanted}, time_s=time_s)
+        await self.send_all({self._header.figure_ids[0]: wanted}, time_s=time_s)
 
     async def send_all(self, poses: Mapping[str, Pose], *, time_s: float | None = None) -> None:
         """One instant of several figures, by name. `time_s` is when it was captured (s, any origin); now if `None`."""
@@ -1455,7 +1459,7 @@ class Drive:
         duplex.check()
         newest = duplex.newest
         driver = newest.feedback.driver_id if newest is not None else ""
-        for name in self._header.figures:
+        for name in self._header.figure_ids:
             # They are given back at the start of the next tick, after whatever else comes before it.
             request = figure_pb2.GetFigureRequest(name=f"{self._header.world}/figures/{name}")
             for _ in range(_RELEASE_TRIES):
