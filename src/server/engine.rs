@@ -354,6 +354,20 @@ pub fn check_obstacle(world: &World, setup: &ObstacleSetup, new: bool) -> Result
     checked.map_err(|e| refused_obstacle(&e))
 }
 
+/// World time of the first frame of the clip that a figure plays at `time` (s), if it does: not before that, and not in
+/// the stand after it.
+pub fn playing_since(figure: &Figure, time: f64) -> Option<f64> {
+    let Drive::Clip(play) = figure.drive() else {
+        return None;
+    };
+    if figure.next_clip().is_some() {
+        return None; // it comes to a stand, or is on its way over
+    }
+    let at = play.clip_time(time);
+    let plays = at >= 0.0 && (play.looped || at <= play.clip.duration());
+    plays.then_some(play.start)
+}
+
 /// Adds an obstacle.
 pub fn add_obstacle(world: &mut World, setup: ObstacleSetup) -> Result<ObstacleKey, Fault> {
     world.add_obstacle(setup).map_err(|e| refused_obstacle(&e))

@@ -95,6 +95,7 @@ pub async fn serve(
         tonic_reflection::server::Builder::configure()
             .register_encoded_file_descriptor_set(DESCRIPTOR_SET)
             .register_encoded_file_descriptor_set(tonic_health::pb::FILE_DESCRIPTOR_SET)
+            .register_encoded_file_descriptor_set(tonic_types::pb::FILE_DESCRIPTOR_SET)
     };
     let mut routes = Routes::builder();
     routes
@@ -109,6 +110,7 @@ pub async fn serve(
         .into_axum_router()
         .reset_fallback()
         .layer(from_fn_with_state(edge.clone(), edge::sizes))
+        .layer(from_fn_with_state(edge.clone(), edge::reasons))
         .layer(from_fn_with_state(app.access.clone(), access::identify))
         .layer(tonic_web::GrpcWebLayer::new())
         .layer(http::cors(edge.clone()));
@@ -121,9 +123,6 @@ pub async fn serve(
     let mut server = Server::builder()
         .accept_http1(true) // status page, metrics, gRPC-Web from browsers
         .max_concurrent_streams(Some(config.max_streams_per_connection as u32))
-        .concurrency_limit_per_connection(config.max_requests_per_connection as usize)
-        .load_shed(true)
-        .timeout(seconds(config.request_timeout_s))
         .initial_stream_window_size(STREAM_WINDOW)
         .initial_connection_window_size(CONNECTION_WINDOW)
         .max_frame_size(HTTP2_FRAME)

@@ -10,7 +10,7 @@ use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::Target;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// A place on the ground: world x, y (m) and heading about z (rad).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -217,6 +217,10 @@ pub struct Described {
     pub world: WorldInfo,
     /// Its figures, in the order of creation.
     pub figures: Vec<FigureInfo>,
+    /// Who controls each of them, in the same order.
+    pub controls: Vec<ControlInfo>,
+    /// When that was so.
+    pub at: Instant,
 }
 
 /// Changes of a figure; `None` leaves a setting as it is.

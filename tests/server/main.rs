@@ -15,10 +15,12 @@ mod ending;
 mod forecast;
 mod limits;
 mod live;
+mod long_work;
 mod obstacles;
 mod pages;
 #[path = "../common/raw.rs"]
 mod raw;
+mod reasons;
 mod sharing;
 mod support;
 mod watching;

@@ -134,16 +134,12 @@ impl ControlService for Api {
         &self,
         request: Request<pb::GetControlRequest>,
     ) -> Result<Response<pb::GetControlResponse>, Status> {
-        let result = async {
+        let result = || {
             let (handle, figure) = self.figure(&request, "figure", &request.get_ref().figure)?;
-            let figure = figure.to_owned();
-            let info = handle
-                .call(origin(&request), move |s| s.control(&figure))
-                .await?;
             Ok(pb::GetControlResponse {
-                lease: Some(control::lease(&handle.id, &info)),
+                lease: Some(control::lease(&handle.id, &handle.control(figure)?)),
             })
         };
-        answer(result.await)
+        answer(result())
     }
 }

@@ -109,14 +109,21 @@ mod tests {
             ("1x", None),
             ("", None),
         ] {
-            assert_eq!(timeout(&headers(&[("grpc-timeout", text)])), time, "{text:?}");
+            assert_eq!(
+                timeout(&headers(&[("grpc-timeout", text)])),
+                time,
+                "{text:?}"
+            );
         }
         assert_eq!(timeout(&HeaderMap::new()), None);
     }
 
     #[test]
     fn a_bare_status_is_explained_and_others_stay_as_they_are() {
-        let mut bare = headers(&[("grpc-status", "12"), ("grpc-message", "gzip%20is%20not%20read")]);
+        let mut bare = headers(&[
+            ("grpc-status", "12"),
+            ("grpc-message", "gzip%20is%20not%20read"),
+        ]);
         explain(&mut bare);
         let status = Status::from_header_map(&bare).unwrap();
         assert_eq!(status.code(), Code::Unimplemented);

@@ -2,6 +2,7 @@
 //! thread; others send [`Command`](super::command::Command)s that call these methods between ticks.
 
 mod checkpoint;
+mod clips;
 mod control;
 mod desired_motion;
 mod figures;
@@ -42,6 +43,8 @@ struct Member {
     index: i32,
     settings: FigureSettings,
     clip: Option<String>,
+    /// The clip that events have told of.
+    told: Option<clips::Playing>,
 }
 
 /// Steps that a client waits for.
@@ -304,6 +307,7 @@ impl Shard {
             let f = self.world.figure(m.key);
             f.is_some_and(|f| f.next_clip().is_some() || !f.constraints().is_empty())
         });
+        let passing = passing || self.control_passes();
         let before = std::mem::replace(&mut self.passing, passing);
         if std::mem::replace(&mut self.described, true) && !passing && !before {
             return None;
@@ -311,6 +315,8 @@ impl Shard {
         Some(Arc::new(Described {
             world: self.info(),
             figures: self.figures(),
+            controls: self.controls(),
+            at: Instant::now(),
         }))
     }
 
@@ -407,6 +413,7 @@ impl Shard {
 
     /// Events since the last call.
     pub(super) fn take_events(&mut self) -> Vec<WorldEvent> {
+        self.tell_clips();
         std::mem::take(&mut self.events)
     }
 

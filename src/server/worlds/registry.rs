@@ -16,7 +16,7 @@ use crate::server::tick::{self, Outlet};
 use crate::server::worlds::usage::Usage;
 use crate::sim::body::Body;
 use crate::wire::status::Fault;
-use crate::wire::types::{Described, FigureInfo, Snapshot, WorldInfo, WorldSettings};
+use crate::wire::types::{ControlInfo, Described, FigureInfo, Snapshot, WorldInfo, WorldSettings};
 use std::collections::{BTreeMap, HashMap};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU64, Ordering};
@@ -283,6 +283,21 @@ impl WorldHandle {
         })
     }
 
+    /// Who controls a figure.
+    ///
+    /// # Errors
+    /// There is none of that name.
+    pub fn control(&self, figure: &str) -> Result<ControlInfo, Fault> {
+        let described = self.described();
+        let found = described.controls.iter().find(|c| c.figure == figure);
+        let mut info = found.cloned().ok_or_else(|| {
+            Fault::not_found("figure", format!("worlds/{}/figures/{figure}", self.id))
+        })?;
+        let since = described.at.elapsed();
+        info.expires_in = info.expires_in.map(|left| left.saturating_sub(since));
+        Ok(info)
+    }
+
     /// The body of a figure, and the last part of its name.
     ///
     /// # Errors
@@ -481,6 +496,8 @@ impl Registry {
         let described = Described {
             world: shard.info(),
             figures: shard.figures(),
+            controls: shard.controls(),
+            at: Instant::now(),
         };
         let outlet = Arc::new(Outlet {
             latest: watch::Sender::new(first),

@@ -143,6 +143,7 @@ impl Shard {
             index: self.next_index,
             settings,
             clip: None,
+            told: None,
         });
         self.next_index += 1;
         self.roster_changed();
