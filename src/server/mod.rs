@@ -30,7 +30,7 @@ mod viewer;
 
 use crate::wire::DESCRIPTOR_SET;
 use api::App;
-use axum::middleware::from_fn_with_state;
+use axum::middleware::{from_fn, from_fn_with_state};
 use config::Config;
 use std::future::Future;
 use std::sync::Arc;
@@ -85,6 +85,8 @@ pub async fn serve(
     stop: watch::Sender<bool>,
 ) -> Result<(), BoxError> {
     let config = app.config.clone();
+    #[cfg(feature = "otlp")]
+    let traces = telemetry::traces::start(&config)?;
     let (health, health_service) = tonic_health::server::health_reporter();
     for name in api::SERVICE_NAMES {
         health
@@ -112,6 +114,7 @@ pub async fn serve(
         .layer(from_fn_with_state(edge.clone(), edge::sizes))
         .layer(from_fn_with_state(edge.clone(), edge::reasons))
         .layer(from_fn_with_state(app.access.clone(), access::identify))
+        .layer(from_fn(telemetry::calls::observe))
         .layer(tonic_web::GrpcWebLayer::new())
         .layer(http::cors(edge.clone()));
     let router = grpc
@@ -174,6 +177,10 @@ pub async fn serve(
         } => tracing::warn!("connections were still open after the grace time"),
         () = app.access.keep_fresh() => {} // never ends
         () = app.end_idle_worlds() => {}   // nor does this
+    }
+    #[cfg(feature = "otlp")]
+    if let Some(traces) = traces {
+        traces.close().await;
     }
     tracing::info!("stopped");
     Ok(())

@@ -7,7 +7,7 @@
 use super::store::{Entry, History, Item, Logged, Loss, Retention, StoreError, Usage, WorldKey};
 use bytes::Bytes;
 use rusqlite::{Connection, ErrorCode, Row, params};
-use std::collections::{BTreeMap, HashMap, VecDeque};
+use std::collections::{BTreeMap, HashMap, HashSet, VecDeque};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
@@ -269,6 +269,8 @@ pub(super) struct Log {
     session: i64,
     next_id: i64,
     tracks: HashMap<WorldKey, Track>,
+    /// Worlds that are gone, of which the last entries may still be on their way.
+    forgotten: HashSet<WorldKey>,
     /// Rows with wrong checksums that were met, and places that could not be read.
     pub damaged_rows: u64,
 }
@@ -320,6 +322,7 @@ impl Log {
             session: now_ms(),
             next_id: 1,
             tracks: HashMap::new(),
+            forgotten: HashSet::new(),
             damaged_rows: 0,
         };
         log.load()?;
@@ -419,6 +422,9 @@ impl Log {
         };
         let mut places = Vec::new();
         for entry in entries {
+            if self.forgotten.contains(&entry.world) {
+                continue;
+            }
             let track = changed.entry(entry.world).or_insert_with(|| {
                 // Only what commits change of it.
                 let known = self.tracks.get(&entry.world);
@@ -640,7 +646,7 @@ impl Log {
         }
     }
 
-    /// Forgets a world; its rows go with the next cuts.
+    /// Forgets a world, and what is still written of it; its rows go with the next cuts.
     ///
     /// # Errors
     /// It could not be done.
@@ -649,6 +655,7 @@ impl Log {
         let done = self.db.execute(sql, [world.0 as i64]);
         done.map_err(|e| self.fault(&e))?;
         self.tracks.remove(&world);
+        self.forgotten.insert(world);
         Ok(())
     }
 

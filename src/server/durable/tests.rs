@@ -512,6 +512,39 @@ fn a_deleted_world_is_gone_and_its_name_is_free() {
 }
 
 #[test]
+fn a_kill_in_the_middle_of_a_deletion_is_no_damage() {
+    let dir = Temporary::new();
+    let mut store = LocalStore::open(&dir.0).unwrap();
+    let worlds = fill(&mut store, 5);
+    let key = worlds[0].key;
+    let whole = dir.0.join("worlds").join(format!("{key}.world"));
+    let kept = std::fs::read(&whole).unwrap();
+    store.delete_world(key).unwrap();
+    // The thread of the world hands in a last state before it hears of it.
+    store
+        .commit(&[Entry {
+            world: key,
+            tick: 6,
+            item: Item::Checkpoint {
+                bytes: state(0, 6),
+                after_gap: false,
+            },
+        }])
+        .unwrap();
+    drop(store);
+    for killed_after_the_first_step in [false, true] {
+        if killed_after_the_first_step {
+            std::fs::write(whole.with_extension("gone"), &kept).unwrap();
+        }
+        let mut store = LocalStore::open(&dir.0).unwrap();
+        let found = recover(&mut store, &[]).unwrap();
+        assert!(found.damaged.is_empty(), "{:?}", found.damaged);
+        assert_eq!(found.worlds.len(), WORLDS - 1);
+        assert!(!whole.with_extension("gone").exists());
+    }
+}
+
+#[test]
 fn clips_share_their_content() {
     let dir = Temporary::new();
     let mut store = LocalStore::open(&dir.0).unwrap();
