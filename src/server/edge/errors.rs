@@ -1,5 +1,5 @@
-//! Errors that nobody here has made: those of tonic, of health and of reflection get an `ErrorInfo`, as all others have,
-//! and requests that take too long end as such.
+//! Errors that nobody here has made: those of tonic, of health and of reflection get an `ErrorInfo`, as all others
+//! have, and requests that take too long end as such.
 
 use super::Edge;
 use crate::server::telemetry::count_refusal;

@@ -1088,9 +1088,9 @@ class Figure:
 
         A figure that walks goes over to it from step to step where the two motions are alike; else it finishes its step
         and stands first. The time is what is expected then, and until then `status.next_clip` of `get()` names the
-        clip. `reset` puts the figure into the first posture at once; otherwise it moves there by itself. It begins where the
-        figure is, unless `position` (world x, y, m) and `yaw` (rad) are given. A recording is prepared for its `speed`
-        (0.5 to 2), which takes a moment the first time.
+        clip. `reset` puts the figure into the first posture at once; otherwise it moves there by itself. It begins
+        where the figure is, unless `position` (world x, y, m) and `yaw` (rad) are given. A recording is prepared for
+        its `speed` (0.5 to 2), which takes a moment the first time.
         """
         named = clip.name if isinstance(clip, Clip) else clip
         request = motion_pb2.PlayClipRequest(
