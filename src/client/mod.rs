@@ -211,6 +211,10 @@ impl Client {
         history: history_service_client::HistoryServiceClient;
         /// `RecordingService`.
         recordings: recording_service_client::RecordingServiceClient;
+        /// `ObstacleService`.
+        obstacles: obstacle_service_client::ObstacleServiceClient;
+        /// `OperationService`.
+        operations: operation_service_client::OperationServiceClient;
         /// `ServerService`.
         server: server_service_client::ServerServiceClient;
         /// `AccessService`.

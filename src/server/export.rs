@@ -197,7 +197,8 @@ impl Writer for Mcap {
         let snapshot = scene.snapshot(&self.world, (Arc::clone(&self.roster), self.version));
         if anew {
             let figures = snapshot.roster.iter();
-            let figures = figures.map(|e| (e.index.to_string(), format!("{} {}", e.figure, e.body)));
+            let figures =
+                figures.map(|e| (e.index.to_string(), format!("{} {}", e.figure, e.body)));
             let metadata = mcap::records::Metadata {
                 name: format!("roster from tick {}: index, figure, body", snapshot.tick),
                 metadata: figures.collect(),
@@ -230,7 +231,10 @@ impl Writer for Mcap {
 }
 
 /// The figure that a file is about: by its name, or the first one that there was.
-fn chosen<'a>(wanted: &mut Option<String>, scene: &'a Scene) -> Option<&'a crate::sim::world::Figure> {
+fn chosen<'a>(
+    wanted: &mut Option<String>,
+    scene: &'a Scene,
+) -> Option<&'a crate::sim::world::Figure> {
     let mut members = scene.members().iter();
     let member = match wanted {
         Some(id) => members.find(|m| m.id == *id),

@@ -94,11 +94,7 @@ impl Recordings {
     ///
     /// # Errors
     /// The name is taken, there are too many, of all or of this client, or the tick is not held.
-    pub fn start(
-        &self,
-        journal: Arc<Journal>,
-        new: NewRecording,
-    ) -> Result<Arc<Recording>, Fault> {
+    pub fn start(&self, journal: Arc<Journal>, new: NewRecording) -> Result<Arc<Recording>, Fault> {
         let mut all = self.all();
         let key = |id: &str| (new.world.clone(), id.to_owned());
         let id = match new.id {

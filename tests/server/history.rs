@@ -161,7 +161,10 @@ async fn a_tick_that_is_not_held_is_named() {
         server.fork_at("x", &world, 11).await.unwrap_err(),
     ] {
         let (code, reason, _) = refusal(&refused);
-        assert_eq!((code, reason.as_str()), (Code::OutOfRange, "RESUME_EXPIRED"));
+        assert_eq!(
+            (code, reason.as_str()),
+            (Code::OutOfRange, "RESUME_EXPIRED")
+        );
     }
     let refused = server.seek(&world, -1).await.unwrap_err();
     assert_eq!(refusal(&refused).0, Code::InvalidArgument);
@@ -191,7 +194,10 @@ async fn a_recording_outlives_its_past_and_becomes_files() {
     let begun = begun.into_inner().recording.unwrap();
     assert_eq!(begun.name, "worlds/w/recordings/r");
     let running = pb::RecordingState::Running as i32;
-    assert_eq!((begun.state, begun.first_tick, begun.last_tick), (running, 30, 60));
+    assert_eq!(
+        (begun.state, begun.first_tick, begun.last_tick),
+        (running, 30, 60)
+    );
     let taken = recordings.start_recording(request).await.unwrap_err();
     assert_eq!(refusal(&taken).0, Code::AlreadyExists);
 
@@ -200,7 +206,10 @@ async fn a_recording_outlives_its_past_and_becomes_files() {
     let request = pb::StopRecordingRequest { name: name.clone() };
     let ended = recordings.stop_recording(request).await.unwrap();
     let ended = ended.into_inner().recording.unwrap();
-    assert_eq!((ended.last_tick, ended.end_reason.as_str()), (75, "STOPPED"));
+    assert_eq!(
+        (ended.last_tick, ended.end_reason.as_str()),
+        (75, "STOPPED")
+    );
     // The world has another past: the recording stays.
     server.seek(&world, 10).await.unwrap();
     server.step(&world, 3).await;
@@ -214,7 +223,10 @@ async fn a_recording_outlives_its_past_and_becomes_files() {
         let message = message.unwrap();
         assert_eq!(message.channel.topic, "/worlds/w");
         let schema = message.channel.schema.as_ref().unwrap();
-        assert_eq!((&*schema.name, &*schema.encoding), ("sinew.v1.WorldFrame", "protobuf"));
+        assert_eq!(
+            (&*schema.name, &*schema.encoding),
+            ("sinew.v1.WorldFrame", "protobuf")
+        );
         let frame = <pb::WorldFrame as prost::Message>::decode(&*message.data).unwrap();
         assert_eq!(frame.tick, ticks);
         assert_eq!(frame.state_hash, hashes[ticks as usize]);

@@ -78,11 +78,11 @@ impl HistoryService for Api {
         &self,
         request: Request<pb::SeekWorldRequest>,
     ) -> Result<Response<pb::SeekWorldResponse>, Status> {
-        let result = async {
+        self.once(request, |api, request| async move {
             let (client, origin) = (client(&request), origin(&request));
-            let handle = self.world(&request, "name", &request.get_ref().name)?;
+            let handle = api.world(&request, "name", &request.get_ref().name)?;
             let tick = not_negative("tick", request.get_ref().tick)?;
-            let scene = self.at_tick(&client, &handle, tick).await?;
+            let scene = api.at_tick(&client, &handle, tick).await?;
             let cleared = handle.clone();
             let info = handle
                 .call(origin, move |s| {
@@ -95,8 +95,8 @@ impl HistoryService for Api {
             Ok(pb::SeekWorldResponse {
                 world: Some(world::world_out(&info)),
             })
-        };
-        answer(result.await)
+        })
+        .await
     }
 
     async fn replay_world(

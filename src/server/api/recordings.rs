@@ -5,7 +5,8 @@ use super::{Api, answer, client, refusal};
 use crate::server::export::{Format, export};
 use crate::server::recordings::{NewRecording, Recording};
 use crate::server::tick::journal::PinEnd;
-use crate::wire::convert::{child_name, new_id, not_negative, page, timestamp};
+use crate::wire::convert::names::RECORDING;
+use crate::wire::convert::{new_id, not_negative, page, timestamp};
 use crate::wire::pb;
 use crate::wire::pb::recording_service_server::RecordingService;
 use crate::wire::status::Fault;
@@ -18,10 +19,6 @@ use tonic::{Request, Response, Status};
 const PIECE: usize = 1 << 20;
 /// Pieces that wait for a client who does not read.
 const PIECES: usize = 2;
-
-fn recording_name<'a>(field: &str, name: &'a str) -> Result<(&'a str, &'a str), Fault> {
-    child_name(field, name, "recordings", "recording")
-}
 
 fn out(recording: &Recording) -> pb::Recording {
     let now = recording.now();
@@ -36,7 +33,7 @@ fn out(recording: &Recording) -> pb::Recording {
         Some(_) => pb::RecordingState::Ended,
     };
     pb::Recording {
-        name: format!("worlds/{}/recordings/{}", recording.world, recording.id),
+        name: RECORDING.name([&recording.world, &recording.id]),
         state: state.into(),
         first_tick: now.ticks.0 as i64,
         last_tick: now.ticks.1 as i64,
@@ -49,7 +46,7 @@ fn out(recording: &Recording) -> pb::Recording {
 impl Api {
     /// A recording, for those who may make this call in its world.
     fn recording<T>(&self, request: &Request<T>, name: &str) -> Result<Arc<Recording>, Fault> {
-        let (world, id) = recording_name("name", name)?;
+        let [world, id] = RECORDING.ids("name", name)?;
         let handle = self.world(request, "name", &format!("worlds/{world}"))?;
         self.recordings.get(&handle.id, id)
     }
@@ -63,9 +60,9 @@ impl RecordingService for Api {
         &self,
         request: Request<pb::StartRecordingRequest>,
     ) -> Result<Response<pb::StartRecordingResponse>, Status> {
-        let start = || {
+        self.once(request, |api, request| async move {
             let r = request.get_ref();
-            let handle = self.world(&request, "parent", &r.parent)?;
+            let handle = api.world(&request, "parent", &r.parent)?;
             let first = r.first_tick.map(|t| not_negative("first_tick", t));
             let new = NewRecording {
                 world: handle.id.to_string(),
@@ -73,26 +70,26 @@ impl RecordingService for Api {
                 first: first.transpose()?,
                 owner: client(&request),
             };
-            let recording = self.recordings.start(journal(&handle)?, new)?;
+            let recording = api.recordings.start(journal(&handle)?, new)?;
             Ok(pb::StartRecordingResponse {
                 recording: Some(out(&recording)),
             })
-        };
-        answer(start())
+        })
+        .await
     }
 
     async fn stop_recording(
         &self,
         request: Request<pb::StopRecordingRequest>,
     ) -> Result<Response<pb::StopRecordingResponse>, Status> {
-        let stop = || {
-            let recording = self.recording(&request, &request.get_ref().name)?;
+        self.once(request, |api, request| async move {
+            let recording = api.recording(&request, &request.get_ref().name)?;
             recording.stop();
             Ok(pb::StopRecordingResponse {
                 recording: Some(out(&recording)),
             })
-        };
-        answer(stop())
+        })
+        .await
     }
 
     async fn get_recording(
@@ -130,12 +127,12 @@ impl RecordingService for Api {
         &self,
         request: Request<pb::DeleteRecordingRequest>,
     ) -> Result<Response<pb::DeleteRecordingResponse>, Status> {
-        let delete = || {
-            let recording = self.recording(&request, &request.get_ref().name)?;
-            self.recordings.remove(&recording.world, &recording.id)?;
+        self.once(request, |api, request| async move {
+            let recording = api.recording(&request, &request.get_ref().name)?;
+            api.recordings.remove(&recording.world, &recording.id)?;
             Ok(pb::DeleteRecordingResponse {})
-        };
-        answer(delete())
+        })
+        .await
     }
 
     async fn export_recording(

@@ -2,6 +2,7 @@
 //! thread; others send [`Command`](super::command::Command)s that call these methods between ticks.
 
 mod checkpoint;
+mod clips;
 mod control;
 mod desired_motion;
 mod figures;
@@ -18,14 +19,14 @@ use super::leases::Leases;
 use super::planners::Planners;
 use super::scene::{Input, Scene};
 use crate::server::durable::marks::Mark;
-use crate::server::engine::{self, Planning};
+use crate::server::engine::{self, FigureKey, Planning};
 use crate::server::ingest::mailbox::Mailboxes;
 use crate::wire::status::Fault;
 use crate::wire::types::{
-    Described, EventKind, Overrun, RosterEntry, Snapshot, WorldCondition, WorldEvent, WorldInfo,
+    Described, EventKind, RosterEntry, Snapshot, WorldCondition, WorldEvent, WorldInfo,
     WorldSettings, WorldUpdate,
 };
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 use std::time::{Instant, SystemTime};
 
@@ -59,6 +60,8 @@ pub struct Shard {
     budget: Arc<Budget>,
     account: Arc<Account>,
     scene: Scene,
+    /// The clips that events have told of.
+    told: BTreeMap<FigureKey, clips::Playing>,
     /// Where its past is kept.
     journal: Option<Arc<Journal>>,
     roster: Arc<[RosterEntry]>,
@@ -110,6 +113,7 @@ impl Shard {
             budget,
             account,
             scene,
+            told: BTreeMap::new(),
             journal: None,
             roster: Arc::new([]),
             roster_version: 1,
@@ -137,7 +141,7 @@ impl Shard {
     }
 
     /// Last part of its name.
-    pub(super) fn id(&self) -> &str {
+    pub fn id(&self) -> &str {
         &self.id
     }
 
@@ -205,6 +209,18 @@ impl Shard {
         );
     }
 
+    /// The world as [`Self::update`] would leave it.
+    pub fn would_update(&self, u: WorldUpdate) -> Result<WorldInfo, Fault> {
+        self.working()?;
+        if let Some(speed) = u.speed.filter(|_| !self.paused) {
+            let rate = self.scene.settings().rate_hz;
+            self.budget.would_set_pace(&self.account, rate * speed)?;
+        }
+        let mut info = self.info();
+        u.apply(&mut info.settings.pace);
+        Ok(info)
+    }
+
     /// Changes pace or name.
     pub fn update(&mut self, u: WorldUpdate) -> Result<WorldInfo, Fault> {
         self.working()?;
@@ -212,23 +228,9 @@ impl Shard {
             self.budget
                 .set_pace(&self.account, self.scene.settings().rate_hz * speed)?;
         }
-        let mut pace = self.scene.settings().pace.clone();
         let timed = u.overrun.is_some() || u.catch_up_limit.is_some() || u.speed.is_some();
-        if let Some(name) = u.display_name {
-            pace.display_name = name;
-        }
-        if let Some(limit) = u.catch_up_limit {
-            pace.catch_up_limit = limit;
-        }
-        if let Some(overrun) = u.overrun {
-            pace.overrun = overrun;
-        }
-        if let Overrun::CatchUp(limit) = &mut pace.overrun {
-            *limit = pace.catch_up_limit;
-        }
-        if let Some(speed) = u.speed {
-            pace.speed = speed;
-        }
+        let mut pace = self.scene.settings().pace.clone();
+        u.apply(&mut pace);
         self.scene.apply(Input::Pace(pace))?;
         if timed {
             self.restart_clock();
@@ -295,6 +297,7 @@ impl Shard {
             let f = self.scene.figure(m.key);
             f.next_clip().is_some() || !f.constraints().is_empty()
         });
+        let passing = passing || self.control_passes();
         let before = std::mem::replace(&mut self.passing, passing);
         if std::mem::replace(&mut self.described, true) && !passing && !before {
             return None;
@@ -302,6 +305,8 @@ impl Shard {
         Some(Arc::new(Described {
             world: self.info(),
             figures: self.figures(),
+            controls: self.controls(),
+            at: Instant::now(),
         }))
     }
 
@@ -321,8 +326,12 @@ impl Shard {
         }
     }
 
-    /// Ends the world after this round of commands; who waits for steps learns why.
-    pub fn close(&mut self, why: Fault) {
+    /// Ends the world after this round of commands; who waits for steps learns why. `by`: who deleted it, for those who
+    /// watch its events.
+    pub fn close(&mut self, why: Fault, by: Option<String>) {
+        if let Some(by) = by {
+            self.world_event(EventKind::Deleted(by));
+        }
         self.closing.get_or_insert(why);
     }
 
@@ -437,6 +446,7 @@ impl Shard {
 
     /// Events since the last call.
     pub(super) fn take_events(&mut self) -> Vec<WorldEvent> {
+        self.tell_clips();
         std::mem::take(&mut self.events)
     }
 

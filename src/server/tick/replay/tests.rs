@@ -176,7 +176,10 @@ impl Script {
                     },
                     ..obstacle()
                 };
-                let done = self.scene.apply(Input::AddObstacle { id: None, setup });
+                let done = self.scene.apply(Input::AddObstacle {
+                    id: "ball".into(),
+                    setup,
+                });
                 let Ok(Done::Obstacle(_, key)) = done else {
                     panic!("{done:?}")
                 };

@@ -58,8 +58,8 @@ pub enum Input {
     ClearPerturbations(FigureKey),
     /// A new obstacle.
     AddObstacle {
-        /// Last part of its name; `None`: one that is free.
-        id: Option<String>,
+        /// Last part of its name.
+        id: String,
         /// What it is.
         setup: ObstacleSetup,
     },

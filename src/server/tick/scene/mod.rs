@@ -21,7 +21,7 @@ use crate::server::engine::{self, Drive as Motion, FigureKey, ObstacleKey, Plann
 use crate::server::ingest::jitter_buffer::{Frame, Now, Resync};
 use crate::sim::body::{Body, State};
 use crate::sim::figure::loads::MAX_PERTURBATIONS;
-use crate::sim::figure::{ControlParams, LatePlans};
+use crate::sim::figure::{ControlParams, LatePlans, Perturbation};
 use crate::wire::status::Fault;
 use crate::wire::types::{FigureDisturbance, FigureSettings, FigureUpdate, Place, WorldSettings};
 use record::Writer;
@@ -192,7 +192,6 @@ impl Scene {
             }
             Input::AddObstacle { id, setup } => {
                 let key = engine::add_obstacle(&mut self.world, setup)?;
-                let id = id.unwrap_or_else(|| self.free_obstacle());
                 self.next_obstacle += 1;
                 self.obstacles.push((id.clone(), key));
                 Ok(Done::Obstacle(id, key))
@@ -219,7 +218,8 @@ impl Scene {
         }
     }
 
-    fn free_obstacle(&self) -> String {
+    /// A name for a new obstacle.
+    pub fn free_obstacle(&self) -> String {
         (self.next_obstacle..)
             .map(|n| format!("obstacle-{n}"))
             .find(|id| self.obstacles.iter().all(|(o, _)| o != id))
@@ -296,8 +296,14 @@ impl Scene {
         Ok(Done::Changed)
     }
 
-    /// Applies a batch, all or nothing.
-    fn perturb(&mut self, batch: &[FigureDisturbance]) -> Result<Done, Fault> {
+    /// What a batch comes to.
+    ///
+    /// # Errors
+    /// It is refused.
+    pub fn would_perturb(
+        &self,
+        batch: &[FigureDisturbance],
+    ) -> Result<Vec<(FigureKey, Perturbation)>, Fault> {
         let (tick, now, dt) = (self.world.tick(), self.world.time(), self.world.dt());
         let mut plan = Vec::with_capacity(batch.len());
         for (n, d) in batch.iter().enumerate() {
@@ -333,7 +339,12 @@ impl Scene {
             }
             plan.push((key, engine::perturbation(f.body(), &d.what, from)));
         }
-        for (key, p) in plan {
+        Ok(plan)
+    }
+
+    /// Applies a batch, all or nothing.
+    fn perturb(&mut self, batch: &[FigureDisturbance]) -> Result<Done, Fault> {
+        for (key, p) in self.would_perturb(batch)? {
             engine::perturb(&mut self.world, key, p)?;
         }
         Ok(Done::Changed)

@@ -26,6 +26,7 @@ impl Scene {
         let o = self.world.obstacle(*key).expect("it is in the world");
         ObstacleInfo {
             id: id.clone(),
+            number: key.0,
             setup: o.setup().clone(),
             force: o.force(),
         }
@@ -76,7 +77,11 @@ impl Scene {
             roster_version: roster.1,
             roster: roster.0,
             figures: self.figures(),
-            obstacles: self.obstacles.iter().map(|o| self.obstacle_info(o)).collect(),
+            obstacles: self
+                .obstacles
+                .iter()
+                .map(|o| self.obstacle_info(o))
+                .collect(),
         }
     }
 }

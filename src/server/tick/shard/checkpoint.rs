@@ -90,6 +90,7 @@ impl Shard {
         self.roster_changed();
         self.touch();
         self.world_event(EventKind::Restored(tick));
+        self.note_clips();
         Ok(self.info())
     }
 

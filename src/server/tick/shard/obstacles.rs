@@ -1,8 +1,10 @@
 //! Obstacles of a world.
 
 use super::Shard;
+use crate::server::engine;
 use crate::server::tick::scene::{Done, Input};
 use crate::sim::collide::ObstacleSetup;
+use crate::sim::math::Vec3;
 use crate::wire::status::Fault;
 use crate::wire::types::{EventKind, ObstacleInfo};
 
@@ -20,6 +22,43 @@ impl Shard {
         all.map(|o| self.scene.obstacle_info(o)).collect()
     }
 
+    /// One obstacle.
+    pub fn obstacle_now(&self, id: &str) -> Result<ObstacleInfo, Fault> {
+        let i = self.obstacle(id)?;
+        Ok(self.scene.obstacle_info(&self.scene.obstacles()[i]))
+    }
+
+    /// The name of a new obstacle; one that is free if none is given.
+    fn new_obstacle_id(&self, id: Option<String>) -> Result<String, Fault> {
+        Ok(match id {
+            Some(id) if self.obstacle(&id).is_ok() => {
+                return Err(Fault::Exists {
+                    kind: "obstacle",
+                    name: format!("worlds/{}/obstacles/{id}", self.id),
+                });
+            }
+            Some(id) => id,
+            None => self.scene.free_obstacle(),
+        })
+    }
+
+    /// The obstacle that [`Self::add_obstacle`] would add.
+    pub fn would_add_obstacle(
+        &self,
+        id: Option<String>,
+        setup: ObstacleSetup,
+    ) -> Result<ObstacleInfo, Fault> {
+        self.working()?;
+        let id = self.new_obstacle_id(id)?;
+        engine::check_obstacle(self.scene.world(), &setup, true)?;
+        Ok(ObstacleInfo {
+            id,
+            number: 0,
+            setup,
+            force: Vec3::zero(),
+        })
+    }
+
     /// Adds an obstacle.
     pub fn add_obstacle(
         &mut self,
@@ -27,21 +66,24 @@ impl Shard {
         setup: ObstacleSetup,
     ) -> Result<ObstacleInfo, Fault> {
         self.working()?;
-        let id = match id {
-            Some(id) if self.obstacle(&id).is_ok() => {
-                return Err(Fault::Exists {
-                    kind: "obstacle",
-                    name: format!("worlds/{}/obstacles/{id}", self.id),
-                });
-            }
-            id => id,
-        };
+        let id = self.new_obstacle_id(id)?;
         let Done::Obstacle(id, key) = self.scene.apply(Input::AddObstacle { id, setup })? else {
             return Err(Fault::Internal("an obstacle was added".into()));
         };
         self.changed = true;
         self.world_event(EventKind::ObstacleAdded(format!("obstacles/{id}")));
         Ok(self.scene.obstacle_info(&(id, key)))
+    }
+
+    /// The obstacle as [`Self::update_obstacle`] would leave it.
+    pub fn would_update_obstacle(
+        &self,
+        now: ObstacleInfo,
+        setup: ObstacleSetup,
+    ) -> Result<ObstacleInfo, Fault> {
+        self.working()?;
+        engine::check_obstacle(self.scene.world(), &setup, false)?;
+        Ok(ObstacleInfo { setup, ..now })
     }
 
     /// Replaces an obstacle.

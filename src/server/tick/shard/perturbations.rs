@@ -6,12 +6,23 @@ use crate::wire::status::Fault;
 use crate::wire::types::FigureDisturbance;
 
 impl Shard {
+    /// Checks that a batch is of figures that there are.
+    fn known(&self, batch: &[FigureDisturbance]) -> Result<(), Fault> {
+        self.working()?;
+        let mut figures = batch.iter().map(|d| &d.figure);
+        figures.try_for_each(|figure| self.member(figure).map(|_| ()))
+    }
+
+    /// Checks a batch as [`Self::perturb`] does and returns what it would.
+    pub fn would_perturb(&self, batch: &[FigureDisturbance]) -> Result<u64, Fault> {
+        self.known(batch)?;
+        self.scene.would_perturb(batch)?;
+        Ok(self.scene.world().tick())
+    }
+
     /// Applies a batch, all or nothing. Returns the tick at whose start it acts.
     pub fn perturb(&mut self, batch: &[FigureDisturbance]) -> Result<u64, Fault> {
-        self.working()?;
-        batch
-            .iter()
-            .try_for_each(|d| self.member(&d.figure).map(|_| ()))?;
+        self.known(batch)?;
         self.scene.apply(Input::Perturb(batch.to_vec()))?;
         Ok(self.scene.world().tick())
     }
