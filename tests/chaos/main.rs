@@ -268,7 +268,7 @@ async fn begin_driven(client: &Client) {
 async fn drive(client: &Client, mut n: i64) -> i64 {
     let header = pb::DriveHeader {
         world: format!("worlds/{DRIVEN}"),
-        figures: vec!["a".into(), "b".into()],
+        figure_ids: vec!["a".into(), "b".into()],
         ..Default::default()
     };
     let Ok(mut driver) = client.drive(header).await else {
@@ -281,7 +281,7 @@ async fn drive(client: &Client, mut n: i64) -> i64 {
             let mut angles = vec![0.0; 39];
             angles[19] = 0.6 + 0.4 * (3.0 * t).sin(); // right elbow
             pb::FigureMotion {
-                figure: figure.to_owned(),
+                figure_id: figure.to_owned(),
                 root: Some(pb::Pose {
                     position_m: Some(pb::Vector3 {
                         y: y_m,
@@ -434,13 +434,13 @@ async fn what_was_answered_outlives_kill_9() {
         // Longer than the time between two states, and than that in which a second crash puts a world into quarantine.
         let life = Duration::from_millis(6500 + 700 * (kills % 3));
         let second = Client::connect(&server.address).await.unwrap();
+        let third = Client::connect(&server.address).await.unwrap();
         let killed = async {
             tokio::time::sleep(life).await;
             let before = ticks(&second).await;
             server.kill();
             before
         };
-        let third = Client::connect(&server.address).await.unwrap();
         let (answers, before, n, seen) = tokio::join!(
             book.write(&client),
             killed,

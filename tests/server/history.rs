@@ -203,7 +203,10 @@ async fn a_recording_outlives_its_past_and_becomes_files() {
 
     hashes.extend(server.hashes(&world, 15).await);
     let name = begun.name.clone();
-    let request = pb::StopRecordingRequest { name: name.clone() };
+    let request = pb::StopRecordingRequest {
+        name: name.clone(),
+        ..Default::default()
+    };
     let ended = recordings.stop_recording(request).await.unwrap();
     let ended = ended.into_inner().recording.unwrap();
     assert_eq!(
@@ -252,7 +255,10 @@ async fn a_recording_outlives_its_past_and_becomes_files() {
         .unwrap_err();
     assert_eq!(refusal(&nobody).0, Code::NotFound);
 
-    let request = pb::DeleteRecordingRequest { name: name.clone() };
+    let request = pb::DeleteRecordingRequest {
+        name: name.clone(),
+        ..Default::default()
+    };
     recordings.delete_recording(request).await.unwrap();
     let request = pb::GetRecordingRequest { name };
     let gone = recordings.get_recording(request).await.unwrap_err();

@@ -113,8 +113,9 @@ impl RecordingService for Api {
             let r = request.get_ref();
             let handle = self.world(&request, "parent", &r.parent)?;
             let all = self.recordings.of_world(&handle.id);
-            let items = all.into_iter().map(|k| (k.id.clone(), k)).collect();
-            let (kept, next_page_token) = page(items, r.page_size, &r.page_token)?;
+            let items = all.into_iter().map(|k| (k.id.clone(), k));
+            let list = format!("{}/recordings", r.parent);
+            let (kept, next_page_token) = page(&list, items, r.page_size, &r.page_token)?;
             Ok(pb::ListRecordingsResponse {
                 recordings: kept.iter().map(|k| out(k)).collect(),
                 next_page_token,
