@@ -224,6 +224,13 @@ settings! {
     log: text = "info", (), ();
     /// Logs as JSON lines.
     log_json: flag = false, (), ();
+    /// Address of an OpenTelemetry collector that takes traces by gRPC (for example `http://127.0.0.1:4317`); empty:
+    /// nobody. Needs a server that is built with the feature `otlp`.
+    otlp_endpoint: text = "", (), ();
+    /// Share of calls that are traced.
+    otlp_call_share: float = 1.0, 0.0, 1.0;
+    /// Share of ticks that are traced.
+    otlp_tick_share: float = 0.001, 0.0, 1.0;
     /// Worlds at a time; each has a thread of its own.
     max_worlds: int = 16, 1, 256;
     /// Figures in one world; 60 of them fill one core at 60 Hz.
@@ -243,6 +250,10 @@ settings! {
     max_clip_bytes: int = 16_777_216, 1024, 1_073_741_824;
     /// Bytes of all stored files and their frames.
     max_clip_total_bytes: int = 536_870_912, 1024, 1_099_511_627_776;
+    /// Checkpoints that are kept in memory, of all worlds.
+    max_checkpoints: int = 1024, 1, 1_000_000;
+    /// Bytes of all of them.
+    max_checkpoint_bytes: int = 536_870_912, 65_536, 1_099_511_627_776;
     /// Bodies that are kept ready.
     max_bodies: int = 128, 2, 10_000;
     /// Share of `max_viewers`, `max_drivers`, `max_worlds`, `max_views_per_world` and `command_queue` that one client
@@ -344,6 +355,11 @@ impl Config {
                 expected: "none, group or each".to_owned(),
                 value: config.durability,
             });
+        }
+        let no_traces = cfg!(not(feature = "otlp")) && !config.otlp_endpoint.is_empty();
+        if no_traces {
+            let needs = "a server that is built with the feature otlp";
+            return Err(ConfigError::Incomplete("otlp_endpoint", needs));
         }
         config.check_access()?;
         Ok(config)
@@ -504,6 +520,8 @@ mod tests {
         let environment = |name: &str| Config::load(None, [pair(name, "5")].into_iter(), &[]);
         let fault = environment("SINEW_MAX_WORLD").unwrap_err().to_string();
         assert!(fault.contains("SINEW_MAX_WORLD") && fault.contains("max_worlds"));
+        let traced = load(&[pair("otlp_endpoint", "http://127.0.0.1:4317")]);
+        assert_eq!(traced.is_ok(), cfg!(feature = "otlp"));
         for other in [
             "SINEW_CONFIG",
             "SINEW_MOCAP_DIR",

@@ -27,7 +27,7 @@ mod viewer;
 
 use crate::wire::DESCRIPTOR_SET;
 use api::App;
-use axum::middleware::from_fn_with_state;
+use axum::middleware::{from_fn, from_fn_with_state};
 use config::Config;
 use std::future::Future;
 use std::sync::Arc;
@@ -82,6 +82,8 @@ pub async fn serve(
     stop: watch::Sender<bool>,
 ) -> Result<(), BoxError> {
     let config = app.config.clone();
+    #[cfg(feature = "otlp")]
+    let traces = telemetry::traces::start(&config)?;
     let (health, health_service) = tonic_health::server::health_reporter();
     for name in api::SERVICE_NAMES {
         health
@@ -107,6 +109,7 @@ pub async fn serve(
         .reset_fallback()
         .layer(from_fn_with_state(edge.clone(), edge::sizes))
         .layer(from_fn_with_state(app.access.clone(), access::identify))
+        .layer(from_fn(telemetry::calls::observe))
         .layer(tonic_web::GrpcWebLayer::new())
         .layer(http::cors(edge.clone()));
     let router = grpc
@@ -171,6 +174,10 @@ pub async fn serve(
             tokio::time::sleep(seconds(config.shutdown_grace_s)).await;
         } => tracing::warn!("connections were still open after the grace time"),
         () = app.access.keep_fresh() => {} // never ends
+    }
+    #[cfg(feature = "otlp")]
+    if let Some(traces) = traces {
+        traces.close().await;
     }
     tracing::info!("stopped");
     Ok(())
