@@ -9,8 +9,17 @@ use std::cell::Cell;
 /// Recordings of the corpus in several dialects, cut to a few frames.
 fn seeds() -> Vec<Vec<u8>> {
     let files = [
-        "wave.vrm.bvh", "wave.mixamo.bvh", "turn.mixamo.bvh", "kick.cmu.bvh", "jog.cgspeed.bvh", "walk-slow.six.bvh",
-        "squat.lafan.bvh", "lift.biped.bvh", "lift.rot-only.bvh", "jump.generic-zup.bvh", "side-steps.threejs.bvh",
+        "wave.vrm.bvh",
+        "wave.mixamo.bvh",
+        "turn.mixamo.bvh",
+        "kick.cmu.bvh",
+        "jog.cgspeed.bvh",
+        "walk-slow.six.bvh",
+        "squat.lafan.bvh",
+        "lift.biped.bvh",
+        "lift.rot-only.bvh",
+        "jump.generic-zup.bvh",
+        "side-steps.threejs.bvh",
     ];
     files
         .map(|name| {
@@ -26,10 +35,28 @@ fn seeds() -> Vec<Vec<u8>> {
 /// What a file of motion may hold beside numbers.
 fn piece() -> impl Strategy<Value = Vec<u8>> {
     let words = [
-        "HIERARCHY\n", "ROOT a\n", "JOINT b\n", "{\n", "}\n", "End Site\n", "OFFSET 0 0 0\n", "OFFSET nan 1e999 -\n",
-        "CHANNELS 3 Zrotation Xrotation Yrotation\n", "CHANNELS 6 Xposition Yposition Zposition Zrotation\n",
-        "CHANNELS 4294967295\n", "CHANNELS -1\n", "MOTION\n", "Frames: 18446744073709551615\n", "Frames: 2\n",
-        "Frame Time: 0\n", "Frame Time: 0.0083\n", "0 0 0\n", "1e400 nan inf\n", "\r\n", "\u{feff}", "\0",
+        "HIERARCHY\n",
+        "ROOT a\n",
+        "JOINT b\n",
+        "{\n",
+        "}\n",
+        "End Site\n",
+        "OFFSET 0 0 0\n",
+        "OFFSET nan 1e999 -\n",
+        "CHANNELS 3 Zrotation Xrotation Yrotation\n",
+        "CHANNELS 6 Xposition Yposition Zposition Zrotation\n",
+        "CHANNELS 4294967295\n",
+        "CHANNELS -1\n",
+        "MOTION\n",
+        "Frames: 18446744073709551615\n",
+        "Frames: 2\n",
+        "Frame Time: 0\n",
+        "Frame Time: 0.0083\n",
+        "0 0 0\n",
+        "1e400 nan inf\n",
+        "\r\n",
+        "\u{feff}",
+        "\0",
     ];
     prop::sample::select(words.map(|w| w.as_bytes().to_vec()).to_vec())
 }

@@ -17,25 +17,102 @@ use std::cell::Cell;
 pub fn methods() -> Vec<MethodDescriptor> {
     let pool = DescriptorPool::decode(sinew::wire::DESCRIPTOR_SET).unwrap();
     let services: Vec<_> = pool.services().collect();
-    services.iter().flat_map(|s| s.methods().collect::<Vec<_>>()).collect()
+    services
+        .iter()
+        .flat_map(|s| s.methods().collect::<Vec<_>>())
+        .collect()
 }
 
 /// Texts that mean something somewhere, and texts that mean nothing.
 const TEXTS: &[&str] = &[
-    "", "w", "a", "b", "worlds/w", "worlds/w/figures/a", "worlds/w/figures/b", "worlds/w/obstacles/o",
-    "worlds/w/checkpoints/k", "worlds/w/grants/g", "worlds/none", "worlds/", "clips/walk", "clips/wave", "clips/idle",
-    "clips/c", "bodies/adult_man", "bodies/adult_woman", "adult_man", "chest", "pelvis", "r_hand", "l_foot", "*",
-    "root_pose", "torque", "user:ann", "anonymous", "me", "obstacles/0", "operations/1", "../../etc", "é", "\u{0}",
-    "worlds/w/figures/a/b", "figures/a", "speed", "paused", "name", "strength", "controller",
+    "",
+    "w",
+    "a",
+    "b",
+    "worlds/w",
+    "worlds/w/figures/a",
+    "worlds/w/figures/b",
+    "worlds/w/obstacles/o",
+    "worlds/w/checkpoints/k",
+    "worlds/w/grants/g",
+    "worlds/none",
+    "worlds/",
+    "clips/walk",
+    "clips/wave",
+    "clips/idle",
+    "clips/c",
+    "bodies/adult_man",
+    "bodies/adult_woman",
+    "adult_man",
+    "chest",
+    "pelvis",
+    "r_hand",
+    "l_foot",
+    "*",
+    "root_pose",
+    "torque",
+    "user:ann",
+    "anonymous",
+    "me",
+    "obstacles/0",
+    "operations/1",
+    "../../etc",
+    "é",
+    "\u{0}",
+    "worlds/w/figures/a/b",
+    "figures/a",
+    "speed",
+    "paused",
+    "name",
+    "strength",
+    "controller",
 ];
 
 /// Numbers likewise.
 const NUMBERS: &[f64] = &[
-    0.0, -0.0, 1.0, -1.0, 0.5, 0.1, 2.0, 60.0, 1e-9, 1e3, 1e6, 1e9, 1e18, 1e300, -1e300, f64::NAN, f64::INFINITY,
-    f64::NEG_INFINITY, f64::MIN_POSITIVE, 5e-324, 0.3, 9.81, 100.0,
+    0.0,
+    -0.0,
+    1.0,
+    -1.0,
+    0.5,
+    0.1,
+    2.0,
+    60.0,
+    1e-9,
+    1e3,
+    1e6,
+    1e9,
+    1e18,
+    1e300,
+    -1e300,
+    f64::NAN,
+    f64::INFINITY,
+    f64::NEG_INFINITY,
+    f64::MIN_POSITIVE,
+    5e-324,
+    0.3,
+    9.81,
+    100.0,
 ];
 const WHOLE: &[i64] = &[
-    0, 1, -1, 2, 3, 7, 16, 39, 45, 60, 64, 100, 1000, 65_536, i32::MAX as i64, i32::MIN as i64, i64::MAX, i64::MIN,
+    0,
+    1,
+    -1,
+    2,
+    3,
+    7,
+    16,
+    39,
+    45,
+    60,
+    64,
+    100,
+    1000,
+    65_536,
+    i32::MAX as i64,
+    i32::MIN as i64,
+    i64::MAX,
+    i64::MIN,
 ];
 
 /// Values from outside the descriptor: files and checkpoints.
@@ -45,7 +122,12 @@ pub struct Pool {
 }
 
 /// A message with some of its fields, of values that often mean something.
-pub fn message(kind: &MessageDescriptor, rng: &mut Pcg64Mcg, pool: &Pool, depth: u32) -> DynamicMessage {
+pub fn message(
+    kind: &MessageDescriptor,
+    rng: &mut Pcg64Mcg,
+    pool: &Pool,
+    depth: u32,
+) -> DynamicMessage {
     let mut out = DynamicMessage::new(kind.clone());
     for field in kind.fields() {
         let there = if depth > 5 { 0.05 } else { 0.7 };
@@ -54,7 +136,11 @@ pub fn message(kind: &MessageDescriptor, rng: &mut Pcg64Mcg, pool: &Pool, depth:
         }
         let value = if field.is_list() {
             let most = [0, 1, 2, 3, 18, 39, 45, 64, 300][rng.random_range(0..9)];
-            let most = if matches!(field.kind(), Kind::Message(_)) { most.min(4) } else { most };
+            let most = if matches!(field.kind(), Kind::Message(_)) {
+                most.min(4)
+            } else {
+                most
+            };
             Value::List((0..most).map(|_| one(&field, rng, pool, depth)).collect())
         } else if field.is_map() {
             Value::Map([(MapKey::String("k".into()), Value::String("v".into()))].into())
@@ -97,13 +183,20 @@ fn one(field: &FieldDescriptor, rng: &mut Pcg64Mcg, pool: &Pool, depth: u32) -> 
         }
         Kind::Bytes => {
             let known = (!pool.bytes.is_empty()).then(|| rng.random_range(0..pool.bytes.len()));
-            let bytes = known.map_or_else(|| vec![7; rng.random_range(0..40)], |i| pool.bytes[i].clone());
+            let bytes = known.map_or_else(
+                || vec![7; rng.random_range(0..40)],
+                |i| pool.bytes[i].clone(),
+            );
             Value::Bytes(bytes.into())
         }
         Kind::Enum(e) => {
             let values: Vec<i32> = e.values().map(|v| v.number()).collect();
             let known = rng.random_bool(0.9);
-            Value::EnumNumber(if known { values[rng.random_range(0..values.len())] } else { 77 })
+            Value::EnumNumber(if known {
+                values[rng.random_range(0..values.len())]
+            } else {
+                77
+            })
         }
         Kind::Message(m) => Value::Message(message(&m, rng, pool, depth + 1)),
     }

@@ -97,7 +97,8 @@ impl Services {
             let mut streaming = false;
             while !trailers.contains_key("grpc-status") {
                 // Unary answers end at once; streams of the world go on.
-                let next = tokio::time::timeout(if streaming { STREAM } else { PATIENCE }, body.frame());
+                let next =
+                    tokio::time::timeout(if streaming { STREAM } else { PATIENCE }, body.frame());
                 match next.await {
                     Ok(Some(frame)) => match frame.unwrap().into_trailers() {
                         Ok(t) => trailers.extend(t),
@@ -120,7 +121,10 @@ impl Services {
 
     fn ask<M: prost::Message>(&self, path: &str, message: &M) {
         let outcome = self.call(path, &message.encode_to_vec());
-        assert!(matches!(outcome, Some((Code::Ok, _))), "{path}: {outcome:?}");
+        assert!(
+            matches!(outcome, Some((Code::Ok, _))),
+            "{path}: {outcome:?}"
+        );
     }
 
     /// A world with figures, and nothing else.
@@ -164,7 +168,9 @@ impl Services {
             self.ask("/sinew.v1.WorldService/GetWorld", &request);
         }
         let page = sinew::server::telemetry::metrics().unwrap().render();
-        let failed = page.lines().find(|l| l.starts_with("sinew_worlds_failed_total"));
+        let failed = page
+            .lines()
+            .find(|l| l.starts_with("sinew_worlds_failed_total"));
         assert_eq!(failed, Some("sinew_worlds_failed_total 0"));
     }
 }
@@ -203,7 +209,11 @@ fn calls_are_carried_out_or_refused_with_a_reason() {
                 *seen.entry(format!("{code:?}")).or_default() += 1;
                 let fault = matches!(code, Code::Internal | Code::Unknown | Code::DataLoss);
                 prop_assert!(!fault, "{}: {:?}", method.full_name(), code);
-                prop_assert!(told || code == Code::Ok, "{}: {code:?} without a reason", method.full_name());
+                prop_assert!(
+                    told || code == Code::Ok,
+                    "{}: {code:?} without a reason",
+                    method.full_name()
+                );
             }
         }
         Ok(())
@@ -216,8 +226,8 @@ fn calls_are_carried_out_or_refused_with_a_reason() {
     assert!(seen.borrow().contains_key("Ok") && seen.borrow().contains_key("InvalidArgument"));
 }
 
-/// The server's part of a checkpoint, with a checksum that fits: what a stranger may send. The part of the physics has a
-/// test of its own (`tests/checkpoints.rs`).
+/// The server's part of a checkpoint, with a checksum that fits: what a stranger may send. The part of the physics has
+/// a test of its own (`tests/checkpoints.rs`).
 #[test]
 fn forged_checkpoints_of_worlds_are_refused_or_make_one() {
     use xxhash_rust::xxh3::xxh3_64;

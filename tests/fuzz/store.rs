@@ -15,7 +15,11 @@ use std::path::{Path, PathBuf};
 /// In memory where that is possible: a million directories are made.
 fn folder(name: &str) -> PathBuf {
     let memory = Path::new("/dev/shm");
-    let place = if memory.is_dir() { memory.to_owned() } else { std::env::temp_dir() };
+    let place = if memory.is_dir() {
+        memory.to_owned()
+    } else {
+        std::env::temp_dir()
+    };
     let dir = place.join(format!("sinew-fuzz-{name}-{}", std::process::id()));
     let _ = std::fs::remove_dir_all(&dir);
     dir
@@ -110,7 +114,11 @@ fn a_start_on_damaged_files_finds_or_names() {
             Ok(found) => {
                 let lost = found.worlds.iter().any(|(_, h)| !h.losses.is_empty());
                 let all = found.worlds.len() == 2 && found.clips.len() == 1;
-                let counter = if all && !lost && found.damaged.is_empty() { &whole } else { &named };
+                let counter = if all && !lost && found.damaged.is_empty() {
+                    &whole
+                } else {
+                    &named
+                };
                 counter.set(counter.get() + 1);
             }
         }
@@ -121,7 +129,12 @@ fn a_start_on_damaged_files_finds_or_names() {
     if let Err(e) = done {
         panic!("{e}");
     }
-    println!("{} whole, {} named what is lost, {} refused", whole.get(), named.get(), refused.get());
+    println!(
+        "{} whole, {} named what is lost, {} refused",
+        whole.get(),
+        named.get(),
+        refused.get()
+    );
     assert!(whole.get() > 0 && named.get() + refused.get() > 0);
 }
 

@@ -1,15 +1,15 @@
-//! Goal: a server that is used for hours holds no more than one that is used for a minute. Method: the real server with
-//! a data directory; clients create worlds, drive, watch, perturb, upload, checkpoint, fork, restore and delete without
-//! end, over connections of their own. Memory, descriptors, threads and tasks are looked at again and again; their trend
-//! (the median slope of all pairs, Theil–Sen) must not lead anywhere. When everybody has gone, nothing is left.
+//! Goal: a server that is used for hours holds no more than one that is used for a minute. Method: the real server
+//! with a data directory; clients create worlds, drive, watch, perturb, upload, checkpoint, restore and delete without
+//! end, over connections of their own. Memory, descriptors, threads and tasks are looked at again and again; their
+//! trend (the median slope of all pairs, Theil–Sen) must not lead anywhere. When everybody has gone, nothing is left.
 //!
-//! `SINEW_SOAK_SECONDS` says for how long; tests/soak.sh runs half an hour and prints the table.
+//! `SINEW_SOAK_SECONDS` says for how long; `tests/soak.sh` runs half an hour and prints the table.
 
 use crate::support::{Page, Server, Temporary, arm_frame};
 use sinew::client::Client;
 use sinew::wire::pb;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 use tonic::{Code, Status};
 
@@ -22,7 +22,7 @@ const WARM_UP: f64 = 0.25;
 /// Time from which on trends are judged, s: in a shorter one a single world is a trend.
 const JUDGED: f64 = 600.0;
 
-/// What is looked at, and by how much its trend may grow over the measured time: part of its mean, and at least so much.
+/// What is looked at, and by how much its trend may grow over the measured time: a part of its mean, at least so much.
 const LOOKED_AT: [(&str, f64, f64); 6] = [
     ("process_resident_memory_bytes", 0.05, 4e6),
     ("process_open_fds", 0.05, 3.0),
@@ -78,7 +78,11 @@ async fn round(address: &str, id: &str) -> Result<(), Status> {
             figure: "b".into(),
             kind: Some(pb::perturbation::Kind::Force(pb::Force {
                 segment: "chest".into(),
-                force_n: Some(pb::Vector3 { x: 50.0, y: 0.0, z: 0.0 }),
+                force_n: Some(pb::Vector3 {
+                    x: 50.0,
+                    y: 0.0,
+                    z: 0.0,
+                }),
                 duration_s: 0.1,
                 ..Default::default()
             })),
@@ -104,7 +108,10 @@ async fn round(address: &str, id: &str) -> Result<(), Status> {
 
     let clip = pb::CreateClipRequest {
         clip_id: id.into(),
-        data: include_bytes!("../corpus/wave.vrm.bvh").to_vec().into(),
+        source: Some(pb::create_clip_request::Source::Bvh(pb::BvhSource {
+            data: include_bytes!("../corpus/wave.vrm.bvh").to_vec().into(),
+            ..Default::default()
+        })),
         ..Default::default()
     };
     client.motions().create_clip(clip).await?;
@@ -113,10 +120,18 @@ async fn round(address: &str, id: &str) -> Result<(), Status> {
     };
     client.motions().delete_clip(delete).await?;
     // A request that fails, a stream that is left, and the end.
-    let missing = pb::GetWorldRequest { name: "worlds/none".into() };
-    assert_eq!(client.worlds().get_world(missing).await.unwrap_err().code(), Code::NotFound);
+    let missing = pb::GetWorldRequest {
+        name: "worlds/none".into(),
+    };
+    assert_eq!(
+        client.worlds().get_world(missing).await.unwrap_err().code(),
+        Code::NotFound
+    );
     drop((frames, events));
-    client.worlds().delete_world(pb::DeleteWorldRequest { name: world }).await?;
+    client
+        .worlds()
+        .delete_world(pb::DeleteWorldRequest { name: world })
+        .await?;
     Ok(())
 }
 
@@ -125,7 +140,11 @@ fn trend(points: &[(f64, f64)]) -> f64 {
     let mut slopes: Vec<f64> = points
         .iter()
         .enumerate()
-        .flat_map(|(i, a)| points[i + 1..].iter().map(move |b| (b.1 - a.1) / (b.0 - a.0)))
+        .flat_map(|(i, a)| {
+            points[i + 1..]
+                .iter()
+                .map(move |b| (b.1 - a.1) / (b.0 - a.0))
+        })
         .collect();
     slopes.sort_by(f64::total_cmp);
     slopes.get(slopes.len() / 2).copied().unwrap_or(0.0)
@@ -137,7 +156,10 @@ fn a_trend_is_that_of_most_pairs() {
         (0..100)
             .map(|i| {
                 let outlier = if i % 10 == 9 { 500.0 } else { 0.0 };
-                (f64::from(i), slope * f64::from(i) + outlier + f64::from(i * 7919 % 13))
+                (
+                    f64::from(i),
+                    slope * f64::from(i) + outlier + f64::from(i * 7919 % 13),
+                )
             })
             .collect()
     };
@@ -156,7 +178,10 @@ async fn a_server_that_is_used_without_end_holds_no_more() {
     tokio::time::sleep(Duration::from_secs(1)).await;
     let quiet = Page::of(&server).await;
 
-    let (stop, rounds) = (Arc::new(AtomicBool::new(false)), Arc::new(AtomicU64::new(0)));
+    let (stop, rounds) = (
+        Arc::new(AtomicBool::new(false)),
+        Arc::new(AtomicU64::new(0)),
+    );
     let clients: Vec<_> = (0..CLIENTS)
         .map(|c| {
             let (stop, rounds, address) = (stop.clone(), rounds.clone(), server.address.clone());
@@ -183,17 +208,27 @@ async fn a_server_that_is_used_without_end_holds_no_more() {
         client.await.unwrap();
     }
     let length = (1.0 - WARM_UP) * seconds;
-    println!("{} rounds by {CLIENTS} clients in {seconds:.0} s", rounds.load(Ordering::Relaxed));
+    println!(
+        "{} rounds by {CLIENTS} clients in {seconds:.0} s",
+        rounds.load(Ordering::Relaxed)
+    );
     println!("| measured | least | mean | most | trend over {length:.0} s | bound |");
     println!("|---|---|---|---|---|---|");
     let mut leads_somewhere = Vec::new();
     for (series, (name, part, least)) in samples.iter().zip(LOOKED_AT) {
-        let steady: Vec<_> = series.iter().filter(|p| p.0 > WARM_UP * seconds).copied().collect();
+        let steady: Vec<_> = series
+            .iter()
+            .filter(|p| p.0 > WARM_UP * seconds)
+            .copied()
+            .collect();
         let values = || steady.iter().map(|p| p.1);
         let mean = values().sum::<f64>() / steady.len().max(1) as f64;
         let grown = trend(&steady) * length;
         let bound = (part * mean).max(least);
-        let (low, high) = (values().fold(f64::MAX, f64::min), values().fold(0.0, f64::max));
+        let (low, high) = (
+            values().fold(f64::MAX, f64::min),
+            values().fold(0.0, f64::max),
+        );
         println!("| `{name}` | {low:.0} | {mean:.0} | {high:.0} | {grown:+.1} | {bound:.1} |");
         if grown > bound {
             leads_somewhere.push(name);
@@ -206,10 +241,22 @@ async fn a_server_that_is_used_without_end_holds_no_more() {
     // Everybody has gone: what there is, is what there was.
     let gone = async || {
         let page = Page::of(&server).await;
-        let named = ["sinew_worlds", "sinew_viewers", "sinew_drivers", "sinew_checkpoints", "sinew_clips"];
+        let named = [
+            "sinew_worlds",
+            "sinew_viewers",
+            "sinew_drivers",
+            "sinew_checkpoints",
+            "sinew_clips",
+        ];
         let left = named.into_iter().filter(|n| page.get(n) != quiet.get(n));
-        let more = [("process_open_fds", 3.0), ("process_threads", 2.0), ("sinew_runtime_tasks", 4.0)];
-        let grown = more.into_iter().filter(|(n, few)| page.get(n) > quiet.get(n) + few);
+        let more = [
+            ("process_open_fds", 3.0),
+            ("process_threads", 2.0),
+            ("sinew_runtime_tasks", 4.0),
+        ];
+        let grown = more
+            .into_iter()
+            .filter(|(n, few)| page.get(n) > quiet.get(n) + few);
         left.chain(grown.map(|g| g.0))
             .map(|n| format!("{n}: {} → {}", quiet.get(n), page.get(n)))
             .collect::<Vec<_>>()

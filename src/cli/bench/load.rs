@@ -36,11 +36,9 @@ pub(super) fn figure(i: u32) -> String {
     format!("f{i}")
 }
 
-/// What is measured, and how often drivers send.
+/// What is measured.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Schedule {
-    /// Frames per second of a driver.
-    pub rate: f64,
     /// Time before what is measured.
     pub warm_up: Duration,
     /// Time that is measured.
@@ -172,8 +170,8 @@ pub(super) async fn start(
     Ok(tasks)
 }
 
-/// Tells what is due when it is due. A thread of its own sleeps more exactly than the timer of the runtime, which counts
-/// in milliseconds.
+/// Tells what is due when it is due. A thread of its own sleeps more exactly than the timer of the runtime, which
+/// counts in milliseconds.
 fn pace(load: &Load, paced: &[((f64, f64), mpsc::Sender<Due>)]) {
     let window = load.window();
     let (begun, end) = (window.start - load.schedule.warm_up, window.end);
@@ -189,7 +187,10 @@ fn pace(load: &Load, paced: &[((f64, f64), mpsc::Sender<Due>)]) {
         std::thread::sleep(at.saturating_duration_since(Instant::now()));
         let (pace, queue) = &paced[k];
         if queue.try_send((i, at)).is_err() {
-            load.error("sending", &Status::resource_exhausted("too much waits already"));
+            load.error(
+                "sending",
+                &Status::resource_exhausted("too much waits already"),
+            );
         }
         waiting.push(Reverse((due(begun, *pace, i + 1), k, i + 1)));
     }
@@ -347,7 +348,10 @@ fn calls(
     let task = tokio::spawn(async move {
         while let Some((i, at)) = waiting.recv().await {
             let Ok(place) = places.clone().try_acquire_owned() else {
-                load.error("calling", &Status::resource_exhausted("too many calls wait already"));
+                load.error(
+                    "calling",
+                    &Status::resource_exhausted("too many calls wait already"),
+                );
                 continue;
             };
             let mut states = clients[i as usize % clients.len()].states();

@@ -73,7 +73,10 @@ pub struct Args {
 /// Parses a number within limits.
 fn between(least: f64, most: f64) -> impl Fn(&str) -> Result<f64, String> + Clone {
     move |text| {
-        let value = text.parse::<f64>().ok().filter(|v| (least..=most).contains(v));
+        let value = text
+            .parse::<f64>()
+            .ok()
+            .filter(|v| (least..=most).contains(v));
         value.ok_or_else(|| format!("expected a number in {least}…{most}"))
     }
 }
@@ -131,7 +134,8 @@ async fn bench(args: &Args, address: &str) -> anyhow::Result<Report> {
 async fn create(args: &Args, client: &Client, names: &[String]) -> anyhow::Result<()> {
     let bar = progress("worlds", names.len() as u64);
     for some in names.chunks(AT_A_TIME) {
-        let made = some.iter().map(|id| async {
+        let bar = &bar;
+        let made = some.iter().map(|id| async move {
             let request = pb::CreateWorldRequest {
                 world_id: id.clone(),
                 ..Default::default()
@@ -162,7 +166,10 @@ async fn delete(client: &Client, names: &[String]) {
     for some in names.chunks(AT_A_TIME) {
         let gone = some.iter().map(|id| async move {
             let name = format!("worlds/{id}");
-            client.worlds().delete_world(pb::DeleteWorldRequest { name }).await
+            client
+                .worlds()
+                .delete_world(pb::DeleteWorldRequest { name })
+                .await
         });
         // Those that were not made are not there.
         futures_util::future::join_all(gone).await;
@@ -171,7 +178,6 @@ async fn delete(client: &Client, names: &[String]) {
 
 async fn measure(args: &Args, clients: &[Client], names: &[String]) -> anyhow::Result<Report> {
     let load = Arc::new(Load::new(Schedule {
-        rate: args.rate,
         warm_up: Duration::from_secs_f64(args.warm_up),
         length: Duration::from_secs_f64(args.seconds),
     })?);

@@ -68,7 +68,11 @@ pub(super) fn quantile(buckets: &[(f64, f64)], q: f64) -> Option<f64> {
     if high.is_infinite() {
         return Some(low);
     }
-    let part = if within > below { (rank - below) / (within - below) } else { 1.0 };
+    let part = if within > below {
+        (rank - below) / (within - below)
+    } else {
+        1.0
+    };
     Some(low + part * (high - low))
 }
 
@@ -86,7 +90,10 @@ mod tests {
         };
         let (before, after) = (page(100, 100, 100), page(190, 199, 200));
         let buckets = after.buckets(&before, "t");
-        assert_eq!(buckets.iter().map(|b| b.1).collect::<Vec<_>>(), [90.0, 99.0, 100.0]);
+        assert_eq!(
+            buckets.iter().map(|b| b.1).collect::<Vec<_>>(),
+            [90.0, 99.0, 100.0]
+        );
         let at = |q| quantile(&buckets, q).unwrap();
         assert!((at(0.45) - 0.0005).abs() < 1e-12);
         assert!((at(0.95) - 0.006).abs() < 1e-12, "{}", at(0.95));

@@ -188,7 +188,8 @@ impl Report {
         let _ = write!(
             out,
             "\nbudget {:.0} % of {:.0} %, {:.2} processors, {} threads, {:.0} MB\n\
-             {:.0} ticks, {:.0} skipped; {} frames to viewers, {:.0} dropped, {} ticks missed; {} of {} motions not shown\n",
+             {:.0} ticks, {:.0} skipped; {} frames to viewers, {:.0} dropped, {} ticks missed; \
+             {} of {} motions not shown\n",
             percent(server.budget_used),
             percent(server.budget_limit),
             server.processors,
