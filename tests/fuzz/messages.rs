@@ -115,10 +115,13 @@ const WHOLE: &[i64] = &[
     i64::MIN,
 ];
 
-/// Values from outside the descriptor: files and checkpoints.
+/// How messages are made.
 #[derive(Clone, Default)]
 pub struct Pool {
+    /// Values from outside the descriptor: files.
     pub bytes: Vec<Vec<u8>>,
+    /// Few fields, of values that are most often allowed, so that requests are carried out.
+    pub mild: bool,
 }
 
 /// A message with some of its fields, of values that often mean something.
@@ -130,7 +133,12 @@ pub fn message(
 ) -> DynamicMessage {
     let mut out = DynamicMessage::new(kind.clone());
     for field in kind.fields() {
-        let there = if depth > 5 { 0.05 } else { 0.7 };
+        let there = match (depth, pool.mild) {
+            (6.., _) => 0.05,
+            (0, true) => 0.7,
+            (_, true) => 0.12,
+            (_, false) => 0.7,
+        };
         if !rng.random_bool(there) {
             continue;
         }
@@ -154,11 +162,13 @@ pub fn message(
 
 fn one(field: &FieldDescriptor, rng: &mut Pcg64Mcg, pool: &Pool, depth: u32) -> Value {
     let number = |rng: &mut Pcg64Mcg| match rng.random_range(0..3) {
+        _ if pool.mild => rng.random_range(0.0..1.0),
         0 => NUMBERS[rng.random_range(0..NUMBERS.len())],
         1 => rng.random_range(-1.5..1.5),
         _ => rng.random_range(0.0..120.0),
     };
     let whole = |rng: &mut Pcg64Mcg| match rng.random_range(0..2) {
+        _ if pool.mild => rng.random_range(0..3),
         0 => WHOLE[rng.random_range(0..WHOLE.len())],
         _ => rng.random_range(0..200),
     };
@@ -174,9 +184,17 @@ fn one(field: &FieldDescriptor, rng: &mut Pcg64Mcg, pool: &Pool, depth: u32) -> 
             // Most often what the comments of the protos name for a field of this name.
             let text = match (field.name(), rng.random_range(0..10)) {
                 ("world" | "parent", 0..7) => "worlds/w",
-                ("figure" | "name", 0..4) => "worlds/w/figures/a",
-                ("figure" | "name", 4..6) => "worlds/w",
+                ("figure", 0..4) => "worlds/w/figures/a",
+                ("figure", 4..8) | ("figures" | "figure_ids" | "figure_id", 0..7) => "a",
+                ("name", 0..3) => "worlds/w/figures/a",
+                ("name", 3..5) => "worlds/w",
+                ("name", 5..7) => "worlds/w/checkpoints/k",
+                ("clip", 0..7) => "clips/wave",
+                ("checkpoint", 0..7) => "worlds/w/checkpoints/k",
                 ("segment", 0..7) => "chest",
+                ("page_token" | "control_token" | "offer_token" | "etag" | "request_id", 0..7) => {
+                    ""
+                }
                 _ => TEXTS[rng.random_range(0..TEXTS.len())],
             };
             Value::String(text.to_owned())
@@ -191,7 +209,7 @@ fn one(field: &FieldDescriptor, rng: &mut Pcg64Mcg, pool: &Pool, depth: u32) -> 
         }
         Kind::Enum(e) => {
             let values: Vec<i32> = e.values().map(|v| v.number()).collect();
-            let known = rng.random_bool(0.9);
+            let known = pool.mild || rng.random_bool(0.9);
             Value::EnumNumber(if known {
                 values[rng.random_range(0..values.len())]
             } else {
@@ -219,7 +237,18 @@ pub fn bytes_of(
     match case {
         Some((seed, edits)) => {
             let mut rng = Pcg64Mcg::seed_from_u64(*seed);
-            damaged(message(kind, &mut rng, pool, 0).encode_to_vec(), edits)
+            let mild = seed % 2 == 0;
+            let pool = Pool {
+                mild,
+                ..pool.clone()
+            };
+            let bytes = message(kind, &mut rng, &pool, 0).encode_to_vec();
+            // What is mild is most often left whole.
+            if mild && seed % 8 != 0 {
+                bytes
+            } else {
+                damaged(bytes, edits)
+            }
         }
         None => arbitrary,
     }
