@@ -23,6 +23,8 @@ from sinew.v1 import (
     control_pb2,
     figure_pb2,
     motion_pb2,
+    obstacle_pb2,
+    operation_pb2,
     perturbation_pb2,
     server_pb2,
     simulation_pb2,
@@ -38,6 +40,8 @@ FILES = [
     control_pb2,
     figure_pb2,
     motion_pb2,
+    obstacle_pb2,
+    operation_pb2,
     perturbation_pb2,
     server_pb2,
     simulation_pb2,
@@ -56,6 +60,13 @@ def filled(data: Any, known: dict[str, Any]) -> Any:
     if isinstance(data, str) and data.startswith("$"):
         return known[data[1:]]
     return data
+
+
+def part(answer: Any, path: str) -> Any:
+    """A field of an answer, by its path."""
+    for name in path.split("."):
+        answer = answer[name]
+    return answer
 
 
 def ask(channel: grpc.Channel, call: str, data: Any) -> dict[str, Any]:
@@ -110,7 +121,7 @@ def main() -> None:
             data = filled(case["data"], known)
             if "first" in case:
                 answer = ask(channel, case["first"], data)
-                known |= {name: answer[field] for name, field in case.get("keep", {}).items()}
+                known |= {name: part(answer, path) for name, path in case.get("keep", {}).items()}
                 continue
             # What makes things by number makes as many as later cases name.
             repeats = case["total"] >= 100

@@ -61,7 +61,7 @@ async fn round(address: &str, id: &str) -> Result<(), Status> {
     let events = client.states().watch_events(events).await?;
     let header = pb::DriveHeader {
         world: world.clone(),
-        figures: vec!["a".into()],
+        figure_ids: vec!["a".into()],
         driver_id: "soak".into(),
         ..Default::default()
     };
@@ -75,10 +75,10 @@ async fn round(address: &str, id: &str) -> Result<(), Status> {
     let push = pb::ApplyPerturbationsRequest {
         world: world.clone(),
         perturbations: vec![pb::Perturbation {
-            figure: "b".into(),
+            figure_id: "b".into(),
             kind: Some(pb::perturbation::Kind::Force(pb::Force {
                 segment: "chest".into(),
-                force_n: Some(pb::Vector3 {
+                force_newtons: Some(pb::Vector3 {
                     x: 50.0,
                     y: 0.0,
                     z: 0.0,
@@ -101,9 +101,13 @@ async fn round(address: &str, id: &str) -> Result<(), Status> {
     let restore = pb::RestoreWorldRequest {
         name: world.clone(),
         source: Some(pb::restore_world_request::Source::Checkpoint(kept.clone())),
+        ..Default::default()
     };
     client.checkpoints().restore_world(restore).await?;
-    let delete = pb::DeleteCheckpointRequest { name: kept };
+    let delete = pb::DeleteCheckpointRequest {
+        name: kept,
+        ..Default::default()
+    };
     client.checkpoints().delete_checkpoint(delete).await?;
 
     let clip = pb::CreateClipRequest {
@@ -117,6 +121,7 @@ async fn round(address: &str, id: &str) -> Result<(), Status> {
     client.motions().create_clip(clip).await?;
     let delete = pb::DeleteClipRequest {
         name: format!("clips/{id}"),
+        ..Default::default()
     };
     client.motions().delete_clip(delete).await?;
     // A request that fails, a stream that is left, and the end.
@@ -130,7 +135,10 @@ async fn round(address: &str, id: &str) -> Result<(), Status> {
     drop((frames, events));
     client
         .worlds()
-        .delete_world(pb::DeleteWorldRequest { name: world })
+        .delete_world(pb::DeleteWorldRequest {
+            name: world,
+            ..Default::default()
+        })
         .await?;
     Ok(())
 }

@@ -202,7 +202,7 @@ fn motion(rate: f64, figures: u32, i: u64) -> pb::MotionFrame {
     let mut angles = vec![0.0; DOF_COUNT];
     angles[ELBOW] = 0.6 - 0.6 * (1.5 * t).cos();
     let one = |f| pb::FigureMotion {
-        figure: figure(f),
+        figure_id: figure(f),
         joint_angles_rad: angles.clone(),
         planted: vec![true, true],
         ..Default::default()
@@ -223,7 +223,7 @@ async fn driver(
 ) -> anyhow::Result<(mpsc::Sender<Due>, JoinHandle<()>)> {
     let header = pb::DriveHeader {
         world: format!("worlds/{world}"),
-        figures: (0..args.figures).map(figure).collect(),
+        figure_ids: (0..args.figures).map(figure).collect(),
         driver_id: "bench".into(),
         nominal_rate_hz: args.rate,
         playout_delay_ms: Some(args.playout),

@@ -145,7 +145,7 @@ async fn create(args: &Args, client: &Client, names: &[String]) -> anyhow::Resul
                 let request = pb::CreateFigureRequest {
                     parent: format!("worlds/{id}"),
                     figure_id: load::figure(i),
-                    figure: None,
+                    ..Default::default()
                 };
                 client.figures().create_figure(request).await?;
             }
@@ -168,7 +168,10 @@ async fn delete(client: &Client, names: &[String]) {
             let name = format!("worlds/{id}");
             client
                 .worlds()
-                .delete_world(pb::DeleteWorldRequest { name })
+                .delete_world(pb::DeleteWorldRequest {
+                    name,
+                    ..Default::default()
+                })
                 .await
         });
         // Those that were not made are not there.

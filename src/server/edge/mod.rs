@@ -4,10 +4,12 @@
 //! Everything here is about strangers: a client that keeps to the limits does not notice it.
 
 pub(super) mod connections;
+mod errors;
 pub(super) mod hosts;
 mod replies;
 mod requests;
 
+pub(super) use errors::reasons;
 pub(super) use requests::sizes;
 
 use super::config::Config;
@@ -45,6 +47,9 @@ pub(super) struct Edge {
     unread: Arc<Unread>,
     requests: Arc<Semaphore>,
     max_requests: u64,
+    max_requests_of_one: u64,
+    /// How long a request may take before its response begins.
+    timeout: Duration,
 }
 
 impl Edge {
@@ -57,6 +62,8 @@ impl Edge {
             unread: Unread::new(config.max_unread_bytes),
             requests: Arc::new(Semaphore::new(config.max_requests as usize)),
             max_requests: config.max_requests,
+            max_requests_of_one: config.max_requests_per_connection,
+            timeout: Duration::from_secs_f64(config.request_timeout_s),
         })
     }
 }
@@ -87,6 +94,17 @@ pub(super) async fn admit(
                 value: edge.doors.most(),
                 message: "only health and /metrics are answered over one more connection".into(),
                 retry: Some(Duration::from_secs(1)),
+            },
+            &request,
+        );
+    }
+    if peer.open_requests() > edge.max_requests_of_one && !vital {
+        return refused(
+            Fault::Exhausted {
+                limit: "max_requests_per_connection",
+                value: edge.max_requests_of_one,
+                message: "one more request at a time over this connection".into(),
+                retry: Some(Duration::from_millis(100)),
             },
             &request,
         );

@@ -101,6 +101,7 @@ pub fn run(mut shard: Shard, mut inbox: Inbox, outlet: &Outlet) {
             s.offer_plans();
         });
         if shard.closing.is_some() {
+            publish_events(&mut shard, outlet); // that it was deleted is the last one
             break;
         }
         let commands_done = Instant::now();

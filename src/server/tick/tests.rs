@@ -65,7 +65,7 @@ impl Running {
     }
 
     fn end(self) {
-        self.send(|s| s.close(Fault::Draining));
+        self.send(|s| s.close(Fault::Draining, None));
         self.thread.join().unwrap();
     }
 }
