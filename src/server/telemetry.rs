@@ -80,6 +80,15 @@ fn describe() {
         "sinew_commands_deferred_total",
         "Times that a request waited one more tick because its tick had no time for it."
     );
+    describe_counter!(
+        "sinew_slow_ticks_total",
+        "Ticks that took longer than the setting slow_tick_s."
+    );
+    describe_gauge!("sinew_stuck_worlds", "Worlds whose ticks do not end.");
+    describe_counter!(
+        "sinew_worlds_stolen_total",
+        "Times that a worker ran the world of another one, which was busy."
+    );
     describe_counter!("sinew_connections_total", "Connections accepted.");
     describe_gauge!("sinew_connections", "Open connections.");
     describe_counter!(

@@ -121,7 +121,7 @@ impl App {
             access: Access::new(&config).map_err(Fault::Internal)?,
             clips: Clips::new(&config, &bodies)?,
             bodies,
-            worlds: Registry::new(config.clone()),
+            worlds: Registry::new(config.clone())?,
             checkpoints: Checkpoints::new(share),
             conversions: Pool::new(
                 "file conversion",
@@ -155,6 +155,17 @@ impl App {
     pub async fn restore(self: &Arc<Self>) {
         if let Some(persistence) = &self.persistence {
             persistence.restore(self).await;
+        }
+    }
+
+    /// Why new clients should rather go elsewhere. Names of worlds are not for everyone.
+    pub fn unready(&self) -> Option<String> {
+        if self.worlds.is_draining() {
+            return Some("shutting down".into());
+        }
+        match self.worlds.stuck().len() {
+            0 => None,
+            n => Some(format!("ticks that do not end: {n}")),
         }
     }
 
