@@ -8,8 +8,10 @@ pub use simulation::Simulation;
 use crate::wire::convert::world_name;
 use crate::wire::pb;
 use crate::wire::watched::WatchWorldResponse;
+use http_body_util::{BodyExt as _, Limited};
 use tokio::sync::mpsc;
 use tokio_stream::wrappers::ReceiverStream;
+use tonic::codegen::Service as _;
 use tonic::metadata::{Ascii, MetadataValue};
 use tonic::service::Interceptor;
 use tonic::service::interceptor::InterceptedService;
@@ -173,6 +175,28 @@ impl Client {
         let request = tonic_health::pb::HealthCheckRequest { service };
         let answer = health.check(request).await?.into_inner();
         Ok(answer.status() == ServingStatus::Serving)
+    }
+
+    /// A page of the server, as text, for example `/metrics`. At most 16 MiB of it are taken.
+    ///
+    /// # Errors
+    /// There is no such page, or the server does not answer.
+    pub async fn page(&self, path: &str) -> Result<String, Status> {
+        const MOST: usize = 16 * 1024 * 1024;
+        let failed = |e: &dyn std::error::Error| Status::unavailable(format!("{path}: {}", why(e)));
+        let mut channel = self.channel.clone();
+        let request = http::Request::get(path).body(tonic::body::Body::empty());
+        let request = request.map_err(|e| Status::invalid_argument(e.to_string()))?;
+        std::future::poll_fn(|cx| channel.poll_ready(cx))
+            .await
+            .map_err(|e| failed(&e))?;
+        let response = channel.call(request).await.map_err(|e| failed(&e))?;
+        if !response.status().is_success() {
+            return Err(Status::not_found(format!("{path}: {}", response.status())));
+        }
+        let body = Limited::new(response.into_body(), MOST).collect().await;
+        let body = body.map_err(|e| failed(&*e))?.to_bytes();
+        Ok(String::from_utf8_lossy(&body).into_owned())
     }
 
     services! {

@@ -5,7 +5,9 @@
 //!   magic 8 │ format u16 │ length of the server's part u32 │ checksum of it u64 │ server's part │ physics
 //! ```
 
+use super::config::Config;
 use super::shares::{Client, check_part};
+use super::telemetry::metrics::CheckpointTimer;
 use super::tick::shard::{Restored, SavedShard};
 use crate::sim::world::checkpoint::{Capture, Checkpoint, CheckpointError, Definitions};
 use crate::wire::status::Fault;
@@ -19,16 +21,12 @@ const MAGIC: [u8; 8] = *b"SINEWWLD";
 const FORMAT: u16 = 1;
 const HEADER: usize = 22;
 
-/// Most checkpoints that are kept: some minutes of one every few seconds, for several worlds.
-pub const MAX_CHECKPOINTS: u64 = 1024;
-/// Most bytes of all of them together.
-pub const MAX_CHECKPOINT_BYTES: u64 = 512 << 20;
-
 /// A state of a world as bytes.
 ///
 /// # Errors
 /// None for a world of this server.
 pub fn encode(shard: &SavedShard, capture: &Capture) -> Result<Vec<u8>, Fault> {
+    let _timed = CheckpointTimer::new("encode");
     let failed = |e: &dyn std::fmt::Display| Fault::Internal(format!("writing a checkpoint: {e}"));
     let part = postcard::to_stdvec(shard).map_err(|e| failed(&e))?;
     let checkpoint = capture.checkpoint(&mut Definitions::default());
@@ -48,6 +46,7 @@ pub fn encode(shard: &SavedShard, capture: &Capture) -> Result<Vec<u8>, Fault> {
 /// # Errors
 /// With `field` as their place in the request: they are no checkpoint, damaged, of another version or other numerics.
 pub fn decode(field: &str, bytes: &[u8]) -> Result<Restored, Fault> {
+    let _timed = CheckpointTimer::new("decode");
     let lost = |message: String| Fault::DataLoss {
         reason: "CHECKPOINT_DAMAGED",
         message: format!("{field}: {message}"),
@@ -125,15 +124,19 @@ pub struct Kept {
 #[derive(Debug)]
 pub struct Checkpoints {
     all: Mutex<BTreeMap<(String, String), Arc<Kept>>>,
+    most: u64,
+    most_bytes: u64,
     share: f64,
 }
 
 impl Checkpoints {
-    /// None yet; one client may have `share` of what there is room for.
-    pub fn new(share: f64) -> Self {
+    /// None yet, with the limits of the settings.
+    pub fn new(config: &Config) -> Self {
         Self {
             all: Mutex::default(),
-            share,
+            most: config.max_checkpoints,
+            most_bytes: config.max_checkpoint_bytes,
+            share: config.max_client_share,
         }
     }
 
@@ -170,18 +173,20 @@ impl Checkpoints {
             message: "one more checkpoint".into(),
             retry: None,
         };
-        if all.len() as u64 >= MAX_CHECKPOINTS {
-            return Err(full("max_checkpoints", MAX_CHECKPOINTS));
+        let held = all.values().map(bytes).sum::<u64>();
+        if all.len() as u64 >= self.most {
+            return Err(full("max_checkpoints", self.most));
         }
-        if all.values().map(bytes).sum::<u64>() + size > MAX_CHECKPOINT_BYTES {
-            return Err(full("max_checkpoint_bytes", MAX_CHECKPOINT_BYTES));
+        if held + size > self.most_bytes {
+            return Err(full("max_checkpoint_bytes", self.most_bytes));
         }
         let (count, used) = (own().count() as u64, own().map(bytes).sum::<u64>());
-        check_part("max_checkpoints", count, MAX_CHECKPOINTS, self.share)?;
-        let most = MAX_CHECKPOINT_BYTES;
-        check_part("max_checkpoint_bytes", used + size, most, self.share)?;
+        check_part("max_checkpoints", count, self.most, self.share)?;
+        let (limit, used) = ("max_checkpoint_bytes", used + size);
+        check_part(limit, used, self.most_bytes, self.share)?;
         let kept = Arc::new(new);
         all.insert(key, Arc::clone(&kept));
+        tell(&all);
         Ok(kept)
     }
 
@@ -205,14 +210,25 @@ impl Checkpoints {
     /// # Errors
     /// There is none of that name.
     pub fn remove(&self, world: &str, id: &str) -> Result<(), Fault> {
-        let gone = self.all().remove(&(world.to_owned(), id.to_owned()));
+        let mut all = self.all();
+        let gone = all.remove(&(world.to_owned(), id.to_owned()));
+        tell(&all);
         gone.map(drop).ok_or_else(|| missing(world, id))
     }
 
     /// Forgets those of a world.
     pub fn forget_world(&self, world: &str) {
-        self.all().retain(|_, k| k.world != world);
+        let mut all = self.all();
+        all.retain(|_, k| k.world != world);
+        tell(&all);
     }
+}
+
+/// Tells the metrics what is kept.
+fn tell(all: &BTreeMap<(String, String), Arc<Kept>>) {
+    let bytes: usize = all.values().map(|k| k.bytes.len()).sum();
+    metrics::gauge!("sinew_checkpoints").set(all.len() as f64);
+    metrics::gauge!("sinew_checkpoint_bytes").set(bytes as f64);
 }
 
 fn missing(world: &str, id: &str) -> Fault {

@@ -87,13 +87,12 @@ async fn ready(State(app): State<Arc<App>>) -> Response {
     }
 }
 
-async fn metrics_page() -> Response {
-    match telemetry::metrics() {
-        Some(handle) => (
-            [(header::CONTENT_TYPE, "text/plain; version=0.0.4")],
-            handle.render(),
-        )
-            .into_response(),
+async fn metrics_page(State(app): State<Arc<App>>) -> Response {
+    let budget = &app.worlds.budget;
+    metrics::gauge!("sinew_budget_used_ratio").set(budget.used());
+    metrics::gauge!("sinew_budget_limit_ratio").set(budget.limit());
+    match telemetry::metrics::render() {
+        Some(text) => ([(header::CONTENT_TYPE, "text/plain; version=0.0.4")], text).into_response(),
         // Another recorder was installed by the program that embeds this one.
         None => StatusCode::NOT_FOUND.into_response(),
     }

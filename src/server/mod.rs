@@ -30,7 +30,7 @@ mod viewer;
 
 use crate::wire::DESCRIPTOR_SET;
 use api::App;
-use axum::middleware::from_fn_with_state;
+use axum::middleware::{from_fn, from_fn_with_state};
 use config::Config;
 use drain::Drain;
 use edge::connections::{AGE_SPREAD, Connection};
@@ -90,6 +90,8 @@ pub async fn serve(
     stop: watch::Sender<bool>,
 ) -> Result<(), BoxError> {
     let config = app.config.clone();
+    #[cfg(feature = "otlp")]
+    let traces = telemetry::traces::start(&config)?;
     let (reporter, health_service) = tonic_health::server::health_reporter();
     let health = health::Health::new(reporter).await;
     let described = || {
@@ -111,6 +113,7 @@ pub async fn serve(
         .reset_fallback()
         .layer(from_fn_with_state(edge.clone(), edge::sizes))
         .layer(from_fn_with_state(app.access.clone(), access::identify))
+        .layer(from_fn(telemetry::calls::observe))
         .layer(tonic_web::GrpcWebLayer::new())
         .layer(http::cors(edge.clone()));
     let router = grpc
@@ -161,6 +164,10 @@ pub async fn serve(
         } => tracing::warn!("connections were still open after the grace time"),
         () = app.access.keep_fresh() => {} // never ends
         () = health.follow(&app) => {} // likewise
+    }
+    #[cfg(feature = "otlp")]
+    if let Some(traces) = traces {
+        traces.close().await;
     }
     tracing::info!("stopped");
     Ok(())

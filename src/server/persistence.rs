@@ -500,13 +500,7 @@ async fn checkpoint(
     }
     let (shard, capture) = handle.call(origin(), |s| s.capture()).await?;
     let (tick, hash) = (capture.tick(), capture.hash());
-    let encoded = tokio::task::spawn_blocking(move || {
-        let begun = Instant::now();
-        let bytes = checkpoints::encode(&shard, &capture);
-        let seconds = begun.elapsed().as_secs_f64();
-        metrics::histogram!("sinew_store_checkpoint_seconds").record(seconds);
-        bytes
-    });
+    let encoded = tokio::task::spawn_blocking(move || checkpoints::encode(&shard, &capture));
     let bytes = encoded
         .await
         .map_err(|e| Fault::Internal(e.to_string()))??;

@@ -17,7 +17,7 @@ use super::config::Config;
 use super::edge::connections::Peer;
 use super::http::unknown_method;
 use super::shares::client_at;
-use super::telemetry::count_refusal;
+use super::telemetry::{calls, count_refusal};
 use crate::wire::status::Fault;
 use axum::body::Body;
 use axum::extract::{Request, State};
@@ -174,6 +174,9 @@ pub(super) async fn identify(
     let (mut parts, body) = request.into_parts();
     match access.caller(&parts).await {
         Ok(caller) => {
+            if let Some(note) = parts.extensions.get::<Arc<calls::Note>>() {
+                note.principal(caller.principal());
+            }
             parts.extensions.insert(caller);
             next.run(Request::from_parts(parts, body)).await
         }

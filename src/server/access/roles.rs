@@ -188,6 +188,16 @@ pub fn table() -> Vec<(String, Rule)> {
         .collect()
 }
 
+/// Paths of all calls of the protos.
+pub fn paths() -> impl Iterator<Item = &'static str> {
+    TABLE.keys().map(String::as_str)
+}
+
+/// A path, if it is that of a call of the protos.
+pub fn known(path: &str) -> Option<&'static str> {
+    TABLE.get_key_value(path).map(|(known, _)| known.as_str())
+}
+
 /// The rule of a call.
 pub fn rule(path: &str) -> Rule {
     match TABLE.get(path) {

@@ -122,7 +122,7 @@ impl App {
             clips: Clips::new(&config, &bodies)?,
             bodies,
             worlds: Registry::new(config.clone())?,
-            checkpoints: Checkpoints::new(share),
+            checkpoints: Checkpoints::new(&config),
             conversions: Pool::new(
                 "file conversion",
                 "max_waiting_conversions",

@@ -241,6 +241,7 @@ impl Listener {
                     }
                     Err(broadcast::error::RecvError::Lagged(n)) => {
                         self.missed += n;
+                        metrics::counter!("sinew_events_missed_total").increment(n);
                         continue;
                     }
                     Err(broadcast::error::RecvError::Closed) => End::World,

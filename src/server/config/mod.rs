@@ -257,6 +257,13 @@ settings! {
     log: text = "info", (), ();
     /// Logs as JSON lines.
     log_json: flag = false, (), ();
+    /// Address of an OpenTelemetry collector that takes traces by gRPC (for example `http://127.0.0.1:4317`); empty:
+    /// nobody. Needs a server that is built with the feature `otlp`.
+    otlp_endpoint: text = "", (), ();
+    /// Share of calls that are traced.
+    otlp_call_share: float = 1.0, 0.0, 1.0;
+    /// Share of ticks that are traced.
+    otlp_tick_share: float = 0.001, 0.0, 1.0;
     /// Worlds at a time; an empty one takes some 40 kB and 10 µs per tick.
     max_worlds: int = 1024, 1, 100_000;
     /// Workers that run short ticks, and again as many for long ones; 0: one less than there are processors, and at
@@ -286,6 +293,10 @@ settings! {
     max_clip_bytes: int = 16_777_216, 1024, 1_073_741_824;
     /// Bytes of all stored files and their frames.
     max_clip_total_bytes: int = 536_870_912, 1024, 1_099_511_627_776;
+    /// Checkpoints that are kept in memory, of all worlds.
+    max_checkpoints: int = 1024, 1, 1_000_000;
+    /// Bytes of all of them.
+    max_checkpoint_bytes: int = 536_870_912, 65_536, 1_099_511_627_776;
     /// Bodies that are kept ready.
     max_bodies: int = 128, 2, 10_000;
     /// Share of `max_viewers`, `max_drivers`, `max_worlds`, `max_views_per_world` and `command_queue` that one client
@@ -436,6 +447,11 @@ impl Config {
                 expected: "fifo, nice or plain".to_owned(),
                 value: config.tick_priority,
             });
+        }
+        let no_traces = cfg!(not(feature = "otlp")) && !config.otlp_endpoint.is_empty();
+        if no_traces {
+            let needs = "a server that is built with the feature otlp";
+            return Err(ConfigError::Incomplete("otlp_endpoint", needs));
         }
         config.check_access()?;
         Ok((config, sources))

@@ -110,6 +110,18 @@ pub(super) fn remove(path: &Path) -> Result<(), StoreError> {
     }
 }
 
+/// Gives a file another name in its directory; one that is not there has it already.
+///
+/// # Errors
+/// It could not be done.
+pub(super) fn rename(from: &Path, to: &Path) -> Result<(), StoreError> {
+    match std::fs::rename(from, to) {
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(io_error(from, &error)),
+        Err(_) => Ok(()),
+        Ok(()) => sync_directory(to.parent().unwrap_or(Path::new("."))),
+    }
+}
+
 /// Files of a directory with an extension, by name.
 ///
 /// # Errors

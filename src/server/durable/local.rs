@@ -35,6 +35,9 @@ const CLIP: u8 = b'C';
 const CONTENT: u8 = b'M';
 const END: u8 = b'E';
 
+/// Extension of the file of a world that is being deleted.
+const GONE: &str = "gone";
+
 /// How the server before this one ended.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct LastEnd {
@@ -126,6 +129,7 @@ impl LocalStore {
         if let Some(missing) = store.missing_end() {
             store.last_end.damage.push(missing);
         }
+        store.finish_deletions()?;
         Ok(store)
     }
 
@@ -208,6 +212,25 @@ impl LocalStore {
             files::write(&self.world_path(world, "state"), STATE, FORMAT, &packed.0)?;
         }
         self.states.insert(world, (Instant::now(), tick));
+        Ok(())
+    }
+
+    /// Removes what is left of a world whose file is marked as gone; the mark goes last.
+    fn finish_deletion(&mut self, key: WorldKey) -> Result<(), StoreError> {
+        self.log.forget(key)?;
+        self.states.remove(&key);
+        files::remove(&self.world_path(key, "state"))?;
+        files::remove(&self.world_path(key, GONE))
+    }
+
+    /// Ends deletions that the process before this one has begun.
+    fn finish_deletions(&mut self) -> Result<(), StoreError> {
+        for path in files::list(&self.dir.join("worlds"), GONE)? {
+            let key = path.file_stem().and_then(|k| k.to_str());
+            if let Some(key) = key.and_then(WorldKey::parse) {
+                self.finish_deletion(key)?;
+            }
+        }
         Ok(())
     }
 
@@ -378,11 +401,9 @@ impl CheckpointStore for LocalStore {
     }
 
     fn delete_world(&mut self, key: WorldKey) -> Result<(), StoreError> {
-        self.log.forget(key)?;
-        files::remove(&self.world_path(key, "state"))?;
-        self.states.remove(&key);
-        // Last: a world whose other parts are gone is still there to be deleted again.
-        files::remove(&self.world_path(key, "world"))
+        // From here on it is gone, whatever becomes of the process.
+        files::rename(&self.world_path(key, "world"), &self.world_path(key, GONE))?;
+        self.finish_deletion(key)
     }
 
     fn commit(&mut self, entries: &[Entry]) -> Result<(), StoreError> {

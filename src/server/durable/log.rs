@@ -7,7 +7,7 @@
 use super::store::{Entry, History, Item, Logged, Loss, Retention, StoreError, Usage, WorldKey};
 use bytes::Bytes;
 use rusqlite::{Connection, ErrorCode, Row, params};
-use std::collections::{BTreeMap, HashMap, VecDeque};
+use std::collections::{BTreeMap, HashMap, HashSet, VecDeque};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
@@ -25,6 +25,9 @@ const CACHE_KIB: u32 = 16_384;
 const CUT_ROWS: usize = 20_000;
 /// Damaged places in one file after which the rest of it is given up.
 const MAX_DAMAGED: u32 = 1000;
+
+/// Number that no row has: a million a second for ten thousand years.
+const MAX_ID: i64 = 1 << 58;
 
 const CHECKPOINT: u8 = 1;
 const GROUP: u8 = 2;
@@ -169,41 +172,58 @@ fn fault(path: &Path, error: &rusqlite::Error) -> StoreError {
     }
 }
 
-/// One world while the log is read.
+/// One world while the log is read. What the rows say counts, because they have checksums; the table of checkpoints,
+/// which has none, only says where to begin.
 struct Reading {
-    place: Place,
-    /// Number of the next group.
-    next: i64,
+    /// Row to begin at.
+    from: i64,
+    /// Checkpoints behind this tick are left alone.
+    at: Option<u64>,
+    /// Session of the checkpoint and number of the next group; `None` until it is read.
+    next: Option<(i64, i64)>,
     history: History,
     ended: bool,
-    /// Highest number of a group of it that is damaged.
-    damaged: Option<i64>,
+    /// A damaged place behind the last row of it. Nothing in a damaged row can be trusted, the world included.
+    doubtful: bool,
 }
 
 impl Reading {
-    fn take(&mut self, record: &Record, whole: bool) {
-        if self.ended || record.id < self.place.id {
+    fn new(from: i64, at: Option<u64>) -> Self {
+        Self {
+            from,
+            at,
+            next: None,
+            history: History::default(),
+            ended: false,
+            doubtful: false,
+        }
+    }
+
+    /// Takes a row of this world that is whole.
+    fn take(&mut self, record: &Record) {
+        if record.id < self.from {
             return;
         }
-        if record.id == self.place.id {
-            if whole && record.kind == CHECKPOINT {
+        if record.kind == CHECKPOINT {
+            // Also one that the table has lost. With it, nothing before it matters.
+            if self.at.is_none_or(|at| record.tick <= at) {
+                *self = Self::new(self.from, self.at);
+                self.next = Some((record.session, record.seq));
                 self.history.checkpoint = Some((record.tick, record.bytes.clone()));
             }
             return;
         }
-        if !whole {
-            if record.session == self.place.session {
-                self.damaged = self.damaged.max(Some(record.seq));
-            }
+        let Some((session, next)) = self.next.filter(|_| !self.ended) else {
             return;
-        }
-        if record.session != self.place.session {
+        };
+        if record.session != session {
             self.ended = true;
         } else if record.kind == GROUP {
-            match record.frames().filter(|_| record.seq == self.next) {
+            match record.frames().filter(|_| record.seq == next) {
                 Some(frames) => {
                     self.history.entries.extend(frames);
-                    self.next += 1;
+                    self.next = Some((session, next + 1));
+                    self.doubtful = false;
                 }
                 None => {
                     self.ended = true;
@@ -211,6 +231,11 @@ impl Reading {
                 }
             }
         }
+    }
+
+    /// A row or some that cannot be read, up to this one.
+    fn doubt(&mut self, id: i64) {
+        self.doubtful |= id > self.from && !self.ended;
     }
 
     fn lose(&mut self, why: &str) {
@@ -222,14 +247,15 @@ impl Reading {
 
     /// `latest`: the latest checkpoint there has been.
     fn end(mut self, latest: Place) -> History {
-        let short = latest.session != self.place.session
-            || self.next < latest.seq
+        let (session, next) = self.next.unwrap_or_default();
+        let short = session < latest.session
+            || session == latest.session && next < latest.seq
             || self.history.last_tick() < Some(latest.tick);
         if self.history.losses.is_empty() {
-            if self.damaged.is_some_and(|seq| seq >= self.next) {
-                self.lose("a part of its log is damaged");
-            } else if short {
+            if short {
                 self.lose("its latest checkpoint is damaged");
+            } else if self.doubtful {
+                self.lose("a part of the log is damaged that may have been its end");
             }
         }
         self.history
@@ -243,6 +269,8 @@ pub(super) struct Log {
     session: i64,
     next_id: i64,
     tracks: HashMap<WorldKey, Track>,
+    /// Worlds that are gone, of which the last entries may still be on their way.
+    forgotten: HashSet<WorldKey>,
     /// Rows with wrong checksums that were met, and places that could not be read.
     pub damaged_rows: u64,
 }
@@ -294,6 +322,7 @@ impl Log {
             session: now_ms(),
             next_id: 1,
             tracks: HashMap::new(),
+            forgotten: HashSet::new(),
             damaged_rows: 0,
         };
         log.load()?;
@@ -311,7 +340,12 @@ impl Log {
             self.db.query_row(&sql, [], |r| r.get::<_, i64>(0))
         };
         let last = last("log").and_then(|log| Ok(log.max(last("checkpoints")?)));
-        self.next_id = last.map_err(|e| self.fault(&e))? + 1;
+        let last = last.map_err(|e| self.fault(&e))?;
+        if last > MAX_ID {
+            let place = self.path.display();
+            return Err(StoreError::Damaged(format!("{place}: row {last}")));
+        }
+        self.next_id = last + 1;
         let mut found = BTreeMap::new();
         let listed = (|| {
             let mut all = self.db.prepare("SELECT * FROM checkpoints ORDER BY id")?;
@@ -332,8 +366,8 @@ impl Log {
         if listed.is_err() {
             self.damaged_rows += 1;
             let mut rest = Vec::new();
-            self.scan(0, &mut |record, whole| {
-                if whole && record.kind == CHECKPOINT {
+            self.scan(0, &mut |_, record| {
+                if let Some(record) = record.filter(|r| r.kind == CHECKPOINT) {
                     rest.push((
                         record.world,
                         record.id,
@@ -388,6 +422,9 @@ impl Log {
         };
         let mut places = Vec::new();
         for entry in entries {
+            if self.forgotten.contains(&entry.world) {
+                continue;
+            }
             let track = changed.entry(entry.world).or_insert_with(|| {
                 // Only what commits change of it.
                 let known = self.tracks.get(&entry.world);
@@ -476,9 +513,13 @@ impl Log {
         tx.commit()
     }
 
-    /// Calls `f` with each row from `from` on and whether it is what was written. Places that cannot be read are
-    /// counted and left out.
-    fn scan(&mut self, from: i64, f: &mut dyn FnMut(&Record, bool)) -> Result<(), StoreError> {
+    /// Calls `f` with the number of each row from `from` on and the row, which is `None` where it is not what was
+    /// written. Of a place that cannot be read the last number is given.
+    fn scan(
+        &mut self,
+        from: i64,
+        f: &mut dyn FnMut(i64, Option<&Record>),
+    ) -> Result<(), StoreError> {
         let sql = "SELECT * FROM log WHERE id >= ?1 ORDER BY id";
         let (mut from, mut step, mut damaged) = (from, 1, 0);
         while from < self.next_id {
@@ -495,7 +536,7 @@ impl Log {
                     }
                     last = record.id;
                     bad += u64::from(!whole);
-                    f(&record, whole);
+                    f(record.id, whole.then_some(&record));
                 }
                 Ok(())
             })();
@@ -510,6 +551,7 @@ impl Log {
                     }
                     step = if last >= from { 1 } else { step * 2 };
                     from = last + 1 + step;
+                    f(from - 1, None);
                 }
             }
         }
@@ -547,28 +589,23 @@ impl Log {
                 let Some(place) = places.pop_back() else {
                     continue;
                 };
-                let reading = Reading {
-                    place,
-                    next: place.seq,
-                    history: History::default(),
-                    ended: false,
-                    damaged: None,
-                };
-                open.insert(worlds[i], (i, reading));
+                open.insert(worlds[i], (i, Reading::new(place.id, at)));
             }
-            let Some(from) = open.values().map(|(_, r)| r.place.id).min() else {
+            let Some(from) = open.values().map(|(_, r)| r.from).min() else {
                 break;
             };
-            self.scan(from, &mut |record, whole| {
-                if let Some((_, reading)) = open.get_mut(&record.world) {
-                    reading.take(record, whole);
+            self.scan(from, &mut |id, record| match record {
+                Some(record) => {
+                    if let Some((_, reading)) = open.get_mut(&record.world) {
+                        reading.take(record);
+                    }
                 }
+                None => open.values_mut().for_each(|(_, r)| r.doubt(id)),
             })?;
             for (i, reading) in open.into_values() {
                 // Without its checkpoint the one before it is looked for.
                 if reading.history.checkpoint.is_some() {
-                    let newest = latest[i].unwrap_or(reading.place);
-                    out[i] = Some(reading.end(newest));
+                    out[i] = latest[i].map(|latest| reading.end(latest));
                 }
             }
         }
@@ -609,7 +646,7 @@ impl Log {
         }
     }
 
-    /// Forgets a world; its rows go with the next cuts.
+    /// Forgets a world, and what is still written of it; its rows go with the next cuts.
     ///
     /// # Errors
     /// It could not be done.
@@ -618,6 +655,7 @@ impl Log {
         let done = self.db.execute(sql, [world.0 as i64]);
         done.map_err(|e| self.fault(&e))?;
         self.tracks.remove(&world);
+        self.forgotten.insert(world);
         Ok(())
     }
 

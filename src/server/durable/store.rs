@@ -11,6 +11,14 @@ use std::time::Duration;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct WorldKey(pub u64);
 
+impl WorldKey {
+    /// The key that is printed like this.
+    pub fn parse(text: &str) -> Option<Self> {
+        let key = u64::from_str_radix(text, 16).ok().map(Self);
+        key.filter(|k| k.to_string() == text)
+    }
+}
+
 impl fmt::Display for WorldKey {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:016x}", self.0)

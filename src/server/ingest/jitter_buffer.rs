@@ -18,6 +18,7 @@ use crate::wire::types::{DriveSettings, Supply};
 use std::cell::Cell;
 use std::collections::VecDeque;
 use std::sync::Arc;
+use std::time::Instant;
 
 /// Most frames that are held: over four seconds at 120 Hz.
 pub const CAPACITY: usize = 512;
@@ -54,6 +55,29 @@ pub struct Frame {
     /// Planted feet as they are guessed when the frame comes into use: that takes kinematics, and most frames of a
     /// driver who sends too many are never used.
     pub guess: Cell<Option<[bool; 2]>>,
+    /// When it came.
+    pub arrival: Instant,
+}
+
+/// What acts now.
+#[derive(Clone, Copy, Debug)]
+struct Applied {
+    sequence: i64,
+    source_ns: i64,
+    arrival: Instant,
+    /// A frame of the world has shown it.
+    shown: bool,
+}
+
+impl Applied {
+    fn new(frame: &Frame) -> Self {
+        Self {
+            sequence: frame.sequence,
+            source_ns: frame.source_ns,
+            arrival: frame.arrival,
+            shown: false,
+        }
+    }
 }
 
 /// Counters of one buffer.
@@ -110,8 +134,8 @@ struct Grid {
     next: i64,
     /// It goes on from another stream: what was due before now was that one's.
     joins: bool,
-    /// Frames that it holds: playout time, sequence, source time.
-    held: VecDeque<(f64, i64, i64)>,
+    /// Frames that it holds, with their playout times.
+    held: VecDeque<(f64, Applied)>,
 }
 
 /// Frames that may be the first of a clock that started again.
@@ -133,7 +157,7 @@ pub struct JitterBuffer {
     anew: Anew,
     supply: Supply,
     counts: Counts,
-    applied: Option<(i64, i64)>,
+    applied: Option<Applied>,
     /// What was asked for at the end of the last tick.
     last: Target,
     /// Difference to a jump of the desired motion, and when it began to fade (world s).
@@ -191,6 +215,10 @@ fn on_curve(base: &Posture, x: &[f64; NV], v: [f64; NV], a: [f64; NV]) -> Target
     }
 }
 
+fn dropped(reason: &'static str) {
+    metrics::counter!("sinew_motion_frames_dropped_total", "reason" => reason).increment(1);
+}
+
 impl JitterBuffer {
     /// An empty buffer for ticks of `tick` seconds of a figure with this body. `now` is what is asked of the figure at
     /// present, `stand` its quiet standing posture.
@@ -238,7 +266,22 @@ impl JitterBuffer {
 
     /// Sequence and source time (ns) that act now.
     pub fn applied(&self) -> Option<(i64, i64)> {
-        self.applied
+        self.applied.map(|a| (a.sequence, a.source_ns))
+    }
+
+    /// When the frame came that acts now, once for each: the world has published what it does.
+    pub fn take_shown(&mut self) -> Option<Instant> {
+        let applied = self.applied.as_mut().filter(|a| !a.shown)?;
+        applied.shown = true;
+        Some(applied.arrival)
+    }
+
+    /// Notes which frame acts now.
+    fn apply(&mut self, new: Applied) {
+        let same = |a: Applied| (a.sequence, a.source_ns) == (new.sequence, new.source_ns);
+        if !self.applied.is_some_and(same) {
+            self.applied = Some(new);
+        }
     }
 
     /// p99 of the arrival jitter up to the last tick, s.
@@ -291,6 +334,7 @@ impl JitterBuffer {
             Order::Anew => self.resync(Resync::Clock),
             Order::Stale => {
                 self.counts.stale += 1;
+                dropped("stale");
                 return false;
             }
         }
@@ -299,10 +343,12 @@ impl JitterBuffer {
             // Fed faster than it is played: what is oldest of the unplayed matters least for where the motion is going.
             self.frames.pop_front();
             self.counts.overflow += 1;
+            dropped("overflow");
         }
         let at = self.pace.arrive(frame.source_ns, now);
         if at < self.pace.played {
             self.counts.late += 1;
+            dropped("late");
         }
         self.frames.push_back(frame);
         order == Order::Anew
@@ -564,7 +610,7 @@ impl JitterBuffer {
             Supply::Relaxed => self.counts.ticks[4] += 1,
         }
         self.pace.played = p;
-        self.applied = Some((self.frames[i].sequence, self.frames[i].source_ns));
+        self.apply(Applied::new(&self.frames[i]));
         let (mut next, _, _) = self.target(p + self.tick);
         // A jump, at the start or after a gap, is spread over time.
         if !(began && self.settings.reset) {
@@ -674,12 +720,13 @@ impl JitterBuffer {
                     // A window finds out for itself what the driver does not say.
                     let planted = frame.planted.and(answer.feet).map(|i| self.planted(i));
                     give(Due::Sample(&answer.target.posture, planted));
-                    let known = self.grid.held.back().is_none_or(|h| h.1 < frame.sequence);
+                    let known =
+                        (self.grid.held.back()).is_none_or(|h| h.1.sequence < frame.sequence);
                     if known {
                         if self.grid.held.len() == CAPACITY {
                             self.grid.held.pop_front();
                         }
-                        let entry = (self.seconds(frame), frame.sequence, frame.source_ns);
+                        let entry = (self.seconds(frame), Applied::new(frame));
                         self.grid.held.push_back(entry);
                     }
                 }
@@ -692,10 +739,10 @@ impl JitterBuffer {
         self.grid.next = last + 1;
         self.pace.played = p;
         // What acts now has come a window ago.
-        while let Some(&(at, sequence, source)) = self.grid.held.front()
+        while let Some(&(at, entry)) = self.grid.held.front()
             && at <= p - window + SAME
         {
-            self.applied = Some((sequence, source));
+            self.apply(entry);
             self.grid.held.pop_front();
         }
         while self.frames.len() > 2 && self.seconds(&self.frames[1]) < p - 2.0 * SLOPE {

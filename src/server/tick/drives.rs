@@ -152,17 +152,17 @@ impl Drive {
         if taken.pushed {
             self.touch(None, now);
         }
-        let mut samples: Vec<(f64, MotionSample)> = taken
+        let mut samples: Vec<((f64, Instant), MotionSample)> = taken
             .deliveries
             .into_iter()
             .flat_map(|d| {
-                let at = scheduled(d.arrival);
+                let at = (scheduled(d.arrival), d.arrival);
                 d.samples.into_iter().map(move |s| (at, s))
             })
             .collect();
         samples.sort_by_key(|(_, s)| s.sequence);
         let mut anew = None;
-        for (at, sample) in samples {
+        for ((at, arrival), sample) in samples {
             for f in sample.figures {
                 let slot = &mut self.slots[f.slot];
                 let mut posture = f.posture;
@@ -178,6 +178,7 @@ impl Drive {
                     velocity: f.velocity,
                     planted: f.planted,
                     guess: Cell::default(),
+                    arrival,
                 };
                 if slot.buffer.push(frame, at) || anew.is_some() {
                     anew = Some(sample.sequence);

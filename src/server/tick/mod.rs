@@ -259,21 +259,23 @@ impl Runner {
             shard.clock.rest(end + rest);
         }
         outlet.ticks.fetch_add(1, Ordering::Relaxed);
-        outlet
-            .overruns
-            .store(shard.clock.overruns, Ordering::Relaxed);
-        outlet.skipped.store(shard.clock.skipped, Ordering::Relaxed);
+        let (overruns, skipped) = (shard.clock.overruns, shard.clock.skipped);
+        let overran = overruns - outlet.overruns.swap(overruns, Ordering::Relaxed);
+        let left_out = skipped - outlet.skipped.swap(skipped, Ordering::Relaxed);
+        metrics::counter!("sinew_ticks_overrun_total").increment(overran);
+        metrics::counter!("sinew_ticks_skipped_total").increment(left_out);
         metrics::counter!("sinew_ticks_total").increment(1);
-        metrics::histogram!("sinew_tick_seconds").record((end - start).as_secs_f64());
+        let stages = [
+            if stopped { Duration::ZERO } else { late },
+            commands_done - start,
+            motion_done - commands_done,
+            step_done - motion_done,
+            end - step_done,
+            end - start,
+        ];
+        stage_times::count(&stages, !stopped);
         if let Ok(mut times) = outlet.times.try_lock() {
-            times.record([
-                if stopped { Duration::ZERO } else { late },
-                commands_done - start,
-                motion_done - commands_done,
-                step_done - motion_done,
-                end - step_done,
-                end - start,
-            ]);
+            times.record(stages);
         }
         if let Some(snapshot) = snapshot {
             finish_steps(shard, &snapshot); // last, so that who waits finds everything done
@@ -329,6 +331,7 @@ fn publish(shard: &mut Shard, outlet: &Outlet) -> Option<Arc<Snapshot>> {
     history.push(snapshot.clone());
     drop(history);
     outlet.latest.send_replace(snapshot.clone());
+    shard.note_shown();
     Some(snapshot)
 }
 

@@ -1,5 +1,6 @@
 //! How long the stages of recent ticks took.
 
+use crate::server::telemetry::metrics::ticks;
 use std::time::Duration;
 
 /// Stages of a tick, in order.
@@ -32,6 +33,21 @@ pub struct Percentiles {
     pub p99: f64,
     /// Largest.
     pub max: f64,
+}
+
+/// Counts one tick for the metrics; `clocked`: its world runs against the clock.
+pub fn count(stages: &[Duration; STAGES.len()], clocked: bool) {
+    let meters = ticks();
+    let [late, parts @ .., total] = stages;
+    meters.total.record(*total);
+    if clocked {
+        meters.late.record(*late);
+        for (meter, part) in meters.stages.iter().zip(parts) {
+            meter.record(*part);
+        }
+    }
+    #[cfg(feature = "otlp")]
+    crate::server::telemetry::traces::tick(&STAGES[1..STAGES.len() - 1], parts);
 }
 
 /// Percentiles of some numbers; all zero for none.

@@ -43,6 +43,7 @@ fn frame(i: i64, with_velocity: bool) -> Frame {
         velocity: with_velocity.then_some(v),
         planted: None,
         guess: Cell::new(Some([true; 2])),
+        arrival: Instant::now(),
     }
 }
 
@@ -51,6 +52,32 @@ fn buffer(delay: Delay) -> JitterBuffer {
     stand.root_position.z = 0.9;
     let body = Arc::new(Body::adult_man());
     JitterBuffer::new(settings(delay), TICK, body, Target::still(stand), stand)
+}
+
+/// Each frame is shown once, by the tick that first uses it, with the time of its own arrival.
+#[test]
+fn a_frame_is_shown_once_with_its_arrival() {
+    let mut b = buffer(Delay::Fixed(0.05));
+    let (mut sent, mut shown) = (Vec::new(), Vec::new());
+    for i in 0..30 {
+        let t = i as f64 * TICK;
+        let f = frame(i, true);
+        sent.push(f.arrival);
+        b.push(f, t);
+        b.sample(at(t));
+        shown.extend(b.take_shown());
+        assert_eq!(b.take_shown(), None);
+    }
+    assert!(shown.len() >= 26 && shown.len() < 30, "{}", shown.len());
+    assert_eq!(shown, sent[..shown.len()]);
+    // Without anything new, nothing more is shown.
+    let newest = *sent.last().unwrap();
+    for i in 30..60 {
+        b.sample(at(i as f64 * TICK));
+        shown.extend(b.take_shown());
+    }
+    assert_eq!(shown.last(), Some(&newest));
+    assert_eq!(shown, sent);
 }
 
 #[test]

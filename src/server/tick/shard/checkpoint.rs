@@ -3,6 +3,7 @@
 use super::{Member, Shard};
 use crate::server::engine::{self, Drive, FigureKey, ObstacleKey, World};
 use crate::server::ingest::mailbox::DriverId;
+use crate::server::telemetry::metrics::CheckpointTimer;
 use crate::sim::world::checkpoint::Capture;
 use crate::wire::convert::new_id;
 use crate::wire::status::Fault;
@@ -90,6 +91,7 @@ impl Shard {
     /// The world has failed.
     pub fn capture(&self) -> Result<(SavedShard, Capture), Fault> {
         self.working()?;
+        let _timed = CheckpointTimer::new("capture");
         let member = |m: &Member| SavedMember {
             id: m.id.clone(),
             key: m.key,

@@ -4,6 +4,7 @@ use super::Shard;
 use crate::server::engine::{self, Clip, Drive as Motion};
 use crate::server::ingest::jitter_buffer::{JitterBuffer, Now};
 use crate::server::ingest::mailbox::{DriverId, Mailbox, fenced};
+use crate::server::telemetry::metrics::ticks;
 use crate::server::tick::drives::{Drive, Slot, Window};
 use crate::wire::status::Fault;
 use crate::wire::types::{ControlKey, DriveOpen, EventKind, Feedback, Place, Playback};
@@ -235,6 +236,15 @@ impl Shard {
         let tick = self.world.tick();
         for drive in self.drives.iter().filter(|d| d.connection.is_none()) {
             drive.mailbox.publish(drive.feedback(tick));
+        }
+    }
+
+    /// Notes that a frame has been published: how long the motion that it shows took to get there.
+    pub(in crate::server::tick) fn note_shown(&mut self) {
+        let now = Instant::now();
+        let slots = self.drives.iter_mut().flat_map(|d| &mut d.slots);
+        for arrival in slots.filter_map(|s| s.buffer.take_shown()) {
+            ticks().input_to_frame.record(now - arrival);
         }
     }
 
